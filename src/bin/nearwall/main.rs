@@ -1,0 +1,2 @@
+//! The command `nearwall`.
+fn main() {}

@@ -1,0 +1,125 @@
+//! What stands between a C caller and Rust: panics stop here, the floating-point state is set aside, text is copied.
+
+use std::ffi::c_char;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use super::types::{NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, nw_status, status_of};
+use crate::impact::ImpactError;
+use crate::input::InputError;
+
+/// A status with the words for the caller's message buffer.
+#[derive(Debug)]
+pub(super) struct Fault {
+    pub status: nw_status,
+    message: Option<String>,
+}
+
+impl Fault {
+    /// A fault that needs no more words than its status.
+    pub(super) fn plain(status: nw_status) -> Self {
+        Self { status, message: None }
+    }
+}
+
+impl From<InputError> for Fault {
+    fn from(error: InputError) -> Self {
+        let status = match error {
+            InputError::Unreadable { .. } => NW_FILE,
+            InputError::Fault { .. } => NW_MODEL,
+        };
+        Self { status, message: Some(error.to_string()) }
+    }
+}
+
+impl From<ImpactError> for Fault {
+    fn from(error: ImpactError) -> Self {
+        Self::plain(status_of(&error))
+    }
+}
+
+/// Runs `body` with the default floating-point control (round to nearest, nothing trapped), stops panics, and gives the
+/// caller's control and flags back.
+///
+/// Optimised code may compute both sides of a branch, and one of them may divide by zero harmlessly: a caller that traps
+/// division by zero, as OpenFOAM does, would be killed by it.
+pub(super) fn guarded<T>(body: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
+    let _state = FloatingPointState::set_aside();
+    out_of_line(|| catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|_| Err(Fault::plain(NW_PANIC))))
+}
+
+/// A call that the compiler cannot dissolve, so that no arithmetic moves out of the guarded stretch.
+#[inline(never)]
+fn out_of_line<T>(body: impl FnOnce() -> T) -> T {
+    body()
+}
+
+/// The caller's floating-point control and flags, put back when this goes.
+struct FloatingPointState {
+    #[cfg(target_arch = "x86_64")]
+    mxcsr: u32,
+}
+
+impl FloatingPointState {
+    #[cfg(target_arch = "x86_64")]
+    fn set_aside() -> Self {
+        /// All exceptions masked, round to nearest, denormals kept: the state a process starts with.
+        static DEFAULT: u32 = 0x1F80;
+        let mut mxcsr = 0_u32;
+        // SAFETY: stores and loads the control register of SSE, which every x86-64 has; touches nothing else.
+        unsafe {
+            std::arch::asm!(
+                "stmxcsr [{saved}]",
+                "ldmxcsr [{default}]",
+                saved = in(reg) &raw mut mxcsr,
+                default = in(reg) &raw const DEFAULT,
+                options(nostack)
+            );
+        }
+        Self { mxcsr }
+    }
+
+    /// Elsewhere than on x86-64 hardware traps are rare and the state is left alone.
+    #[cfg(not(target_arch = "x86_64"))]
+    fn set_aside() -> Self {
+        Self {}
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Drop for FloatingPointState {
+    fn drop(&mut self) {
+        // SAFETY: loads back the value that was stored by `set_aside`.
+        unsafe {
+            std::arch::asm!("ldmxcsr [{saved}]", saved = in(reg) &raw const self.mxcsr, options(nostack));
+        }
+    }
+}
+
+/// The caller's pointer as a reference.
+///
+/// # Safety
+/// The pointer is null or points to a live, initialised `T`.
+pub(super) unsafe fn reader<'a, T>(pointer: *const T) -> Result<&'a T, Fault> {
+    // SAFETY: the caller's promise.
+    unsafe { pointer.as_ref() }.ok_or(Fault::plain(NW_NULL_POINTER))
+}
+
+/// Turns the result into a status and copies the words of a fault, if it has any, to the caller's buffer.
+///
+/// # Safety
+/// `message` is null or has room for `size` bytes.
+pub(super) unsafe fn report(result: Result<(), Fault>, message: *mut c_char, size: usize) -> nw_status {
+    let Err(fault) = result else { return NW_OK };
+    if let (Some(text), false, true) = (&fault.message, message.is_null(), size > 0) {
+        let mut length = text.len().min(size - 1);
+        while !text.is_char_boundary(length) {
+            length -= 1;
+        }
+        // SAFETY: `length + 1 <= size` bytes, which the caller's promise covers; the texts do not overlap.
+        unsafe {
+            std::ptr::copy_nonoverlapping(text.as_ptr(), message.cast::<u8>(), length);
+            message.add(length).write(0);
+        }
+    }
+    fault.status
+}

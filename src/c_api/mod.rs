@@ -1,0 +1,282 @@
+//! The C boundary: `nearwall.h`.
+//!
+//! Conventions: inputs come first, outputs last; `const` means it is not changed; every call returns a status, and
+//! its outputs are untouched unless that is `NW_OK`; text goes to the caller's buffer. A model never changes after it
+//! is loaded, so any number of threads may share it. No panic crosses, and the caller's floating-point control and
+//! flags are as before. This is the only module with `unsafe`: it turns C pointers into references, nothing else.
+#![allow(unsafe_code)]
+
+mod batch;
+mod boundary;
+mod types;
+
+use std::ffi::{CStr, c_char};
+use std::path::Path;
+
+use crate::draw::Draw;
+use crate::impact::Regime;
+use crate::model::Model;
+
+pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
+use boundary::{Fault, guarded, reader, report};
+pub use types::*;
+
+/// Number of the binary interface; it changes when a struct, a function or a constant does.
+pub const NW_ABI_VERSION: u32 = 1;
+
+/// The interface version of the library that is loaded; compare with `NW_ABI_VERSION` of the header.
+#[unsafe(no_mangle)]
+pub extern "C" fn nw_abi_version() -> u32 {
+    NW_ABI_VERSION
+}
+
+/// The version of the library, for instance `0.1.0`. Static text.
+#[unsafe(no_mangle)]
+pub extern "C" fn nw_version() -> *const c_char {
+    concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
+}
+
+/// A status in words. Static text, also for numbers that are no status.
+#[unsafe(no_mangle)]
+pub extern "C" fn nw_status_text(status: nw_status) -> *const c_char {
+    let text: &'static CStr = match status {
+        NW_OK => c"done",
+        NW_NULL_POINTER => c"a required pointer is null",
+        NW_STRUCT_SIZE => {
+            c"struct_size does not match this library; set it to sizeof, and rebuild with its header"
+        }
+        NW_NOT_UTF8 => c"a text is not UTF-8",
+        NW_FILE => c"the model file cannot be read",
+        NW_MODEL => c"the model is at fault",
+        NW_UNKNOWN_WALL => c"the model has no such wall",
+        NW_BAD_STATE => c"the impact has no physical meaning (not finite, or a size or share out of bounds)",
+        NW_OUT_OF_RANGE => c"a property is not known at the temperature of the impact",
+        NW_PANIC => c"internal fault, stopped at the boundary; please report it",
+        _ => c"not a status of this library",
+    };
+    text.as_ptr()
+}
+
+/// A regime by name, for instance `NSP-SW`. Static text.
+#[unsafe(no_mangle)]
+pub extern "C" fn nw_regime_name(regime: nw_regime) -> *const c_char {
+    let text: &'static CStr = match regime {
+        NW_NSP_NSW => c"NSP-NSW",
+        NW_NSP_SW => c"NSP-SW",
+        NW_SP_NSW => c"SP-NSW",
+        NW_SP_SW => c"SP-SW",
+        _ => c"not a regime",
+    };
+    text.as_ptr()
+}
+
+/// Reads a model file. On success `*model` is the model; free it with `nw_model_free`.
+///
+/// On failure the reason, with file, line, column, key and remedy, goes to `message` (at most `message_size` bytes with
+/// the closing zero, cut at a character; may be null).
+///
+/// # Safety
+/// `path` is a zero-terminated text, `model` can be written, `message` has room for `message_size` bytes or is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_model_load(
+    path: *const c_char,
+    model: *mut *mut nw_model,
+    message: *mut c_char,
+    message_size: usize,
+) -> nw_status {
+    let load = || {
+        if path.is_null() || model.is_null() {
+            return Err(Fault::plain(NW_NULL_POINTER));
+        }
+        // SAFETY: not null, and zero-terminated by the caller's promise.
+        let path = unsafe { CStr::from_ptr(path) };
+        let path = path.to_str().map_err(|_| Fault::plain(NW_NOT_UTF8))?;
+        let loaded = Model::from_file(Path::new(path))?;
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { model.write(nw_model::into_handle(loaded)) };
+        Ok(())
+    };
+    // SAFETY: the caller's promise on `message`.
+    unsafe { report(guarded(load), message, message_size) }
+}
+
+/// Reads a model from TOML text of `toml_size` bytes (no closing zero needed). `name` stands for the file in messages;
+/// it may be null. Otherwise as `nw_model_load`.
+///
+/// # Safety
+/// `toml` has `toml_size` bytes, `name` is zero-terminated or null, the rest as in `nw_model_load`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_model_parse(
+    toml: *const c_char,
+    toml_size: usize,
+    name: *const c_char,
+    model: *mut *mut nw_model,
+    message: *mut c_char,
+    message_size: usize,
+) -> nw_status {
+    let parse = || {
+        if toml.is_null() || model.is_null() {
+            return Err(Fault::plain(NW_NULL_POINTER));
+        }
+        if toml_size > isize::MAX as usize {
+            return Err(Fault::plain(NW_STRUCT_SIZE));
+        }
+        // SAFETY: not null, of a size that a slice may have, and readable by the caller's promise.
+        let bytes = unsafe { std::slice::from_raw_parts(toml.cast::<u8>(), toml_size) };
+        let text = std::str::from_utf8(bytes).map_err(|_| Fault::plain(NW_NOT_UTF8))?;
+        let name = if name.is_null() {
+            c"model"
+        } else {
+            // SAFETY: not null, and zero-terminated by the caller's promise.
+            unsafe { CStr::from_ptr(name) }
+        };
+        let parsed = Model::from_toml(&name.to_string_lossy(), text)?;
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { model.write(nw_model::into_handle(parsed)) };
+        Ok(())
+    };
+    // SAFETY: the caller's promise on `message`.
+    unsafe { report(guarded(parse), message, message_size) }
+}
+
+/// Frees a model; null is allowed.
+///
+/// # Safety
+/// `model` came from `nw_model_load` or `nw_model_parse` and is not used again.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_model_free(model: *mut nw_model) {
+    let free = || {
+        if !model.is_null() {
+            // SAFETY: by the caller's promise the pointer came from `into_handle` and is freed once.
+            drop(unsafe { Box::from_raw(model) });
+        }
+        Ok(())
+    };
+    // Freeing has no failure to report.
+    let _ = guarded(free);
+}
+
+/// The index of the wall that a patch name belongs to: the wall of that name, else the last whose name is a regular
+/// expression that fits. `NW_UNKNOWN_WALL` when there is none; the wall called `default` is not implied.
+///
+/// # Safety
+/// `model` is a loaded model, `name` is zero-terminated, `wall` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_model_find_wall(
+    model: *const nw_model,
+    name: *const c_char,
+    wall: *mut u32,
+) -> nw_status {
+    let find = || {
+        if model.is_null() || name.is_null() || wall.is_null() {
+            return Err(Fault::plain(NW_NULL_POINTER));
+        }
+        // SAFETY: not null; a live model, a zero-terminated text and a writable number by the caller's promise.
+        let (model, name) = unsafe { (&*model, CStr::from_ptr(name)) };
+        let name = name.to_str().map_err(|_| Fault::plain(NW_NOT_UTF8))?;
+        let index = model.inner().find_wall(name).ok_or(Fault::plain(NW_UNKNOWN_WALL))?;
+        // SAFETY: as above.
+        unsafe { wall.write(u32::try_from(index).map_err(|_| Fault::plain(NW_UNKNOWN_WALL))?) };
+        Ok(())
+    };
+    guarded(find).map_or_else(|fault| fault.status, |()| NW_OK)
+}
+
+/// Fills an impact with its size and the values assumed for unknown inputs: wall 0, 1e-4 m, 293.15 K, conversion 1, all
+/// else 0.
+///
+/// # Safety
+/// `impact` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_impact_init(impact: *mut nw_impact) -> nw_status {
+    if impact.is_null() {
+        return NW_NULL_POINTER;
+    }
+    // SAFETY: not null, and writable by the caller's promise.
+    unsafe { impact.write(nw_impact::default()) };
+    NW_OK
+}
+
+/// Fills an outcome with its size and zeros, ready for `nw_resolve`.
+///
+/// # Safety
+/// `outcome` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_outcome_init(outcome: *mut nw_outcome) -> nw_status {
+    if outcome.is_null() {
+        return NW_NULL_POINTER;
+    }
+    // SAFETY: not null, and writable by the caller's promise.
+    unsafe { outcome.write(nw_outcome::default()) };
+    NW_OK
+}
+
+/// Decides one impact. The same model and impact give the same bits, on any thread and in any order.
+///
+/// # Safety
+/// `model` is a loaded model; `impact` and `outcome` begin with their `struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_resolve(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    outcome: *mut nw_outcome,
+) -> nw_status {
+    let resolve = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        // SAFETY: the caller's promise; checks null and the size before anything is written.
+        let _ = unsafe { sized(outcome.cast_const())? };
+        let draw = Draw::new(impact.seed, impact.key);
+        let result = model.inner().resolve(impact.wall as usize, &impact.to_impact(), draw)?;
+        // SAFETY: checked just above.
+        unsafe { outcome.write(nw_outcome::from_outcome(&result)) };
+        Ok(())
+    };
+    guarded(resolve).map_or_else(|fault| fault.status, |()| NW_OK)
+}
+
+/// Adhesive, yield and sticking velocity [m/s] of an impact's particle and wall; only size and temperatures count.
+/// Outputs may be null.
+///
+/// # Safety
+/// `model` is a loaded model, `impact` begins with its `struct_size`, each output can be written or is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_speeds(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    adhesive: *mut f64,
+    yielding: *mut f64,
+    sticking: *mut f64,
+) -> nw_status {
+    let speeds = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        let found = model.inner().speeds(impact.wall as usize, &impact.to_impact())?;
+        let outputs = [(adhesive, found.adhesive), (yielding, found.yielding), (sticking, found.sticking)];
+        for (output, value) in outputs.into_iter().filter(|(output, _)| !output.is_null()) {
+            // SAFETY: not null, and writable by the caller's promise.
+            unsafe { output.write(value) };
+        }
+        Ok(())
+    };
+    guarded(speeds).map_or_else(|fault| fault.status, |()| NW_OK)
+}
+
+/// A struct that begins with its own size, as a reference.
+///
+/// # Safety
+/// The pointer is null or points to at least a `u32`, and to a whole `T` if that `u32` is the size of `T`.
+unsafe fn sized<'a, T>(pointer: *const T) -> Result<&'a T, Fault> {
+    if pointer.is_null() {
+        return Err(Fault::plain(NW_NULL_POINTER));
+    }
+    // SAFETY: not null, so a `u32` can be read by the caller's promise.
+    let size = unsafe { pointer.cast::<u32>().read() };
+    if size as usize != size_of::<T>() {
+        return Err(Fault::plain(NW_STRUCT_SIZE));
+    }
+    // SAFETY: the size says that it is a whole `T`.
+    Ok(unsafe { &*pointer })
+}
+
+const _: () = assert!(Regime::SpSw as u32 == NW_SP_SW);

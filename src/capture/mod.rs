@@ -1,0 +1,47 @@
+//! Capture: whether a particle stays on the wall. One criterion a file.
+//!
+//! A particle is held in one of two ways, each able to do it alone: adhesion holds it because it is too slow to
+//! leave (the normal law says so), or particle and wall are sticky (melting, conversion, viscosity).
+
+mod viscosity;
+
+pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};
+
+/// How sticky the two are, each 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stickiness {
+    /// Of the particle, `P_p` [1].
+    pub particle: f64,
+    /// Of the wall, `P_s` [1].
+    pub wall: f64,
+}
+
+impl Stickiness {
+    /// From here on a particle or wall counts as sticky when the regime is named.
+    pub const THRESHOLD: f64 = 0.5;
+
+    /// Probability that a sticky particle or a sticky wall holds the particle [1]:
+    /// `P = (P_p + sqrt(P_p² + 4 (1 - P_p) P_s)) / 2`, as in an open solver for slagging gasifiers (Uintah).
+    ///
+    /// One sticky partner is enough: `P = 1` for `P_p = 1` or `P_s = 1`; a wall that is not sticky leaves `P = P_p`.
+    pub fn probability(self) -> f64 {
+        let Self { particle, wall } = self;
+        0.5 * (particle + (particle * particle + 4.0 * (1.0 - particle) * wall).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn probability_has_its_limits() {
+        let p = |particle, wall| Stickiness { particle, wall }.probability();
+        assert_eq!(p(0.0, 0.0), 0.0);
+        assert_relative_eq!(p(0.3, 0.0), 0.3);
+        assert_relative_eq!(p(1.0, 0.2), 1.0);
+        assert_relative_eq!(p(0.2, 1.0), 1.0);
+        assert!(p(0.3, 0.3) > p(0.3, 0.2) && p(0.4, 0.2) > p(0.3, 0.2));
+    }
+}

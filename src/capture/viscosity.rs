@@ -1,0 +1,101 @@
+//! Viscosity criterion: a melt thinner than a reference viscosity sticks (Walsh et al. 1990).
+//!
+//! `P = min(1, mu_ref / mu(T))`, with `mu` the viscosity of ash or slag [Pa s] at its own temperature and `mu_ref` the
+//! viscosity [Pa s] at and below which every impact sticks. The literature's `mu_ref` spans 8 to 1e7 Pa s: it has no
+//! default. Valid for glassy silicate melts above their critical viscosity temperature; residual carbon is not in it
+//! (that is what `conversion-transition` adds).
+
+use crate::impact::ImpactError;
+use crate::input::{InputError, Section};
+use crate::material::Material;
+use crate::slag::{SlagViscosity, UnsuitableComposition, ViscosityLaw};
+
+/// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
+pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
+    (reference / viscosity).min(1.0)
+}
+
+/// The criterion of a `[capture]` table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ViscosityCriterion {
+    law: ViscosityLaw,
+    reference: f64,
+}
+
+impl ViscosityCriterion {
+    /// Reads a `[capture]` table; `None` when its model is `none`.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown model or law, or a missing reference viscosity.
+    pub fn read(section: &Section<'_>) -> Result<Option<Self>, InputError> {
+        let model = section.choice("model", &["none", "viscosity"])?;
+        if model.as_deref() != Some("viscosity") {
+            return Ok(None);
+        }
+        let names: Vec<&str> = ViscosityLaw::ALL.iter().map(|law| law.name()).collect();
+        let name = section.choice("law", &names)?;
+        let law = match name.and_then(|name| ViscosityLaw::from_name(&name)) {
+            Some(law) => law,
+            None => return Err(section.missing("law", &format!("one of {}", names.join(", ")))),
+        };
+        let reference = section
+            .number_within("reference_viscosity", f64::MIN_POSITIVE, f64::INFINITY)?
+            .ok_or_else(|| {
+                let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
+                section.missing("reference_viscosity", what)
+            })?;
+        Ok(Some(Self { law, reference }))
+    }
+
+    /// How sticky a melt is as a function of temperature; `None` for a material with neither a viscosity of its own
+    /// nor an oxide composition. Its own viscosity comes first.
+    ///
+    /// # Errors
+    /// [`UnsuitableComposition`] when the law cannot be applied to the composition.
+    pub fn prepare(self, material: &Material) -> Result<Option<MeltStickiness>, UnsuitableComposition> {
+        let melt = match (material.property("viscosity"), material.composition()) {
+            (Some(_), _) => Melt::Given(Box::new(material.clone())),
+            (None, Some(composition)) => Melt::Oxides(SlagViscosity::new(self.law, composition)?),
+            (None, None) => return Ok(None),
+        };
+        Ok(Some(MeltStickiness { melt, reference: self.reference }))
+    }
+}
+
+/// The criterion for one melt.
+#[derive(Debug, Clone)]
+pub struct MeltStickiness {
+    melt: Melt,
+    reference: f64,
+}
+
+#[derive(Debug, Clone)]
+enum Melt {
+    Oxides(SlagViscosity),
+    Given(Box<Material>),
+}
+
+impl MeltStickiness {
+    /// Probability of sticking [1] at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
+    pub fn at(&self, temperature: f64) -> Result<f64, ImpactError> {
+        let viscosity = match &self.melt {
+            Melt::Oxides(law) => law.at(temperature),
+            Melt::Given(material) => material.viscosity(temperature)?,
+        };
+        Ok(sticking_probability(viscosity, self.reference))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thin_melts_stick_always_and_thick_ones_in_proportion() {
+        assert_eq!(sticking_probability(10.0, 100.0), 1.0);
+        assert_eq!(sticking_probability(1000.0, 100.0), 0.1);
+    }
+}

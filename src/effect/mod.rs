@@ -1,0 +1,152 @@
+//! Effects: named, removable terms that change what the plain laws say. One effect a file.
+//!
+//! A new effect is one file with a [`Kind`] and one line in [`KINDS`]; the model file, the C library, OpenFOAM and
+//! the documentation then know it.
+
+mod conversion_transition;
+mod melting_transition;
+mod powder_layer;
+
+use crate::impact::{INPUTS, Impact};
+use crate::input::{InputError, Section, unknown};
+use crate::normal::Contact;
+
+/// Every effect there is.
+pub const KINDS: [&Kind; 3] = [&melting_transition::KIND, &conversion_transition::KIND, &powder_layer::KIND];
+
+/// A named term of a model. Each method is one step of an impact's walk; an effect overrides those it acts on.
+pub trait Effect: Send + Sync + std::fmt::Debug {
+    /// Changes the contact before the normal law.
+    fn contact(&self, _impact: &Impact, contact: Contact) -> Contact {
+        contact
+    }
+
+    /// How sticky the particle is, 0 to 1; the effects that answer are multiplied.
+    fn particle_stickiness(&self, _impact: &Impact) -> Option<f64> {
+        None
+    }
+
+    /// Changes the normal restitution `e_n` [1].
+    fn normal_restitution(&self, _impact: &Impact, restitution: f64) -> f64 {
+        restitution
+    }
+
+    /// Changes the tangential restitution `e_t` [1].
+    fn tangential_restitution(&self, _impact: &Impact, restitution: f64) -> f64 {
+        restitution
+    }
+}
+
+/// One parameter of an effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Key in the model file.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Smallest and largest value that makes sense.
+    pub bounds: (f64, f64),
+    /// One line on what it is.
+    pub about: &'static str,
+}
+
+/// What an effect is called, what it does and which parameters it has.
+#[derive(Debug)]
+pub struct Kind {
+    /// The id in model files and diagnoses.
+    pub id: &'static str,
+    /// One line on what it does.
+    pub about: &'static str,
+    /// Its parameters; all of them must be given.
+    pub parameters: &'static [Parameter],
+    /// Makes the effect from its parameters, in their order.
+    pub build: fn(&[f64]) -> Box<dyn Effect>,
+}
+
+/// An effect of a model, with the range it was fitted on.
+#[derive(Debug)]
+pub struct Term {
+    kind: &'static Kind,
+    values: Vec<f64>,
+    valid: Vec<(usize, [f64; 2])>,
+    effect: Box<dyn Effect>,
+}
+
+impl Term {
+    /// Reads one `[[effects]]` table.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown kind, or a parameter that is unknown, missing or out of bounds.
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let id = section.required_text("kind")?;
+        let ids: Vec<&str> = KINDS.iter().map(|kind| kind.id).collect();
+        let Some(kind) = KINDS.iter().find(|kind| kind.id == id).copied() else {
+            return Err(section.fault("kind", unknown(&id, "effect", &ids)));
+        };
+        let values = kind
+            .parameters
+            .iter()
+            .map(|parameter| read_parameter(section, parameter))
+            .collect::<Result<Vec<f64>, _>>()?;
+        section.text("source")?;
+        let valid = section.section("valid")?.map_or(Ok(Vec::new()), |table| read_valid(&table))?;
+        section.finish()?;
+        let effect = (kind.build)(&values);
+        Ok(Self { kind, values, valid, effect })
+    }
+
+    /// What kind of effect it is.
+    pub fn kind(&self) -> &'static Kind {
+        self.kind
+    }
+
+    /// Its parameters, in the order of [`Kind::parameters`].
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// The effect itself.
+    pub fn effect(&self) -> &dyn Effect {
+        self.effect.as_ref()
+    }
+
+    /// Whether the impact lies in the range the term was fitted on.
+    pub fn holds_for(&self, impact: &Impact) -> bool {
+        let inside =
+            |&(input, [low, high]): &(usize, [f64; 2])| (low..=high).contains(&(INPUTS[input].value)(impact));
+        self.valid.iter().all(inside)
+    }
+}
+
+/// A number, or `{ value, low, high }` of a fit.
+fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, InputError> {
+    let Parameter { name, unit, bounds: (low, high), about } = *parameter;
+    let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
+    if !section.is_section(name) {
+        return section.number_within(name, low, high)?.ok_or_else(|| missing(section));
+    }
+    let fitted = section.required_section(name)?;
+    let value = fitted.number_within("value", low, high)?.ok_or_else(|| missing(&fitted))?;
+    fitted.number("low")?;
+    fitted.number("high")?;
+    fitted.text("unit")?;
+    fitted.finish()?;
+    Ok(value)
+}
+
+/// `valid = { v_n = [0.5, 3], ... }`: the range of each input that a fit saw.
+fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputError> {
+    let mut valid = Vec::new();
+    for (index, input) in INPUTS.iter().enumerate() {
+        if let Some(range) = section.range(input.name)? {
+            valid.push((index, range));
+        }
+    }
+    section.finish()?;
+    Ok(valid)
+}
+
+/// A smooth step from 0 to 1 around `middle`; `width` is the distance over which the odds change by e.
+fn logistic(value: f64, middle: f64, width: f64) -> f64 {
+    1.0 / (1.0 + ((middle - value) / width).exp())
+}

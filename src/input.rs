@@ -1,0 +1,397 @@
+//! Reads the TOML that users write: every key is checked, every error names file, line, column and key.
+//!
+//! A [`Section`] is one table of the file. Asking it for a key marks the key as known, whether or not it is
+//! there; [`Section::finish`] then refuses whatever nobody asked for and proposes the nearest known key.
+
+use std::cell::RefCell;
+use std::ops::Range;
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// What is wrong with a file that the user wrote, and what to do about it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum InputError {
+    /// The file cannot be read at all.
+    #[error("{path}: cannot be read: {reason}")]
+    Unreadable {
+        /// The path as the user gave it.
+        path: String,
+        /// What the operating system said.
+        reason: String,
+    },
+    /// The file can be read, but something in it is at fault.
+    #[error("{file}:{line}:{column}: {problem}")]
+    Fault {
+        /// The file's name as the user gave it.
+        file: String,
+        /// Line, counted from 1.
+        line: usize,
+        /// Column in characters, counted from 1.
+        column: usize,
+        /// The key with its table, then what is wrong and the remedy.
+        problem: String,
+    },
+}
+
+/// One user's file: its name for messages and its text.
+#[derive(Debug, Clone)]
+pub struct Document {
+    name: String,
+    text: String,
+}
+
+impl Document {
+    /// Takes a text that is already in memory; `name` stands for the file in messages.
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { name: name.into(), text: text.into() }
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`InputError::Unreadable`] when it is missing, not readable or not UTF-8.
+    pub fn from_file(path: &Path) -> Result<Self, InputError> {
+        let name = path.display().to_string();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Ok(Self { name, text }),
+            Err(error) => Err(InputError::Unreadable { path: name, reason: error.to_string() }),
+        }
+    }
+
+    /// The file's name as it stands in messages.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Parses the text and hands its top table to `read`, then refuses the keys that `read` did not ask for.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for text that is not TOML, and whatever `read` returns.
+    pub fn read<T>(&self, read: impl FnOnce(&Section<'_>) -> Result<T, InputError>) -> Result<T, InputError> {
+        let table = DeTable::parse(&self.text).map_err(|error| {
+            self.fault(error.span().unwrap_or(0..0), format!("not valid TOML: {}", error.message()))
+        })?;
+        let section = Section::new(self, String::new(), table.get_ref(), table.span());
+        let value = read(&section)?;
+        section.finish()?;
+        Ok(value)
+    }
+
+    fn fault(&self, span: Range<usize>, problem: String) -> InputError {
+        let before = self.text.get(..span.start).unwrap_or(&self.text);
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        InputError::Fault { file: self.name.clone(), line, column, problem }
+    }
+}
+
+/// One table of a [`Document`].
+pub struct Section<'a> {
+    document: &'a Document,
+    path: String,
+    table: &'a DeTable<'a>,
+    span: Range<usize>,
+    known: RefCell<Vec<String>>,
+}
+
+/// A value with its place in the file.
+type Value<'a> = &'a Spanned<DeValue<'a>>;
+
+impl<'a> Section<'a> {
+    fn new(document: &'a Document, path: String, table: &'a DeTable<'a>, span: Range<usize>) -> Self {
+        Self { document, path, table, span, known: RefCell::default() }
+    }
+
+    /// The table's name, empty for the top of the file.
+    pub fn path(&self) -> &str {
+        &self.path
+    }
+
+    /// All keys that stand in the file, in its order.
+    pub fn keys(&self) -> Vec<String> {
+        self.table.keys().map(|key| key.get_ref().to_string()).collect()
+    }
+
+    /// Whether the key stands in the file.
+    pub fn has(&self, key: &str) -> bool {
+        self.find(key).is_some()
+    }
+
+    /// An error at the place of `key`, or of the whole table when the key is absent.
+    pub fn fault(&self, key: &str, problem: impl std::fmt::Display) -> InputError {
+        let place = self.table.iter().find(|(name, _)| name.get_ref() == key);
+        let span = place.map_or(self.span.clone(), |(name, _)| name.span());
+        self.document.fault(span, format!("{}: {problem}", self.full(key)))
+    }
+
+    /// A finite number, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a finite number.
+    pub fn number(&self, key: &str) -> Result<Option<f64>, InputError> {
+        self.find(key).map(|value| self.to_number(key, value)).transpose()
+    }
+
+    /// A finite number that must be there.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the key is absent or not a finite number.
+    pub fn required_number(&self, key: &str) -> Result<f64, InputError> {
+        self.number(key)?.ok_or_else(|| self.missing(key, "a number"))
+    }
+
+    /// A number in `low..=high`, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when it is not a number or outside the bounds.
+    pub fn number_within(&self, key: &str, low: f64, high: f64) -> Result<Option<f64>, InputError> {
+        match self.number(key)? {
+            Some(value) if value < low || value > high => {
+                Err(self.fault(key, format!("{value} is outside {}", range_text(low, high))))
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// A text, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a text.
+    pub fn text(&self, key: &str) -> Result<Option<String>, InputError> {
+        match self.find(key).map(Spanned::get_ref) {
+            None => Ok(None),
+            Some(DeValue::String(text)) => Ok(Some(text.to_string())),
+            Some(other) => Err(self.wrong_type(key, "a text in quotes", other)),
+        }
+    }
+
+    /// A text that must be there.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the key is absent or not a text.
+    pub fn required_text(&self, key: &str) -> Result<String, InputError> {
+        self.text(key)?.ok_or_else(|| self.missing(key, "a text"))
+    }
+
+    /// A truth value, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is neither `true` nor `false`.
+    pub fn boolean(&self, key: &str) -> Result<Option<bool>, InputError> {
+        match self.find(key).map(Spanned::get_ref) {
+            None => Ok(None),
+            Some(DeValue::Boolean(value)) => Ok(Some(*value)),
+            Some(other) => Err(self.wrong_type(key, "true or false", other)),
+        }
+    }
+
+    /// A list of finite numbers, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a list of finite numbers.
+    pub fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, InputError> {
+        match self.find(key).map(Spanned::get_ref) {
+            None => Ok(None),
+            Some(DeValue::Array(list)) => {
+                list.iter().map(|value| self.to_number(key, value)).collect::<Result<_, _>>().map(Some)
+            }
+            Some(other) => Err(self.wrong_type(key, "a list of numbers", other)),
+        }
+    }
+
+    /// A pair `[low, high]` with `low <= high`, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is anything else.
+    pub fn range(&self, key: &str) -> Result<Option<[f64; 2]>, InputError> {
+        match self.numbers(key)?.as_deref() {
+            None => Ok(None),
+            Some(&[low, high]) if low <= high => Ok(Some([low, high])),
+            Some(_) => Err(self.fault(key, "expected [low, high] with low not above high")),
+        }
+    }
+
+    /// A table inside this one, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a table.
+    pub fn section(&self, key: &str) -> Result<Option<Section<'a>>, InputError> {
+        match self.find(key) {
+            None => Ok(None),
+            Some(value) => match value.get_ref() {
+                DeValue::Table(table) => {
+                    Ok(Some(Section::new(self.document, self.full(key), table, value.span())))
+                }
+                other => Err(self.wrong_type(key, "a table", other)),
+            },
+        }
+    }
+
+    /// A table that must be there.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when it is absent or not a table.
+    pub fn required_section(&self, key: &str) -> Result<Section<'a>, InputError> {
+        self.section(key)?.ok_or_else(|| self.missing(key, "a table"))
+    }
+
+    /// The tables of a `[[key]]` list, empty when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a list of tables.
+    pub fn sections(&self, key: &str) -> Result<Vec<Section<'a>>, InputError> {
+        let list = match self.find(key).map(Spanned::get_ref) {
+            None => return Ok(Vec::new()),
+            Some(DeValue::Array(list)) => list,
+            Some(other) => return Err(self.wrong_type(key, "a list of tables", other)),
+        };
+        let to_section = |(index, value): (usize, Value<'a>)| match value.get_ref() {
+            DeValue::Table(table) => {
+                let path = format!("{}[{}]", self.full(key), index + 1);
+                Ok(Section::new(self.document, path, table, value.span()))
+            }
+            other => Err(self.wrong_type(key, "a list of tables", other)),
+        };
+        list.iter().enumerate().map(to_section).collect()
+    }
+
+    /// Whether the value of `key` is a table (some keys take a number or a table).
+    pub fn is_section(&self, key: &str) -> bool {
+        matches!(self.find(key).map(Spanned::get_ref), Some(DeValue::Table(_)))
+    }
+
+    /// One of a fixed set of words; `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] naming the nearest known word when the value is none of them.
+    pub fn choice(&self, key: &str, words: &[&str]) -> Result<Option<String>, InputError> {
+        match self.text(key)? {
+            Some(word) if !words.contains(&word.as_str()) => {
+                Err(self.fault(key, unknown(&word, "value", words)))
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// Refuses the keys that nobody asked for.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] at the first unknown key, with the nearest known one.
+    pub fn finish(&self) -> Result<(), InputError> {
+        let known = self.known.borrow();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        for name in self.table.keys() {
+            let key: &str = name.get_ref();
+            if !known.contains(&key) {
+                return Err(self.fault(key, unknown(key, "key", &known)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The error for a key that has to be there.
+    pub fn missing(&self, key: &str, what: &str) -> InputError {
+        let place = if self.path.is_empty() { "the file".to_owned() } else { format!("[{}]", self.path) };
+        self.fault(key, format!("missing; add {what} named `{key}` to {place}"))
+    }
+
+    fn find(&self, key: &str) -> Option<Value<'a>> {
+        let mut known = self.known.borrow_mut();
+        if !known.iter().any(|name| name == key) {
+            known.push(key.to_owned());
+        }
+        self.table.iter().find(|(name, _)| name.get_ref() == key).map(|(_, value)| value)
+    }
+
+    fn full(&self, key: &str) -> String {
+        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
+    }
+
+    fn to_number(&self, key: &str, value: Value<'a>) -> Result<f64, InputError> {
+        let parsed = match value.get_ref() {
+            DeValue::Float(number) => number.as_str().replace('_', "").parse::<f64>().ok(),
+            DeValue::Integer(number) => {
+                i64::from_str_radix(&number.as_str().replace('_', ""), number.radix())
+                    .ok()
+                    .map(|whole| whole as f64)
+            }
+            other => return Err(self.wrong_type(key, "a number in SI units", other)),
+        };
+        match parsed {
+            Some(number) if number.is_finite() => Ok(number),
+            _ => Err(self.fault(key, "the number is not finite")),
+        }
+    }
+
+    fn wrong_type(&self, key: &str, expected: &str, found: &DeValue<'_>) -> InputError {
+        self.fault(key, format!("expected {expected}, found {}", found.type_str()))
+    }
+}
+
+/// "unknown key `x`; did you mean `y`? Known: ...".
+pub fn unknown(word: &str, what: &str, known: &[&str]) -> String {
+    let likeness = |candidate: &str| strsim::jaro_winkler(word, candidate);
+    let nearest = known.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let hint = match nearest {
+        Some(candidate) if likeness(candidate) > 0.75 => format!("; did you mean `{candidate}`?"),
+        _ => String::new(),
+    };
+    let list = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+    format!("unknown {what} `{word}`{hint} (known here: {list})")
+}
+
+fn range_text(low: f64, high: f64) -> String {
+    match (low == f64::NEG_INFINITY, high == f64::INFINITY) {
+        (true, _) => format!("the allowed range (at most {high})"),
+        (_, true) => format!("the allowed range (at least {low})"),
+        _ => format!("the allowed range {low} to {high}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str, read: impl FnOnce(&Section<'_>) -> Result<(), InputError>) -> String {
+        Document::new("m.toml", text).read(read).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn unknown_key_names_line_column_and_nearest() {
+        let message = error("\n[normal]\n yield_rato = 1\n", |top| {
+            let normal = top.required_section("normal")?;
+            normal.number("yield_ratio")?;
+            normal.finish()
+        });
+        assert_eq!(
+            message,
+            "m.toml:3:2: normal.yield_rato: unknown key `yield_rato`; did you mean `yield_ratio`? \
+             (known here: yield_ratio)"
+        );
+    }
+
+    #[test]
+    fn wrong_type_and_not_finite_are_named() {
+        let text = error("a = \"one\"", |top| top.number("a").map(|_| ()));
+        assert_eq!(text, "m.toml:1:1: a: expected a number in SI units, found string");
+        let text = error("a = nan", |top| top.number("a").map(|_| ()));
+        assert!(text.contains("not finite"), "{text}");
+    }
+
+    #[test]
+    fn numbers_with_underscores_and_bases_are_read() {
+        let document = Document::new("m.toml", "a = 1_000.5e1\nb = 0x10\nc = -2");
+        let values = document.read(|top| {
+            Ok([top.required_number("a")?, top.required_number("b")?, top.required_number("c")?])
+        });
+        assert_eq!(values, Ok([10005.0, 16.0, -2.0]));
+    }
+
+    #[test]
+    fn broken_toml_names_the_line() {
+        let message = error("a = 1\nb = = 2\n", |_| Ok(()));
+        assert!(message.starts_with("m.toml:2:"), "{message}");
+    }
+}

@@ -1,0 +1,47 @@
+//! What happens when a particle hits a wall.
+//!
+//! Codes that follow particles through a gas treat a wall hit with two constants. Real particles stick, bounce,
+//! slide or roll depending on speed, angle, size, temperature, melting, carbon conversion and what already lies on
+//! the wall. This crate decides it from physics:
+//!
+//! ```
+//! use nearwall::{Draw, Impact, Model};
+//!
+//! let model = Model::from_toml("wax.toml", r#"
+//!     [particle]
+//!     material = "montan-wax"
+//!     [walls.default]
+//!     material = "pyrex"
+//!     [normal]
+//!     model = "thornton-ning"
+//!     yield_ratio = 0.7
+//!     [tangential]
+//!     model = "constant"
+//!     e_t = 0.76
+//! "#)?;
+//! let impact = Impact { normal_speed: 1.0, tangential_speed: 0.5, diameter: 75e-6, ..Impact::default() };
+//! let outcome = model.resolve(0, &impact, Draw::new(1, 0))?;
+//! assert!(!outcome.stuck && outcome.normal_restitution < 0.4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The walk of an impact: [`Impact`] → [`material`] at temperature → [`normal`] law → [`tangential`] law →
+//! [`effect`]s → [`capture`] → [`Outcome`]. The one door is [`Model::resolve`]; OpenFOAM, the C library and the command
+//! all enter there.
+
+pub mod c_api;
+pub mod capture;
+pub mod draw;
+pub mod effect;
+pub mod impact;
+pub mod input;
+pub mod material;
+pub mod model;
+pub mod normal;
+pub mod slag;
+pub mod tangential;
+
+pub use draw::Draw;
+pub use impact::{Impact, ImpactError, Outcome, Regime, global_restitution};
+pub use input::InputError;
+pub use model::Model;

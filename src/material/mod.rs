@@ -1,0 +1,253 @@
+//! Materials of particles and walls: properties over temperature, built in or given by the user.
+
+mod property;
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use crate::impact::ImpactError;
+use crate::input::{Document, InputError, Section, unknown};
+use crate::slag::Composition;
+
+pub use property::{OutOfRange, Property};
+
+/// A property's key in files, its SI unit, its bounds and whether every material needs it.
+struct Field {
+    key: &'static str,
+    unit: &'static str,
+    bounds: (f64, f64),
+    required: bool,
+}
+
+const POSITIVE: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
+
+/// Every property a material may have, in the order in which it is shown.
+const FIELDS: [Field; 8] = [
+    Field { key: "density", unit: "kg/m3", bounds: POSITIVE, required: true },
+    Field { key: "youngs_modulus", unit: "Pa", bounds: POSITIVE, required: true },
+    Field { key: "poisson_ratio", unit: "1", bounds: (-0.999, 0.5), required: true },
+    Field { key: "yield_strength", unit: "Pa", bounds: POSITIVE, required: true },
+    Field { key: "surface_energy", unit: "J/m2", bounds: (0.0, f64::INFINITY), required: true },
+    Field { key: "viscosity", unit: "Pa s", bounds: POSITIVE, required: false },
+    Field { key: "surface_tension", unit: "N/m", bounds: POSITIVE, required: false },
+    Field { key: "melting_point", unit: "K", bounds: POSITIVE, required: false },
+];
+
+/// The first five fields are the mechanical ones, in the order of [`Mechanical`].
+const MECHANICAL: usize = 5;
+const VISCOSITY: usize = 5;
+
+/// A solid that a particle or a wall is made of.
+#[derive(Debug, Clone)]
+pub struct Material {
+    name: String,
+    about: Option<String>,
+    properties: [Option<Property>; FIELDS.len()],
+    composition: Option<Composition>,
+}
+
+/// The mechanical properties at one temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mechanical {
+    /// Density `rho` [kg/m³].
+    pub density: f64,
+    /// Young's modulus `E` [Pa].
+    pub youngs_modulus: f64,
+    /// Poisson's ratio `nu` [1].
+    pub poisson_ratio: f64,
+    /// Yield strength `sigma_y` [Pa].
+    pub yield_strength: f64,
+    /// Surface energy `gamma` [J/m²].
+    pub surface_energy: f64,
+}
+
+impl Material {
+    /// Reads one `[materials.<name>]` table.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for a missing, unknown or unphysical property.
+    pub fn read(name: &str, section: &Section<'_>) -> Result<Self, InputError> {
+        let mut properties = [const { None }; FIELDS.len()];
+        for (field, property) in FIELDS.iter().zip(&mut properties) {
+            let (low, high) = field.bounds;
+            *property = Property::read(section, field.key, field.unit, low, high)?;
+            if property.is_none() && field.required {
+                return Err(section.missing(field.key, &format!("a value in {}", field.unit)));
+            }
+        }
+        let composition = section.section("composition")?.map(|s| read_composition(&s)).transpose()?;
+        let about = section.text("about")?.or(section.text("source")?);
+        section.finish()?;
+        Ok(Self { name: name.to_owned(), about, properties, composition })
+    }
+
+    /// The name it is called by in model files.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// One line on what it is, or the user's own source.
+    pub fn about(&self) -> Option<&str> {
+        self.about.as_deref()
+    }
+
+    /// Oxide composition of an ash or slag.
+    pub fn composition(&self) -> Option<&Composition> {
+        self.composition.as_ref()
+    }
+
+    /// A property by its key, for instance `youngs_modulus`.
+    pub fn property(&self, key: &str) -> Option<&Property> {
+        let index = FIELDS.iter().position(|field| field.key == key)?;
+        self.properties[index].as_ref()
+    }
+
+    /// Its properties with key and unit, in a fixed order.
+    pub fn properties(&self) -> impl Iterator<Item = (&'static str, &'static str, &Property)> {
+        let fields = FIELDS.iter().zip(&self.properties);
+        fields.filter_map(|(field, p)| Some((field.key, field.unit, p.as_ref()?)))
+    }
+
+    /// Viscosity [Pa s] of the melt at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside what is known; a material without a viscosity knows it nowhere.
+    pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
+        self.value(VISCOSITY, temperature)
+    }
+
+    fn value(&self, field: usize, temperature: f64) -> Result<f64, ImpactError> {
+        let nowhere = OutOfRange { low: f64::NAN, high: f64::NAN };
+        let found = self.properties[field].as_ref().map_or(Err(nowhere), |p| p.at(temperature));
+        found.map_err(|OutOfRange { low, high }| ImpactError::OutOfRange {
+            material: self.name.clone(),
+            property: FIELDS[field].key,
+            temperature,
+            low,
+            high,
+        })
+    }
+
+    /// The five mechanical properties at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside a table.
+    pub fn mechanical(&self, temperature: f64) -> Result<Mechanical, ImpactError> {
+        Ok(Mechanical {
+            density: self.value(0, temperature)?,
+            youngs_modulus: self.value(1, temperature)?,
+            poisson_ratio: self.value(2, temperature)?,
+            yield_strength: self.value(3, temperature)?,
+            surface_energy: self.value(4, temperature)?,
+        })
+    }
+
+    /// Whether every mechanical property is stated to hold at this temperature [K].
+    pub fn holds_at(&self, temperature: f64) -> bool {
+        self.properties[..MECHANICAL].iter().flatten().all(|p| p.holds_at(temperature))
+    }
+
+    /// Whether the mechanical properties are the same at every temperature.
+    pub fn is_constant(&self) -> bool {
+        self.properties[..MECHANICAL].iter().flatten().all(Property::is_constant)
+    }
+}
+
+fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
+    const NOTES: [&str; 2] = ["unit", "source"];
+    section.choice("unit", &["wt%"])?;
+    section.text("source")?;
+    let mut oxides = Vec::new();
+    for key in section.keys().iter().filter(|key| !NOTES.contains(&key.as_str())) {
+        oxides.push((key.clone(), section.required_number(key)?));
+    }
+    let named = oxides.iter().map(|(name, share)| (name.as_str(), *share));
+    Composition::new(named).map_err(|error| section.fault("", error))
+}
+
+static BUILT_IN: LazyLock<Result<Library, InputError>> = LazyLock::new(|| {
+    let document = Document::new("built-in materials", include_str!("materials.toml"));
+    document.read(|top| Library::default().with(top))
+});
+
+/// Materials by name.
+#[derive(Debug, Clone, Default)]
+pub struct Library {
+    materials: BTreeMap<String, Material>,
+}
+
+impl Library {
+    /// The materials that come with the crate.
+    ///
+    /// # Errors
+    /// [`InputError`] if the data that was compiled in is broken (a test makes sure it is not).
+    pub fn built_in() -> Result<Self, InputError> {
+        BUILT_IN.clone()
+    }
+
+    /// Adds every table of `section`; a name that is already there is replaced.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for a material that cannot be read.
+    pub fn with(mut self, section: &Section<'_>) -> Result<Self, InputError> {
+        for name in section.keys() {
+            let material = Material::read(&name, &section.required_section(&name)?)?;
+            self.materials.insert(name, material);
+        }
+        Ok(self)
+    }
+
+    /// A material by its name.
+    pub fn get(&self, name: &str) -> Option<&Material> {
+        self.materials.get(name)
+    }
+
+    /// All names, sorted.
+    pub fn names(&self) -> Vec<&str> {
+        self.materials.keys().map(String::as_str).collect()
+    }
+
+    /// The material that `key` of a section names.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] with the nearest known name when there is none.
+    pub fn named_by(&self, section: &Section<'_>, key: &str) -> Result<Option<Material>, InputError> {
+        let Some(name) = section.text(key)? else { return Ok(None) };
+        match self.get(&name) {
+            Some(material) => Ok(Some(material.clone())),
+            None => Err(section.fault(key, unknown(&name, "material", &self.names()))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_number_names_unit_range_and_source() {
+        let library = Library::built_in().unwrap();
+        assert!(library.names().len() >= 15);
+        for name in library.names() {
+            let material = library.get(name).unwrap();
+            assert!(material.about().is_some(), "{name}");
+            for (key, _, property) in material.properties() {
+                assert!(property.source().is_some_and(|s| s.len() > 5), "{name}.{key}: source");
+                let [low, high] = property.valid().unwrap_or_else(|| panic!("{name}.{key}: valid"));
+                for temperature in [low, 0.5 * (low + high), high] {
+                    assert!(property.at(temperature).unwrap() >= 0.0, "{name}.{key} at {temperature}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn wax_has_the_papers_numbers() {
+        let library = Library::built_in().unwrap();
+        let wax = library.get("montan-wax").unwrap().mechanical(293.15).unwrap();
+        assert_eq!(wax.youngs_modulus, 700e6);
+        assert_eq!(wax.yield_strength, 9.5e6);
+        assert_eq!(wax.poisson_ratio, 0.49);
+        assert_eq!(wax.surface_energy, 0.03);
+    }
+}

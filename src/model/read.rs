@@ -1,0 +1,232 @@
+//! Reads a model from TOML: every key checked, nothing assumed silently.
+
+use regex_lite::Regex;
+
+use super::Model;
+use super::wall::{Adhesion, Wall};
+use crate::capture::ViscosityCriterion;
+use crate::effect::Term;
+use crate::input::{Document, InputError, Section};
+use crate::material::{Library, Material};
+use crate::normal::{Contact, NormalLaw};
+use crate::tangential::TangentialLaw;
+
+impl Model {
+    pub(super) fn read(document: &Document) -> Result<Self, InputError> {
+        document.read(Self::read_top)
+    }
+
+    fn read_top(top: &Section<'_>) -> Result<Self, InputError> {
+        let mut library = Library::built_in()?;
+        if let Some(own) = top.section("materials")? {
+            library = library.with(&own)?;
+            own.finish()?;
+        }
+        let criterion = match top.section("capture")? {
+            Some(section) => finished(section, ViscosityCriterion::read)?,
+            None => None,
+        };
+        let particle = finished(top.required_section("particle")?, |section| {
+            library.named_by(section, "material")?.ok_or_else(|| missing_material(section))
+        })?;
+        let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
+        let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
+        let reader = WallReader { library: &library, criterion, particle: &particle, adhesion };
+        let walls = reader.read_all(top)?;
+        let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
+        let particle_melt = match criterion {
+            Some(criterion) => criterion.prepare(&particle).map_err(|error| top.fault("particle", error))?,
+            None => None,
+        };
+        if criterion.is_some() && particle_melt.is_none() && walls.iter().all(|w| w.melt.is_none()) {
+            let problem = "neither the particle nor the slag of a wall has a composition or a viscosity; \
+                           give one to a material";
+            return Err(top.fault("capture", problem));
+        }
+        Ok(Self { particle, particle_melt, walls, normal, tangential, terms })
+    }
+}
+
+/// Reads a section and refuses its unknown keys.
+fn finished<T>(
+    section: Section<'_>,
+    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+) -> Result<T, InputError> {
+    let value = read(&section)?;
+    section.finish()?;
+    Ok(value)
+}
+
+fn missing_material(section: &Section<'_>) -> InputError {
+    section.missing("material", "a built-in or own material (`nearwall materials` lists them)")
+}
+
+fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputError> {
+    let law = NormalLaw::read(section)?;
+    let yield_ratio = section.number_within("yield_ratio", 1e-6, 1e6)?;
+    let work = section.number_within("work_of_adhesion", 0.0, f64::INFINITY)?;
+    let yield_ratio = match (yield_ratio, law) {
+        (Some(ratio), _) => ratio,
+        (None, NormalLaw::Constant { .. }) => 1.0,
+        (None, NormalLaw::ThorntonNing) => {
+            let what = "p_y / sigma_y (1.6 to 4 for hard, 0.7 for soft particles)";
+            return Err(section.missing("yield_ratio", what));
+        }
+    };
+    Ok((law, Adhesion { yield_ratio, work }))
+}
+
+/// What the walls of a model share.
+struct WallReader<'a> {
+    library: &'a Library,
+    criterion: Option<ViscosityCriterion>,
+    particle: &'a Material,
+    adhesion: Adhesion,
+}
+
+impl WallReader<'_> {
+    fn read_all(&self, top: &Section<'_>) -> Result<Vec<Wall>, InputError> {
+        let table = top.required_section("walls")?;
+        let names = table.keys();
+        if names.is_empty() {
+            return Err(table.missing("default", "a wall"));
+        }
+        names
+            .iter()
+            .map(|name| finished(table.required_section(name)?, |section| self.read_one(name, section)))
+            .collect()
+    }
+
+    fn read_one(&self, name: &str, section: &Section<'_>) -> Result<Wall, InputError> {
+        let material = self.library.named_by(section, "material")?;
+        let material = material.ok_or_else(|| missing_material(section))?;
+        let melt = match (self.library.named_by(section, "slag")?, self.criterion) {
+            (None, _) => None,
+            (Some(_), None) => {
+                let problem =
+                    "a wall with slag needs [capture] model = \"viscosity\" to say when it is sticky";
+                return Err(section.fault("slag", problem));
+            }
+            (Some(slag), Some(criterion)) => {
+                let melt = criterion.prepare(&slag).map_err(|error| section.fault("slag", error))?;
+                let lacking = || format!("`{}` has neither composition nor viscosity", slag.name());
+                Some(melt.ok_or_else(|| section.fault("slag", lacking()))?)
+            }
+        };
+        let prepared = match (self.particle.is_constant(), material.is_constant()) {
+            (true, true) => {
+                let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
+                let Adhesion { yield_ratio, work } = self.adhesion;
+                Some(Contact::new(&at(self.particle)?, &at(&material)?, yield_ratio, work))
+            }
+            _ => None,
+        };
+        Ok(Wall {
+            name: name.to_owned(),
+            pattern: read_pattern(name, section)?,
+            material,
+            melt,
+            layer_thickness: section.number_within("layer_thickness", 0.0, f64::INFINITY)?.unwrap_or(0.0),
+            coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
+            adhesion: self.adhesion,
+            prepared,
+        })
+    }
+}
+
+/// A name with regular-expression characters is one; it has to fit the whole patch name.
+fn read_pattern(name: &str, section: &Section<'_>) -> Result<Option<Regex>, InputError> {
+    if !name.contains(['*', '+', '?', '|', '(', ')', '[', ']', '^', '$', '\\', '.', '{']) {
+        return Ok(None);
+    }
+    Regex::new(&format!("^(?:{name})$"))
+        .map(Some)
+        .map_err(|error| section.fault("", format!("`{name}` is not a regular expression: {error}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::Draw;
+    use crate::impact::{Impact, Regime};
+
+    const SMALLEST: &str = r#"
+[particle]
+material = "montan-wax"
+[walls.default]
+material = "pyrex"
+[normal]
+model = "thornton-ning"
+yield_ratio = 0.7
+[tangential]
+model = "constant"
+e_t = 0.76
+"#;
+
+    fn error(text: &str) -> String {
+        Model::from_toml("m.toml", text).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn the_smallest_file_gives_the_papers_wax() {
+        let model = Model::from_toml("m.toml", SMALLEST).unwrap();
+        let impact = Impact { normal_speed: 1.0, diameter: 75e-6, ..Impact::default() };
+        let outcome = model.resolve(0, &impact, Draw::default()).unwrap();
+        assert!((outcome.normal_restitution - 0.28).abs() < 0.06, "{outcome:?}");
+        assert_eq!(outcome.tangential_restitution, 0.76);
+        assert_eq!((outcome.sticking_probability, outcome.stuck), (0.0, false));
+        assert_eq!(outcome.regime, Regime::NspNsw);
+        let slow = Impact { normal_speed: 0.05, ..impact };
+        assert!(model.resolve(0, &slow, Draw::default()).unwrap().stuck);
+    }
+
+    #[test]
+    fn errors_name_the_place_and_the_remedy() {
+        let misspelt = error(&SMALLEST.replace("montan-wax", "montanwax"));
+        assert!(
+            misspelt.starts_with(
+                "m.toml:3:1: particle.material: unknown material `montanwax`; \
+                                      did you mean `montan-wax`?"
+            ),
+            "{misspelt}"
+        );
+        let no_walls = error(&SMALLEST.replace("walls.default", "wall.default"));
+        assert!(no_walls.contains("walls: missing"), "{no_walls}");
+        let no_ratio = error(&SMALLEST.replace("yield_ratio = 0.7", ""));
+        assert!(no_ratio.contains("normal.yield_ratio: missing"), "{no_ratio}");
+        let bad_effect = error(&format!("{SMALLEST}[[effects]]\nkind = \"melting\"\n"));
+        assert!(bad_effect.contains("did you mean `melting-transition`?"), "{bad_effect}");
+        let no_parameter = error(&format!("{SMALLEST}[[effects]]\nkind = \"melting-transition\"\n"));
+        assert!(no_parameter.contains("effects[1].temperature: missing"), "{no_parameter}");
+    }
+
+    #[test]
+    fn walls_are_found_by_name_then_by_the_last_pattern() {
+        let text = format!(
+            "{SMALLEST}[walls.\"slag.*\"]\nmaterial = \"teflon\"\n[walls.\"sl.*\"]\nmaterial = \"pyrex\"\n\
+             [walls.slag]\nmaterial = \"stainless-steel\"\n"
+        );
+        let model = Model::from_toml("m.toml", &text).unwrap();
+        let name = |patch: &str| model.find_wall(patch).map(|wall| model.walls()[wall].name());
+        assert_eq!(name("slag"), Some("slag"));
+        assert_eq!(name("slagWall"), Some("sl.*"));
+        assert_eq!(name("noslag"), None);
+        assert_eq!(name("default"), Some("default"));
+    }
+
+    #[test]
+    fn every_term_is_named_in_the_walk() {
+        let text = format!(
+            "{SMALLEST}[[effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n"
+        );
+        let model = Model::from_toml("m.toml", &text).unwrap();
+        let impact =
+            Impact { normal_speed: 2.0, diameter: 80e-6, particle_temperature: 378.15, ..Impact::default() };
+        let (outcome, shares) = model.explain(0, &impact, Draw::default()).unwrap();
+        assert_eq!(outcome.regime, Regime::SpNsw);
+        assert!(outcome.outside_range, "the wax's solid properties do not hold at 105 °C");
+        let melting = shares.iter().find(|share| share.term == "melting-transition").unwrap();
+        assert!((melting.value - 0.93).abs() < 0.01);
+        assert!(shares.iter().any(|share| share.term == "thornton-ning"));
+    }
+}

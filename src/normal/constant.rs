@@ -1,0 +1,10 @@
+//! Constant normal restitution: what a wall hit is in most codes.
+//!
+//! `e_n` is one number, 0 to 1, whatever the impact; nothing sticks by adhesion. It is here to compare with.
+
+use crate::input::{InputError, Section};
+
+/// Reads `e_n` [1], 0 to 1.
+pub(super) fn read(section: &Section<'_>) -> Result<f64, InputError> {
+    section.number_within("e_n", 0.0, 1.0)?.ok_or_else(|| section.missing("e_n", "a number 0 to 1"))
+}

@@ -1,0 +1,94 @@
+//! Tangential impact: how much of the speed along the wall is left. One law a file.
+
+mod constant;
+mod sliding;
+mod sliding_rolling;
+
+pub use sliding_rolling::critical_angle;
+
+use crate::input::{InputError, Section};
+
+/// What a tangential law needs to know of an impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Glance {
+    /// Speed towards the wall `v_n` [m/s].
+    pub normal_speed: f64,
+    /// Speed along the wall `v_t` [m/s].
+    pub tangential_speed: f64,
+    /// Particle diameter `d` [m].
+    pub diameter: f64,
+    /// Spin before the impact `omega` [rad/s].
+    pub spin: f64,
+    /// Normal restitution `e_n` [1].
+    pub normal_restitution: f64,
+    /// Mindlin's stiffness ratio `k` [1].
+    pub stiffness_ratio: f64,
+}
+
+/// Tangential restitution and spin after the impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rebound {
+    /// Tangential restitution `e_t` [1].
+    pub restitution: f64,
+    /// Spin [rad/s].
+    pub spin: f64,
+}
+
+/// The law that gives the tangential restitution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TangentialLaw {
+    /// The same number for every impact.
+    Constant {
+        /// Tangential restitution `e_t` [1].
+        restitution: f64,
+    },
+    /// Gross sliding with a friction coefficient `f` [1].
+    Sliding {
+        /// Friction coefficient `f` [1].
+        friction: f64,
+    },
+    /// Sliding at glancing angles, rolling at steep ones.
+    SlidingRolling {
+        /// Friction coefficient `f` [1].
+        friction: f64,
+    },
+}
+
+impl TangentialLaw {
+    /// Reads a `[tangential]` table.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown law or a value out of bounds.
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let word = section.choice("model", &["constant", "sliding", "sliding-rolling"])?;
+        let friction = |s: &Section<'_>| {
+            s.number_within("friction", 0.0, f64::INFINITY)?
+                .ok_or_else(|| s.missing("friction", "a friction coefficient"))
+        };
+        match word.as_deref() {
+            Some("constant") => Ok(Self::Constant { restitution: constant::read(section)? }),
+            Some("sliding") => Ok(Self::Sliding { friction: friction(section)? }),
+            Some(_) => Ok(Self::SlidingRolling { friction: friction(section)? }),
+            None => Err(section.missing("model", "\"constant\", \"sliding\" or \"sliding-rolling\"")),
+        }
+    }
+
+    /// The name in model files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Constant { .. } => "constant",
+            Self::Sliding { .. } => "sliding",
+            Self::SlidingRolling { .. } => "sliding-rolling",
+        }
+    }
+
+    /// Tangential restitution and spin after the impact. Without tangential speed the restitution is that of
+    /// the smallest one.
+    pub fn rebound(self, glance: &Glance) -> Rebound {
+        match self {
+            Self::Constant { restitution } => Rebound { restitution, spin: glance.spin },
+            Self::Sliding { friction } => sliding::rebound(friction, glance),
+            Self::SlidingRolling { friction } => sliding_rolling::rebound(friction, glance),
+        }
+    }
+}

@@ -1,0 +1,29 @@
+//! Gross sliding: friction acts through the whole contact (Troiano et al., Eq. 10; MIGRAINE, Eq. 4).
+//!
+//! The normal impulse per mass is `(1+e_n) v_n`; Coulomb friction `f` takes that share of it from the tangential
+//! speed and turns it into spin:
+//! `u2 = u1 - f (1+e_n) v_n`, `omega2 = omega1 + 5 f (1+e_n) v_n / d`, hence `e_t = 1 - f (1+e_n) tan(alpha)`.
+//!
+//! `u` tangential speed [m/s], `omega` spin [rad/s], `d` diameter [m]. Friction follows the slip of the contact
+//! point, `u1 - omega1 d/2`, so fast forward spin drives the particle on. Friction can stop the particle but not
+//! throw it back: `u2 >= 0` unless the spin does that. Valid below the critical angle of `sliding_rolling`.
+
+use super::{Glance, Rebound};
+
+/// Tangential restitution and spin after gross sliding.
+pub(super) fn rebound(friction: f64, glance: &Glance) -> Rebound {
+    let slip = glance.tangential_speed - 0.5 * glance.diameter * glance.spin;
+    let mut change = impulse(friction, glance).copysign(slip);
+    if slip >= 0.0 {
+        change = change.min(glance.tangential_speed);
+    }
+    let spin = glance.spin + 5.0 * change / glance.diameter;
+    let restitution =
+        if glance.tangential_speed > 0.0 { 1.0 - change / glance.tangential_speed } else { 0.0 };
+    Rebound { restitution, spin }
+}
+
+/// Largest change of tangential speed that friction allows [m/s].
+pub(super) fn impulse(friction: f64, glance: &Glance) -> f64 {
+    friction * (1.0 + glance.normal_restitution) * glance.normal_speed
+}

@@ -1,0 +1,191 @@
+//! What several tests share: the golden table and the C library loaded as a stranger loads it.
+#![allow(dead_code, reason = "each test uses its part")]
+#![allow(unsafe_code, reason = "calling a C library")]
+
+use std::ffi::{CString, c_char};
+use std::path::PathBuf;
+
+use libloading::{Library, Symbol};
+use nearwall::Impact;
+use nearwall::c_api::{NW_OK, nw_impact, nw_model, nw_outcome};
+
+/// One case of `tests/data/thornton_ning.csv`, columns in their order.
+#[derive(Debug)]
+pub struct Golden {
+    pub e1: f64,
+    pub nu1: f64,
+    pub e2: f64,
+    pub nu2: f64,
+    pub rho: f64,
+    pub d: f64,
+    pub work_of_adhesion: f64,
+    pub p_y: f64,
+    pub v_n: f64,
+    pub reduced_modulus: f64,
+    pub v_adh: f64,
+    pub v_yield: f64,
+    pub v_stick: f64,
+    pub e_n: f64,
+}
+
+impl Golden {
+    /// A model file with this case's numbers: both solids yield at `p_y`, so the ratio is 1.
+    pub fn model(&self) -> String {
+        let Self { e1, nu1, e2, nu2, rho, work_of_adhesion, p_y, .. } = self;
+        format!(
+            "[particle]\nmaterial = \"p\"\n[walls.default]\nmaterial = \"w\"\n\
+             [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 1\nwork_of_adhesion = {work_of_adhesion:e}\n\
+             [tangential]\nmodel = \"constant\"\ne_t = 1\n\
+             [materials.p]\ndensity = {rho:e}\nyoungs_modulus = {e1:e}\npoisson_ratio = {nu1:e}\n\
+             yield_strength = {p_y:e}\nsurface_energy = 0\n\
+             [materials.w]\ndensity = {rho:e}\nyoungs_modulus = {e2:e}\npoisson_ratio = {nu2:e}\n\
+             yield_strength = {p_y:e}\nsurface_energy = 0\n"
+        )
+    }
+}
+
+/// The golden table.
+pub fn golden_cases() -> Vec<Golden> {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/thornton_ning.csv");
+    let text = std::fs::read_to_string(path).unwrap();
+    let cases: Vec<Golden> = text.lines().skip(1).map(golden_case).collect();
+    assert_eq!(cases.len(), 400);
+    cases
+}
+
+fn golden_case(line: &str) -> Golden {
+    let v: Vec<f64> = line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    Golden {
+        e1: v[0],
+        nu1: v[1],
+        e2: v[2],
+        nu2: v[3],
+        rho: v[4],
+        d: v[5],
+        work_of_adhesion: v[6],
+        p_y: v[7],
+        v_n: v[8],
+        reduced_modulus: v[9],
+        v_adh: v[10],
+        v_yield: v[11],
+        v_stick: v[12],
+        e_n: v[13],
+    }
+}
+
+/// `libnearwall.so` of this build, loaded at run time.
+pub struct CLibrary {
+    library: Library,
+}
+
+/// A model of the C library; freed with it.
+pub struct CModel<'a> {
+    library: &'a CLibrary,
+    pub handle: *mut nw_model,
+}
+
+impl Drop for CModel<'_> {
+    fn drop(&mut self) {
+        unsafe { self.library.symbol::<unsafe extern "C" fn(*mut nw_model)>("nw_model_free")(self.handle) }
+    }
+}
+
+/// Where cargo puts the shared library that belongs to the running test.
+pub fn library_path() -> PathBuf {
+    let exe = std::env::current_exe().unwrap();
+    exe.parent().unwrap().join("libnearwall.so")
+}
+
+impl CLibrary {
+    pub fn load() -> Self {
+        let path = library_path();
+        let library = unsafe { Library::new(&path) }
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        Self { library }
+    }
+
+    pub fn symbol<T>(&self, name: &str) -> Symbol<'_, T> {
+        unsafe { self.library.get(name.as_bytes()) }.unwrap()
+    }
+
+    pub fn try_parse(&self, toml: &str) -> Result<CModel<'_>, (i32, String)> {
+        type Parse = unsafe extern "C" fn(
+            *const c_char,
+            usize,
+            *const c_char,
+            *mut *mut nw_model,
+            *mut c_char,
+            usize,
+        ) -> i32;
+        let name = CString::new("test.toml").unwrap();
+        let mut handle = std::ptr::null_mut();
+        let mut message = vec![0_u8; 512];
+        let status = unsafe {
+            self.symbol::<Parse>("nw_model_parse")(
+                toml.as_ptr().cast(),
+                toml.len(),
+                name.as_ptr(),
+                &raw mut handle,
+                message.as_mut_ptr().cast(),
+                message.len(),
+            )
+        };
+        if status == NW_OK {
+            return Ok(CModel { library: self, handle });
+        }
+        assert!(handle.is_null(), "nothing is written on failure");
+        let end = message.iter().position(|byte| *byte == 0).unwrap();
+        Err((status, String::from_utf8(message[..end].to_vec()).unwrap()))
+    }
+
+    pub fn parse(&self, toml: &str) -> CModel<'_> {
+        self.try_parse(toml).unwrap()
+    }
+
+    pub fn try_resolve(&self, model: &CModel<'_>, impact: &nw_impact) -> Result<nw_outcome, i32> {
+        type Resolve = unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32;
+        let mut outcome = nw_outcome::default();
+        let status = unsafe { self.symbol::<Resolve>("nw_resolve")(model.handle, impact, &raw mut outcome) };
+        if status == NW_OK { Ok(outcome) } else { Err(status) }
+    }
+
+    pub fn resolve(&self, model: &CModel<'_>, impact: &Impact) -> nw_outcome {
+        self.try_resolve(model, &c_impact(impact)).unwrap()
+    }
+
+    pub fn speeds(&self, model: &CModel<'_>, impact: &Impact) -> [f64; 3] {
+        type Speeds =
+            unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64, *mut f64, *mut f64) -> i32;
+        let [mut adhesive, mut yielding, mut sticking] = [0.0; 3];
+        let status = unsafe {
+            self.symbol::<Speeds>("nw_speeds")(
+                model.handle,
+                &c_impact(impact),
+                &raw mut adhesive,
+                &raw mut yielding,
+                &raw mut sticking,
+            )
+        };
+        assert_eq!(status, NW_OK);
+        [adhesive, yielding, sticking]
+    }
+}
+
+/// The impact as the C library takes it.
+pub fn c_impact(impact: &Impact) -> nw_impact {
+    nw_impact {
+        v_n: impact.normal_speed,
+        v_t: impact.tangential_speed,
+        d: impact.diameter,
+        T_p: impact.particle_temperature,
+        T_w: impact.wall_temperature,
+        conversion: impact.conversion,
+        layer_thickness: impact.layer_thickness,
+        film_thickness: impact.film_thickness,
+        v_gas: impact.gas_speed,
+        roughness: impact.roughness,
+        omega: impact.spin,
+        coverage: impact.coverage,
+        ..nw_impact::default()
+    }
+}

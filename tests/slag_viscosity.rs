@@ -1,0 +1,167 @@
+//! The viscosity laws beside measured silicate melts.
+//!
+//! `tests/data/slag_viscosity_measured.csv` holds 1161 measured points from twelve sources, all in the ash window
+//! (its header says which). Figures stated beforehand for this comparison are a root mean square error in log10 of
+//! 0.17 (Kalmanovitch–Frank), 0.27 (Urbain) and 0.39 (Watt–Fereday). With every row used and the oxides grouped as
+//! `nearwall::slag` documents, the table gives 0.183, 0.289 and 0.394. No treatment of iron gets to the first two:
+//! the 44 rows that carry iron are too few (see `iron_is_not_what_sets_the_error`).
+//!
+//! `cargo test --test slag_viscosity -- --nocapture` prints the comparison by source.
+
+#![allow(clippy::unwrap_used, reason = "a test may stop at a broken table")]
+
+use nearwall::slag::{Composition, SlagViscosity, ViscosityLaw};
+
+const TABLE: &str = include_str!("data/slag_viscosity_measured.csv");
+
+const OXIDES: [&str; 11] =
+    ["SiO2", "TiO2", "Al2O3", "FeO", "Fe2O3", "MnO", "Na2O", "K2O", "MgO", "CaO", "P2O5"];
+
+struct Measured {
+    source: &'static str,
+    shares: [f64; 11],
+    temperature: f64,
+    log10_viscosity: f64,
+    in_ash_window: bool,
+}
+
+impl Measured {
+    fn share(&self, oxide: &str) -> f64 {
+        OXIDES.iter().position(|name| *name == oxide).map(|i| self.shares[i]).unwrap()
+    }
+
+    fn iron(&self) -> f64 {
+        self.share("FeO") + self.share("Fe2O3")
+    }
+
+    fn composition(&self) -> Composition {
+        Composition::new(OXIDES.into_iter().zip(self.shares)).unwrap()
+    }
+}
+
+/// The numbers stand at the end of a line; source and sample before them may carry commas of their own.
+fn measured() -> Vec<Measured> {
+    let lines = TABLE.lines().filter(|line| !line.starts_with('#'));
+    let mut lines = lines.skip_while(|line| !line.starts_with("ref,")).peekable();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let expected: Vec<String> = OXIDES.iter().map(|o| format!("{}_wt", o.to_lowercase())).collect();
+    assert_eq!(header[2..13], expected);
+    assert_eq!(header[13..], ["T_K", "log10_eta_Pa_s", "ash_window"]);
+    lines
+        .map(|line| {
+            let mut fields: Vec<&str> = line.rsplitn(15, ',').collect();
+            fields.reverse();
+            let numbers: Vec<f64> = fields[1..].iter().map(|field| field.parse().unwrap()).collect();
+            let source = match fields[0].strip_prefix('"') {
+                Some(stated) => quoted.split('"').next().unwrap(),
+                None => fields[0].split(',').next().unwrap(),
+            };
+            Measured {
+                source,
+                shares: numbers[..11].try_into().unwrap(),
+                temperature: numbers[11],
+                log10_viscosity: numbers[12],
+                in_ash_window: numbers[13] == 1.0,
+            }
+        })
+        .collect()
+}
+
+/// Root mean square and mean of predicted minus measured log10 viscosity.
+fn error<'a>(
+    rows: impl IntoIterator<Item = &'a Measured>,
+    law: ViscosityLaw,
+    composition: impl Fn(&Measured) -> Composition,
+) -> (f64, f64) {
+    let errors: Vec<f64> = rows
+        .into_iter()
+        .map(|row| {
+            let slag = SlagViscosity::new(law, &composition(row)).unwrap();
+            slag.at(row.temperature).log10() - row.log10_viscosity
+        })
+        .collect();
+    let mean = |power: i32| errors.iter().map(|e| e.powi(power)).sum::<f64>() / errors.len() as f64;
+    (mean(2).sqrt(), mean(1))
+}
+
+fn print_by_source(rows: &[Measured]) {
+    let mut sources: Vec<&str> = rows.iter().map(|row| row.source).collect();
+    sources.sort_unstable();
+    sources.dedup();
+    println!(
+        "{:40} {:>5}  rms and bias in log10: {:?}",
+        "",
+        "rows",
+        ViscosityLaw::ALL.map(ViscosityLaw::name)
+    );
+    for source in sources {
+        let own: Vec<&Measured> = rows.iter().filter(|row| row.source == source).collect();
+        let found = ViscosityLaw::ALL.map(|law| error(own.iter().copied(), law, Measured::composition));
+        let columns = found.map(|(rms, bias)| format!("{rms:6.3} {bias:+6.3}")).join("   ");
+        println!("{source:40} {:5}  {columns}", own.len());
+    }
+}
+
+#[test]
+fn the_table_is_read_whole() {
+    let rows = measured();
+    assert_eq!(rows.len(), 1161);
+    assert!(rows.iter().all(|row| row.in_ash_window));
+    for row in &rows {
+        assert!((row.shares.iter().sum::<f64>() - 100.0).abs() < 0.01, "{}", row.source);
+        assert!((30.0..=70.0).contains(&row.share("SiO2")));
+        assert!((8.0..=40.0).contains(&row.share("Al2O3")));
+    }
+    assert_eq!(rows.iter().filter(|row| row.iron() > 0.0).count(), 44);
+}
+
+#[test]
+fn laws_meet_the_measured_slags() {
+    let rows = measured();
+    print_by_source(&rows);
+    // Law, what was stated beforehand, what this table gives, its bias.
+    let expected = [
+        (ViscosityLaw::KalmanovitchFrank, 0.17, 0.183, 0.043),
+        (ViscosityLaw::Urbain, 0.27, 0.289, 0.235),
+        (ViscosityLaw::WattFereday, 0.39, 0.394, -0.322),
+    ];
+    for (law, stated, own, own_bias) in expected {
+        let (rms, bias) = error(&rows, law, Measured::composition);
+        println!("{}: rms {rms:.4}, bias {bias:+.4}", law.name());
+        assert!((rms - stated).abs() < 0.02, "{}: rms {rms} against {stated}", law.name());
+        assert!((rms - own).abs() < 1e-3, "{}: rms {rms} against {own}", law.name());
+        assert!((bias - own_bias).abs() < 1e-3, "{}: bias {bias} against {own_bias}", law.name());
+    }
+}
+
+/// The laws do worse where there is iron. Counted as all ferrous or all ferric, the whole table moves by at most
+/// 0.012: it can neither settle how iron should count nor explain the distance to the stated figures.
+#[test]
+fn iron_is_not_what_sets_the_error() {
+    let with_iron = |row: &Measured, ferrous_share: f64| {
+        let ferrous = row.share("FeO") + 2.0 * 71.844 / 159.687 * row.share("Fe2O3");
+        let ferric = ferrous * 159.687 / (2.0 * 71.844);
+        let shares = OXIDES.into_iter().zip(row.shares).map(|(oxide, share)| match oxide {
+            "FeO" => (oxide, ferrous_share * ferrous),
+            "Fe2O3" => (oxide, (1.0 - ferrous_share) * ferric),
+            _ => (oxide, share),
+        });
+        Composition::new(shares).unwrap()
+    };
+    let rows = measured();
+    let ferrous = |rows: &[Measured], law, share| error(rows, law, |row| with_iron(row, share)).0;
+    for law in [ViscosityLaw::KalmanovitchFrank, ViscosityLaw::Urbain] {
+        let as_given = error(&rows, law, Measured::composition).0;
+        let without = error(rows.iter().filter(|row| row.iron() == 0.0), law, Measured::composition).0;
+        let only = error(rows.iter().filter(|row| row.iron() > 0.0), law, Measured::composition).0;
+        let (all_ferrous, all_ferric) = (ferrous(&rows, law, 1.0), ferrous(&rows, law, 0.0));
+        println!(
+            "{}: as given {as_given:.4}, all FeO {all_ferrous:.4}, all Fe2O3 {all_ferric:.4}, \
+             rows without iron {without:.4}, rows with iron {only:.4}",
+            law.name()
+        );
+        assert!(as_given - 0.003 < all_ferrous && all_ferrous < as_given);
+        assert!(as_given < all_ferric && all_ferric < as_given + 0.013);
+        assert!(without < as_given && as_given < only);
+    }
+}
