@@ -41,8 +41,7 @@ impl Measured {
 
 /// The numbers stand at the end of a line; source and sample before them may carry commas of their own.
 fn measured() -> Vec<Measured> {
-    let lines = TABLE.lines().filter(|line| !line.starts_with('#'));
-    let mut lines = lines.skip_while(|line| !line.starts_with("ref,")).peekable();
+    let mut lines = TABLE.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
     let expected: Vec<String> = OXIDES.iter().map(|o| format!("{}_wt", o.to_lowercase())).collect();
     assert_eq!(header[2..13], expected);
@@ -53,7 +52,7 @@ fn measured() -> Vec<Measured> {
             fields.reverse();
             let numbers: Vec<f64> = fields[1..].iter().map(|field| field.parse().unwrap()).collect();
             let source = match fields[0].strip_prefix('"') {
-                Some(stated) => quoted.split('"').next().unwrap(),
+                Some(quoted) => quoted.split('"').next().unwrap(),
                 None => fields[0].split(',').next().unwrap(),
             };
             Measured {
