@@ -31,6 +31,8 @@
 
 pub mod c_api;
 pub mod capture;
+#[cfg(feature = "command")]
+pub mod dataset;
 pub mod draw;
 pub mod effect;
 pub mod impact;

@@ -1,5 +1,6 @@
 //! What several tests share: the golden table and the C library loaded as a stranger loads it.
 #![allow(dead_code, reason = "each test uses its part")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "calling a C library")]
 
 use std::ffi::{CString, c_char};
@@ -99,8 +100,8 @@ pub fn library_path() -> PathBuf {
 impl CLibrary {
     pub fn load() -> Self {
         let path = library_path();
-        let library = unsafe { Library::new(&path) }
-            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let library =
+            unsafe { Library::new(&path) }.unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         Self { library }
     }
 
