@@ -29,6 +29,9 @@
 //! [`effect`]s → [`capture`] → [`Outcome`]. The one door is [`Model::resolve`]; OpenFOAM, the C library and the command
 //! all enter there.
 
+// Units stand in brackets, which rustdoc takes for links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod c_api;
 pub mod capture;
 #[cfg(feature = "command")]

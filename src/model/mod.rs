@@ -193,8 +193,11 @@ impl Model {
         let mut e_n = dry.unwrap_or(0.0) * (1.0 - sticky.particle);
         note("stickiness", "e_n", e_n);
         for term in &self.terms {
-            e_n = term.effect().normal_restitution(impact, e_n);
-            note(term.kind().id, "e_n", e_n);
+            let changed = term.effect().normal_restitution(impact, e_n);
+            if changed != e_n {
+                note(term.kind().id, "e_n", changed);
+            }
+            e_n = changed;
         }
 
         let rebound = self.tangential.rebound(&Glance {
@@ -208,8 +211,11 @@ impl Model {
         note(self.tangential.name(), "e_t", rebound.restitution);
         let mut e_t = rebound.restitution;
         for term in &self.terms {
-            e_t = term.effect().tangential_restitution(impact, e_t);
-            note(term.kind().id, "e_t", e_t);
+            let changed = term.effect().tangential_restitution(impact, e_t);
+            if changed != e_t {
+                note(term.kind().id, "e_t", changed);
+            }
+            e_t = changed;
         }
 
         // Adhesion holds the particle for certain; otherwise stickiness decides.
