@@ -14,4 +14,4 @@
 #include "basicKinematicCollidingCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicKinematicCollidingCloud);
+makeNearWallInteraction(basicKinematicCollidingCloud)

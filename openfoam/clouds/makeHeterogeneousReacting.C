@@ -14,4 +14,4 @@
 #include "basicHeterogeneousReactingCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicHeterogeneousReactingCloud);
+makeNearWallInteraction(basicHeterogeneousReactingCloud)

@@ -14,4 +14,4 @@
 #include "basicKinematicCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicKinematicCloud);
+makeNearWallInteraction(basicKinematicCloud)

@@ -14,4 +14,4 @@
 #include "basicKinematicMPPICCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicKinematicMPPICCloud);
+makeNearWallInteraction(basicKinematicMPPICCloud)

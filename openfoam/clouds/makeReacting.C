@@ -14,4 +14,4 @@
 #include "basicReactingCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicReactingCloud);
+makeNearWallInteraction(basicReactingCloud)

@@ -8,11 +8,11 @@
     any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
 
     Description
-        Registers the model with basicReactingMultiphaseCloud and with coalCloud, which has
-    the same kinematic base (a second registration would collide).
+        Registers the model with basicReactingMultiphaseCloud and with coalCloud, which
+        has the same kinematic base (a second registration would collide).
 \*---------------------------------------------------------------------------*/
 
 #include "basicReactingMultiphaseCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicReactingMultiphaseCloud);
+makeNearWallInteraction(basicReactingMultiphaseCloud)

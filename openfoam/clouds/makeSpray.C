@@ -14,4 +14,4 @@
 #include "basicSprayCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicSprayCloud);
+makeNearWallInteraction(basicSprayCloud)

@@ -14,4 +14,4 @@
 #include "basicThermoCloud.H"
 #include "nearWallInteraction.H"
 
-makePatchInteractionModelType(nearWallInteraction, basicThermoCloud);
+makeNearWallInteraction(basicThermoCloud)

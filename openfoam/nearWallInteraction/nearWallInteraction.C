@@ -63,11 +63,45 @@ Foam::fileName Foam::nearWallInteraction<CloudType>::tableFolder() const
 
 
 template<class CloudType>
-Foam::dictionary Foam::nearWallInteraction<CloudType>::savedTotals() const
+Foam::dictionary Foam::nearWallInteraction<CloudType>::saved
+(
+    const word& what
+) const
 {
-    dictionary saved;
-    this->getModelDict("patches", saved);
-    return saved;
+    dictionary dict;
+    this->getModelDict(what, dict);
+    return dict;
+}
+
+
+template<class CloudType>
+Foam::scalar Foam::nearWallInteraction<CloudType>::injectedMass() const
+{
+    scalar mass = 0;
+    forAll(this->owner().injectors(), i)
+    {
+        mass += this->owner().injectors()[i].massInjected();
+    }
+    return mass;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::warnAboutRounding() const
+{
+    const Time& time = this->owner().mesh().time();
+    if
+    (
+        time.writeFormat() == IOstream::ASCII
+     && IOstream::defaultPrecision() < 15
+    )
+    {
+        Info<< "    nearWallInteraction: parcels are written with "
+            << label(IOstream::defaultPrecision())
+            << " digits; after a restart the balance will show the rounding"
+            << " as 'read back'" << nl
+            << "        (writeFormat binary; in controlDict avoids it)" << endl;
+    }
 }
 
 
@@ -119,11 +153,18 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
             nearWall::coefficients(*this, 0), "particleTemperature", 293.15
         )
     ),
+    carbon_
+    (
+        nearWall::readOr<word>
+        (
+            nearWall::coefficients(*this, 0), "carbon", word("C")
+        )
+    ),
     record_
     (
         std::make_shared<record>
         (
-            owner.mesh(), rules_, savedTotals(), tableFolder()
+            owner.mesh(), rules_, saved("patches"), tableFolder()
         )
     )
 {
@@ -136,6 +177,16 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
         );
     }
 
+    record_->balance = std::make_shared<nearWall::balance>
+    (
+        saved("balance"), tableFolder(), injectedMass()
+    );
+    owner.functions().append
+    (
+        new nearWallStart<CloudType>(owner, record_->balance)
+    );
+
+    warnAboutRounding();
     nearWall::reportPatchRules(rules_, owner.mesh());
     if (!nearWall::hasTemperature<parcelType>(0))
     {
@@ -158,6 +209,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     seed_(model.seed_),
     statisticsInterval_(model.statisticsInterval_),
     isothermal_(model.isothermal_),
+    carbon_(model.carbon_),
     record_(model.record_)
 {}
 
@@ -185,6 +237,28 @@ Foam::nearWallInteraction<CloudType>::approachOf
 
 
 template<class CloudType>
+typename Foam::nearWallInteraction<CloudType>::fullCloudType*
+Foam::nearWallInteraction<CloudType>::full() const
+{
+    return dynamic_cast<fullCloudType*>
+    (
+        &const_cast<CloudType&>(this->owner())
+    );
+}
+
+
+template<class CloudType>
+Foam::scalar Foam::nearWallInteraction<CloudType>::conversionOf
+(
+    const parcelType& p
+) const
+{
+    fullCloudType* const cloud = full();
+    return cloud ? nearWall::conversion(*cloud, p, carbon_, 0) : 1;
+}
+
+
+template<class CloudType>
 Foam::nearWall::event Foam::nearWallInteraction<CloudType>::eventOf
 (
     const parcelType& p,
@@ -195,7 +269,7 @@ Foam::nearWall::event Foam::nearWallInteraction<CloudType>::eventOf
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(a.vn) + sqr(a.vt));
-    e.conversion = 1;
+    e.conversion = conversionOf(p);
     return e;
 }
 
@@ -285,9 +359,10 @@ void Foam::nearWallInteraction<CloudType>::interact
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
-    if (law_->resolve(impact, outcome) != NW_OK)
+    const nw_status status = law_->resolve(impact, outcome);
+    if (status != NW_OK)
     {
-        refuse(p, pp, a, e, keepParticle);
+        refuse(p, pp, a, e, status, keepParticle);
         return;
     }
 
@@ -346,7 +421,9 @@ void Foam::nearWallInteraction<CloudType>::escape
     bool& keepParticle
 )
 {
-    record_->tally.addEscape(pp.index(), eventOf(p, approachOf(p, pp)));
+    const nearWall::event e(eventOf(p, approachOf(p, pp)));
+    record_->tally.addEscape(pp.index(), e);
+    record_->balance->add(nearWall::balance::escaped, e.mass);
     keepParticle = false;
     nearWall::setMoving(p, false, 0);
 }
@@ -373,6 +450,10 @@ void Foam::nearWallInteraction<CloudType>::stick
     nearWall::setMoving(p, false, 0);
     p.U() = Zero;
     keepParticle = keepStuck_;
+    if (!keepStuck_)
+    {
+        record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+    }
 }
 
 
@@ -400,12 +481,30 @@ void Foam::nearWallInteraction<CloudType>::refuse
     const polyPatch& pp,
     const approach& a,
     const nearWall::event& e,
+    const nw_status why,
     bool& keepParticle
 )
 {
-    record_->tally.addUnusable(pp.index(), e);
-    bounce(p, a, 1, 1);
-    keepParticle = true;
+    ++record_->unusable.count;
+    record_->unusable.why = why;
+
+    // Bounce without loss as long as that makes sense: the mass stays airborne
+    if (std::isfinite(e.speed) && std::isfinite(e.mass))
+    {
+        record_->tally.addUnusable(pp.index(), e);
+        bounce(p, a, 1, 1);
+        keepParticle = true;
+        return;
+    }
+
+    // A speed or mass that is no number cannot be tracked or summed
+    nearWall::event counted(e);
+    counted.speed = 0;
+    if (!std::isfinite(e.mass)) counted.mass = 0;
+    record_->tally.addUnusable(pp.index(), counted);
+    record_->balance->add(nearWall::balance::unusableRemoved, counted.mass);
+    nearWall::setMoving(p, false, 0);
+    keepParticle = false;
 }
 
 
@@ -463,15 +562,90 @@ void Foam::nearWallInteraction<CloudType>::stopStuckParcels()
 
 
 template<class CloudType>
+Foam::nearWall::balance::content
+Foam::nearWallInteraction<CloudType>::content() const
+{
+    nearWall::balance::content now;
+    for (const parcelType& p : this->owner())
+    {
+        const scalar mass = p.nParticle()*p.mass();
+        (nearWall::isMoving(p, 0) ? now.airborne : now.stuck) += mass;
+    }
+    return now;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportBalance
+(
+    Ostream& os,
+    const bool writeRow
+)
+{
+    // A steady cloud forgets its parcels after each iteration
+    if (this->owner().solution().steadyState()) return;
+
+    nearWall::balance& balance = *record_->balance;
+    if (fullCloudType* const cloud = full())
+    {
+        balance.add
+        (
+            nearWall::balance::reacted,
+            nearWall::reactedMass(*cloud, record_->meters)
+        );
+    }
+
+    nearWall::balance::content now;
+    const scalarList totals(balance.totals(injectedMass(), content(), now));
+    balance.report(os, totals, now);
+
+    const Time& time = this->owner().mesh().time();
+    if (writeRow)
+    {
+        balance.writeRow(time.value(), totals, now);
+    }
+    if (time.writeTime())
+    {
+        this->setModelProperty("balance", balance.saved(totals));
+    }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
+{
+    nearWall::unusableNote& note = record_->unusable;
+    const label n = returnReduce(note.count, sumOp<label>());
+    const label why = returnReduce(note.why, maxOp<label>());
+    note = nearWall::unusableNote();
+
+    if (n)
+    {
+        os  << "    nearWallInteraction: " << n << " impact"
+            << (n == 1 ? "" : "s") << " of this step could not be decided ("
+            << nw_status_text(nw_status(why))
+            << "); the parcels rebound without loss, or are removed when"
+            << " their speed or mass is not a number" << nl;
+    }
+}
+
+
+template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
     stopStuckParcels();
 
     const Time& time = this->owner().mesh().time();
+    const bool writeRow =
+        time.writeTime() || record_->calls % statisticsInterval_ == 0;
+    ++record_->calls;
+
     const List<scalarList> totals(record_->tally.totals());
     record_->tally.report(NEARWALL_INFO_STREAM, totals);
+    reportUnusable(NEARWALL_INFO_STREAM);
+    reportBalance(NEARWALL_INFO_STREAM, writeRow);
 
-    if (record_->calls++ % statisticsInterval_ == 0 || time.writeTime())
+    if (writeRow)
     {
         record_->tally.writeRows(time.value(), totals);
     }

@@ -100,11 +100,10 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
-        impact.check()?;
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        self.contact(wall, impact)?;
-        self.particle_stickiness(impact, &mut |_, _, _| {})?;
-        wall.stickiness(impact)?;
+        let (wall, impact) = self.at_wall(wall, impact)?;
+        self.contact(wall, &impact)?;
+        self.particle_stickiness(&impact, &mut |_, _, _| {})?;
+        wall.stickiness(&impact)?;
         Ok(())
     }
 
@@ -138,10 +137,15 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
+        let (wall, impact) = self.at_wall(wall, impact)?;
+        Ok(Speeds::of(&self.contact(wall, &impact)?, impact.diameter))
+    }
+
+    /// The wall with this index, and the impact as it sees it.
+    fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let impact = wall.dress(impact);
-        Ok(Speeds::of(&self.contact(wall, &impact)?, impact.diameter))
+        Ok((wall, wall.dress(impact)))
     }
 
     /// The contact of particle and wall at their temperatures, with the effects that act on it.
@@ -178,9 +182,8 @@ impl Model {
         draw: Draw,
         mut note: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
-        impact.check()?;
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let impact = &wall.dress(impact);
+        let (wall, impact) = self.at_wall(wall, impact)?;
+        let impact = &impact;
         let contact = self.contact(wall, impact)?;
 
         let particle = self.particle_stickiness(impact, &mut note)?;
