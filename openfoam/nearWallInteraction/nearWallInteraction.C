@@ -22,7 +22,7 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
     const dictionary& coeffs
 )
 {
-    nearWall::announceBuild();
+    nearWall::announceBuild(coeffs);
     nearWall::refuseUnknownKeys
     (
         coeffs,
