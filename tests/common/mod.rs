@@ -1,4 +1,4 @@
-//! What several tests share: the golden table and the C library loaded as a stranger loads it.
+//! What several tests share: the golden table, random impacts, the C library loaded as a stranger loads it.
 #![allow(dead_code, reason = "each test uses its part")]
 #![allow(unsafe_code, reason = "calling a C library")]
 #![allow(
@@ -9,7 +9,7 @@
 )]
 
 pub mod compile;
-mod golden;
+pub mod golden;
 pub mod random;
 
 use std::ffi::{CString, c_char};
@@ -18,8 +18,6 @@ use std::path::PathBuf;
 use libloading::{Library, Symbol};
 use nearwall::Impact;
 use nearwall::c_api::{NW_OK, nw_impact, nw_model, nw_outcome};
-
-pub use golden::{Golden, golden_cases};
 
 /// `libnearwall.so` of this build, loaded at run time.
 pub struct CLibrary {
