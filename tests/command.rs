@@ -50,8 +50,8 @@ fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
 
 #[test]
 fn predict_agrees_with_the_golden_table() {
-    let cases = common::golden_cases();
-    let worker = |chunk: &[common::Golden]| {
+    let cases = common::golden::golden_cases();
+    let worker = |chunk: &[common::golden::Golden]| {
         let folder = tempfile::tempdir().unwrap();
         for case in chunk {
             std::fs::write(folder.path().join("m.toml"), case.model()).unwrap();

@@ -1,6 +1,5 @@
 //! What several tests share: the golden table, random impacts, the C library loaded as a stranger loads it.
 #![allow(dead_code, reason = "each test uses its part")]
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "calling a C library")]
 #![allow(
     clippy::unwrap_used,
