@@ -175,8 +175,11 @@ void Foam::nearWall::tally::addStick(const label patchi, const event& e)
     add(patchi, sticks, 1);
     add(patchi, stickParticles, e.particles);
     add(patchi, stickMass, e.mass);
-    add(patchi, regimeSticks + e.regime, 1);
-    add(patchi, regimeMass + e.regime, e.mass);
+    if (e.regime >= 0)
+    {
+        add(patchi, regimeSticks + e.regime, 1);
+        add(patchi, regimeMass + e.regime, e.mass);
+    }
     add(patchi, conversionMass + conversionBin(e.conversion), e.mass);
 }
 

@@ -14,23 +14,17 @@
 
 #include "nearWallToml.H"
 #include "ITstream.H"
-#include "DynamicList.H"
-
-#include <cstdio>
+#include "nearWallLedger.H"
 
 namespace
 {
 
 using namespace Foam;
 
-//- A number that reads back to the same bits
+//- TOML wants a float to look like one
 std::string numberText(const double x)
 {
-    char text[40];
-    std::snprintf(text, sizeof(text), "%.17g", x);
-    std::string s(text);
-
-    // TOML wants a float to look like one
+    std::string s(nearWall::exactText(x));
     if (s.find_first_of(".en") == std::string::npos)
     {
         s += ".0";
