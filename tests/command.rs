@@ -126,7 +126,7 @@ fn bad_input_is_refused_with_its_place() {
     );
     refused(at, &["predict", "--model", "m.toml", "i.csv", "--wall", "roof"], &["roof", "default"]);
     refused(at, &["materials", "tungstn"], &["did you mean `tungsten`"]);
-    refused(at, &["materials", "tungsten", "--temperature", "-3"], &["--temperature"]);
+    refused(at, &["materials", "tungsten", "--temperature=-3"], &["--temperature"]);
 }
 
 #[test]
