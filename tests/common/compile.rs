@@ -81,7 +81,8 @@ pub fn shared_library(build: Build) -> PathBuf {
 fn lean_library() -> &'static Path {
     static BUILT: OnceLock<PathBuf> = OnceLock::new();
     BUILT.get_or_init(|| {
-        let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("lean");
+        // The folder that openfoam/Allwmake uses, so that neither builds it twice.
+        let target = root().join("target/solver");
         let mut cargo = Command::new(env!("CARGO"));
         cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--quiet"]);
         run(cargo.arg("--target-dir").arg(&target).current_dir(root()));

@@ -28,7 +28,7 @@ FILENAME ~ /log\./ { if (/Near-wall mass balance/) residual = $NF; next }
 
 FILENAME ~ /target\.dat$/ {
     if ($1 == "#") { delete column; for (i = 2; i <= NF; i++) column[$i] = i - 1 }
-    else split($0, value)
+    else if ($1 + 0 >= latest) { latest = $1 + 0; split($0, value) }    # totals since the start
     next
 }
 
