@@ -291,8 +291,16 @@ impl<'a> Section<'a> {
         Ok(())
     }
 
-    /// The error for a key that has to be there.
+    /// The error for a key that has to be there; a misspelt one is named instead.
     pub fn missing(&self, key: &str, what: &str) -> InputError {
+        let known = self.known.borrow();
+        let misspelt =
+            self.table.keys().map(|name| name.get_ref()).find(|name| {
+                !known.iter().any(|asked| asked == *name) && strsim::jaro_winkler(name, key) > 0.85
+            });
+        if let Some(name) = misspelt {
+            return self.fault(name, format!("unknown key `{name}`; did you mean `{key}`?"));
+        }
         let place = if self.path.is_empty() { "the file".to_owned() } else { format!("[{}]", self.path) };
         self.fault(key, format!("missing; add {what} named `{key}` to {place}"))
     }

@@ -29,8 +29,13 @@
 //! [`effect`]s → [`capture`] → [`Outcome`]. The one door is [`Model::resolve`]; OpenFOAM, the C library and the command
 //! all enter there.
 
+// Units stand in brackets, which rustdoc takes for links.
+#![allow(rustdoc::broken_intra_doc_links)]
+
 pub mod c_api;
 pub mod capture;
+#[cfg(feature = "command")]
+pub mod dataset;
 pub mod draw;
 pub mod effect;
 pub mod impact;

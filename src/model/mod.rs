@@ -100,11 +100,10 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
-        impact.check()?;
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        self.contact(wall, impact)?;
-        self.particle_stickiness(impact, &mut |_, _, _| {})?;
-        wall.stickiness(impact)?;
+        let (wall, impact) = self.at_wall(wall, impact)?;
+        self.contact(wall, &impact)?;
+        self.particle_stickiness(&impact, &mut |_, _, _| {})?;
+        wall.stickiness(&impact)?;
         Ok(())
     }
 
@@ -138,10 +137,15 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
+        let (wall, impact) = self.at_wall(wall, impact)?;
+        Ok(Speeds::of(&self.contact(wall, &impact)?, impact.diameter))
+    }
+
+    /// The wall with this index, and the impact as it sees it.
+    fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let impact = wall.dress(impact);
-        Ok(Speeds::of(&self.contact(wall, &impact)?, impact.diameter))
+        Ok((wall, wall.dress(impact)))
     }
 
     /// The contact of particle and wall at their temperatures, with the effects that act on it.
@@ -178,9 +182,8 @@ impl Model {
         draw: Draw,
         mut note: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
-        impact.check()?;
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let impact = &wall.dress(impact);
+        let (wall, impact) = self.at_wall(wall, impact)?;
+        let impact = &impact;
         let contact = self.contact(wall, impact)?;
 
         let particle = self.particle_stickiness(impact, &mut note)?;
@@ -193,8 +196,11 @@ impl Model {
         let mut e_n = dry.unwrap_or(0.0) * (1.0 - sticky.particle);
         note("stickiness", "e_n", e_n);
         for term in &self.terms {
-            e_n = term.effect().normal_restitution(impact, e_n);
-            note(term.kind().id, "e_n", e_n);
+            let changed = term.effect().normal_restitution(impact, e_n);
+            if changed != e_n {
+                note(term.kind().id, "e_n", changed);
+            }
+            e_n = changed;
         }
 
         let rebound = self.tangential.rebound(&Glance {
@@ -208,8 +214,11 @@ impl Model {
         note(self.tangential.name(), "e_t", rebound.restitution);
         let mut e_t = rebound.restitution;
         for term in &self.terms {
-            e_t = term.effect().tangential_restitution(impact, e_t);
-            note(term.kind().id, "e_t", e_t);
+            let changed = term.effect().tangential_restitution(impact, e_t);
+            if changed != e_t {
+                note(term.kind().id, "e_t", changed);
+            }
+            e_t = changed;
         }
 
         // Adhesion holds the particle for certain; otherwise stickiness decides.

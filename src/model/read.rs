@@ -191,7 +191,7 @@ e_t = 0.76
             "{misspelt}"
         );
         let no_walls = error(&SMALLEST.replace("walls.default", "wall.default"));
-        assert!(no_walls.contains("walls: missing"), "{no_walls}");
+        assert!(no_walls.contains("did you mean `walls`?"), "{no_walls}");
         let no_ratio = error(&SMALLEST.replace("yield_ratio = 0.7", ""));
         assert!(no_ratio.contains("normal.yield_ratio: missing"), "{no_ratio}");
         let bad_effect = error(&format!("{SMALLEST}[[effects]]\nkind = \"melting\"\n"));

@@ -56,3 +56,18 @@ pub fn stiffness_ratio(particle: &Mechanical, wall: &Mechanical) -> f64 {
     let tangential = |m: &Mechanical| (1.0 - 0.5 * m.poisson_ratio) * shear_compliance(m);
     (normal(particle) + normal(wall)) / (tangential(particle) + tangential(wall))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Library;
+
+    /// Troiano Eq. 12 with Mindlin's denominator, wax on Pyrex; as printed it would be 1.
+    #[test]
+    fn mindlin_ratio_of_wax_on_pyrex() {
+        let library = Library::built_in().unwrap();
+        let solid = |name: &str| library.get(name).unwrap().mechanical(293.15).unwrap();
+        let k = stiffness_ratio(&solid("montan-wax"), &solid("pyrex"));
+        assert!((0.675..=0.678).contains(&k), "{k}");
+    }
+}

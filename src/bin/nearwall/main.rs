@@ -1,2 +1,61 @@
-//! The command `nearwall`.
-fn main() {}
+//! The command `nearwall`. One file a subcommand; this one finds the right one and turns errors into messages.
+
+mod check;
+mod materials;
+mod predict;
+mod progress;
+
+use std::io::Write;
+
+use clap::Parser;
+
+/// What a subcommand comes to: nothing, or an error whose text names file, line or key and the remedy.
+type CommandResult = Result<(), Box<dyn std::error::Error>>;
+
+/// What happens when a particle hits a wall
+#[derive(Parser)]
+#[command(version, about, arg_required_else_help = true)]
+enum Command {
+    Predict(predict::Arguments),
+    Materials(materials::Arguments),
+    Check(check::Arguments),
+}
+
+/// Exit 0 done, 1 the input is at fault, 2 usage (clap's own).
+fn main() -> std::process::ExitCode {
+    let done = match Command::parse() {
+        Command::Predict(arguments) => predict::run(&arguments),
+        Command::Materials(arguments) => materials::run(&arguments),
+        Command::Check(arguments) => check::run(&arguments),
+    };
+    match done {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(error.as_ref()) => std::process::ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("nearwall: {error}");
+            std::process::ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints a text; a reader that goes away early is an error here, not a panic.
+fn print(text: &str) -> CommandResult {
+    Ok(std::io::stdout().write_all(text.as_bytes())?)
+}
+
+/// Whether the reader of our output went away (`nearwall ... | head`): no fault of the input.
+fn is_broken_pipe(error: &(dyn std::error::Error + 'static)) -> bool {
+    let mut cause = Some(error);
+    while let Some(error) = cause {
+        if let Some(io) = error.downcast_ref::<std::io::Error>() {
+            return io.kind() == std::io::ErrorKind::BrokenPipe;
+        }
+        if let Some(csv) = error.downcast_ref::<csv::Error>()
+            && let csv::ErrorKind::Io(io) = csv.kind()
+        {
+            return io.kind() == std::io::ErrorKind::BrokenPipe;
+        }
+        cause = error.source();
+    }
+    false
+}

@@ -1,0 +1,76 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+
+    This file is free software: you can redistribute it and/or modify it under
+    the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+
+    Description
+        See nearWallLaw.H.
+\*---------------------------------------------------------------------------*/
+
+#include "nearWallLaw.H"
+#include "nearWallCompat.H"
+#include "nearWallToml.H"
+#include "IOstreams.H"
+
+namespace
+{
+
+using namespace Foam;
+
+//- The path with <case>, <constant>, ~ and $VAR expanded; a relative one is
+//  taken from the case, wherever the solver was started
+fileName modelPath(const dictionary& dict, const Time& time)
+{
+    fileName path(nearWall::read<fileName>(dict, "model"));
+    path.expand();
+    return path.isAbsolute() ? path : nearWall::caseFolder(time)/path;
+}
+
+
+nearwall::model load(const dictionary& dict, const Time& time)
+{
+    if (dict.isDict("model"))
+    {
+        const dictionary& inlineModel = dict.subDict("model");
+        return nearwall::model::from_toml
+        (
+            nearWall::tomlFrom(inlineModel),
+            "inline model of " + inlineModel.name()
+        );
+    }
+    return nearwall::model::from_file(modelPath(dict, time));
+}
+
+} // End anonymous namespace
+
+
+Foam::nearWall::lawPtr Foam::nearWall::loadLaw
+(
+    const dictionary& dict,
+    const Time& time
+)
+{
+    if (!dict.found("model"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "key 'model' is missing; give the wall model's file, as in" << nl
+            << "    model \"<constant>/nearWall.toml\";" << nl
+            << "or its keys inline, model { ... }" << exit(FatalIOError);
+    }
+
+    try
+    {
+        return std::make_shared<const nearwall::model>(load(dict, time));
+    }
+    catch (const nearwall::error& fault)
+    {
+        FatalIOErrorInFunction(dict)
+            << "the wall model cannot be used:" << nl
+            << fault.what() << exit(FatalIOError);
+    }
+    return lawPtr();
+}

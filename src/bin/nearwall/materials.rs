@@ -1,0 +1,62 @@
+//! `nearwall materials`: the built-in materials, with where each number comes from.
+
+use nearwall::input::unknown;
+use nearwall::material::{Library, Material};
+
+use crate::CommandResult;
+
+/// Lists the built-in materials, or shows one with its sources
+#[derive(clap::Args)]
+#[command(after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000")]
+pub struct Arguments {
+    /// The material to show
+    name: Option<String>,
+    /// Temperature [K] at which to evaluate
+    #[arg(long, value_name = "K", default_value_t = 293.15)]
+    temperature: f64,
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    let library = Library::built_in()?;
+    if !(arguments.temperature > 0.0 && arguments.temperature.is_finite()) {
+        return Err(format!("--temperature {}: a positive number of kelvin", arguments.temperature).into());
+    }
+    let Some(name) = &arguments.name else {
+        let line = |name: &&str| {
+            let about = library.get(name).and_then(Material::about).unwrap_or("");
+            format!("{name:<26} {about}\n")
+        };
+        return crate::print(&library.names().iter().map(line).collect::<String>());
+    };
+    let Some(material) = library.get(name) else {
+        return Err(unknown(name, "material", &library.names()).into());
+    };
+    crate::print(&show(material, arguments.temperature))
+}
+
+fn show(material: &Material, temperature: f64) -> String {
+    let mut lines = vec![
+        format!("{}: {}", material.name(), material.about().unwrap_or("")),
+        format!("at {temperature} K"),
+    ];
+    for (key, unit, property) in material.properties() {
+        let value = match property.at(temperature) {
+            Ok(value) => format!("{value:.6e} {unit}"),
+            Err(range) => format!("not known at {temperature} K ({} to {} K)", range.low, range.high),
+        };
+        let uncertainty = property.uncertainty().map_or(String::new(), |u| format!(" ± {u:e} {unit}"));
+        lines.push(format!("  {key:<16} {value}{uncertainty}"));
+        if let Some([low, high]) = property.valid() {
+            let outside = if property.holds_at(temperature) { "" } else { "; OUTSIDE at this temperature" };
+            lines.push(format!("  {:<16}   stated for {low} to {high} K{outside}", ""));
+        }
+        lines.push(format!("  {:<16}   source: {}", "", property.source().unwrap_or("none given")));
+    }
+    if let Some(composition) = material.composition() {
+        let oxides: Vec<String> =
+            composition.oxides().map(|(oxide, share)| format!("{} {share:.1}", oxide.name())).collect();
+        lines.push(format!("  {:<16} {} (wt%)", "composition", oxides.join(", ")));
+    }
+    lines.push(String::new());
+    lines.join("\n")
+}

@@ -1,0 +1,181 @@
+//! `nearwall predict`: what the model says of each impact in a CSV file.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use nearwall::dataset::{ImpactReader, Row};
+use nearwall::{Draw, Model};
+
+use crate::{CommandResult, progress};
+
+/// Adds the model's e_n, e_t, p_stick and regime to each impact
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n\n\
+    impacts.csv needs a column v_n [m/s]; v_t [m/s], d [m], T_p [K], T_w [K], conversion, layer_thickness [m],\n\
+    film_thickness [m], v_gas [m/s], roughness [m], omega [rad/s], coverage and wall are used where they are there.\n\
+    Every other column is kept.")]
+pub struct Arguments {
+    /// The impacts, one a row
+    impacts: PathBuf,
+    /// The model file
+    #[arg(long)]
+    model: PathBuf,
+    /// Where to write; standard output if not given
+    #[arg(short)]
+    output: Option<PathBuf>,
+    /// The model's wall that is hit; otherwise the column `wall`, then `default`, then the only one
+    #[arg(long)]
+    wall: Option<String>,
+    /// Print what each term did to the impact on this line of the file, instead of the table
+    #[arg(long, value_name = "LINE")]
+    explain: Option<u64>,
+}
+
+/// The columns that are added.
+const ADDED: [&str; 4] = ["e_n", "e_t", "p_stick", "regime"];
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    let model = Model::from_file(&arguments.model)?;
+    let file = arguments.impacts.display().to_string();
+    let source = File::open(&arguments.impacts).map_err(|error| format!("{file}: {error}"))?;
+    let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "predicting");
+    let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?;
+    let walls = WallChoice::new(&model, arguments.wall.as_deref(), reader.column("wall"))?;
+    if let Some(line) = arguments.explain {
+        return explain(&model, &walls, &mut reader, line);
+    }
+    if reader.absent().contains(&"d") {
+        eprintln!("nearwall: {file} has no column d; particles of 1e-4 m assumed");
+    }
+    match &arguments.output {
+        None => predict(&model, &walls, &mut reader, &mut std::io::stdout().lock()),
+        Some(path) => {
+            // Written beside its place and moved there when whole, so a failing run spoils nothing.
+            let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+            let named = |error: std::io::Error| format!("{}: {error}", path.display());
+            let scratch = tempfile::NamedTempFile::new_in(folder).map_err(named)?;
+            let mut writer = BufWriter::new(scratch);
+            predict(&model, &walls, &mut reader, &mut writer)?;
+            let scratch = writer.into_inner().map_err(|error| named(error.into_error()))?;
+            scratch.persist(path).map_err(|error| named(error.error))?;
+            Ok(())
+        }
+    }
+}
+
+fn predict(
+    model: &Model,
+    walls: &WallChoice<'_>,
+    reader: &mut ImpactReader<impl std::io::Read>,
+    output: &mut impl Write,
+) -> CommandResult {
+    let mut writer = csv::Writer::from_writer(output);
+    let mut header = reader.headers().clone();
+    for name in ADDED {
+        // A measured column keeps its name.
+        let taken = reader.column(name).is_some();
+        header.push_field(&if taken { format!("{name}_predicted") } else { name.to_owned() });
+    }
+    writer.write_record(&header)?;
+    let (mut done, mut left_out) = (0_u64, 0_u64);
+    while let Some(next) = reader.next_row()? {
+        let predicted = next
+            .map_err(|bad| (bad.line, bad.reason))
+            .and_then(|row| predict_row(model, walls, &row).map_err(|reason| (row.line, reason)));
+        match predicted {
+            Ok(record) => {
+                writer.write_record(&record)?;
+                done += 1;
+            }
+            Err((line, reason)) => {
+                eprintln!("nearwall: line {line} left out: {reason}");
+                left_out += 1;
+            }
+        }
+    }
+    writer.flush()?;
+    if left_out > 0 {
+        eprintln!("nearwall: {done} rows predicted, {left_out} left out");
+    }
+    if done == 0 {
+        return Err("no row could be used".into());
+    }
+    Ok(())
+}
+
+fn predict_row(model: &Model, walls: &WallChoice<'_>, row: &Row) -> Result<csv::StringRecord, String> {
+    let wall = walls.of(row)?;
+    let outcome = model.resolve(wall, &row.impact, Draw::default()).map_err(|error| error.to_string())?;
+    let mut record = row.cells.clone();
+    for value in [outcome.normal_restitution, outcome.tangential_restitution, outcome.sticking_probability] {
+        record.push_field(&format!("{value:.16e}"));
+    }
+    record.push_field(outcome.regime.name());
+    Ok(record)
+}
+
+/// Which wall a row hits.
+struct WallChoice<'a> {
+    model: &'a Model,
+    /// The wall of rows that do not name their own.
+    common: Option<usize>,
+    column: Option<usize>,
+}
+
+impl<'a> WallChoice<'a> {
+    fn new(model: &'a Model, named: Option<&str>, column: Option<usize>) -> Result<Self, String> {
+        let names = || model.walls().iter().map(|w| w.name()).collect::<Vec<_>>().join(", ");
+        if let Some(name) = named {
+            let wall = model.find_wall(name);
+            let wall = wall.ok_or_else(|| format!("--wall {name}: the model's walls are {}", names()))?;
+            return Ok(Self { model, common: Some(wall), column: None });
+        }
+        let only = (model.walls().len() == 1).then_some(0);
+        let common = model.find_wall("default").or(only);
+        if common.is_none() && column.is_none() {
+            return Err(format!("which wall is hit? Give --wall with one of: {}", names()));
+        }
+        Ok(Self { model, common, column })
+    }
+
+    fn of(&self, row: &Row) -> Result<usize, String> {
+        let named = self.column.and_then(|column| row.cells.get(column)).filter(|n| !n.is_empty());
+        let own = named.and_then(|name| self.model.find_wall(name));
+        own.or(self.common)
+            .ok_or_else(|| format!("the model has no wall `{}` and no default", named.unwrap_or_default()))
+    }
+}
+
+/// Prints the walk of one impact, a line a term.
+fn explain(
+    model: &Model,
+    walls: &WallChoice<'_>,
+    reader: &mut ImpactReader<impl std::io::Read>,
+    line: u64,
+) -> CommandResult {
+    while let Some(next) = reader.next_row()? {
+        match next {
+            Err(bad) if bad.line == line => return Err(format!("line {line}: {}", bad.reason).into()),
+            Ok(row) if row.line == line => {
+                let wall = walls.of(&row)?;
+                let (outcome, shares) = model.explain(wall, &row.impact, Draw::default())?;
+                let speeds = model.speeds(wall, &row.impact)?;
+                let mut text = format!(
+                    "wall {}, regime {}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",
+                    model.walls()[wall].name(),
+                    outcome.regime.name(),
+                    speeds.adhesive,
+                    speeds.yielding,
+                    speeds.sticking
+                );
+                for share in shares {
+                    text += &format!("{:<24} {:<22} {:.6}\n", share.term, share.quantity, share.value);
+                }
+                return crate::print(&text);
+            }
+            _ => {}
+        }
+    }
+    Err(format!("--explain {line}: the file has no such line").into())
+}

@@ -1,0 +1,16 @@
+//! Progress of long work: a bar on a terminal, nothing elsewhere.
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// A bar over a number of bytes; it shows itself on a terminal's standard error only.
+pub fn bytes(total: u64, what: &'static str) -> ProgressBar {
+    styled(total, what, "{msg} [{bar:40}] {bytes}/{total_bytes} {eta}")
+}
+
+fn styled(total: u64, what: &'static str, template: &str) -> ProgressBar {
+    let bar = ProgressBar::new(total).with_message(what);
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}

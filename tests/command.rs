@@ -1,0 +1,177 @@
+//! The command as a user types it: results, exit codes, and messages that name the place and the remedy.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
+
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+const WAX: &str = r#"
+[particle]
+material = "montan-wax"
+[walls.default]
+material = "pyrex"
+[normal]
+model = "thornton-ning"
+yield_ratio = 0.7
+[tangential]
+model = "constant"
+e_t = 0.76
+"#;
+
+fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// A folder with these files.
+fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, content) in files {
+        std::fs::write(folder.path().join(name), content).unwrap();
+    }
+    folder
+}
+
+/// Asserts exit 1 and that the message holds each of `parts`.
+fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
+    let output = nearwall(folder, arguments);
+    let message = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    for part in parts {
+        assert!(message.contains(part), "`{part}` is not in: {message}");
+    }
+    assert!(!message.contains("panicked"), "{message}");
+}
+
+#[test]
+fn predict_agrees_with_the_golden_table() {
+    let cases = common::golden::golden_cases();
+    let worker = |chunk: &[common::golden::Golden]| {
+        let folder = tempfile::tempdir().unwrap();
+        for case in chunk {
+            std::fs::write(folder.path().join("m.toml"), case.model()).unwrap();
+            let impact = format!("d,v_n\n{:e},{:e}\n", case.d, case.v_n);
+            std::fs::write(folder.path().join("i.csv"), impact).unwrap();
+            let output = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv"]);
+            assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+            let table = text(&output.stdout);
+            let row: Vec<&str> = table.lines().nth(1).unwrap().split(',').collect();
+            let digits = row[2].split('e').next().unwrap().chars().filter(char::is_ascii_digit);
+            assert!(digits.count() >= 15, "{}", row[2]);
+            let e_n: f64 = row[2].parse().unwrap();
+            assert!((e_n - case.e_n).abs() <= (1e-11 * case.e_n).max(1e-9), "{e_n} against {case:?}");
+        }
+    };
+    std::thread::scope(|scope| {
+        for chunk in cases.chunks(200) {
+            scope.spawn(move || worker(chunk));
+        }
+    });
+}
+
+#[test]
+fn predict_keeps_other_columns_and_lists_bad_rows() {
+    let rows = "operator,v_n,d,e_n\nAnn,1,75e-6,0.3\nBob,-1,75e-6,0.3\nCem,2,75e-6,\n";
+    let folder = folder(&[("m.toml", WAX), ("i.csv", rows)]);
+    let output = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv", "-o", "out.csv"]);
+    assert_eq!(output.status.code(), Some(0));
+    let said = text(&output.stderr);
+    assert!(said.contains("line 3 left out: v_n = -1"), "{said}");
+    let table = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines[0], "operator,v_n,d,e_n,e_n_predicted,e_t,p_stick,regime");
+    assert_eq!(lines.len(), 3);
+    assert!(lines[1].starts_with("Ann,1,75e-6,0.3,") && lines[2].starts_with("Cem,2,75e-6,,"));
+    assert!(lines[1].ends_with(",NSP-NSW"));
+}
+
+#[test]
+fn a_failed_run_spoils_nothing() {
+    let folder = folder(&[("m.toml", WAX), ("i.csv", "v_n\nfast\n"), ("out.csv", "precious")]);
+    refused(
+        folder.path(),
+        &["predict", "--model", "m.toml", "i.csv", "-o", "out.csv"],
+        &["line 2 left out", "no row could be used"],
+    );
+    assert_eq!(std::fs::read_to_string(folder.path().join("out.csv")).unwrap(), "precious");
+}
+
+#[test]
+fn bad_input_is_refused_with_its_place() {
+    let misspelt = WAX.replace("yield_ratio", "yield_ration");
+    let hot = WAX.replace("montan-wax", "own")
+        + "[materials.own]\ndensity = 1000\nyoungs_modulus = { T = [300, 400], value = [1e9, 1e8] }\n\
+           poisson_ratio = 0.3\nyield_strength = 1e7\nsurface_energy = 0.03\n";
+    let folder = folder(&[
+        ("m.toml", WAX),
+        ("misspelt.toml", &misspelt),
+        ("hot.toml", &hot),
+        ("i.csv", "v_n,T_p\n1,500\n"),
+        ("no_speed.csv", "speed\n1\n"),
+    ]);
+    let at = folder.path();
+    refused(at, &["check", "misspelt.toml"], &["misspelt.toml:8:1", "did you mean `yield_ratio`"]);
+    refused(at, &["check", "absent.toml"], &["absent.toml", "No such file"]);
+    refused(at, &["predict", "--model", "m.toml", "absent.csv"], &["absent.csv"]);
+    refused(at, &["predict", "--model", "m.toml", "no_speed.csv"], &["no_speed.csv:1", "v_n", "speed"]);
+    refused(
+        at,
+        &["predict", "--model", "hot.toml", "i.csv"],
+        &["line 2", "own: youngs_modulus is given for 300 to 400 K, asked for 500 K"],
+    );
+    refused(at, &["predict", "--model", "m.toml", "i.csv", "--wall", "roof"], &["roof", "default"]);
+    refused(at, &["materials", "tungstn"], &["did you mean `tungsten`"]);
+    refused(at, &["materials", "tungsten", "--temperature=-3"], &["--temperature"]);
+}
+
+#[test]
+fn usage_is_exit_2_and_every_help_has_an_example() {
+    let here = Path::new(".");
+    assert_eq!(nearwall(here, &["predict"]).status.code(), Some(2));
+    assert_eq!(nearwall(here, &["fly"]).status.code(), Some(2));
+    let help = text(&nearwall(here, &["--help"]).stdout);
+    let commands: Vec<&str> = help
+        .lines()
+        .skip_while(|line| !line.starts_with("Commands:"))
+        .skip(1)
+        .take_while(|line| !line.is_empty())
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert!(commands.len() >= 3, "{help}");
+    for command in commands {
+        let help = text(&nearwall(here, &[command, "--help"]).stdout);
+        assert!(help.contains(&format!("nearwall {command}")) && help.contains("Example"), "{help}");
+    }
+}
+
+#[test]
+fn explain_names_the_terms() {
+    let folder = folder(&[("m.toml", WAX), ("i.csv", "v_n,d\n1,75e-6\n")]);
+    let output = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv", "--explain", "2"]);
+    let said = text(&output.stdout);
+    assert!(said.contains("thornton-ning") && said.contains("constant") && said.contains("v_s"), "{said}");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_panic() {
+    let rows = "v_n\n".to_owned() + &"1\n".repeat(100_000);
+    let folder = folder(&[("m.toml", WAX), ("i.csv", &rows)]);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_nearwall"))
+        .current_dir(folder.path())
+        .args(["predict", "--model", "m.toml", "i.csv"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    std::io::stdout().flush().unwrap();
+    assert!(!text(&output.stderr).contains("panicked"));
+    assert_eq!(output.status.code(), Some(0));
+}
