@@ -1,6 +1,7 @@
 /* nearwall.h - what happens when a particle hits a wall: the C interface of libnearwall.
  *
- * Inputs come first, outputs last. Every call returns a status, and its outputs are untouched unless that is NW_OK.
+ * Inputs come first, outputs last. Every call returns a status, and its outputs are untouched unless that is NW_OK
+ * (but for a message, and the index of the impact at fault).
  * A model never changes once it is loaded: any number of threads may share it without a lock. A call keeps no state,
  * so the same model and impact give the same bits. The caller's floating-point control and flags stay as they are
  * (x86-64), and it may trap what it likes. Should memory run out while a model is read, the process ends.

@@ -1,9 +1,10 @@
 //! The C boundary: `nearwall.h`.
 //!
 //! Conventions: inputs come first, outputs last; `const` means it is not changed; every call returns a status, and
-//! its outputs are untouched unless that is `NW_OK`; text goes to the caller's buffer. A model never changes after it
-//! is loaded, so any number of threads may share it. No panic crosses, and the caller's floating-point control and
-//! flags are as before. This is the only module with `unsafe`: it turns C pointers into references, nothing else.
+//! its outputs are untouched unless that is `NW_OK` (but for a message, and the index of the impact at fault); text
+//! goes to the caller's buffer. A model never changes after it is loaded, so any number of threads may share it. No
+//! panic crosses, and the caller's floating-point control and flags are as before. This is the only module with
+//! `unsafe`: it turns C pointers into references, nothing else.
 #![allow(unsafe_code)]
 
 mod batch;

@@ -127,6 +127,9 @@ impl Room {
     }
 }
 
+/// Makes an impact unusable.
+type Breakage = fn(&mut nw_impact);
+
 fn row(outcome: &nw_outcome) -> [u64; 7] {
     let nw_outcome { e_n, e_t, p_stick, omega, regime, stuck, flags, .. } = *outcome;
     let [e_n, e_t, p_stick, omega] = [e_n, e_t, p_stick, omega].map(f64::to_bits);
@@ -188,7 +191,7 @@ fn one_bad_impact_and_nothing_is_written() {
     let calls = Calls::load();
     let (model, cases) = scene(&calls);
     let last = cases.len() - 1;
-    let faults: [(i32, fn(&mut nw_impact)); 5] = [
+    let faults: [(i32, Breakage); 5] = [
         (NW_BAD_STATE, |impact| impact.v_n = f64::NAN),
         (NW_BAD_STATE, |impact| impact.omega = f64::INFINITY),
         (NW_BAD_STATE, |impact| impact.d = 0.0),

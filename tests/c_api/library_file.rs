@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
+use nearwall::c_api::NW_ABI_VERSION;
+
 use crate::calls::NAMES;
 use crate::common::compile::{Build, run, shared_library};
 
@@ -20,7 +22,8 @@ fn dynamic(library: &Path, tag: &str) -> Vec<String> {
 fn it_has_a_soname_and_is_never_unloaded() {
     for build in BUILDS {
         let library = shared_library(build);
-        assert_eq!(dynamic(&library, "SONAME"), ["Library soname: [libnearwall.so.1]"]);
+        let soname = format!("Library soname: [libnearwall.so.{NW_ABI_VERSION}]");
+        assert_eq!(dynamic(&library, "SONAME"), [soname]);
         assert!(dynamic(&library, "FLAGS_1").iter().any(|flags| flags.contains("NODELETE")), "{build:?}");
         assert_eq!(dynamic(&library, "TEXTREL"), [""; 0], "{build:?}");
         let needed = dynamic(&library, "NEEDED").join(" ");
