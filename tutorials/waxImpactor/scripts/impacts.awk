@@ -3,6 +3,7 @@
 # First impacts only, as the paper's camera saw them. A run ends before a particle that rebounded can come back, unless
 # it was so hot that it hardly left: those come back at once, too slowly to leave again, and are told by their number.
 #
+#   -v list=FILE    also write these impacts there, as a data file for `nearwall predict`
 #   -v header=1     print the names of the columns
 #   -v tilt=4.5     inclination of the plate [degrees]
 
@@ -14,13 +15,14 @@ function known(name) { return name in column }
 function total(name) { return value[column[name]] }
 
 BEGIN {
-    pi = 3.141592653589793
+    pi = 3.141592653589793; CONVFMT = "%.9g"
     if (header) {
         print "run,T_C,d_um,d_sd_um,first_impacts,stuck,capture_efficiency,capture_low95,capture_high95," \
             "v_mean_m_s,v_sd_m_s,angle_mean_deg,angle_sd_deg,angle_seen_mean_deg,angle_seen_sd_deg," \
             "e_n_rebounds,e_n,e_n_standard_error,e_g,paper_capture_percent,paper_e_n,later_impacts,balance_residual"
         exit
     }
+    if (list) print "v_n,v_t,d,T_p,T_w" > list
     nx = -sin(tilt*pi/180); nz = cos(tilt*pi/180)
 }
 
@@ -42,7 +44,9 @@ FILENAME ~ /target\.dat$/ {
     v_x = $9*nz - $11*nx    # along the plate, in the plane that the camera sees
     v = sqrt($9*$9 + $10*$10 + $11*$11)
     sum("d", $8*1e6); sum("v", v)
-    sum("angle", degrees(atan2(v_n, sqrt(v_x*v_x + $10*$10))))
+    v_t = sqrt(v_x*v_x + $10*$10)
+    if (list) print v_n "," v_t "," $8 "," $12 "," C + 273.15 > list
+    sum("angle", degrees(atan2(v_n, v_t)))
     sum("seen", degrees(atan2(v_n, -v_x)))
 }
 
