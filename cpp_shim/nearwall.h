@@ -278,6 +278,18 @@ nw_status nw_speeds(const struct nw_model *model,
                     double *yielding,
                     double *sticking);
 
+// Temperatures [K] between which impacts on a wall can be decided, from the tables of all properties: lowest and
+// highest of the particle and of the wall, 0 and infinity where nothing limits them. Outputs may be null.
+//
+// # Safety
+// `model` is a loaded model, each output can be written or is null.
+nw_status nw_temperature_ranges(const struct nw_model *model,
+                                uint32_t wall,
+                                double *particle_low,
+                                double *particle_high,
+                                double *wall_low,
+                                double *wall_high);
+
 // Decides many impacts: the same bits as `nw_resolve` one by one.
 //
 // All impacts are checked first. If one cannot be resolved nothing is written to the outcomes, the status is that of

@@ -66,6 +66,14 @@ struct velocities {
     double sticking;
 };
 
+// Temperatures [K] between which impacts can be decided; 0 and infinity where nothing limits them.
+struct temperature_ranges {
+    double particle_low;
+    double particle_high;
+    double wall_low;
+    double wall_high;
+};
+
 namespace detail {
 
 // Room for a message; the library cuts what does not fit.
@@ -234,6 +242,15 @@ public:
         velocities found = velocities();
         detail::check(nw_speeds(raw_, &impact, &found.adhesive, &found.yield, &found.sticking),
                       std::string("nw_speeds"));
+        return found;
+    }
+
+    // Lowest and highest temperature [K] at which impacts on a wall can be decided.
+    temperature_ranges ranges(std::uint32_t wall) const {
+        temperature_ranges found = temperature_ranges();
+        detail::check(nw_temperature_ranges(raw_, wall, &found.particle_low, &found.particle_high,
+                                            &found.wall_low, &found.wall_high),
+                      std::string("nw_temperature_ranges"));
         return found;
     }
 

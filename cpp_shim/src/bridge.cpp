@@ -55,6 +55,11 @@ void resolve_each(const nearwall::model& model, rust::Slice<const nw_impact> imp
     std::copy(found.begin(), found.end(), outcomes.begin());
 }
 
+std::array<double, 4> ranges(const nearwall::model& model, std::uint32_t wall) {
+    const nearwall::temperature_ranges found = model.ranges(wall);
+    return {found.particle_low, found.particle_high, found.wall_low, found.wall_high};
+}
+
 std::array<double, 3> speeds(const nearwall::model& model, const nw_impact& impact) {
     const nearwall::velocities found = model.speeds(impact);
     return {{found.adhesive, found.yield, found.sticking}};

@@ -18,6 +18,7 @@ nw_outcome resolve(const nearwall::model& model, const nw_impact& impact);
 std::int32_t resolve_status(const nearwall::model& model, const nw_impact& impact, nw_outcome& outcome) noexcept;
 void resolve_arrays(const nearwall::model& model, const nw_impacts& impacts, const nw_outcomes& outcomes);
 void resolve_each(const nearwall::model& model, rust::Slice<const nw_impact> impacts, rust::Slice<nw_outcome> outcomes);
+std::array<double, 4> ranges(const nearwall::model& model, std::uint32_t wall);
 std::array<double, 3> speeds(const nearwall::model& model, const nw_impact& impact);
 
 // What moving does to models; throws with a word on what went wrong.

@@ -56,6 +56,7 @@ pub mod ffi {
         fn resolve_status(model: &Model, impact: &Impact, outcome: &mut Outcome) -> i32;
         fn resolve_each(model: &Model, impacts: &[Impact], outcomes: &mut [Outcome]) -> Result<()>;
         fn speeds(model: &Model, impact: &Impact) -> Result<[f64; 3]>;
+        fn ranges(model: &Model, wall: u32) -> Result<[f64; 4]>;
         fn move_about(text: &str) -> Result<()>;
 
         /// # Safety

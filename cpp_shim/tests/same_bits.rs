@@ -70,6 +70,9 @@ fn golden_cases_have_the_same_bits() {
         assert_eq!(cpp_bits(&ours.0), rust_bits(&theirs), "case {row}");
         let speeds = rust.speeds(0, &impact).unwrap();
         let [adhesive, yielding, sticking] = ffi::speeds(&cpp, &cpp_impact(&case)).unwrap();
+        let ranges = rust.temperature_ranges(0).unwrap();
+        let found = ffi::ranges(&cpp, 0).unwrap();
+        assert_eq!(found, [ranges.particle[0], ranges.particle[1], ranges.wall[0], ranges.wall[1]]);
         assert_eq!([adhesive, yielding, sticking], [speeds.adhesive, speeds.yielding, speeds.sticking]);
     }
 }

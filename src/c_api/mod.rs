@@ -250,6 +250,35 @@ pub unsafe extern "C" fn nw_speeds(
     guarded(speeds).map_or_else(|fault| fault.status, |()| NW_OK)
 }
 
+/// Temperatures [K] between which impacts on a wall can be decided, from the tables of all properties: lowest and
+/// highest of the particle and of the wall, 0 and infinity where nothing limits them. Outputs may be null.
+///
+/// # Safety
+/// `model` is a loaded model, each output can be written or is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_temperature_ranges(
+    model: *const nw_model,
+    wall: u32,
+    particle_low: *mut f64,
+    particle_high: *mut f64,
+    wall_low: *mut f64,
+    wall_high: *mut f64,
+) -> nw_status {
+    let ranges = || {
+        // SAFETY: the caller's promise.
+        let model = unsafe { reader(model)? };
+        let found = model.inner().temperature_ranges(wall as usize)?;
+        let outputs = [particle_low, particle_high, wall_low, wall_high];
+        let values = [found.particle[0], found.particle[1], found.wall[0], found.wall[1]];
+        for (output, value) in outputs.into_iter().zip(values).filter(|(output, _)| !output.is_null()) {
+            // SAFETY: not null, and writable by the caller's promise.
+            unsafe { output.write_unaligned(value) };
+        }
+        Ok(())
+    };
+    guarded(ranges).map_or_else(|fault| fault.status, |()| NW_OK)
+}
+
 /// A copy of a struct that begins with its own size. Foreign languages do not always align what they pass: nothing here
 /// needs it.
 ///

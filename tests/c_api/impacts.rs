@@ -154,3 +154,26 @@ fn structs_need_no_alignment() {
     }
     unsafe { (calls.nw_model_free)(model) };
 }
+
+#[test]
+fn temperature_ranges_are_those_of_the_model() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
+    for wall in 0..rust.walls().len() {
+        let ranges = rust.temperature_ranges(wall).unwrap();
+        let mut found = [-1.0; 4];
+        let [a, b, c, d] = found.each_mut().map(std::ptr::from_mut);
+        let status = unsafe { (calls.nw_temperature_ranges)(model, wall as u32, a, b, c, d) };
+        assert_eq!(status, NW_OK);
+        assert_eq!(found[..2], ranges.particle);
+        assert_eq!(found[2..], ranges.wall);
+    }
+    let none = null_mut();
+    unsafe {
+        assert_eq!((calls.nw_temperature_ranges)(model, 99, none, none, none, none), NW_UNKNOWN_WALL);
+        assert_eq!((calls.nw_temperature_ranges)(null(), 0, none, none, none, none), NW_NULL_POINTER);
+        assert_eq!((calls.nw_temperature_ranges)(model, 0, none, none, none, none), NW_OK);
+        (calls.nw_model_free)(model);
+    }
+}
