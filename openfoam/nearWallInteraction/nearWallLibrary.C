@@ -34,6 +34,7 @@ void* handle = nullptr;
     APPLY(nw_model_find_wall)                                                  \
     APPLY(nw_impact_init)                                                      \
     APPLY(nw_outcome_init)                                                     \
+    APPLY(nw_temperature_ranges)                                               \
     APPLY(nw_resolve)
 
 #define DECLARE(name) decltype(&::name) real_##name = nullptr;
@@ -156,6 +157,18 @@ HIDDEN nw_status nw_impact_init(nw_impact* impact)
 HIDDEN nw_status nw_outcome_init(nw_outcome* outcome)
 {
     return real_nw_outcome_init(outcome);
+}
+
+HIDDEN nw_status nw_temperature_ranges
+(
+    const nw_model* model, uint32_t wall,
+    double* particleLow, double* particleHigh, double* wallLow, double* wallHigh
+)
+{
+    return real_nw_temperature_ranges
+    (
+        model, wall, particleLow, particleHigh, wallLow, wallHigh
+    );
 }
 
 HIDDEN nw_status nw_resolve
