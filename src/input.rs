@@ -4,6 +4,7 @@
 //! there; [`Section::finish`] then refuses whatever nobody asked for and proposes the nearest known key.
 
 use std::cell::RefCell;
+use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
@@ -35,6 +36,9 @@ pub enum InputError {
     },
 }
 
+/// Nothing larger is read [bytes]: a wrong path must not fill the memory.
+const LARGEST_FILE: u64 = 16 << 20;
+
 /// One user's file: its name for messages and its text.
 #[derive(Debug, Clone)]
 pub struct Document {
@@ -54,8 +58,15 @@ impl Document {
     /// [`InputError::Unreadable`] when it is missing, not readable or not UTF-8.
     pub fn from_file(path: &Path) -> Result<Self, InputError> {
         let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Ok(Self { name, text }),
+        let mut text = String::new();
+        let read =
+            std::fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_string(&mut text));
+        match read {
+            Ok(size) if size as u64 <= LARGEST_FILE => Ok(Self { name, text }),
+            Ok(_) => Err(InputError::Unreadable {
+                path: name,
+                reason: format!("larger than {} MB, which no model or case file is", LARGEST_FILE >> 20),
+            }),
             Err(error) => Err(InputError::Unreadable { path: name, reason: error.to_string() }),
         }
     }
@@ -395,6 +406,14 @@ mod tests {
             Ok([top.required_number("a")?, top.required_number("b")?, top.required_number("c")?])
         });
         assert_eq!(values, Ok([10005.0, 16.0, -2.0]));
+    }
+
+    #[test]
+    fn endless_and_missing_files_are_refused() {
+        let endless = Document::from_file(Path::new("/dev/zero")).unwrap_err().to_string();
+        assert!(endless.contains("/dev/zero: cannot be read: larger than 16 MB"), "{endless}");
+        let missing = Document::from_file(Path::new("no/such.toml")).unwrap_err().to_string();
+        assert!(missing.contains("no/such.toml: cannot be read"), "{missing}");
     }
 
     #[test]

@@ -50,8 +50,8 @@ fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
 
 #[test]
 fn predict_agrees_with_the_golden_table() {
-    let cases = common::golden_cases();
-    let worker = |chunk: &[common::Golden]| {
+    let cases = common::golden::golden_cases();
+    let worker = |chunk: &[common::golden::Golden]| {
         let folder = tempfile::tempdir().unwrap();
         for case in chunk {
             std::fs::write(folder.path().join("m.toml"), case.model()).unwrap();
@@ -126,7 +126,7 @@ fn bad_input_is_refused_with_its_place() {
     );
     refused(at, &["predict", "--model", "m.toml", "i.csv", "--wall", "roof"], &["roof", "default"]);
     refused(at, &["materials", "tungstn"], &["did you mean `tungsten`"]);
-    refused(at, &["materials", "tungsten", "--temperature", "-3"], &["--temperature"]);
+    refused(at, &["materials", "tungsten", "--temperature=-3"], &["--temperature"]);
 }
 
 #[test]

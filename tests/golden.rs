@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Golden, golden_cases};
+use common::golden::{Golden, golden_cases};
 use nearwall::normal::{Contact, Speeds, reduced_modulus, restitution};
 use nearwall::{Draw, Impact, Model};
 

@@ -5,7 +5,7 @@
     This file is free software: you can redistribute it and/or modify it under
     the terms of the GNU General Public License as published by the Free
     Software Foundation, either version 3 of the License, or (at your option)
-    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+    any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
         The build stamp. `strings libnearWallInteraction.so | grep built-for` reads
@@ -14,6 +14,7 @@
 
 #include "nearWallBuild.H"
 #include "nearWallCompat.H"
+#include "nearWallLibrary.H"
 #include "nearwall.h"
 
 // Written by Allwmake: NEARWALL_BUILT_FOR, a text
@@ -28,11 +29,24 @@ extern "C"
 }
 
 
-void Foam::nearWall::announceBuild()
+void Foam::nearWall::announceBuild(const dictionary& dict)
 {
     static bool done = false;
     if (done) return;
     done = true;
+
+    const std::string fault(openLibrary());
+    if (!fault.empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "patchInteractionModel nearWallInteraction: libnearwall.so"
+            << " cannot be opened:" << nl
+            << "    " << fault << nl
+            << "    Run openfoam/Allwmake of nearwall again: it puts "
+            << libraryPath() << nl
+            << "    beside libnearWallInteraction.so; move or copy the two"
+            << " together." << exit(FatalIOError);
+    }
 
     Info<< "nearWallInteraction: nearwall " << nw_version()
         << ", built for " << NEARWALL_BUILT_FOR << endl;

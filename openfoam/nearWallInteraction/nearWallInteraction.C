@@ -5,7 +5,7 @@
     This file is free software: you can redistribute it and/or modify it under
     the terms of the GNU General Public License as published by the Free
     Software Foundation, either version 3 of the License, or (at your option)
-    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+    any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
         See nearWallInteraction.H.
@@ -22,7 +22,7 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
     const dictionary& coeffs
 )
 {
-    nearWall::announceBuild();
+    nearWall::announceBuild(coeffs);
     nearWall::refuseUnknownKeys
     (
         coeffs,
@@ -269,6 +269,7 @@ Foam::nearWall::event Foam::nearWallInteraction<CloudType>::eventOf
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(a.vn) + sqr(a.vt));
+    e.normalSpeed = a.vn;
     e.conversion = conversionOf(p);
     return e;
 }
@@ -469,7 +470,12 @@ void Foam::nearWallInteraction<CloudType>::rebound
 )
 {
     noteHit(p, pp, e);
-    record_->tally.addRebound(pp.index(), e);
+
+    nearWall::event left(e);
+    left.en = en;
+    left.eg = sqrt(sqr(en*a.vn) + sqr(et*a.vt))/e.speed;
+    record_->tally.addRebound(pp.index(), left);
+
     bounce(p, a, en, et);
 }
 
@@ -500,6 +506,7 @@ void Foam::nearWallInteraction<CloudType>::refuse
     // A speed or mass that is no number cannot be tracked or summed
     nearWall::event counted(e);
     counted.speed = 0;
+    counted.normalSpeed = 0;
     if (!std::isfinite(e.mass)) counted.mass = 0;
     record_->tally.addUnusable(pp.index(), counted);
     record_->balance->add(nearWall::balance::unusableRemoved, counted.mass);

@@ -5,7 +5,7 @@
     This file is free software: you can redistribute it and/or modify it under
     the terms of the GNU General Public License as published by the Free
     Software Foundation, either version 3 of the License, or (at your option)
-    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+    any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
         See nearWallLedger.H.
@@ -18,17 +18,16 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace
-{
-
-std::string exact(const double x)
+std::string Foam::nearWall::exactText(const scalar x)
 {
     char text[40];
-    std::snprintf(text, sizeof(text), "%.17g", x);
+    for (int digits = 15; digits <= 17; ++digits)
+    {
+        std::snprintf(text, sizeof(text), "%.*g", digits, x);
+        if (std::atof(text) == x) break;
+    }
     return text;
 }
-
-} // End anonymous namespace
 
 
 Foam::nearWall::ledger::ledger(const wordList& names)
@@ -57,7 +56,7 @@ Foam::dictionary Foam::nearWall::ledger::saved(const scalarList& totals) const
     dictionary dict;
     forAll(names_, i)
     {
-        dict.add(keyType(names_[i]), string(exact(totals[i])), true);
+        dict.add(keyType(names_[i]), string(exactText(totals[i])), true);
     }
     return dict;
 }
@@ -113,7 +112,7 @@ void Foam::nearWall::table::row(const scalarList& values)
 
     forAll(values, i)
     {
-        *file_ << (i ? " " : "") << exact(values[i]).c_str();
+        *file_ << (i ? " " : "") << exactText(values[i]).c_str();
     }
     *file_ << endl;
 }

@@ -5,7 +5,7 @@
     This file is free software: you can redistribute it and/or modify it under
     the terms of the GNU General Public License as published by the Free
     Software Foundation, either version 3 of the License, or (at your option)
-    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+    any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
         See nearWallPatches.H.
@@ -260,6 +260,44 @@ void readTemperature
 }
 
 
+//- A wall outside the tables of its material would refuse every impact: say so
+//  now, from the temperature given or the field as it is at the start
+void requireKnownTemperature
+(
+    const patchRule& rule,
+    const dictionary& dict,
+    const polyPatch& pp,
+    const fvMesh& mesh,
+    const nearwall::model& law
+)
+{
+    scalar lowest = rule.temperature;
+    scalar highest = rule.temperature;
+    if (rule.temperatureFromField)
+    {
+        const scalarField& T =
+            mesh.lookupObject<volScalarField>(rule.temperatureField)
+           .boundaryField()[pp.index()];
+        if (returnReduce(T.size(), sumOp<label>()) == 0) return;
+        lowest = gMin(T);
+        highest = gMax(T);
+    }
+
+    const nearwall::temperature_ranges known = law.ranges(rule.wall);
+    if (lowest >= known.wall_low && highest <= known.wall_high) return;
+
+    FatalIOErrorInFunction(dict)
+        << "patch '" << pp.name() << "': wall temperature " << lowest << " to "
+        << highest << " K, but the properties of wall '"
+        << rule.wallName.c_str() << "' are known from " << known.wall_low
+        << " to " << known.wall_high << " K" << nl
+        << "    Correct " << (rule.temperatureFromField ? "field " : "wallTemperature")
+        << (rule.temperatureFromField ? rule.temperatureField : word())
+        << ", or widen the tables of the wall's material in the model"
+        << exit(FatalIOError);
+}
+
+
 patchRule ruleFor
 (
     const dictionary& coeffs,
@@ -291,6 +329,7 @@ patchRule ruleFor
     {
         findWall(rule, dict, pp, law);
         readTemperature(rule, given ? dict : values, pp, mesh);
+        requireKnownTemperature(rule, dict, pp, mesh, law);
     }
     if (rule.what == fate::rebound)
     {

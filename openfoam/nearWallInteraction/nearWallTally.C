@@ -5,7 +5,7 @@
     This file is free software: you can redistribute it and/or modify it under
     the terms of the GNU General Public License as published by the Free
     Software Foundation, either version 3 of the License, or (at your option)
-    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+    any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
         See nearWallTally.H.
@@ -37,6 +37,10 @@ wordList columnNames()
     names[tally::unusable] = "unusable";
     names[tally::unusableMass] = "unusable_mass_kg";
     names[tally::speedSum] = "impact_speed_sum_m_s";
+    names[tally::normalSpeedSum] = "normal_speed_sum_m_s";
+    names[tally::enSum] = "e_n_sum";
+    names[tally::enSquareSum] = "e_n2_sum";
+    names[tally::egSum] = "e_g_sum";
 
     for (label r = 0; r < 4; ++r)
     {
@@ -158,6 +162,7 @@ void Foam::nearWall::tally::hit(const label patchi, const event& e)
     add(patchi, hitParticles, e.particles);
     add(patchi, hitMass, e.mass);
     add(patchi, speedSum, e.speed);
+    add(patchi, normalSpeedSum, e.normalSpeed);
 }
 
 
@@ -166,6 +171,9 @@ void Foam::nearWall::tally::addRebound(const label patchi, const event& e)
     hit(patchi, e);
     add(patchi, rebounds, 1);
     add(patchi, reboundMass, e.mass);
+    add(patchi, enSum, e.en);
+    add(patchi, enSquareSum, sqr(e.en));
+    add(patchi, egSum, e.eg);
 }
 
 
@@ -175,8 +183,11 @@ void Foam::nearWall::tally::addStick(const label patchi, const event& e)
     add(patchi, sticks, 1);
     add(patchi, stickParticles, e.particles);
     add(patchi, stickMass, e.mass);
-    add(patchi, regimeSticks + e.regime, 1);
-    add(patchi, regimeMass + e.regime, e.mass);
+    if (e.regime >= 0)
+    {
+        add(patchi, regimeSticks + e.regime, 1);
+        add(patchi, regimeMass + e.regime, e.mass);
+    }
     add(patchi, conversionMass + conversionBin(e.conversion), e.mass);
 }
 

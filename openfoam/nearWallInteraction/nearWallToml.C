@@ -5,7 +5,7 @@
     This file is free software: you can redistribute it and/or modify it under
     the terms of the GNU General Public License as published by the Free
     Software Foundation, either version 3 of the License, or (at your option)
-    any later version. It comes WITHOUT ANY WARRANTY. See COPYING.
+    any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
         See nearWallToml.H. Values are read from the token stream of an entry, as
@@ -14,23 +14,17 @@
 
 #include "nearWallToml.H"
 #include "ITstream.H"
-#include "DynamicList.H"
-
-#include <cstdio>
+#include "nearWallLedger.H"
 
 namespace
 {
 
 using namespace Foam;
 
-//- A number that reads back to the same bits
+//- TOML wants a float to look like one
 std::string numberText(const double x)
 {
-    char text[40];
-    std::snprintf(text, sizeof(text), "%.17g", x);
-    std::string s(text);
-
-    // TOML wants a float to look like one
+    std::string s(nearWall::exactText(x));
     if (s.find_first_of(".en") == std::string::npos)
     {
         s += ".0";

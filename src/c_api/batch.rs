@@ -104,12 +104,11 @@ pub unsafe extern "C" fn nw_resolve_batch(
         for index in 0..impacts.count {
             // SAFETY: `index < count`.
             let (wall, impact, _) = unsafe { impacts.entry(index) };
-            model.check(wall, &impact).map_err(|error| {
+            model.check(wall, &impact).inspect_err(|_| {
                 if !first_bad.is_null() {
                     // SAFETY: not null, and writable by the caller's promise.
-                    unsafe { first_bad.write(index) };
+                    unsafe { first_bad.write_unaligned(index) };
                 }
-                error
             })?;
         }
         for index in 0..impacts.count {
@@ -169,7 +168,7 @@ impl nw_impacts {
 /// The array is null or has more than `index` entries.
 unsafe fn get<T: Copy>(array: *const T, index: usize, default: T) -> T {
     // SAFETY: not null, and long enough by the caller's promise.
-    if array.is_null() { default } else { unsafe { array.add(index).read() } }
+    if array.is_null() { default } else { unsafe { array.add(index).read_unaligned() } }
 }
 
 /// Writes an entry of an array that may be null.
@@ -179,6 +178,6 @@ unsafe fn get<T: Copy>(array: *const T, index: usize, default: T) -> T {
 unsafe fn put<T>(array: *mut T, index: usize, value: T) {
     if !array.is_null() {
         // SAFETY: not null, and long enough by the caller's promise.
-        unsafe { array.add(index).write(value) };
+        unsafe { array.add(index).write_unaligned(value) };
     }
 }

@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::types::{NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, nw_status, status_of};
+use super::types::{NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, nw_status, status_of, status_text};
 use crate::impact::ImpactError;
 use crate::input::InputError;
 
@@ -15,7 +15,7 @@ pub(super) struct Fault {
 }
 
 impl Fault {
-    /// A fault that needs no more words than its status.
+    /// A fault that needs no more words than those of its status.
     pub(super) fn plain(status: nw_status) -> Self {
         Self { status, message: None }
     }
@@ -27,7 +27,8 @@ impl From<InputError> for Fault {
             InputError::Unreadable { .. } => NW_FILE,
             InputError::Fault { .. } => NW_MODEL,
         };
-        Self { status, message: Some(error.to_string()) }
+        // A TOML key may hold a zero ("\u0000"), which would end the text in C.
+        Self { status, message: Some(error.to_string().replace('\0', "\u{2400}")) }
     }
 }
 
@@ -104,13 +105,15 @@ pub(super) unsafe fn reader<'a, T>(pointer: *const T) -> Result<&'a T, Fault> {
     unsafe { pointer.as_ref() }.ok_or(Fault::plain(NW_NULL_POINTER))
 }
 
-/// Turns the result into a status and copies the words of a fault, if it has any, to the caller's buffer.
+/// Turns the result into a status and copies the words of a fault to the caller's buffer.
 ///
 /// # Safety
 /// `message` is null or has room for `size` bytes.
 pub(super) unsafe fn report(result: Result<(), Fault>, message: *mut c_char, size: usize) -> nw_status {
     let Err(fault) = result else { return NW_OK };
-    if let (Some(text), false, true) = (&fault.message, message.is_null(), size > 0) {
+    if !message.is_null() && size > 0 {
+        let plain = status_text(fault.status).to_str().unwrap_or_default();
+        let text = fault.message.as_deref().unwrap_or(plain);
         let mut length = text.len().min(size - 1);
         while !text.is_char_boundary(length) {
             length -= 1;
@@ -122,4 +125,46 @@ pub(super) unsafe fn report(result: Result<(), Fault>, message: *mut c_char, siz
         }
     }
     fault.status
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_a_status() {
+        let fault = guarded::<()>(|| panic!("this panic belongs to the test")).unwrap_err();
+        assert_eq!(fault.status, NW_PANIC);
+        let mut message = [0; 16];
+        let status = unsafe { report(Err(fault), message.as_mut_ptr(), message.len()) };
+        assert_eq!((status, message[0], message[15]), (NW_PANIC, b'i' as c_char, 0));
+    }
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn a_panic_gives_the_floating_point_state_back() {
+        let control = || {
+            let mut mxcsr = 0_u32;
+            // SAFETY: stores the control register, touches nothing else.
+            unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) &raw mut mxcsr, options(nostack)) };
+            mxcsr
+        };
+        let set = |mxcsr: u32| {
+            // SAFETY: loads a valid state, which the end of the test takes back.
+            unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const mxcsr, options(nostack)) };
+        };
+        let before = control();
+        // Round up, flush to zero, some flags raised, nothing trapped.
+        let odd = 0xDFA5;
+        set(odd);
+        let mut inside = 0;
+        let result = guarded::<()>(|| {
+            inside = control();
+            panic!("this panic belongs to the test")
+        });
+        let after = control();
+        set(before);
+        assert!(result.is_err());
+        assert_eq!((inside, after), (0x1F80, odd));
+    }
 }

@@ -1,9 +1,10 @@
 //! The C boundary: `nearwall.h`.
 //!
 //! Conventions: inputs come first, outputs last; `const` means it is not changed; every call returns a status, and
-//! its outputs are untouched unless that is `NW_OK`; text goes to the caller's buffer. A model never changes after it
-//! is loaded, so any number of threads may share it. No panic crosses, and the caller's floating-point control and
-//! flags are as before. This is the only module with `unsafe`: it turns C pointers into references, nothing else.
+//! its outputs are untouched unless that is `NW_OK` (but for a message, and the index of the impact at fault); text
+//! goes to the caller's buffer. A model never changes after it is loaded, so any number of threads may share it. No
+//! panic crosses, and the caller's floating-point control and flags are as before. This is the only module with
+//! `unsafe`: it turns C pointers into references, nothing else.
 #![allow(unsafe_code)]
 
 mod batch;
@@ -19,6 +20,7 @@ use crate::model::Model;
 
 pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
 use boundary::{Fault, guarded, reader, report};
+use types::status_text;
 pub use types::*;
 
 /// Number of the binary interface; it changes when a struct, a function or a constant does.
@@ -39,22 +41,7 @@ pub extern "C" fn nw_version() -> *const c_char {
 /// A status in words. Static text, also for numbers that are no status.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_status_text(status: nw_status) -> *const c_char {
-    let text: &'static CStr = match status {
-        NW_OK => c"done",
-        NW_NULL_POINTER => c"a required pointer is null",
-        NW_STRUCT_SIZE => {
-            c"struct_size does not match this library; set it to sizeof, and rebuild with its header"
-        }
-        NW_NOT_UTF8 => c"a text is not UTF-8",
-        NW_FILE => c"the model file cannot be read",
-        NW_MODEL => c"the model is at fault",
-        NW_UNKNOWN_WALL => c"the model has no such wall",
-        NW_BAD_STATE => c"the impact has no physical meaning (not finite, or a size or share out of bounds)",
-        NW_OUT_OF_RANGE => c"a property is not known at the temperature of the impact",
-        NW_PANIC => c"internal fault, stopped at the boundary; please report it",
-        _ => c"not a status of this library",
-    };
-    text.as_ptr()
+    status_text(status).as_ptr()
 }
 
 /// A regime by name, for instance `NSP-SW`. Static text.
@@ -73,7 +60,7 @@ pub extern "C" fn nw_regime_name(regime: nw_regime) -> *const c_char {
 /// Reads a model file. On success `*model` is the model; free it with `nw_model_free`.
 ///
 /// On failure the reason, with file, line, column, key and remedy, goes to `message` (at most `message_size` bytes with
-/// the closing zero, cut at a character; may be null).
+/// the closing zero, cut at a character; may be null). On success `message` is left as it is.
 ///
 /// # Safety
 /// `path` is a zero-terminated text, `model` can be written, `message` has room for `message_size` bytes or is null.
@@ -93,7 +80,7 @@ pub unsafe extern "C" fn nw_model_load(
         let path = path.to_str().map_err(|_| Fault::plain(NW_NOT_UTF8))?;
         let loaded = Model::from_file(Path::new(path))?;
         // SAFETY: not null, and writable by the caller's promise.
-        unsafe { model.write(nw_model::into_handle(loaded)) };
+        unsafe { model.write_unaligned(nw_model::into_handle(loaded)) };
         Ok(())
     };
     // SAFETY: the caller's promise on `message`.
@@ -132,7 +119,7 @@ pub unsafe extern "C" fn nw_model_parse(
         };
         let parsed = Model::from_toml(&name.to_string_lossy(), text)?;
         // SAFETY: not null, and writable by the caller's promise.
-        unsafe { model.write(nw_model::into_handle(parsed)) };
+        unsafe { model.write_unaligned(nw_model::into_handle(parsed)) };
         Ok(())
     };
     // SAFETY: the caller's promise on `message`.
@@ -174,9 +161,10 @@ pub unsafe extern "C" fn nw_model_find_wall(
         // SAFETY: not null; a live model, a zero-terminated text and a writable number by the caller's promise.
         let (model, name) = unsafe { (&*model, CStr::from_ptr(name)) };
         let name = name.to_str().map_err(|_| Fault::plain(NW_NOT_UTF8))?;
-        let index = model.inner().find_wall(name).ok_or(Fault::plain(NW_UNKNOWN_WALL))?;
+        let index = model.inner().find_wall(name).and_then(|index| u32::try_from(index).ok());
+        let index = index.ok_or(Fault::plain(NW_UNKNOWN_WALL))?;
         // SAFETY: as above.
-        unsafe { wall.write(u32::try_from(index).map_err(|_| Fault::plain(NW_UNKNOWN_WALL))?) };
+        unsafe { wall.write_unaligned(index) };
         Ok(())
     };
     guarded(find).map_or_else(|fault| fault.status, |()| NW_OK)
@@ -193,7 +181,7 @@ pub unsafe extern "C" fn nw_impact_init(impact: *mut nw_impact) -> nw_status {
         return NW_NULL_POINTER;
     }
     // SAFETY: not null, and writable by the caller's promise.
-    unsafe { impact.write(nw_impact::default()) };
+    unsafe { impact.write_unaligned(nw_impact::default()) };
     NW_OK
 }
 
@@ -207,7 +195,7 @@ pub unsafe extern "C" fn nw_outcome_init(outcome: *mut nw_outcome) -> nw_status 
         return NW_NULL_POINTER;
     }
     // SAFETY: not null, and writable by the caller's promise.
-    unsafe { outcome.write(nw_outcome::default()) };
+    unsafe { outcome.write_unaligned(nw_outcome::default()) };
     NW_OK
 }
 
@@ -225,11 +213,11 @@ pub unsafe extern "C" fn nw_resolve(
         // SAFETY: the caller's promises.
         let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
         // SAFETY: the caller's promise; checks null and the size before anything is written.
-        let _ = unsafe { sized(outcome.cast_const())? };
+        unsafe { sized(outcome.cast_const())? };
         let draw = Draw::new(impact.seed, impact.key);
         let result = model.inner().resolve(impact.wall as usize, &impact.to_impact(), draw)?;
         // SAFETY: checked just above.
-        unsafe { outcome.write(nw_outcome::from_outcome(&result)) };
+        unsafe { outcome.write_unaligned(nw_outcome::from_outcome(&result)) };
         Ok(())
     };
     guarded(resolve).map_or_else(|fault| fault.status, |()| NW_OK)
@@ -255,28 +243,58 @@ pub unsafe extern "C" fn nw_speeds(
         let outputs = [(adhesive, found.adhesive), (yielding, found.yielding), (sticking, found.sticking)];
         for (output, value) in outputs.into_iter().filter(|(output, _)| !output.is_null()) {
             // SAFETY: not null, and writable by the caller's promise.
-            unsafe { output.write(value) };
+            unsafe { output.write_unaligned(value) };
         }
         Ok(())
     };
     guarded(speeds).map_or_else(|fault| fault.status, |()| NW_OK)
 }
 
-/// A struct that begins with its own size, as a reference.
+/// Temperatures [K] between which impacts on a wall can be decided, from the tables of all properties: lowest and
+/// highest of the particle and of the wall, 0 and infinity where nothing limits them. Outputs may be null.
+///
+/// # Safety
+/// `model` is a loaded model, each output can be written or is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_temperature_ranges(
+    model: *const nw_model,
+    wall: u32,
+    particle_low: *mut f64,
+    particle_high: *mut f64,
+    wall_low: *mut f64,
+    wall_high: *mut f64,
+) -> nw_status {
+    let ranges = || {
+        // SAFETY: the caller's promise.
+        let model = unsafe { reader(model)? };
+        let found = model.inner().temperature_ranges(wall as usize)?;
+        let outputs = [particle_low, particle_high, wall_low, wall_high];
+        let values = [found.particle[0], found.particle[1], found.wall[0], found.wall[1]];
+        for (output, value) in outputs.into_iter().zip(values).filter(|(output, _)| !output.is_null()) {
+            // SAFETY: not null, and writable by the caller's promise.
+            unsafe { output.write_unaligned(value) };
+        }
+        Ok(())
+    };
+    guarded(ranges).map_or_else(|fault| fault.status, |()| NW_OK)
+}
+
+/// A copy of a struct that begins with its own size. Foreign languages do not always align what they pass: nothing here
+/// needs it.
 ///
 /// # Safety
 /// The pointer is null or points to at least a `u32`, and to a whole `T` if that `u32` is the size of `T`.
-unsafe fn sized<'a, T>(pointer: *const T) -> Result<&'a T, Fault> {
+unsafe fn sized<T: Copy>(pointer: *const T) -> Result<T, Fault> {
     if pointer.is_null() {
         return Err(Fault::plain(NW_NULL_POINTER));
     }
     // SAFETY: not null, so a `u32` can be read by the caller's promise.
-    let size = unsafe { pointer.cast::<u32>().read() };
+    let size = unsafe { pointer.cast::<u32>().read_unaligned() };
     if size as usize != size_of::<T>() {
         return Err(Fault::plain(NW_STRUCT_SIZE));
     }
     // SAFETY: the size says that it is a whole `T`.
-    Ok(unsafe { &*pointer })
+    Ok(unsafe { pointer.read_unaligned() })
 }
 
 const _: () = assert!(Regime::SpSw as u32 == NW_SP_SW);

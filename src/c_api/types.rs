@@ -1,6 +1,8 @@
 //! Types and numbers of the C interface.
 #![allow(non_camel_case_types)]
 
+use std::ffi::CStr;
+
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::model::Model;
 
@@ -16,6 +18,12 @@ impl nw_model {
         &self.0
     }
 }
+
+/// Threads may share a model because the type says so, not because we promise it.
+const _: () = {
+    const fn shareable<T: Send + Sync>() {}
+    shareable::<nw_model>();
+};
 
 /// What a call came to.
 pub type nw_status = i32;
@@ -39,6 +47,25 @@ pub const NW_BAD_STATE: nw_status = 7;
 pub const NW_OUT_OF_RANGE: nw_status = 8;
 /// An internal fault was stopped at the boundary.
 pub const NW_PANIC: nw_status = 9;
+
+/// A status in words.
+pub(super) fn status_text(status: nw_status) -> &'static CStr {
+    match status {
+        NW_OK => c"done",
+        NW_NULL_POINTER => c"a required pointer is null",
+        NW_STRUCT_SIZE => {
+            c"struct_size does not match this library; set it to sizeof, and rebuild with its header"
+        }
+        NW_NOT_UTF8 => c"a text is not UTF-8",
+        NW_FILE => c"the model file cannot be read",
+        NW_MODEL => c"the model is at fault",
+        NW_UNKNOWN_WALL => c"the model has no such wall",
+        NW_BAD_STATE => c"the impact has no physical meaning (not finite, or a size or share out of bounds)",
+        NW_OUT_OF_RANGE => c"a property is not known at the temperature of the impact",
+        NW_PANIC => c"internal fault, stopped at the boundary; please report it",
+        _ => c"not a status of this library",
+    }
+}
 
 /// Which of particle and wall is sticky.
 pub type nw_regime = u32;

@@ -76,6 +76,14 @@ enum Melt {
 }
 
 impl MeltStickiness {
+    /// Temperatures [K] at which the viscosity is known.
+    pub fn known_range(&self) -> [f64; 2] {
+        match &self.melt {
+            Melt::Oxides(_) => [0.0, f64::INFINITY],
+            Melt::Given(material) => material.viscosity_range(),
+        }
+    }
+
     /// Probability of sticking [1] at a temperature [K].
     ///
     /// # Errors

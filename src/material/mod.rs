@@ -142,6 +142,16 @@ impl Material {
         })
     }
 
+    /// Temperatures [K] at which every mechanical property is known.
+    pub fn known_range(&self) -> [f64; 2] {
+        overlap(self.properties[..MECHANICAL].iter().flatten().filter_map(Property::known_range))
+    }
+
+    /// Temperatures [K] at which the material's own viscosity is known.
+    pub fn viscosity_range(&self) -> [f64; 2] {
+        overlap(self.properties[VISCOSITY].iter().filter_map(Property::known_range))
+    }
+
     /// Whether every mechanical property is stated to hold at this temperature [K].
     pub fn holds_at(&self, temperature: f64) -> bool {
         self.properties[..MECHANICAL].iter().flatten().all(|p| p.holds_at(temperature))
@@ -151,6 +161,11 @@ impl Material {
     pub fn is_constant(&self) -> bool {
         self.properties[..MECHANICAL].iter().flatten().all(Property::is_constant)
     }
+}
+
+/// What all ranges have in common; everything where there is none.
+pub(crate) fn overlap(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
+    ranges.fold([0.0, f64::INFINITY], |[low, high], [l, h]| [low.max(l), high.min(h)])
 }
 
 fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {

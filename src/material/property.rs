@@ -78,7 +78,7 @@ impl Property {
     /// [`OutOfRange`] beyond the ends of a table, or beyond `valid` for a polynomial or Arrhenius form: nothing
     /// is extrapolated. A constant answers at every temperature; see [`Property::holds_at`].
     pub fn at(&self, temperature: f64) -> Result<f64, OutOfRange> {
-        if let Some([low, high]) = self.hard_range()
+        if let Some([low, high]) = self.known_range()
             && !(low..=high).contains(&temperature)
         {
             return Err(OutOfRange { low, high });
@@ -101,7 +101,7 @@ impl Property {
 
     /// Range of temperature that the source states [K].
     pub fn valid(&self) -> Option<[f64; 2]> {
-        self.valid.or(self.hard_range())
+        self.valid.or(self.known_range())
     }
 
     /// Stated uncertainty, in the property's own unit.
@@ -119,7 +119,8 @@ impl Property {
         matches!(self.form, Form::Constant(_))
     }
 
-    fn hard_range(&self) -> Option<[f64; 2]> {
+    /// Temperatures [K] at which [`Property::at`] answers; `None` for all of them.
+    pub fn known_range(&self) -> Option<[f64; 2]> {
         match &self.form {
             Form::Constant(_) => None,
             Form::Table { temperatures, .. } => Some([*temperatures.first()?, *temperatures.last()?]),

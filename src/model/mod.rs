@@ -15,7 +15,7 @@ use crate::draw::Draw;
 use crate::effect::Term;
 use crate::impact::{Impact, ImpactError, Outcome, Regime};
 use crate::input::{Document, InputError};
-use crate::material::Material;
+use crate::material::{Material, overlap};
 use crate::normal::{Contact, NormalLaw, Speeds};
 use crate::tangential::{Glance, TangentialLaw};
 
@@ -41,6 +41,15 @@ pub struct Share {
     pub quantity: &'static str,
     /// The quantity after the term.
     pub value: f64,
+}
+
+/// Lowest and highest temperature [K] at which every property is known: 0 and infinity where none has a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TemperatureRanges {
+    /// Of the particle.
+    pub particle: [f64; 2],
+    /// Of the wall.
+    pub wall: [f64; 2],
 }
 
 /// The stream of [`Draw`] that decides capture.
@@ -93,6 +102,22 @@ impl Model {
     pub fn find_wall(&self, name: &str) -> Option<usize> {
         let exact = self.walls.iter().position(|wall| wall.name() == name);
         exact.or_else(|| self.walls.iter().rposition(|wall| wall.fits(name)))
+    }
+
+    /// Temperatures at which impacts on a wall can be decided: what the tables of all properties have in common.
+    ///
+    /// # Errors
+    /// [`ImpactError::NoSuchWall`].
+    pub fn temperature_ranges(&self, wall: usize) -> Result<TemperatureRanges, ImpactError> {
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let range = |material: &Material, melt: &Option<MeltStickiness>| {
+            let melt = melt.as_ref().map(MeltStickiness::known_range);
+            overlap([material.known_range()].into_iter().chain(melt))
+        };
+        Ok(TemperatureRanges {
+            particle: range(&self.particle, &self.particle_melt),
+            wall: range(wall.material(), &wall.melt),
+        })
     }
 
     /// Checks that [`Model::resolve`] can decide an impact.

@@ -219,6 +219,17 @@ e_t = 0.76
     }
 
     #[test]
+    fn temperature_ranges_are_what_all_tables_share() {
+        let text = SMALLEST.replace("\"pyrex\"", "\"own\"")
+            + "[materials.own]\ndensity = 1000\nyoungs_modulus = { T = [300, 900], value = [1e9, 1e8] }\n\
+               poisson_ratio = 0.3\nyield_strength = { T = [250, 800], value = [1e9, 1e8] }\n\
+               surface_energy = 0.03\n";
+        let ranges = Model::from_toml("m.toml", &text).unwrap().temperature_ranges(0).unwrap();
+        assert_eq!(ranges.wall, [300.0, 800.0]);
+        assert_eq!(ranges.particle, [0.0, f64::INFINITY]);
+    }
+
+    #[test]
     fn every_term_is_named_in_the_walk() {
         let text = format!(
             "{SMALLEST}[[effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n"

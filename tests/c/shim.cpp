@@ -1,0 +1,126 @@
+// nearwall.hpp in a C++11 program: loads, asks one by one, in a batch and from eight threads, and catches what is thrown.
+//
+//     shim FOLDER
+//
+// FOLDER has 0.toml and the raw nw_impact structs 0.bin; the outcomes go to outcomes.bin.
+#include "nearwall.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+namespace {
+
+const int THREADS = 8;
+
+std::vector<nw_impact> read_impacts(const std::string& path) {
+    std::ifstream file(path.c_str(), std::ios::binary);
+    std::vector<nw_impact> impacts;
+    nw_impact impact;
+    while (file.read(reinterpret_cast<char*>(&impact), sizeof(impact))) {
+        impacts.push_back(impact);
+    }
+    return impacts;
+}
+
+bool same(const std::vector<nw_outcome>& a, const std::vector<nw_outcome>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(nw_outcome)) == 0;
+}
+
+// What `body` throws: the status, or NW_OK for nothing.
+template <class Body>
+nw_status thrown(Body body) {
+    try {
+        body();
+        return NW_OK;
+    } catch (const nearwall::error& fault) {
+        return std::strlen(fault.what()) > 10 ? fault.status() : -1;
+    }
+}
+
+#define REQUIRE(condition)                                                 \
+    if (!(condition)) {                                                    \
+        std::cerr << "line " << __LINE__ << ": " #condition << std::endl;  \
+        return 1;                                                          \
+    }
+
+int faults(const nearwall::model& model, std::vector<nw_impact> impacts) {
+    REQUIRE(thrown([] { nearwall::model::from_file("/nowhere/at/all"); }) == NW_FILE);
+    REQUIRE(thrown([] { nearwall::model::from_toml("x = "); }) == NW_MODEL);
+    REQUIRE(thrown([] { nearwall::model::from_toml("x = \"\xff\""); }) == NW_NOT_UTF8);
+    REQUIRE(thrown([&] { model.find_wall("roof"); }) == NW_UNKNOWN_WALL);
+    REQUIRE(thrown([&] { model.find_wall("\xff"); }) == NW_NOT_UTF8);
+    nw_impact hot = nearwall::make_impact();
+    hot.T_w = 900;
+    hot.wall = model.find_wall("quenchRing");
+    REQUIRE(thrown([&] { model.resolve(hot); }) == NW_OUT_OF_RANGE);
+    REQUIRE(thrown([&] { model.speeds(hot); }) == NW_OUT_OF_RANGE);
+    impacts[3].d = 0;
+    impacts[5].wall = 99;
+    try {
+        model.resolve_batch(impacts);
+        return 1;
+    } catch (const nearwall::batch_error& fault) {
+        REQUIRE(fault.index() == 3 && fault.status() == NW_BAD_STATE);
+    }
+    return 0;
+}
+
+int arrays(const nearwall::model& model) {
+    std::vector<double> v_n(10, 2.0), e_n(10, -1.0);
+    const nw_impacts impacts = nearwall::make_impacts(v_n.size(), v_n.data());
+    nw_outcomes outcomes = nearwall::make_outcomes();
+    outcomes.e_n = e_n.data();
+    v_n[7] = -1.0;
+    try {
+        model.resolve_batch(impacts, outcomes);
+        return 1;
+    } catch (const nearwall::batch_error& fault) {
+        REQUIRE(fault.index() == 7 && e_n == std::vector<double>(10, -1.0));
+    }
+    v_n[7] = 2.0;
+    model.resolve_batch(impacts, outcomes);
+    nw_impact one = nearwall::make_impact();
+    one.v_n = 2.0;
+    REQUIRE(e_n == std::vector<double>(10, model.resolve(one).e_n));
+    model.resolve_batch(nearwall::make_impacts(0, nullptr), nearwall::make_outcomes());
+    REQUIRE(thrown([&] { model.resolve_batch(nearwall::make_impacts(1, nullptr), outcomes); }) == NW_NULL_POINTER);
+    return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    REQUIRE(argc == 2);
+    const std::string folder = argv[1];
+    const std::shared_ptr<const nearwall::model> model =
+        std::make_shared<const nearwall::model>(nearwall::model::from_file(folder + "/0.toml"));
+    const std::vector<nw_impact> impacts = read_impacts(folder + "/0.bin");
+    REQUIRE(impacts.size() > 10);
+
+    const std::vector<nw_outcome> outcomes = model->resolve_batch(impacts);
+    std::vector<std::vector<nw_outcome>> found(THREADS);
+    std::vector<std::thread> threads;
+    for (int t = 0; t < THREADS; ++t) {
+        threads.push_back(std::thread([&, t] { found[static_cast<std::size_t>(t)] = model->resolve_batch(impacts); }));
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    for (const std::vector<nw_outcome>& each : found) {
+        REQUIRE(same(each, outcomes));
+    }
+    REQUIRE(faults(*model, impacts) == 0);
+    REQUIRE(arrays(*model) == 0);
+
+    std::ofstream file((folder + "/outcomes.bin").c_str(), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(outcomes.data()),
+               static_cast<std::streamsize>(outcomes.size() * sizeof(nw_outcome)));
+    std::cout << impacts.size() << " impacts, " << THREADS << " threads" << std::endl;
+    return 0;
+} catch (const std::exception& fault) {
+    std::cerr << fault.what() << std::endl;
+    return 1;
+}

@@ -1,0 +1,121 @@
+//! The functions of the shared library, and what the tests ask with them.
+
+use std::ffi::{CStr, c_char};
+
+use libloading::Library;
+use nearwall::c_api::{NW_OK, nw_impact, nw_impacts, nw_model, nw_outcome, nw_outcomes};
+use nearwall::{Draw, Impact, Outcome};
+
+use crate::common::library_path;
+
+macro_rules! calls {
+    ($($name:ident: $signature:ty,)*) => {
+        /// Every function of `nearwall.h`.
+        pub struct Calls {
+            _library: Library,
+            $(pub $name: $signature,)*
+        }
+
+        impl Calls {
+            /// From the library that was built with the test.
+            pub fn load() -> Self {
+                let library = unsafe { Library::new(library_path()) }.unwrap();
+                unsafe {
+                    Self {
+                        $($name: *library.get::<$signature>(stringify!($name).as_bytes()).unwrap(),)*
+                        _library: library,
+                    }
+                }
+            }
+        }
+
+        /// Their names.
+        pub const NAMES: &[&str] = &[$(stringify!($name)),*];
+    };
+}
+
+type Text = *const c_char;
+type Handle = *mut *mut nw_model;
+
+calls! {
+    nw_abi_version: unsafe extern "C" fn() -> u32,
+    nw_version: unsafe extern "C" fn() -> Text,
+    nw_status_text: unsafe extern "C" fn(i32) -> Text,
+    nw_regime_name: unsafe extern "C" fn(u32) -> Text,
+    nw_model_load: unsafe extern "C" fn(Text, Handle, *mut c_char, usize) -> i32,
+    nw_model_parse: unsafe extern "C" fn(Text, usize, Text, Handle, *mut c_char, usize) -> i32,
+    nw_model_free: unsafe extern "C" fn(*mut nw_model),
+    nw_model_find_wall: unsafe extern "C" fn(*const nw_model, Text, *mut u32) -> i32,
+    nw_impact_init: unsafe extern "C" fn(*mut nw_impact) -> i32,
+    nw_outcome_init: unsafe extern "C" fn(*mut nw_outcome) -> i32,
+    nw_resolve: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32,
+    nw_speeds: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64, *mut f64, *mut f64) -> i32,
+    nw_temperature_ranges:
+        unsafe extern "C" fn(*const nw_model, u32, *mut f64, *mut f64, *mut f64, *mut f64) -> i32,
+    nw_resolve_batch:
+        unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
+}
+
+impl Calls {
+    /// A model from text; free it with `nw_model_free`.
+    pub fn parse(&self, toml: &str) -> *mut nw_model {
+        let mut model = std::ptr::null_mut();
+        let (null, none) = (std::ptr::null(), std::ptr::null_mut());
+        let status =
+            unsafe { (self.nw_model_parse)(toml.as_ptr().cast(), toml.len(), null, &raw mut model, none, 0) };
+        assert_eq!(status, NW_OK);
+        model
+    }
+
+    /// One impact; an outcome with `Ok`, the status with `Err`, and then nothing was written.
+    pub fn resolve(&self, model: *const nw_model, impact: &nw_impact) -> Result<nw_outcome, i32> {
+        let mut outcome = poisoned();
+        let before = bytes(&outcome);
+        let status = unsafe { (self.nw_resolve)(model, impact, &raw mut outcome) };
+        if status == NW_OK {
+            return Ok(outcome);
+        }
+        assert_eq!(bytes(&outcome), before, "status {status}, yet something was written");
+        Err(status)
+    }
+
+    /// A static text of the library.
+    pub fn text(&self, text: Text) -> &str {
+        unsafe { CStr::from_ptr(text) }.to_str().unwrap()
+    }
+}
+
+/// An outcome with its size and otherwise 0xA5 in every byte.
+pub fn poisoned() -> nw_outcome {
+    let mut outcome = std::mem::MaybeUninit::<nw_outcome>::uninit();
+    unsafe {
+        outcome.as_mut_ptr().cast::<u8>().write_bytes(0xA5, size_of::<nw_outcome>());
+        outcome.as_mut_ptr().cast::<u32>().write(size_of::<nw_outcome>() as u32);
+        outcome.assume_init()
+    }
+}
+
+/// Every byte of an outcome (it has no padding).
+pub fn bytes(outcome: &nw_outcome) -> [u8; size_of::<nw_outcome>()] {
+    unsafe { std::mem::transmute_copy(outcome) }
+}
+
+/// A Rust outcome as the C library has to give it, bit for bit.
+pub fn c_outcome(outcome: &Outcome) -> [u8; size_of::<nw_outcome>()] {
+    bytes(&nw_outcome {
+        regime: outcome.regime as u32,
+        stuck: outcome.stuck.into(),
+        flags: outcome.outside_range.into(),
+        e_n: outcome.normal_restitution,
+        e_t: outcome.tangential_restitution,
+        p_stick: outcome.sticking_probability,
+        omega: outcome.spin,
+        ..nw_outcome::default()
+    })
+}
+
+/// A case as the C library takes it.
+pub fn c_case((wall, impact, draw): &(usize, Impact, Draw)) -> nw_impact {
+    let wall = u32::try_from(*wall).unwrap();
+    nw_impact { wall, seed: draw.seed, key: draw.key, ..crate::common::c_impact(impact) }
+}

@@ -1,0 +1,179 @@
+//! One impact: the bits of the Rust library, and every way to be refused.
+
+use std::ptr::{null, null_mut};
+
+use nearwall::c_api::*;
+use nearwall::{Draw, Impact, ImpactError, Model};
+
+use crate::calls::{Calls, bytes, c_case, c_outcome, poisoned};
+use crate::common::golden::golden_cases;
+use crate::common::random::{EVERY_REGIME, hostile_cases, random_cases, seed};
+
+/// The status that belongs to a refusal of the Rust library.
+pub fn status_of(error: &ImpactError) -> i32 {
+    match error {
+        ImpactError::Unusable { .. } => NW_BAD_STATE,
+        ImpactError::OutOfRange { .. } => NW_OUT_OF_RANGE,
+        ImpactError::NoSuchWall(_) => NW_UNKNOWN_WALL,
+    }
+}
+
+#[test]
+fn golden_random_and_hostile_impacts_have_the_bits_of_the_rust_library() {
+    let calls = Calls::load();
+    let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
+    let model = calls.parse(EVERY_REGIME);
+    let cases = [random_cases(seed(), 1000), hostile_cases()].concat();
+    let mut refused = [0; 10];
+    for case in &cases {
+        let ours = calls.resolve(model, &c_case(case));
+        match rust.resolve(case.0, &case.1, case.2) {
+            Ok(theirs) => {
+                assert_eq!(ours.map(|ours| bytes(&ours)), Ok(c_outcome(&theirs)), "{case:?}");
+                let numbers = [theirs.normal_restitution, theirs.sticking_probability];
+                assert!(numbers.iter().all(|number| (0.0..=1.0).contains(number)), "{case:?} {theirs:?}");
+                assert!(!theirs.tangential_restitution.is_nan() && !theirs.spin.is_nan(), "{case:?}");
+            }
+            Err(error) => {
+                assert_eq!(ours.map(|ours| bytes(&ours)), Err(status_of(&error)), "{case:?}");
+                refused[status_of(&error) as usize] += 1;
+            }
+        }
+    }
+    unsafe { (calls.nw_model_free)(model) };
+    println!("{} impacts, refused by status: {refused:?}", cases.len());
+    assert!([NW_UNKNOWN_WALL, NW_BAD_STATE, NW_OUT_OF_RANGE].iter().all(|s| refused[*s as usize] > 0));
+
+    for (row, golden) in golden_cases().iter().enumerate() {
+        let model = calls.parse(&golden.model());
+        let impact = Impact { normal_speed: golden.v_n, diameter: golden.d, ..Impact::default() };
+        let case = (0, impact, Draw::default());
+        let ours = calls.resolve(model, &c_case(&case)).unwrap();
+        let rust = Model::from_toml("m", &golden.model()).unwrap();
+        assert_eq!(bytes(&ours), c_outcome(&rust.resolve(0, &case.1, case.2).unwrap()), "case {row}");
+        unsafe { (calls.nw_model_free)(model) };
+    }
+}
+
+#[test]
+fn initialised_structs_are_the_defaults() {
+    let calls = Calls::load();
+    unsafe {
+        let mut outcome = poisoned();
+        assert_eq!((calls.nw_outcome_init)(&raw mut outcome), NW_OK);
+        assert_eq!(bytes(&outcome), bytes(&nw_outcome::default()));
+        let mut impact: nw_impact = std::mem::zeroed();
+        assert_eq!((calls.nw_impact_init)(&raw mut impact), NW_OK);
+        assert_eq!(format!("{impact:?}"), format!("{:?}", c_case(&(0, Impact::default(), Draw::default()))));
+        assert_eq!((calls.nw_impact_init)(null_mut()), NW_NULL_POINTER);
+        assert_eq!((calls.nw_outcome_init)(null_mut()), NW_NULL_POINTER);
+    }
+}
+
+#[test]
+fn null_pointers_and_other_sizes_are_refused() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let impact = nw_impact { v_n: 1.0, ..nw_impact::default() };
+    assert_eq!(calls.resolve(null(), &impact).map(|_| ()), Err(NW_NULL_POINTER));
+    let size = size_of::<nw_impact>() as u32;
+    for struct_size in [0, 1, 4, size - 8, size - 1, size + 1, size + 8, u32::MAX] {
+        let other = nw_impact { struct_size, ..impact };
+        assert_eq!(calls.resolve(model, &other).map(|_| ()), Err(NW_STRUCT_SIZE));
+        let speeds =
+            unsafe { (calls.nw_speeds)(model, &raw const other, null_mut(), null_mut(), null_mut()) };
+        assert_eq!(speeds, NW_STRUCT_SIZE);
+    }
+    let size = size_of::<nw_outcome>() as u32;
+    for struct_size in [0, 1, 4, size - 8, size - 1, size + 1, size + 8, u32::MAX] {
+        let mut outcome = nw_outcome { struct_size, ..poisoned() };
+        let before = bytes(&outcome);
+        let status = unsafe { (calls.nw_resolve)(model, &raw const impact, &raw mut outcome) };
+        assert_eq!((status, bytes(&outcome)), (NW_STRUCT_SIZE, before));
+    }
+    unsafe {
+        let mut outcome = poisoned();
+        assert_eq!((calls.nw_resolve)(model, null(), &raw mut outcome), NW_NULL_POINTER);
+        assert_eq!(bytes(&outcome), bytes(&poisoned()));
+        assert_eq!((calls.nw_resolve)(model, &raw const impact, null_mut()), NW_NULL_POINTER);
+        (calls.nw_model_free)(model);
+    }
+}
+
+#[test]
+fn speeds_are_written_where_wanted_and_never_on_failure() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
+    let case =
+        (1, Impact { normal_speed: 1.0, wall_temperature: 1200.0, ..Impact::default() }, Draw::default());
+    let speeds = rust.speeds(1, &case.1).unwrap();
+    let expected = [speeds.adhesive, speeds.yielding, speeds.sticking];
+    let impact = c_case(&case);
+    for wanted in 0..8 {
+        let mut found = [-1.0; 3];
+        let [a, b, c] =
+            std::array::from_fn(|i| if wanted >> i & 1 == 1 { &raw mut found[i] } else { null_mut() });
+        assert_eq!(unsafe { (calls.nw_speeds)(model, &raw const impact, a, b, c) }, NW_OK);
+        let allowed: [f64; 3] =
+            std::array::from_fn(|i| if wanted >> i & 1 == 1 { expected[i] } else { -1.0 });
+        assert_eq!(found, allowed);
+    }
+    let refuse = |model: *const nw_model, impact: *const nw_impact| {
+        let mut found = [-1.0; 3];
+        let [a, b, c] = found.each_mut().map(std::ptr::from_mut);
+        let status = unsafe { (calls.nw_speeds)(model, impact, a, b, c) };
+        assert_eq!(found, [-1.0; 3]);
+        status
+    };
+    assert_eq!(refuse(null(), &raw const impact), NW_NULL_POINTER);
+    assert_eq!(refuse(model, null()), NW_NULL_POINTER);
+    assert_eq!(refuse(model, &nw_impact { d: f64::NAN, ..impact }), NW_BAD_STATE);
+    assert_eq!(refuse(model, &nw_impact { wall: 3, ..impact }), NW_UNKNOWN_WALL);
+    assert_eq!(refuse(model, &nw_impact { wall: 2, ..impact }), NW_OUT_OF_RANGE);
+    unsafe { (calls.nw_model_free)(model) };
+}
+
+/// C forbids it, but Fortran, Python and packed structs hand such pointers over.
+#[test]
+fn structs_need_no_alignment() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let impact = nw_impact { v_n: 2.0, v_t: 1.0, ..nw_impact::default() };
+    let expected = bytes(&calls.resolve(model, &impact).unwrap());
+    let mut room = [0_u8; 256];
+    for offset in 1..8 {
+        unsafe {
+            let inside = room.as_mut_ptr().add(offset).cast::<nw_impact>();
+            inside.write_unaligned(impact);
+            let outside = room.as_mut_ptr().add(offset + size_of::<nw_impact>()).cast::<nw_outcome>();
+            outside.write_unaligned(nw_outcome::default());
+            assert_eq!((calls.nw_resolve)(model, inside, outside), NW_OK);
+            assert_eq!(bytes(&outside.read_unaligned()), expected);
+        }
+    }
+    unsafe { (calls.nw_model_free)(model) };
+}
+
+#[test]
+fn temperature_ranges_are_those_of_the_model() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
+    for wall in 0..rust.walls().len() {
+        let ranges = rust.temperature_ranges(wall).unwrap();
+        let mut found = [-1.0; 4];
+        let [a, b, c, d] = found.each_mut().map(std::ptr::from_mut);
+        let status = unsafe { (calls.nw_temperature_ranges)(model, wall as u32, a, b, c, d) };
+        assert_eq!(status, NW_OK);
+        assert_eq!(found[..2], ranges.particle);
+        assert_eq!(found[2..], ranges.wall);
+    }
+    let none = null_mut();
+    unsafe {
+        assert_eq!((calls.nw_temperature_ranges)(model, 99, none, none, none, none), NW_UNKNOWN_WALL);
+        assert_eq!((calls.nw_temperature_ranges)(null(), 0, none, none, none, none), NW_NULL_POINTER);
+        assert_eq!((calls.nw_temperature_ranges)(model, 0, none, none, none, none), NW_OK);
+        (calls.nw_model_free)(model);
+    }
+}

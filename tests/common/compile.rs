@@ -1,0 +1,120 @@
+//! The system's C and C++ compilers, strict, and the shared library they link to.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+use tempfile::TempDir;
+
+/// A language and its standard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Language {
+    C(&'static str),
+    Cpp(&'static str),
+}
+
+/// Every warning that matters is an error.
+const STRICT: [&str; 6] = ["-Wall", "-Wextra", "-pedantic", "-Wshadow", "-Wconversion", "-Werror"];
+
+impl Language {
+    /// The compiler with its strict options, and the header's folder.
+    fn compiler(self) -> Command {
+        let (variable, usual, standard) = match self {
+            Self::C(standard) => ("CC", "cc", standard),
+            Self::Cpp(standard) => ("CXX", "c++", standard),
+        };
+        let mut command = Command::new(std::env::var_os(variable).unwrap_or_else(|| usual.into()));
+        command.arg(format!("-std={standard}")).args(STRICT);
+        if let Self::Cpp(_) = self {
+            command.args(["-Wold-style-cast", "-Wnon-virtual-dtor"]);
+        }
+        command.arg("-I").arg(root().join("cpp_shim"));
+        command
+    }
+
+    fn ending(self) -> &'static str {
+        match self {
+            Self::C(_) => "c",
+            Self::Cpp(_) => "cpp",
+        }
+    }
+}
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Runs a command that has to succeed; gives what it printed.
+pub fn run(command: &mut Command) -> String {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{command:?}: {}\n{out}\n{err}", output.status);
+    out.into_owned()
+}
+
+/// Compiles a text on its own, without linking.
+pub fn compiles(language: Language, text: &str) {
+    let folder = TempDir::new().unwrap();
+    let source = folder.path().join("alone").with_extension(language.ending());
+    std::fs::write(&source, text).unwrap();
+    run(language.compiler().arg("-fsyntax-only").arg(source));
+}
+
+/// How the library was built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Build {
+    /// With this test, unoptimised unless the test is.
+    Tested,
+    /// As it is shipped to a solver: optimised, without the command.
+    Lean,
+}
+
+/// The shared library of a build.
+pub fn shared_library(build: Build) -> PathBuf {
+    match build {
+        Build::Tested => super::library_path(),
+        Build::Lean => lean_library().to_owned(),
+    }
+}
+
+/// `cargo build --release --lib --no-default-features`, once, in a folder of its own.
+fn lean_library() -> &'static Path {
+    static BUILT: OnceLock<PathBuf> = OnceLock::new();
+    BUILT.get_or_init(|| {
+        // The folder that openfoam/Allwmake uses, so that neither builds it twice.
+        let target = root().join("target/solver");
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--quiet"]);
+        run(cargo.arg("--target-dir").arg(&target).current_dir(root()));
+        target.join("release/libnearwall.so")
+    })
+}
+
+/// A program of `tests/c`, compiled, linked to the library and ready to run where it finds it by its soname.
+pub struct Program {
+    folder: TempDir,
+}
+
+impl Program {
+    /// Compiles `tests/c/<source>` and links it to a build of the library.
+    pub fn build(language: Language, source: &str, build: Build) -> Self {
+        let folder = TempDir::new().unwrap();
+        std::fs::copy(shared_library(build), folder.path().join("libnearwall.so.1")).unwrap();
+        std::os::unix::fs::symlink("libnearwall.so.1", folder.path().join("libnearwall.so")).unwrap();
+        let mut compiler = language.compiler();
+        compiler.arg("-O2").arg(root().join("tests/c").join(source));
+        compiler.arg("-o").arg(folder.path().join("program")).arg("-L").arg(folder.path());
+        run(compiler.args(["-Wl,-rpath,$ORIGIN", "-lnearwall", "-lm", "-ldl", "-lpthread"]));
+        Self { folder }
+    }
+
+    /// Where the program and its library are; a place for its files.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Runs it; it has to succeed. Gives what it printed.
+    pub fn run(&self, arguments: &[&Path]) -> String {
+        run(Command::new(self.folder().join("program")).args(arguments))
+    }
+}
