@@ -69,31 +69,27 @@ impl<'a> View<'a> {
 
     /// Patches at which something arrives that does not just leave.
     fn find_walls(&self) -> Vec<String> {
+        let holds = |row: &PatchRow| row.sticks > 0.0 || row.hits.is_some_and(|hits| hits > row.escapes);
         let mut walls: Vec<String> = Vec::new();
-        let mut add = |name: &str| {
-            if !walls.iter().any(|wall| wall == name) {
-                walls.push(name.to_owned());
-            }
-        };
         for result in self.results {
-            for patch in result.patches.iter().filter(|patch| !patch.is_pattern()) {
-                let holds =
-                    |row: &PatchRow| row.sticks > 0.0 || row.hits.is_some_and(|hits| hits > row.escapes);
-                if patch.at(self.time).is_some_and(holds) {
-                    add(&patch.name);
-                }
-            }
-            for arrival in &result.arrivals {
-                let leaves = |row: &PatchRow| row.escapes > 0.0 && row.sticks == 0.0;
-                let opening =
-                    result.patch(&arrival.patch).and_then(|patch| patch.at(self.time)).is_some_and(leaves);
-                if !opening {
-                    add(&arrival.patch);
-                }
-            }
+            let tables = result.patches.iter().filter(|patch| !patch.is_pattern());
+            let held = tables.filter(|patch| patch.at(self.time).is_some_and(holds)).map(|patch| &patch.name);
+            walls.extend(held.cloned());
+            let mut recorded: Vec<&String> = result.arrivals.iter().map(|arrival| &arrival.patch).collect();
+            recorded.sort();
+            recorded.dedup();
+            walls.extend(recorded.into_iter().filter(|name| !self.is_opening(name)).cloned());
         }
         walls.sort();
+        walls.dedup();
         walls
+    }
+
+    /// Whether parcels only leave at a patch, as far as any case tells.
+    fn is_opening(&self, name: &str) -> bool {
+        let leaves = |row: &PatchRow| row.escapes > 0.0 && row.sticks == 0.0;
+        let row = |result: &'a CloudResult| result.patch(name).and_then(|patch| patch.at(self.time));
+        self.results.iter().any(|result| row(result).is_some_and(leaves))
     }
 
     fn each(&self) -> impl Iterator<Item = (&String, &'a CloudResult)> {
@@ -174,7 +170,7 @@ impl<'a> View<'a> {
         format!("{}. Everything is compared at {} s.", each.collect::<Vec<_>>().join("; "), number(self.time))
     }
 
-    fn verdict(&self) -> String {
+    fn verdict(&self) -> Vec<String> {
         let share =
             |result: &CloudResult| ratio(self.captured_in_all(result, self.time), self.injected(result));
         let totals: Vec<String> =
@@ -186,7 +182,7 @@ impl<'a> View<'a> {
                 sentences.extend(self.what_constants_get_wrong(label, stock, ours));
             }
         }
-        sentences.join(" ")
+        sentences
     }
 
     fn own_finding(&self, ours: &CloudResult) -> Option<String> {
