@@ -7,5 +7,5 @@ mod figure;
 pub mod openfoam;
 mod page;
 
-pub use figure::{Bars, Chart, Errors, Figure, FigureMap};
-pub use page::{Block, Page, Table, number};
+pub use figure::{Bars, Chart, Errors, Figure, FigureMap, round_edges};
+pub use page::{Block, Page, Table, number, percent};
