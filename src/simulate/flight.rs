@@ -93,7 +93,8 @@ impl ODE<f64, State> for Motion<'_> {
         let slip = gas.velocity - velocity(y);
         let reynolds = gas.density * slip.norm() * body.diameter / gas.viscosity;
         let density = body.density_at(conversion);
-        let response = drag::response_rate(reynolds, gas.viscosity, density, body.diameter);
+        let response = drag::response_rate(reynolds, gas.viscosity, density, body.diameter)
+            / drag::slip_factor(gas.mean_free_path, body.diameter);
         let acceleration = slip * response + self.gravity * (1.0 - gas.density / density);
         let heating = body.heat_capacity.map_or(0.0, |capacity| {
             let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;

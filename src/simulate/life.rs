@@ -170,12 +170,14 @@ impl Traveller<'_> {
         }
     }
 
-    /// Spin dies out exponentially; the gas's viscosity is that at the end of the flight.
+    /// Spin dies out exponentially; the gas's viscosity is that at the end of the flight, and in a thin gas the torque is
+    /// taken to be less by the same factor as the drag.
     fn let_spin_decay(&mut self, duration: f64, end: &State) {
         let gas = self.case.gas.at(&position(end));
         let body = &self.motion.body;
         let density = body.density_at(end[CONVERSION]);
-        self.spin *= (-duration * drag::spin_decay_rate(gas.viscosity, density, body.diameter)).exp();
+        let rate = drag::spin_decay_rate(gas.viscosity, density, body.diameter);
+        self.spin *= (-duration * rate / drag::slip_factor(gas.mean_free_path, body.diameter)).exp();
     }
 
     /// What happens at the surface; `None` when the particle flies on.

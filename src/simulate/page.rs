@@ -103,7 +103,7 @@ fn wall_table(case: &Case, tally: &Tally) -> Table {
         if moments.count == 0 {
             "–".to_owned()
         } else {
-            format!("{} ± {}", number(moments.mean), number(moments.deviation()))
+            format!("{} ± {}", number(moments.mean), two_digits(moments.deviation()))
         }
     };
     let row = |wall: &WallTally| {
@@ -131,6 +131,15 @@ fn wall_table(case: &Case, tally: &Tally) -> Table {
         rows: tally.walls.iter().map(row).collect(),
         text_columns: 1,
     }
+}
+
+/// A spread needs no more than two digits.
+fn two_digits(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return number(value);
+    }
+    let unit = 10f64.powf(value.abs().log10().floor() - 1.0);
+    number((value / unit).round() * unit)
 }
 
 fn maps(case: &Case, tally: &Tally) -> Vec<Figure> {
@@ -200,11 +209,12 @@ fn along_pipe(case: &Case, tally: &Tally) -> Option<Figure> {
             sums[capture.regime as usize][bin] += 100.0 * ratio(capture.mass, tally.injected.mass());
         }
     }
-    for regime in Regime::ALL.iter().rev() {
-        let heights = &sums[*regime as usize];
-        if heights.iter().any(|height| *height > 0.0) {
-            chart = chart.histogram(regime.name(), &edges, heights);
-        }
+    // The largest is drawn as area, the others as lines over it.
+    let mut order = Regime::ALL;
+    let total = |regime: &Regime| sums[*regime as usize].iter().sum::<f64>();
+    order.sort_by(|a, b| total(b).total_cmp(&total(a)));
+    for regime in order.iter().filter(|regime| total(regime) > 0.0) {
+        chart = chart.histogram(regime.name(), &edges, &sums[*regime as usize]);
     }
     for (surface, zone) in &zones {
         if zone[0] > from {

@@ -32,6 +32,7 @@ pub struct Gas {
     viscosity: Property,
     conductivity: Property,
     heat_capacity: Property,
+    mean_free_path: f64,
 }
 
 /// The gas at one place.
@@ -49,6 +50,8 @@ pub struct Local {
     pub conductivity: f64,
     /// Heat capacity [J/(kg K)].
     pub heat_capacity: f64,
+    /// Mean free path of the molecules [m]; 0 for a dense gas.
+    pub mean_free_path: f64,
 }
 
 impl Gas {
@@ -81,6 +84,7 @@ impl Gas {
             viscosity: property("viscosity", "Pa s")?,
             conductivity: property("conductivity", "W/(m K)")?,
             heat_capacity: property("heat_capacity", "J/(kg K)")?,
+            mean_free_path: section.number_within("mean_free_path", 0.0, f64::INFINITY)?.unwrap_or(0.0),
         };
         gas.check(section)?;
         Ok(gas)
@@ -98,6 +102,7 @@ impl Gas {
             viscosity: value(&self.viscosity),
             conductivity: value(&self.conductivity),
             heat_capacity: value(&self.heat_capacity),
+            mean_free_path: self.mean_free_path,
         }
     }
 

@@ -1,0 +1,468 @@
+//! Standalone cases against things that this code did not produce: exact solutions, statistics, the paper; and the
+//! command with its errors.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use nalgebra::{Complex, Vector3};
+use nearwall::simulate::{
+    Body, Burning, Case, Fate, ImpactRecorder, Life, Motion, Run, fly, position, run, state, velocity,
+};
+
+/// A model with constant restitution, whose stickiness is a known number at each temperature.
+const MODEL: &str = r#"
+[model.particle]
+material = "montan-wax"
+[model.walls.default]
+material = "pyrex"
+[model.normal]
+model = "constant"
+e_n = 0.5
+[model.tangential]
+model = "constant"
+e_t = 0.8
+"#;
+
+const THIN: &str = "density = 1e-9\nviscosity = 1e-15\nconductivity = 1e-9\nheat_capacity = 1000";
+
+/// A case of one wall, the plane z = 0.
+fn plane(gas: &str, particles: &str, run: &str, more: &str) -> String {
+    format!(
+        "model = {{}}\n[run]\ntime_limit = 100\n{run}\n[gas]\ntemperature = 300\n{gas}\n[particles]\n{particles}\n\
+         [[walls]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\ntemperature = 300\n{more}"
+    )
+    .replace("model = {}\n", MODEL)
+}
+
+/// One particle at a height of 1 m that flies along x.
+const ONE: &str = "count = 1\nposition = { shape = \"point\", at = [0, 0, 1] }\ndirection = [1, 0, 0]\nspeed = 3\n\
+                   diameter = 1e-4\ntemperature = 300\ndensity = 1000";
+
+const STILL_AIR: &str = "field = \"uniform\"\nvelocity = [0, 0, 0]\ndensity = 1.2\nviscosity = 1.8e-5\n\
+                         conductivity = 0.026\nheat_capacity = 1005";
+
+fn case(text: &str) -> Case {
+    Case::from_toml("case.toml", text, Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn lives(case: &mut Case) -> (Vec<Life>, Vec<Run>) {
+    let mut lives = Vec::new();
+    let runs = run::<String>(case, |_, _, _, life| {
+        lives.push(life.clone());
+        Ok(())
+    });
+    (lives, runs.unwrap())
+}
+
+fn body(diameter: f64, density: f64) -> Body {
+    Body { diameter, density, heat_capacity: None, radiation: None, burning: Burning::NONE }
+}
+
+fn near(ours: f64, exact: f64, relative: f64) {
+    assert!((ours - exact).abs() <= relative * exact.abs(), "{ours} is not {exact}");
+}
+
+// --- paths -----------------------------------------------------------------------------------------------------------
+
+/// Stokes drag alone: v = v0 exp(-t/tau), x = v0 tau (1 - exp(-t/tau)), tau = rho d²/(18 mu).
+#[test]
+fn a_particle_in_thick_still_gas_relaxes_exponentially() {
+    let gas = "field = \"uniform\"\nvelocity = [0, 0, 0]\ndensity = 1e-12\nviscosity = 1e-3\nconductivity = 1\n\
+               heat_capacity = 1000";
+    let case = case(&plane(gas, ONE, "", ""));
+    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: body(1e-4, 1000.0) };
+    let tau: f64 = 1000.0 * 1e-8 / (18.0 * 1e-3);
+    let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::new(3.0, 0.0, 0.0), 300.0, 1.0);
+    for time in [0.2 * tau, tau, 5.0 * tau] {
+        let end = fly(&motion, &case.surfaces, 0.0, time, &start, 1e-10).unwrap();
+        let left = (-time / tau).exp();
+        near(velocity(&end.state).x, 3.0 * left, 1e-6);
+        near(position(&end.state).x, 3.0 * tau * (1.0 - left), 1e-6);
+        assert_eq!(end.surface, None);
+    }
+}
+
+/// Falling wax in air settles where weight and the drag of Schiller and Naumann balance, and small grains at Stokes'
+/// velocity.
+#[test]
+fn terminal_velocity_balances_weight_and_drag() {
+    let case = case(&plane(STILL_AIR, ONE, "", ""));
+    let settled = |diameter: f64, time: f64| {
+        let gravity = Vector3::new(0.0, 0.0, -9.81);
+        let motion = Motion { gas: &case.gas, gravity, body: body(diameter, 1000.0) };
+        let start = state(&Vector3::new(0.0, 0.0, 50.0), &Vector3::zeros(), 300.0, 1.0);
+        -velocity(&fly(&motion, &case.surfaces, 0.0, time, &start, 1e-8).unwrap().state).z
+    };
+    for diameter in [50e-6f64, 110e-6, 500e-6] {
+        // The balance of forces, solved here by bisection.
+        let surplus = |v: f64| {
+            let reynolds = 1.2 * v * diameter / 1.8e-5;
+            let coefficient = 24.0 / reynolds * (1.0 + 0.15 * reynolds.powf(0.687));
+            let drag = 0.5 * 1.2 * v * v * coefficient * PI / 4.0 * diameter.powi(2);
+            (1000.0 - 1.2) * 9.81 * PI / 6.0 * diameter.powi(3) - drag
+        };
+        let (mut low, mut high) = (1e-6, 20.0);
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            if surplus(middle) > 0.0 { low = middle } else { high = middle }
+        }
+        near(settled(diameter, 3.0), low, 1e-5);
+    }
+    near(settled(5e-6, 0.1), (1000.0 - 1.2) * 9.81 * 25e-12 / (18.0 * 1.8e-5), 0.002);
+}
+
+/// Without gas a throw is a parabola; the particle touches the floor with its surface.
+#[test]
+fn a_throw_hits_the_floor_as_newton_says() {
+    let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
+    let mut case = case(&plane(&gas, ONE, "", ""));
+    let (lives, _) = lives(&mut case);
+    let hit = &lives[0].hits[0];
+    let fall = 1.0 - 0.5e-4;
+    near(hit.impact.normal_speed, (2.0f64 * 9.81 * fall).sqrt(), 1e-7);
+    near(hit.impact.tangential_speed, 3.0, 1e-7);
+    near(hit.time, (2.0f64 * fall / 9.81).sqrt(), 1e-7);
+    near(hit.position.x, 3.0 * (2.0f64 * fall / 9.81).sqrt(), 1e-7);
+    assert!((hit.position.z - 0.5e-4).abs() < 1e-9);
+}
+
+/// A ball that keeps half of its speed at each hit: times and speeds are geometric series.
+#[test]
+fn a_bouncing_ball_follows_the_geometric_series() {
+    let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
+    let mut case = case(&plane(&gas, ONE, "hit_limit = 12", ""));
+    let (lives, runs) = lives(&mut case);
+    assert_eq!(lives[0].fate, Fate::GivenUp);
+    assert_eq!((lives[0].hits.len(), runs[0].tally.given_up.count), (12, 1));
+    let first = (2.0f64 * 9.81 * (1.0 - 0.5e-4)).sqrt();
+    let mut time = first / 9.81;
+    for (number, hit) in lives[0].hits.iter().enumerate() {
+        let kept = 0.5f64.powi(number as i32);
+        near(hit.impact.normal_speed, first * kept, 1e-5);
+        near(hit.impact.tangential_speed, 3.0 * 0.8f64.powi(number as i32), 1e-6);
+        near(hit.time, time, 1e-6);
+        time += 2.0 * first * 0.5 * kept / 9.81;
+    }
+}
+
+/// A plane across the path: straight flight meets it at the angle of geometry.
+#[test]
+fn an_inclined_target_is_met_at_its_angle() {
+    let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
+    let wall = "[[walls]]\nname = \"target\"\nwall = \"default\"\nshape = \"plane\"\npoint = [2, 0, 1]\n\
+                normal = [-0.6, 0, 0.8]\nradius = 0.5\ntemperature = 300\n";
+    let mut case = case(&plane(&gas, ONE, "gravity = [0, 0, 0]\nhit_limit = 1", wall));
+    let (lives, _) = lives(&mut case);
+    let hit = &lives[0].hits[0];
+    assert_eq!(case.surfaces[hit.surface].name, "target");
+    near(hit.impact.angle_from_surface(), 0.6f64.asin(), 1e-9);
+    // The centre stops half a diameter before the plane.
+    near(hit.position.x, 2.0 - 0.5e-4 / 0.6, 1e-9);
+}
+
+/// A particle without inertia stays on its stream surface r² sin(pi z/2H) in front of the stagnation point.
+#[test]
+fn a_tracer_keeps_its_stream_function_in_front_of_a_wall() {
+    let gas = "field = \"stagnation-jet\"\nspeed = 2\nheight = 0.03\ndensity = 1.2\nviscosity = 1.8e-5\n\
+               conductivity = 0.026\nheat_capacity = 1005";
+    let case = case(&plane(gas, ONE, "", ""));
+    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: body(3e-6, 1000.0) };
+    let start_at = Vector3::new(0.001, 0.0005, 0.027);
+    let start = state(&start_at, &case.gas.at(&start_at).velocity, 300.0, 1.0);
+    let end = fly(&motion, &case.surfaces, 0.0, 0.03, &start, 1e-7).unwrap();
+    let stream = |p: &Vector3<f64>| p.xy().norm_squared() * (FRAC_PI_2 * p.z / 0.03).sin();
+    let end_at = position(&end.state);
+    assert!(end_at.z < 0.012 && end.surface.is_none(), "{end_at}");
+    near(stream(&end_at), stream(&start_at), 0.02);
+    near(end_at.y / end_at.x, 0.5, 1e-3);
+}
+
+/// In a solid-body vortex x'' = (i Omega x - x')/tau in the complex plane: x = x0 exp(lambda t) exactly, and for small
+/// tau the particle drifts outwards at tau Omega² r.
+#[test]
+fn swirl_throws_a_particle_outwards_as_the_exact_solution_says() {
+    let gas = "field = \"swirling-pipe\"\naxial_speed = 1\nswirl = 50\ndensity = 1e-12\nviscosity = 1.8e-5\n\
+               conductivity = 0.026\nheat_capacity = 1005";
+    let case = case(&plane(gas, ONE, "", ""));
+    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: body(20e-6, 1000.0) };
+    let (tau, omega, time) = (1000.0 * 4e-10 / (18.0 * 1.8e-5), 50.0f64, 0.2f64);
+    let i = Complex::new(0.0, 1.0);
+    let root: Complex<f64> = (i * (4.0 * tau * omega) + 1.0).sqrt();
+    let lambda = (root - 1.0) / (2.0 * tau);
+    near(lambda.re, tau * omega * omega, 0.02);
+    let first = lambda * 0.05f64;
+    let start = state(&Vector3::new(0.05, 0.0, 1.0), &Vector3::new(first.re, first.im, 1.0), 300.0, 1.0);
+    let end = fly(&motion, &case.surfaces, 0.0, time, &start, 1e-9).unwrap();
+    let exact = (lambda * time).exp() * 0.05;
+    let at = position(&end.state);
+    near(at.x, exact.re, 1e-5);
+    near(at.y, exact.im, 1e-5);
+    near(at.z, 1.0 + time, 1e-9);
+}
+
+/// At rest Nu = 2: T relaxes with rho d² c_p/(12 k). At that temperature carbon goes as 1 - exp(-k t).
+#[test]
+fn heating_and_burning_are_exponential() {
+    let case = case(&plane(STILL_AIR, ONE, "", ""));
+    let heat_capacity = Some(2000.0);
+    let warm = Body { heat_capacity, ..body(1e-4, 1000.0) };
+    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: warm };
+    let tau: f64 = 1000.0 * 1e-8 * 2000.0 / (12.0 * 0.026);
+    let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::zeros(), 400.0, 0.0);
+    let end = fly(&motion, &case.surfaces, 0.0, 1.5 * tau, &start, 1e-9).unwrap();
+    near(end.state[6] - 300.0, 100.0 * (-1.5f64).exp(), 1e-6);
+
+    let text = "[conversion]\nlaw = \"first-order\"\npre_exponential = 500\nactivation_energy = 20000\ncarbon = 0.9\n";
+    let burning = case_with(text).injection.burning;
+    let motion = Motion { body: Body { burning, ..body(1e-4, 1000.0) }, ..motion };
+    let rate = 500.0 * (-20000.0f64 / (8.314_462_618 * 400.0)).exp();
+    let end = fly(&motion, &case.surfaces, 0.0, 1.0 / rate, &start, 1e-9).unwrap();
+    near(end.state[7], 1.0 - (-1.0f64).exp(), 1e-6);
+    near(motion.body.mass_at(end.state[7]), PI / 6.0 * 1e-12 * 1000.0 * (1.0 - 0.9 * end.state[7]), 1e-12);
+}
+
+fn case_with(more: &str) -> Case {
+    case(&plane(STILL_AIR, ONE, "", more))
+}
+
+/// Friction makes the first rebound spin; without a gas the next impact brings that spin along.
+#[test]
+fn spin_is_carried_to_the_next_hit() {
+    let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
+    let text = plane(&gas, ONE, "hit_limit = 2", "");
+    let text =
+        text.replace("model = \"constant\"\ne_t = 0.8", "model = \"sliding-rolling\"\nfriction = 0.28");
+    let (lives, _) = lives(&mut case(&text));
+    let [first, second] = &lives[0].hits[..] else { panic!("{:?}", lives[0].fate) };
+    assert!(first.outcome.spin > 1000.0 && first.impact.spin == 0.0);
+    near(second.impact.spin, first.outcome.spin, 1e-6);
+}
+
+// --- sums and statistics ---------------------------------------------------------------------------------------------
+
+/// A warm rig: a tilted plate in a jet, sticky with a known probability.
+fn rig(count: u32, temperature: f64, seed: u32) -> String {
+    let gas = "field = \"stagnation-jet\"\nspeed = 2\nheight = 0.03\ndensity = 1.2\nviscosity = 1.8e-5\n\
+               conductivity = 0.026\nheat_capacity = 1005";
+    let particles = format!(
+        "count = {count}\nposition = {{ shape = \"disc\", center = [0, 0, 0.05], normal = [0, 0, 1], radius = 0.005 }}\n\
+         direction = [0, 0, -1]\nspeed = {{ distribution = \"normal\", mean = 2, deviation = 0.1 }}\n\
+         angle_deg = {{ distribution = \"normal\", mean = 84, deviation = 4, max = 90 }}\n\
+         diameter = {{ distribution = \"normal\", mean = 80e-6, deviation = 15e-6, min = 50e-6, max = 110e-6 }}\n\
+         temperature = {temperature}\ndensity = 1000"
+    );
+    let more = "[[exits]]\nname = \"aside\"\nshape = \"pipe\"\nradius = 0.03\nzone = [-1, 1]\n\
+                [[model.effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n";
+    plane(gas, &particles, &format!("seed = {seed}\nhit_limit = 20"), more)
+}
+
+#[test]
+fn what_goes_in_is_what_ends_somewhere() {
+    let text = rig(300, 350.0, 3) + "[conversion]\nlaw = \"fixed-rate\"\nrate = 20\ncarbon = 0.5\n";
+    let text = text.replace("density = 1000\n", "density = 1000\nconversion = 0.1\n");
+    let mut case = case(&text);
+    let (lives, runs) = lives(&mut case);
+    let tally = &runs[0].tally;
+    let ends = [&tally.stuck, &tally.escaped, &tally.airborne, &tally.given_up, &tally.unusable];
+    assert_eq!(ends.iter().map(|share| share.count).sum::<u64>(), 300);
+    assert_eq!(tally.injected.count, 300);
+    assert!(tally.stuck.count > 50 && tally.escaped.count > 20 && tally.unusable.count == 0);
+    assert!(tally.reacted.total() > 0.1 * tally.injected.mass());
+    assert!(tally.balance_error().abs() < 1e-14, "{}", tally.balance_error());
+    // The same sums from the particles' own stories.
+    let stuck: f64 = lives.iter().filter(|l| matches!(l.fate, Fate::Stuck(_))).map(|l| l.mass[1]).sum();
+    near(tally.stuck.mass(), stuck, 1e-12);
+    let hits: usize = lives.iter().map(|life| life.hits.len()).sum();
+    assert_eq!(tally.walls[0].hits.count, hits as u64);
+    assert_eq!(tally.walls[0].regime_hits.iter().sum::<u64>(), hits as u64);
+}
+
+/// First hits stick with the logistic probability of the effect: the count is binomial.
+#[test]
+fn capture_is_binomial() {
+    let (count, temperature) = (2000, 355.0f64);
+    let mut case = case(&rig(count, temperature, 11));
+    case.hit_limit = 1;
+    let (_, runs) = lives(&mut case);
+    let [hits, stuck] = runs[0].tally.first_hits();
+    let probability = 1.0 / (1.0 + ((360.1 - temperature) / 6.96).exp());
+    let (n, k) = (hits as f64, stuck as f64);
+    assert_eq!(hits, u64::from(count));
+    let deviation = (n * probability * (1.0 - probability)).sqrt();
+    assert!((k - n * probability).abs() < 4.0 * deviation, "{k} of {n} at {probability}");
+}
+
+fn recorded(case: &mut Case) -> Vec<u8> {
+    let mut recorder = ImpactRecorder::new(Vec::new(), case).unwrap();
+    run::<String>(case, |case, value, number, life| {
+        recorder.record(case, value, number, life).map_err(|error| error.to_string())
+    })
+    .unwrap();
+    recorder.finish().unwrap()
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
+    let on = |threads: usize, seed: u32| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| recorded(&mut case(&rig(60, 355.0, seed))))
+    };
+    let (one, four) = (on(1, 5), on(4, 5));
+    assert!(one.len() > 5000);
+    assert!(one == four, "threads change the result");
+    assert!(one != on(2, 6), "the seed changes nothing");
+}
+
+/// impacts.csv stays within its rows, holds whole stories, and is a data file that the crate reads.
+#[test]
+fn the_record_is_bounded_and_can_be_read_back() {
+    let mut small = case(&(rig(60, 355.0, 5)));
+    small.recorded = 25;
+    let text = recorded(&mut small);
+    let mut reader = nearwall::dataset::ImpactReader::new("impacts.csv", text.as_slice()).unwrap();
+    let mut rows = 0;
+    while let Some(row) = reader.next_row().unwrap() {
+        assert!(row.unwrap().impact.normal_speed > 0.0);
+        rows += 1;
+    }
+    assert!((10..=25).contains(&rows), "{rows}");
+}
+
+// --- the examples ----------------------------------------------------------------------------------------------------
+
+fn example(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials/standalone").join(name)
+}
+
+/// The wax rig against the paper's capture efficiencies and restitution (Figs 10, 12, 13), within sampling error.
+#[test]
+fn the_wax_rig_meets_the_paper() {
+    let mut case = Case::from_file(&example("waxRig.toml")).unwrap();
+    case.injection.count = 600;
+    case.sweep.as_mut().unwrap().values = vec![293.15, 343.15, 378.15];
+    case.hit_limit = 1;
+    let (lives, runs) = lives(&mut case);
+    for (run, (capture, fitted)) in runs.iter().zip([(0.0, 7e-5), (0.08, 0.0805), (0.93, 0.9294)]) {
+        let [hits, stuck] = run.tally.first_hits();
+        let share = stuck as f64 / hits as f64;
+        let deviation = (fitted * (1.0 - fitted) / hits as f64).sqrt();
+        assert_eq!(hits, 600);
+        assert!((share - capture).abs() < 4.0 * deviation + 0.002, "{share} against {capture}");
+    }
+    let first = |life: &Life| life.hits[0].impact.speed();
+    let speed = lives[..600].iter().map(first).sum::<f64>() / 600.0;
+    assert!((speed - 2.0).abs() < 0.05, "{speed} m/s");
+    let e_n = runs[0].tally.walls[0].e_n.mean;
+    assert!((e_n - 0.28).abs() < 0.02, "{e_n}");
+}
+
+#[test]
+fn every_example_runs() {
+    for name in ["gasifier.toml", "tungstenDust.toml", "waxRig.toml"] {
+        let mut case = Case::from_file(&example(name)).unwrap_or_else(|error| panic!("{error}"));
+        case.injection.count = 20;
+        if let Some(sweep) = &mut case.sweep {
+            sweep.values.truncate(2);
+        }
+        let (_, runs) = lives(&mut case);
+        for run in &runs {
+            assert_eq!(run.tally.unusable.count, 0, "{name}: {:?}", run.tally.first_trouble);
+            assert!(run.tally.balance_error().abs() < 1e-14);
+            assert!(run.tally.walls.iter().any(|wall| wall.hits.count > 0), "{name}: nothing hits a wall");
+        }
+    }
+}
+
+// --- bad input and the command ---------------------------------------------------------------------------------------
+
+#[test]
+fn errors_name_the_place_the_key_and_the_remedy() {
+    let good = plane(STILL_AIR, ONE, "", "");
+    let message = |from: &str, to: &str| {
+        assert!(good.contains(from), "{from}");
+        match Case::from_toml("case.toml", &good.replacen(from, to, 1), Path::new(".")) {
+            Ok(_) => panic!("`{to}` was accepted"),
+            Err(error) => error.to_string(),
+        }
+    };
+    for (from, to, parts) in [
+        ("speed = 3", "sped = 3", "particles.sped: unknown key `sped`; did you mean `speed`?"),
+        ("diameter = 1e-4", "diameter = -1e-4", "particles.diameter: -0.0001 is outside"),
+        ("diameter = 1e-4", "diameter = 0", "particles.diameter: 0 is outside"),
+        ("diameter = 1e-4", "diameter = nan", "particles.diameter: the number is not finite"),
+        ("diameter = 1e-4", "diameter = \"small\"", "particles.diameter: expected a number"),
+        ("count = 1", "count = 1.5", "particles.count: a whole number"),
+        ("direction = [1, 0, 0]", "direction = [0, 0, 0]", "particles.direction: a direction needs a length"),
+        ("direction = [1, 0, 0]", "direction = [0, 0]", "particles.direction: expected three numbers"),
+        (
+            "field = \"uniform\"",
+            "field = \"unifrom\"",
+            "gas.field: unknown value `unifrom`; did you mean `uniform`?",
+        ),
+        (
+            "viscosity = 1.8e-5",
+            "viscosity = { T = [400, 500], value = [2e-5, 3e-5] }",
+            "gas.viscosity is given for 400",
+        ),
+        ("time_limit = 100", "", "run.time_limit: missing"),
+        ("shape = \"plane\"", "shape = \"sphere\"", "walls[1].shape: unknown value `sphere`"),
+        (
+            "shape = \"plane\"",
+            "wall = \"steel\"\nshape = \"plane\"",
+            "walls[1].wall: unknown wall of the model `steel`",
+        ),
+        ("normal = [0, 0, 1]\ntemperature = 300", "normal = [0, 0, 1]", "walls[1].temperature: missing"),
+        ("e_n = 0.5", "e_n = 1.5", "model.normal.e_n"),
+        (
+            "[run]",
+            "[sweep]\nkey = \"temperatur\"\nvalues = [300]\n[run]",
+            "sweep.key: unknown value `temperatur`",
+        ),
+        ("[run]", "[sweep]\nkey = \"temperature\"\nvalues = [0]\n[run]", "sweep.values: 0 is outside"),
+    ] {
+        let text = message(from, to);
+        assert!(text.starts_with("case.toml:") && text.contains(parts), "`{to}` gives: {text}");
+    }
+    let misplaced = good.replace("at = [0, 0, 1]", "at = [0, 0, -1]");
+    let (_, runs) = lives(&mut case(&misplaced));
+    assert!(runs[0].tally.first_trouble.as_ref().unwrap().contains("starts in or behind `floor`"));
+}
+
+fn nearwall(folder: &Path, arguments: &[&str]) -> std::process::Output {
+    Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+#[test]
+fn the_command_writes_its_files_and_refuses_bad_cases() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = rig(40, 355.0, 1) + "[sweep]\nkey = \"particle_temperature\"\nvalues = [300, 380]\n";
+    std::fs::write(folder.path().join("rig.toml"), text).unwrap();
+    let done = nearwall(folder.path(), &["simulate", "rig.toml"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("rig").join(name)).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    assert_eq!(summary["schema"], "nearwall.simulation/1");
+    assert_eq!(summary["runs"][1]["swept"]["value"], 380.0);
+    assert!(
+        read("impacts.csv")
+            .starts_with("time,wall,particle,hit,v_n,v_t,d,T_p,T_w,conversion,v_gas,omega,x,y,z,e_n")
+    );
+    assert!(read("report.html").contains("id=\"sweep-capture\""));
+    assert_eq!(std::fs::read_dir(folder.path().join("rig")).unwrap().count(), 3, "no scratch files are left");
+
+    let again = nearwall(folder.path(), &["simulate", "rig.toml", "-o", "again"]);
+    assert_eq!(again.status.code(), Some(0));
+    for name in ["impacts.csv", "summary.json", "report.html"] {
+        assert!(
+            std::fs::read_to_string(folder.path().join("again").join(name)).unwrap() == read(name),
+            "{name}"
+        );
+    }
+
+    let absent = nearwall(folder.path(), &["simulate", "none.toml"]);
+    assert_eq!(absent.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&absent.stderr).contains("none.toml"));
+    assert_eq!(nearwall(folder.path(), &["simulate"]).status.code(), Some(2));
+}
