@@ -1,0 +1,272 @@
+//! The page of finished OpenFOAM cases: from files as the solvers and our library write them, and in a real browser.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use nearwall::report::openfoam;
+
+const PATCHES: [&str; 2] = ["slagWall", "quenchWall"];
+
+fn write(root: &Path, name: &str, text: &str) {
+    let path = root.join(name);
+    std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+    std::fs::write(path, text).unwrap();
+}
+
+/// What every case has: control dictionary, mesh patches, coal properties with the named wall model.
+fn skeleton(root: &Path, model: &str) {
+    write(root, "system/controlDict", "application coalChemistryFoam;\n");
+    let wall =
+        |name: &str| format!("    {name}\n    {{\n        type wall;\n        inGroups 1(wall);\n    }}\n");
+    let patches: String = PATCHES.iter().map(|name| wall(name)).collect();
+    write(
+        root,
+        "constant/polyMesh/boundary",
+        &format!("FoamFile\n{{\n}}\n3\n(\n{patches}    outlet\n    {{\n        type patch;\n    }}\n)\n"),
+    );
+    write(root, "constant/wallInteraction", &format!("// the wall\npatchInteractionModel {model};\n"));
+    write(
+        root,
+        "constant/coalCloud1Properties",
+        "singleMixtureFractionCoeffs { phases ( gas { CO 1; } liquid { H2O 1; } solid { C 0.84; ash 0.16; } ); \
+         YGasTot0 0.4; YLiquidTot0 0; YSolidTot0 0.6; }\n",
+    );
+}
+
+/// A table as nearWallInteraction writes it: `rows` of time, hits, hit mass, sticks, stick mass.
+fn table(rows: &[[f64; 5]]) -> String {
+    let mut text = "# time_s hits hit_particles hit_mass_kg rebounds rebound_mass_kg sticks stick_particles \
+                    stick_mass_kg escapes escape_mass_kg unusable unusable_mass_kg impact_speed_sum_m_s"
+        .to_owned();
+    for regime in ["NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW"] {
+        write!(text, " sticks_{regime}").unwrap();
+    }
+    for regime in ["NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW"] {
+        write!(text, " stick_mass_{regime}_kg").unwrap();
+    }
+    for tenth in 0..10 {
+        write!(text, " stick_mass_conversion_0.{tenth}_kg").unwrap();
+    }
+    text += " capture_by_particles capture_by_mass\n";
+    for [time, hits, mass, sticks, stuck] in rows {
+        writeln!(
+            text,
+            "{time} {hits} {hits} {mass} {} {} {sticks} {sticks} {stuck} 0 0 0 0 {} 0 {sticks} 0 0 0 {stuck} 0 0 \
+             0 {stuck} 0 0 0 0 0 0 0 0 0 0",
+            hits - sticks,
+            mass - stuck,
+            2.0 * hits
+        )
+        .unwrap();
+    }
+    text
+}
+
+/// A case with our wall model, restarted at 0.5 s, with stuck parcels at its last time.
+fn ours(root: &Path) {
+    skeleton(root, "nearWallInteraction");
+    let tables = "postProcessing/nearWallInteraction/coalCloud1";
+    write(
+        root,
+        &format!("{tables}/0/slagWall.dat"),
+        &table(&[[0.1, 10.0, 1e-6, 8.0, 8e-7], [0.6, 99.0, 9e-6, 99.0, 9e-6]]),
+    );
+    write(
+        root,
+        &format!("{tables}/0.5/slagWall.dat"),
+        &table(&[[0.55, 50.0, 5e-6, 30.0, 3e-6], [1.0, 100.0, 1e-5, 60.0, 6e-6]]),
+    );
+    write(root, &format!("{tables}/0/quenchWall.dat"), &table(&[[1.0, 40.0, 4e-6, 10.0, 1e-6]]));
+    write(
+        root,
+        &format!("{tables}/0/balance.dat"),
+        "# time_s injected_kg read_back_kg airborne_kg stuck_in_cloud_kg stuck_removed_kg escaped_kg reacted_kg \
+         unusable_removed_kg residual\n1.0 1e-4 0 2e-5 7e-6 0 3e-5 4.3e-5 0 1e-14\n",
+    );
+    let foam =
+        |body: &str| format!("FoamFile\n{{\n    format ascii;\n}}\n// * * * * //\n\n{body}\n\n// ***** //\n");
+    let cloud = "1/lagrangian/coalCloud1";
+    write(
+        root,
+        &format!("{cloud}/positions"),
+        &foam("3\n(\n(0.2 0 -0.1) 5\n(0 0.2 -0.5) 6\n(-0.2 0 -0.9) 7\n)"),
+    );
+    write(root, &format!("{cloud}/active"), &foam("3\n(\n0\n1\n0\n)"));
+    write(root, &format!("{cloud}/d"), &foam("3{1e-4}"));
+    write(root, &format!("{cloud}/rho"), &foam("3(1000 1000 1000)"));
+    write(root, &format!("{cloud}/nParticle"), &foam("3{10}"));
+}
+
+/// The same case with a stock model: slagWall holds all, quenchWall nothing.
+fn stock(root: &Path) {
+    skeleton(root, "localInteraction");
+    let step = |time: f64, sticks: u32, mass: f64| {
+        format!(
+            "Time = {time}\n\nSolving 3-D cloud coalCloud1\n\nCloud: coalCloud1 injector: nozzle\n    Added 3 new parcels\n\n\
+             Cloud: coalCloud1\n    Injector nozzle:\n      - parcels added               = 9\n\
+             \x20     - mass introduced             = {}\n    Parcel fate: system (number, mass)\n\
+             \x20     - escape                      = 5, 1e-05\n    Parcel fate: patch slagWall (number, mass)\n\
+             \x20     - escape                      = 0, 0\n      - stick                       = {sticks}, {mass}\n\
+             \x20   Parcel fate: patch (quenchWall|burnerWall) (number, mass)\n\
+             \x20     - escape                      = 0, 0\n      - stick                       = 0, 0\n",
+            1e-4 * time
+        )
+    };
+    write(root, "log.coalChemistryFoam", &(step(0.5, 1, 1e-6) + &step(1.0, 2, 2e-6)));
+    let header = "# Time currentProc  (position0 position1 position2) active nParticle d (U0 U1 U2) rho T mass0 \
+                  N(Y0 Y1 Y2) N(YSolid0 YSolid1)\n";
+    let row = |time: f64, carbon: f64| {
+        format!(
+            "{time} 0 (0.2 0 -0.3) 1 10 1e-4 (3 0 4) 1000 1500 1e-9 3(0 0 1) 2({carbon} {})\n",
+            1.0 - carbon
+        )
+    };
+    let hits = "postProcessing/lagrangian/coalCloud1/wallHits/0.2";
+    write(root, &format!("{hits}/slagWall.post"), &(header.to_owned() + &row(0.3, 0.5) + &row(0.9, 0.1)));
+    write(root, &format!("{hits}/quenchWall.post"), &(header.to_owned() + &row(0.7, 0.0)));
+}
+
+fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+fn two_cases() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    ours(&folder.path().join("ours"));
+    stock(&folder.path().join("stock"));
+    folder
+}
+
+#[test]
+fn tables_of_a_restarted_run_are_joined() {
+    let folder = two_cases();
+    let results = openfoam::read(&folder.path().join("ours")).unwrap();
+    let [result] = &results[..] else { panic!("one cloud") };
+    assert!(result.is_ours() && result.case == "ours" && result.cloud == "coalCloud1");
+    let slag = result.patch("slagWall").unwrap();
+    // The row at 0.6 s belongs to a run that was taken up again at 0.5 s.
+    assert_eq!(slag.rows.iter().map(|row| row.time).collect::<Vec<_>>(), [0.1, 0.55, 1.0]);
+    let last = slag.at(1.0).unwrap();
+    assert_eq!((last.hits, last.sticks, last.stick_mass), (Some(100.0), 60.0, 6e-6));
+    assert_eq!(last.regimes, Some([0.0, 6e-6, 0.0, 0.0]));
+    assert_eq!(result.parcels.iter().filter(|parcel| !parcel.active).count(), 2);
+    assert_eq!(result.wall_patches, PATCHES);
+    assert_eq!(result.injected_at(1.0), Some(1e-4));
+}
+
+#[test]
+fn logs_and_arrivals_of_a_stock_model_are_read() {
+    let folder = two_cases();
+    let results = openfoam::read(&folder.path().join("stock")).unwrap();
+    let result = &results[0];
+    assert_eq!(result.model.as_deref(), Some("localInteraction"));
+    assert_eq!(result.injected, [[0.5, 5e-5], [1.0, 1e-4]]);
+    assert_eq!(result.patch("slagWall").unwrap().at(1.0).unwrap().stick_mass, 2e-6);
+    assert_eq!(result.patch("burnerWall").unwrap().name, "(quenchWall|burnerWall)");
+    assert_eq!(result.arrivals.len(), 3);
+    let first = &result.arrivals[0];
+    let mass = std::f64::consts::PI / 6.0 * 1e-9;
+    assert!((first.conversion.unwrap() - (1.0 - mass * 0.5 / (1e-9 * 0.504))).abs() < 1e-12);
+    assert_eq!((first.speed, first.patch.as_str()), (5.0, "slagWall"));
+    assert!(
+        result.missing.iter().any(|what| what.contains("no parcels of coalCloud1")),
+        "{:?}",
+        result.missing
+    );
+}
+
+#[test]
+fn the_page_compares_and_says_what_constants_get_wrong() {
+    let folder = two_cases();
+    let done = nearwall(folder.path(), &["report", "ours", "stock", "-o", "page.html"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    for part in [
+        "ours 7.0 %, stock 2.0 %",
+        "stock holds all that arrives where speed, temperature and conversion let this share of the arriving mass \
+         rebound: slagWall 40.0 %",
+        "stock holds nothing where this share of the arriving mass sticks: quenchWall 25.0 %",
+        "caught as NSP-SW",
+        "no parcels of coalCloud1",
+    ] {
+        assert!(page.contains(part), "`{part}` is not on the page");
+    }
+    for figure in ["by-wall", "regimes", "along", "history", "conversion", "arriving", "places-0"] {
+        assert!(page.contains(&format!("<figure id=\"{figure}\"")), "no figure {figure}");
+    }
+    assert!(!page.contains(">outlet<"), "an outlet is no wall");
+    is_self_contained(&page);
+    // The same files, the same page.
+    nearwall(folder.path(), &["report", "ours", "stock", "-o", "again.html"]);
+    assert!(std::fs::read_to_string(folder.path().join("again.html")).unwrap() == page);
+    // One case alone has its page beside it.
+    assert_eq!(nearwall(folder.path(), &["report", "ours"]).status.code(), Some(0));
+    assert!(folder.path().join("ours/report.html").is_file());
+}
+
+/// Nothing is loaded: no address but the name of the SVG language, no script, no image file.
+fn is_self_contained(page: &str) {
+    let without_names = page.replace("http://www.w3.org/2000/svg", "");
+    for sign in ["http:", "https:", "src=", "<script", "@import", "url(\"", "<link rel=\"stylesheet\""] {
+        assert!(!without_names.contains(sign), "the page has `{sign}`");
+    }
+    assert!(without_names.matches("url(").count() == without_names.matches("url(#").count());
+}
+
+#[test]
+fn folders_that_are_no_finished_cases_are_refused_with_the_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("empty")).unwrap();
+    skeleton(&folder.path().join("unrun"), "localInteraction");
+    for (name, part) in [
+        ("none", "there is no such folder"),
+        ("empty", "not an OpenFOAM case (it has no system/controlDict)"),
+        ("unrun", "no results found"),
+    ] {
+        let output = nearwall(folder.path(), &["report", name]);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{message}");
+        assert!(message.contains(name) && message.contains(part), "{message}");
+    }
+    assert_eq!(nearwall(folder.path(), &["report"]).status.code(), Some(2));
+}
+
+/// A real browser shows each figure with a size, and has nothing to complain about.
+#[test]
+fn a_browser_shows_every_figure() {
+    let Some(chromium) = ["chromium", "chromium-browser"].into_iter().find(|name| {
+        Command::new(name).arg("--version").output().is_ok_and(|output| output.status.success())
+    }) else {
+        eprintln!("no chromium: not tried in a browser");
+        return;
+    };
+    let folder = two_cases();
+    nearwall(folder.path(), &["report", "ours", "stock", "-o", "page.html"]);
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    // The copy for the test reports what the browser made of it in its title; the page itself has no script.
+    let probe = "<script>window.onload = () => { const boxes = [...document.querySelectorAll('figure svg')].map(s => \
+                 s.getBoundingClientRect()); const wide = document.documentElement.scrollWidth > innerWidth; \
+                 document.title = 'PROBE ' + boxes.filter(b => b.width > 200 && b.height > 100).length + (wide ? \
+                 ' TOO WIDE' : ''); };</script></body>";
+    std::fs::write(folder.path().join("probe.html"), page.replace("</body>", probe)).unwrap();
+    let browse = |arguments: &[&str]| {
+        let user = tempfile::tempdir().unwrap();
+        Command::new(chromium)
+            .args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"])
+            .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
+            .args(["--enable-logging=stderr", "--window-size=1200,900"])
+            .arg(format!("--user-data-dir={}", user.path().display()))
+            .args(arguments)
+            .output()
+            .unwrap()
+    };
+    let address = format!("file://{}", folder.path().join("probe.html").display());
+    let output = browse(&["--dump-dom", &address]);
+    let (seen, said) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    let figures = page.matches("<figure id=").count();
+    assert!(figures >= 7);
+    assert!(seen.contains(&format!("<title>PROBE {figures}</title>")), "{}", &seen[..seen.len().min(600)]);
+    assert!(!said.contains(":CONSOLE"), "{said}");
+}
