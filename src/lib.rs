@@ -43,6 +43,10 @@ pub mod input;
 pub mod material;
 pub mod model;
 pub mod normal;
+#[cfg(feature = "command")]
+pub mod report;
+#[cfg(feature = "command")]
+pub mod simulate;
 pub mod slag;
 pub mod tangential;
 

@@ -13,10 +13,14 @@ use crate::tangential::TangentialLaw;
 
 impl Model {
     pub(super) fn read(document: &Document) -> Result<Self, InputError> {
-        document.read(Self::read_top)
+        document.read(Self::read_section)
     }
 
-    fn read_top(top: &Section<'_>) -> Result<Self, InputError> {
+    /// Reads a model from a table of another file; the caller refuses the table's unknown keys.
+    ///
+    /// # Errors
+    /// [`InputError`] naming line, column and key.
+    pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
         let mut library = Library::built_in()?;
         if let Some(own) = top.section("materials")? {
             library = library.with(&own)?;

@@ -4,6 +4,7 @@ mod check;
 mod materials;
 mod predict;
 mod progress;
+mod simulate;
 
 use std::io::Write;
 
@@ -17,6 +18,7 @@ type CommandResult = Result<(), Box<dyn std::error::Error>>;
 #[command(version, about, arg_required_else_help = true)]
 enum Command {
     Predict(predict::Arguments),
+    Simulate(simulate::Arguments),
     Materials(materials::Arguments),
     Check(check::Arguments),
 }
@@ -25,6 +27,7 @@ enum Command {
 fn main() -> std::process::ExitCode {
     let done = match Command::parse() {
         Command::Predict(arguments) => predict::run(&arguments),
+        Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
     };

@@ -7,6 +7,11 @@ pub fn bytes(total: u64, what: &'static str) -> ProgressBar {
     styled(total, what, "{msg} [{bar:40}] {bytes}/{total_bytes} {eta}")
 }
 
+/// A bar over a number of things; it shows itself on a terminal's standard error only.
+pub fn count(total: u64, what: &'static str) -> ProgressBar {
+    styled(total, what, "{msg} [{bar:40}] {pos}/{len} {eta}")
+}
+
 fn styled(total: u64, what: &'static str, template: &str) -> ProgressBar {
     let bar = ProgressBar::new(total).with_message(what);
     match ProgressStyle::with_template(template) {

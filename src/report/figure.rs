@@ -1,0 +1,473 @@
+//! Figures as SVG: points, lines, bands, histograms, bars and maps.
+//!
+//! Colours are Okabe and Ito's, told apart by the colour-blind; series also differ by marker and dash, so that a figure
+//! survives a black-and-white printer. Maps use cividis, which is read the same with every kind of colour vision and
+//! grows brighter evenly.
+
+use kuva::plot::annotations::{Orientation, ReferenceLine};
+use kuva::plot::legend::LegendPosition;
+use kuva::plot::line::LineStyle;
+use kuva::plot::scatter::MarkerShape;
+use kuva::plot::{BandPlot, BarPlot, ColorMap, Heatmap, Histogram, LinePlot, ScatterPlot};
+use kuva::render::layout::{Layout, TickFormat};
+use kuva::render::plots::Plot;
+
+/// Okabe and Ito's colours in an order that keeps neighbours apart, black left for text.
+const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8A8A8A"];
+const MARKERS: [MarkerShape; 7] = [
+    MarkerShape::Circle,
+    MarkerShape::Square,
+    MarkerShape::Triangle,
+    MarkerShape::Diamond,
+    MarkerShape::TriangleDown,
+    MarkerShape::Cross,
+    MarkerShape::Plus,
+];
+const DASHES: [LineStyle; 4] = [LineStyle::Solid, LineStyle::Dashed, LineStyle::DashDot, LineStyle::Dotted];
+
+const WIDTH: f64 = 620.0;
+const HEIGHT: f64 = 390.0;
+
+/// A picture with what a reader needs to understand it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// Unique on its page, letters, digits and hyphens.
+    pub id: String,
+    /// A short heading.
+    pub title: String,
+    /// One or two sentences: what is shown, what to see.
+    pub caption: String,
+    /// The picture, without width and height: it takes the room it is given.
+    pub svg: String,
+}
+
+impl Figure {
+    fn new(id: &str, title: &str, caption: &str, plots: Vec<Plot>, layout: Layout) -> Self {
+        let svg = kuva::render_to_svg(plots, layout);
+        Self {
+            id: id.to_owned(),
+            title: title.to_owned(),
+            caption: caption.to_owned(),
+            svg: embedded(&svg, id, title),
+        }
+    }
+}
+
+/// Makes an SVG fit into a page: scaled by a view box, labelled for screen readers, with ids of its own.
+fn embedded(svg: &str, id: &str, title: &str) -> String {
+    let svg = unnumbered(svg, id);
+    let Some((head, body)) = svg.split_once('>') else { return svg };
+    let size =
+        |key: &str| head.split_once(&format!(" {key}=\"")).and_then(|(_, rest)| rest.split('"').next());
+    let (Some(width), Some(height)) = (size("width"), size("height")) else { return svg };
+    let family = "font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\"";
+    let label = title.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         aria-label=\"{label}\" {family} fill=\"black\">{body}"
+    )
+}
+
+/// The plotting crate numbers its clip paths through a whole program; here they are named after the figure, so that
+/// the same figure is the same text every time.
+fn unnumbered(svg: &str, id: &str) -> String {
+    const MARK: &str = "kuva-clip-";
+    let mut parts = svg.split(MARK);
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    let mut seen: Vec<&str> = Vec::new();
+    for part in parts {
+        let digits = part.len() - part.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let (number, rest) = part.split_at(digits);
+        let place = seen.iter().position(|earlier| *earlier == number).unwrap_or_else(|| {
+            seen.push(number);
+            seen.len() - 1
+        });
+        text += &format!("{id}-clip-{place}{rest}");
+    }
+    text
+}
+
+/// How far a point may be off, below and above.
+pub type Errors = Vec<(f64, f64)>;
+
+/// A figure with two number axes; series are added one after the other and get their colours in turn.
+pub struct Chart {
+    title: String,
+    x_label: String,
+    y_label: String,
+    plots: Vec<Plot>,
+    colours: usize,
+    named: bool,
+    x_range: Option<[f64; 2]>,
+    y_range: Option<[f64; 2]>,
+    log: [bool; 2],
+    lines: Vec<ReferenceLine>,
+}
+
+impl Chart {
+    /// An empty chart; axis labels carry their units.
+    pub fn new(title: &str, x_label: &str, y_label: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            plots: Vec::new(),
+            colours: 0,
+            named: false,
+            x_range: None,
+            y_range: None,
+            log: [false; 2],
+            lines: Vec::new(),
+        }
+    }
+
+    /// Fixes the ends of the x axis.
+    #[must_use]
+    pub fn x_range(mut self, low: f64, high: f64) -> Self {
+        self.x_range = Some([low, high]);
+        self
+    }
+
+    /// Fixes the ends of the y axis.
+    #[must_use]
+    pub fn y_range(mut self, low: f64, high: f64) -> Self {
+        self.y_range = Some([low, high]);
+        self
+    }
+
+    /// A logarithmic x axis.
+    #[must_use]
+    pub fn log_x(mut self) -> Self {
+        self.log[0] = true;
+        self
+    }
+
+    /// A logarithmic y axis.
+    #[must_use]
+    pub fn log_y(mut self) -> Self {
+        self.log[1] = true;
+        self
+    }
+
+    /// Points; one without a name is not in the legend.
+    #[must_use]
+    pub fn points(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let plot = self.scatter(name, points);
+        self.plots.push(plot.into());
+        self
+    }
+
+    /// Points with error bars.
+    #[must_use]
+    pub fn points_with_errors(mut self, name: &str, points: &[[f64; 2]], errors: &Errors) -> Self {
+        let plot = self.scatter(name, points).with_y_err_asymmetric(errors.clone());
+        self.plots.push(plot.into());
+        self
+    }
+
+    /// A line through points in their order.
+    #[must_use]
+    pub fn line(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let points = finite(points);
+        let (colour, place) = self.next(name);
+        let mut plot = LinePlot::new()
+            .with_data(points.iter().map(|p| (p[0], p[1])))
+            .with_color(colour)
+            .with_stroke_width(2.0)
+            .with_line_style(DASHES[place % DASHES.len()].clone());
+        if !name.is_empty() {
+            plot = plot.with_legend(name);
+        }
+        self.plots.push(plot.into());
+        self
+    }
+
+    /// A shaded band between two curves, in the colour that the next series will have.
+    #[must_use]
+    pub fn band(mut self, x: &[f64], low: &[f64], high: &[f64]) -> Self {
+        let colour = COLOURS[self.colours % COLOURS.len()];
+        let band = BandPlot::new(x.to_vec(), low.to_vec(), high.to_vec());
+        self.plots.push(band.with_color(colour).with_opacity(0.2).into());
+        self
+    }
+
+    /// Bars of a histogram between `edges`, one more than `heights`; further ones are drawn as stairs over the first.
+    #[must_use]
+    pub fn histogram(mut self, name: &str, edges: &[f64], heights: &[f64]) -> Self {
+        if self.colours > 0 {
+            return self.line(name, &stairs(edges, heights));
+        }
+        let (colour, _) = self.next(name);
+        let mut plot = Histogram::from_bins(edges.to_vec(), heights.to_vec()).with_color(colour);
+        if !name.is_empty() {
+            plot = plot.with_legend(name);
+        }
+        self.plots.push(plot.into());
+        self
+    }
+
+    /// A thin vertical line with a label.
+    #[must_use]
+    pub fn mark_x(mut self, x: f64, label: &str) -> Self {
+        self.lines.push(reference(Orientation::Vertical, x, label));
+        self
+    }
+
+    /// A thin horizontal line with a label.
+    #[must_use]
+    pub fn mark_y(mut self, y: f64, label: &str) -> Self {
+        self.lines.push(reference(Orientation::Horizontal, y, label));
+        self
+    }
+
+    /// The figure; `id` is its name on the page.
+    pub fn figure(mut self, id: &str, caption: &str) -> Figure {
+        if self.plots.is_empty() {
+            self.plots.push(ScatterPlot::new().with_data(vec![(0.0, 0.0)]).with_size(0.0).into());
+        }
+        let mut layout = Layout::auto_from_plots(&self.plots)
+            .with_x_label(self.x_label)
+            .with_y_label(self.y_label)
+            .with_width(WIDTH)
+            .with_height(HEIGHT);
+        layout = legend(layout, self.named);
+        if let Some([low, high]) = self.x_range {
+            layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+        }
+        if let Some([low, high]) = self.y_range {
+            layout = layout.with_y_axis_min(low).with_y_axis_max(high);
+        }
+        if self.log[0] {
+            layout = layout.with_log_x();
+        }
+        if self.log[1] {
+            layout = layout.with_log_y();
+        }
+        layout = self.lines.into_iter().fold(layout, Layout::with_reference_line);
+        Figure::new(id, &self.title, caption, self.plots, layout)
+    }
+
+    fn scatter(&mut self, name: &str, points: &[[f64; 2]]) -> ScatterPlot {
+        let points = finite(points);
+        let (colour, place) = self.next(name);
+        let size = if points.len() > 500 { 1.5 } else { 4.0 };
+        let plot = ScatterPlot::new()
+            .with_data(points.iter().map(|p| (p[0], p[1])))
+            .with_color(colour)
+            .with_size(size)
+            .with_marker(MARKERS[place % MARKERS.len()]);
+        if name.is_empty() { plot } else { plot.with_legend(name) }
+    }
+
+    fn next(&mut self, name: &str) -> (&'static str, usize) {
+        self.named |= !name.is_empty();
+        let place = self.colours;
+        self.colours += 1;
+        (COLOURS[place % COLOURS.len()], place)
+    }
+}
+
+/// What is no number cannot be drawn.
+fn finite(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    points.iter().copied().filter(|point| point.iter().all(|value| value.is_finite())).collect()
+}
+
+/// The outline of a histogram.
+fn stairs(edges: &[f64], heights: &[f64]) -> Vec<[f64; 2]> {
+    let mut line: Vec<[f64; 2]> = edges.first().map(|first| [*first, 0.0]).into_iter().collect();
+    for (pair, height) in edges.windows(2).zip(heights) {
+        line.extend([[pair[0], *height], [pair[1], *height]]);
+    }
+    line.extend(edges.last().map(|last| [*last, 0.0]));
+    line
+}
+
+fn reference(orientation: Orientation, value: f64, label: &str) -> ReferenceLine {
+    let line = match orientation {
+        Orientation::Horizontal => ReferenceLine::horizontal(value),
+        Orientation::Vertical => ReferenceLine::vertical(value),
+    };
+    line.with_color("#444444").with_label(label)
+}
+
+fn legend(layout: Layout, named: bool) -> Layout {
+    if named {
+        layout.with_legend_position(LegendPosition::OutsideTopLeft).with_legend_box(false)
+    } else {
+        layout
+    }
+}
+
+/// Bars over named categories, one or several series side by side or on top of each other.
+pub struct Bars {
+    title: String,
+    y_label: String,
+    categories: Vec<String>,
+    series: Vec<(String, Vec<f64>)>,
+    stacked: bool,
+}
+
+impl Bars {
+    /// Bars without a series yet; the label of the axis carries its unit.
+    pub fn new(title: &str, y_label: &str, categories: &[String]) -> Self {
+        Self {
+            title: title.to_owned(),
+            y_label: y_label.to_owned(),
+            categories: categories.to_vec(),
+            series: Vec::new(),
+            stacked: false,
+        }
+    }
+
+    /// Adds a series: one value a category.
+    #[must_use]
+    pub fn series(mut self, name: &str, values: &[f64]) -> Self {
+        self.series.push((name.to_owned(), values.to_vec()));
+        self
+    }
+
+    /// Puts the series on top of each other.
+    #[must_use]
+    pub fn stacked(mut self) -> Self {
+        self.stacked = true;
+        self
+    }
+
+    /// The figure; `id` is its name on the page.
+    pub fn figure(self, id: &str, caption: &str) -> Figure {
+        let mut plot = BarPlot::new();
+        for (index, category) in self.categories.iter().enumerate() {
+            let value =
+                |values: &Vec<f64>| values.get(index).copied().filter(|v| v.is_finite()).unwrap_or(0.0);
+            let bars = self.series.iter().zip(COLOURS.iter().cycle());
+            let bars: Vec<(f64, &str)> = bars.map(|((_, values), colour)| (value(values), *colour)).collect();
+            plot = plot.with_group(category.clone(), bars);
+        }
+        let named = self.series.iter().any(|(name, _)| !name.is_empty());
+        if named {
+            plot = plot.with_legend(self.series.iter().map(|(name, _)| name.as_str()).collect());
+        }
+        if self.stacked {
+            plot = plot.with_stacked();
+        }
+        let plots = vec![Plot::Bar(plot)];
+        let layout = Layout::auto_from_plots(&plots)
+            .with_y_label(self.y_label)
+            .with_width(WIDTH)
+            .with_height(HEIGHT)
+            .with_y_axis_min(0.0);
+        Figure::new(id, &self.title, caption, plots, legend(layout, named))
+    }
+}
+
+/// A map: a quantity over two coordinates, as coloured cells.
+pub struct FigureMap {
+    title: String,
+    x_label: String,
+    y_label: String,
+    x: [f64; 2],
+    y: [f64; 2],
+    cells: Vec<Vec<f64>>,
+}
+
+impl FigureMap {
+    /// Sums weighted points up in `columns` by `rows` cells over the given ranges; points outside are left out.
+    pub fn of_points(
+        title: &str,
+        [x_label, y_label]: [&str; 2],
+        [x, y]: [[f64; 2]; 2],
+        [columns, rows]: [usize; 2],
+        points: impl Iterator<Item = ([f64; 2], f64)>,
+    ) -> Self {
+        let mut cells = vec![vec![0.0; columns]; rows];
+        let place = |value: f64, [low, high]: [f64; 2], count: usize| {
+            let share = (value - low) / (high - low);
+            (0.0..=1.0).contains(&share).then(|| ((share * count as f64) as usize).min(count - 1))
+        };
+        for ([a, b], weight) in points {
+            if let (Some(column), Some(row)) = (place(a, x, columns), place(b, y, rows)) {
+                cells[row][column] += weight;
+            }
+        }
+        Self {
+            title: title.to_owned(),
+            x_label: x_label.to_owned(),
+            y_label: y_label.to_owned(),
+            x,
+            y,
+            cells,
+        }
+    }
+
+    /// Every cell divided by its area: points per area, mass per area.
+    #[must_use]
+    pub fn per_area(mut self) -> Self {
+        let columns = self.cells.first().map_or(1, Vec::len);
+        let area = (self.x[1] - self.x[0]) * (self.y[1] - self.y[0]) / (columns * self.cells.len()) as f64;
+        self.cells.iter_mut().flatten().for_each(|cell| *cell /= area);
+        self
+    }
+
+    /// The figure; `id` is its name on the page. `quantity` names what the colours mean, with its unit.
+    pub fn figure(self, id: &str, quantity: &str, caption: &str) -> Figure {
+        let plot = Heatmap::new()
+            .with_data(self.cells)
+            .with_x_range(self.x[0], self.x[1])
+            .with_y_range(self.y[0], self.y[1])
+            .with_cell_size(1.0)
+            .with_legend(quantity)
+            .with_color_map(ColorMap::Cividis);
+        let plots = vec![Plot::Heatmap(plot)];
+        let layout = Layout::auto_from_plots(&plots)
+            .with_x_label(self.x_label)
+            .with_y_label(self.y_label)
+            .with_width(WIDTH)
+            .with_height(HEIGHT)
+            .with_clamp_axis()
+            .with_colorbar_tick_format(TickFormat::Auto);
+        let title = format!("{}: {quantity}", self.title);
+        Figure::new(id, &title, caption, plots, layout)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_figure_is_the_same_text() {
+        let draw = || {
+            let chart =
+                Chart::new("t < u", "x [m]", "y [1]").line("a", &[[0.0, 1.0], [1.0, f64::NAN], [2.0, 3.0]]);
+            chart.points("b", &[[1.0, 2.0]]).mark_x(1.5, "here").figure("one", "c")
+        };
+        let (first, second) = (draw(), draw());
+        assert_eq!(first, second);
+        assert!(first.svg.starts_with("<svg xmlns"), "{}", first.svg);
+        assert!(
+            first.svg.contains("viewBox=\"0 0 620 390\"") && first.svg.contains("aria-label=\"t &lt; u\"")
+        );
+        assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
+        assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
+    }
+
+    #[test]
+    fn maps_sum_up_weights_per_area() {
+        let points = [([0.1, 0.1], 2.0), ([0.2, 0.3], 1.0), ([1.9, 0.9], 4.0), ([5.0, 0.0], 9.0)];
+        let map = FigureMap::of_points(
+            "m",
+            ["x [m]", "y [m]"],
+            [[0.0, 2.0], [0.0, 1.0]],
+            [2, 1],
+            points.into_iter(),
+        );
+        assert_eq!(map.per_area().cells, [[3.0, 4.0]]);
+    }
+
+    #[test]
+    fn empty_charts_and_bars_are_drawn() {
+        assert!(Chart::new("t", "x", "y").figure("e", "").svg.contains("</svg>"));
+        let bars = Bars::new("t", "mass [kg]", &["a".into(), "b".into()]).series("s", &[1.0]).stacked();
+        assert!(bars.figure("b", "").svg.contains("mass [kg]"));
+    }
+}

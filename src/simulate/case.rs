@@ -1,0 +1,259 @@
+//! A case file: everything that a run depends on.
+
+use std::path::Path;
+
+use nalgebra::Vector3;
+
+use super::burning::Burning;
+use super::gas::Gas;
+use super::geometry::vector;
+use super::injection::{Injection, SWEEPABLE};
+use super::life::HIT_BITS;
+use super::profile::Profile;
+use super::surface::{Role, Surface};
+use crate::impact::ImpactError;
+use crate::input::{Document, InputError, Section};
+use crate::model::Model;
+
+/// Everything that a run depends on. Immutable once read, but for the sweep.
+#[derive(Debug)]
+pub struct Case {
+    /// What the page is called.
+    pub title: String,
+    /// One or more sentences for the page.
+    pub about: Option<String>,
+    /// Seed of all draws.
+    pub seed: u64,
+    /// Longest time that a particle is followed [s].
+    pub time_limit: f64,
+    /// Most hits of one particle.
+    pub hit_limit: u64,
+    /// Relative error per step of the integration [1].
+    pub tolerance: f64,
+    /// Gravity [m/s²].
+    pub gravity: Vector3<f64>,
+    /// The gas.
+    pub gas: Gas,
+    /// Where particles come from.
+    pub injection: Injection,
+    /// Walls and exits.
+    pub surfaces: Vec<Surface>,
+    /// What decides a hit.
+    pub model: Model,
+    /// Most rows of `impacts.csv`.
+    pub recorded: u64,
+    /// One quantity over a list of values.
+    pub sweep: Option<Sweep>,
+}
+
+/// A `[sweep]`: the case is run once for each value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sweep {
+    /// What is changed, one of [`SWEEP_KEYS`].
+    pub key: String,
+    /// The values, SI or degrees.
+    pub values: Vec<f64>,
+    /// Measured or computed points to show beside the result.
+    pub references: Vec<Reference>,
+}
+
+/// Points to show beside a sweep's result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    /// `capture` (share of hits) or `e_n`.
+    pub quantity: String,
+    /// Values of the swept quantity.
+    pub at: Vec<f64>,
+    /// Values of the quantity.
+    pub value: Vec<f64>,
+    /// Where they come from.
+    pub source: String,
+}
+
+/// What a sweep can change. `temperature` sets gas, particles and walls.
+pub const SWEEP_KEYS: [&str; 8] = [
+    "temperature",
+    "gas_temperature",
+    "wall_temperature",
+    SWEEPABLE[0],
+    SWEEPABLE[1],
+    SWEEPABLE[2],
+    SWEEPABLE[3],
+    SWEEPABLE[4],
+];
+
+/// The unit of one of [`SWEEP_KEYS`].
+pub fn sweep_unit(key: &str) -> &'static str {
+    match key {
+        "diameter" => "m",
+        "speed" => "m/s",
+        "angle_deg" => "°",
+        "conversion" => "1",
+        _ => "K",
+    }
+}
+
+impl Case {
+    /// Reads a case file; a model file that it names is looked for beside it.
+    ///
+    /// # Errors
+    /// [`InputError`] naming file, line, column and key.
+    pub fn from_file(path: &Path) -> Result<Self, InputError> {
+        let folder = path.parent().unwrap_or(Path::new(""));
+        Document::from_file(path)?.read(|top| Self::read(top, folder))
+    }
+
+    /// Reads a case from text; `name` stands for the file in messages, model files are looked for in `folder`.
+    ///
+    /// # Errors
+    /// [`InputError`] naming line, column and key.
+    pub fn from_toml(name: &str, text: &str, folder: &Path) -> Result<Self, InputError> {
+        Document::new(name, text).read(|top| Self::read(top, folder))
+    }
+
+    fn read(top: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
+        let title = top.text("title")?.unwrap_or_else(|| "Standalone case".to_owned());
+        let about = top.text("about")?;
+        let model = read_model(top, folder)?;
+        let burning = top.section("conversion")?.map_or(Ok(Burning::NONE), |s| Burning::read(&s))?;
+        let gas_section = top.required_section("gas")?;
+        let gas = Gas::read(&gas_section)?;
+        gas_section.finish()?;
+        let particles = top.required_section("particles")?;
+        let injection = Injection::read(&particles, burning)?;
+        particles.finish()?;
+        let run = top.required_section("run")?;
+        let hit_limit = whole(&run, "hit_limit", (1u64 << HIT_BITS) as f64)?.unwrap_or(1000);
+        let time_limit = run.number_within("time_limit", f64::MIN_POSITIVE, f64::INFINITY)?;
+        let case = Self {
+            title,
+            about,
+            seed: whole(&run, "seed", 2f64.powi(53))?.unwrap_or(1),
+            time_limit: time_limit.ok_or_else(|| run.missing("time_limit", "a time [s]"))?,
+            hit_limit,
+            tolerance: run.number_within("tolerance", 1e-13, 1e-3)?.unwrap_or(1e-6),
+            gravity: vector(&run, "gravity")?.unwrap_or(Vector3::new(0.0, 0.0, -9.81)),
+            recorded: whole(&run, "recorded_impacts", 1e9)?.unwrap_or(100_000),
+            gas,
+            injection,
+            surfaces: Surface::read_all(top, &model)?,
+            sweep: top.section("sweep")?.map(|s| read_sweep(&s)).transpose()?,
+            model,
+        };
+        run.finish()?;
+        case.try_sweep(top)?;
+        Ok(case)
+    }
+
+    /// Density of an unburnt particle [kg/m³] that starts at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] when the case does not give it and the model does not know it.
+    pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
+        match self.injection.density {
+            Some(density) => Ok(density),
+            None => Ok(self.model.particle().mechanical(temperature)?.density),
+        }
+    }
+
+    /// Sets the swept quantity.
+    ///
+    /// # Errors
+    /// What is wrong with the value, in words.
+    pub fn set(&mut self, key: &str, value: f64) -> Result<(), String> {
+        let everything = key == "temperature";
+        if everything || key == "gas_temperature" {
+            self.gas.set_temperature(value)?;
+        }
+        if everything || key == "wall_temperature" {
+            for surface in &mut self.surfaces {
+                if let Role::Wall { temperature, .. } = &mut surface.role {
+                    *temperature = Profile::constant(value);
+                }
+            }
+        }
+        if everything {
+            self.injection.centre("particle_temperature", value);
+        } else if SWEEPABLE.contains(&key) {
+            self.injection.centre(key, value);
+        }
+        Ok(())
+    }
+
+    /// Makes sure before the first run that every value of the sweep can be set.
+    fn try_sweep(&self, top: &Section<'_>) -> Result<(), InputError> {
+        let Some(sweep) = &self.sweep else { return Ok(()) };
+        if !["temperature", "gas_temperature"].contains(&sweep.key.as_str()) {
+            return Ok(());
+        }
+        for value in &sweep.values {
+            self.gas.known_at(*value).map_err(|problem| top.fault("sweep", problem))?;
+        }
+        Ok(())
+    }
+}
+
+/// `model = "file.toml"` beside the case, or the tables of a model in `[model]`.
+fn read_model(top: &Section<'_>, folder: &Path) -> Result<Model, InputError> {
+    if top.is_section("model") {
+        let section = top.required_section("model")?;
+        let model = Model::read_section(&section)?;
+        section.finish()?;
+        return Ok(model);
+    }
+    let named = top.text("model")?;
+    let named = named.ok_or_else(|| top.missing("model", "the model file, or a table [model],"))?;
+    let path = folder.join(&named);
+    if !path.is_file() {
+        let problem = format!("there is no file {}; the name is relative to the case file", path.display());
+        return Err(top.fault("model", problem));
+    }
+    Model::from_file(&path)
+}
+
+fn read_sweep(section: &Section<'_>) -> Result<Sweep, InputError> {
+    let key = section.choice("key", &SWEEP_KEYS)?;
+    let key = key.ok_or_else(|| section.missing("key", &format!("one of {}", SWEEP_KEYS.join(", "))))?;
+    let values = section.numbers("values")?.unwrap_or_default();
+    if values.is_empty() {
+        return Err(section.missing("values", "a list of numbers"));
+    }
+    let [low, high] = match key.as_str() {
+        "angle_deg" => [-90.0, 90.0],
+        "conversion" => [0.0, 1.0],
+        "speed" => [0.0, 1e5],
+        "diameter" => [f64::MIN_POSITIVE, 1.0],
+        _ => [1.0, 1e5],
+    };
+    if let Some(value) = values.iter().find(|value| !(low..=high).contains(*value)) {
+        return Err(section.fault("values", format!("{value} is outside {low} to {high}")));
+    }
+    let references = section.sections("reference")?;
+    let references = references.iter().map(read_reference).collect::<Result<_, _>>()?;
+    section.finish()?;
+    Ok(Sweep { key, values, references })
+}
+
+fn read_reference(section: &Section<'_>) -> Result<Reference, InputError> {
+    let quantity = section.choice("quantity", &["capture", "e_n"])?;
+    let list = |key: &str| section.numbers(key)?.ok_or_else(|| section.missing(key, "a list of numbers"));
+    let reference = Reference {
+        quantity: quantity.ok_or_else(|| section.missing("quantity", "\"capture\" or \"e_n\""))?,
+        at: list("at")?,
+        value: list("value")?,
+        source: section.required_text("source")?,
+    };
+    section.finish()?;
+    if reference.at.len() != reference.value.len() {
+        return Err(section.fault("value", "`at` and `value` need the same number of entries"));
+    }
+    Ok(reference)
+}
+
+/// A whole number that is not negative; `None` when the key is absent.
+fn whole(section: &Section<'_>, key: &str, high: f64) -> Result<Option<u64>, InputError> {
+    match section.number_within(key, 0.0, high)? {
+        Some(value) if value.fract() != 0.0 => Err(section.fault(key, "a whole number")),
+        value => Ok(value.map(|value| value as u64)),
+    }
+}

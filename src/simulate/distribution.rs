@@ -1,0 +1,228 @@
+//! Distributions that particle states are drawn from.
+//!
+//! `key = 80e-6` is a fixed number; `key = { distribution = "normal", mean = 80e-6, deviation = 15e-6, min = 50e-6,
+//! max = 110e-6 }` is drawn. `min` and `max` truncate: what falls outside is drawn again, so the shape inside is kept.
+//!
+//! | `distribution` | keys | density or distribution function |
+//! |---|---|---|
+//! | `fixed` | `value` | |
+//! | `uniform` | `min`, `max` | |
+//! | `normal` | `mean`, `deviation` | |
+//! | `lognormal` | `median`, `geometric_deviation` | `ln x` normal around `ln median` with `ln geometric_deviation` |
+//! | `rosin-rammler` | `scale`, `exponent` | `F(x) = 1 - exp(-(x/scale)^exponent)` (Weibull) |
+
+use rand_chacha::ChaCha8Rng;
+use rand_distr::Distribution as _;
+use rand_distr::{LogNormal, Normal, Uniform, Weibull};
+
+use crate::input::{InputError, Section};
+
+/// How often a draw is repeated before the nearest bound is taken.
+const ATTEMPTS: usize = 10_000;
+/// How often a new distribution is tried to see that its bounds leave something to draw.
+const TRIALS: usize = 1_000;
+
+/// One distribution, with the bounds that truncate it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    shape: Shape,
+    min: f64,
+    max: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    Fixed(f64),
+    Uniform,
+    Normal { mean: f64, deviation: f64 },
+    LogNormal { median: f64, geometric_deviation: f64 },
+    RosinRammler { scale: f64, exponent: f64 },
+}
+
+const NAMES: [&str; 5] = ["fixed", "uniform", "normal", "lognormal", "rosin-rammler"];
+
+impl Distribution {
+    /// Always the same number.
+    pub fn fixed(value: f64) -> Self {
+        Self { shape: Shape::Fixed(value), min: f64::NEG_INFINITY, max: f64::INFINITY }
+    }
+
+    /// Evenly between two numbers.
+    pub fn uniform(min: f64, max: f64) -> Self {
+        Self { shape: Shape::Uniform, min, max }
+    }
+
+    /// Reads `key`, whose values have to lie in `low..=high`; `None` when it is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown distribution, a missing parameter, or bounds that leave nothing.
+    pub fn read(section: &Section<'_>, key: &str, low: f64, high: f64) -> Result<Option<Self>, InputError> {
+        if !section.has(key) {
+            return Ok(None);
+        }
+        if !section.is_section(key) {
+            return Ok(section.number_within(key, low, high)?.map(Self::fixed));
+        }
+        let table = section.required_section(key)?;
+        let min = table.number_within("min", low, high)?;
+        let max = table.number_within("max", low, high)?;
+        let shape = Shape::read(&table, low, high)?;
+        if shape == Shape::Uniform && (min.is_none() || max.is_none()) {
+            let absent = if min.is_none() { "min" } else { "max" };
+            return Err(table.missing(absent, "an end of the range"));
+        }
+        table.finish()?;
+        let read = Self { shape, min: min.unwrap_or(low), max: max.unwrap_or(high) };
+        if read.min > read.max {
+            return Err(section.fault(key, "`min` is above `max`"));
+        }
+        if !read.can_be_drawn() {
+            let problem =
+                format!("hardly anything of this distribution lies in {} to {}", read.min, read.max);
+            return Err(section.fault(key, problem));
+        }
+        Ok(Some(read))
+    }
+
+    /// Draws one value.
+    pub fn sample(&self, random: &mut ChaCha8Rng) -> f64 {
+        let mut value = self.shape.draw(self, random);
+        for _ in 0..ATTEMPTS {
+            if (self.min..=self.max).contains(&value) {
+                return value;
+            }
+            value = self.shape.draw(self, random);
+        }
+        value.clamp(self.min, self.max)
+    }
+
+    /// The same shape around another middle: `value`, `mean`, `median` or `scale`; a uniform one is shifted. Bounds of
+    /// the others stay.
+    #[must_use]
+    pub fn centred(&self, middle: f64) -> Self {
+        let mut moved = self.clone();
+        match &mut moved.shape {
+            Shape::Fixed(value) => *value = middle,
+            Shape::Uniform => {
+                let shift = middle - 0.5 * (self.min + self.max);
+                moved.min += shift;
+                moved.max += shift;
+            }
+            Shape::Normal { mean, .. } => *mean = middle,
+            Shape::LogNormal { median, .. } => *median = middle,
+            Shape::RosinRammler { scale, .. } => *scale = middle,
+        }
+        moved
+    }
+
+    fn can_be_drawn(&self) -> bool {
+        use rand_chacha::rand_core::SeedableRng;
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        (0..TRIALS).any(|_| (self.min..=self.max).contains(&self.shape.draw(self, &mut random)))
+    }
+}
+
+impl Shape {
+    fn read(table: &Section<'_>, low: f64, high: f64) -> Result<Self, InputError> {
+        let name = table.choice("distribution", &NAMES)?;
+        let needed = |key: &str, low: f64, high: f64| {
+            table.number_within(key, low, high)?.ok_or_else(|| table.missing(key, "a number"))
+        };
+        let positive = f64::MIN_POSITIVE;
+        match name.as_deref() {
+            None => Err(table.missing("distribution", &format!("one of {}", NAMES.join(", ")))),
+            Some("fixed") => Ok(Self::Fixed(needed("value", low, high)?)),
+            Some("uniform") => Ok(Self::Uniform),
+            Some("normal") => Ok(Self::Normal {
+                mean: needed("mean", f64::NEG_INFINITY, f64::INFINITY)?,
+                deviation: needed("deviation", 0.0, f64::INFINITY)?,
+            }),
+            Some("lognormal") => Ok(Self::LogNormal {
+                median: needed("median", positive, f64::INFINITY)?,
+                geometric_deviation: needed("geometric_deviation", 1.0, f64::INFINITY)?,
+            }),
+            Some(_) => Ok(Self::RosinRammler {
+                scale: needed("scale", positive, f64::INFINITY)?,
+                exponent: needed("exponent", 1e-3, 1e3)?,
+            }),
+        }
+    }
+
+    fn draw(self, whole: &Distribution, random: &mut ChaCha8Rng) -> f64 {
+        // The parameters were checked on reading; one that the crate refuses all the same gives no number, which no
+        // bounds contain.
+        match self {
+            Self::Fixed(value) => value,
+            Self::Uniform => {
+                Uniform::new_inclusive(whole.min, whole.max).map_or(f64::NAN, |d| d.sample(random))
+            }
+            Self::Normal { mean, deviation } => {
+                Normal::new(mean, deviation).map_or(f64::NAN, |d| d.sample(random))
+            }
+            Self::LogNormal { median, geometric_deviation } => {
+                LogNormal::new(median.ln(), geometric_deviation.ln()).map_or(f64::NAN, |d| d.sample(random))
+            }
+            Self::RosinRammler { scale, exponent } => {
+                Weibull::new(scale, exponent).map_or(f64::NAN, |d| d.sample(random))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::Document;
+    use rand_chacha::rand_core::SeedableRng;
+
+    fn read(text: &str) -> Result<Distribution, InputError> {
+        Document::new("c.toml", format!("x = {text}"))
+            .read(|top| Ok(Distribution::read(top, "x", 0.0, 1e9)?.unwrap()))
+    }
+
+    fn draws(text: &str) -> Vec<f64> {
+        let distribution = read(text).unwrap();
+        let mut random = ChaCha8Rng::seed_from_u64(7);
+        (0..200_000).map(|_| distribution.sample(&mut random)).collect()
+    }
+
+    fn share_below(draws: &[f64], limit: f64) -> f64 {
+        draws.iter().filter(|x| **x < limit).count() as f64 / draws.len() as f64
+    }
+
+    /// The distribution functions as the literature states them.
+    #[test]
+    fn draws_follow_their_distribution_function() {
+        let tolerance = 5.0 * (0.25f64 / 200_000.0).sqrt();
+        let near = |a: f64, b: f64| assert!((a - b).abs() < tolerance, "{a} {b}");
+        let coal = draws("{ distribution = 'rosin-rammler', scale = 60, exponent = 1.4 }");
+        near(share_below(&coal, 60.0), 1.0 - (-1f64).exp());
+        near(share_below(&coal, 20.0), 1.0 - (-(20f64 / 60.0).powf(1.4)).exp());
+        let dust = draws("{ distribution = 'lognormal', median = 5, geometric_deviation = 2 }");
+        near(share_below(&dust, 5.0), 0.5);
+        near(share_below(&dust, 10.0), 0.841_344_75);
+        let speed = draws("{ distribution = 'normal', mean = 10, deviation = 2 }");
+        near(share_below(&speed, 8.0), 0.158_655_25);
+        let even = draws("{ distribution = 'uniform', min = 2, max = 6 }");
+        near(share_below(&even, 3.0), 0.25);
+    }
+
+    #[test]
+    fn bounds_truncate() {
+        let wax = draws("{ distribution = 'normal', mean = 80, deviation = 15, min = 50, max = 110 }");
+        assert!(wax.iter().all(|d| (50.0..=110.0).contains(d)));
+        // Inside, the shape is kept: half lies below the middle of a symmetric cut.
+        assert!((share_below(&wax, 80.0) - 0.5).abs() < 0.006);
+    }
+
+    #[test]
+    fn impossible_ones_are_refused() {
+        let message = |text| read(text).unwrap_err().to_string();
+        let nothing = message("{ distribution = 'normal', mean = 1, deviation = 0.1, min = 5, max = 6 }");
+        assert!(nothing.contains("c.toml:1:1: x: hardly anything"), "{nothing}");
+        let unknown = message("{ distribution = 'gauss', mean = 1 }");
+        assert!(unknown.contains("x.distribution: unknown value `gauss`"), "{unknown}");
+        let missing = message("{ distribution = 'normal', mean = 1 }");
+        assert!(missing.contains("x.deviation: missing"), "{missing}");
+    }
+}

@@ -1,0 +1,276 @@
+//! The path of one particle from one contact to the next.
+//!
+//! State: position [m], velocity [m/s], temperature [K], carbon conversion [1].
+//! `dx/dt = v`, `dv/dt = (u - v)/tau + g (1 - rho_g/rho_p)`, `m c_p dT/dt = heat`, `dX/dt` from [`super::burning`].
+//! Dormand–Prince 5(4) with its own step control; contacts are found on its dense output by bisection.
+
+use std::f64::consts::PI;
+
+use differential_equations::error::Error;
+use differential_equations::interpolate::Interpolation;
+use differential_equations::methods::ExplicitRungeKutta;
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use differential_equations::status::Status;
+use nalgebra::{SVector, Vector3};
+
+use super::burning::Burning;
+use super::drag;
+use super::gas::Gas;
+use super::heating;
+use super::surface::Surface;
+
+/// Position, velocity, temperature, conversion.
+pub type State = SVector<f64, 8>;
+
+/// Index of the temperature in a [`State`].
+pub const TEMPERATURE: usize = 6;
+/// Index of the conversion in a [`State`].
+pub const CONVERSION: usize = 7;
+
+/// Position of a state [m].
+pub fn position(state: &State) -> Vector3<f64> {
+    state.fixed_rows::<3>(0).into()
+}
+
+/// Velocity of a state [m/s].
+pub fn velocity(state: &State) -> Vector3<f64> {
+    state.fixed_rows::<3>(3).into()
+}
+
+/// Puts a state together.
+pub fn state(position: &Vector3<f64>, velocity: &Vector3<f64>, temperature: f64, conversion: f64) -> State {
+    let mut state = State::zeros();
+    state.fixed_rows_mut::<3>(0).copy_from(position);
+    state.fixed_rows_mut::<3>(3).copy_from(velocity);
+    state[TEMPERATURE] = temperature;
+    state[CONVERSION] = conversion;
+    state
+}
+
+/// What of a particle does not change on its way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// Diameter [m].
+    pub diameter: f64,
+    /// Density before any carbon is gone [kg/m³].
+    pub density: f64,
+    /// Heat capacity [J/(kg K)]; without it the temperature stays.
+    pub heat_capacity: Option<f64>,
+    /// Emissivity [1] and the temperature of what it sees [K].
+    pub radiation: Option<(f64, f64)>,
+    /// How carbon is used up.
+    pub burning: Burning,
+}
+
+impl Body {
+    /// Density [kg/m³] at a conversion [1].
+    pub fn density_at(&self, conversion: f64) -> f64 {
+        self.density * self.burning.mass_left(conversion)
+    }
+
+    /// Mass [kg] at a conversion [1].
+    pub fn mass_at(&self, conversion: f64) -> f64 {
+        PI / 6.0 * self.diameter.powi(3) * self.density_at(conversion)
+    }
+}
+
+/// A particle in a gas: the equations of its path.
+#[derive(Debug)]
+pub struct Motion<'a> {
+    /// The gas it moves in.
+    pub gas: &'a Gas,
+    /// Gravity [m/s²].
+    pub gravity: Vector3<f64>,
+    /// The particle.
+    pub body: Body,
+}
+
+impl ODE<f64, State> for Motion<'_> {
+    fn diff(&self, _time: f64, y: &State, rate: &mut State) {
+        let body = &self.body;
+        let (temperature, conversion) = (y[TEMPERATURE], y[CONVERSION]);
+        let gas = self.gas.at(&position(y));
+        let slip = gas.velocity - velocity(y);
+        let reynolds = gas.density * slip.norm() * body.diameter / gas.viscosity;
+        let density = body.density_at(conversion);
+        let response = drag::response_rate(reynolds, gas.viscosity, density, body.diameter);
+        let acceleration = slip * response + self.gravity * (1.0 - gas.density / density);
+        let heating = body.heat_capacity.map_or(0.0, |capacity| {
+            let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;
+            let nusselt = heating::nusselt(reynolds, prandtl);
+            let difference = gas.temperature - temperature;
+            let mut heat = heating::convection(nusselt, gas.conductivity, body.diameter, difference);
+            if let Some((emissivity, surroundings)) = body.radiation {
+                heat += heating::radiation(emissivity, body.diameter, surroundings, temperature);
+            }
+            heat / (body.mass_at(conversion) * capacity)
+        });
+        rate.fixed_rows_mut::<3>(0).copy_from(&velocity(y));
+        rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
+        rate[TEMPERATURE] = heating;
+        rate[CONVERSION] = body.burning.rate(temperature, conversion);
+    }
+}
+
+/// Where a flight ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arrival {
+    /// Time [s].
+    pub time: f64,
+    /// State there.
+    pub state: State,
+    /// Index of the surface that was reached; `None` when the time was up.
+    pub surface: Option<usize>,
+}
+
+/// The flight could not be followed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Lost {
+    /// The path needs more steps than allowed.
+    #[error("the path takes more than {STEP_LIMIT} integration steps")]
+    TooManySteps,
+    /// The equations give no finite number.
+    #[error("the state is not finite any more")]
+    NotFinite,
+}
+
+/// Integration steps of one flight before it is given up.
+const STEP_LIMIT: usize = 200_000;
+/// Places on a step's dense output at which contact is looked for.
+const PLACES: u32 = 8;
+/// Halvings of the interval in which a contact lies.
+const HALVINGS: u32 = 60;
+
+/// Follows a particle from `start` at `time` until it touches a surface or the time `until` is reached.
+///
+/// `tolerance` is the relative error allowed per step [1]. A surface is reached when the particle comes from its front;
+/// what starts behind a surface does not touch it.
+///
+/// # Errors
+/// [`Lost`] when the path cannot be followed.
+pub fn fly(
+    motion: &Motion<'_>,
+    surfaces: &[Surface],
+    time: f64,
+    until: f64,
+    start: &State,
+    tolerance: f64,
+) -> Result<Arrival, Lost> {
+    let (mut now, mut here) = (time, *start);
+    let mut steps = 0;
+    let finish = |time: f64, state: State| Ok(Arrival { time, state, surface: None });
+    'restart: loop {
+        if now >= until {
+            return finish(now, here);
+        }
+        let mut solver = ExplicitRungeKutta::dopri5()
+            .rtol(tolerance)
+            .atol(absolute_tolerances(tolerance, &motion.body))
+            .max_steps(STEP_LIMIT);
+        solver.init(motion, now, until, &here).map_err(|_| Lost::NotFinite)?;
+        loop {
+            let left = until - solver.t();
+            if left <= 1e-14 * until.abs() {
+                return finish(until, *solver.y());
+            }
+            if solver.h() > left {
+                solver.set_h(left);
+            }
+            steps += 1;
+            if steps > STEP_LIMIT {
+                return Err(Lost::TooManySteps);
+            }
+            match solver.step(motion) {
+                Ok(_) if matches!(solver.status(), Status::RejectedStep) => {
+                    if !solver.h().is_normal() {
+                        return Err(Lost::NotFinite);
+                    }
+                    continue;
+                }
+                Ok(_) => {}
+                // Small particles in a strong drag: steps are short, not wrong. The step that raised it was not taken.
+                Err(Error::Stiffness { .. }) => {
+                    (now, here) = (solver.t(), *solver.y());
+                    continue 'restart;
+                }
+                Err(Error::MaxSteps { .. }) => return Err(Lost::TooManySteps),
+                Err(_) => return Err(Lost::NotFinite),
+            }
+            if !solver.y().iter().all(|value| value.is_finite()) {
+                return Err(Lost::NotFinite);
+            }
+            if let Some(arrival) = contact(&mut solver, surfaces, motion.body.diameter) {
+                return Ok(arrival);
+            }
+        }
+    }
+}
+
+/// Errors that are small whatever the value: a thousandth of a diameter, 0.1 mm/s, 0.01 K, 1e-5, all at a tolerance of
+/// 1e-6.
+fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
+    let length = 1e3 * body.diameter;
+    [length, length, length, 100.0, 100.0, 100.0, 1e4, 10.0].map(|scale| tolerance * scale).to_vec()
+}
+
+/// The first contact in the step that the solver has just taken.
+fn contact<S>(solver: &mut S, surfaces: &[Surface], diameter: f64) -> Option<Arrival>
+where
+    S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+{
+    let (from, to) = (solver.t_prev(), solver.t());
+    let (before, after) = (*solver.y_prev(), *solver.y());
+    // How far from its start the particle can have come in this step, with a margin for a curved path.
+    let reach = 2.0 * (to - from) * velocity(&before).norm().max(velocity(&after).norm());
+    let mut first: Option<Arrival> = None;
+    for (index, surface) in surfaces.iter().enumerate() {
+        let gap = |state: &State| surface.gap(&position(state), diameter);
+        let at_start = gap(&before);
+        // Rounding may leave a particle that has just rebounded a hair behind the wall.
+        if at_start > reach || at_start < -1e-6 * diameter {
+            continue;
+        }
+        if let Some(arrival) = crossing(solver, &gap, [from, to], &after)
+            && surface.shape.covers(&position(&arrival.1))
+            && first.as_ref().is_none_or(|earlier| arrival.0 < earlier.time)
+        {
+            first = Some(Arrival { time: arrival.0, state: arrival.1, surface: Some(index) });
+        }
+    }
+    first
+}
+
+/// The last time and state in front of the surface, when the step leads behind it.
+fn crossing<S>(
+    solver: &mut S,
+    gap: &impl Fn(&State) -> f64,
+    [from, to]: [f64; 2],
+    after: &State,
+) -> Option<(f64, State)>
+where
+    S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+{
+    let mut low = from;
+    for place in 1..=PLACES {
+        let mut high =
+            if place == PLACES { to } else { from + (to - from) * f64::from(place) / f64::from(PLACES) };
+        let there = if place == PLACES { *after } else { solver.interpolate(high).ok()? };
+        if gap(&there) >= 0.0 {
+            low = high;
+            continue;
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if gap(&solver.interpolate(middle).ok()?) < 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        return Some((low, solver.interpolate(low).ok()?));
+    }
+    None
+}

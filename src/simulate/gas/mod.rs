@@ -1,0 +1,143 @@
+//! The gas that carries the particles: a prescribed velocity field, one kind a file, and the gas's properties.
+//!
+//! Particles do not act on the gas, and there is no turbulence in these fields: what brings a particle to a wall is its
+//! inertia, its weight, and the mean flow. Properties are taken at the gas's own local temperature.
+
+mod stagnation_jet;
+mod swirling_pipe;
+mod uniform;
+
+pub use stagnation_jet::StagnationJet;
+pub use swirling_pipe::SwirlingPipe;
+pub use uniform::Uniform;
+
+use nalgebra::Vector3;
+
+use super::profile::Profile;
+use crate::input::{InputError, Section};
+use crate::material::Property;
+
+/// A steady velocity field.
+pub trait Field: Send + Sync + std::fmt::Debug {
+    /// Gas velocity [m/s] at a position [m]. It has to be finite everywhere, also behind a wall.
+    fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64>;
+}
+
+/// A gas: where it goes and what it is.
+#[derive(Debug)]
+pub struct Gas {
+    field: Box<dyn Field>,
+    temperature: Profile,
+    density: Property,
+    viscosity: Property,
+    conductivity: Property,
+    heat_capacity: Property,
+}
+
+/// The gas at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Local {
+    /// Velocity [m/s].
+    pub velocity: Vector3<f64>,
+    /// Temperature [K].
+    pub temperature: f64,
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Dynamic viscosity [Pa s].
+    pub viscosity: f64,
+    /// Thermal conductivity [W/(m K)].
+    pub conductivity: f64,
+    /// Heat capacity [J/(kg K)].
+    pub heat_capacity: f64,
+}
+
+impl Gas {
+    /// Reads a `[gas]` table.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown field, a missing property, or one that is not known at the gas's
+    /// temperatures.
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let name = section.choice("field", &["uniform", "stagnation-jet", "swirling-pipe"])?;
+        let field: Box<dyn Field> = match name.as_deref() {
+            Some("uniform") => Box::new(Uniform::read(section)?),
+            Some("stagnation-jet") => Box::new(StagnationJet::read(section)?),
+            Some(_) => Box::new(SwirlingPipe::read(section)?),
+            None => {
+                let what = "\"uniform\", \"stagnation-jet\" or \"swirling-pipe\"";
+                return Err(section.missing("field", what));
+            }
+        };
+        let temperature = Profile::read(section, "temperature", 1.0, 1e5)?
+            .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
+        let property = |key: &str, unit: &str| {
+            let read = Property::read(section, key, unit, f64::MIN_POSITIVE, f64::INFINITY)?;
+            read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
+        };
+        let gas = Self {
+            field,
+            temperature,
+            density: property("density", "kg/m3")?,
+            viscosity: property("viscosity", "Pa s")?,
+            conductivity: property("conductivity", "W/(m K)")?,
+            heat_capacity: property("heat_capacity", "J/(kg K)")?,
+        };
+        gas.check(section)?;
+        Ok(gas)
+    }
+
+    /// The gas at a position [m].
+    pub fn at(&self, position: &Vector3<f64>) -> Local {
+        let temperature = self.temperature.at(position);
+        // `check` made sure that every property is known at every temperature of the gas.
+        let value = |property: &Property| property.at(temperature).unwrap_or(f64::NAN);
+        Local {
+            velocity: self.field.velocity(position),
+            temperature,
+            density: value(&self.density),
+            viscosity: value(&self.viscosity),
+            conductivity: value(&self.conductivity),
+            heat_capacity: value(&self.heat_capacity),
+        }
+    }
+
+    /// The same gas at one temperature [K] everywhere.
+    ///
+    /// # Errors
+    /// What is not known there, in words.
+    pub fn set_temperature(&mut self, temperature: f64) -> Result<(), String> {
+        self.known_at(temperature)?;
+        self.temperature = Profile::constant(temperature);
+        Ok(())
+    }
+
+    /// Whether every property is known at a temperature [K].
+    ///
+    /// # Errors
+    /// The first property that is not, in words.
+    pub fn known_at(&self, temperature: f64) -> Result<(), String> {
+        for (key, property) in self.properties() {
+            if let Err(range) = property.at(temperature) {
+                return Err(format!(
+                    "gas.{key} is given for {} to {} K, but the gas is to have {temperature} K; widen the table",
+                    range.low, range.high
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn properties(&self) -> [(&'static str, &Property); 4] {
+        [
+            ("density", &self.density),
+            ("viscosity", &self.viscosity),
+            ("conductivity", &self.conductivity),
+            ("heat_capacity", &self.heat_capacity),
+        ]
+    }
+
+    fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
+        let known = |temperature| self.known_at(temperature).map_err(|p| section.fault("temperature", p));
+        self.temperature.extremes().into_iter().try_for_each(known)
+    }
+}

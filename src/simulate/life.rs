@@ -1,0 +1,239 @@
+//! The life of one particle: flights and hits, until it is stuck or gone.
+
+use nalgebra::Vector3;
+
+use super::case::Case;
+use super::drag;
+use super::flight::{
+    Arrival, Body, CONVERSION, Lost, Motion, State, TEMPERATURE, fly, position, state, velocity,
+};
+use super::geometry::across;
+use super::injection::Load;
+use super::surface::{Role, Shape};
+use crate::draw::Draw;
+use crate::impact::{Impact, ImpactError, Outcome};
+
+/// A rebound slower than this [m/s] leaves the particle lying on the wall.
+const REST: f64 = 1e-9;
+/// Hits of a particle are counted in so many low bits of its key for random draws.
+pub(super) const HIT_BITS: u32 = 24;
+
+/// How a particle ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Fate {
+    /// Captured by the surface with this index.
+    Stuck(usize),
+    /// Left through the surface with this index.
+    Escaped(usize),
+    /// Still under way when the time was up.
+    Airborne,
+    /// Given up: too many hits, or at rest on a wall that does not hold it.
+    GivenUp,
+    /// A hit that the model cannot decide, or a path that cannot be followed, with the reason.
+    Unusable(String),
+}
+
+/// One hit on a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// Time since the particle started [s].
+    pub time: f64,
+    /// Index of the surface.
+    pub surface: usize,
+    /// Centre of the particle [m].
+    pub position: Vector3<f64>,
+    /// What arrived.
+    pub impact: Impact,
+    /// What left.
+    pub outcome: Outcome,
+    /// Mass of what the particle stands for [kg].
+    pub mass: f64,
+}
+
+/// A particle from start to end.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Life {
+    /// How it ended.
+    pub fate: Fate,
+    /// Its hits in order.
+    pub hits: Vec<Hit>,
+    /// Diameter [m].
+    pub diameter: f64,
+    /// Mass of what it stands for at the start and at the end [kg].
+    pub mass: [f64; 2],
+    /// Where it ended [m].
+    pub position: Vector3<f64>,
+    /// State at the end: temperature [K] and conversion [1].
+    pub temperature: f64,
+    /// Conversion at the end [1].
+    pub conversion: f64,
+}
+
+/// Follows the particle with this number.
+pub(super) fn live(case: &Case, number: u64) -> Life {
+    let start = case.injection.draw(case.seed, number);
+    let (density, trouble) = match case.density(start.temperature) {
+        Ok(density) => (density, None),
+        Err(error) => (1.0, Some(error.to_string())),
+    };
+    let body = Body {
+        diameter: start.diameter,
+        density,
+        heat_capacity: case.injection.heat_capacity,
+        radiation: case.injection.radiation,
+        burning: case.injection.burning,
+    };
+    let mut speed = start.velocity;
+    if case.injection.relative_to_gas {
+        speed += case.gas.at(&start.position).velocity;
+    }
+    let first = state(&start.position, &speed, start.temperature, start.conversion);
+    let mut traveller = Traveller {
+        case,
+        number,
+        motion: Motion { gas: &case.gas, gravity: case.gravity, body },
+        time: 0.0,
+        state: first,
+        spin: Vector3::zeros(),
+        weight: match case.injection.load {
+            Load::One => 1.0,
+            Load::Share(mass) => mass / (case.injection.count as f64 * body.mass_at(start.conversion)),
+        },
+        hits: Vec::new(),
+    };
+    let mass = traveller.mass();
+    let fate = match trouble.or_else(|| traveller.misplaced()) {
+        Some(reason) => Fate::Unusable(reason),
+        None => traveller.travel(),
+    };
+    Life {
+        fate,
+        diameter: body.diameter,
+        mass: [mass, traveller.mass()],
+        position: position(&traveller.state),
+        temperature: traveller.state[TEMPERATURE],
+        conversion: traveller.state[CONVERSION].clamp(0.0, 1.0),
+        hits: traveller.hits,
+    }
+}
+
+struct Traveller<'a> {
+    case: &'a Case,
+    number: u64,
+    motion: Motion<'a>,
+    time: f64,
+    state: State,
+    /// Angular velocity [rad/s].
+    spin: Vector3<f64>,
+    /// Real particles that this one stands for.
+    weight: f64,
+    hits: Vec<Hit>,
+}
+
+impl Traveller<'_> {
+    fn mass(&self) -> f64 {
+        self.weight * self.motion.body.mass_at(self.state[CONVERSION])
+    }
+
+    /// The wall that the particle starts in or behind, if it does.
+    fn misplaced(&self) -> Option<String> {
+        let here = position(&self.state);
+        let behind = |s: &&super::surface::Surface| {
+            s.shape.covers(&here) && s.gap(&here, self.motion.body.diameter) < 0.0
+        };
+        let wall = self.case.surfaces.iter().find(behind)?;
+        Some(format!("starts in or behind `{}`; move the start or turn the normal", wall.name))
+    }
+
+    fn travel(&mut self) -> Fate {
+        loop {
+            let case = self.case;
+            let flight =
+                fly(&self.motion, &case.surfaces, self.time, case.time_limit, &self.state, case.tolerance);
+            let Arrival { time, state, surface } = match flight {
+                Ok(arrival) => arrival,
+                Err(lost @ (Lost::TooManySteps | Lost::NotFinite)) => {
+                    return Fate::Unusable(lost.to_string());
+                }
+            };
+            self.let_spin_decay(time - self.time, &state);
+            (self.time, self.state) = (time, state);
+            let Some(index) = surface else { return Fate::Airborne };
+            if self.hits.len() as u64 >= case.hit_limit {
+                return Fate::GivenUp;
+            }
+            match self.hit(index) {
+                Ok(None) => {}
+                Ok(Some(fate)) => return fate,
+                Err(error) => return Fate::Unusable(error.to_string()),
+            }
+        }
+    }
+
+    /// Spin dies out exponentially; the gas's viscosity is that at the end of the flight.
+    fn let_spin_decay(&mut self, duration: f64, end: &State) {
+        let gas = self.case.gas.at(&position(end));
+        let body = &self.motion.body;
+        let density = body.density_at(end[CONVERSION]);
+        self.spin *= (-duration * drag::spin_decay_rate(gas.viscosity, density, body.diameter)).exp();
+    }
+
+    /// What happens at the surface; `None` when the particle flies on.
+    fn hit(&mut self, index: usize) -> Result<Option<Fate>, ImpactError> {
+        let surface = &self.case.surfaces[index];
+        let Role::Wall { model: wall, temperature } = &surface.role else {
+            return Ok(Some(Fate::Escaped(index)));
+        };
+        let here = position(&self.state);
+        let frame = Frame::new(&surface.shape, &here, &velocity(&self.state));
+        let spin_axis = frame.normal.cross(&frame.along);
+        let gas = self.case.gas.at(&here).velocity;
+        let impact = Impact {
+            normal_speed: frame.normal_speed,
+            tangential_speed: frame.tangential_speed,
+            diameter: self.motion.body.diameter,
+            particle_temperature: self.state[TEMPERATURE],
+            wall_temperature: temperature.at(&here),
+            conversion: self.state[CONVERSION].clamp(0.0, 1.0),
+            gas_speed: (gas - frame.normal * frame.normal.dot(&gas)).norm(),
+            spin: self.spin.dot(&spin_axis),
+            ..Impact::default()
+        };
+        let key = (self.number << HIT_BITS) | self.hits.len() as u64;
+        let outcome = self.case.model.resolve(*wall, &impact, Draw::new(self.case.seed, key))?;
+        let mass = self.mass();
+        self.hits.push(Hit { time: self.time, surface: index, position: here, impact, outcome, mass });
+        if outcome.stuck {
+            return Ok(Some(Fate::Stuck(index)));
+        }
+        let back = outcome.normal_restitution * impact.normal_speed;
+        if back < REST {
+            return Ok(Some(Fate::GivenUp));
+        }
+        let forward = outcome.tangential_restitution * impact.tangential_speed;
+        let rebound = frame.normal * back + frame.along * forward;
+        self.state.fixed_rows_mut::<3>(3).copy_from(&rebound);
+        self.spin += spin_axis * (outcome.spin - impact.spin);
+        Ok(None)
+    }
+}
+
+/// The wall at a hit: its normal into the gas, the direction of sliding, and the two speeds.
+struct Frame {
+    normal: Vector3<f64>,
+    along: Vector3<f64>,
+    normal_speed: f64,
+    tangential_speed: f64,
+}
+
+impl Frame {
+    fn new(shape: &Shape, position: &Vector3<f64>, velocity: &Vector3<f64>) -> Self {
+        let normal = shape.normal(position);
+        let away = normal.dot(velocity);
+        let sliding = velocity - normal * away;
+        let tangential_speed = sliding.norm();
+        // A head-on hit slides nowhere; any direction along the wall will do.
+        let along = sliding.try_normalize(1e-300).unwrap_or_else(|| across(&normal)[0]);
+        Self { normal, along, normal_speed: (-away).max(0.0), tangential_speed }
+    }
+}
