@@ -5,7 +5,6 @@
 //! grows brighter evenly.
 
 use kuva::plot::annotations::{Orientation, ReferenceLine};
-use kuva::plot::legend::LegendPosition;
 use kuva::plot::line::LineStyle;
 use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{BandPlot, BarPlot, ColorMap, Heatmap, Histogram, LinePlot, ScatterPlot};
@@ -23,10 +22,17 @@ const MARKERS: [MarkerShape; 7] = [
     MarkerShape::Cross,
     MarkerShape::Plus,
 ];
-const DASHES: [LineStyle; 4] = [LineStyle::Solid, LineStyle::Dashed, LineStyle::DashDot, LineStyle::Dotted];
+const DASHES: [(LineStyle, &str); 4] = [
+    (LineStyle::Solid, ""),
+    (LineStyle::Dashed, "8 4"),
+    (LineStyle::DashDot, "8 4 2 4"),
+    (LineStyle::Dotted, "2 4"),
+];
 
 const WIDTH: f64 = 620.0;
-const HEIGHT: f64 = 390.0;
+const HEIGHT: f64 = 370.0;
+/// Where a legend begins.
+const LEGEND_LEFT: f64 = 60.0;
 
 /// A picture with what a reader needs to understand it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,29 +48,112 @@ pub struct Figure {
 }
 
 impl Figure {
-    fn new(id: &str, title: &str, caption: &str, plots: Vec<Plot>, layout: Layout) -> Self {
+    fn new(id: &str, title: &str, caption: &str, plots: Vec<Plot>, layout: Layout, keys: &[Key]) -> Self {
         let svg = kuva::render_to_svg(plots, layout);
         Self {
             id: id.to_owned(),
             title: title.to_owned(),
             caption: caption.to_owned(),
-            svg: embedded(&svg, id, title),
+            svg: embedded(&svg, id, title, keys),
         }
     }
 }
 
-/// Makes an SVG fit into a page: scaled by a view box, labelled for screen readers, with ids of its own.
-fn embedded(svg: &str, id: &str, title: &str) -> String {
+/// One entry of a legend.
+struct Key {
+    name: String,
+    colour: &'static str,
+    sign: Sign,
+}
+
+/// What stands before a legend's entry.
+#[derive(Clone, Copy)]
+enum Sign {
+    Marker(MarkerShape),
+    /// A line with the gaps of an SVG dash array.
+    Line(&'static str),
+    Area,
+}
+
+impl Key {
+    /// The sign at the left end of a row that has its middle at `y`.
+    fn drawn(&self, x: f64, y: f64) -> String {
+        let colour = self.colour;
+        let shape = |path: String| format!("<path d=\"{path}\" fill=\"{colour}\"/>");
+        let strokes = |path: String| format!("<path d=\"{path}\" stroke=\"{colour}\" stroke-width=\"2\"/>");
+        let middle = x + 11.0;
+        match self.sign {
+            Sign::Area => {
+                format!("<rect x=\"{x}\" y=\"{}\" width=\"22\" height=\"10\" fill=\"{colour}\"/>", y - 5.0)
+            }
+            Sign::Line(dashes) => format!(
+                "<line x1=\"{x}\" y1=\"{y}\" x2=\"{}\" y2=\"{y}\" stroke=\"{colour}\" stroke-width=\"2\" \
+                 stroke-dasharray=\"{dashes}\"/>",
+                x + 24.0
+            ),
+            Sign::Marker(MarkerShape::Square) => shape(format!("M{} {}h8v8h-8z", middle - 4.0, y - 4.0)),
+            Sign::Marker(MarkerShape::Triangle) => shape(format!("M{middle} {}l5 9h-10z", y - 5.0)),
+            Sign::Marker(MarkerShape::TriangleDown) => shape(format!("M{middle} {}l5 -9h-10z", y + 5.0)),
+            Sign::Marker(MarkerShape::Diamond) => shape(format!("M{middle} {}l5 5l-5 5l-5 -5z", y - 5.0)),
+            Sign::Marker(MarkerShape::Cross) => {
+                strokes(format!("M{} {}l8 8m0 -8l-8 8", middle - 4.0, y - 4.0))
+            }
+            Sign::Marker(MarkerShape::Plus) => strokes(format!("M{} {y}h10m-5 -5v10", middle - 5.0)),
+            Sign::Marker(_) => format!("<circle cx=\"{middle}\" cy=\"{y}\" r=\"4.5\" fill=\"{colour}\"/>"),
+        }
+    }
+}
+
+/// A legend above the picture, entries side by side as far as they fit, and its height.
+fn legend(keys: &[Key]) -> (String, f64) {
+    const ROW: f64 = 20.0;
+    let (mut x, mut row, mut text) = (LEGEND_LEFT, 0.0, String::new());
+    for key in keys.iter().filter(|key| !key.name.is_empty()) {
+        // The width of a character in the page's font, on average.
+        let width = 30.0 + 7.6 * key.name.chars().count() as f64 + 22.0;
+        if x > LEGEND_LEFT && x + width > WIDTH {
+            (x, row) = (LEGEND_LEFT, row + 1.0);
+        }
+        let y = ROW * (row + 0.5);
+        text += &key.drawn(x, y);
+        text += &format!(
+            "<text x=\"{}\" y=\"{}\" font-size=\"13\">{}</text>",
+            x + 30.0,
+            y + 4.5,
+            escaped(&key.name)
+        );
+        x += width;
+    }
+    let height = if text.is_empty() { 0.0 } else { ROW * (row + 1.0) + 4.0 };
+    (text, height)
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Makes an SVG fit into a page: scaled by a view box, labelled for screen readers, with ids of its own and a legend
+/// above it.
+fn embedded(svg: &str, id: &str, title: &str, keys: &[Key]) -> String {
     let svg = unnumbered(svg, id);
     let Some((head, body)) = svg.split_once('>') else { return svg };
-    let size =
-        |key: &str| head.split_once(&format!(" {key}=\"")).and_then(|(_, rest)| rest.split('"').next());
+    let size = |key: &str| {
+        let text = head.split_once(&format!(" {key}=\"")).and_then(|(_, rest)| rest.split('"').next());
+        text.and_then(|text| text.parse::<f64>().ok())
+    };
     let (Some(width), Some(height)) = (size("width"), size("height")) else { return svg };
     let family = "font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\"";
-    let label = title.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;");
+    let label = escaped(title);
+    let (legend, above) = legend(keys);
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-         aria-label=\"{label}\" {family} fill=\"black\">{body}"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {}\" role=\"img\" aria-label=\"{label}\" \
+         {family} fill=\"black\">{legend}<g transform=\"translate(0 {above})\">{}</g></svg>",
+        height + above,
+        body.trim_end().trim_end_matches("</svg>").replacen(
+            "<rect width=\"100%\" height=\"100%\" fill=\"white\" />",
+            "",
+            1
+        )
     )
 }
 
@@ -97,7 +186,7 @@ pub struct Chart {
     y_label: String,
     plots: Vec<Plot>,
     colours: usize,
-    named: bool,
+    keys: Vec<Key>,
     x_range: Option<[f64; 2]>,
     y_range: Option<[f64; 2]>,
     log: [bool; 2],
@@ -113,7 +202,7 @@ impl Chart {
             y_label: y_label.to_owned(),
             plots: Vec::new(),
             colours: 0,
-            named: false,
+            keys: Vec::new(),
             x_range: None,
             y_range: None,
             log: [false; 2],
@@ -169,15 +258,14 @@ impl Chart {
     #[must_use]
     pub fn line(mut self, name: &str, points: &[[f64; 2]]) -> Self {
         let points = finite(points);
-        let (colour, place) = self.next(name);
-        let mut plot = LinePlot::new()
+        let (colour, place) = self.next();
+        let (style, dashes) = DASHES[place % DASHES.len()].clone();
+        self.keys.push(Key { name: name.to_owned(), colour, sign: Sign::Line(dashes) });
+        let plot = LinePlot::new()
             .with_data(points.iter().map(|p| (p[0], p[1])))
             .with_color(colour)
             .with_stroke_width(2.0)
-            .with_line_style(DASHES[place % DASHES.len()].clone());
-        if !name.is_empty() {
-            plot = plot.with_legend(name);
-        }
+            .with_line_style(style);
         self.plots.push(plot.into());
         self
     }
@@ -197,11 +285,9 @@ impl Chart {
         if self.colours > 0 {
             return self.line(name, &stairs(edges, heights));
         }
-        let (colour, _) = self.next(name);
-        let mut plot = Histogram::from_bins(edges.to_vec(), heights.to_vec()).with_color(colour);
-        if !name.is_empty() {
-            plot = plot.with_legend(name);
-        }
+        let (colour, _) = self.next();
+        self.keys.push(Key { name: name.to_owned(), colour, sign: Sign::Area });
+        let plot = Histogram::from_bins(edges.to_vec(), heights.to_vec()).with_color(colour);
         self.plots.push(plot.into());
         self
     }
@@ -230,7 +316,6 @@ impl Chart {
             .with_y_label(self.y_label)
             .with_width(WIDTH)
             .with_height(HEIGHT);
-        layout = legend(layout, self.named);
         if let Some([low, high]) = self.x_range {
             layout = layout.with_x_axis_min(low).with_x_axis_max(high);
         }
@@ -244,23 +329,23 @@ impl Chart {
             layout = layout.with_log_y();
         }
         layout = self.lines.into_iter().fold(layout, Layout::with_reference_line);
-        Figure::new(id, &self.title, caption, self.plots, layout)
+        Figure::new(id, &self.title, caption, self.plots, layout, &self.keys)
     }
 
     fn scatter(&mut self, name: &str, points: &[[f64; 2]]) -> ScatterPlot {
         let points = finite(points);
-        let (colour, place) = self.next(name);
+        let (colour, place) = self.next();
         let size = if points.len() > 500 { 1.5 } else { 4.0 };
-        let plot = ScatterPlot::new()
+        let marker = MARKERS[place % MARKERS.len()];
+        self.keys.push(Key { name: name.to_owned(), colour, sign: Sign::Marker(marker) });
+        ScatterPlot::new()
             .with_data(points.iter().map(|p| (p[0], p[1])))
             .with_color(colour)
             .with_size(size)
-            .with_marker(MARKERS[place % MARKERS.len()]);
-        if name.is_empty() { plot } else { plot.with_legend(name) }
+            .with_marker(marker)
     }
 
-    fn next(&mut self, name: &str) -> (&'static str, usize) {
-        self.named |= !name.is_empty();
+    fn next(&mut self) -> (&'static str, usize) {
         let place = self.colours;
         self.colours += 1;
         (COLOURS[place % COLOURS.len()], place)
@@ -288,14 +373,6 @@ fn reference(orientation: Orientation, value: f64, label: &str) -> ReferenceLine
         Orientation::Vertical => ReferenceLine::vertical(value),
     };
     line.with_color("#444444").with_label(label)
-}
-
-fn legend(layout: Layout, named: bool) -> Layout {
-    if named {
-        layout.with_legend_position(LegendPosition::OutsideTopLeft).with_legend_box(false)
-    } else {
-        layout
-    }
 }
 
 /// Bars over named categories, one or several series side by side or on top of each other.
@@ -343,10 +420,6 @@ impl Bars {
             let bars: Vec<(f64, &str)> = bars.map(|((_, values), colour)| (value(values), *colour)).collect();
             plot = plot.with_group(category.clone(), bars);
         }
-        let named = self.series.iter().any(|(name, _)| !name.is_empty());
-        if named {
-            plot = plot.with_legend(self.series.iter().map(|(name, _)| name.as_str()).collect());
-        }
         if self.stacked {
             plot = plot.with_stacked();
         }
@@ -356,7 +429,9 @@ impl Bars {
             .with_width(WIDTH)
             .with_height(HEIGHT)
             .with_y_axis_min(0.0);
-        Figure::new(id, &self.title, caption, plots, legend(layout, named))
+        let keys = self.series.into_iter().zip(COLOURS.into_iter().cycle());
+        let keys: Vec<Key> = keys.map(|((name, _), colour)| Key { name, colour, sign: Sign::Area }).collect();
+        Figure::new(id, &self.title, caption, plots, layout, &keys)
     }
 }
 
@@ -415,7 +490,6 @@ impl FigureMap {
             .with_x_range(self.x[0], self.x[1])
             .with_y_range(self.y[0], self.y[1])
             .with_cell_size(1.0)
-            .with_legend(quantity)
             .with_color_map(ColorMap::Cividis);
         let plots = vec![Plot::Heatmap(plot)];
         let layout = Layout::auto_from_plots(&plots)
@@ -426,7 +500,7 @@ impl FigureMap {
             .with_clamp_axis()
             .with_colorbar_tick_format(TickFormat::Auto);
         let title = format!("{}: {quantity}", self.title);
-        Figure::new(id, &title, caption, plots, layout)
+        Figure::new(id, &title, caption, plots, layout, &[])
     }
 }
 
@@ -445,7 +519,7 @@ mod tests {
         assert_eq!(first, second);
         assert!(first.svg.starts_with("<svg xmlns"), "{}", first.svg);
         assert!(
-            first.svg.contains("viewBox=\"0 0 620 390\"") && first.svg.contains("aria-label=\"t &lt; u\"")
+            first.svg.contains("viewBox=\"0 0 620 394\"") && first.svg.contains("aria-label=\"t &lt; u\"")
         );
         assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
         assert!(first.svg.contains("x [m]") && first.svg.contains("here"));

@@ -15,8 +15,8 @@ pub enum Block {
     Text(String),
     /// A paragraph in small print.
     Note(String),
-    /// What the numbers come to, set apart.
-    Verdict(String),
+    /// What the numbers come to, set apart; one sentence a line.
+    Verdict(Vec<String>),
     /// Something to type.
     Code(String),
     /// Figures side by side as far as there is room.
@@ -87,7 +87,8 @@ pub fn number(value: f64) -> String {
     if value.fract() == 0.0 {
         return format!("{value:.0}");
     }
-    format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize)
+    let text = format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]

@@ -298,25 +298,25 @@ pub fn write(
     folder: &std::path::Path,
     mut progress: impl FnMut(),
 ) -> Result<Vec<Run>, String> {
-    let at = |name: &str| folder.join(name);
     let named =
         |name: &str, error: &dyn std::fmt::Display| format!("{}: {error}", folder.join(name).display());
     std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     // Written beside their places and moved there when whole, so a failing run spoils nothing.
-    let aside = || tempfile::NamedTempFile::new_in(folder).map_err(|e| format!("{}: {e}", folder.display()));
-    let impacts = std::io::BufWriter::new(aside()?);
-    let mut recorder = ImpactRecorder::new(impacts, case).map_err(|e| named("impacts.csv", &e))?;
+    let aside = |name: &str| folder.join(format!("{name}.part"));
+    let impacts = std::fs::File::create(aside("impacts.csv")).map_err(|e| named("impacts.csv", &e))?;
+    let mut recorder =
+        ImpactRecorder::new(std::io::BufWriter::new(impacts), case).map_err(|e| named("impacts.csv", &e))?;
     let runs = run_recorded(case, &mut recorder, &mut progress)?;
     let left_out = recorder.left_out;
-    let impacts = recorder.finish().map_err(|e| named("impacts.csv", &e))?;
-    let impacts = impacts.into_inner().map_err(|e| named("impacts.csv", &e.error().to_string()))?;
+    let mut impacts = recorder.finish().map_err(|e| named("impacts.csv", &e))?;
+    impacts.flush().map_err(|e| named("impacts.csv", &e))?;
     let json = serde_json::to_string_pretty(&summary(case, &runs)).map_err(|e| named("summary.json", &e))?;
     let html = page::page(case, &runs, left_out).map_err(|e| named("report.html", &e))?;
-    impacts.persist(at("impacts.csv")).map_err(|e| named("impacts.csv", &e))?;
     for (name, text) in [("summary.json", json + "\n"), ("report.html", html)] {
-        let mut file = aside()?;
-        file.write_all(text.as_bytes()).map_err(|e| named(name, &e))?;
-        file.persist(at(name)).map_err(|e| named(name, &e))?;
+        std::fs::write(aside(name), text).map_err(|e| named(name, &e))?;
+    }
+    for name in ["impacts.csv", "summary.json", "report.html"] {
+        std::fs::rename(aside(name), folder.join(name)).map_err(|e| named(name, &e))?;
     }
     Ok(runs)
 }

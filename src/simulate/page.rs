@@ -61,7 +61,7 @@ fn add_run(page: &mut Page, case: &Case, tally: &Tally) {
     page.add(Block::Table(balance(case, tally)));
 }
 
-fn verdict(case: &Case, tally: &Tally) -> String {
+fn verdict(case: &Case, tally: &Tally) -> Vec<String> {
     let busiest = tally.walls.iter().max_by(|a, b| a.stuck.mass().total_cmp(&b.stuck.mass()));
     let first = format!(
         "{} of the injected mass is captured, {} leaves, {} is under way when the time is up.",
@@ -69,7 +69,7 @@ fn verdict(case: &Case, tally: &Tally) -> String {
         percent(ratio(tally.escaped.mass(), tally.injected.mass())),
         percent(ratio(tally.airborne.mass(), tally.injected.mass())),
     );
-    let Some(wall) = busiest.filter(|wall| wall.stuck.count > 0) else { return first };
+    let Some(wall) = busiest.filter(|wall| wall.stuck.count > 0) else { return vec![first] };
     let regime = Regime::ALL
         .iter()
         .max_by(|a, b| {
@@ -77,13 +77,14 @@ fn verdict(case: &Case, tally: &Tally) -> String {
             mass(a).total_cmp(&mass(b))
         })
         .map_or("", |regime| regime.name());
-    format!(
-        "{first} Most is caught by {}: {} of its {} hits stick, mainly as {regime}, at a mean conversion of {}.",
+    let second = format!(
+        "Most is caught by {}: {} of its {} hits stick, mainly as {regime}, at a mean conversion of {}.",
         name(case, wall),
         percent(wall.capture_efficiency()),
         wall.hits.count,
         number(wall.captured_conversion.mean),
-    )
+    );
+    vec![first, second]
 }
 
 fn wall_table(case: &Case, tally: &Tally) -> Table {

@@ -4,6 +4,7 @@ mod check;
 mod materials;
 mod predict;
 mod progress;
+mod report;
 mod simulate;
 
 use std::io::Write;
@@ -19,6 +20,7 @@ type CommandResult = Result<(), Box<dyn std::error::Error>>;
 enum Command {
     Predict(predict::Arguments),
     Simulate(simulate::Arguments),
+    Report(report::Arguments),
     Materials(materials::Arguments),
     Check(check::Arguments),
 }
@@ -28,6 +30,7 @@ fn main() -> std::process::ExitCode {
     let done = match Command::parse() {
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Report(arguments) => report::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
     };

@@ -1,0 +1,38 @@
+//! `nearwall report`: plots of finished OpenFOAM cases.
+
+use std::path::PathBuf;
+
+use nearwall::report::openfoam;
+
+use crate::CommandResult;
+
+/// Plots finished OpenFOAM cases, one or several side by side
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  nearwall report run/nearWall run/localInteraction run/standardWall -o report.html\n\n\
+    Reads postProcessing/nearWallInteraction, log.* (the stock models' parcel fates), postProcessing/lagrangian\n\
+    (patchPostProcessing) and the parcels of the last time, as far as they are there; the page says what is missing."
+)]
+pub struct Arguments {
+    /// Folders of finished cases
+    #[arg(required = true)]
+    cases: Vec<PathBuf>,
+    /// Where to write; report.html in the folder of a single case, else in the current folder
+    #[arg(short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    let mut results = Vec::new();
+    for case in &arguments.cases {
+        results.extend(openfoam::read(case)?);
+    }
+    let output = match (&arguments.output, arguments.cases.as_slice()) {
+        (Some(output), _) => output.clone(),
+        (None, [case]) => case.join("report.html"),
+        (None, _) => PathBuf::from("report.html"),
+    };
+    let page = openfoam::page(&results)?;
+    std::fs::write(&output, page).map_err(|error| format!("{}: {error}", output.display()))?;
+    crate::print(&format!("{}\n", output.display()))
+}

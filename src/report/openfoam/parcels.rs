@@ -1,0 +1,104 @@
+//! The parcels of a cloud at the last written time: where they are and which of them are stuck.
+//!
+//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, written as ASCII. Binary and compressed
+//! files are not read; the page then says so.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use super::time_folders;
+
+/// One parcel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parcel {
+    /// Position [m].
+    pub position: [f64; 3],
+    /// Whether it still moves; a stuck one does not.
+    pub active: bool,
+    /// Mass of all its particles [kg].
+    pub mass: f64,
+    /// Diameter [m].
+    pub diameter: f64,
+}
+
+/// Reads the parcels of the last time that has them.
+///
+/// # Errors
+/// Why there are none, in words for the page.
+pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Parcel>, String> {
+    let folder = time_folders(case)
+        .into_iter()
+        .rev()
+        .map(|(_, time)| time.join("lagrangian").join(cloud))
+        .find(|folder| folder.is_dir());
+    let Some(folder) = folder else {
+        let hint = if case.join("processor0").is_dir() { " (run reconstructPar)" } else { "" };
+        return Err(format!("no parcels of {cloud} at a written time{hint}, so their places are not shown"));
+    };
+    let read = |name: &str| {
+        let path = folder.join(name);
+        let unreadable =
+            || format!("{} is not there or not ASCII, so places of parcels are not shown", path.display());
+        std::fs::read_to_string(&path).ok().and_then(|text| list(&text)).ok_or_else(unreadable)
+    };
+    let positions = read("positions")?;
+    let number = |name: &str| -> Result<Vec<f64>, String> {
+        let entries = read(name)?;
+        Ok(entries.iter().filter_map(|entry| entry.parse().ok()).collect())
+    };
+    let (active, diameters, densities) = (number("active")?, number("d")?, number("rho")?);
+    let particles = number("nParticle").unwrap_or_default();
+    let parcels = positions.iter().enumerate().filter_map(|(index, place)| {
+        let mut words = place.trim_start_matches('(').split([' ', ')']).filter_map(|word| word.parse().ok());
+        let diameter = *diameters.get(index)?;
+        let count = particles.get(index).copied().unwrap_or(1.0);
+        Some(Parcel {
+            position: [words.next()?, words.next()?, words.next()?],
+            active: *active.get(index)? != 0.0,
+            mass: count * PI / 6.0 * diameter.powi(3) * densities.get(index)?,
+            diameter,
+        })
+    });
+    Ok(parcels.collect())
+}
+
+/// The entries of an OpenFOAM list file: what stands between the brackets, an entry a line, or `n{value}`.
+fn list(text: &str) -> Option<Vec<String>> {
+    let body = text.split_once("// * *").map_or(text, |(_, rest)| rest);
+    let body: Vec<&str> = body
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty() && !line.starts_with(['/', '*']))
+        .collect();
+    let first = body.first()?;
+    if let Some((count, value)) = first.split_once('{') {
+        let count: usize = count.trim().parse().ok()?;
+        return (count < 1 << 28).then(|| vec![value.trim_end_matches('}').to_owned(); count]);
+    }
+    if let Some((count, rest)) = first.split_once('(') {
+        count.trim().parse::<usize>().ok()?;
+        return Some(rest.trim_end_matches(')').split_whitespace().map(str::to_owned).collect());
+    }
+    first.parse::<usize>().ok()?;
+    let inside =
+        body.iter().skip(1).skip_while(|line| **line != "(").skip(1).take_while(|line| **line != ")");
+    Some(inside.map(|line| (*line).to_owned()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_form_of_a_list_is_read() {
+        let head = "FoamFile\n{\n format ascii;\n}\n// * * * * //\n\n";
+        assert_eq!(
+            list(&format!("{head}2\n(\n(0 1 2) 7\n(3 4 5) 8\n)\n\n// ***\n")).unwrap(),
+            ["(0 1 2) 7", "(3 4 5) 8"]
+        );
+        assert_eq!(list(&format!("{head}3{{1e-3}}\n")).unwrap(), ["1e-3"; 3]);
+        assert_eq!(list(&format!("{head}2(0 1)\n")).unwrap(), ["0", "1"]);
+        assert_eq!(list(&format!("{head}0()\n")).unwrap(), Vec::<String>::new());
+        assert_eq!(list("no list"), None);
+    }
+}
