@@ -287,6 +287,9 @@ impl Chart {
         }
         let (colour, _) = self.next();
         self.keys.push(Key { name: name.to_owned(), colour, sign: Sign::Area });
+        if let (None, [low, .., high]) = (self.x_range, edges) {
+            self.x_range = Some([*low, *high]);
+        }
         let plot = Histogram::from_bins(edges.to_vec(), heights.to_vec()).with_color(colour);
         self.plots.push(plot.into());
         self
@@ -317,7 +320,9 @@ impl Chart {
             .with_width(WIDTH)
             .with_height(HEIGHT);
         if let Some([low, high]) = self.x_range {
-            layout = layout.with_x_axis_min(low).with_x_axis_max(high);
+            let step = round_step((high - low) / 6.0);
+            let (low, high) = ((low / step).floor() * step, (high / step - 1e-9).ceil() * step);
+            layout = layout.with_x_axis_min(low).with_x_axis_max(high).with_x_tick_step(step);
         }
         if let Some([low, high]) = self.y_range {
             layout = layout.with_y_axis_min(low).with_y_axis_max(high);
@@ -355,6 +360,21 @@ impl Chart {
 /// What is no number cannot be drawn.
 fn finite(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().copied().filter(|point| point.iter().all(|value| value.is_finite())).collect()
+}
+
+/// Edges of about `count` bins that hold `low` to `high`, at round numbers.
+pub fn round_edges(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let step = round_step((high - low).max(1e-300) / count.max(1) as f64);
+    let (from, to) = ((low / step).floor(), (high / step).ceil());
+    let bins = ((to - from) as usize).clamp(1, 10_000);
+    (0..=bins).map(|i| (from + i as f64) * step).collect()
+}
+
+/// The next of 1, 2, 2.5, 5, 10 times a power of ten.
+fn round_step(step: f64) -> f64 {
+    let power = 10f64.powf(step.log10().floor());
+    let digit = step / power;
+    [1.0, 2.0, 2.5, 5.0].into_iter().find(|round| digit <= round * (1.0 + 1e-9)).unwrap_or(10.0) * power
 }
 
 /// The outline of a histogram.

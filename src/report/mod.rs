@@ -8,5 +8,5 @@ pub mod openfoam;
 mod page;
 pub mod sweep;
 
-pub use figure::{Bars, Chart, Errors, Figure, FigureMap};
-pub use page::{Block, Page, Table, number};
+pub use figure::{Bars, Chart, Errors, Figure, FigureMap, round_edges};
+pub use page::{Block, Page, Table, number, percent};

@@ -34,6 +34,8 @@ pub struct Table {
     pub header: Vec<String>,
     /// Rows as long as the header.
     pub rows: Vec<Vec<String>>,
+    /// How many of the first columns hold words: they are set to the left, numbers to the right.
+    pub text_columns: usize,
 }
 
 /// A page to be.
@@ -91,6 +93,18 @@ pub fn number(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
+/// A share for a reader, in per cent.
+pub fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    match value.abs() {
+        size if !size.is_finite() => "–".to_owned(),
+        0.0 => "0 %".to_owned(),
+        size if size >= 0.1 => format!("{value:.1} %"),
+        size if size >= 1e-4 => format!("{value:.*} %", (1.0 - size.log10().floor()) as usize),
+        _ => format!("{value:.1e} %"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -102,6 +116,12 @@ mod tests {
     }
 
     #[test]
+    fn shares_keep_two_digits() {
+        let short = [0.0, 0.1234, 0.000_057, 1.0, 1e-9, f64::NAN].map(percent);
+        assert_eq!(short, ["0 %", "12.3 %", "0.0057 %", "100.0 %", "1.0e-7 %", "–"]);
+    }
+
+    #[test]
     fn text_is_escaped_and_nothing_is_loaded() {
         let mut page = Page::new("a < b");
         page.add(Block::Text("<script>".into()));
@@ -109,6 +129,7 @@ mod tests {
             caption: String::new(),
             header: vec!["x [m]".into()],
             rows: vec![vec!["1 & 2".into()]],
+            text_columns: 1,
         }));
         let html = page.html().unwrap();
         assert!(

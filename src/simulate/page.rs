@@ -5,7 +5,7 @@ use super::case::{Case, Sweep, sweep_unit};
 use super::surface::Shape;
 use super::tally::{CONVERSION_BINS, RESTITUTION_BINS, RESTITUTION_TOP, Share, Tally, WallTally, ratio};
 use crate::impact::Regime;
-use crate::report::{Bars, Block, Chart, Figure, FigureMap, Page, Table, number};
+use crate::report::{Bars, Block, Chart, Figure, FigureMap, Page, Table, number, percent, round_edges};
 
 /// Above this number of captures a map is drawn as cells, below as points.
 const POINTS: usize = 300;
@@ -31,10 +31,6 @@ pub fn page(case: &Case, runs: &[Run], left_out: u64) -> Result<String, String> 
 
 fn name(case: &Case, wall: &WallTally) -> String {
     case.surfaces[wall.surface].name.clone()
-}
-
-fn percent(share: f64) -> String {
-    format!("{:.1} %", 100.0 * share)
 }
 
 // --- one run -------------------------------------------------------------------------------------------------------
@@ -133,6 +129,7 @@ fn wall_table(case: &Case, tally: &Tally) -> Table {
             .into(),
         header: header.map(str::to_owned).to_vec(),
         rows: tally.walls.iter().map(row).collect(),
+        text_columns: 1,
     }
 }
 
@@ -192,15 +189,14 @@ fn along_pipe(case: &Case, tally: &Tally) -> Option<Figure> {
     if zones.is_empty() || tally.stuck.count == 0 {
         return None;
     }
-    const BINS: usize = 40;
-    let step = (to - from) / BINS as f64;
-    let edges: Vec<f64> = (0..=BINS).map(|i| from + step * i as f64).collect();
+    let edges = round_edges(from, to, 40);
+    let (bins, step) = (edges.len() - 1, edges[1] - edges[0]);
     let title = "Captured mass along the pipe";
     let mut chart = Chart::new(title, "along the pipe, z [m]", "captured mass [% of injected]");
-    let mut sums = vec![vec![0.0; BINS]; 4];
+    let mut sums = vec![vec![0.0; bins]; 4];
     for capture in &tally.captures {
         if zones.iter().any(|(surface, _)| *surface == capture.surface) {
-            let bin = (((capture.place[0] - from) / step).max(0.0) as usize).min(BINS - 1);
+            let bin = (((capture.place[0] - edges[0]) / step).max(0.0) as usize).min(bins - 1);
             sums[capture.regime as usize][bin] += 100.0 * ratio(capture.mass, tally.injected.mass());
         }
     }
@@ -250,14 +246,13 @@ fn sizes(case: &Case, tally: &Tally) -> Figure {
     let mut chart = Chart::new(title, "diameter [µm]", "captured mass [% of injected]");
     let diameters = || tally.captures.iter().map(|capture| 1e6 * capture.diameter);
     let (low, high) = (diameters().fold(f64::INFINITY, f64::min), diameters().fold(0.0, f64::max));
-    const BINS: usize = 24;
     if low < high {
-        let step = (high - low) / BINS as f64;
-        let edges: Vec<f64> = (0..=BINS).map(|i| low + step * i as f64).collect();
+        let edges = round_edges(low, high, 25);
+        let (low, bins, step) = (edges[0], edges.len() - 1, edges[1] - edges[0]);
         for wall in tally.walls.iter().filter(|wall| wall.stuck.count > 0) {
-            let mut heights = vec![0.0; BINS];
+            let mut heights = vec![0.0; bins];
             for capture in tally.captures.iter().filter(|capture| capture.surface == wall.surface) {
-                let bin = (((1e6 * capture.diameter - low) / step) as usize).min(BINS - 1);
+                let bin = (((1e6 * capture.diameter - low) / step) as usize).min(bins - 1);
                 heights[bin] += 100.0 * ratio(capture.mass, tally.injected.mass());
             }
             chart = chart.histogram(&name(case, wall), &edges, &heights);
@@ -319,6 +314,7 @@ fn balance(case: &Case, tally: &Tally) -> Table {
         caption: format!("Injected minus all others, over injected: {:.1e}.", tally.balance_error()),
         header: ["", "particles", "mass [kg]", "of injected"].map(str::to_owned).to_vec(),
         rows,
+        text_columns: 1,
     }
 }
 
@@ -479,6 +475,7 @@ fn sweep_table(axis: &SweepAxis, runs: &[Run]) -> Table {
         caption: String::new(),
         header: header.map(str::to_owned).to_vec(),
         rows: runs.iter().map(row).collect(),
+        text_columns: 0,
     }
 }
 

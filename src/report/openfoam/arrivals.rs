@@ -21,6 +21,8 @@ pub struct Arrival {
     pub mass: f64,
     /// Diameter [m].
     pub diameter: f64,
+    /// Speed [m/s].
+    pub speed: f64,
     /// Temperature [K], where the cloud has one.
     pub temperature: Option<f64>,
     /// Carbon conversion [1], where the cloud has carbon.
@@ -165,6 +167,7 @@ fn to_arrival(header: &[String], values: &[&str], patch: &str, carbon: Option<&C
         position: list("position")?.try_into().ok()?,
         mass: own_mass * single("nParticle").unwrap_or(1.0),
         diameter,
+        speed: list("U").map_or(f64::NAN, |u| u.iter().map(|part| part * part).sum::<f64>().sqrt()),
         temperature: single("T"),
         conversion,
         active: single("active").is_none_or(|active| active != 0.0),

@@ -3,7 +3,7 @@
 use super::CloudResult;
 use super::tables::{PatchRow, value};
 use crate::impact::Regime;
-use crate::report::{Bars, Block, Chart, Figure, Page, Table, number};
+use crate::report::{Bars, Block, Chart, Figure, Page, Table, number, percent, round_edges};
 
 /// Conversion below which captured char still hides its ash behind carbon (Troiano et al.: threshold 0.88 to 0.90).
 const RAW: f64 = 0.8;
@@ -20,10 +20,10 @@ pub fn page(results: &[CloudResult]) -> Result<String, String> {
     page.add(Block::Lead(view.lead()));
     page.add(Block::Verdict(view.verdict()));
     page.add(Block::Heading("Where material is captured".into()));
-    page.add(Block::Figures(drawn(vec![view.by_wall(), view.along(), view.history()])));
+    page.add(Block::Figures(drawn(vec![view.by_wall(), view.regimes(), view.along(), view.history()])));
     page.add(Block::Table(view.wall_table()));
-    page.add(Block::Heading("In which regime and at which conversion".into()));
-    page.add(Block::Figures(drawn(vec![view.regimes(), view.conversion(), view.arriving(), view.speeds()])));
+    page.add(Block::Heading("At which carbon conversion".into()));
+    page.add(Block::Figures(drawn(vec![view.conversion(), view.arriving()])));
     let places = view.places();
     if !places.is_empty() {
         page.add(Block::Heading("The walls unrolled".into()));
@@ -37,10 +37,6 @@ pub fn page(results: &[CloudResult]) -> Result<String, String> {
 
 fn drawn(figures: Vec<Option<Figure>>) -> Vec<Figure> {
     figures.into_iter().flatten().collect()
-}
-
-fn percent(share: f64) -> String {
-    if share.is_finite() { format!("{:.1} %", 100.0 * share) } else { "–".to_owned() }
 }
 
 fn ratio(part: f64, whole: f64) -> f64 {
@@ -67,29 +63,27 @@ impl<'a> View<'a> {
         view
     }
 
-    /// Patches at which something arrives that does not just leave.
+    /// The walls of the mesh; where it is not there, the patches that hold something or let it rebound.
     fn find_walls(&self) -> Vec<String> {
-        let holds = |row: &PatchRow| row.sticks > 0.0 || row.hits.is_some_and(|hits| hits > row.escapes);
-        let mut walls: Vec<String> = Vec::new();
-        for result in self.results {
-            let tables = result.patches.iter().filter(|patch| !patch.is_pattern());
-            let held = tables.filter(|patch| patch.at(self.time).is_some_and(holds)).map(|patch| &patch.name);
-            walls.extend(held.cloned());
-            let mut recorded: Vec<&String> = result.arrivals.iter().map(|arrival| &arrival.patch).collect();
-            recorded.sort();
-            recorded.dedup();
-            walls.extend(recorded.into_iter().filter(|name| !self.is_opening(name)).cloned());
+        let mut walls: Vec<String> =
+            self.results.iter().flat_map(|result| result.wall_patches.clone()).collect();
+        if walls.is_empty() {
+            let holds = |row: &PatchRow| row.sticks > 0.0 || row.hits.is_some_and(|hits| hits > row.escapes);
+            let tables =
+                self.results.iter().flat_map(|result| &result.patches).filter(|patch| !patch.is_pattern());
+            let held = tables.filter(|patch| patch.at(self.time).is_some_and(holds));
+            walls = held.map(|patch| patch.name.clone()).collect();
         }
         walls.sort();
         walls.dedup();
+        let happened = |wall: &String| {
+            self.results.iter().any(|result| {
+                self.captured(result, wall).is_some_and(|(count, _)| count > 0.0)
+                    || self.arrived(result, wall).is_some_and(|(count, _)| count > 0.0)
+            })
+        };
+        walls.retain(happened);
         walls
-    }
-
-    /// Whether parcels only leave at a patch, as far as any case tells.
-    fn is_opening(&self, name: &str) -> bool {
-        let leaves = |row: &PatchRow| row.escapes > 0.0 && row.sticks == 0.0;
-        let row = |result: &'a CloudResult| result.patch(name).and_then(|patch| patch.at(self.time));
-        self.results.iter().any(|result| row(result).is_some_and(leaves))
     }
 
     fn each(&self) -> impl Iterator<Item = (&String, &'a CloudResult)> {
@@ -117,6 +111,17 @@ impl<'a> View<'a> {
             let here = result.arrivals.iter().filter(|a| a.patch == wall && a.time <= self.time);
             here.fold((0.0, 0.0), |(count, mass), arrival| (count + 1.0, mass + arrival.mass))
         })
+    }
+
+    /// Mean impact speed at a wall [m/s].
+    fn speed(&self, result: &CloudResult, wall: &str) -> Option<f64> {
+        if let Some(sum) = result.patch(wall)?.at(self.time)?.speed_sum {
+            let hits = result.patch(wall)?.at(self.time)?.hits?;
+            return (hits > 0.0).then(|| sum / hits);
+        }
+        let here = result.arrivals.iter().filter(|a| a.patch == wall && a.time <= self.time);
+        let (count, sum) = here.fold((0.0, 0.0), |(count, sum), arrival| (count + 1.0, sum + arrival.speed));
+        (count > 0.0).then(|| sum / count)
     }
 
     /// All that a case has captured [kg].
@@ -206,27 +211,33 @@ impl<'a> View<'a> {
 
     /// Sentences on one stock model, each from the numbers of both runs.
     fn what_constants_get_wrong(&self, label: &str, stock: &CloudResult, ours: &CloudResult) -> Vec<String> {
-        let mut sentences = Vec::new();
+        let (mut all, mut nothing) = (Vec::new(), Vec::new());
         for wall in &self.walls {
             let (Some((_, theirs)), Some((_, own)), Some((_, arriving))) =
                 (self.captured(stock, wall), self.captured(ours, wall), self.arrived(ours, wall))
             else {
                 continue;
             };
-            let own_share = ratio(own, arriving);
-            if self.holds_all(stock, wall) && own_share < 0.98 {
-                sentences.push(format!(
-                    "On {wall} {label} holds all that arrives; speed, temperature and conversion let {} of the arriving \
-                     mass rebound.",
-                    percent(1.0 - own_share)
-                ));
+            let share = ratio(own, arriving);
+            if self.holds_all(stock, wall) && share < 0.98 {
+                all.push(format!("{wall} {}", percent(1.0 - share)));
             } else if theirs == 0.0 && own > 0.0 {
-                sentences.push(format!(
-                    "On {wall} {label} holds nothing, where {} of the arriving mass sticks ({} kg).",
-                    percent(own_share),
-                    number(own)
-                ));
+                nothing.push(format!("{wall} {}", percent(share)));
             }
+        }
+        let mut sentences = Vec::new();
+        if !all.is_empty() {
+            sentences.push(format!(
+                "{label} holds all that arrives where speed, temperature and conversion let this share of the arriving \
+                 mass rebound: {}.",
+                all.join(", ")
+            ));
+        }
+        if !nothing.is_empty() {
+            sentences.push(format!(
+                "{label} holds nothing where this share of the arriving mass sticks: {}.",
+                nothing.join(", ")
+            ));
         }
         let both = (self.captured_by_conversion(stock), self.captured_by_conversion(ours));
         if let (Some(theirs), Some(own)) = both {
@@ -303,17 +314,17 @@ impl<'a> View<'a> {
         if low >= high {
             return None;
         }
-        let step = (high - low) / BINS as f64;
-        let edges: Vec<f64> = (0..=BINS).map(|i| low + step * i as f64).collect();
+        let edges = round_edges(low, high, BINS);
+        let (low, step) = (edges[0], edges[1] - edges[0]);
         let axis = ["x", "y", "z"][self.axis];
         let title = format!("Captured mass along {axis}");
         let mut chart = Chart::new(&title, &format!("{axis} [m]"), "captured mass [% of injected]");
         for (label, result) in self.each() {
             let injected = result.injected.last().map_or(f64::NAN, |[_, mass]| *mass);
-            let mut heights = vec![0.0; BINS];
+            let mut heights = vec![0.0; edges.len() - 1];
             for parcel in captured(result) {
-                heights[(((place(parcel) - low) / step) as usize).min(BINS - 1)] +=
-                    100.0 * ratio(parcel.mass, injected);
+                let bin = (((place(parcel) - low) / step) as usize).min(edges.len() - 2);
+                heights[bin] += 100.0 * ratio(parcel.mass, injected);
             }
             if heights.iter().any(|height| *height > 0.0) {
                 chart = chart.histogram(label, &edges, &heights);
@@ -375,24 +386,6 @@ impl<'a> View<'a> {
         any.then(|| chart.x_range(0.0, 1.0).figure("arriving", caption))
     }
 
-    fn speeds(&self) -> Option<Figure> {
-        let row = |result: &CloudResult, wall: &String| {
-            let row = result.patch(wall)?.at(self.time)?;
-            Some(ratio(row.speed_sum?, row.hits?))
-        };
-        let ours: Vec<(&String, &CloudResult)> = self.each().filter(|(_, result)| result.is_ours()).collect();
-        let known = |(_, result): &&(&String, &CloudResult)| {
-            self.walls.iter().any(|wall| row(result, wall).is_some())
-        };
-        ours.iter().find(known)?;
-        let mut bars = Bars::new("Mean impact speed", "impact speed [m/s]", &self.walls);
-        for (label, result) in ours {
-            let means: Vec<f64> = self.walls.iter().map(|wall| row(result, wall).unwrap_or(0.0)).collect();
-            bars = bars.series(label, &means);
-        }
-        Some(bars.figure("speeds", "Mean over all hits, where the tables have it."))
-    }
-
     /// Where captured parcels lie: along the main axis and around it.
     fn places(&self) -> Vec<Figure> {
         let axis = ["x", "y", "z"][self.axis];
@@ -433,6 +426,7 @@ impl<'a> View<'a> {
                     shown(mass),
                     percent(ratio(mass.unwrap_or(f64::NAN), arrived.map_or(f64::NAN, |(_, mass)| mass))),
                     percent(ratio(mass.unwrap_or(f64::NAN), self.injected(result))),
+                    shown(self.speed(result, wall)),
                 ]);
             }
         }
@@ -445,11 +439,13 @@ impl<'a> View<'a> {
             "captured mass [kg]",
             "captured / arriving",
             "captured / injected",
+            "mean impact speed [m/s]",
         ];
         Table {
             caption: format!("From the start to {} s.", number(self.time)),
             header: header.map(str::to_owned).to_vec(),
             rows,
+            text_columns: 2,
         }
     }
 
@@ -491,6 +487,7 @@ impl<'a> View<'a> {
             caption: "At each case's own last time. The stock models keep no balance.".into(),
             header: header.map(str::to_owned).to_vec(),
             rows,
+            text_columns: 1,
         }
     }
 }

@@ -57,6 +57,8 @@ pub struct CloudResult {
     pub arrivals: Vec<Arrival>,
     /// Parcels at the last written time.
     pub parcels: Vec<Parcel>,
+    /// The mesh's patches of type `wall`; empty where the mesh is not there.
+    pub wall_patches: Vec<String>,
     /// What could not be found.
     pub missing: Vec<String>,
 }
@@ -134,6 +136,7 @@ impl CloudResult {
 fn finish(folder: &Path, case: &str, cloud: String, mut result: CloudResult) -> CloudResult {
     case.clone_into(&mut result.case);
     result.model = interaction_model(folder, &cloud);
+    result.wall_patches = wall_patches(folder);
     let carbon = arrivals::Carbon::of(folder, &cloud);
     result.arrivals = arrivals::read_all(folder, &cloud, carbon.as_ref());
     let mut note = |what: String| result.missing.push(what);
@@ -168,6 +171,18 @@ fn interaction_model(folder: &Path, cloud: &str) -> Option<String> {
         let word = words.next()?.trim_end_matches(';');
         (word != "none" && !word.is_empty()).then(|| word.to_owned())
     })
+}
+
+/// The patches of type `wall` in `constant/polyMesh/boundary`.
+fn wall_patches(folder: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(folder.join("constant/polyMesh/boundary")).unwrap_or_default();
+    let body = text.split_once('(').map_or("", |(_, body)| body);
+    let wall = |entry: &str| {
+        let (name, content) = entry.split_once('{')?;
+        let kind = content.split_whitespace().skip_while(|word| *word != "type").nth(1)?;
+        (kind.trim_end_matches(';') == "wall").then(|| name.trim().to_owned())
+    };
+    body.split('}').filter_map(wall).collect()
 }
 
 /// The files of a folder that are not larger than a dictionary may be.
