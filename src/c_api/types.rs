@@ -122,7 +122,13 @@ pub struct nw_impact {
 
 impl Default for nw_impact {
     fn default() -> Self {
-        let impact = Impact::default();
+        Self::from(&Impact::default())
+    }
+}
+
+/// Wall 0, seed and key 0.
+impl From<&Impact> for nw_impact {
+    fn from(impact: &Impact) -> Self {
         Self {
             struct_size: size_of::<Self>() as u32,
             wall: 0,

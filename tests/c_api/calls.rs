@@ -117,5 +117,5 @@ pub fn c_outcome(outcome: &Outcome) -> [u8; size_of::<nw_outcome>()] {
 /// A case as the C library takes it.
 pub fn c_case((wall, impact, draw): &(usize, Impact, Draw)) -> nw_impact {
     let wall = u32::try_from(*wall).unwrap();
-    nw_impact { wall, seed: draw.seed, key: draw.key, ..crate::common::c_impact(impact) }
+    nw_impact { wall, seed: draw.seed, key: draw.key, ..nw_impact::from(impact) }
 }

@@ -96,7 +96,7 @@ impl CLibrary {
     }
 
     pub fn resolve(&self, model: &CModel<'_>, impact: &Impact) -> nw_outcome {
-        self.try_resolve(model, &c_impact(impact)).unwrap()
+        self.try_resolve(model, &nw_impact::from(impact)).unwrap()
     }
 
     pub fn speeds(&self, model: &CModel<'_>, impact: &Impact) -> [f64; 3] {
@@ -106,7 +106,7 @@ impl CLibrary {
         let status = unsafe {
             self.symbol::<Speeds>("nw_speeds")(
                 model.handle,
-                &c_impact(impact),
+                &nw_impact::from(impact),
                 &raw mut adhesive,
                 &raw mut yielding,
                 &raw mut sticking,
@@ -114,24 +114,5 @@ impl CLibrary {
         };
         assert_eq!(status, NW_OK);
         [adhesive, yielding, sticking]
-    }
-}
-
-/// The impact as the C library takes it.
-pub fn c_impact(impact: &Impact) -> nw_impact {
-    nw_impact {
-        v_n: impact.normal_speed,
-        v_t: impact.tangential_speed,
-        d: impact.diameter,
-        T_p: impact.particle_temperature,
-        T_w: impact.wall_temperature,
-        conversion: impact.conversion,
-        layer_thickness: impact.layer_thickness,
-        film_thickness: impact.film_thickness,
-        v_gas: impact.gas_speed,
-        roughness: impact.roughness,
-        omega: impact.spin,
-        coverage: impact.coverage,
-        ..nw_impact::default()
     }
 }

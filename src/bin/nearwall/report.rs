@@ -1,8 +1,8 @@
 //! `nearwall report`: plots of finished OpenFOAM cases.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use nearwall::report::openfoam;
+use nearwall::report::{openfoam, sweep};
 
 use crate::CommandResult;
 
@@ -14,7 +14,7 @@ use crate::CommandResult;
     (patchPostProcessing) and the parcels of the last time, as far as they are there; the page says what is missing."
 )]
 pub struct Arguments {
-    /// Folders of finished cases
+    /// Folders of finished cases; or one table of runs (.csv) with published numbers beside the simulated ones
     #[arg(required = true)]
     cases: Vec<PathBuf>,
     /// Where to write; report.html in the folder of a single case, else in the current folder
@@ -23,6 +23,12 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
+    if let [table] = arguments.cases.as_slice()
+        && table.extension().is_some_and(|ending| ending == "csv")
+    {
+        let output = arguments.output.clone().unwrap_or_else(|| table.with_extension("html"));
+        return write(&output, &sweep::page(table)?);
+    }
     let mut results = Vec::new();
     for case in &arguments.cases {
         results.extend(openfoam::read(case)?);
@@ -32,7 +38,10 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         (None, [case]) => case.join("report.html"),
         (None, _) => PathBuf::from("report.html"),
     };
-    let page = openfoam::page(&results)?;
-    std::fs::write(&output, page).map_err(|error| format!("{}: {error}", output.display()))?;
+    write(&output, &openfoam::page(&results)?)
+}
+
+fn write(output: &Path, page: &str) -> CommandResult {
+    std::fs::write(output, page).map_err(|error| format!("{}: {error}", output.display()))?;
     crate::print(&format!("{}\n", output.display()))
 }

@@ -11,15 +11,17 @@ function sum(i, x) { s[i] += x; q[i] += x*x }
 function mean(i) { return s[i]/n }
 function sd(i,    m) { m = s[i]/n; return sqrt(q[i]/n - m*m) }
 function degrees(x) { return x*180/pi }
+# Percent as a share; ">85" stays a bound, "-" nothing
+function share(x,    bound) { bound = sub(/^>/, "", x) ? ">" : ""; return x == "-" ? x : bound x/100 }
 function known(name) { return name in column }
 function total(name) { return value[column[name]] }
 
 BEGIN {
     pi = 3.141592653589793; CONVFMT = "%.9g"
     if (header) {
-        print "run,T_C,d_um,d_sd_um,first_impacts,stuck,capture_efficiency,capture_low95,capture_high95," \
+        print "run,T_C,d_um,d_sd_um,first_impacts,stuck,capture_efficiency,capture_efficiency_low95,capture_efficiency_high95," \
             "v_mean_m_s,v_sd_m_s,angle_mean_deg,angle_sd_deg,angle_seen_mean_deg,angle_seen_sd_deg," \
-            "e_n_rebounds,e_n,e_n_standard_error,e_g,paper_capture_percent,paper_e_n,later_impacts,balance_residual"
+            "e_n_rebounds,e_n,e_n_standard_error,e_g,capture_efficiency_paper,e_n_paper,later_impacts,balance_residual"
         exit
     }
     if (list) print "v_n,v_t,d,T_p,T_w" > list
@@ -64,5 +66,5 @@ END {
         printf "%.4f,%.4f,%.4f,", rebounds ? total("e_n_sum")/rebounds : 0, e_n, sqrt((total("e_n2_sum")/n - e_n*e_n)/n)
     } else printf ",,,"
     if (known("e_g_sum")) printf "%.4f,", total("e_g_sum")/n; else printf ","
-    printf "%s,%s,%d,%s\n", capture, e_n_paper, later, residual
+    printf "%s,%s,%d,%s\n", share(capture), e_n_paper, later, residual
 }

@@ -1,0 +1,172 @@
+//! A table of runs over one variable, beside published numbers: one figure a quantity.
+//!
+//! The CSV's first column names the run and the second is the variable. A quantity `Q` is drawn when there is a column
+//! `Q_paper` beside it: its values with error bars from `Q_low95` and `Q_high95`, or 1.96 `Q_standard_error`, and the
+//! published ones; `>0.85` is a lower bound, `-` or a blank is nothing.
+
+use std::path::Path;
+
+use super::{Block, Chart, Errors, Page, Table, number};
+
+/// Why a table cannot be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum SweepError {
+    /// The file cannot be read as CSV.
+    #[error("{file}: {reason}")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// No column has a published partner.
+    #[error("{file}:1: no quantity to draw; a column `Q` is drawn when a column `Q_paper` stands beside it")]
+    NothingToDraw {
+        /// The file.
+        file: String,
+    },
+    /// The page cannot be filled.
+    #[error(transparent)]
+    Page(#[from] askama::Error),
+}
+
+struct Runs {
+    header: Vec<String>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Runs {
+    fn read(path: &Path) -> Result<Self, SweepError> {
+        let fault = |error: csv::Error| SweepError::Unreadable {
+            file: path.display().to_string(),
+            reason: error.to_string(),
+        };
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(fault)?;
+        let header = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
+        let to_row = |record: csv::StringRecord| record.iter().map(str::to_owned).collect();
+        let rows =
+            reader.records().map(|record| record.map(to_row)).collect::<Result<_, _>>().map_err(fault)?;
+        Ok(Self { header, rows })
+    }
+
+    /// The numbers of a column, not a number where a cell is none; `None` when there is no such column.
+    fn numbers(&self, name: &str) -> Option<Vec<f64>> {
+        let column = self.header.iter().position(|h| h == name)?;
+        let to_number = |row: &Vec<String>| {
+            row.get(column).and_then(|cell| cell.trim_start_matches('>').parse().ok()).unwrap_or(f64::NAN)
+        };
+        Some(self.rows.iter().map(to_number).collect())
+    }
+
+    fn quantities(&self) -> Vec<&str> {
+        self.header.iter().filter_map(|name| name.strip_suffix("_paper")).collect()
+    }
+
+    /// Says so where a published number is a bound.
+    fn caption(&self, quantity: &str) -> &'static str {
+        let column = self.header.iter().position(|h| h.strip_suffix("_paper") == Some(quantity));
+        let is_bound =
+            |row: &Vec<String>| column.and_then(|c| row.get(c)).is_some_and(|x| x.starts_with('>'));
+        if self.rows.iter().any(is_bound) { "A published lower bound stands at its number." } else { "" }
+    }
+
+    /// Half widths below and above each value.
+    fn errors(&self, quantity: &str, values: &[f64]) -> Vec<(f64, f64)> {
+        let column = |ending: &str| self.numbers(&format!("{quantity}_{ending}"));
+        let pairs = match (column("low95"), column("high95"), column("standard_error")) {
+            (Some(low), Some(high), _) => {
+                low.iter().zip(&high).zip(values).map(|((l, h), v)| (v - l, h - v)).collect()
+            }
+            (_, _, Some(error)) => error.iter().map(|e| (1.96 * e, 1.96 * e)).collect(),
+            _ => vec![(0.0, 0.0); values.len()],
+        };
+        let usable = |x: f64| if x.is_finite() { x.max(0.0) } else { 0.0 };
+        pairs.into_iter().map(|(below, above): (f64, f64)| (usable(below), usable(above))).collect()
+    }
+}
+
+/// The page of a table of runs.
+///
+/// # Errors
+/// [`SweepError`] for a file that is no such table.
+pub fn page(path: &Path) -> Result<String, SweepError> {
+    let runs = Runs::read(path)?;
+    let file = path.display().to_string();
+    let variable = runs.header.get(1).cloned().unwrap_or_default();
+    let nothing = || SweepError::NothingToDraw { file: file.clone() };
+    let x = runs.numbers(&variable).ok_or_else(nothing)?;
+    if runs.quantities().is_empty() || runs.rows.is_empty() {
+        return Err(nothing());
+    }
+    let label = readable(&variable);
+    let mut page = Page::new("Runs beside published numbers");
+    page.add(Block::Lead(format!(
+        "{} runs over {label}; bars are 95 % intervals of the sampling.",
+        runs.rows.len()
+    )));
+    let figures = runs.quantities().into_iter().enumerate().map(|(index, quantity)| {
+        let values = runs.numbers(quantity).unwrap_or_default();
+        let paired = |ys: &[f64]| x.iter().zip(ys).map(|(x, y)| [*x, *y]).collect::<Vec<_>>();
+        let published = runs.numbers(&format!("{quantity}_paper")).unwrap_or_default();
+        let drawn: Vec<usize> =
+            (0..values.len()).filter(|i| x[*i].is_finite() && values[*i].is_finite()).collect();
+        let errors = runs.errors(quantity, &values);
+        let points: Vec<[f64; 2]> = drawn.iter().map(|i| [x[*i], values[*i]]).collect();
+        let bars: Errors = drawn.iter().map(|i| errors[*i]).collect();
+        Chart::new(&readable(quantity), &label, &format!("{} [1]", readable(quantity)))
+            .points_with_errors("simulated", &points, &bars)
+            .points("published", &paired(&published))
+            .figure(&format!("sweep-{index}"), runs.caption(quantity))
+    });
+    page.add(Block::Figures(figures.collect()));
+    page.add(Block::Table(table(&runs, &variable)));
+    page.foot(&format!("Made from {file}."));
+    Ok(page.html()?)
+}
+
+/// Names as a reader likes them: `T_C` is a temperature, underscores are spaces.
+fn readable(name: &str) -> String {
+    if let Some(quantity) = name.strip_suffix("_paper") {
+        return format!("{}, published", readable(quantity));
+    }
+    match name {
+        "T_C" => "temperature [°C]".to_owned(),
+        "e_n" | "e_t" | "e_g" => name.to_owned(),
+        _ => name.replace('_', " "),
+    }
+}
+
+fn table(runs: &Runs, variable: &str) -> Table {
+    let columns: Vec<String> = std::iter::once(variable.to_owned())
+        .chain(runs.quantities().into_iter().flat_map(|q| [q.to_owned(), format!("{q}_paper")]))
+        .collect();
+    let cell = |row: &Vec<String>, name: &String| {
+        let text = runs.header.iter().position(|h| h == name).and_then(|c| row.get(c));
+        let text = text.map_or("", String::as_str);
+        text.parse().map_or_else(|_| text.to_owned(), number)
+    };
+    Table {
+        caption: "The same in numbers.".to_owned(),
+        header: columns.iter().map(|c| readable(c)).collect(),
+        rows: runs.rows.iter().map(|row| columns.iter().map(|c| cell(row, c)).collect()).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_becomes_a_figure_for_each_published_quantity() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let text = "run,T_C,capture,capture_paper,e_n,e_n_standard_error,e_n_paper\n\
+                    a,20,0.01,0,0.28,0.01,0.28\nb,120,0.99,>0.85,,,\n";
+        std::fs::write(&path, text).unwrap();
+        let html = page(&path).unwrap();
+        assert_eq!(html.matches("<svg").count(), 2);
+        assert!(html.contains("temperature [°C]") && html.contains("published"));
+        std::fs::write(&path, "run,T_C\na,20\n").unwrap();
+        assert!(page(&path).unwrap_err().to_string().contains("Q_paper"));
+    }
+}
