@@ -246,6 +246,14 @@ impl Chart {
         self
     }
 
+    /// Large points to compare with; what is drawn after them lies on top.
+    #[must_use]
+    pub fn reference(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let plot = self.scatter(name, points).with_size(8.0);
+        self.plots.push(plot.into());
+        self
+    }
+
     /// Points with error bars.
     #[must_use]
     pub fn points_with_errors(mut self, name: &str, points: &[[f64; 2]], errors: &Errors) -> Self {
@@ -317,6 +325,7 @@ impl Chart {
         let mut layout = Layout::auto_from_plots(&self.plots)
             .with_x_label(self.x_label)
             .with_y_label(self.y_label)
+            .with_tick_format(ticks())
             .with_width(WIDTH)
             .with_height(HEIGHT);
         if let Some([low, high]) = self.x_range {
@@ -360,6 +369,14 @@ impl Chart {
 /// What is no number cannot be drawn.
 fn finite(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     points.iter().copied().filter(|point| point.iter().all(|value| value.is_finite())).collect()
+}
+
+/// Short numbers on the axes.
+fn ticks() -> TickFormat {
+    TickFormat::Custom(std::sync::Arc::new(|value: f64| {
+        // What rounding leaves of a zero.
+        if value.abs() < 1e-14 { "0".to_owned() } else { super::page::number(value) }
+    }))
 }
 
 /// Edges of about `count` bins that hold `low` to `high`, at round numbers.
@@ -446,6 +463,7 @@ impl Bars {
         let plots = vec![Plot::Bar(plot)];
         let layout = Layout::auto_from_plots(&plots)
             .with_y_label(self.y_label)
+            .with_tick_format(ticks())
             .with_width(WIDTH)
             .with_height(HEIGHT)
             .with_y_axis_min(0.0);
@@ -518,7 +536,8 @@ impl FigureMap {
             .with_width(WIDTH)
             .with_height(HEIGHT)
             .with_clamp_axis()
-            .with_colorbar_tick_format(TickFormat::Auto);
+            .with_colorbar_tick_format(ticks())
+            .with_tick_format(ticks());
         let title = format!("{}: {quantity}", self.title);
         Figure::new(id, &title, caption, plots, layout, &[])
     }

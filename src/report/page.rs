@@ -84,7 +84,9 @@ pub fn number(value: f64) -> String {
     }
     let magnitude = value.abs().log10().floor();
     if !(-3.0..6.0).contains(&magnitude) {
-        return format!("{value:.3e}");
+        let text = format!("{value:.3e}");
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{power}", digits.trim_end_matches('0').trim_end_matches('.'));
     }
     if value.fract() == 0.0 {
         return format!("{value:.0}");
@@ -112,7 +114,7 @@ mod tests {
     #[test]
     fn numbers_are_short() {
         let short = [0.0, 1.0, 0.123_456, 12.345_67, 123_456.0, 0.000_012_34, 2.5e9, f64::NAN].map(number);
-        assert_eq!(short, ["0", "1", "0.1235", "12.35", "123456", "1.234e-5", "2.500e9", "–"]);
+        assert_eq!(short, ["0", "1", "0.1235", "12.35", "123456", "1.234e-5", "2.5e9", "–"]);
     }
 
     #[test]

@@ -19,11 +19,15 @@ const LEFT_OUT: [&str; 4] = ["layer_thickness", "film_thickness", "roughness", "
 /// Writes impacts as a data file that `nearwall predict` and `nearwall diagnose` read, up to a number of rows.
 ///
 /// The rows are all hits of the first particles: particles are alike, so these are a fair sample, and each one's story
-/// is whole. A particle whose hits do not fit any more ends the file.
+/// is whole. A particle whose hits do not fit any more ends the record. Each value of a sweep has an equal share of rows.
 pub struct ImpactRecorder<W: Write> {
     writer: csv::Writer<W>,
+    /// Rows for each run of the case, and how many are left in this one.
+    share: u64,
     left: u64,
     swept: Option<String>,
+    /// Value of the swept quantity in this run.
+    value: Option<f64>,
     /// Hits that did not fit into the file.
     pub left_out: u64,
 }
@@ -39,7 +43,9 @@ impl<W: Write> ImpactRecorder<W> {
         let inputs = inputs().map(|input| input.name);
         let header = BEFORE.into_iter().chain(inputs).chain(AFTER).map(str::to_owned);
         writer.write_record(header.chain(swept.iter().map(|key| format!("swept_{key}"))))?;
-        Ok(Self { writer, left: case.recorded, swept, left_out: 0 })
+        let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len().max(1));
+        let share = case.recorded / runs as u64;
+        Ok(Self { writer, share, left: share, swept, value: None, left_out: 0 })
     }
 
     /// Writes the hits of a particle.
@@ -47,6 +53,9 @@ impl<W: Write> ImpactRecorder<W> {
     /// # Errors
     /// When the sink cannot be written to.
     pub fn record(&mut self, case: &Case, value: Option<f64>, number: u64, life: &Life) -> csv::Result<()> {
+        if value != self.value {
+            (self.value, self.left) = (value, self.share);
+        }
         let rows = life.hits.len() as u64;
         if rows > self.left {
             self.left_out += rows;

@@ -3,7 +3,9 @@
 use super::Run;
 use super::case::{Case, Sweep, sweep_unit};
 use super::surface::Shape;
-use super::tally::{CONVERSION_BINS, RESTITUTION_BINS, RESTITUTION_TOP, Share, Tally, WallTally, ratio};
+use super::tally::{
+    CONVERSION_BINS, Moments, RESTITUTION_BINS, RESTITUTION_TOP, Share, Tally, WallTally, ratio,
+};
 use crate::impact::Regime;
 use crate::report::{Bars, Block, Chart, Figure, FigureMap, Page, Table, number, percent, round_edges};
 
@@ -45,8 +47,14 @@ fn add_run(page: &mut Page, case: &Case, tally: &Tally) {
     page.add(Block::Table(wall_table(case, tally)));
     page.add(Block::Figures(maps(case, tally)));
     page.add(Block::Heading("In which state".into()));
-    page.add(Block::Figures(vec![regimes(case, tally), conversions(case, tally), sizes(case, tally)]));
+    let mut states = vec![regimes(case, tally)];
+    if has_carbon(tally) {
+        states.push(conversions(case, tally));
+    }
+    states.push(sizes(case, tally));
+    page.add(Block::Figures(states));
     page.add(Block::Heading("How particles rebound".into()));
+    page.add(Block::Table(impact_table(case, tally)));
     page.add(Block::Figures(vec![
         restitution(case, tally, "normal-restitution", "Normal restitution e_n", |wall| &wall.e_n_histogram),
         restitution(case, tally, "tangential-restitution", "Tangential restitution e_t", |wall| {
@@ -55,6 +63,11 @@ fn add_run(page: &mut Page, case: &Case, tally: &Tally) {
     ]));
     page.add(Block::Heading("Balance".into()));
     page.add(Block::Table(balance(case, tally)));
+}
+
+/// Whether conversion says anything: some captured particle had carbon left.
+fn has_carbon(tally: &Tally) -> bool {
+    tally.captures.iter().any(|capture| capture.conversion < 1.0)
 }
 
 fn verdict(case: &Case, tally: &Tally) -> Vec<String> {
@@ -73,39 +86,19 @@ fn verdict(case: &Case, tally: &Tally) -> Vec<String> {
             mass(a).total_cmp(&mass(b))
         })
         .map_or("", |regime| regime.name());
-    let second = format!(
-        "Most is caught by {}: {} of its {} hits stick, mainly as {regime}, at a mean conversion of {}.",
+    let mut second = format!(
+        "Most is caught by {}: {} of its {} hits stick, mainly as {regime}",
         name(case, wall),
         percent(wall.capture_efficiency()),
         wall.hits.count,
-        number(wall.captured_conversion.mean),
     );
-    vec![first, second]
+    if has_carbon(tally) {
+        second += &format!(", at a mean conversion of {}", number(wall.captured_conversion.mean));
+    }
+    vec![first, second + "."]
 }
 
 fn wall_table(case: &Case, tally: &Tally) -> Table {
-    let header = [
-        "wall",
-        "hits",
-        "captured",
-        "captured / hits",
-        "first hits captured",
-        "captured mass [kg]",
-        "of injected",
-        "impact speed [m/s]",
-        "angle [°]",
-        "e_n",
-        "e_t",
-        "conversion at capture",
-        "outside validity",
-    ];
-    let spread = |moments: &super::Moments| {
-        if moments.count == 0 {
-            "–".to_owned()
-        } else {
-            format!("{} ± {}", number(moments.mean), two_digits(moments.deviation()))
-        }
-    };
     let row = |wall: &WallTally| {
         vec![
             name(case, wall),
@@ -115,22 +108,64 @@ fn wall_table(case: &Case, tally: &Tally) -> Table {
             if wall.first_hits[0] == 0 { "–".to_owned() } else { percent(wall.first_capture()) },
             number(wall.stuck.mass()),
             percent(ratio(wall.stuck.mass(), tally.injected.mass())),
+            spread(&wall.captured_conversion),
+        ]
+    };
+    let header = [
+        "wall",
+        "hits",
+        "captured",
+        "captured / hits",
+        "first hits captured",
+        "captured mass [kg]",
+        "of injected",
+        "conversion at capture",
+    ];
+    Table {
+        caption: "Counts are of particles; mean ± standard deviation.".into(),
+        header: header.map(str::to_owned).to_vec(),
+        rows: tally.walls.iter().map(row).collect(),
+        text_columns: 1,
+    }
+}
+
+fn impact_table(case: &Case, tally: &Tally) -> Table {
+    let row = |wall: &WallTally| {
+        vec![
+            name(case, wall),
+            wall.e_n.count.to_string(),
             spread(&wall.speed),
             spread(&wall.angle),
             spread(&wall.e_n),
             spread(&wall.e_t),
-            spread(&wall.captured_conversion),
             percent(ratio(wall.outside_range as f64, wall.hits.count as f64)),
         ]
     };
+    let header = [
+        "wall",
+        "rebounds",
+        "impact speed [m/s]",
+        "angle from the surface [°]",
+        "e_n of rebounds",
+        "e_t of rebounds",
+        "outside validity",
+    ];
     Table {
-        caption: "Mean ± standard deviation; restitution of rebounds only. Outside validity: share of hits beyond the \
-                  range that a property or a fitted term is stated for."
+        caption: "Mean ± standard deviation. Outside validity: hits beyond the range that a property or a fitted term \
+                  is stated for."
             .into(),
         header: header.map(str::to_owned).to_vec(),
         rows: tally.walls.iter().map(row).collect(),
         text_columns: 1,
     }
+}
+
+/// Mean and standard deviation.
+fn spread(moments: &Moments) -> String {
+    if moments.count == 0 {
+        return "–".to_owned();
+    }
+    format!("{} ± {}", number(moments.mean), two_digits(moments.deviation()))
 }
 
 /// A spread needs no more than two digits.
@@ -232,7 +267,11 @@ fn regimes(case: &Case, tally: &Tally) -> Figure {
     let mut bars = Bars::new("Regime of the hits", "share of the wall's hits [%]", &names).stacked();
     for regime in Regime::ALL {
         let share = |w: &WallTally| 100.0 * ratio(w.regime_hits[regime as usize] as f64, w.hits.count as f64);
-        bars = bars.series(regime.name(), &tally.walls.iter().map(share).collect::<Vec<f64>>());
+        let shares: Vec<f64> = tally.walls.iter().map(share).collect();
+        // Nothing at all still needs a series, to have axes.
+        if shares.iter().any(|share| *share > 0.0) || regime == Regime::NspNsw {
+            bars = bars.series(regime.name(), &shares);
+        }
     }
     bars.figure("regimes", "Sticky particle or not (SP, NSP) on a sticky wall or not (SW, NSW).")
 }
@@ -393,10 +432,10 @@ fn sweep_capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         errors.push((share - 100.0 * low, 100.0 * high - share));
         every.push([shown(axis, run), 100.0 * run.tally.capture_share()]);
     }
-    let chart = Chart::new("Capture", &axis.label, "captured [%]")
+    let chart = Chart::new("Capture", &axis.label, "captured [%]");
+    let chart = referenced(chart, axis, sweep, "capture", 100.0)
         .points_with_errors("first hits", &first, &errors)
         .line("particles, in the end", &every);
-    let chart = referenced(chart, axis, sweep, "capture", 100.0);
     chart.y_range(0.0, 100.0).figure(
         "sweep-capture",
         "Share of first hits that stick, with its 95 % interval, and share of all mass that is stuck in the end.",
@@ -414,10 +453,10 @@ fn sweep_restitution(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         let only = merged(run, |wall| (wall.e_n.count, wall.e_n.mean, wall.e_n.error()));
         rebounds.push([shown(axis, run), only.0]);
     }
-    let chart = Chart::new("Normal restitution", &axis.label, "e_n [1]")
+    let chart = Chart::new("Normal restitution", &axis.label, "e_n [1]");
+    let chart = referenced(chart, axis, sweep, "e_n", 1.0)
         .points_with_errors("first hits, captured = 0", &points, &errors)
         .line("rebounds", &rebounds);
-    let chart = referenced(chart, axis, sweep, "e_n", 1.0);
     chart.figure(
         "sweep-restitution",
         "Mean over first hits with its 95 % interval, a captured particle counted as 0.",
@@ -428,7 +467,7 @@ fn referenced(mut chart: Chart, axis: &SweepAxis, sweep: &Sweep, quantity: &str,
     for reference in sweep.references.iter().filter(|reference| reference.quantity == quantity) {
         let at = reference.at.iter().map(|value| (axis.shown)(*value));
         let points: Vec<[f64; 2]> = at.zip(&reference.value).map(|(x, y)| [x, scale * y]).collect();
-        chart = chart.points(short(&reference.source), &points);
+        chart = chart.reference(short(&reference.source), &points);
     }
     chart
 }
@@ -502,8 +541,8 @@ fn add_reading(page: &mut Page, case: &Case, left_out: u64) {
     ));
     if left_out > 0 {
         page.add(Block::Note(format!(
-            "impacts.csv holds all hits of the first particles, {} rows at most; {left_out} hits of later particles are \
-             in the figures but not in the file (run.recorded_impacts).",
+            "impacts.csv holds all hits of the first particles (of each value of a sweep), {} rows at most; {left_out} \
+             hits of later particles are in the figures but not in the file (run.recorded_impacts).",
             case.recorded
         )));
     }
