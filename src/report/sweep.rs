@@ -146,6 +146,7 @@ fn table(runs: &Runs, variable: &str) -> Table {
         text.parse().map_or_else(|_| text.to_owned(), number)
     };
     Table {
+        text_columns: 0,
         caption: "The same in numbers.".to_owned(),
         header: columns.iter().map(|c| readable(c)).collect(),
         rows: runs.rows.iter().map(|row| columns.iter().map(|c| cell(row, c)).collect()).collect(),

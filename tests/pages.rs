@@ -1,0 +1,89 @@
+//! The pages in a real browser: nothing loaded from elsewhere, no complaint on the console, every figure there.
+//!
+//! Needs Chromium (`tests/prepare` installs it). Without one the test says so and stops, except in CI, where it fails.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+
+use std::path::Path;
+use std::process::Command;
+
+fn nearwall(arguments: &[&str]) {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let output =
+        Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(root).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+/// The page's DOM after loading, and what the browser logged.
+fn browse(page: &Path) -> Option<(String, String)> {
+    let profile = tempfile::tempdir().unwrap();
+    let mut chromium = Command::new("chromium");
+    chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]);
+    chromium.args(["--disable-background-networking", "--disable-component-update", "--disable-sync"]);
+    chromium.args(["--enable-logging=stderr", "--virtual-time-budget=2000", "--dump-dom"]);
+    chromium.arg(format!("--user-data-dir={}", profile.path().display()));
+    chromium.arg(format!("file://{}", page.display()));
+    match chromium.output() {
+        Ok(output) => {
+            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+            Some((text(&output.stdout), text(&output.stderr)))
+        }
+        Err(error) if std::env::var_os("CI").is_some() => panic!("chromium: {error}; run tests/prepare"),
+        Err(error) => {
+            eprintln!("chromium: {error}; run tests/prepare to look at the pages");
+            None
+        }
+    }
+}
+
+/// Asserts that the page stands alone and shows at least `figures` pictures, each with a heading and axes.
+fn looks_right(page: &Path, figures: usize) {
+    let html = std::fs::read_to_string(page).unwrap();
+    let namespaces = html.replace("http://www.w3.org/", "");
+    for elsewhere in ["http://", "https://", "src=", "url(//", "@import"] {
+        assert!(!namespaces.contains(elsewhere), "{} asks for {elsewhere}", page.display());
+    }
+    assert!(!html.contains("NaN"), "{} shows a number that is none", page.display());
+    let Some((dom, log)) = browse(page) else { return };
+    let complaints: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
+    assert!(complaints.is_empty(), "{complaints:?}");
+    let found = dom.matches("<svg").count();
+    assert!(found >= figures, "{}: {found} figures, {figures} expected", page.display());
+    assert_eq!(dom.matches("<figure").count(), found, "a figure without its picture, or the other way round");
+    for svg in dom.split("<svg").skip(1) {
+        let svg = svg.split("</svg>").next().unwrap();
+        assert!(svg.contains("<text") && svg.contains("["), "an axis without its unit");
+    }
+}
+
+/// An example with fewer particles, in a folder of its own.
+fn simulated(name: &str, count: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials/standalone");
+    let case = std::fs::read_to_string(examples.join(format!("{name}.toml"))).unwrap();
+    let line = case.lines().find(|line| line.starts_with("count = ")).unwrap();
+    std::fs::write(folder.path().join("case.toml"), case.replace(line, &format!("count = {count}"))).unwrap();
+    let model = format!("{name}.model.toml");
+    std::fs::copy(examples.join(&model), folder.path().join(&model)).unwrap();
+    let path = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    nearwall(&["simulate", &path("case.toml"), "-o", &path("out")]);
+    folder
+}
+
+#[test]
+fn pages_of_the_standalone_examples() {
+    for (name, count, figures) in [("waxRig", "100", 3), ("tungstenDust", "100", 6), ("gasifier", "50", 3)] {
+        looks_right(&simulated(name, count).path().join("out/report.html"), figures);
+    }
+}
+
+#[test]
+fn page_of_a_table_of_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let table = folder.path().join("runs.csv");
+    let text = "run,T_C,capture,capture_low95,capture_high95,capture_paper,e_n,e_n_standard_error,e_n_paper\n\
+                a,20,0.001,0,0.002,0,0.28,0.001,0.28\nb,120,0.99,0.98,0.995,>0.85,0,0,-\n";
+    std::fs::write(&table, text).unwrap();
+    let page = folder.path().join("page.html");
+    nearwall(&["report", table.to_str().unwrap(), "-o", page.to_str().unwrap()]);
+    looks_right(&page, 2);
+}
