@@ -150,7 +150,6 @@ fn table(runs: &Runs, variable: &str) -> Table {
         caption: "The same in numbers.".to_owned(),
         header: columns.iter().map(|c| readable(c)).collect(),
         rows: runs.rows.iter().map(|row| columns.iter().map(|c| cell(row, c)).collect()).collect(),
-        text_columns: 1,
     }
 }
 
