@@ -82,6 +82,8 @@ fn predict_keeps_other_columns_and_lists_bad_rows() {
     assert_eq!(output.status.code(), Some(0));
     let said = text(&output.stderr);
     assert!(said.contains("line 3 left out: v_n = -1"), "{said}");
+    let plain = std::fs::metadata(folder.path().join("i.csv")).unwrap().permissions();
+    assert_eq!(std::fs::metadata(folder.path().join("out.csv")).unwrap().permissions(), plain);
     let table = std::fs::read_to_string(folder.path().join("out.csv")).unwrap();
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines[0], "operator,v_n,d,e_n,e_n_predicted,e_t,p_stick,regime");

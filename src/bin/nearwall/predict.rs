@@ -50,18 +50,33 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     }
     match &arguments.output {
         None => predict(&model, &walls, &mut reader, &mut std::io::stdout().lock()),
+        // A device or pipe is written to; a file is replaced.
+        Some(path) if path.exists() && !path.is_file() => {
+            let device = File::options().write(true).open(path);
+            predict(&model, &walls, &mut reader, &mut device.map_err(|error| at(path, &error))?)
+        }
         Some(path) => {
-            // Written beside its place and moved there when whole, so a failing run spoils nothing.
-            let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-            let named = |error: std::io::Error| format!("{}: {error}", path.display());
-            let scratch = tempfile::NamedTempFile::new_in(folder).map_err(named)?;
-            let mut writer = BufWriter::new(scratch);
+            let mut writer = BufWriter::new(scratch_beside(path).map_err(|error| at(path, &error))?);
             predict(&model, &walls, &mut reader, &mut writer)?;
-            let scratch = writer.into_inner().map_err(|error| named(error.into_error()))?;
-            scratch.persist(path).map_err(|error| named(error.error))?;
+            let scratch = writer.into_inner().map_err(|error| at(path, error.error()))?;
+            scratch.persist(path).map_err(|error| at(path, &error.error))?;
             Ok(())
         }
     }
+}
+
+fn at(path: &Path, error: &std::io::Error) -> String {
+    format!("{}: {error}", path.display())
+}
+
+/// A file beside the result's place, to be moved there when it is whole: a failing run spoils nothing.
+fn scratch_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    // As for any new file: what the user's umask leaves of it.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(folder)
 }
 
 fn predict(
