@@ -305,10 +305,11 @@ impl<'a> Section<'a> {
     /// The error for a key that has to be there; a misspelt one is named instead.
     pub fn missing(&self, key: &str, what: &str) -> InputError {
         let known = self.known.borrow();
-        let misspelt =
-            self.table.keys().map(|name| name.get_ref()).find(|name| {
-                !known.iter().any(|asked| asked == *name) && strsim::jaro_winkler(name, key) > 0.85
-            });
+        let misspelt = self
+            .table
+            .keys()
+            .map(|name| name.get_ref())
+            .find(|name| !known.iter().any(|asked| asked == *name) && alike(name, key));
         if let Some(name) = misspelt {
             return self.fault(name, format!("unknown key `{name}`; did you mean `{key}`?"));
         }
@@ -347,6 +348,12 @@ impl<'a> Section<'a> {
     fn wrong_type(&self, key: &str, expected: &str, found: &DeValue<'_>) -> InputError {
         self.fault(key, format!("expected {expected}, found {}", found.type_str()))
     }
+}
+
+/// Whether one word is likely meant by the other: nearly the same letters, or the same but for case and underscores.
+pub fn alike(word: &str, meant: &str) -> bool {
+    let plain = |w: &str| w.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase();
+    plain(word) == plain(meant) || strsim::jaro_winkler(word, meant) > 0.85
 }
 
 /// "unknown key `x`; did you mean `y`? Known: ...".

@@ -93,6 +93,35 @@ fn predict_keeps_other_columns_and_lists_bad_rows() {
 }
 
 #[test]
+fn predict_says_what_it_assumed_and_what_looks_wrong() {
+    let rows = "v_n,Tp,T_w\n1,300,20\n";
+    let folder = folder(&[("m.toml", WAX), ("i.csv", rows)]);
+    let said = text(&nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv"]).stderr);
+    for part in
+        ["`Tp` is not used", "`T_p`", "assumed: d = 0.0001 m", "20 K; is that °C?", "1 of 1 rows lie outside"]
+    {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+}
+
+#[test]
+fn check_says_all_that_the_model_contains() {
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/tutorials/slaggingGasifier/constant/nearWall.toml");
+    let said = text(&nearwall(Path::new("."), &["check", model]).stdout);
+    for part in [
+        "coal-slag",
+        "coverage 0.4",
+        "yield_ratio 1.6",
+        "friction 0.3",
+        "kalmanovitch-frank",
+        "25 Pa s",
+        "0.89",
+    ] {
+        assert!(said.contains(part), "`{part}` is not in: {said}");
+    }
+}
+
+#[test]
 fn a_failed_run_spoils_nothing() {
     let folder = folder(&[("m.toml", WAX), ("i.csv", "v_n\nfast\n"), ("out.csv", "precious")]);
     refused(

@@ -47,6 +47,11 @@ impl ViscosityCriterion {
         Ok(Some(Self { law, reference }))
     }
 
+    /// The criterion in words.
+    pub fn describe(self) -> String {
+        format!("viscosity ({}), reference_viscosity {} Pa s", self.law.name(), self.reference)
+    }
+
     /// How sticky a melt is as a function of temperature; `None` for a material with neither a viscosity of its own
     /// nor an oxide composition. Its own viscosity comes first.
     ///

@@ -7,6 +7,7 @@
 use std::io::Read;
 
 use crate::impact::{INPUTS, Impact};
+use crate::input::alike;
 
 /// Why a file cannot be read as impacts at all.
 #[derive(Debug, thiserror::Error)]
@@ -82,9 +83,14 @@ impl<R: Read> ImpactReader<R> {
         let column = |name: &str| headers.iter().position(|header| header == name);
         if column("v_n").is_none() {
             let found = headers.iter().collect::<Vec<_>>().join(", ");
+            let separator = if headers.len() == 1 && found.contains([';', '\t']) {
+                " Cells have to be separated by commas."
+            } else {
+                ""
+            };
             let problem = format!(
                 "no column `v_n` (speed towards the wall, m/s); the columns are: {found}. \
-                 Rename the one that holds it"
+                 Rename the one that holds it.{separator}"
             );
             return Err(header_fault(problem));
         }
@@ -105,6 +111,14 @@ impl<R: Read> ImpactReader<R> {
     /// The inputs that no column gives.
     pub fn absent(&self) -> Vec<&'static str> {
         INPUTS.iter().zip(&self.columns).filter(|(_, c)| c.is_none()).map(|(i, _)| i.name).collect()
+    }
+
+    /// Columns that are not used but look like an input that is absent, each with that input's name.
+    pub fn near_misses(&self) -> Vec<(&str, &'static str)> {
+        let absent = self.absent();
+        let bare = |name: &str| name.split(['[', '(']).next().unwrap_or(name).trim().to_owned();
+        let meant = |column| absent.iter().copied().find(|input| alike(&bare(column), input));
+        self.headers.iter().filter_map(|column| Some((column, meant(column)?))).collect()
     }
 
     /// The next row, or `None` at the end.
@@ -191,6 +205,12 @@ mod tests {
                 "8: v_n = NaN: must be finite and not negative",
             ]
         );
+    }
+
+    #[test]
+    fn columns_that_look_like_inputs_are_named() {
+        let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t [m/s],operator\n".as_bytes()).unwrap();
+        assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t [m/s]", "v_t")]);
     }
 
     #[test]

@@ -5,12 +5,13 @@
 //! on `e_n`, tangential law, effects on `e_t`, capture. [`Model::explain`] walks the same way and notes what each term
 //! did.
 
+mod describe;
 mod read;
 mod wall;
 
 use std::path::Path;
 
-use crate::capture::{MeltStickiness, Stickiness};
+use crate::capture::{MeltStickiness, Stickiness, ViscosityCriterion};
 use crate::draw::Draw;
 use crate::effect::Term;
 use crate::impact::{Impact, ImpactError, Outcome, Regime};
@@ -26,6 +27,7 @@ pub use wall::Wall;
 pub struct Model {
     particle: Material,
     particle_melt: Option<MeltStickiness>,
+    criterion: Option<ViscosityCriterion>,
     walls: Vec<Wall>,
     normal: NormalLaw,
     tangential: TangentialLaw,

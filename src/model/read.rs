@@ -21,6 +21,11 @@ impl Model {
     /// # Errors
     /// [`InputError`] naming line, column and key.
     pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
+        // A misspelt table is named before what its absence leads to.
+        for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "materials"] {
+            top.has(key);
+        }
+        top.finish()?;
         let mut library = Library::built_in()?;
         if let Some(own) = top.section("materials")? {
             library = library.with(&own)?;
@@ -47,7 +52,7 @@ impl Model {
                            give one to a material";
             return Err(top.fault("capture", problem));
         }
-        Ok(Self { particle, particle_melt, walls, normal, tangential, terms })
+        Ok(Self { particle, particle_melt, criterion, walls, normal, tangential, terms })
     }
 }
 
@@ -104,7 +109,9 @@ impl WallReader<'_> {
     fn read_one(&self, name: &str, section: &Section<'_>) -> Result<Wall, InputError> {
         let material = self.library.named_by(section, "material")?;
         let material = material.ok_or_else(|| missing_material(section))?;
-        let melt = match (self.library.named_by(section, "slag")?, self.criterion) {
+        let slag = self.library.named_by(section, "slag")?;
+        let slag_name = slag.as_ref().map(|slag| slag.name().to_owned());
+        let melt = match (slag, self.criterion) {
             (None, _) => None,
             (Some(_), None) => {
                 let problem =
@@ -129,6 +136,7 @@ impl WallReader<'_> {
             name: name.to_owned(),
             pattern: read_pattern(name, section)?,
             material,
+            slag: slag_name,
             melt,
             layer_thickness: section.number_within("layer_thickness", 0.0, f64::INFINITY)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),

@@ -17,22 +17,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> CommandResult {
     let model = Model::from_file(&arguments.model)?;
     let mut lines = vec![format!("{}: accepted", arguments.model.display())];
-    lines.push(format!("  particle    {}", model.particle().name()));
-    for wall in model.walls() {
-        lines.push(format!("  wall        {} of {}", wall.name(), wall.material().name()));
-    }
-    lines.push(format!("  normal      {}", model.normal_law().name()));
-    lines.push(format!("  tangential  {}", model.tangential_law().name()));
-    for term in model.terms() {
-        let parameters: Vec<String> = term
-            .kind()
-            .parameters
-            .iter()
-            .zip(term.values())
-            .map(|(parameter, value)| format!("{} = {value} {}", parameter.name, parameter.unit))
-            .collect();
-        lines.push(format!("  effect      {}: {}", term.kind().id, parameters.join(", ")));
-    }
+    lines.extend(model.describe().into_iter().map(|(what, text)| format!("  {what:<11} {text}")));
     lines.push(String::new());
     crate::print(&lines.join("\n"))
 }

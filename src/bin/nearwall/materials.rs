@@ -34,6 +34,12 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     crate::print(&show(material, arguments.temperature))
 }
 
+/// Six digits; powers of ten where they are needed.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+}
+
 fn show(material: &Material, temperature: f64) -> String {
     let mut lines = vec![
         format!("{}: {}", material.name(), material.about().unwrap_or("")),
@@ -41,12 +47,12 @@ fn show(material: &Material, temperature: f64) -> String {
     ];
     for (key, unit, property) in material.properties() {
         let value = match property.at(temperature) {
-            Ok(value) => format!("{value:.6e} {unit}"),
+            Ok(value) => format!("{} {unit}", short(value)),
             Err(range) => format!("not known at {temperature} K ({} to {} K)", range.low, range.high),
         };
         let uncertainty = property.uncertainty().map_or(String::new(), |u| format!(" ± {u:e} {unit}"));
         lines.push(format!("  {key:<16} {value}{uncertainty}"));
-        if let Some([low, high]) = property.valid() {
+        if let Some([low, high]) = property.valid().filter(|[low, high]| low < high) {
             let outside = if property.holds_at(temperature) { "" } else { "; OUTSIDE at this temperature" };
             lines.push(format!("  {:<16}   stated for {low} to {high} K{outside}", ""));
         }

@@ -5,7 +5,8 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use nearwall::dataset::{ImpactReader, Row};
-use nearwall::{Draw, Model};
+use nearwall::impact::INPUTS;
+use nearwall::{Draw, Impact, Model};
 
 use crate::{CommandResult, progress};
 
@@ -45,9 +46,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if let Some(line) = arguments.explain {
         return explain(&model, &walls, &mut reader, line);
     }
-    if reader.absent().contains(&"d") {
-        eprintln!("nearwall: {file} has no column d; particles of 1e-4 m assumed");
-    }
+    note_assumptions(&file, &reader);
     match &arguments.output {
         None => predict(&model, &walls, &mut reader, &mut std::io::stdout().lock()),
         // A device or pipe is written to; a file is replaced.
@@ -63,6 +62,38 @@ pub fn run(arguments: &Arguments) -> CommandResult {
             Ok(())
         }
     }
+}
+
+/// Says what stands in for inputs that the file does not give, where that is more than "none".
+fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
+    for (column, input) in reader.near_misses() {
+        eprintln!(
+            "nearwall: {file}: column `{column}` is not used; if it is `{input}` in SI units, call it so"
+        );
+    }
+    let absent = reader.absent();
+    let assumed: Vec<String> = INPUTS
+        .iter()
+        .filter(|input| absent.contains(&input.name))
+        .filter_map(|input| match (input.value)(&Impact::default()) {
+            0.0 => None,
+            value if input.unit == "1" => Some(format!("{} = {value}", input.name)),
+            value => Some(format!("{} = {value} {}", input.name, input.unit)),
+        })
+        .collect();
+    if !assumed.is_empty() {
+        eprintln!("nearwall: not in {file}, assumed: {}", assumed.join(", "));
+    }
+}
+
+/// A row that is allowed but looks like another unit.
+fn note_unlikely(row: &Row) -> Option<String> {
+    let Impact { diameter, particle_temperature, wall_temperature, .. } = row.impact;
+    if diameter > 0.05 {
+        return Some(format!("line {}: d = {diameter} m; is that another unit?", row.line));
+    }
+    let coldest = particle_temperature.min(wall_temperature);
+    (coldest < 150.0).then(|| format!("line {}: a temperature of {coldest} K; is that °C?", row.line))
 }
 
 fn at(path: &Path, error: &std::io::Error) -> String {
@@ -93,15 +124,18 @@ fn predict(
         header.push_field(&if taken { format!("{name}_predicted") } else { name.to_owned() });
     }
     writer.write_record(&header)?;
-    let (mut done, mut left_out) = (0_u64, 0_u64);
+    let (mut done, mut left_out, mut outside) = (0_u64, 0_u64, 0_u64);
+    let mut unlikely = None;
     while let Some(next) = reader.next_row()? {
-        let predicted = next
-            .map_err(|bad| (bad.line, bad.reason))
-            .and_then(|row| predict_row(model, walls, &row).map_err(|reason| (row.line, reason)));
+        let predicted = next.map_err(|bad| (bad.line, bad.reason)).and_then(|row| {
+            unlikely = unlikely.take().or_else(|| note_unlikely(&row));
+            predict_row(model, walls, &row).map_err(|reason| (row.line, reason))
+        });
         match predicted {
-            Ok(record) => {
+            Ok((record, outside_range)) => {
                 writer.write_record(&record)?;
                 done += 1;
+                outside += u64::from(outside_range);
             }
             Err((line, reason)) => {
                 eprintln!("nearwall: line {line} left out: {reason}");
@@ -110,6 +144,15 @@ fn predict(
         }
     }
     writer.flush()?;
+    if let Some(note) = unlikely {
+        eprintln!("nearwall: {note}");
+    }
+    if outside > 0 {
+        eprintln!(
+            "nearwall: {outside} of {done} rows lie outside the range that a property or a fitted term is stated for \
+             (--explain LINE, `nearwall materials NAME`)"
+        );
+    }
     if left_out > 0 {
         eprintln!("nearwall: {done} rows predicted, {left_out} left out");
     }
@@ -119,7 +162,11 @@ fn predict(
     Ok(())
 }
 
-fn predict_row(model: &Model, walls: &WallChoice<'_>, row: &Row) -> Result<csv::StringRecord, String> {
+fn predict_row(
+    model: &Model,
+    walls: &WallChoice<'_>,
+    row: &Row,
+) -> Result<(csv::StringRecord, bool), String> {
     let wall = walls.of(row)?;
     let outcome = model.resolve(wall, &row.impact, Draw::default()).map_err(|error| error.to_string())?;
     let mut record = row.cells.clone();
@@ -127,7 +174,7 @@ fn predict_row(model: &Model, walls: &WallChoice<'_>, row: &Row) -> Result<csv::
         record.push_field(&format!("{value:.16e}"));
     }
     record.push_field(outcome.regime.name());
-    Ok(record)
+    Ok((record, outcome.outside_range))
 }
 
 /// Which wall a row hits.
@@ -154,11 +201,14 @@ impl<'a> WallChoice<'a> {
         Ok(Self { model, common, column })
     }
 
+    /// As in OpenFOAM, a wall that the model does not name is its `default`.
     fn of(&self, row: &Row) -> Result<usize, String> {
         let named = self.column.and_then(|column| row.cells.get(column)).filter(|n| !n.is_empty());
-        let own = named.and_then(|name| self.model.find_wall(name));
-        own.or(self.common)
-            .ok_or_else(|| format!("the model has no wall `{}` and no default", named.unwrap_or_default()))
+        let found = match named {
+            Some(name) => self.model.find_wall(name).or_else(|| self.model.find_wall("default")),
+            None => self.common,
+        };
+        found.ok_or_else(|| format!("the model has no wall `{}` and no default", named.unwrap_or_default()))
     }
 }
 
@@ -184,6 +234,9 @@ fn explain(
                     speeds.yielding,
                     speeds.sticking
                 );
+                if outcome.outside_range {
+                    text += "outside the range that a property or a fitted term is stated for\n";
+                }
                 for share in shares {
                     text += &format!("{:<24} {:<22} {:.6}\n", share.term, share.quantity, share.value);
                 }
@@ -192,5 +245,5 @@ fn explain(
             _ => {}
         }
     }
-    Err(format!("--explain {line}: the file has no such line").into())
+    Err(format!("--explain {line}: no row stands on this line (the header is the first line)").into())
 }

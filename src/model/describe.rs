@@ -1,0 +1,62 @@
+//! What a model contains, in words: for `nearwall check`.
+
+use super::Model;
+use crate::normal::NormalLaw;
+use crate::tangential::TangentialLaw;
+
+impl Model {
+    /// What the model contains, as pairs of a heading and its numbers with units, in the order of an impact's walk.
+    pub fn describe(&self) -> Vec<(&'static str, String)> {
+        let mut lines = vec![("particle", self.particle.name().to_owned())];
+        for wall in &self.walls {
+            let mut text = format!("{} of {}", wall.name(), wall.material().name());
+            if let Some(slag) = &wall.slag {
+                text += &format!(", under {slag}");
+            }
+            if wall.coverage > 0.0 {
+                text += &format!(", coverage {}", wall.coverage);
+            }
+            if wall.layer_thickness > 0.0 {
+                text += &format!(", layer {} m", wall.layer_thickness);
+            }
+            lines.push(("wall", text));
+        }
+        lines.push(("normal", self.describe_normal()));
+        lines.push((
+            "tangential",
+            match self.tangential {
+                TangentialLaw::Constant { restitution } => format!("constant, e_t = {restitution}"),
+                TangentialLaw::Sliding { friction } => format!("sliding, friction {friction}"),
+                TangentialLaw::SlidingRolling { friction } => format!("sliding-rolling, friction {friction}"),
+            },
+        ));
+        let capture = self.criterion.map_or_else(
+            || "below the sticking velocity, and what effects add".to_owned(),
+            |criterion| format!("also by {}", criterion.describe()),
+        );
+        lines.push(("capture", capture));
+        for term in &self.terms {
+            let parameters = term.kind().parameters.iter().zip(term.values());
+            let parameters = parameters.map(|(p, value)| match p.unit {
+                "1" => format!("{} = {value}", p.name),
+                unit => format!("{} = {value} {unit}", p.name),
+            });
+            let parameters: Vec<String> = parameters.collect();
+            lines.push(("effect", format!("{}: {}", term.kind().id, parameters.join(", "))));
+        }
+        lines
+    }
+
+    fn describe_normal(&self) -> String {
+        if let NormalLaw::Constant { restitution } = self.normal {
+            return format!("constant, e_n = {restitution}");
+        }
+        let adhesion = self.walls.first().map(|wall| wall.adhesion);
+        let ratio = adhesion.map_or(f64::NAN, |a| a.yield_ratio);
+        let work = match adhesion.and_then(|a| a.work) {
+            Some(work) => format!("{work} J/m2"),
+            None => "2 sqrt(gamma_p gamma_w)".to_owned(),
+        };
+        format!("thornton-ning, yield_ratio {ratio}, work of adhesion {work}")
+    }
+}
