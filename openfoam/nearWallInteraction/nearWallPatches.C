@@ -26,10 +26,20 @@ using namespace Foam::nearWall;
 
 const wordList fateNames({"interact", "escape", "rebound", "stick"});
 
-const wordList ruleKeys
-({
-    "type", "wall", "wallTemperature", "field", "e", "mu"
-});
+
+//- The keys that a rule may have
+wordList keysOf(const fate what)
+{
+    if (what == fate::interact)
+    {
+        return wordList({"type", "wall", "wallTemperature", "field"});
+    }
+    if (what == fate::rebound)
+    {
+        return wordList({"type", "e", "mu"});
+    }
+    return wordList({"type"});
+}
 
 
 bool isOurs(const polyPatch& pp)
@@ -215,15 +225,16 @@ void requireField
     if (hasField(mesh, name)) return;
 
     FatalIOErrorInFunction(dict)
-        << "patch '" << pp.name() << "': wallTemperature field, but no field '"
-        << name << "' is registered" << nl
+        << "patch '" << pp.name() << "': the wall temperature is to come from"
+        << " a field, but no field '" << name << "' is registered" << nl
         << "    This solver may have no temperature: give a number in K,"
         << " wallTemperature 300;" << nl
         << "    or the field's name, field T;" << exit(FatalIOError);
 }
 
 
-//- wallTemperature field | <number>; without it the field T where there is one
+//- wallTemperature field | <number>; without it the field that `field` names,
+//  or the field T where there is one
 void readTemperature
 (
     patchRule& rule,
@@ -236,26 +247,35 @@ void readTemperature
 
     if (!dict.found("wallTemperature"))
     {
+        if (dict.found("field"))
+        {
+            requireField(mesh, dict, pp, rule.temperatureField);
+        }
         rule.temperatureFromField = hasField(mesh, rule.temperatureField);
         return;
     }
 
-    const token t(dict.lookup("wallTemperature"));
-    if (t.isNumber())
+    const tokenList& given = dict.lookup("wallTemperature");
+    if (given.size() == 1)
     {
-        rule.temperature = t.number();
-        if (rule.temperature > 0) return;
-    }
-    else if (t.isWord() && t.wordToken() == "field")
-    {
-        rule.temperatureFromField = true;
-        requireField(mesh, dict, pp, rule.temperatureField);
-        return;
+        const token& t = given[0];
+        if (t.isNumber() && t.number() > 0)
+        {
+            rule.temperature = t.number();
+            return;
+        }
+        if (t.isWord() && t.wordToken() == "field")
+        {
+            rule.temperatureFromField = true;
+            requireField(mesh, dict, pp, rule.temperatureField);
+            return;
+        }
     }
 
     FatalIOErrorInFunction(dict)
         << "patch '" << pp.name()
-        << "': wallTemperature must be 'field' or a number above 0, in K"
+        << "': wallTemperature must be 'field' or a number above 0, in K" << nl
+        << "    Give it without a unit: wallTemperature 673.15;"
         << exit(FatalIOError);
 }
 
@@ -317,8 +337,14 @@ patchRule ruleFor
 
     if (given)
     {
-        refuseUnknownKeys(dict, ruleKeys, "patch '" + pp.name() + "'");
         rule.what = fateFrom(dict, pp.name());
+        refuseUnknownKeys
+        (
+            dict,
+            keysOf(rule.what),
+            "patch '" + pp.name() + "', type "
+          + nearWall::read<word>(dict, "type")
+        );
     }
     else
     {
