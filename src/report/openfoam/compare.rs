@@ -453,8 +453,6 @@ impl<'a> View<'a> {
         let mut rows = Vec::new();
         for (label, result) in self.each() {
             let at = |name: &str| value(&result.balance, name).map_or("–".to_owned(), number);
-            let escaped: f64 =
-                result.patches.iter().filter_map(|patch| patch.rows.last()).map(|row| row.escape_mass).sum();
             let stuck = match (
                 value(&result.balance, "stuck_in_cloud_kg"),
                 value(&result.balance, "stuck_removed_kg"),
@@ -468,7 +466,7 @@ impl<'a> View<'a> {
                 at("airborne_kg"),
                 number(self.captured_in_all(result, f64::MAX)),
                 stuck,
-                number(escaped),
+                result.escaped_mass().map_or("–".to_owned(), number),
                 at("reacted_kg"),
                 at("residual"),
             ]);
@@ -484,7 +482,9 @@ impl<'a> View<'a> {
             "residual / injected",
         ];
         Table {
-            caption: "At each case's own last time. The stock models keep no balance.".into(),
+            caption: "At each case's own last time. The stock models keep no balance; where their patches count no escapes, \
+                      escaped is the log's sum over all patches, else what was recorded as leaving."
+                .into(),
             header: header.map(str::to_owned).to_vec(),
             rows,
             text_columns: 1,

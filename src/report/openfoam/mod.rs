@@ -51,6 +51,8 @@ pub struct CloudResult {
     pub patches: Vec<PatchHistory>,
     /// Time [s] and injected mass [kg].
     pub injected: Vec<[f64; 2]>,
+    /// Time [s] and mass [kg] that left through any patch, where a log says so.
+    pub escaped: Vec<[f64; 2]>,
     /// The last row of the mass balance: name and value.
     pub balance: Vec<(String, f64)>,
     /// Arrivals at the walls, in the order of time; empty where none were recorded.
@@ -59,6 +61,8 @@ pub struct CloudResult {
     pub parcels: Vec<Parcel>,
     /// The mesh's patches of type `wall`; empty where the mesh is not there.
     pub wall_patches: Vec<String>,
+    /// Whether the cloud's properties name solid carbon.
+    pub has_carbon: bool,
     /// What could not be found.
     pub missing: Vec<String>,
 }
@@ -72,6 +76,25 @@ impl CloudResult {
     /// Injected mass [kg] at a time [s]: the last known before it.
     pub fn injected_at(&self, time: f64) -> Option<f64> {
         self.injected.iter().take_while(|[t, _]| *t <= time * (1.0 + 1e-9)).last().map(|[_, mass]| *mass)
+    }
+
+    /// Mass [kg] that has left: our balance, else the patches that count it, else the log's sum over all patches, else
+    /// what was recorded at patches that are no walls. `None` where nothing tells.
+    pub fn escaped_mass(&self) -> Option<f64> {
+        if let Some(mass) = tables::value(&self.balance, "escaped_kg") {
+            return Some(mass);
+        }
+        let rows = self.patches.iter().filter_map(|patch| patch.rows.last());
+        let counted: f64 = rows.map(|row| row.escape_mass).sum();
+        if counted > 0.0 || self.is_ours() {
+            return Some(counted);
+        }
+        if let Some([_, mass]) = self.escaped.last() {
+            return Some(*mass);
+        }
+        let leaving = self.arrivals.iter().filter(|arrival| !self.wall_patches.contains(&arrival.patch));
+        let recorded: f64 = leaving.map(|arrival| arrival.mass).sum();
+        (!self.wall_patches.is_empty() && recorded > 0.0).then_some(recorded)
     }
 
     /// The last time [s] of which anything is known.
@@ -117,6 +140,7 @@ pub fn read(folder: &Path) -> Result<Vec<CloudResult>, CaseError> {
         if result.injected.is_empty() {
             result.injected = fates.injected;
         }
+        result.escaped = fates.escaped;
     }
     clouds.retain(|_, result| result.did_anything());
     if clouds.is_empty() {
@@ -138,6 +162,7 @@ fn finish(folder: &Path, case: &str, cloud: String, mut result: CloudResult) -> 
     result.model = interaction_model(folder, &cloud);
     result.wall_patches = wall_patches(folder);
     let carbon = arrivals::Carbon::of(folder, &cloud);
+    result.has_carbon = carbon.is_some();
     result.arrivals = arrivals::read_all(folder, &cloud, carbon.as_ref());
     let mut note = |what: String| result.missing.push(what);
     if result.arrivals.is_empty() {
