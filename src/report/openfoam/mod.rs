@@ -25,11 +25,11 @@ pub enum CaseError {
     /// There is no such folder.
     #[error("{0}: there is no such folder; give the folder of a finished OpenFOAM case")]
     NoFolder(String),
-    /// The folder is something else.
+    /// The folder is something else; the second text names the cases below it.
     #[error(
-        "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in"
+        "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in{1}"
     )]
-    NotACase(String),
+    NotACase(String, String),
     /// A case that has not run, or whose results are not where they are looked for.
     #[error(
         "{0}: no results found: neither postProcessing/nearWallInteraction nor a log.* with \"Parcel fate\" lines; run \
@@ -120,7 +120,8 @@ pub fn read(folder: &Path) -> Result<Vec<CloudResult>, CaseError> {
         return Err(CaseError::NoFolder(shown));
     }
     if !folder.join("system/controlDict").is_file() {
-        return Err(CaseError::NotACase(shown));
+        let below = cases_below(folder);
+        return Err(CaseError::NotACase(shown, below));
     }
     let whole = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let case = whole.file_name().map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
@@ -154,6 +155,26 @@ impl CloudResult {
         self.injected.last().is_some_and(|[_, mass]| *mass > 0.0)
             || self.patches.iter().any(|patch| patch.rows.last().is_some_and(|row| row.is_something()))
     }
+}
+
+/// A hint at the cases in a folder, one or two levels down; empty when there are none.
+fn cases_below(folder: &Path) -> String {
+    let is_case = |path: &PathBuf| path.join("system/controlDict").is_file();
+    let inside = |path: &Path| folders(path).into_iter().map(|name| path.join(name)).collect::<Vec<_>>();
+    let mut cases = Vec::new();
+    for path in inside(folder) {
+        if is_case(&path) {
+            cases.push(path);
+        } else {
+            cases.extend(inside(&path).into_iter().filter(is_case));
+        }
+    }
+    if cases.is_empty() {
+        return String::new();
+    }
+    let more = if cases.len() > 5 { format!(" and {} more", cases.len() - 5) } else { String::new() };
+    let shown: Vec<String> = cases.iter().take(5).map(|path| path.display().to_string()).collect();
+    format!(". Cases below it: {}{more}", shown.join(" "))
 }
 
 /// Adds what is kept per cloud elsewhere in the case.
