@@ -185,10 +185,10 @@ fn the_page_compares_and_says_what_constants_get_wrong() {
     let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
     for part in [
         "ours 7.0 %, stock 2.0 %",
-        "stock holds all that arrives where speed, temperature and conversion let this share of the arriving mass \
-         rebound: slagWall 40.0 %",
-        "stock holds nothing where this share of the arriving mass sticks: quenchWall 25.0 %",
+        "Of the arriving mass ours holds 25.0 % at quenchWall, 60.0 % at slagWall, where stock holds all at slagWall and \
+         nothing at quenchWall.",
         "caught as NSP-SW",
+        "Regime of capture, ours",
         "no parcels of coalCloud1",
     ] {
         assert!(page.contains(part), "`{part}` is not on the page");

@@ -30,12 +30,12 @@ pub enum CaseError {
         "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in{1}"
     )]
     NotACase(String, String),
-    /// A case that has not run, or whose results are not where they are looked for.
+    /// A case that has not run, or whose results are not where they are looked for; the second text as above.
     #[error(
         "{0}: no results found: neither postProcessing/nearWallInteraction nor a log.* with \"Parcel fate\" lines; run \
-         the case first and keep the solver's output in log.<solver>"
+         the case first and keep the solver's output in log.<solver>{1}"
     )]
-    NoResults(String),
+    NoResults(String, String),
 }
 
 /// What a finished case has to say about one cloud.
@@ -145,7 +145,7 @@ pub fn read(folder: &Path) -> Result<Vec<CloudResult>, CaseError> {
     }
     clouds.retain(|_, result| result.did_anything());
     if clouds.is_empty() {
-        return Err(CaseError::NoResults(shown));
+        return Err(CaseError::NoResults(shown, cases_below(folder)));
     }
     Ok(clouds.into_iter().map(|(cloud, result)| finish(folder, &case, cloud, result)).collect())
 }
