@@ -371,7 +371,9 @@ pub fn unknown(word: &str, what: &str, known: &[&str]) -> String {
 fn range_text(low: f64, high: f64) -> String {
     match (low == f64::NEG_INFINITY, high == f64::INFINITY) {
         (true, _) => format!("the allowed range (at most {high})"),
+        (_, true) if low == f64::MIN_POSITIVE => "the allowed range (above 0)".to_owned(),
         (_, true) => format!("the allowed range (at least {low})"),
+        _ if low == f64::MIN_POSITIVE => format!("the allowed range (above 0, at most {high})"),
         _ => format!("the allowed range {low} to {high}"),
     }
 }
@@ -382,6 +384,13 @@ mod tests {
 
     fn error(text: &str, read: impl FnOnce(&Section<'_>) -> Result<(), InputError>) -> String {
         Document::new("m.toml", text).read(read).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn ranges_above_zero_say_so() {
+        assert_eq!(range_text(f64::MIN_POSITIVE, f64::INFINITY), "the allowed range (above 0)");
+        assert_eq!(range_text(f64::MIN_POSITIVE, 1.0), "the allowed range (above 0, at most 1)");
+        assert_eq!(range_text(0.0, 1.0), "the allowed range 0 to 1");
     }
 
     #[test]

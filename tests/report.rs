@@ -166,6 +166,8 @@ fn logs_and_arrivals_of_a_stock_model_are_read() {
     assert_eq!(result.patch("slagWall").unwrap().at(1.0).unwrap().stick_mass, 2e-6);
     assert_eq!(result.patch("burnerWall").unwrap().name, "(quenchWall|burnerWall)");
     assert_eq!(result.arrivals.len(), 3);
+    // No patch counts an escape, the whole cloud does.
+    assert_eq!(result.escaped_mass(), Some(1e-5));
     let first = &result.arrivals[0];
     let mass = std::f64::consts::PI / 6.0 * 1e-9;
     assert!((first.conversion.unwrap() - (1.0 - mass * 0.5 / (1e-9 * 0.504))).abs() < 1e-12);
@@ -185,10 +187,10 @@ fn the_page_compares_and_says_what_constants_get_wrong() {
     let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
     for part in [
         "ours 7.0 %, stock 2.0 %",
-        "stock holds all that arrives where speed, temperature and conversion let this share of the arriving mass \
-         rebound: slagWall 40.0 %",
-        "stock holds nothing where this share of the arriving mass sticks: quenchWall 25.0 %",
+        "Of the arriving mass ours holds 25.0 % at quenchWall, 60.0 % at slagWall, where stock holds all at slagWall and \
+         nothing at quenchWall.",
         "caught as NSP-SW",
+        "Regime of capture, ours",
         "no parcels of coalCloud1",
     ] {
         assert!(page.contains(part), "`{part}` is not on the page");
@@ -206,6 +208,49 @@ fn the_page_compares_and_says_what_constants_get_wrong() {
     assert!(folder.path().join("ours/report.html").is_file());
 }
 
+/// standardWallInteraction counts no escapes at patches; a log without the sum leaves the record of what left, or nothing.
+#[test]
+fn escapes_that_no_log_counts_are_those_recorded_or_unknown() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("case");
+    stock(&root);
+    let log = std::fs::read_to_string(root.join("log.coalChemistryFoam")).unwrap();
+    let without = log.replace(
+        "    Parcel fate: system (number, mass)\n      - escape                      = 5, 1e-05\n",
+        "",
+    );
+    assert!(without.len() < log.len());
+    write(&root, "log.coalChemistryFoam", &without);
+    assert_eq!(openfoam::read(&root).unwrap()[0].escaped_mass(), None);
+    write(
+        &root,
+        "postProcessing/lagrangian/coalCloud1/leaving/0.2/outlet.post",
+        "# Time currentProc  (position0 position1 position2) active nParticle d (U0 U1 U2) rho\n\
+         0.9 0 (0.2 0 -1.4) 1 10 1e-4 (3 0 4) 1000\n",
+    );
+    let mass = openfoam::read(&root).unwrap()[0].escaped_mass().unwrap();
+    assert!((mass - 10.0 * 1000.0 * std::f64::consts::PI / 6.0 * 1e-12).abs() < 1e-20, "{mass}");
+}
+
+#[test]
+fn two_clouds_of_a_case_are_told_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = folder.path().join("case");
+    ours(&root);
+    let tables = "postProcessing/nearWallInteraction/limestone/0";
+    write(&root, &format!("{tables}/slagWall.dat"), &table(&[[1.0, 20.0, 2e-6, 5.0, 5e-7]]));
+    let page = openfoam::page(&openfoam::read(&root).unwrap()).unwrap();
+    for part in [
+        "Regime of capture, case coalCloud1",
+        "Regime of capture, case limestone",
+        "<figure id=\"regimes-1\"",
+        "In case limestone 100.0 % of the captured mass",
+        "Captured parcels, case coalCloud1",
+    ] {
+        assert!(page.contains(part), "`{part}` is not on the page");
+    }
+}
+
 /// Nothing is loaded: no address but the name of the SVG language, no script, no image file.
 fn is_self_contained(page: &str) {
     let without_names = page.replace("http://www.w3.org/2000/svg", "");
@@ -220,10 +265,12 @@ fn folders_that_are_no_finished_cases_are_refused_with_the_remedy() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("empty")).unwrap();
     skeleton(&folder.path().join("unrun"), "localInteraction");
+    skeleton(&folder.path().join("cases/run/inner"), "localInteraction");
     for (name, part) in [
         ("none", "there is no such folder"),
         ("empty", "not an OpenFOAM case (it has no system/controlDict)"),
         ("unrun", "no results found"),
+        ("cases", "Cases below it: cases/run/inner"),
     ] {
         let output = nearwall(folder.path(), &["report", name]);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -189,6 +189,7 @@ pub struct Chart {
     keys: Vec<Key>,
     x_range: Option<[f64; 2]>,
     y_range: Option<[f64; 2]>,
+    y_step: Option<f64>,
     log: [bool; 2],
     lines: Vec<ReferenceLine>,
 }
@@ -205,6 +206,7 @@ impl Chart {
             keys: Vec::new(),
             x_range: None,
             y_range: None,
+            y_step: None,
             log: [false; 2],
             lines: Vec::new(),
         }
@@ -221,6 +223,13 @@ impl Chart {
     #[must_use]
     pub fn y_range(mut self, low: f64, high: f64) -> Self {
         self.y_range = Some([low, high]);
+        self
+    }
+
+    /// Fixes the distance of the ticks of the y axis.
+    #[must_use]
+    pub fn y_step(mut self, step: f64) -> Self {
+        self.y_step = Some(step);
         self
     }
 
@@ -335,6 +344,9 @@ impl Chart {
         }
         if let Some([low, high]) = self.y_range {
             layout = layout.with_y_axis_min(low).with_y_axis_max(high);
+        }
+        if let Some(step) = self.y_step {
+            layout = layout.with_y_tick_step(step);
         }
         if self.log[0] {
             layout = layout.with_log_x();

@@ -19,6 +19,16 @@ pub enum SweepError {
         /// What is wrong.
         reason: String,
     },
+    /// A line does not fit the header, or is no text.
+    #[error("{file}:{line}: {reason}")]
+    BadLine {
+        /// The file.
+        file: String,
+        /// The line, from 1.
+        line: u64,
+        /// What is wrong and what to do.
+        reason: String,
+    },
     /// No column has a published partner.
     #[error("{file}:1: no quantity to draw; a column `Q` is drawn when a column `Q_paper` stands beside it")]
     NothingToDraw {
@@ -35,12 +45,28 @@ struct Runs {
     rows: Vec<Vec<String>>,
 }
 
+/// What is wrong with a file, in a reader's words.
+fn fault(path: &Path, error: &csv::Error) -> SweepError {
+    let file = path.display().to_string();
+    let line = error.position().map(csv::Position::line);
+    let reason = match error.kind() {
+        csv::ErrorKind::Io(error) => error.to_string(),
+        csv::ErrorKind::UnequalLengths { expected_len, len, .. } => format!(
+            "{len} cells where the header has {expected_len}; write one cell a column, \"-\" where there is nothing, and \
+             put quotes around a text with a comma"
+        ),
+        csv::ErrorKind::Utf8 { .. } => "not UTF-8; save the table as UTF-8".to_owned(),
+        _ => error.to_string(),
+    };
+    match line {
+        Some(line) => SweepError::BadLine { file, line, reason },
+        None => SweepError::Unreadable { file, reason },
+    }
+}
+
 impl Runs {
     fn read(path: &Path) -> Result<Self, SweepError> {
-        let fault = |error: csv::Error| SweepError::Unreadable {
-            file: path.display().to_string(),
-            reason: error.to_string(),
-        };
+        let fault = |error: csv::Error| fault(path, &error);
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(fault)?;
         let header = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
         let to_row = |record: csv::StringRecord| record.iter().map(str::to_owned).collect();
@@ -169,5 +195,8 @@ mod tests {
         assert!(html.contains("temperature [°C]") && html.contains("published"));
         std::fs::write(&path, "run,T_C\na,20\n").unwrap();
         assert!(page(&path).unwrap_err().to_string().contains("Q_paper"));
+        std::fs::write(&path, "run,T_C\na,20\nb,20,3\n").unwrap();
+        let message = page(&path).unwrap_err().to_string();
+        assert!(message.contains("t.csv:3: 3 cells where the header has 2;"), "{message}");
     }
 }

@@ -45,6 +45,9 @@ fn add_run(page: &mut Page, case: &Case, tally: &Tally) {
     }
     page.add(Block::Heading("Where material is captured".into()));
     page.add(Block::Table(wall_table(case, tally)));
+    if tally.stuck_later() > 0.1 {
+        page.add(Block::Text(hops(tally)));
+    }
     page.add(Block::Figures(maps(case, tally)));
     page.add(Block::Heading("In which state".into()));
     let mut states = vec![regimes(case, tally)];
@@ -98,6 +101,18 @@ fn verdict(case: &Case, tally: &Tally) -> Vec<String> {
     vec![first, second + "."]
 }
 
+/// Why far more stick in the end than at the first hit.
+fn hops(tally: &Tally) -> String {
+    let [hits, stuck] = tally.first_hits();
+    let burnt = if has_carbon(tally) { " and the carbon burns on" } else { "" };
+    format!(
+        "{} of the first hits are captured, but {} of the particles stick in the end: each rebound takes speed away{burnt}, \
+         so what comes back to the wall after many small hops is held. A measurement of single impacts sees the first share.",
+        percent(ratio(stuck as f64, hits as f64)),
+        percent(ratio(tally.stuck.count as f64, tally.injected.count as f64)),
+    )
+}
+
 fn wall_table(case: &Case, tally: &Tally) -> Table {
     let row = |wall: &WallTally| {
         vec![
@@ -143,11 +158,11 @@ fn impact_table(case: &Case, tally: &Tally) -> Table {
     };
     let header = [
         "wall",
-        "rebounds",
-        "impact speed [m/s]",
-        "angle from the surface [°]",
-        "e_n of rebounds",
-        "e_t of rebounds",
+        "rebounds, all hits",
+        "impact speed, all hits [m/s]",
+        "angle from the surface, all hits [°]",
+        "e_n of rebounds, all hits",
+        "e_t of rebounds, all hits",
         "outside validity",
     ];
     Table {
@@ -391,6 +406,17 @@ fn add_sweep(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) {
     page.add(Block::Figures(vec![sweep_capture(&axis, sweep, runs), sweep_restitution(&axis, sweep, runs)]));
     page.add(Block::Heading("Numbers".into()));
     page.add(Block::Table(sweep_table(&axis, runs)));
+    let gap = |run: &&Run| run.tally.stuck_later() > 0.1;
+    if let Some(run) =
+        runs.iter().filter(gap).max_by(|a, b| a.tally.stuck_later().total_cmp(&b.tally.stuck_later()))
+    {
+        page.add(Block::Text(format!(
+            "At {} = {}: {}",
+            axis.label,
+            number(shown(&axis, run)),
+            hops(&run.tally)
+        )));
+    }
     for reference in &sweep.references {
         page.add(Block::Note(format!("{}: {}", reference.quantity, reference.source)));
     }
@@ -456,10 +482,11 @@ fn sweep_restitution(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
     let chart = Chart::new("Normal restitution", &axis.label, "e_n [1]");
     let chart = referenced(chart, axis, sweep, "e_n", 1.0)
         .points_with_errors("first hits, captured = 0", &points, &errors)
-        .line("rebounds", &rebounds);
+        .line("rebounds, all hits", &rebounds);
     chart.figure(
         "sweep-restitution",
-        "Mean over first hits with its 95 % interval, a captured particle counted as 0.",
+        "Mean over first hits with its 95 % interval, a captured particle counted as 0; and over the rebounds of all hits, \
+         first and later.",
     )
 }
 
@@ -515,9 +542,9 @@ fn sweep_table(axis: &SweepAxis, runs: &[Run]) -> Table {
         "stuck",
         "captured at first hit (95 %)",
         "stuck in the end",
-        "e_n, captured = 0",
-        "e_n of rebounds",
-        "speed of all hits [m/s]",
+        "e_n of first hits, captured = 0",
+        "e_n of rebounds, all hits",
+        "speed, all hits [m/s]",
         "mass balance",
     ];
     Table {

@@ -301,7 +301,13 @@ impl Tally {
         ratio(self.stuck.mass(), self.injected.mass())
     }
 
-    /// Mean and standard error over all first hits on any wall: share captured, and `e_n` with a capture as 0.
+    /// Share of all particles that a later hit than their first captured [1].
+    pub fn stuck_later(&self) -> f64 {
+        let [_, first] = self.first_hits();
+        ratio(self.stuck.count.saturating_sub(first) as f64, self.injected.count as f64)
+    }
+
+    /// First hits on any wall, and how many of them were captured.
     pub fn first_hits(&self) -> [u64; 2] {
         self.walls
             .iter()

@@ -41,7 +41,12 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     write(&output, &openfoam::page(&results)?)
 }
 
+/// The path from the root, as a browser wants it.
+pub fn whole(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
 fn write(output: &Path, page: &str) -> CommandResult {
     std::fs::write(output, page).map_err(|error| format!("{}: {error}", output.display()))?;
-    crate::print(&format!("{}\n", output.display()))
+    crate::print(&format!("open {}\n", whole(output).display()))
 }

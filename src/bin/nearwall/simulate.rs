@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall::simulate::{Case, write};
+use nearwall::report::percent;
+use nearwall::simulate::{Case, Tally, write};
 
 use crate::{CommandResult, progress};
 
@@ -32,18 +33,28 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         let swept = case.sweep.as_ref().zip(run.value);
         text += &swept.map_or(String::new(), |(sweep, value)| format!("{} {value}: ", sweep.key));
         text += &format!(
-            "{} injected = {} stuck + {} escaped + {} airborne + {} given up + {} unusable; balance of mass {:.1e}\n",
+            "{} injected = {} stuck + {} escaped + {} airborne + {} given up + {} unusable; first hits captured {}; balance of mass {:.1e}\n",
             tally.injected.count,
             tally.stuck.count,
             tally.escaped.count,
             tally.airborne.count,
             tally.given_up.count,
             tally.unusable.count,
+            first_capture(tally),
             tally.balance_error()
         );
         if let Some(trouble) = &tally.first_trouble {
             eprintln!("nearwall: {} particles could not be used; the first: {trouble}", tally.unusable.count);
         }
     }
-    crate::print(&format!("{text}{}\n", folder.join("report.html").display()))
+    let page = crate::report::whole(&folder.join("report.html"));
+    crate::print(&format!("{text}open {}\n", page.display()))
+}
+
+/// What a rig that watches single impacts would see, beside what sticks after many.
+fn first_capture(tally: &Tally) -> String {
+    match tally.first_hits() {
+        [0, _] => "–".to_owned(),
+        [hits, stuck] => percent(stuck as f64 / hits as f64),
+    }
 }

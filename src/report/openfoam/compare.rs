@@ -20,13 +20,16 @@ pub fn page(results: &[CloudResult]) -> Result<String, String> {
     page.add(Block::Lead(view.lead()));
     page.add(Block::Verdict(view.verdict()));
     page.add(Block::Heading("Where material is captured".into()));
-    page.add(Block::Figures(drawn(vec![view.by_wall(), view.regimes(), view.along(), view.history()])));
+    let mut capture = drawn(vec![view.by_wall()]);
+    capture.extend(view.regimes());
+    capture.extend(drawn(vec![view.along(), view.history()]));
+    page.add(Block::Figures(capture));
     page.add(Block::Table(view.wall_table()));
     page.add(Block::Heading("At which carbon conversion".into()));
     page.add(Block::Figures(drawn(vec![view.conversion(), view.arriving()])));
     let places = view.places();
     if !places.is_empty() {
-        page.add(Block::Heading("The walls unrolled".into()));
+        page.add(Block::Heading("Where captured parcels lie".into()));
         page.add(Block::Figures(places));
     }
     page.add(Block::Heading("Balance".into()));
@@ -138,6 +141,10 @@ impl<'a> View<'a> {
                     *sum += mass;
                 }
             }
+            // A cloud without carbon (limestone) counts as burnt out; that says nothing.
+            if !result.has_carbon && sums[..9].iter().all(|sum| *sum == 0.0) {
+                return None;
+            }
         } else {
             for wall in self.walls.iter().filter(|wall| self.holds_all(result, wall)) {
                 for arrival in result.arrivals.iter().filter(|a| a.patch == *wall && a.time <= self.time) {
@@ -175,22 +182,45 @@ impl<'a> View<'a> {
         format!("{}. Everything is compared at {} s.", each.collect::<Vec<_>>().join("; "), number(self.time))
     }
 
+    /// Four lines at most, however many cases there are.
     fn verdict(&self) -> Vec<String> {
         let share =
             |result: &CloudResult| ratio(self.captured_in_all(result, self.time), self.injected(result));
         let totals: Vec<String> =
             self.each().map(|(label, result)| format!("{label} {}", percent(share(result)))).collect();
-        let mut sentences = vec![format!("Captured of the injected mass: {}.", totals.join(", "))];
-        if let Some((_, ours)) = self.each().find(|(_, result)| result.is_ours()) {
-            sentences.extend(self.own_finding(ours));
-            for (label, stock) in self.each().filter(|(_, result)| !result.is_ours()) {
-                sentences.extend(self.what_constants_get_wrong(label, stock, ours));
+        let ours = || self.each().filter(|(_, result)| result.is_ours());
+        let findings: Vec<String> =
+            ours().filter_map(|(label, ours)| self.own_finding(label, ours)).collect();
+        // A stock model is set beside our first run of the same cloud.
+        let beside: Vec<_> = ours()
+            .filter(|(label, own)| {
+                ours().find(|(_, o)| o.cloud == own.cloud).is_some_and(|(l, _)| l == *label)
+            })
+            .filter_map(|(label, own)| self.what_constants_get_wrong(label, own))
+            .collect();
+        let raw: Vec<String> = self
+            .each()
+            .filter_map(|(label, result)| {
+                let sums = self.captured_by_conversion(result)?;
+                Some(format!("{} of {label}", percent(raw_share(&sums))))
+            })
+            .collect();
+        let mut lines = vec![format!("Captured of the injected mass: {}.", totals.join(", "))];
+        for list in [findings, beside] {
+            if !list.is_empty() {
+                lines.push(format!("{}.", list.join("; ")));
             }
         }
-        sentences
+        if !raw.is_empty() {
+            lines.push(format!(
+                "Captured mass that is below a conversion of {RAW} at capture: {}.",
+                raw.join(", ")
+            ));
+        }
+        lines
     }
 
-    fn own_finding(&self, ours: &CloudResult) -> Option<String> {
+    fn own_finding(&self, label: &str, ours: &CloudResult) -> Option<String> {
         let rows = ours.patches.iter().filter_map(|patch| patch.at(self.time));
         let mut regimes = [0.0; 4];
         for row in rows {
@@ -199,56 +229,46 @@ impl<'a> View<'a> {
         let all: f64 = regimes.iter().sum();
         let most =
             Regime::ALL.iter().max_by(|a, b| regimes[**a as usize].total_cmp(&regimes[**b as usize]))?;
-        let conversions = self.captured_by_conversion(ours)?;
-        let raw: f64 = conversions[..(10.0 * RAW) as usize].iter().sum();
-        Some(format!(
-            "With the impact model {} of the captured mass is caught as {} and {} of it at a conversion below {RAW}.",
-            percent(ratio(regimes[*most as usize], all)),
-            most.name(),
-            percent(ratio(raw, conversions.iter().sum())),
-        ))
+        let share = percent(ratio(regimes[*most as usize], all));
+        (all > 0.0).then(|| format!("In {label} {share} of the captured mass is caught as {}", most.name()))
     }
 
-    /// Sentences on one stock model, each from the numbers of both runs.
-    fn what_constants_get_wrong(&self, label: &str, stock: &CloudResult, ours: &CloudResult) -> Vec<String> {
-        let (mut all, mut nothing) = (Vec::new(), Vec::new());
+    /// What stock models of the same cloud do at walls where our model holds a part of what arrives.
+    fn what_constants_get_wrong(&self, own_label: &str, ours: &CloudResult) -> Option<String> {
+        let mut held = Vec::new();
+        let mut constants = Vec::new();
         for wall in &self.walls {
-            let (Some((_, theirs)), Some((_, own)), Some((_, arriving))) =
-                (self.captured(stock, wall), self.captured(ours, wall), self.arrived(ours, wall))
+            let (Some((_, own)), Some((_, arriving))) = (self.captured(ours, wall), self.arrived(ours, wall))
             else {
                 continue;
             };
-            let share = ratio(own, arriving);
-            if self.holds_all(stock, wall) && share < 0.98 {
-                all.push(format!("{wall} {}", percent(1.0 - share)));
-            } else if theirs == 0.0 && own > 0.0 {
-                nothing.push(format!("{wall} {}", percent(share)));
+            if arriving > 0.0 {
+                held.push(format!("{} at {wall}", percent(ratio(own, arriving))));
             }
         }
-        let mut sentences = Vec::new();
-        if !all.is_empty() {
-            sentences.push(format!(
-                "{label} holds all that arrives where speed, temperature and conversion let this share of the arriving \
-                 mass rebound: {}.",
-                all.join(", ")
-            ));
+        for (label, stock) in self.each().filter(|(_, other)| !other.is_ours() && other.cloud == ours.cloud) {
+            let (mut all, mut nothing) = (Vec::new(), Vec::new());
+            for wall in &self.walls {
+                if self.holds_all(stock, wall) {
+                    all.push(wall.as_str());
+                } else if self.captured(stock, wall).is_some_and(|(_, mass)| mass == 0.0) {
+                    nothing.push(wall.as_str());
+                }
+            }
+            let all = (!all.is_empty()).then(|| format!("all at {}", all.join(", ")));
+            let nothing = (!nothing.is_empty()).then(|| format!("nothing at {}", nothing.join(", ")));
+            let parts: Vec<String> = all.into_iter().chain(nothing).collect();
+            if !parts.is_empty() {
+                constants.push(format!("{label} holds {}", parts.join(" and ")));
+            }
         }
-        if !nothing.is_empty() {
-            sentences.push(format!(
-                "{label} holds nothing where this share of the arriving mass sticks: {}.",
-                nothing.join(", ")
-            ));
-        }
-        let both = (self.captured_by_conversion(stock), self.captured_by_conversion(ours));
-        if let (Some(theirs), Some(own)) = both {
-            let raw = |sums: &[f64; 10]| ratio(sums[..(10.0 * RAW) as usize].iter().sum(), sums.iter().sum());
-            sentences.push(format!(
-                "What {label} captures is below a conversion of {RAW} for {} of its mass, against {}.",
-                percent(raw(&theirs)),
-                percent(raw(&own))
-            ));
-        }
-        sentences
+        (!held.is_empty() && !constants.is_empty()).then(|| {
+            format!(
+                "Of the arriving mass {own_label} holds {}, where {}",
+                held.join(", "),
+                constants.join(", and ")
+            )
+        })
     }
 
     fn add_notes(&self, page: &mut Page) {
@@ -274,8 +294,8 @@ impl<'a> View<'a> {
         if self.walls.is_empty() {
             return None;
         }
-        let title = "Captured mass by wall";
-        let mut bars = Bars::new(title, "captured mass [% of injected]", &self.walls);
+        let title = "Captured mass by wall, at capture";
+        let mut bars = Bars::new(title, "mass at capture [% of injected]", &self.walls);
         for (label, result) in self.each() {
             let share = |wall: &String| {
                 100.0
@@ -290,7 +310,7 @@ impl<'a> View<'a> {
     }
 
     fn history(&self) -> Option<Figure> {
-        let mut chart = Chart::new("Captured mass over time", "time [s]", "captured mass [kg]");
+        let mut chart = Chart::new("Captured mass over time", "time [s]", "mass at capture [kg]");
         for (label, result) in self.each() {
             let mut times: Vec<f64> =
                 result.patches.iter().flat_map(|p| p.rows.iter().map(|row| row.time)).collect();
@@ -303,7 +323,7 @@ impl<'a> View<'a> {
             let line: Vec<[f64; 2]> = shown.map(|time| [time, self.captured_in_all(result, time)]).collect();
             chart = chart.line(label, &line);
         }
-        Some(chart.figure("history", "All walls together, from the start of the case."))
+        Some(chart.figure("history", "All walls together, from the start of the case, with the mass that parcels have when they are captured."))
     }
 
     fn along(&self) -> Option<Figure> {
@@ -317,8 +337,8 @@ impl<'a> View<'a> {
         let edges = round_edges(low, high, BINS);
         let (low, step) = (edges[0], edges[1] - edges[0]);
         let axis = ["x", "y", "z"][self.axis];
-        let title = format!("Captured mass along {axis}");
-        let mut chart = Chart::new(&title, &format!("{axis} [m]"), "captured mass [% of injected]");
+        let title = format!("Captured mass along {axis}, as it is now");
+        let mut chart = Chart::new(&title, &format!("{axis} [m]"), "mass now [% of injected]");
         for (label, result) in self.each() {
             let injected = result.injected.last().map_or(f64::NAN, |[_, mass]| *mass);
             let mut heights = vec![0.0; edges.len() - 1];
@@ -331,24 +351,33 @@ impl<'a> View<'a> {
             }
         }
         let caption = "Parcels that lie still at the last written time, with the mass that they have then: OpenFOAM lets \
-                       captured parcels go on burning.";
+                       captured parcels go on burning, so this is less than their mass at capture.";
         Some(chart.figure("along", caption))
     }
 
-    fn regimes(&self) -> Option<Figure> {
-        let ours = self.results.iter().find(|result| result.is_ours())?;
-        let row = |wall: &String| {
-            ours.patch(wall).and_then(|patch| patch.at(self.time)).and_then(|row| row.regimes)
+    /// One figure for each cloud that our model decided.
+    fn regimes(&self) -> Vec<Figure> {
+        let ours: Vec<_> = self.each().filter(|(_, result)| result.is_ours()).collect();
+        let draw = |(number, (label, ours)): (usize, &(&String, &CloudResult))| {
+            let row = |wall: &String| {
+                ours.patch(wall).and_then(|patch| patch.at(self.time)).and_then(|row| row.regimes)
+            };
+            let title = format!("Regime of capture, {label}");
+            let mut bars = Bars::new(&title, "mass at capture [% of injected]", &self.walls).stacked();
+            for regime in Regime::ALL {
+                let share = |w: &String| {
+                    100.0 * ratio(row(w).map_or(0.0, |r| r[regime as usize]), self.injected(ours))
+                };
+                bars = bars.series(regime.name(), &self.walls.iter().map(share).collect::<Vec<f64>>());
+            }
+            let caption = format!(
+                "{label} only: sticky particle or not (SP, NSP) on a sticky wall or not (SW, NSW). The stock models know \
+                 no regime."
+            );
+            let id = if number == 0 { "regimes".to_owned() } else { format!("regimes-{number}") };
+            bars.figure(&id, &caption)
         };
-        let mut bars = Bars::new("Regime of capture", "captured mass [% of injected]", &self.walls).stacked();
-        for regime in Regime::ALL {
-            let share =
-                |w: &String| 100.0 * ratio(row(w).map_or(0.0, |r| r[regime as usize]), self.injected(ours));
-            bars = bars.series(regime.name(), &self.walls.iter().map(share).collect::<Vec<f64>>());
-        }
-        let caption = "Sticky particle or not (SP, NSP) on a sticky wall or not (SW, NSW); impact model only, the stock \
-                       models know no regime.";
-        Some(bars.figure("regimes", caption))
+        ours.iter().enumerate().map(draw).collect()
     }
 
     fn conversion(&self) -> Option<Figure> {
@@ -386,22 +415,50 @@ impl<'a> View<'a> {
         any.then(|| chart.x_range(0.0, 1.0).figure("arriving", caption))
     }
 
-    /// Where captured parcels lie: along the main axis and around it.
+    /// Where captured parcels lie: along the main axis and around it, or, where the wall is not round, from the side. All
+    /// cases have the same axes.
     fn places(&self) -> Vec<Figure> {
-        let axis = ["x", "y", "z"][self.axis];
-        let [first, second] = [[1, 2], [2, 0], [0, 1]][self.axis];
+        let name = |axis: usize| ["x", "y", "z"][axis];
+        let stuck = |result: &'a CloudResult| result.parcels.iter().filter(|p| !p.active).map(|p| p.position);
+        let all: Vec<[f64; 3]> = self.results.iter().flat_map(stuck).collect();
+        let [first, second] = around(self.axis);
+        let range = |axis: usize| {
+            let places = || all.iter().map(move |place| place[axis]);
+            [places().fold(f64::INFINITY, f64::min), places().fold(f64::NEG_INFINITY, f64::max)]
+        };
+        let round = is_round(&all, self.axis);
+        let width = |axis: usize| range(axis)[1] - range(axis)[0];
+        let across = if width(second) > width(first) { second } else { first };
+        let [low, high] = range(self.axis);
         let mut figures = Vec::new();
         for (number, (label, result)) in self.each().enumerate() {
-            let stuck = result.parcels.iter().filter(|parcel| !parcel.active);
-            let angle = |p: &[f64; 3]| p[second].atan2(p[first]).to_degrees();
-            let points: Vec<[f64; 2]> = stuck.map(|p| [p.position[self.axis], angle(&p.position)]).collect();
+            let height =
+                |p: &[f64; 3]| if round { p[second].atan2(p[first]).to_degrees() } else { p[across] };
+            let points: Vec<[f64; 2]> = stuck(result).map(|p| [p[self.axis], height(&p)]).collect();
             if points.is_empty() {
                 continue;
             }
-            let around = format!("angle about {axis} [°]");
-            let chart = Chart::new(&format!("Captured parcels, {label}"), &format!("{axis} [m]"), &around);
-            let caption = format!("{} parcels, one point each.", points.len());
-            let chart = chart.points("", &points).y_range(-180.0, 180.0);
+            let y_label = if round {
+                format!("angle about {} [°]", name(self.axis))
+            } else {
+                format!("{} [m]", name(across))
+            };
+            let title = format!("Captured parcels, {label}");
+            let mut chart =
+                Chart::new(&title, &format!("{} [m]", name(self.axis)), &y_label).points("", &points);
+            if low < high {
+                chart = chart.x_range(low, high);
+            }
+            if round {
+                chart = chart.y_range(-180.0, 180.0).y_step(90.0);
+            } else if let [bottom, top] = range(across)
+                && bottom < top
+            {
+                let edges = round_edges(bottom, top, 5);
+                chart = chart.y_range(edges[0], edges[edges.len() - 1]).y_step(edges[1] - edges[0]);
+            }
+            let view = if round { "the wall unrolled" } else { "seen from the side" };
+            let caption = format!("{} parcels, one point each; {view}.", points.len());
             figures.push(chart.figure(&format!("places-{number}"), &caption));
         }
         figures
@@ -453,8 +510,6 @@ impl<'a> View<'a> {
         let mut rows = Vec::new();
         for (label, result) in self.each() {
             let at = |name: &str| value(&result.balance, name).map_or("–".to_owned(), number);
-            let escaped: f64 =
-                result.patches.iter().filter_map(|patch| patch.rows.last()).map(|row| row.escape_mass).sum();
             let stuck = match (
                 value(&result.balance, "stuck_in_cloud_kg"),
                 value(&result.balance, "stuck_removed_kg"),
@@ -468,7 +523,7 @@ impl<'a> View<'a> {
                 at("airborne_kg"),
                 number(self.captured_in_all(result, f64::MAX)),
                 stuck,
-                number(escaped),
+                result.escaped_mass().map_or("–".to_owned(), number),
                 at("reacted_kg"),
                 at("residual"),
             ]);
@@ -484,7 +539,9 @@ impl<'a> View<'a> {
             "residual / injected",
         ];
         Table {
-            caption: "At each case's own last time. The stock models keep no balance.".into(),
+            caption: "At each case's own last time. The stock models keep no balance; where their patches count no escapes, \
+                      escaped is the log's sum over all patches, else what was recorded as leaving."
+                .into(),
             header: header.map(str::to_owned).to_vec(),
             rows,
             text_columns: 1,
@@ -526,4 +583,52 @@ fn main_axis(results: &[CloudResult]) -> usize {
         places().fold(f64::NEG_INFINITY, f64::max) - places().fold(f64::INFINITY, f64::min)
     };
     (0..3).max_by(|a, b| extent(*a).total_cmp(&extent(*b))).unwrap_or(2)
+}
+
+/// The two axes across this one.
+fn around(axis: usize) -> [usize; 2] {
+    [[1, 2], [2, 0], [0, 1]][axis]
+}
+
+/// Whether places lie roughly on round walls about an axis through the origin: all around it, and at each place along it
+/// most at one radius.
+fn is_round(places: &[[f64; 3]], axis: usize) -> bool {
+    let [first, second] = around(axis);
+    let along = || places.iter().map(|place| place[axis]);
+    let (low, high) = (along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max));
+    let mut sectors = [false; 12];
+    let mut slices: Vec<Vec<f64>> = vec![Vec::new(); BINS];
+    for place in places {
+        let turn = place[second].atan2(place[first]) / std::f64::consts::TAU + 0.5;
+        sectors[((12.0 * turn) as usize).min(11)] = true;
+        let slice = (ratio(place[axis] - low, high - low) * BINS as f64).max(0.0) as usize;
+        slices[slice.min(BINS - 1)].push(place[first].hypot(place[second]));
+    }
+    let at_one_radius = |radii: &mut Vec<f64>| {
+        radii.sort_by(f64::total_cmp);
+        let middle = radii.get(radii.len() / 2).copied().unwrap_or(0.0);
+        radii.iter().filter(|radius| (**radius - middle).abs() <= 0.1 * middle).count()
+    };
+    let regular: usize = slices.iter_mut().map(at_one_radius).sum();
+    sectors.iter().filter(|hit| **hit).count() >= 8 && regular * 10 >= places.len() * 8
+}
+
+/// The share of captured mass that is still raw [1].
+fn raw_share(sums: &[f64; 10]) -> f64 {
+    ratio(sums[..(10.0 * RAW) as usize].iter().sum(), sums.iter().sum())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pipe_is_round_and_a_plate_is_not() {
+        let turn = |i: usize| i as f64 * 0.7;
+        let pipe: Vec<[f64; 3]> =
+            (0..200).map(|i| [0.2 * turn(i).cos(), 0.2 * turn(i).sin(), 0.01 * i as f64]).collect();
+        let plate: Vec<[f64; 3]> =
+            (0..200).map(|i| [turn(i).sin(), 0.0, 0.01 * ((7 * i) % 200) as f64]).collect();
+        assert!(is_round(&pipe, 2) && !is_round(&plate, 2) && !is_round(&[], 2));
+    }
 }

@@ -9,6 +9,7 @@
 //!       - escape                      = 0, 0
 //!       - stick                       = 4994, 0.000735
 //! ```
+//! `Parcel fate: system` counts what left through any patch; `standardWallInteraction` counts it there and at no patch.
 //! Counts are of parcels, masses in kg, both from the start of the case. Several logs of one case (a restart) are read
 //! in the order of the times in them.
 
@@ -25,6 +26,8 @@ pub struct Fates {
     pub patches: Vec<PatchHistory>,
     /// Time [s] and injected mass [kg].
     pub injected: Vec<[f64; 2]>,
+    /// Time [s] and mass [kg] that left through any patch.
+    pub escaped: Vec<[f64; 2]>,
 }
 
 /// Reads every `log.*` of a case.
@@ -51,7 +54,7 @@ pub(super) fn read_all(case: &Path) -> BTreeMap<String, Fates> {
 
 /// Reads one log.
 pub fn read(source: impl BufRead, clouds: &mut BTreeMap<String, Fates>) {
-    let mut reader = Reader { clouds, time: 0.0, cloud: None, patch: None, injected: 0.0 };
+    let mut reader = Reader { clouds, time: 0.0, cloud: None, patch: None, of_system: false, injected: 0.0 };
     // A log may hold bytes that are no UTF-8 (paths, terminals); such a line is skipped.
     for line in source.split(b'\n').map_while(Result::ok) {
         if let Ok(line) = std::str::from_utf8(&line) {
@@ -65,6 +68,8 @@ struct Reader<'a> {
     time: f64,
     cloud: Option<String>,
     patch: Option<String>,
+    /// Whether the lines that come are those of the whole cloud.
+    of_system: bool,
     /// Injected by the injectors of this cloud that came so far in this step.
     injected: f64,
 }
@@ -73,15 +78,16 @@ impl Reader<'_> {
     fn line(&mut self, line: &str) {
         if let Some(time) = line.strip_prefix("Time = ") {
             if let Ok(time) = time.trim_end_matches('s').parse() {
-                (self.time, self.cloud, self.patch) = (time, None, None);
+                (self.time, self.cloud, self.patch, self.of_system) = (time, None, None, false);
             }
         } else if let Some(rest) = line.strip_prefix("Cloud: ") {
             // Also printed as "Cloud: name injector: name" before the step.
             let name = rest.split_whitespace().next().unwrap_or_default();
             self.cloud = (!name.is_empty() && !rest.contains("injector:")).then(|| name.to_owned());
-            (self.patch, self.injected) = (None, 0.0);
+            (self.patch, self.of_system, self.injected) = (None, false, 0.0);
         } else if let Some(rest) = line.strip_prefix("Parcel fate:") {
             self.patch = patch_name(rest);
+            self.of_system = rest.trim().starts_with("system");
         } else if let Some(rest) = line.strip_prefix("- ") {
             self.item(rest);
         }
@@ -102,8 +108,17 @@ impl Reader<'_> {
             }
             return;
         }
-        let (Some(patch), Some((count, mass))) = (&self.patch, value.split_once(',')) else { return };
+        let Some((count, mass)) = value.split_once(',') else { return };
         let (Ok(count), Ok(mass)) = (count.trim().parse::<f64>(), mass.trim().parse::<f64>()) else { return };
+        let Some(patch) = &self.patch else {
+            if what == "escape" && self.of_system {
+                match fates.escaped.last_mut() {
+                    Some(last) if last[0] == self.time => last[1] += mass,
+                    _ => fates.escaped.push([self.time, mass]),
+                }
+            }
+            return;
+        };
         let row = row_of(fates, patch, self.time);
         // Later versions tell injectors apart by repeating the lines.
         match what {
@@ -144,10 +159,12 @@ fn row_of<'a>(fates: &'a mut Fates, patch: &str, time: f64) -> &'a mut PatchRow 
 
 /// Brings several logs into the order of time; of equal times the one read last stays.
 fn sort(fates: &mut Fates) {
-    fates.injected.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    fates.injected.reverse();
-    fates.injected.dedup_by(|a, b| a[0] == b[0]);
-    fates.injected.reverse();
+    for list in [&mut fates.injected, &mut fates.escaped] {
+        list.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        list.reverse();
+        list.dedup_by(|a, b| a[0] == b[0]);
+        list.reverse();
+    }
     for patch in &mut fates.patches {
         patch.rows.sort_by(|a, b| a.time.total_cmp(&b.time));
         patch.rows.reverse();
@@ -179,6 +196,7 @@ mod tests {
         );
         let coal = &clouds["coal"];
         assert_eq!(coal.injected, [[0.1, 0.002]]);
+        assert_eq!(coal.escaped, [[0.1, 1e-5]]);
         assert_eq!(coal.patches.len(), 2);
         assert!(coal.patches[0].covers("a") && coal.patches[1].covers("slagWall"));
         let row = &coal.patches[1].rows[0];

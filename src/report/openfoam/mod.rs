@@ -25,17 +25,17 @@ pub enum CaseError {
     /// There is no such folder.
     #[error("{0}: there is no such folder; give the folder of a finished OpenFOAM case")]
     NoFolder(String),
-    /// The folder is something else.
+    /// The folder is something else; the second text names the cases below it.
     #[error(
-        "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in"
+        "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in{1}"
     )]
-    NotACase(String),
-    /// A case that has not run, or whose results are not where they are looked for.
+    NotACase(String, String),
+    /// A case that has not run, or whose results are not where they are looked for; the second text as above.
     #[error(
         "{0}: no results found: neither postProcessing/nearWallInteraction nor a log.* with \"Parcel fate\" lines; run \
-         the case first and keep the solver's output in log.<solver>"
+         the case first and keep the solver's output in log.<solver>{1}"
     )]
-    NoResults(String),
+    NoResults(String, String),
 }
 
 /// What a finished case has to say about one cloud.
@@ -51,6 +51,8 @@ pub struct CloudResult {
     pub patches: Vec<PatchHistory>,
     /// Time [s] and injected mass [kg].
     pub injected: Vec<[f64; 2]>,
+    /// Time [s] and mass [kg] that left through any patch, where a log says so.
+    pub escaped: Vec<[f64; 2]>,
     /// The last row of the mass balance: name and value.
     pub balance: Vec<(String, f64)>,
     /// Arrivals at the walls, in the order of time; empty where none were recorded.
@@ -59,6 +61,8 @@ pub struct CloudResult {
     pub parcels: Vec<Parcel>,
     /// The mesh's patches of type `wall`; empty where the mesh is not there.
     pub wall_patches: Vec<String>,
+    /// Whether the cloud's properties name solid carbon.
+    pub has_carbon: bool,
     /// What could not be found.
     pub missing: Vec<String>,
 }
@@ -72,6 +76,25 @@ impl CloudResult {
     /// Injected mass [kg] at a time [s]: the last known before it.
     pub fn injected_at(&self, time: f64) -> Option<f64> {
         self.injected.iter().take_while(|[t, _]| *t <= time * (1.0 + 1e-9)).last().map(|[_, mass]| *mass)
+    }
+
+    /// Mass [kg] that has left: our balance, else the patches that count it, else the log's sum over all patches, else
+    /// what was recorded at patches that are no walls. `None` where nothing tells.
+    pub fn escaped_mass(&self) -> Option<f64> {
+        if let Some(mass) = tables::value(&self.balance, "escaped_kg") {
+            return Some(mass);
+        }
+        let rows = self.patches.iter().filter_map(|patch| patch.rows.last());
+        let counted: f64 = rows.map(|row| row.escape_mass).sum();
+        if counted > 0.0 || self.is_ours() {
+            return Some(counted);
+        }
+        if let Some([_, mass]) = self.escaped.last() {
+            return Some(*mass);
+        }
+        let leaving = self.arrivals.iter().filter(|arrival| !self.wall_patches.contains(&arrival.patch));
+        let recorded: f64 = leaving.map(|arrival| arrival.mass).sum();
+        (!self.wall_patches.is_empty() && recorded > 0.0).then_some(recorded)
     }
 
     /// The last time [s] of which anything is known.
@@ -97,7 +120,8 @@ pub fn read(folder: &Path) -> Result<Vec<CloudResult>, CaseError> {
         return Err(CaseError::NoFolder(shown));
     }
     if !folder.join("system/controlDict").is_file() {
-        return Err(CaseError::NotACase(shown));
+        let below = cases_below(folder);
+        return Err(CaseError::NotACase(shown, below));
     }
     let whole = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
     let case = whole.file_name().map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
@@ -117,10 +141,11 @@ pub fn read(folder: &Path) -> Result<Vec<CloudResult>, CaseError> {
         if result.injected.is_empty() {
             result.injected = fates.injected;
         }
+        result.escaped = fates.escaped;
     }
     clouds.retain(|_, result| result.did_anything());
     if clouds.is_empty() {
-        return Err(CaseError::NoResults(shown));
+        return Err(CaseError::NoResults(shown, cases_below(folder)));
     }
     Ok(clouds.into_iter().map(|(cloud, result)| finish(folder, &case, cloud, result)).collect())
 }
@@ -132,12 +157,33 @@ impl CloudResult {
     }
 }
 
+/// A hint at the cases in a folder, one or two levels down; empty when there are none.
+fn cases_below(folder: &Path) -> String {
+    let is_case = |path: &PathBuf| path.join("system/controlDict").is_file();
+    let inside = |path: &Path| folders(path).into_iter().map(|name| path.join(name)).collect::<Vec<_>>();
+    let mut cases = Vec::new();
+    for path in inside(folder) {
+        if is_case(&path) {
+            cases.push(path);
+        } else {
+            cases.extend(inside(&path).into_iter().filter(is_case));
+        }
+    }
+    if cases.is_empty() {
+        return String::new();
+    }
+    let more = if cases.len() > 5 { format!(" and {} more", cases.len() - 5) } else { String::new() };
+    let shown: Vec<String> = cases.iter().take(5).map(|path| path.display().to_string()).collect();
+    format!(". Cases below it: {}{more}", shown.join(" "))
+}
+
 /// Adds what is kept per cloud elsewhere in the case.
 fn finish(folder: &Path, case: &str, cloud: String, mut result: CloudResult) -> CloudResult {
     case.clone_into(&mut result.case);
     result.model = interaction_model(folder, &cloud);
     result.wall_patches = wall_patches(folder);
     let carbon = arrivals::Carbon::of(folder, &cloud);
+    result.has_carbon = carbon.is_some();
     result.arrivals = arrivals::read_all(folder, &cloud, carbon.as_ref());
     let mut note = |what: String| result.missing.push(what);
     if result.arrivals.is_empty() {
