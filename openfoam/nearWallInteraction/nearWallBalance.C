@@ -74,7 +74,6 @@ Foam::nearWall::balance::balance
 
 void Foam::nearWall::balance::start(const scalar mass)
 {
-    if (started_) return;
     started_ = true;
 
     // The written mass is the same number on all ranks: one subtracts it

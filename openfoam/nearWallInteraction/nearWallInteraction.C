@@ -183,7 +183,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     );
     owner.functions().append
     (
-        new nearWallStart<CloudType>(owner, record_->balance)
+        new nearWallStart<CloudType>(owner, record_->balance, coeffs)
     );
 
     warnAboutRounding();
