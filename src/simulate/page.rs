@@ -107,7 +107,7 @@ fn hops(tally: &Tally) -> String {
     let burnt = if has_carbon(tally) { " and the carbon burns on" } else { "" };
     format!(
         "{} of the first hits are captured, but {} of the particles stick in the end: each rebound takes speed away{burnt}, \
-         so what comes back to the wall after many small hops is held. A measurement of single impacts sees the first share.",
+         so what comes back to the wall after a few small hops is held. A measurement of single impacts sees the first share.",
         percent(ratio(stuck as f64, hits as f64)),
         percent(ratio(tally.stuck.count as f64, tally.injected.count as f64)),
     )
