@@ -368,6 +368,7 @@ void Foam::nearWallInteraction<CloudType>::interact
     }
 
     e.regime = min(label(outcome.regime), label(3));
+    e.outsideRange = outcome.flags & NW_OUTSIDE_VALID_RANGE;
     if (outcome.stuck)
     {
         stick(p, pp, e, keepParticle);

@@ -53,19 +53,21 @@ wordList columnNames()
         names[tally::conversionMass + b] =
             "stick_mass_conversion_0." + Foam::name(b) + "_kg";
     }
+    names[tally::outsideRange] = "outside_range";
     return names;
 }
 
 
-//- The table adds the time in front and two efficiencies at the end
+//- The table adds the time in front and two efficiencies before the last
 wordList tableColumns()
 {
     const wordList own(columnNames());
     DynamicList<word> names;
     names.append("time_s");
-    forAll(own, i) names.append(own[i]);
+    for (label i = 0; i < tally::outsideRange; ++i) names.append(own[i]);
     names.append("capture_by_particles");
     names.append("capture_by_mass");
+    names.append(own[tally::outsideRange]);
     return wordList(names);
 }
 
@@ -86,9 +88,10 @@ scalarList tableRow(const scalar time, const scalarList& t)
 {
     DynamicList<scalar> row;
     row.append(time);
-    forAll(t, i) row.append(t[i]);
+    for (label i = 0; i < tally::outsideRange; ++i) row.append(t[i]);
     row.append(ratio(t[tally::stickParticles], t[tally::hitParticles]));
     row.append(ratio(t[tally::stickMass], t[tally::hitMass]));
+    row.append(t[tally::outsideRange]);
     return scalarList(row);
 }
 
@@ -114,6 +117,10 @@ void reportPatch(Ostream& os, const word& name, const scalarList& t)
     {
         os  << ", unusable " << t[tally::unusable]
             << " (" << t[tally::unusableMass] << " kg)";
+    }
+    if (t[tally::outsideRange])
+    {
+        os  << ", outside the model's stated range " << t[tally::outsideRange];
     }
     os  << nl;
 }
@@ -163,6 +170,7 @@ void Foam::nearWall::tally::hit(const label patchi, const event& e)
     add(patchi, hitMass, e.mass);
     add(patchi, speedSum, e.speed);
     add(patchi, normalSpeedSum, e.normalSpeed);
+    if (e.outsideRange) add(patchi, outsideRange, 1);
 }
 
 
