@@ -144,7 +144,7 @@ void Foam::nearWall::balance::report
     {
         os  << " + unusable " << digits(t[unusableRemoved]).c_str();
     }
-    os  << "; residual " << residual(t, now) << nl;
+    os  << "; relative residual " << residual(t, now) << nl;
 }
 
 

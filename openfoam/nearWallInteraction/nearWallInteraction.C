@@ -29,7 +29,7 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
         wordList
         ({
             "model", "patches", "stuck", "writeFields", "seed",
-            "statisticsInterval", "particleTemperature", "carbon", "U"
+            "statisticsInterval", "particleTemperature", "carbon"
         }),
         "nearWallInteraction"
     );
@@ -49,6 +49,23 @@ bool Foam::nearWallInteraction<CloudType>::readStuck() const
             << exit(FatalIOError);
     }
     return stuck == "keep";
+}
+
+
+template<class CloudType>
+Foam::label
+Foam::nearWallInteraction<CloudType>::readStatisticsInterval() const
+{
+    const dictionary& coeffs = nearWall::coefficients(*this, 0);
+    const label steps =
+        nearWall::readOr<label>(coeffs, "statisticsInterval", 1);
+    if (steps < 1)
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'statisticsInterval' is " << steps
+            << ", must be a number of steps, 1 or more" << exit(FatalIOError);
+    }
+    return steps;
 }
 
 
@@ -135,17 +152,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     (
         nearWall::readOr<label>(nearWall::coefficients(*this, 0), "seed", 1)
     ),
-    statisticsInterval_
-    (
-        max
-        (
-            label(1),
-            nearWall::readOr<label>
-            (
-                nearWall::coefficients(*this, 0), "statisticsInterval", 1
-            )
-        )
-    ),
+    statisticsInterval_(readStatisticsInterval()),
     isothermal_
     (
         nearWall::readOr<scalar>
@@ -187,6 +194,8 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     );
 
     warnAboutRounding();
+    Info<< "    nearWallInteraction, model: "
+        << nearWall::lawOrigin(coeffs, owner.mesh().time()).c_str() << nl;
     nearWall::reportPatchRules(rules_, owner.mesh());
     if (!nearWall::hasTemperature<parcelType>(0))
     {

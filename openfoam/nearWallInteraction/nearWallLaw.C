@@ -35,17 +35,30 @@ nearwall::model load(const dictionary& dict, const Time& time)
 {
     if (dict.isDict("model"))
     {
-        const dictionary& inlineModel = dict.subDict("model");
         return nearwall::model::from_toml
         (
-            nearWall::tomlFrom(inlineModel),
-            "inline model of " + inlineModel.name()
+            nearWall::tomlFrom(dict.subDict("model")),
+            nearWall::lawOrigin(dict, time)
         );
     }
     return nearwall::model::from_file(modelPath(dict, time));
 }
 
 } // End anonymous namespace
+
+
+Foam::string Foam::nearWall::lawOrigin
+(
+    const dictionary& dict,
+    const Time& time
+)
+{
+    if (dict.isDict("model"))
+    {
+        return "inline model of " + dict.subDict("model").name();
+    }
+    return modelPath(dict, time);
+}
 
 
 Foam::nearWall::lawPtr Foam::nearWall::loadLaw
