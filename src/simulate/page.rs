@@ -106,10 +106,11 @@ fn hops(tally: &Tally) -> String {
     let [hits, stuck] = tally.first_hits();
     let burnt = if has_carbon(tally) { " and the carbon burns on" } else { "" };
     format!(
-        "{} of the first hits are captured, but {} of the particles stick in the end: each rebound takes speed away{burnt}, \
-         so what comes back to the wall after a few small hops is held. A measurement of single impacts sees the first share.",
+        "Of the particles that reach a wall {} are captured at their first hit and {} in the end: each rebound takes speed \
+         away{burnt}, so what comes back to the wall after a few small hops is held. A measurement of single impacts sees \
+         the first share.",
         percent(ratio(stuck as f64, hits as f64)),
-        percent(ratio(tally.stuck.count as f64, tally.injected.count as f64)),
+        percent(ratio(tally.stuck.count as f64, hits as f64)),
     )
 }
 
