@@ -1,38 +1,18 @@
 //! The pages in a real browser: nothing loaded from elsewhere, no complaint on the console, every figure there.
-//!
-//! Needs Chromium (`tests/prepare` installs it). Without one the test says so and stops, except in CI, where it fails.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
 
 use std::path::Path;
 use std::process::Command;
+
+use common::browser::{Seen, browse};
 
 fn nearwall(arguments: &[&str]) {
     let root = env!("CARGO_MANIFEST_DIR");
     let output =
         Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(root).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-}
-
-/// The page's DOM after loading, and what the browser logged.
-fn browse(page: &Path) -> Option<(String, String)> {
-    let profile = tempfile::tempdir().unwrap();
-    let mut chromium = Command::new("chromium");
-    chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]);
-    chromium.args(["--disable-background-networking", "--disable-component-update", "--disable-sync"]);
-    chromium.args(["--enable-logging=stderr", "--virtual-time-budget=2000", "--dump-dom"]);
-    chromium.arg(format!("--user-data-dir={}", profile.path().display()));
-    chromium.arg(format!("file://{}", page.display()));
-    match chromium.output() {
-        Ok(output) => {
-            let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-            Some((text(&output.stdout), text(&output.stderr)))
-        }
-        Err(error) if std::env::var_os("CI").is_some() => panic!("chromium: {error}; run tests/prepare"),
-        Err(error) => {
-            eprintln!("chromium: {error}; run tests/prepare to look at the pages");
-            None
-        }
-    }
 }
 
 /// Asserts that the page stands alone and shows at least `figures` pictures, each with a heading and axes.
@@ -43,8 +23,7 @@ fn looks_right(page: &Path, figures: usize) {
         assert!(!namespaces.contains(elsewhere), "{} asks for {elsewhere}", page.display());
     }
     assert!(!html.contains("NaN"), "{} shows a number that is none", page.display());
-    let Some((dom, log)) = browse(page) else { return };
-    let complaints: Vec<&str> = log.lines().filter(|line| line.contains("CONSOLE")).collect();
+    let Some(Seen { dom, complaints }) = browse(page) else { return };
     assert!(complaints.is_empty(), "{complaints:?}");
     let found = dom.matches("<svg").count();
     assert!(found >= figures, "{}: {found} figures, {figures} expected", page.display());
@@ -67,6 +46,17 @@ fn simulated(name: &str, count: &str) -> tempfile::TempDir {
     let path = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
     nearwall(&["simulate", &path("case.toml"), "-o", &path("out")]);
     folder
+}
+
+/// Silence on the console means something only if a complaint would be heard.
+#[test]
+fn a_complaint_on_the_console_is_heard() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html");
+    std::fs::write(&page, "<html><body><script>console.error('planted')</script></body></html>").unwrap();
+    if let Some(seen) = browse(&page) {
+        assert!(seen.complaints.iter().any(|line| line.contains("planted")), "{:?}", seen.complaints);
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::{Block, Chart, Errors, Page, Table, number};
+use super::{Block, Chart, Errors, Figure, Page, Table, number};
 
 /// Why a table cannot be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -75,13 +75,16 @@ impl Runs {
         Ok(Self { header, rows })
     }
 
+    /// The cells of a column; `None` when there is no such column.
+    fn cells(&self, name: &str) -> Option<Vec<&str>> {
+        let column = self.header.iter().position(|h| h == name)?;
+        Some(self.rows.iter().map(|row| row.get(column).map_or("", String::as_str)).collect())
+    }
+
     /// The numbers of a column, not a number where a cell is none; `None` when there is no such column.
     fn numbers(&self, name: &str) -> Option<Vec<f64>> {
-        let column = self.header.iter().position(|h| h == name)?;
-        let to_number = |row: &Vec<String>| {
-            row.get(column).and_then(|cell| cell.trim_start_matches('>').parse().ok()).unwrap_or(f64::NAN)
-        };
-        Some(self.rows.iter().map(to_number).collect())
+        let to_number = |cell: &str| cell.trim_start_matches('>').parse().unwrap_or(f64::NAN);
+        Some(self.cells(name)?.into_iter().map(to_number).collect())
     }
 
     fn quantities(&self) -> Vec<&str> {
@@ -90,10 +93,9 @@ impl Runs {
 
     /// Says so where a published number is a bound.
     fn caption(&self, quantity: &str) -> &'static str {
-        let column = self.header.iter().position(|h| h.strip_suffix("_paper") == Some(quantity));
-        let is_bound =
-            |row: &Vec<String>| column.and_then(|c| row.get(c)).is_some_and(|x| x.starts_with('>'));
-        if self.rows.iter().any(is_bound) { "A published lower bound stands at its number." } else { "" }
+        let published = self.cells(&format!("{quantity}_paper")).unwrap_or_default();
+        let bounded = published.iter().any(|cell| cell.starts_with('>'));
+        if bounded { "A published lower bound stands at its number." } else { "" }
     }
 
     /// Half widths below and above each value.
@@ -130,24 +132,28 @@ pub fn page(path: &Path) -> Result<String, SweepError> {
         "{} runs over {label}; bars are 95 % intervals of the sampling.",
         runs.rows.len()
     )));
-    let figures = runs.quantities().into_iter().enumerate().map(|(index, quantity)| {
-        let values = runs.numbers(quantity).unwrap_or_default();
-        let paired = |ys: &[f64]| x.iter().zip(ys).map(|(x, y)| [*x, *y]).collect::<Vec<_>>();
-        let published = runs.numbers(&format!("{quantity}_paper")).unwrap_or_default();
-        let drawn: Vec<usize> =
-            (0..values.len()).filter(|i| x[*i].is_finite() && values[*i].is_finite()).collect();
-        let errors = runs.errors(quantity, &values);
-        let points: Vec<[f64; 2]> = drawn.iter().map(|i| [x[*i], values[*i]]).collect();
-        let bars: Errors = drawn.iter().map(|i| errors[*i]).collect();
-        Chart::new(&readable(quantity), &label, &format!("{} [1]", readable(quantity)))
-            .points_with_errors("simulated", &points, &bars)
-            .points("published", &paired(&published))
-            .figure(&format!("sweep-{index}"), runs.caption(quantity))
-    });
+    let quantities = runs.quantities().into_iter().enumerate();
+    let figures = quantities.map(|(index, quantity)| figure(&runs, quantity, &x, &label, index));
     page.add(Block::Figures(figures.collect()));
     page.add(Block::Table(table(&runs, &variable)));
     page.foot(&format!("Made from {file}."));
     Ok(page.html()?)
+}
+
+/// A quantity over the variable `x`, simulated and published.
+fn figure(runs: &Runs, quantity: &str, x: &[f64], label: &str, index: usize) -> Figure {
+    let values = runs.numbers(quantity).unwrap_or_default();
+    let published = runs.numbers(&format!("{quantity}_paper")).unwrap_or_default();
+    let published: Vec<[f64; 2]> = x.iter().zip(published).map(|(x, y)| [*x, y]).collect();
+    let drawn: Vec<usize> =
+        (0..values.len()).filter(|i| x[*i].is_finite() && values[*i].is_finite()).collect();
+    let errors = runs.errors(quantity, &values);
+    let points: Vec<[f64; 2]> = drawn.iter().map(|i| [x[*i], values[*i]]).collect();
+    let bars: Errors = drawn.iter().map(|i| errors[*i]).collect();
+    Chart::new(&readable(quantity), label, &format!("{} [1]", readable(quantity)))
+        .points_with_errors("simulated", &points, &bars)
+        .points("published", &published)
+        .figure(&format!("sweep-{index}"), runs.caption(quantity))
 }
 
 /// Names as a reader likes them: `T_C` is a temperature, underscores are spaces.
@@ -166,16 +172,15 @@ fn table(runs: &Runs, variable: &str) -> Table {
     let columns: Vec<String> = std::iter::once(variable.to_owned())
         .chain(runs.quantities().into_iter().flat_map(|q| [q.to_owned(), format!("{q}_paper")]))
         .collect();
-    let cell = |row: &Vec<String>, name: &String| {
-        let text = runs.header.iter().position(|h| h == name).and_then(|c| row.get(c));
-        let text = text.map_or("", String::as_str);
-        text.parse().map_or_else(|_| text.to_owned(), number)
-    };
+    let shown = |cell: &str| cell.parse().map_or_else(|_| cell.to_owned(), number);
+    let cells: Vec<Vec<&str>> = columns.iter().filter_map(|name| runs.cells(name)).collect();
     Table {
         text_columns: 0,
         caption: "The same in numbers.".to_owned(),
         header: columns.iter().map(|c| readable(c)).collect(),
-        rows: runs.rows.iter().map(|row| columns.iter().map(|c| cell(row, c)).collect()).collect(),
+        rows: (0..runs.rows.len())
+            .map(|row| cells.iter().map(|column| shown(column[row])).collect())
+            .collect(),
     }
 }
 

@@ -8,6 +8,7 @@
     reason = "clippy.toml's leave for tests does not reach their helpers"
 )]
 
+pub mod browser;
 pub mod compile;
 pub mod golden;
 pub mod random;
