@@ -7,23 +7,27 @@
 //! Seen with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise lies at a conversion of
 //! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
 
-use super::{Effect, Kind, Parameter, logistic};
+use super::{Effect, Kind, Parameter, Search, logistic};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
     id: "conversion-transition",
     about: "capture rises past a carbon conversion",
+    inputs: &["conversion"],
+    streams: &[],
     parameters: &[
         Parameter {
             name: "threshold",
             unit: "1",
             bounds: (0.0, 1.0),
+            search: Search::Over("conversion"),
             about: "carbon conversion at which half of the impacts stick",
         },
         Parameter {
             name: "width",
             unit: "1",
             bounds: (1e-6, 10.0),
+            search: Search::Across("conversion"),
             about: "conversion over which the odds of sticking change by e",
         },
     ],

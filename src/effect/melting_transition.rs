@@ -8,23 +8,27 @@
 //! 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce. The flow test of the same wax (1, 50 and 70 %
 //! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
 
-use super::{Effect, Kind, Parameter, logistic};
+use super::{Effect, Kind, Parameter, Search, logistic};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
     id: "melting-transition",
     about: "capture rises and e_n falls as the particle melts",
+    inputs: &["T_p"],
+    streams: &[],
     parameters: &[
         Parameter {
             name: "temperature",
             unit: "K",
             bounds: (1.0, 1e4),
+            search: Search::Over("T_p"),
             about: "particle temperature at which half of the impacts stick",
         },
         Parameter {
             name: "width",
             unit: "K",
             bounds: (1e-3, 1e4),
+            search: Search::Across("T_p"),
             about: "temperature over which the odds of sticking change by e",
         },
     ],

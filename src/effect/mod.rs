@@ -7,17 +7,30 @@ mod conversion_transition;
 mod melting_transition;
 mod powder_layer;
 
+use std::sync::Arc;
+
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
 use crate::normal::Contact;
+use crate::tangential::{Glance, Rebound};
 
 /// Every effect there is.
 pub const KINDS: [&Kind; 3] = [&melting_transition::KIND, &conversion_transition::KIND, &powder_layer::KIND];
 
+/// Two uniform random numbers in (0, 1), drawn anew for every impact and every effect that asks for them.
+pub type Chance = [f64; 2];
+
 /// A named term of a model. Each method is one step of an impact's walk; an effect overrides those it acts on.
+///
+/// `chance` means something only to effects with [`Kind::streams`]; the others get zeros.
 pub trait Effect: Send + Sync + std::fmt::Debug {
+    /// How far the wall is tilted towards the particle where it is hit [rad]; tilts of several effects add.
+    fn tilt(&self, _impact: &Impact, _chance: Chance) -> f64 {
+        0.0
+    }
+
     /// Changes the contact before the normal law.
-    fn contact(&self, _impact: &Impact, contact: Contact) -> Contact {
+    fn contact(&self, _impact: &Impact, contact: Contact, _chance: Chance) -> Contact {
         contact
     }
 
@@ -26,14 +39,14 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         None
     }
 
-    /// Changes the normal restitution `e_n` [1].
-    fn normal_restitution(&self, _impact: &Impact, restitution: f64) -> f64 {
-        restitution
+    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall.
+    fn normal_restitution(&self, _impact: &Impact, restitution: f64, _chance: Chance) -> Option<f64> {
+        Some(restitution)
     }
 
-    /// Changes the tangential restitution `e_t` [1].
-    fn tangential_restitution(&self, _impact: &Impact, restitution: f64) -> f64 {
-        restitution
+    /// Changes what the tangential law says.
+    fn tangential(&self, _glance: &Glance, rebound: Rebound) -> Rebound {
+        rebound
     }
 }
 
@@ -46,8 +59,23 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
+    /// Where a fit looks for it.
+    pub search: Search,
     /// One line on what it is.
     pub about: &'static str,
+}
+
+/// Where a fit looks for a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Search {
+    /// Evenly between two values.
+    Linear(f64, f64),
+    /// Evenly in the logarithm between two positive values.
+    Log(f64, f64),
+    /// Within the range that the data have of an input, evenly.
+    Over(&'static str),
+    /// From a fiftieth of the range that the data have of an input to the whole of it, evenly in the logarithm.
+    Across(&'static str),
 }
 
 /// What an effect is called, what it does and which parameters it has.
@@ -57,6 +85,10 @@ pub struct Kind {
     pub id: &'static str,
     /// One line on what it does.
     pub about: &'static str,
+    /// The inputs (names of [`INPUTS`]) that it turns on, beyond what the plain laws use.
+    pub inputs: &'static [&'static str],
+    /// The streams of random numbers that it draws from, at most two, its own; empty for an effect without chance.
+    pub streams: &'static [u64],
     /// Its parameters; all of them must be given.
     pub parameters: &'static [Parameter],
     /// Makes the effect from its parameters, in their order.
@@ -64,15 +96,20 @@ pub struct Kind {
 }
 
 /// An effect of a model, with the range it was fitted on.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Term {
     kind: &'static Kind,
     values: Vec<f64>,
     valid: Vec<(usize, [f64; 2])>,
-    effect: Box<dyn Effect>,
+    effect: Arc<dyn Effect>,
 }
 
 impl Term {
+    /// The effect of this kind with the given parameters, in the order of [`Kind::parameters`].
+    pub fn new(kind: &'static Kind, values: &[f64]) -> Self {
+        Self { kind, values: values.to_vec(), valid: Vec::new(), effect: (kind.build)(values).into() }
+    }
+
     /// Reads one `[[effects]]` table.
     ///
     /// # Errors
@@ -91,8 +128,7 @@ impl Term {
         section.text("source")?;
         let valid = section.section("valid")?.map_or(Ok(Vec::new()), |table| read_valid(&table))?;
         section.finish()?;
-        let effect = (kind.build)(&values);
-        Ok(Self { kind, values, valid, effect })
+        Ok(Self { valid, ..Self::new(kind, &values) })
     }
 
     /// What kind of effect it is.
@@ -110,6 +146,15 @@ impl Term {
         self.effect.as_ref()
     }
 
+    /// What it draws for one impact, from a source that gives each stream's number.
+    pub fn chance(&self, uniform: &impl Fn(u64) -> f64) -> Chance {
+        match *self.kind.streams {
+            [] => [0.0; 2],
+            [first] => [uniform(first), 0.0],
+            [first, second, ..] => [uniform(first), uniform(second)],
+        }
+    }
+
     /// Whether the impact lies in the range the term was fitted on.
     pub fn holds_for(&self, impact: &Impact) -> bool {
         let inside =
@@ -120,7 +165,7 @@ impl Term {
 
 /// A number, or `{ value, low, high }` of a fit.
 fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, InputError> {
-    let Parameter { name, unit, bounds: (low, high), about } = *parameter;
+    let Parameter { name, unit, bounds: (low, high), about, .. } = *parameter;
     let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
     if !section.is_section(name) {
         return section.number_within(name, low, high)?.ok_or_else(|| missing(section));

@@ -7,23 +7,27 @@
 //! 1.4 mm of wax powder, the same on a dry target as on syrup. `h0 = 0.128 mm` and `r = 0.25` pass through all three.
 //! Three points determine two numbers and the form is a choice: between 0 and 0.2 mm it is an interpolation.
 
-use super::{Effect, Kind, Parameter};
+use super::{Chance, Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
     id: "powder-layer",
     about: "powder on the wall dissipates the rebound",
+    inputs: &["layer_thickness"],
+    streams: &[],
     parameters: &[
         Parameter {
             name: "thickness",
             unit: "m",
             bounds: (1e-9, 1.0),
+            search: Search::Across("layer_thickness"),
             about: "layer thickness over which the loss builds up",
         },
         Parameter {
             name: "residual",
             unit: "1",
             bounds: (0.0, 1.0),
+            search: Search::Linear(0.0, 0.95),
             about: "share of e_n left over a thick layer",
         },
     ],
@@ -37,9 +41,9 @@ struct PowderLayer {
 }
 
 impl Effect for PowderLayer {
-    fn normal_restitution(&self, impact: &Impact, restitution: f64) -> f64 {
+    fn normal_restitution(&self, impact: &Impact, restitution: f64, _: Chance) -> Option<f64> {
         let decay = (-impact.layer_thickness / self.thickness).exp();
-        restitution * (self.residual + (1.0 - self.residual) * decay)
+        Some(restitution * (self.residual + (1.0 - self.residual) * decay))
     }
 }
 
@@ -51,7 +55,9 @@ mod tests {
     fn troiano_powder_layers() {
         let effect = (KIND.build)(&[0.128e-3, 0.25]);
         let e_n = |layer_thickness: f64| {
-            effect.normal_restitution(&Impact { layer_thickness, ..Impact::default() }, 0.28)
+            effect
+                .normal_restitution(&Impact { layer_thickness, ..Impact::default() }, 0.28, [0.0; 2])
+                .unwrap()
         };
         assert_eq!(e_n(0.0), 0.28);
         assert!((e_n(0.25e-3) - 0.10).abs() < 0.005);

@@ -6,6 +6,7 @@
 //! did.
 
 mod describe;
+mod facet;
 mod read;
 mod wall;
 
@@ -20,10 +21,11 @@ use crate::material::{Material, overlap};
 use crate::normal::{Contact, NormalLaw, Speeds};
 use crate::tangential::{Glance, TangentialLaw};
 
+use facet::Facet;
 pub use wall::Wall;
 
 /// Everything that decides what happens when a particle hits a wall. Immutable once read.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Model {
     particle: Material,
     particle_melt: Option<MeltStickiness>,
@@ -99,6 +101,18 @@ impl Model {
         self.tangential
     }
 
+    /// The same model with other terms.
+    #[must_use]
+    pub fn with_terms(&self, terms: Vec<Term>) -> Self {
+        Self { terms, ..self.clone() }
+    }
+
+    /// The same model with other laws.
+    #[must_use]
+    pub fn with_laws(&self, normal: NormalLaw, tangential: TangentialLaw) -> Self {
+        Self { normal, tangential, ..self.clone() }
+    }
+
     /// The index of the wall that a patch name belongs to: the wall of that name, else the last one whose name is a
     /// regular expression that fits. There is no fall-back to `default`; callers decide that.
     pub fn find_wall(&self, name: &str) -> Option<usize> {
@@ -128,7 +142,7 @@ impl Model {
     /// As [`Model::resolve`].
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        self.contact(wall, &impact)?;
+        self.contact(wall, &impact, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
         wall.stickiness(&impact)?;
         Ok(())
@@ -139,7 +153,21 @@ impl Model {
     /// # Errors
     /// [`ImpactError`] for an impact without physical meaning, or a temperature outside a property table.
     pub fn resolve(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
-        self.walk(wall, impact, draw, |_, _, _| {})
+        self.walk(wall, impact, |stream| draw.uniform(stream), |_, _, _| {})
+    }
+
+    /// Decides one impact with the caller's random numbers: `uniform` gives each stream's, in (0, 1). For averages over
+    /// what is left to chance.
+    ///
+    /// # Errors
+    /// As [`Model::resolve`].
+    pub fn resolve_with(
+        &self,
+        wall: usize,
+        impact: &Impact,
+        uniform: impl Fn(u64) -> f64,
+    ) -> Result<Outcome, ImpactError> {
+        self.walk(wall, impact, uniform, |_, _, _| {})
     }
 
     /// Decides one impact and notes what each term made of it, in the order of the walk.
@@ -153,19 +181,20 @@ impl Model {
         draw: Draw,
     ) -> Result<(Outcome, Vec<Share>), ImpactError> {
         let mut shares = Vec::new();
-        let outcome = self.walk(wall, impact, draw, |term, quantity, value| {
+        let uniform = |stream| draw.uniform(stream);
+        let outcome = self.walk(wall, impact, uniform, |term, quantity, value| {
             shares.push(Share { term, quantity, value });
         })?;
         Ok((outcome, shares))
     }
 
-    /// Adhesive, yield and sticking velocity of an impact's particle and wall (only sizes and temperatures count).
+    /// Adhesive, yield and sticking velocity of an impact's particle and wall, where chance is at its median.
     ///
     /// # Errors
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        Ok(Speeds::of(&self.contact(wall, &impact)?, impact.diameter))
+        Ok(Speeds::of(&self.contact(wall, &impact, &|_| 0.5)?, impact.diameter))
     }
 
     /// The wall with this index, and the impact as it sees it.
@@ -176,9 +205,15 @@ impl Model {
     }
 
     /// The contact of particle and wall at their temperatures, with the effects that act on it.
-    fn contact(&self, wall: &Wall, impact: &Impact) -> Result<Contact, ImpactError> {
+    fn contact(
+        &self,
+        wall: &Wall,
+        impact: &Impact,
+        uniform: &impl Fn(u64) -> f64,
+    ) -> Result<Contact, ImpactError> {
         let plain = wall.contact(&self.particle, impact)?;
-        Ok(self.terms.iter().fold(plain, |contact, term| term.effect().contact(impact, contact)))
+        let change = |contact, term: &Term| term.effect().contact(impact, contact, term.chance(uniform));
+        Ok(self.terms.iter().fold(plain, change))
     }
 
     /// How sticky the particle is: the product of what the terms say, 0 when no term speaks of it.
@@ -206,62 +241,66 @@ impl Model {
         &self,
         wall: usize,
         impact: &Impact,
-        draw: Draw,
+        uniform: impl Fn(u64) -> f64,
         mut note: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
-        let (wall, impact) = self.at_wall(wall, impact)?;
-        let impact = &impact;
-        let contact = self.contact(wall, impact)?;
+        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let tilt = self.terms.iter().map(|term| term.effect().tilt(&arriving, term.chance(&uniform))).sum();
+        let facet = Facet { tilt };
+        let impact = &facet.turn(&arriving);
+        let contact = self.contact(wall, impact, &uniform)?;
 
         let particle = self.particle_stickiness(impact, &mut note)?;
         let sticky = Stickiness { particle, wall: wall.stickiness(impact)? };
         note("wall", "wall stickiness", sticky.wall);
 
-        let dry = self.normal.restitution(&contact, impact.diameter, impact.normal_speed);
-        note(self.normal.name(), "e_n", dry.unwrap_or(0.0));
-        // What makes a particle sticky also takes up its rebound.
-        let mut e_n = dry.unwrap_or(0.0) * (1.0 - sticky.particle);
-        note("stickiness", "e_n", e_n);
+        let mut rebound = self.normal.restitution(&contact, impact.diameter, impact.normal_speed);
+        note(self.normal.name(), "e_n", rebound.unwrap_or(0.0));
         for term in &self.terms {
-            let changed = term.effect().normal_restitution(impact, e_n);
-            if changed != e_n {
-                note(term.kind().id, "e_n", changed);
+            let Some(e_n) = rebound else { break };
+            rebound = term.effect().normal_restitution(impact, e_n, term.chance(&uniform));
+            if rebound != Some(e_n) {
+                note(term.kind().id, "e_n", rebound.unwrap_or(0.0));
             }
-            e_n = changed;
         }
+        // What makes a particle sticky also takes up its rebound.
+        let e_n = rebound.unwrap_or(0.0) * (1.0 - sticky.particle);
+        note("stickiness", "e_n", e_n);
 
-        let rebound = self.tangential.rebound(&Glance {
+        let glance = Glance {
             normal_speed: impact.normal_speed,
             tangential_speed: impact.tangential_speed,
             diameter: impact.diameter,
             spin: impact.spin,
             normal_restitution: e_n,
             stiffness_ratio: contact.stiffness_ratio,
-        });
-        note(self.tangential.name(), "e_t", rebound.restitution);
-        let mut e_t = rebound.restitution;
+        };
+        let mut along = self.tangential.rebound(&glance);
+        note(self.tangential.name(), "e_t", along.restitution);
         for term in &self.terms {
-            let changed = term.effect().tangential_restitution(impact, e_t);
-            if changed != e_t {
-                note(term.kind().id, "e_t", changed);
+            let changed = term.effect().tangential(&glance, along);
+            if changed != along {
+                note(term.kind().id, "e_t", changed.restitution);
             }
-            e_t = changed;
+            along = changed;
         }
+        let [e_n, e_t] = facet.turn_back(&arriving, impact, [e_n, along.restitution]);
+        let spin = facet.spin_back(&arriving, along.spin);
 
         // Adhesion holds the particle for certain; otherwise stickiness decides.
-        let probability = if dry.is_none() { 1.0 } else { sticky.probability() };
+        let probability = if rebound.is_none() { 1.0 } else { sticky.probability() };
         note("capture", "p_stick", probability);
         Ok(Outcome {
             normal_restitution: e_n,
             tangential_restitution: e_t,
             sticking_probability: probability,
-            stuck: draw.uniform(CAPTURE_STREAM) < probability,
-            spin: rebound.spin,
+            stuck: uniform(CAPTURE_STREAM) < probability,
+            spin,
             regime: Regime::of(
                 sticky.particle >= Stickiness::THRESHOLD,
                 sticky.wall >= Stickiness::THRESHOLD,
             ),
-            outside_range: self.outside_range(wall, impact),
+            outside_range: self.outside_range(wall, &arriving),
         })
     }
 

@@ -8,7 +8,7 @@ use crate::material::Material;
 use crate::normal::Contact;
 
 /// A `[walls.<name>]` table, ready for use.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Wall {
     pub(super) name: String,
     pub(super) pattern: Option<Regex>,

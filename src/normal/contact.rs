@@ -11,8 +11,10 @@ pub struct Contact {
     pub reduced_modulus: f64,
     /// Work of adhesion `W` [J/m²].
     pub work_of_adhesion: f64,
-    /// Limiting contact pressure `p_y` [Pa].
-    pub limiting_pressure: f64,
+    /// Yield strength `sigma_y` of the softer solid [Pa].
+    pub yield_strength: f64,
+    /// `c = p_y / sigma_y` [1].
+    pub yield_ratio: f64,
     /// Tangential over normal stiffness, Mindlin's `k` [1].
     pub stiffness_ratio: f64,
 }
@@ -33,9 +35,15 @@ impl Contact {
             density: particle.density,
             reduced_modulus: reduced_modulus(particle, wall),
             work_of_adhesion: work_of_adhesion.unwrap_or(geometric),
-            limiting_pressure: yield_ratio * particle.yield_strength.min(wall.yield_strength),
+            yield_strength: particle.yield_strength.min(wall.yield_strength),
+            yield_ratio,
             stiffness_ratio: stiffness_ratio(particle, wall),
         }
+    }
+
+    /// Limiting contact pressure `p_y = c sigma_y` [Pa].
+    pub fn limiting_pressure(&self) -> f64 {
+        self.yield_ratio * self.yield_strength
     }
 }
 

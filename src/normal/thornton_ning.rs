@@ -54,7 +54,8 @@ pub fn adhesive_velocity(contact: &Contact, diameter: f64) -> f64 {
 
 /// Yield velocity `v_y` [m/s].
 pub fn yield_velocity(contact: &Contact) -> f64 {
-    let Contact { density, reduced_modulus, limiting_pressure, .. } = *contact;
+    let Contact { density, reduced_modulus, .. } = *contact;
+    let limiting_pressure = contact.limiting_pressure();
     let strain = limiting_pressure / reduced_modulus;
     YIELD_FACTOR * strain * strain * (limiting_pressure / density).sqrt()
 }
