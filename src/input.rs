@@ -212,6 +212,22 @@ impl<'a> Section<'a> {
         }
     }
 
+    /// A list of texts, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a list of texts.
+    pub fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InputError> {
+        let to_text = |value: Value<'a>| match value.get_ref() {
+            DeValue::String(text) => Ok(text.to_string()),
+            other => Err(self.wrong_type(key, "a list of texts in quotes", other)),
+        };
+        match self.find(key).map(Spanned::get_ref) {
+            None => Ok(None),
+            Some(DeValue::Array(list)) => list.iter().map(to_text).collect::<Result<_, _>>().map(Some),
+            Some(other) => Err(self.wrong_type(key, "a list of texts in quotes", other)),
+        }
+    }
+
     /// A pair `[low, high]` with `low <= high`, or `None` when the key is absent.
     ///
     /// # Errors

@@ -4,9 +4,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use nearwall::dataset::{ImpactReader, Row};
-use nearwall::impact::INPUTS;
-use nearwall::{Draw, Impact, Model};
+use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
+use nearwall::{Draw, Model};
 
 use crate::{CommandResult, progress};
 
@@ -43,7 +42,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let source = File::open(&arguments.impacts).map_err(|error| format!("{file}: {error}"))?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "predicting");
     let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?;
-    let walls = WallChoice::new(&model, arguments.wall.as_deref(), reader.column("wall"))?;
+    let walls = Walls::new(&model, arguments.wall.as_deref(), reader.column("wall"))?;
     if let Some(line) = arguments.explain {
         return explain(&model, &walls, &mut reader, line);
     }
@@ -72,29 +71,9 @@ fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
             "nearwall: {file}: column `{column}` is not used; if it is `{input}` in SI units, call it so"
         );
     }
-    let absent = reader.absent();
-    let assumed: Vec<String> = INPUTS
-        .iter()
-        .filter(|input| absent.contains(&input.name))
-        .filter_map(|input| match (input.value)(&Impact::default()) {
-            0.0 => None,
-            value if input.unit == "1" => Some(format!("{} = {value}", input.name)),
-            value => Some(format!("{} = {value} {}", input.name, input.unit)),
-        })
-        .collect();
-    if !assumed.is_empty() {
-        eprintln!("nearwall: not in {file}, assumed: {}", assumed.join(", "));
+    if let Some(assumed) = assumed(&reader.absent()) {
+        eprintln!("nearwall: not in {file}, assumed: {assumed}");
     }
-}
-
-/// A row that is allowed but looks like another unit.
-fn note_unlikely(row: &Row) -> Option<String> {
-    let Impact { diameter, particle_temperature, wall_temperature, .. } = row.impact;
-    if diameter > 0.05 {
-        return Some(format!("line {}: d = {diameter} m; is that another unit?", row.line));
-    }
-    let coldest = particle_temperature.min(wall_temperature);
-    (coldest < 150.0).then(|| format!("line {}: a temperature of {coldest} K; is that °C?", row.line))
 }
 
 fn at(path: &Path, error: &std::io::Error) -> String {
@@ -113,7 +92,7 @@ fn scratch_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
 
 fn predict(
     model: &Model,
-    walls: &WallChoice<'_>,
+    walls: &Walls<'_>,
     reader: &mut ImpactReader<impl std::io::Read>,
     output: &mut impl Write,
 ) -> CommandResult {
@@ -126,10 +105,10 @@ fn predict(
     }
     writer.write_record(&header)?;
     let (mut done, mut left_out, mut outside) = (0_u64, 0_u64, 0_u64);
-    let mut unlikely = None;
+    let mut strange = None;
     while let Some(next) = reader.next_row()? {
         let predicted = next.map_err(|bad| (bad.line, bad.reason)).and_then(|row| {
-            unlikely = unlikely.take().or_else(|| note_unlikely(&row));
+            strange = strange.take().or_else(|| unlikely(row.line, &row.impact));
             predict_row(model, walls, &row).map_err(|reason| (row.line, reason))
         });
         match predicted {
@@ -145,7 +124,7 @@ fn predict(
         }
     }
     writer.flush()?;
-    if let Some(note) = unlikely {
+    if let Some(note) = strange {
         eprintln!("nearwall: {note}");
     }
     if outside > 0 {
@@ -163,11 +142,7 @@ fn predict(
     Ok(())
 }
 
-fn predict_row(
-    model: &Model,
-    walls: &WallChoice<'_>,
-    row: &Row,
-) -> Result<(csv::StringRecord, bool), String> {
+fn predict_row(model: &Model, walls: &Walls<'_>, row: &Row) -> Result<(csv::StringRecord, bool), String> {
     let wall = walls.of(row)?;
     let outcome = model.resolve(wall, &row.impact, Draw::default()).map_err(|error| error.to_string())?;
     let mut record = row.cells.clone();
@@ -179,44 +154,28 @@ fn predict_row(
 }
 
 /// Which wall a row hits.
-struct WallChoice<'a> {
-    model: &'a Model,
-    /// The wall of rows that do not name their own.
-    common: Option<usize>,
+struct Walls<'a> {
+    choice: WallChoice<'a>,
     column: Option<usize>,
 }
 
-impl<'a> WallChoice<'a> {
-    fn new(model: &'a Model, named: Option<&str>, column: Option<usize>) -> Result<Self, String> {
-        let names = || model.walls().iter().map(|w| w.name()).collect::<Vec<_>>().join(", ");
-        if let Some(name) = named {
-            let wall = model.find_wall(name);
-            let wall = wall.ok_or_else(|| format!("--wall {name}: the model's walls are {}", names()))?;
-            return Ok(Self { model, common: Some(wall), column: None });
-        }
-        let only = (model.walls().len() == 1).then_some(0);
-        let common = model.find_wall("default").or(only);
-        if common.is_none() && column.is_none() {
-            return Err(format!("which wall is hit? Give --wall with one of: {}", names()));
-        }
-        Ok(Self { model, common, column })
+impl<'a> Walls<'a> {
+    fn new(model: &'a Model, named: Option<&str>, column: Option<usize>) -> Result<Self, WallError> {
+        let choice = WallChoice::new(model, named)?;
+        choice.check(column.is_some())?;
+        Ok(Self { choice, column })
     }
 
-    /// As in OpenFOAM, a wall that the model does not name is its `default`.
     fn of(&self, row: &Row) -> Result<usize, String> {
-        let named = self.column.and_then(|column| row.cells.get(column)).filter(|n| !n.is_empty());
-        let found = match named {
-            Some(name) => self.model.find_wall(name).or_else(|| self.model.find_wall("default")),
-            None => self.common,
-        };
-        found.ok_or_else(|| format!("the model has no wall `{}` and no default", named.unwrap_or_default()))
+        let cell = self.column.and_then(|column| row.cells.get(column));
+        self.choice.of(cell).map_err(|error| error.to_string())
     }
 }
 
 /// Prints the walk of one impact, a line a term.
 fn explain(
     model: &Model,
-    walls: &WallChoice<'_>,
+    walls: &Walls<'_>,
     reader: &mut ImpactReader<impl std::io::Read>,
     line: u64,
 ) -> CommandResult {

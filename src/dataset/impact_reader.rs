@@ -1,0 +1,153 @@
+//! Reads impacts one at a time.
+
+use std::io::Read;
+
+use super::inputs::InputColumns;
+use super::notes;
+use super::number::{NumberColumn, NumberStyle};
+use super::table::{Layout, Table};
+use super::unit::Unit;
+use super::{BadRow, DatasetError};
+use crate::impact::{INPUTS, Impact};
+
+/// One row of the file.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Line in the file, counted from 1.
+    pub line: u64,
+    /// Every cell as it stands.
+    pub cells: csv::StringRecord,
+    /// The impact that the cells describe.
+    pub impact: Impact,
+}
+
+/// Reads impacts from CSV text.
+pub struct ImpactReader<R> {
+    table: Table<R>,
+    inputs: InputColumns,
+}
+
+impl<R: Read> ImpactReader<R> {
+    /// Reads the header; `file` stands for the source in messages. Lines that begin with `#` are comments.
+    ///
+    /// # Errors
+    /// [`DatasetError`] for a source that cannot be read, a missing `v_n` or a column that stands there twice.
+    pub fn new(file: &str, source: R) -> Result<Self, DatasetError> {
+        let table = Table::open(file, source, Layout::default(), |_| false)?;
+        let inputs = InputColumns::new(|name| {
+            let index = table.column(name)?;
+            Some(NumberColumn { name, index, unit: Unit::SI, style: NumberStyle::default() })
+        });
+        if !inputs.gives("v_n") {
+            return Err(table.header_fault(no_normal_speed(table.headers())));
+        }
+        Ok(Self { table, inputs })
+    }
+
+    /// The column names.
+    pub fn headers(&self) -> &csv::StringRecord {
+        self.table.headers()
+    }
+
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.table.column(name)
+    }
+
+    /// The inputs that no column gives.
+    pub fn absent(&self) -> Vec<&'static str> {
+        INPUTS.iter().map(|input| input.name).filter(|name| !self.inputs.gives(name)).collect()
+    }
+
+    /// Columns that are not used but look like an input that is absent, each with that input's name.
+    pub fn near_misses(&self) -> Vec<(&str, &'static str)> {
+        notes::near_misses(self.headers().iter(), &self.absent())
+    }
+
+    /// The next row, or `None` at the end.
+    ///
+    /// # Errors
+    /// [`DatasetError::Unreadable`] when the source fails.
+    pub fn next_row(&mut self) -> Result<Option<Result<Row, BadRow>>, DatasetError> {
+        let mut cells = csv::StringRecord::new();
+        let next = self.table.next_into(&mut cells)?;
+        Ok(next.map(|line| self.read_row(line?, cells)))
+    }
+
+    fn read_row(&self, line: u64, cells: csv::StringRecord) -> Result<Row, BadRow> {
+        let bad = |reason: String| BadRow { line, reason };
+        let (impact, _) = self.inputs.read(&cells).map_err(bad)?;
+        impact.check().map_err(|error| bad(error.to_string()))?;
+        Ok(Row { line, cells, impact })
+    }
+}
+
+fn no_normal_speed(headers: &csv::StringRecord) -> String {
+    let found = headers.iter().collect::<Vec<_>>().join(", ");
+    let separator = if headers.len() == 1 && found.contains([';', '\t']) {
+        " Cells have to be separated by commas."
+    } else {
+        ""
+    };
+    format!(
+        "no column `v_n` (speed towards the wall, m/s); the columns are: {found}. \
+         Rename the one that holds it.{separator}"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (Vec<Row>, Vec<BadRow>) {
+        let mut reader = ImpactReader::new("t.csv", text.as_bytes()).unwrap();
+        let (mut rows, mut bad) = (Vec::new(), Vec::new());
+        while let Some(next) = reader.next_row().unwrap() {
+            match next {
+                Ok(row) => rows.push(row),
+                Err(row) => bad.push(row),
+            }
+        }
+        (rows, bad)
+    }
+
+    #[test]
+    fn blanks_take_defaults_and_other_columns_are_kept() {
+        let (rows, bad) = read("\u{feff}operator, v_n ,T_p\nAnn, 2.5 ,\nBob,1,350\n");
+        assert!(bad.is_empty());
+        assert_eq!(rows[0].impact, Impact { normal_speed: 2.5, ..Impact::default() });
+        assert_eq!(rows[1].impact.particle_temperature, 350.0);
+        assert_eq!(&rows[1].cells[0], "Bob");
+    }
+
+    #[test]
+    fn bad_rows_have_line_and_reason() {
+        let text = "# a comment\nv_n,d\n1,1e-4\nfast,1e-4\n1,-2\n1\n,1e-4\nnan,1e-4\n";
+        let (rows, bad) = read(text);
+        assert_eq!(rows.len(), 1);
+        let said: Vec<String> = bad.iter().map(|b| format!("{}: {}", b.line, b.reason)).collect();
+        assert_eq!(
+            said,
+            [
+                "4: v_n `fast` is not a number",
+                "5: d = -2: must be positive and finite",
+                "6: 1 cells under 2 columns",
+                "7: v_n is blank",
+                "8: v_n = NaN: must be finite and not negative",
+            ]
+        );
+    }
+
+    #[test]
+    fn columns_that_look_like_inputs_are_named() {
+        let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t [m/s],operator\n".as_bytes()).unwrap();
+        assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t [m/s]", "v_t")]);
+    }
+
+    #[test]
+    fn header_faults_are_named() {
+        let message = ImpactReader::new("t.csv", "speed,d\n".as_bytes()).err().unwrap().to_string();
+        assert!(message.contains("no column `v_n`") && message.contains("speed, d"), "{message}");
+        assert!(ImpactReader::new("t.csv", "v_n,d,d\n".as_bytes()).is_err());
+    }
+}

@@ -1,0 +1,95 @@
+//! Every line of a text ends with a line feed, whichever system wrote it.
+
+use std::io::Read;
+
+/// Passes a text on with each line end (CR LF, CR, LF) as one line feed and one more at its end, so that the number of
+/// line feeds read says on which line a record stands.
+pub(super) struct Lines<R> {
+    source: R,
+    /// Lines that are still to be left out at the beginning.
+    skip: u64,
+    /// Whether the last byte was a carriage return, whose line feed may follow.
+    after_return: bool,
+    ended: bool,
+}
+
+impl<R> Lines<R> {
+    /// Leaves out the first `skip` lines.
+    pub(super) fn new(source: R, skip: u64) -> Self {
+        Self { source, skip, after_return: false, ended: false }
+    }
+
+    /// Rewrites the bytes in place; returns how many are left.
+    fn rewrite(&mut self, bytes: &mut [u8]) -> usize {
+        if self.skip == 0 && !self.after_return && !bytes.contains(&b'\r') {
+            return bytes.len();
+        }
+        let mut kept = 0;
+        for index in 0..bytes.len() {
+            let byte = bytes[index];
+            let second_of_two = byte == b'\n' && self.after_return;
+            self.after_return = byte == b'\r';
+            if second_of_two {
+                continue;
+            }
+            let byte = if byte == b'\r' { b'\n' } else { byte };
+            if self.skip > 0 {
+                self.skip -= u64::from(byte == b'\n');
+                continue;
+            }
+            bytes[kept] = byte;
+            kept += 1;
+        }
+        kept
+    }
+}
+
+impl<R: Read> Read for Lines<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        while !self.ended && !buffer.is_empty() {
+            let size = self.source.read(buffer)?;
+            if size == 0 {
+                self.ended = true;
+                buffer[0] = b'\n';
+                return Ok(1);
+            }
+            let kept = self.rewrite(&mut buffer[..size]);
+            // None kept does not mean the end, which is what 0 would say.
+            if kept > 0 {
+                return Ok(kept);
+            }
+        }
+        Ok(0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Gives one byte at a time: every pair of bytes is torn apart.
+    struct Trickle<'a>(&'a [u8]);
+
+    impl Read for Trickle<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+            let size = self.0.len().min(1);
+            buffer[..size].copy_from_slice(&self.0[..size]);
+            self.0 = &self.0[size..];
+            Ok(size)
+        }
+    }
+
+    #[test]
+    fn every_line_end_becomes_one_line_feed() {
+        let mixed = b"a\r\nb\rc\n\r\nd";
+        for skip in [0, 2] {
+            let mut whole = String::new();
+            Lines::new(mixed.as_slice(), skip).read_to_string(&mut whole).unwrap();
+            let mut torn = String::new();
+            Lines::new(Trickle(mixed), skip).read_to_string(&mut torn).unwrap();
+            let expected = "a\nb\nc\n\nd\n";
+            assert_eq!(whole, expected[2 * skip as usize..]);
+            assert_eq!(torn, whole);
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! What was seen of an impact, or of several that stand in one row as an average.
+
+use super::column_map::Bound;
+use super::number::{NumberColumn, is_blank};
+use crate::input::{InputError, Section};
+
+/// Names of the columns that hold an observation; a row has at least one of them.
+pub(super) const OBSERVATIONS: [&str; 5] = ["e_n", "e_t", "outcome", "capture_efficiency", "captured"];
+
+/// Names of the columns that say more of an observation.
+pub(super) const DETAILS: [&str; 3] = ["e_n_err", "e_t_err", "n_impacts"];
+
+/// Highest restitution [1] that is believed. Rough walls and spin give more than 1; beyond this it is another unit.
+const HIGHEST: f64 = 3.0;
+
+/// Largest difference [1] between a counted and a stated share of captures: a rounded percentage.
+const ROUNDING: f64 = 0.01;
+
+/// A measured value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// The value [1].
+    pub value: f64,
+    /// Its standard error [1] where it is known, positive.
+    pub error: Option<f64>,
+}
+
+/// What one row says was seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Observed {
+    pub(super) impacts: f64,
+    pub(super) rebounds: f64,
+    pub(super) e_n: Option<Reading>,
+    pub(super) e_t: Option<Reading>,
+    pub(super) captured: Option<f64>,
+    /// Whether the share captured is that of an unknown number of impacts.
+    pub(super) uncounted: bool,
+    /// Whether a standard error of 0 was read as not known.
+    pub(super) no_error: bool,
+}
+
+/// Words that say what became of a particle, in small letters.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OutcomeWords {
+    rebound: Vec<String>,
+    stick: Vec<String>,
+}
+
+impl OutcomeWords {
+    const REBOUND: [&str; 2] = ["rebound", "bounce"];
+    const STICK: [&str; 2] = ["stick", "stuck"];
+
+    /// Reads the words that a column map adds.
+    pub(super) fn read(details: &Section<'_>) -> Result<Self, InputError> {
+        let words = |key: &str| -> Result<Vec<String>, InputError> {
+            let list = details.texts(key)?.unwrap_or_default();
+            Ok(list.iter().map(|word| word.trim().to_lowercase()).collect())
+        };
+        let all = Self { rebound: words("rebound")?, stick: words("stick")? };
+        if let Some(word) = all.rebound.iter().find(|word| all.stick.contains(word)) {
+            return Err(details.fault("stick", format!("`{word}` stands under rebound too; keep one")));
+        }
+        Ok(all)
+    }
+
+    /// Whether the word says that the particle was captured; the words of the map come before nearwall's own.
+    fn captured(&self, cell: &str) -> Option<bool> {
+        let word = cell.to_lowercase();
+        let own = |list: &[String]| list.contains(&word);
+        match (own(&self.stick), own(&self.rebound)) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ if Self::STICK.contains(&word.as_str()) => Some(true),
+            _ if Self::REBOUND.contains(&word.as_str()) => Some(false),
+            _ => None,
+        }
+    }
+
+    fn unknown(&self, cell: &str) -> String {
+        let own = self.rebound.iter().chain(&self.stick).map(String::as_str);
+        let known: Vec<&str> = Self::REBOUND.into_iter().chain(Self::STICK).chain(own).collect();
+        format!("outcome `{cell}` is none of {}", known.join(", "))
+    }
+}
+
+/// The columns that hold what was seen.
+pub(super) struct ObservedColumns {
+    e_n: Option<NumberColumn>,
+    e_n_err: Option<NumberColumn>,
+    e_t: Option<NumberColumn>,
+    e_t_err: Option<NumberColumn>,
+    impacts: Option<NumberColumn>,
+    captured: Option<NumberColumn>,
+    efficiency: Option<NumberColumn>,
+    outcome: Option<usize>,
+    words: OutcomeWords,
+}
+
+impl ObservedColumns {
+    /// The columns of a file; `None` if no observation is among them.
+    pub(super) fn new(bound: &Bound, words: OutcomeWords) -> Option<Self> {
+        OBSERVATIONS.iter().any(|name| bound.index(name).is_some()).then(|| Self {
+            e_n: bound.column("e_n"),
+            e_n_err: bound.column("e_n_err"),
+            e_t: bound.column("e_t"),
+            e_t_err: bound.column("e_t_err"),
+            impacts: bound.column("n_impacts"),
+            captured: bound.column("captured"),
+            efficiency: bound.column("capture_efficiency"),
+            outcome: bound.index("outcome"),
+            words,
+        })
+    }
+
+    /// Reads what a row says was seen.
+    ///
+    /// # Errors
+    /// The reason why the row cannot be used.
+    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Observed, String> {
+        let counted = read(&self.impacts, cells)?;
+        let impacts = counted.unwrap_or(1.0);
+        if impacts < 1.0 || impacts.fract() != 0.0 {
+            return Err(format!("n_impacts is {impacts}; it has to be a whole number from 1 on"));
+        }
+        let captured = self.share_captured(cells, counted)?;
+        let mut seen = Observed {
+            impacts,
+            rebounds: impacts,
+            e_n: None,
+            e_t: None,
+            captured,
+            uncounted: counted.is_none() && captured.is_some_and(|share| share.fract() != 0.0),
+            no_error: false,
+        };
+        // Where all were captured nothing rebounds, whatever stands under e_n and e_t.
+        if captured != Some(1.0) {
+            seen.e_n = self.reading(cells, &self.e_n, &self.e_n_err, 0.0, &mut seen.no_error)?;
+            seen.e_t = self.reading(cells, &self.e_t, &self.e_t_err, -HIGHEST, &mut seen.no_error)?;
+        }
+        let nothing_back =
+            seen.e_n.is_some_and(|e| e.value == 0.0) && seen.e_t.is_none_or(|e| e.value == 0.0);
+        if captured.is_none() && nothing_back {
+            // A particle that does not come back is captured (Troiano et al., Eq. 14).
+            (seen.captured, seen.e_n, seen.e_t, seen.no_error) = (Some(1.0), None, None, false);
+        }
+        seen.rebounds = rebounds(impacts, seen.captured);
+        if seen.captured.is_none() && seen.e_n.is_none() && seen.e_t.is_none() {
+            return Err("nothing was observed: all columns of observations are blank".to_owned());
+        }
+        Ok(seen)
+    }
+
+    /// The share of the impacts that was captured [1], if anything says so.
+    fn share_captured(&self, cells: &csv::StringRecord, counted: Option<f64>) -> Result<Option<f64>, String> {
+        let impacts = counted.unwrap_or(1.0);
+        let count = self.count_captured(cells, counted)?.map(|count| count / impacts);
+        let stated = read(&self.efficiency, cells)?;
+        if let Some(share) = stated.filter(|share| !(0.0..=1.0).contains(share)) {
+            return Err(format!("capture_efficiency is {share}; it has to be between 0 and 1"));
+        }
+        if let (Some(share), Some(1.0)) = (stated.filter(|share| share.fract() != 0.0), counted) {
+            return Err(format!("capture_efficiency is {share}, but n_impacts is 1"));
+        }
+        if let (Some(count), Some(stated)) = (count, stated)
+            && (count - stated).abs() > ROUNDING
+        {
+            return Err(format!("captured / n_impacts is {count:.4}, but capture_efficiency is {stated}"));
+        }
+        let share = count.or(stated);
+        match (self.outcome(cells)?, share) {
+            (None, share) => Ok(share),
+            (Some(_), None) if impacts > 1.0 => {
+                Err(format!("one outcome for {impacts} impacts; give captured or capture_efficiency"))
+            }
+            (Some(stuck), None) => Ok(Some(f64::from(stuck))),
+            (Some(stuck), Some(share)) if f64::from(stuck) == share => Ok(Some(share)),
+            (Some(stuck), Some(share)) => {
+                let word = if stuck { "stick" } else { "rebound" };
+                Err(format!("outcome says {word}, but the share captured is {share}"))
+            }
+        }
+    }
+
+    fn count_captured(&self, cells: &csv::StringRecord, counted: Option<f64>) -> Result<Option<f64>, String> {
+        let Some(count) = read(&self.captured, cells)? else { return Ok(None) };
+        if count < 0.0 || count.fract() != 0.0 {
+            return Err(format!("captured is {count}; it has to be a whole number from 0 on"));
+        }
+        match counted {
+            Some(impacts) if count > impacts => {
+                Err(format!("captured is {count}, more than n_impacts = {impacts}"))
+            }
+            None if count > 1.0 => Err(format!("captured is {count}, but n_impacts is blank")),
+            _ => Ok(Some(count)),
+        }
+    }
+
+    fn outcome(&self, cells: &csv::StringRecord) -> Result<Option<bool>, String> {
+        let cell = self.outcome.and_then(|index| cells.get(index)).unwrap_or("");
+        match self.words.captured(cell) {
+            None if is_blank(cell) => Ok(None),
+            None => Err(self.words.unknown(cell)),
+            known => Ok(known),
+        }
+    }
+
+    /// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
+    fn reading(
+        &self,
+        cells: &csv::StringRecord,
+        value: &Option<NumberColumn>,
+        error: &Option<NumberColumn>,
+        lowest: f64,
+        no_error: &mut bool,
+    ) -> Result<Option<Reading>, String> {
+        let (Some(column), Some(value)) = (value, read(value, cells)?) else { return Ok(None) };
+        let name = column.name;
+        if value < lowest {
+            return Err(match lowest {
+                0.0 => format!("{name} is negative"),
+                _ => format!("{name} is {value}, below {lowest}"),
+            });
+        }
+        if value > HIGHEST {
+            return Err(format!("{name} is {value}, above {HIGHEST}; is it in another unit?"));
+        }
+        let error = read(error, cells)?;
+        if error.is_some_and(|error| error < 0.0) {
+            return Err(format!("{name}_err is negative"));
+        }
+        *no_error |= error == Some(0.0);
+        Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
+    }
+}
+
+/// How many rebounds averages of `e_n` and `e_t` stand for. Where some rebounded it was at least one, however the
+/// share captured was rounded.
+fn rebounds(impacts: f64, captured: Option<f64>) -> f64 {
+    match captured {
+        None => impacts,
+        Some(1.0) => 0.0,
+        Some(share) => (impacts * (1.0 - share)).max(1.0),
+    }
+}
+
+fn read(column: &Option<NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
+    column.as_ref().map_or(Ok(None), |column| column.read_finite(cells))
+}

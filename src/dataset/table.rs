@@ -1,0 +1,179 @@
+//! A CSV file as lines of cells: the one place where such a file is opened and its header checked.
+
+use std::io::Read;
+
+use super::lines::Lines;
+use super::{BadRow, DatasetError};
+
+/// How the cells stand in the file.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Layout {
+    /// What stands between two cells.
+    pub(super) separator: u8,
+    /// What a line that is no row begins with.
+    pub(super) comment: Option<u8>,
+    /// Line of the header, counted from 1.
+    pub(super) header_line: u64,
+}
+
+impl Default for Layout {
+    fn default() -> Self {
+        Self { separator: b',', comment: Some(b'#'), header_line: 1 }
+    }
+}
+
+/// Reads records of as many cells as the header has.
+pub(super) struct Table<R> {
+    reader: csv::Reader<Lines<R>>,
+    file: String,
+    headers: csv::StringRecord,
+    /// Lines before the text that the CSV reader sees.
+    skipped: u64,
+}
+
+impl<R: Read> Table<R> {
+    /// Reads the header; `file` stands for the source in messages. A name may stand there twice where `unused` says
+    /// that nobody asks for it.
+    ///
+    /// # Errors
+    /// [`DatasetError`] for a source that cannot be read, is empty or names two columns alike.
+    pub(super) fn open(
+        file: &str,
+        source: R,
+        layout: Layout,
+        unused: impl Fn(&str) -> bool,
+    ) -> Result<Self, DatasetError> {
+        let skipped = layout.header_line - 1;
+        let reader = csv::ReaderBuilder::new()
+            .delimiter(layout.separator)
+            .trim(csv::Trim::All)
+            .comment(layout.comment)
+            .flexible(true)
+            .from_reader(Lines::new(source, skipped));
+        let headers = csv::StringRecord::new();
+        let mut table = Self { reader, file: file.to_owned(), headers, skipped };
+        table.headers = table.read_headers()?;
+        if table.headers.iter().all(str::is_empty) {
+            return Err(table.header_fault("there is no header: the file is empty or has only comments; its first line has to name the columns"));
+        }
+        for (index, name) in table.headers.iter().enumerate() {
+            if !unused(name) && table.headers.iter().take(index).any(|earlier| earlier == name) {
+                return Err(table.header_fault(format!("column `{name}` stands there twice; rename one")));
+            }
+        }
+        Ok(table)
+    }
+
+    fn read_headers(&mut self) -> Result<csv::StringRecord, DatasetError> {
+        match self.reader.headers() {
+            Ok(names) => Ok(names.iter().map(|name| name.trim_start_matches('\u{feff}')).collect()),
+            Err(error) if matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) => {
+                Err(self.header_fault("the header is not UTF-8; save the file as UTF-8"))
+            }
+            Err(error) => Err(self.unreadable(&error)),
+        }
+    }
+
+    /// The column names.
+    pub(super) fn headers(&self) -> &csv::StringRecord {
+        &self.headers
+    }
+
+    /// The column of this name.
+    pub(super) fn column(&self, name: &str) -> Option<usize> {
+        self.headers.iter().position(|header| header == name)
+    }
+
+    /// An error of the header.
+    pub(super) fn header_fault(&self, problem: impl Into<String>) -> DatasetError {
+        let before = self.reader.position().line().saturating_sub(1).max(1);
+        DatasetError::Header { file: self.file.clone(), line: before + self.skipped, problem: problem.into() }
+    }
+
+    /// The next record into `cells` and the line that it begins on, or `None` at the end.
+    ///
+    /// # Errors
+    /// [`DatasetError::Unreadable`] when the source fails.
+    pub(super) fn next_into(
+        &mut self,
+        cells: &mut csv::StringRecord,
+    ) -> Result<Option<Result<u64, BadRow>>, DatasetError> {
+        let read = self.reader.read_record(cells);
+        // The reader calls the first of the comments before a record its line; its end is certain.
+        let last = self.skipped + self.reader.position().line().saturating_sub(1);
+        match read {
+            Ok(false) => Ok(None),
+            Ok(true) => {
+                let inside = cells.as_slice().bytes().filter(|byte| *byte == b'\n').count();
+                let line = last - (inside as u64).min(last);
+                Ok(Some(self.check_width(cells, line)))
+            }
+            Err(error) if matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) => {
+                Ok(Some(Err(BadRow { line: last, reason: "not UTF-8".to_owned() })))
+            }
+            Err(error) => Err(self.unreadable(&error)),
+        }
+    }
+
+    fn check_width(&self, cells: &csv::StringRecord, line: u64) -> Result<u64, BadRow> {
+        if cells.len() == self.headers.len() {
+            return Ok(line);
+        }
+        let reason = format!("{} cells under {} columns", cells.len(), self.headers.len());
+        Err(BadRow { line, reason })
+    }
+
+    fn unreadable(&self, error: &csv::Error) -> DatasetError {
+        DatasetError::Unreadable { file: self.file.clone(), reason: error.to_string() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lines on which records begin.
+    fn lines(text: &str, layout: Layout) -> Vec<u64> {
+        let mut table = Table::open("t.csv", text.as_bytes(), layout, |_| false).unwrap();
+        let mut cells = csv::StringRecord::new();
+        let mut found = Vec::new();
+        while let Some(next) = table.next_into(&mut cells).unwrap() {
+            found.push(next.unwrap_or_else(|bad| bad.line));
+        }
+        found
+    }
+
+    #[test]
+    fn records_stand_on_their_line_whatever_stands_before() {
+        let plain = "a,b\n# comment\n1,2\n\n\n\"x\ny\",2\n3\n4,5";
+        assert_eq!(lines(plain, Layout::default()), [3, 6, 8, 9]);
+        let windows = plain.replace('\n', "\r\n");
+        assert_eq!(lines(&windows, Layout::default()), [3, 6, 8, 9]);
+        let old = plain.replace('\n', "\r");
+        assert_eq!(lines(&old, Layout::default()), [3, 6, 8, 9]);
+        let preamble = format!("Rig 3\n\"weird\n{plain}");
+        assert_eq!(lines(&preamble, Layout { header_line: 3, ..Layout::default() }), [5, 8, 10, 11]);
+    }
+
+    #[test]
+    fn headers_that_name_nothing_are_refused() {
+        let fault = |bytes: &[u8]| {
+            Table::open("t.csv", bytes, Layout::default(), |_| false).err().unwrap().to_string()
+        };
+        for empty in ["", "\n\n", "\u{feff}", "# only this\r\n", ",,\n"] {
+            assert!(fault(empty.as_bytes()).contains("there is no header"), "{empty:?}");
+        }
+        assert_eq!(fault(b"#\n#\na,b,a\n"), "t.csv:3: column `a` stands there twice; rename one");
+        assert_eq!(fault(b"d [\xb5m]\n1\n"), "t.csv:1: the header is not UTF-8; save the file as UTF-8");
+    }
+
+    #[test]
+    fn rows_that_are_not_utf8_are_named() {
+        let mut table =
+            Table::open("t.csv", b"a\n\xb5\n1\n".as_slice(), Layout::default(), |_| false).unwrap();
+        let mut cells = csv::StringRecord::new();
+        let bad = table.next_into(&mut cells).unwrap().unwrap().unwrap_err();
+        assert_eq!((bad.line, bad.reason.as_str()), (2, "not UTF-8"));
+        assert_eq!(table.next_into(&mut cells).unwrap(), Some(Ok(3)));
+    }
+}

@@ -1,0 +1,148 @@
+//! Units that laboratories write their columns in.
+
+use crate::impact::INPUTS;
+
+/// A unit and the way to SI: `(value + offset) factor / divisor`.
+///
+/// Small units have a divisor, because 75 / 1e6 is 75e-6 to the last bit and 75 * 1e-6 is not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unit {
+    /// As it is written in a column map.
+    pub(super) name: &'static str,
+    offset: f64,
+    factor: f64,
+    divisor: f64,
+}
+
+impl Unit {
+    /// The SI unit, whichever it is.
+    pub(super) const SI: Self = scaled("SI", 1.0, 1.0);
+
+    /// A value in SI units (an angle in degrees).
+    pub(super) fn to_si(self, value: f64) -> f64 {
+        (value + self.offset) * self.factor / self.divisor
+    }
+}
+
+const fn scaled(name: &'static str, factor: f64, divisor: f64) -> Unit {
+    Unit { name, offset: 0.0, factor, divisor }
+}
+
+const LENGTHS: [Unit; 6] = [
+    scaled("m", 1.0, 1.0),
+    scaled("mm", 1.0, 1e3),
+    scaled("um", 1.0, 1e6),
+    scaled("µm", 1.0, 1e6),
+    // The Greek letter, which looks the same as the micro sign above.
+    scaled("μm", 1.0, 1e6),
+    scaled("nm", 1.0, 1e9),
+];
+const SPEEDS: [Unit; 4] =
+    [scaled("m/s", 1.0, 1.0), scaled("cm/s", 1.0, 1e2), scaled("mm/s", 1.0, 1e3), scaled("km/h", 1.0, 3.6)];
+const TEMPERATURES: [Unit; 4] = [
+    scaled("K", 1.0, 1.0),
+    Unit { name: "C", offset: 273.15, factor: 1.0, divisor: 1.0 },
+    Unit { name: "°C", offset: 273.15, factor: 1.0, divisor: 1.0 },
+    Unit { name: "F", offset: 459.67, factor: 5.0, divisor: 9.0 },
+];
+const SPINS: [Unit; 4] = [
+    scaled("rad/s", 1.0, 1.0),
+    scaled("s^-1", 1.0, 1.0),
+    scaled("1/s", 1.0, 1.0),
+    scaled("rpm", std::f64::consts::TAU, 60.0),
+];
+const SHARES: [Unit; 2] = [scaled("1", 1.0, 1.0), scaled("%", 1.0, 100.0)];
+/// Degrees, not radians, are the common unit: 90 of them are a right angle to the last bit.
+const ANGLES: [Unit; 2] = [scaled("deg", 1.0, 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Length,
+    Speed,
+    Temperature,
+    Spin,
+    /// A pure number: a share or a restitution.
+    Share,
+    Angle,
+    /// A whole number, which has no unit.
+    Count,
+    /// Text, which has no unit.
+    Words,
+}
+
+impl Quantity {
+    /// The units that it can be written in; none where it has no unit.
+    pub(super) fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => &LENGTHS,
+            Self::Speed => &SPEEDS,
+            Self::Temperature => &TEMPERATURES,
+            Self::Spin => &SPINS,
+            Self::Share => &SHARES,
+            Self::Angle => &ANGLES,
+            Self::Count | Self::Words => &[],
+        }
+    }
+}
+
+/// Every name that a column map can give a column, beyond the inputs of an impact.
+const MORE_NAMES: [(&str, Quantity); 12] = [
+    ("speed", Quantity::Speed),
+    ("angle", Quantity::Angle),
+    ("e_n", Quantity::Share),
+    ("e_n_err", Quantity::Share),
+    ("e_t", Quantity::Share),
+    ("e_t_err", Quantity::Share),
+    ("outcome", Quantity::Words),
+    ("capture_efficiency", Quantity::Share),
+    ("captured", Quantity::Count),
+    ("n_impacts", Quantity::Count),
+    ("wall", Quantity::Words),
+    ("series", Quantity::Words),
+];
+
+/// Every name that a column of the file can have a meaning under, with what it holds.
+pub(super) fn names() -> impl Iterator<Item = (&'static str, Quantity)> {
+    let of_unit = |unit: &str| match unit {
+        "m" => Quantity::Length,
+        "m/s" => Quantity::Speed,
+        "K" => Quantity::Temperature,
+        "rad/s" => Quantity::Spin,
+        _ => Quantity::Share,
+    };
+    INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(MORE_NAMES)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn si(quantity: Quantity, unit: &str, value: f64) -> f64 {
+        quantity.units().iter().find(|known| known.name == unit).unwrap().to_si(value)
+    }
+
+    #[test]
+    fn units_are_what_they_are_defined_to_be() {
+        assert_eq!(si(Quantity::Length, "um", 75.0), 75e-6);
+        assert_eq!(si(Quantity::Length, "µm", 75.0), si(Quantity::Length, "μm", 75.0));
+        assert_eq!(si(Quantity::Length, "nm", 3.0), 3e-9);
+        assert_eq!(si(Quantity::Speed, "km/h", 36.0), 10.0);
+        assert_eq!(si(Quantity::Temperature, "C", 20.0), 293.15);
+        assert!((si(Quantity::Temperature, "F", 212.0) - 373.15).abs() < 1e-12);
+        assert_eq!(si(Quantity::Spin, "rpm", 60.0), std::f64::consts::TAU);
+        assert_eq!(si(Quantity::Share, "%", 35.0), 0.35);
+        assert_eq!(si(Quantity::Angle, "rad", std::f64::consts::FRAC_PI_2), 90.0);
+    }
+
+    #[test]
+    fn every_input_can_be_mapped_once() {
+        let all: Vec<&str> = names().map(|(name, _)| name).collect();
+        assert!(INPUTS.iter().all(|input| all.contains(&input.name)));
+        assert!(all.iter().enumerate().all(|(index, name)| !all[..index].contains(name)));
+        for input in &INPUTS {
+            let quantity = names().find(|(name, _)| *name == input.name).unwrap().1;
+            assert_eq!(quantity.units()[0].name, input.unit, "{}", input.name);
+        }
+    }
+}

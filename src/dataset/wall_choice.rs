@@ -1,0 +1,79 @@
+//! Which wall of the model a row of a file hits.
+
+use crate::model::Model;
+
+/// Why a wall cannot be chosen.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum WallError {
+    /// The wall that the user asks for is not in the model.
+    #[error("--wall {name}: the model's walls are {walls}")]
+    NotInModel {
+        /// What the user asked for.
+        name: String,
+        /// The model's walls.
+        walls: String,
+    },
+    /// Nothing says which wall is hit.
+    #[error("which wall is hit? Give --wall with one of: {walls}")]
+    Undecided {
+        /// The model's walls.
+        walls: String,
+    },
+    /// A row hits a wall that the model does not have.
+    #[error("the model has no wall `{0}` and no default")]
+    Unknown(String),
+}
+
+/// Finds the wall of each row: the one that the user names, else what the row says, else `default`, else the only one.
+pub struct WallChoice<'a> {
+    model: &'a Model,
+    /// The wall of rows that do not name their own.
+    common: Option<usize>,
+    /// Whether the user names the wall of all rows.
+    fixed: bool,
+}
+
+impl<'a> WallChoice<'a> {
+    /// A choice among the walls of `model`; `named` is the wall that the user names for all rows.
+    ///
+    /// # Errors
+    /// [`WallError::NotInModel`].
+    pub fn new(model: &'a Model, named: Option<&str>) -> Result<Self, WallError> {
+        if let Some(name) = named {
+            let wall = model
+                .find_wall(name)
+                .ok_or_else(|| WallError::NotInModel { name: name.to_owned(), walls: wall_names(model) })?;
+            return Ok(Self { model, common: Some(wall), fixed: true });
+        }
+        let only = (model.walls().len() == 1).then_some(0);
+        Ok(Self { model, common: model.find_wall("default").or(only), fixed: false })
+    }
+
+    /// Checks that there is a wall for every row; `column` says whether rows have a cell that names it.
+    ///
+    /// # Errors
+    /// [`WallError::Undecided`].
+    pub fn check(&self, column: bool) -> Result<(), WallError> {
+        if self.common.is_none() && !column {
+            return Err(WallError::Undecided { walls: wall_names(self.model) });
+        }
+        Ok(())
+    }
+
+    /// The wall of a row with this cell. As in OpenFOAM, a wall that the model does not name is its `default`.
+    ///
+    /// # Errors
+    /// [`WallError::Unknown`].
+    pub fn of(&self, cell: Option<&str>) -> Result<usize, WallError> {
+        let named = cell.filter(|name| !self.fixed && !name.is_empty());
+        let found = match named {
+            Some(name) => self.model.find_wall(name).or_else(|| self.model.find_wall("default")),
+            None => self.common,
+        };
+        found.ok_or_else(|| WallError::Unknown(named.unwrap_or_default().to_owned()))
+    }
+}
+
+fn wall_names(model: &Model) -> String {
+    model.walls().iter().map(|wall| wall.name()).collect::<Vec<_>>().join(", ")
+}
