@@ -36,6 +36,8 @@ pub mod c_api;
 pub mod capture;
 #[cfg(feature = "command")]
 pub mod dataset;
+#[cfg(feature = "command")]
+pub mod diagnose;
 pub mod draw;
 pub mod effect;
 pub mod impact;

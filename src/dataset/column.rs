@@ -109,6 +109,20 @@ impl Cells {
     }
 }
 
+impl Column {
+    /// The cells of these rows.
+    pub(super) fn at(&self, rows: &[usize]) -> Self {
+        let values = match &self.values {
+            Values::Numbers(numbers) => Values::Numbers(rows.iter().map(|&row| numbers[row]).collect()),
+            Values::Words { levels, of_row } => Values::Words {
+                levels: levels.clone(),
+                of_row: rows.iter().map(|&row| of_row[row]).collect(),
+            },
+        };
+        Self { name: self.name.clone(), values }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

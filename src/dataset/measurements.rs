@@ -53,6 +53,24 @@ pub struct Measurement {
 }
 
 impl Measurements {
+    /// The data without the rows for which `fault` has a reason; those are listed among the rejected.
+    #[must_use]
+    pub fn without(&self, fault: impl Fn(&Measurement) -> Option<String>) -> Self {
+        let faults: Vec<Option<String>> = self.rows.iter().map(fault).collect();
+        let keep: Vec<usize> = (0..self.rows.len()).filter(|&row| faults[row].is_none()).collect();
+        let mut rejected = self.rejected.clone();
+        let bad =
+            |(row, reason): (&Measurement, Option<String>)| Some(BadRow { line: row.line, reason: reason? });
+        rejected.extend(self.rows.iter().zip(faults).filter_map(bad));
+        rejected.sort_by_key(|bad| bad.line);
+        Self {
+            rows: keep.iter().map(|&row| self.rows[row]).collect(),
+            columns: self.columns.iter().map(|column| column.at(&keep)).collect(),
+            rejected,
+            ..self.clone()
+        }
+    }
+
     /// Reads a file to its end; `file` stands for the source in messages. A row that cannot be used is listed with its
     /// reason, never dropped in silence.
     ///

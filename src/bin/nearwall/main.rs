@@ -1,6 +1,7 @@
 //! The command `nearwall`. One file a subcommand; this one finds the right one and turns errors into messages.
 
 mod check;
+mod diagnose;
 mod materials;
 mod predict;
 mod progress;
@@ -19,6 +20,7 @@ type CommandResult = Result<(), Box<dyn std::error::Error>>;
 #[command(version, about, arg_required_else_help = true)]
 enum Command {
     Predict(predict::Arguments),
+    Diagnose(diagnose::Arguments),
     Simulate(simulate::Arguments),
     Report(report::Arguments),
     Materials(materials::Arguments),
@@ -29,6 +31,7 @@ enum Command {
 fn main() -> std::process::ExitCode {
     let done = match Command::parse() {
         Command::Predict(arguments) => predict::run(&arguments),
+        Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),

@@ -19,3 +19,12 @@ fn styled(total: u64, what: &'static str, template: &str) -> ProgressBar {
         Err(_) => bar,
     }
 }
+
+/// A count of things whose total is not known; it shows itself on a terminal's standard error only.
+pub fn spinner(what: &'static str) -> ProgressBar {
+    let bar = ProgressBar::new_spinner().with_message(what);
+    match ProgressStyle::with_template("{spinner} {pos} {msg} {elapsed}") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}

@@ -1,0 +1,99 @@
+//! `nearwall diagnose`: what a model gets wrong about measured impacts, the cause, and the extended model.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use nearwall::Model;
+use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
+use nearwall::diagnose::{Diagnosis, Options, diagnose};
+use nearwall::report::diagnosis_page;
+
+use crate::{CommandResult, progress};
+
+/// Finds what a model gets wrong about measured impacts, names the cause and extends the model
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
+    nearwall diagnose lab.csv --columns lab.map.toml --model wax.toml --out diagnosis\n\n\
+    Writes report.html (open it in a browser), diagnosis.json and extended.toml into the folder. The data file needs v_n\n\
+    and at least one of e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md\n\
+    says what a file may hold and how --columns renames and converts a laboratory's own; docs/diagnosis.md how the\n\
+    judgement works.")]
+pub struct Arguments {
+    /// The measured impacts
+    data: PathBuf,
+    /// The model file to judge
+    #[arg(long)]
+    model: PathBuf,
+    /// Where to write
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Deals rows out to fits and tests; the same seed gives the same bytes
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Accepted share of false discoveries
+    #[arg(long, default_value_t = 0.05)]
+    level: f64,
+    /// Renames and converts the columns of a laboratory's own file
+    #[arg(long, value_name = "MAP.toml")]
+    columns: Option<PathBuf>,
+    /// The model's wall that is hit; otherwise the column `wall`, then `default`, then the only one
+    #[arg(long)]
+    wall: Option<String>,
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    if !(arguments.level > 0.0 && arguments.level < 0.5) {
+        return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
+    }
+    let model = Model::from_file(&arguments.model)?;
+    let text = std::fs::read_to_string(&arguments.model)
+        .map_err(|error| format!("{}: {error}", arguments.model.display()))?;
+    let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
+    let file = arguments.data.display().to_string();
+    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
+    let walls = WallChoice::new(&model, arguments.wall.as_deref())?;
+    let data = Measurements::read(&file, source, map.as_ref(), &walls)?;
+    for note in &data.notes {
+        eprintln!("nearwall: {note}");
+    }
+    let bar = progress::spinner("candidates tried");
+    let options = Options { seed: arguments.seed, level: arguments.level };
+    let (diagnosis, extended) = diagnose(&model, &text, &data, options, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    write(&arguments.out, arguments, &diagnosis, &extended)?;
+    crate::print(&summary(&diagnosis, &arguments.out))
+}
+
+fn write(folder: &Path, arguments: &Arguments, diagnosis: &Diagnosis, extended: &str) -> CommandResult {
+    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let names = [arguments.data.display().to_string(), arguments.model.display().to_string()];
+    let page = diagnosis_page(diagnosis, &names, extended)?;
+    let json = serde_json::to_string_pretty(diagnosis)? + "\n";
+    for (name, content) in
+        [("extended.toml", extended), ("diagnosis.json", json.as_str()), ("report.html", page.as_str())]
+    {
+        let path = folder.join(name);
+        std::fs::write(&path, content).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
+}
+
+fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
+    let mut text = format!("{}\n", diagnosis.verdict);
+    for finding in &diagnosis.findings {
+        let parameters: Vec<String> = finding
+            .parameters
+            .iter()
+            .map(|(name, p)| format!("{name} = {} ({} to {}) {}", p.value, p.low, p.high, p.unit))
+            .collect();
+        text += &format!("  {}: {}\n", finding.cause, parameters.join(", "));
+    }
+    if !diagnosis.rows.rejected.is_empty() {
+        text += &format!(
+            "{} of {} rows were left out; report.html says which and why\n",
+            diagnosis.rows.rejected.len(),
+            diagnosis.rows.read
+        );
+    }
+    text + &format!("open {}\n", crate::report::whole(&folder.join("report.html")).display())
+}

@@ -1,0 +1,345 @@
+//! One round of the contest: every candidate is fitted to four fifths of the rows and scored on the last, five times over.
+//!
+//! A candidate's gain is the sum over rows of the difference in log score to the hypothesis that stands, each row scored
+//! by a fit that did not see it. Its p-value is that of a paired t-test of these differences (one-sided); q-values are
+//! Benjamini and Hochberg's over all candidates of the round, so the level is the share of false discoveries.
+
+use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+use super::forecast::Forecast;
+use super::hypothesis::{Fitted, Hypothesis, Number, Observable, Part, Unknown, residuals, standardised};
+use super::likelihood::{Scatter, Shift, fit_scatter, score};
+use super::search::{best_of_grid, descend};
+use super::smooth::{Basis, Curve};
+use super::study::Study;
+use crate::dataset::Values;
+use crate::effect::KINDS;
+
+/// Gain on the rows of the fit [nats] below which a candidate is not worth a cross-validation.
+const HOPELESS: f64 = 2.0;
+
+/// What may be added to a hypothesis.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Candidate {
+    /// An effect, or another value for a number of the base.
+    Part(Part),
+    /// A curve over a factor.
+    Unknown {
+        /// Place among the study's factors.
+        factor: usize,
+        /// What it acts on.
+        observable: Observable,
+        /// Whether it multiplies the forecast.
+        factorwise: bool,
+    },
+    /// Scatter that changes with a factor.
+    Noise {
+        /// Place among the study's factors.
+        factor: usize,
+    },
+}
+
+/// A candidate with what the fit made of it.
+#[derive(Debug, Clone)]
+pub(super) enum Added {
+    Part(Fitted),
+    Unknown(Unknown),
+    Noise(usize, f64),
+}
+
+/// A candidate after the round.
+#[derive(Debug, Clone)]
+pub(super) struct Contender {
+    pub added: Added,
+    /// Difference in log score of each row of [`Study::search`].
+    pub differences: Vec<f64>,
+    pub p_value: f64,
+    pub q_value: f64,
+}
+
+impl Contender {
+    /// Sum of the differences [nats].
+    pub fn gain(&self) -> f64 {
+        self.differences.iter().sum()
+    }
+
+    /// How many standard errors its gain lies above another's.
+    pub fn lead(&self, other: &Self) -> f64 {
+        let pairs = self.differences.iter().zip(&other.differences);
+        t_statistic(&pairs.map(|(a, b)| a - b).collect::<Vec<_>>())
+    }
+
+    /// Count of its free numbers.
+    pub fn parameters(&self) -> usize {
+        match &self.added {
+            Added::Part(fitted) => fitted.at.len(),
+            Added::Unknown(unknown) => unknown.curve.heights.len(),
+            Added::Noise(..) => 1,
+        }
+    }
+}
+
+/// The round as the hypothesis stands.
+pub(super) struct Round<'a> {
+    study: &'a Study,
+    hypothesis: &'a Hypothesis,
+    shifts: Vec<Shift>,
+    /// The hypothesis' forecast of [`Study::search`].
+    forecast: Forecast,
+    /// The place of each row in the forecast.
+    places: Vec<usize>,
+    scatter: Scatter,
+    score: f64,
+    /// Each fold's scatter outside the fold, and the score of the fold's rows.
+    folds: Vec<(Vec<usize>, Scatter, Vec<f64>)>,
+}
+
+impl<'a> Round<'a> {
+    pub fn new(study: &'a Study, hypothesis: &'a Hypothesis, first: Scatter) -> Self {
+        let shifts = hypothesis.shifts(study);
+        let forecast = Forecast::new(&hypothesis.model(study), &study.rows, &study.search);
+        let mut places = vec![usize::MAX; study.rows.len()];
+        for (place, &row) in study.search.iter().enumerate() {
+            places[row] = place;
+        }
+        let scatter = fit_scatter(&study.rows, &study.search, &forecast, &shifts, first);
+        let mut round =
+            Self { study, hypothesis, shifts, forecast, places, scatter, score: 0.0, folds: Vec::new() };
+        round.score = round.scores(&study.search, &round.shifts, scatter).iter().sum();
+        for (fold, rows) in study.folds.iter().enumerate() {
+            let outside = study.outside(fold);
+            let own = round.fit_scatter(&outside, &round.shifts);
+            let scores = round.scores(rows, &round.shifts, own);
+            round.folds.push((outside, own, scores));
+        }
+        round
+    }
+
+    /// The scatter about the hypothesis that stands.
+    pub fn scatter(&self) -> Scatter {
+        self.scatter
+    }
+
+    /// All candidates with their gains, those without hope left out; `done` is called after each.
+    pub fn contenders(&self, done: &(dyn Fn() + Sync)) -> Vec<Contender> {
+        let candidates = self.candidates();
+        let mut contenders: Vec<Contender> = candidates
+            .par_iter()
+            .filter_map(|&candidate| {
+                let contender = self.contend(candidate);
+                done();
+                contender
+            })
+            .collect();
+        let count = candidates.len();
+        adjust(&mut contenders, count);
+        contenders
+    }
+
+    fn candidates(&self) -> Vec<Candidate> {
+        let study = self.study;
+        let taken = |name: &str| self.hypothesis.parts.iter().any(|fitted| fitted.part.name() == name);
+        let in_base = |id: &str| study.base.terms().iter().any(|term| term.kind().id == id);
+        let effects = KINDS.iter().map(|kind| Part::Effect(kind));
+        let numbers = [Number::NormalRestitution, Number::TangentialRestitution, Number::Friction];
+        let numbers = numbers.into_iter().filter(|number| number.of(&study.base).is_some()).map(Part::Number);
+        let parts = effects.chain(numbers).filter(|part| !taken(&part.name()) && !in_base(&part.name()));
+        let mut candidates: Vec<Candidate> = parts.map(Candidate::Part).collect();
+        for factor in 0..study.factors.len() {
+            for observable in Observable::ALL {
+                if !self.observed(observable) {
+                    continue;
+                }
+                let modes: &[bool] =
+                    if observable == Observable::Capture { &[false] } else { &[false, true] };
+                let unknown = |&factorwise| Candidate::Unknown { factor, observable, factorwise };
+                candidates.extend(modes.iter().map(unknown));
+            }
+            let numeric = matches!(study.factors[factor].values, Values::Numbers(_));
+            if numeric && !self.hypothesis.noise.iter().any(|&(other, _)| other == factor) {
+                candidates.push(Candidate::Noise { factor });
+            }
+        }
+        candidates
+    }
+
+    fn observed(&self, observable: Observable) -> bool {
+        let rows = self.study.search.iter().map(|&row| &self.study.rows[row]);
+        let count = rows.filter(|row| match observable {
+            Observable::NormalRestitution => row.e_n.is_some(),
+            Observable::TangentialRestitution => row.e_t.is_some(),
+            Observable::Capture => row.captured.is_some(),
+        });
+        count.count() >= 10
+    }
+
+    fn contend(&self, candidate: Candidate) -> Option<Contender> {
+        let added = match candidate {
+            Candidate::Part(part) => Added::Part(self.fit_part(part)?),
+            Candidate::Unknown { factor, observable, factorwise } => Added::Unknown(self.fit_unknown(
+                factor,
+                observable,
+                factorwise,
+                &self.study.search,
+                self.scatter,
+            )?),
+            Candidate::Noise { factor } => self.fit_noise(factor, &self.study.search, 0.0),
+        };
+        if self.gain_in_sample(&added) < HOPELESS {
+            return None;
+        }
+        let mut differences = vec![0.0; self.study.search.len()];
+        for (fold, (outside, scatter, before)) in self.study.folds.iter().zip(&self.folds) {
+            let after = self.score_fold(&added, outside, *scatter, fold);
+            for ((row, after), before) in fold.iter().zip(after).zip(before) {
+                differences[self.places[*row]] = after - before;
+            }
+        }
+        let freedom = (differences.len() as f64 - 1.0).max(1.0);
+        let t = t_statistic(&differences);
+        let p_value = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(t)).max(1e-300);
+        Some(Contender { added, differences, p_value, q_value: 1.0 })
+    }
+
+    fn scores(&self, rows: &[usize], shifts: &[Shift], scatter: Scatter) -> Vec<f64> {
+        let one = |&row: &usize| {
+            score(&self.study.rows[row], self.forecast.of(self.places[row]), &shifts[row], scatter)
+        };
+        rows.iter().map(one).collect()
+    }
+
+    fn fit_scatter(&self, rows: &[usize], shifts: &[Shift]) -> Scatter {
+        let forecast = self.forecast.of_places(rows.iter().map(|&row| self.places[row]));
+        fit_scatter(&self.study.rows, rows, &forecast, shifts, self.scatter)
+    }
+
+    fn gain_in_sample(&self, added: &Added) -> f64 {
+        let rows = &self.study.search;
+        let after = match added {
+            Added::Part(fitted) => self.cost_of(fitted, rows)(&fitted.at),
+            Added::Unknown(unknown) => self.cost_with_shifts(&self.with_unknown(unknown), rows),
+            Added::Noise(factor, change) => self.cost_with_shifts(&self.with_noise(*factor, *change), rows),
+        };
+        -after - self.score
+    }
+
+    /// Scores of a fold's rows by a fit to the rows outside it.
+    fn score_fold(&self, added: &Added, outside: &[usize], scatter: Scatter, fold: &[usize]) -> Vec<f64> {
+        let nothing = || vec![f64::NEG_INFINITY; 0];
+        match added {
+            Added::Part(fitted) => {
+                let rounds = 15 * fitted.at.len() as u64 + 5;
+                let (at, _) = descend(self.cost_of(fitted, outside), &fitted.at, 0.05, rounds);
+                let mut hypothesis = self.hypothesis.clone();
+                hypothesis.parts.push(Fitted { at, ..fitted.clone() });
+                let fit = hypothesis.fit(self.study, outside, &self.shifts, scatter);
+                hypothesis.row_scores(self.study, fold, &self.shifts, fit.scatter)
+            }
+            Added::Unknown(Unknown { factor, observable, factorwise, .. }) => {
+                match self.fit_unknown(*factor, *observable, *factorwise, outside, scatter) {
+                    Some(unknown) => {
+                        let shifts = self.with_unknown(&unknown);
+                        self.scores(fold, &shifts, self.fit_scatter(outside, &shifts))
+                    }
+                    None => nothing(),
+                }
+            }
+            Added::Noise(factor, change) => match self.fit_noise(*factor, outside, *change) {
+                Added::Noise(factor, change) => {
+                    let shifts = self.with_noise(factor, change);
+                    self.scores(fold, &shifts, self.fit_scatter(outside, &shifts))
+                }
+                _ => nothing(),
+            },
+        }
+    }
+
+    /// Minus the log score as a function of a new part's coordinates.
+    fn cost_of<'b>(&'b self, fitted: &'b Fitted, rows: &'b [usize]) -> impl Fn(&[f64]) -> f64 + 'b {
+        let mut parts = self.hypothesis.parts.clone();
+        parts.push(fitted.clone());
+        move |at: &[f64]| {
+            let mut parts = parts.clone();
+            if let Some(last) = parts.last_mut() {
+                at.clone_into(&mut last.at);
+            }
+            -self.hypothesis.fit_at(self.study, &parts, rows, &self.shifts, self.scatter).score
+        }
+    }
+
+    fn cost_with_shifts(&self, shifts: &[Shift], rows: &[usize]) -> f64 {
+        -self.scores(rows, shifts, self.fit_scatter(rows, shifts)).iter().sum::<f64>()
+    }
+
+    fn fit_part(&self, part: Part) -> Option<Fitted> {
+        let axes = part.axes(self.study)?;
+        let dimensions = axes.len();
+        let blank = Fitted { part, axes, at: vec![0.5; dimensions] };
+        // The grid looks at some rows only: it has to find the valley, not its floor.
+        let some: Vec<usize> = self.study.search.iter().copied().take(250).collect();
+        let start = best_of_grid(self.cost_of(&blank, &some), dimensions);
+        let rounds = 25 * dimensions as u64 + 10;
+        let (at, _) = descend(self.cost_of(&blank, &self.study.search), &start, 0.12, rounds);
+        Some(Fitted { at, ..blank })
+    }
+
+    fn fit_unknown(
+        &self,
+        factor: usize,
+        observable: Observable,
+        factorwise: bool,
+        rows: &[usize],
+        scatter: Scatter,
+    ) -> Option<Unknown> {
+        let values = &self.study.factors[factor].values;
+        let basis = Basis::of(values, &self.study.search)?;
+        let forecast = self.forecast.of_places(rows.iter().map(|&row| self.places[row]));
+        let points = residuals(self.study, rows, &forecast, &self.shifts, scatter, observable, factorwise);
+        let curve = Curve::fit(values, &basis, &points)?;
+        Some(Unknown { factor, observable, factorwise, curve })
+    }
+
+    fn with_unknown(&self, unknown: &Unknown) -> Vec<Shift> {
+        let mut shifts = self.shifts.clone();
+        unknown.add(self.study, &self.forecast, &self.study.search, &mut shifts);
+        shifts
+    }
+
+    fn with_noise(&self, factor: usize, change: f64) -> Vec<Shift> {
+        let mut shifts = self.shifts.clone();
+        for (shift, z) in shifts.iter_mut().zip(standardised(&self.study.factors[factor].values)) {
+            shift.spread *= (change * z).exp();
+        }
+        shifts
+    }
+
+    fn fit_noise(&self, factor: usize, rows: &[usize], start: f64) -> Added {
+        // The coordinate runs from a fall to a rise by e a standard deviation.
+        let change = |at: f64| 2.0 * at - 1.0;
+        let cost = |at: &[f64]| self.cost_with_shifts(&self.with_noise(factor, change(at[0])), rows);
+        let (at, _) = descend(cost, &[0.5 * (start + 1.0)], 0.1, 20);
+        Added::Noise(factor, change(at[0]))
+    }
+}
+
+/// Mean over its standard error.
+fn t_statistic(differences: &[f64]) -> f64 {
+    let count = differences.len() as f64;
+    let mean = differences.iter().sum::<f64>() / count;
+    let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
+    let error = (variance / count).sqrt();
+    if error > 0.0 { mean / error } else { 0.0 }
+}
+
+/// Benjamini and Hochberg's q-values for `count` candidates, of which those without hope are not in the list.
+fn adjust(contenders: &mut [Contender], count: usize) {
+    let mut order: Vec<usize> = (0..contenders.len()).collect();
+    order.sort_by(|&a, &b| contenders[b].p_value.total_cmp(&contenders[a].p_value));
+    let mut smallest = 1.0_f64;
+    for (above, &index) in order.iter().enumerate() {
+        let rank = contenders.len() - above;
+        smallest = smallest.min(contenders[index].p_value * count as f64 / rank as f64);
+        contenders[index].q_value = smallest;
+    }
+}

@@ -1,0 +1,405 @@
+//! A hypothesis: the base model and what has been added to it so far.
+
+use super::forecast::Forecast;
+use super::likelihood::{Scatter, Shift, fit_scatter, mean, ordinary, score};
+use super::search::{Axis, descend};
+use super::smooth::{Curve, Point, surface};
+use super::study::Study;
+use crate::dataset::Values;
+use crate::effect::{Kind, Term};
+use crate::model::Model;
+use crate::normal::NormalLaw;
+use crate::tangential::TangentialLaw;
+
+/// A number of the base model's own laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Number {
+    /// `normal.e_n` of constant restitution.
+    NormalRestitution,
+    /// `tangential.e_t` of constant restitution.
+    TangentialRestitution,
+    /// `tangential.friction`.
+    Friction,
+}
+
+impl Number {
+    /// Table and key in the model file.
+    pub fn key(self) -> [&'static str; 2] {
+        match self {
+            Self::NormalRestitution => ["normal", "e_n"],
+            Self::TangentialRestitution => ["tangential", "e_t"],
+            Self::Friction => ["tangential", "friction"],
+        }
+    }
+
+    /// Its value in a model, where the model has it.
+    pub fn of(self, model: &Model) -> Option<f64> {
+        match (self, model.normal_law(), model.tangential_law()) {
+            (Self::NormalRestitution, NormalLaw::Constant { restitution }, _) => Some(restitution),
+            (Self::TangentialRestitution, _, TangentialLaw::Constant { restitution }) => Some(restitution),
+            (
+                Self::Friction,
+                _,
+                TangentialLaw::Sliding { friction } | TangentialLaw::SlidingRolling { friction },
+            ) => Some(friction),
+            _ => None,
+        }
+    }
+
+    fn set(self, model: &Model, value: f64) -> Model {
+        let (normal, tangential) = (model.normal_law(), model.tangential_law());
+        match (self, tangential) {
+            (Self::NormalRestitution, _) => {
+                model.with_laws(NormalLaw::Constant { restitution: value }, tangential)
+            }
+            (Self::TangentialRestitution, _) => {
+                model.with_laws(normal, TangentialLaw::Constant { restitution: value })
+            }
+            (Self::Friction, TangentialLaw::Sliding { .. }) => {
+                model.with_laws(normal, TangentialLaw::Sliding { friction: value })
+            }
+            (Self::Friction, _) => model.with_laws(normal, TangentialLaw::SlidingRolling { friction: value }),
+        }
+    }
+}
+
+/// Something with parameters that can be added to the base.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Part {
+    /// An effect of the library.
+    Effect(&'static Kind),
+    /// Another value for a number of the base.
+    Number(Number),
+}
+
+impl Part {
+    /// Its name: an effect's id, or a number's key.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Effect(kind) => kind.id.to_owned(),
+            Self::Number(number) => number.key().join("."),
+        }
+    }
+
+    /// Whether it leaves something to chance.
+    pub fn scatters(&self) -> bool {
+        matches!(self, Self::Effect(kind) if !kind.streams.is_empty())
+    }
+
+    /// The inputs that it turns on.
+    pub fn inputs(&self) -> &'static [&'static str] {
+        match self {
+            Self::Effect(kind) => kind.inputs,
+            Self::Number(_) => &[],
+        }
+    }
+
+    /// The axes of its parameters; `None` where the data cannot show it.
+    pub fn axes(&self, study: &Study) -> Option<Vec<Axis>> {
+        match self {
+            Self::Number(_) => Some(vec![Axis::linear(0.02, 1.1)]),
+            Self::Effect(kind) => {
+                // Laws work with speed and size as they are; whatever else an effect turns on has to vary.
+                let needed = kind.inputs.iter().filter(|input| !["v_n", "d"].contains(*input));
+                needed.map(|input| study.range(input)).collect::<Option<Vec<_>>>()?;
+                kind.parameters.iter().map(|p| Axis::of(p, |input| study.range(input))).collect()
+            }
+        }
+    }
+}
+
+/// A part with its parameters.
+#[derive(Debug, Clone)]
+pub(super) struct Fitted {
+    pub part: Part,
+    pub axes: Vec<Axis>,
+    /// Coordinates on the axes.
+    pub at: Vec<f64>,
+}
+
+impl Fitted {
+    /// The parameters in SI units.
+    pub fn values(&self) -> Vec<f64> {
+        self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect()
+    }
+}
+
+/// What a row's observation is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Observable {
+    NormalRestitution,
+    TangentialRestitution,
+    Capture,
+}
+
+impl Observable {
+    pub const ALL: [Self; 3] = [Self::NormalRestitution, Self::TangentialRestitution, Self::Capture];
+
+    /// The name in the data file.
+    pub fn name(self) -> &'static str {
+        ["e_n", "e_t", "outcome"][self as usize]
+    }
+
+    /// The name for a reader.
+    pub fn title(self) -> &'static str {
+        ["normal restitution e_n", "tangential restitution e_t", "capture"][self as usize]
+    }
+}
+
+/// A smooth curve over a column, for which no effect is known.
+#[derive(Debug, Clone)]
+pub(super) struct Unknown {
+    /// Place among the study's factors.
+    pub factor: usize,
+    pub observable: Observable,
+    /// Whether it multiplies the forecast rather than adding to it.
+    pub factorwise: bool,
+    pub curve: Curve,
+}
+
+/// The base and what was added.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Hypothesis {
+    pub parts: Vec<Fitted>,
+    pub unknowns: Vec<Unknown>,
+    /// Columns with which the scatter changes: factor and log change a standard deviation of the column.
+    pub noise: Vec<(usize, f64)>,
+    /// What the named causes' own inputs still leave, row by row: the laws' shape need not be exact.
+    pub shape: Option<[Vec<f64>; 2]>,
+}
+
+/// How well a hypothesis does on some rows.
+pub(super) struct Fit {
+    pub scatter: Scatter,
+    pub score: f64,
+}
+
+impl Hypothesis {
+    /// The model with the given parameters in place of the parts' own.
+    fn model_at(&self, study: &Study, parts: &[Fitted]) -> Model {
+        let mut model = study.base.clone();
+        let mut terms: Vec<Term> = model.terms().to_vec();
+        for fitted in parts {
+            match fitted.part {
+                Part::Effect(kind) => terms.push(Term::new(kind, &fitted.values())),
+                Part::Number(number) => {
+                    if let [value] = fitted.values()[..] {
+                        model = number.set(&model, value);
+                    }
+                }
+            }
+        }
+        model.with_terms(terms)
+    }
+
+    /// The base with the parts.
+    pub fn model(&self, study: &Study) -> Model {
+        self.model_at(study, &self.parts)
+    }
+
+    /// The same with all parts at these coordinates, one part after the other.
+    pub fn with_coordinates(&self, at: &[f64]) -> Self {
+        let mut moved = self.clone();
+        let mut rest = at;
+        for part in &mut moved.parts {
+            let (own, others) = rest.split_at(part.axes.len().min(rest.len()));
+            own.clone_into(&mut part.at);
+            rest = others;
+        }
+        moved
+    }
+
+    /// Fits all parameters together to the rows, from where they are, and the curves after them.
+    pub fn polish(&mut self, study: &Study, rows: &[usize], first: Scatter) -> Scatter {
+        let mut scatter = first;
+        for _ in 0..if self.unknowns.is_empty() { 1 } else { 2 } {
+            let shifts = self.shifts(study);
+            let start: Vec<f64> = self.parts.iter().flat_map(|part| part.at.iter().copied()).collect();
+            if !start.is_empty() {
+                let cost = |at: &[f64]| -self.with_coordinates(at).fit(study, rows, &shifts, scatter).score;
+                let (at, _) = descend(cost, &start, 0.06, 60 * start.len() as u64);
+                *self = self.with_coordinates(&at);
+            }
+            scatter = self.fit(study, rows, &shifts, scatter).scatter;
+            self.refit_unknowns(study, rows, scatter);
+        }
+        self.fit(study, rows, &self.shifts(study), scatter).scatter
+    }
+
+    /// Fits every curve again to what the rest leaves.
+    fn refit_unknowns(&mut self, study: &Study, rows: &[usize], scatter: Scatter) {
+        let forecast = Forecast::new(&self.model(study), &study.rows, rows);
+        for place in 0..self.unknowns.len() {
+            let unknown = self.unknowns.remove(place);
+            let shifts = self.shifts(study);
+            let points =
+                residuals(study, rows, &forecast, &shifts, scatter, unknown.observable, unknown.factorwise);
+            let values = &study.factors[unknown.factor].values;
+            let curve = Curve::fit(values, &unknown.curve.basis, &points);
+            let curve = curve.unwrap_or_else(|| unknown.curve.clone());
+            self.unknowns.insert(place, Unknown { curve, ..unknown });
+        }
+    }
+
+    /// What is added to each row's forecast; all rows of the study.
+    pub fn shifts(&self, study: &Study) -> Vec<Shift> {
+        let mut shifts = vec![Shift::default(); study.rows.len()];
+        for &(factor, change) in &self.noise {
+            for (shift, z) in shifts.iter_mut().zip(standardised(&study.factors[factor].values)) {
+                shift.spread *= (change * z).exp();
+            }
+        }
+        if let Some([e_n, e_t]) = &self.shape {
+            for (index, shift) in shifts.iter_mut().enumerate() {
+                shift.e_n += e_n[index];
+                shift.e_t += e_t[index];
+            }
+        }
+        if !self.unknowns.is_empty() {
+            let all: Vec<usize> = (0..study.rows.len()).collect();
+            let forecast = Forecast::new(&self.model(study), &study.rows, &all);
+            for unknown in &self.unknowns {
+                unknown.add(study, &forecast, &all, &mut shifts);
+            }
+        }
+        shifts
+    }
+
+    /// How well it does on the rows with these indices.
+    pub fn fit(&self, study: &Study, rows: &[usize], shifts: &[Shift], first: Scatter) -> Fit {
+        self.fit_at(study, &self.parts, rows, shifts, first)
+    }
+
+    /// As [`Hypothesis::fit`] with other parts.
+    pub fn fit_at(
+        &self,
+        study: &Study,
+        parts: &[Fitted],
+        rows: &[usize],
+        shifts: &[Shift],
+        first: Scatter,
+    ) -> Fit {
+        let forecast = Forecast::new(&self.model_at(study, parts), &study.rows, rows);
+        let scatter = fit_scatter(&study.rows, rows, &forecast, shifts, first);
+        Fit { scatter, score: scores(study, rows, &forecast, shifts, scatter).iter().sum() }
+    }
+
+    /// Log score of each row under a given scatter.
+    pub fn row_scores(&self, study: &Study, rows: &[usize], shifts: &[Shift], scatter: Scatter) -> Vec<f64> {
+        let forecast = Forecast::new(&self.model(study), &study.rows, rows);
+        scores(study, rows, &forecast, shifts, scatter)
+    }
+
+    /// Takes up what the inputs of the named effects still leave, so that an inexact law does not call for a second cause.
+    pub fn absorb_shape(&mut self, study: &Study, scatter: Scatter) {
+        self.shape = None;
+        let mut names: Vec<&str> = self.parts.iter().flat_map(|p| p.part.inputs().iter().copied()).collect();
+        names.sort_unstable();
+        names.dedup();
+        let columns: Vec<&Values> =
+            names.iter().filter_map(|name| study.factor(name)).map(|f| &f.values).collect();
+        if columns.is_empty() {
+            return;
+        }
+        let shifts = self.shifts(study);
+        let all: Vec<usize> = (0..study.rows.len()).collect();
+        let forecast = Forecast::new(&self.model(study), &study.rows, &study.search);
+        let of = |observable| {
+            let points = residuals(study, &study.search, &forecast, &shifts, scatter, observable, false);
+            surface(&columns, &points, &all).unwrap_or_else(|| vec![0.0; all.len()])
+        };
+        self.shape = Some([of(Observable::NormalRestitution), of(Observable::TangentialRestitution)]);
+    }
+}
+
+/// What is left of an observable in each of the rows that have it; `forecast` is of these rows.
+pub(super) fn residuals(
+    study: &Study,
+    rows: &[usize],
+    forecast: &Forecast,
+    shifts: &[Shift],
+    scatter: Scatter,
+    observable: Observable,
+    factorwise: bool,
+) -> Vec<Point> {
+    let point = |(place, &index): (usize, &usize)| {
+        let (row, shift) = (&study.rows[index], &shifts[index]);
+        let said = mean(forecast.of(place), shift);
+        let (reading, expected, scatter, chance) = match observable {
+            Observable::NormalRestitution => (row.e_n.as_ref(), said.e_n, scatter.e_n, said.variance_e_n),
+            Observable::TangentialRestitution => (row.e_t.as_ref(), said.e_t, scatter.e_t, said.variance_e_t),
+            Observable::Capture => {
+                let spread = said.capture * (1.0 - said.capture);
+                return row.captured.map(|share| Point {
+                    row: index,
+                    // One step of the logistic fit: the residual in log odds and its information.
+                    residual: (share - said.capture) / spread,
+                    weight: spread * row.impacts,
+                    factor: 1.0,
+                });
+            }
+        };
+        reading.map(|reading| {
+            let residual = reading.value - expected;
+            let own = (scatter * shift.spread).powi(2) + chance;
+            let variance = reading.error.map_or(own / row.rebounds.max(1.0), |error| own + error * error);
+            Point {
+                row: index,
+                residual,
+                weight: ordinary(residual, variance.sqrt()) / variance,
+                factor: if factorwise { expected } else { 1.0 },
+            }
+        })
+    };
+    rows.iter().enumerate().filter_map(point).collect()
+}
+
+fn scores(
+    study: &Study,
+    rows: &[usize],
+    forecast: &Forecast,
+    shifts: &[Shift],
+    scatter: Scatter,
+) -> Vec<f64> {
+    let one = |(place, &index): (usize, &usize)| {
+        score(&study.rows[index], forecast.of(place), &shifts[index], scatter)
+    };
+    rows.iter().enumerate().map(one).collect()
+}
+
+impl Unknown {
+    /// Adds the curve to the shifts of these rows.
+    pub fn add(&self, study: &Study, forecast: &Forecast, rows: &[usize], shifts: &mut [Shift]) {
+        let values = &study.factors[self.factor].values;
+        for (place, &index) in rows.iter().enumerate() {
+            let height = self.curve.at(values, index);
+            let shift = &mut shifts[index];
+            let factor = |quantity: f64| if self.factorwise { quantity } else { 1.0 };
+            match self.observable {
+                Observable::NormalRestitution => {
+                    shift.e_n += height * factor(mean(forecast.of(place), &Shift::default()).e_n);
+                }
+                Observable::TangentialRestitution => {
+                    shift.e_t += height * factor(mean(forecast.of(place), &Shift::default()).e_t);
+                }
+                Observable::Capture => shift.capture += height,
+            }
+        }
+    }
+}
+
+/// A column in standard deviations from its mean, at most three; words and blanks are 0.
+pub(super) fn standardised(values: &Values) -> Vec<f64> {
+    let Values::Numbers(numbers) = values else {
+        let Values::Words { of_row, .. } = values else { return Vec::new() };
+        return vec![0.0; of_row.len()];
+    };
+    let finite: Vec<f64> = numbers.iter().copied().filter(|value| value.is_finite()).collect();
+    let count = finite.len().max(1) as f64;
+    let mean = finite.iter().sum::<f64>() / count;
+    let deviation = (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+    let z = |value: &f64| {
+        if value.is_finite() && deviation > 0.0 { ((value - mean) / deviation).clamp(-3.0, 3.0) } else { 0.0 }
+    };
+    numbers.iter().map(z).collect()
+}

@@ -1,0 +1,89 @@
+//! Intervals of fitted parameters, which hold although the law's shape or the scatter may be wrong.
+//!
+//! The covariance is the sandwich `H⁻¹ (Σ s sᵀ) H⁻¹`, with `s` each row's derivative of the log score by the coordinates
+//! and `H` the second derivatives of the sum, both by differences. The 95 % interval is symmetric in the coordinate and
+//! so not in the value where the axis is logarithmic; it ends at the ends of the search range.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::hypothesis::Hypothesis;
+use super::likelihood::{Scatter, Shift};
+use super::study::Study;
+
+/// Step of the differences, in the coordinate.
+const STEP: f64 = 4e-3;
+/// 97.5 % quantile of the normal distribution.
+const NORMAL_975: f64 = 1.959_963_985;
+
+/// For every part of a hypothesis the lower and upper ends of its parameters in SI units; rows by index.
+pub(super) fn intervals(
+    hypothesis: &Hypothesis,
+    study: &Study,
+    rows: &[usize],
+    shifts: &[Shift],
+    scatter: Scatter,
+) -> Vec<Vec<[f64; 2]>> {
+    let at: Vec<f64> = hypothesis.parts.iter().flat_map(|part| part.at.iter().copied()).collect();
+    let count = at.len();
+    let scores_at = |at: &[f64]| {
+        let moved = hypothesis.with_coordinates(at);
+        let scatter = moved.fit(study, rows, shifts, scatter).scatter;
+        moved.row_scores(study, rows, shifts, scatter)
+    };
+    let moved = |place: usize, step: f64, other: usize, other_step: f64| {
+        let mut moved = at.clone();
+        moved[place] += step;
+        moved[other] += other_step;
+        moved
+    };
+    let sum = |at: Vec<f64>| scores_at(&at).iter().sum::<f64>();
+    let mut scores = DMatrix::zeros(rows.len(), count);
+    for place in 0..count {
+        let (up, down) =
+            (scores_at(&moved(place, STEP, place, 0.0)), scores_at(&moved(place, -STEP, place, 0.0)));
+        for (row, (up, down)) in up.iter().zip(&down).enumerate() {
+            scores[(row, place)] = (up - down) / (2.0 * STEP);
+        }
+    }
+    let meat = scores.transpose() * &scores;
+    let mut curvature = DMatrix::zeros(count, count);
+    let wide = 4.0 * STEP;
+    for a in 0..count {
+        for b in 0..=a {
+            let second = (sum(moved(a, wide, b, wide))
+                - sum(moved(a, wide, b, -wide))
+                - sum(moved(a, -wide, b, wide))
+                + sum(moved(a, -wide, b, -wide)))
+                / (4.0 * wide * wide);
+            curvature[(a, b)] = -second;
+            curvature[(b, a)] = -second;
+        }
+    }
+    let errors = sandwich(&curvature, &meat, rows.len());
+    let mut place = 0;
+    let ends = |place: usize, axis: super::search::Axis| {
+        let reach = NORMAL_975 * errors[place];
+        let mut ends = [axis.value(at[place] - reach), axis.value(at[place] + reach)];
+        ends.sort_by(f64::total_cmp);
+        ends
+    };
+    let of_part = |part: &super::hypothesis::Fitted| {
+        let first = place;
+        place += part.axes.len();
+        part.axes.iter().enumerate().map(|(index, axis)| ends(first + index, *axis)).collect()
+    };
+    hypothesis.parts.iter().map(of_part).collect()
+}
+
+/// Standard errors of the coordinates; where the curvature is no use, those of the scores alone.
+fn sandwich(curvature: &DMatrix<f64>, meat: &DMatrix<f64>, rows: usize) -> DVector<f64> {
+    let count = curvature.nrows();
+    let factor = rows as f64 / (rows as f64 - count as f64).max(1.0);
+    let by_scores =
+        |m: &DMatrix<f64>| (m + DMatrix::identity(count, count) * 1e-9).cholesky().map(|c| c.inverse());
+    let covariance = match curvature.clone().cholesky().map(|c| c.inverse()) {
+        Some(inverse) => &inverse * meat * &inverse,
+        None => by_scores(meat).unwrap_or_else(|| DMatrix::identity(count, count)),
+    };
+    DVector::from_iterator(count, (0..count).map(|i| (covariance[(i, i)] * factor).max(0.0).sqrt().min(1.0)))
+}

@@ -1,0 +1,264 @@
+//! A smooth curve through residuals over one column, or over two: what data say before any law is named.
+//!
+//! Numbers: a line with up to eight bends at quantiles of the column (hat functions), whose bends are penalised
+//! (P-spline of degree one; Eilers and Marx 1996). Words: a level for each word, drawn towards zero. The penalty is the
+//! one with the smallest generalised cross-validation error. Blank cells count as zero effect.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::dataset::Values;
+
+/// Bends of a curve at most.
+const BENDS: usize = 8;
+/// Penalties tried, relative to the number of rows a bend.
+const PENALTIES: [f64; 9] = [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1e4];
+
+/// What a row's cell contributes: places in the basis and their values.
+type Entry = Vec<(usize, f64)>;
+
+/// Functions of a column that a curve is made of.
+#[derive(Debug, Clone)]
+pub(super) enum Basis {
+    /// Hats over these knots, in ascending order.
+    Hats(Vec<f64>),
+    /// One function a word.
+    Words(usize),
+}
+
+impl Basis {
+    /// The basis for a column, as far as the rows with these indices vary in it.
+    pub fn of(values: &Values, rows: &[usize]) -> Option<Self> {
+        match values {
+            Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row])),
+            Values::Words { levels, of_row } => {
+                let used =
+                    (0..levels.len()).filter(|&l| rows.iter().any(|&row| of_row[row] == Some(l))).count();
+                // Nearly as many words as rows is a label of the row, which says nothing of the next one.
+                (used > 1 && levels.len() <= 40 && used * 4 <= rows.len())
+                    .then_some(Self::Words(levels.len()))
+            }
+        }
+    }
+
+    fn of_numbers(numbers: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut sorted: Vec<f64> = numbers.filter(|value| value.is_finite()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let (low, high) = (*sorted.first()?, *sorted.last()?);
+        if high <= low || sorted.len() < 8 {
+            return None;
+        }
+        let quantile = |i: usize| sorted[(i * (sorted.len() - 1)) / (BENDS - 1)];
+        let mut knots: Vec<f64> = (0..BENDS).map(quantile).collect();
+        knots.dedup_by(|a, b| *a - *b < 1e-9 * (high - low));
+        Some(Self::Hats(knots))
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Self::Hats(knots) => knots.len(),
+            Self::Words(count) => *count,
+        }
+    }
+
+    /// What the cell of a row contributes.
+    fn entry(&self, values: &Values, row: usize) -> Entry {
+        match (self, values) {
+            (Self::Hats(knots), Values::Numbers(numbers)) => hats(knots, numbers[row]),
+            (Self::Words(_), Values::Words { of_row, .. }) => {
+                of_row[row].map_or(Vec::new(), |level| vec![(level, 1.0)])
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// The penalty on the coefficients: bends for numbers, size for words.
+    fn penalty(&self) -> DMatrix<f64> {
+        let count = self.len();
+        let Self::Hats(knots) = self else { return DMatrix::identity(count, count) };
+        let mut penalty = DMatrix::zeros(count, count);
+        let span = knots[count - 1] - knots[0];
+        for i in 1..count - 1 {
+            let (left, right) = ((knots[i] - knots[i - 1]) / span, (knots[i + 1] - knots[i]) / span);
+            let bend = [(i - 1, 1.0 / left), (i, -1.0 / left - 1.0 / right), (i + 1, 1.0 / right)];
+            // A bend over a short interval weighs no more than over a long one.
+            let scale = 0.5 * (left + right);
+            for &(a, x) in &bend {
+                for &(b, y) in &bend {
+                    penalty[(a, b)] += x * y * scale * scale;
+                }
+            }
+        }
+        // A little pull to zero, so that a column with two knots is regular too.
+        penalty + DMatrix::identity(count, count) * 1e-6
+    }
+}
+
+/// The two hats over a number, constant beyond the ends.
+fn hats(knots: &[f64], value: f64) -> Entry {
+    if !value.is_finite() {
+        return Vec::new();
+    }
+    let right = knots.partition_point(|knot| *knot <= value);
+    if right == 0 {
+        return vec![(0, 1.0)];
+    }
+    if right == knots.len() {
+        return vec![(right - 1, 1.0)];
+    }
+    let share = (value - knots[right - 1]) / (knots[right] - knots[right - 1]);
+    vec![(right - 1, 1.0 - share), (right, share)]
+}
+
+/// A fitted curve.
+#[derive(Debug, Clone)]
+pub(super) struct Curve {
+    pub basis: Basis,
+    pub heights: Vec<f64>,
+}
+
+/// One row as a curve is fitted to it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Point {
+    /// Index of the row.
+    pub row: usize,
+    /// What is left of the observation.
+    pub residual: f64,
+    /// Weight: one over the variance, less for gross errors.
+    pub weight: f64,
+    /// What the curve is multiplied with in this row (1: it is added).
+    pub factor: f64,
+}
+
+impl Curve {
+    /// The curve through the points; `None` where they are too few or do not vary.
+    pub fn fit(values: &Values, basis: &Basis, points: &[Point]) -> Option<Self> {
+        let entries = points
+            .iter()
+            .map(|point| scaled(basis.entry(values, point.row), point.factor))
+            .collect::<Vec<_>>();
+        let heights = ridge(basis.len(), &basis.penalty(), &entries, points)?;
+        Some(Self { basis: basis.clone(), heights })
+    }
+
+    /// Its height at a row, before any factor.
+    pub fn at(&self, values: &Values, row: usize) -> f64 {
+        self.basis.entry(values, row).iter().map(|&(place, share)| share * self.heights[place]).sum()
+    }
+}
+
+fn scaled(mut entry: Entry, factor: f64) -> Entry {
+    entry.iter_mut().for_each(|(_, value)| *value *= factor);
+    entry
+}
+
+/// Penalised least squares; the penalty by generalised cross-validation.
+fn ridge(count: usize, penalty: &DMatrix<f64>, entries: &[Entry], points: &[Point]) -> Option<Vec<f64>> {
+    let mut normal: DMatrix<f64> = DMatrix::zeros(count, count);
+    let mut right: DVector<f64> = DVector::zeros(count);
+    let (mut square, mut weights) = (0.0_f64, 0.0_f64);
+    for (entry, point) in entries.iter().zip(points) {
+        for &(a, x) in entry {
+            right[a] += point.weight * x * point.residual;
+            for &(b, y) in entry {
+                normal[(a, b)] += point.weight * x * y;
+            }
+        }
+        square += point.weight * point.residual * point.residual;
+        weights += point.weight;
+    }
+    if weights <= 0.0 || points.len() < count + 2 {
+        return None;
+    }
+    let scale = normal.trace() / count as f64;
+    let rows = points.len() as f64;
+    let attempt = |relative: f64| {
+        let inverse = (&normal + penalty * (relative * scale)).cholesky()?.inverse();
+        let heights = &inverse * &right;
+        let freedom = (&inverse * &normal).trace();
+        let left = square - 2.0 * heights.dot(&right) + (&normal * &heights).dot(&heights);
+        let error = left.max(0.0) / (1.0 - freedom / rows).max(0.05).powi(2);
+        Some((error, heights))
+    };
+    let best = PENALTIES.into_iter().filter_map(attempt).min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(best.1.iter().copied().collect())
+}
+
+/// What smooth curves over several columns, and over every two of them together, leave of the points: the fitted values at
+/// `targets`, centred on the points.
+pub(super) fn surface(columns: &[&Values], points: &[Point], targets: &[usize]) -> Option<Vec<f64>> {
+    let rows: Vec<usize> = points.iter().map(|point| point.row).collect();
+    let bases: Vec<(&Values, Basis)> =
+        columns.iter().filter_map(|values| Some((*values, Basis::of(values, &rows)?))).collect();
+    let mut offset = 0;
+    let mut blocks = Vec::new();
+    for (index, (_, basis)) in bases.iter().enumerate() {
+        blocks.push((vec![index], offset));
+        offset += basis.len();
+    }
+    for first in 0..bases.len() {
+        for second in 0..first {
+            blocks.push((vec![second, first], offset));
+            offset += bases[first].1.len() * bases[second].1.len();
+        }
+    }
+    let entry = |row: usize, factor: f64| {
+        let mut all = Vec::new();
+        for (members, offset) in &blocks {
+            let parts: Vec<Entry> = members.iter().map(|&m| bases[m].1.entry(bases[m].0, row)).collect();
+            match parts.as_slice() {
+                [one] => all.extend(one.iter().map(|&(place, share)| (offset + place, share * factor))),
+                [one, two] => {
+                    let wide = bases[members[1]].1.len();
+                    for &(a, x) in one {
+                        all.extend(two.iter().map(|&(b, y)| (offset + a * wide + b, x * y * factor)));
+                    }
+                }
+                _ => {}
+            }
+        }
+        all
+    };
+    let entries: Vec<Entry> = points.iter().map(|point| entry(point.row, point.factor)).collect();
+    let heights = ridge(offset, &DMatrix::identity(offset, offset), &entries, points)?;
+    let at = |entry: &Entry| entry.iter().map(|&(place, share)| share * heights[place]).sum::<f64>();
+    let weights: f64 = points.iter().map(|point| point.weight).sum();
+    let centre =
+        entries.iter().zip(points).map(|(entry, point)| point.weight * at(entry)).sum::<f64>() / weights;
+    Some(targets.iter().map(|&row| at(&entry(row, 1.0)) - centre).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(count: usize, of: impl Fn(usize) -> f64) -> Vec<Point> {
+        (0..count).map(|row| Point { row, residual: of(row), weight: 1.0, factor: 1.0 }).collect()
+    }
+
+    #[test]
+    fn a_curve_follows_what_it_is_shown() {
+        let x: Vec<f64> = (0..200).map(|i| f64::from(i) / 200.0).collect();
+        let values = Values::Numbers(x.clone());
+        let rows: Vec<usize> = (0..200).collect();
+        let basis = Basis::of(&values, &rows).unwrap();
+        let curve = Curve::fit(&values, &basis, &points(200, |i| (3.0 * x[i]).sin())).unwrap();
+        let worst =
+            rows.iter().map(|&i| (curve.at(&values, i) - (3.0 * x[i]).sin()).abs()).fold(0.0, f64::max);
+        assert!(worst < 0.03, "{worst}");
+    }
+
+    #[test]
+    fn words_have_levels_and_labels_of_rows_are_refused() {
+        let of_row = (0..60).map(|i| Some(i % 3)).collect();
+        let values = Values::Words { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
+        let rows: Vec<usize> = (0..60).collect();
+        let basis = Basis::of(&values, &rows).unwrap();
+        let curve = Curve::fit(&values, &basis, &points(60, |i| [0.5, -0.25, -0.25][i % 3])).unwrap();
+        assert!((curve.at(&values, 0) - 0.5).abs() < 0.01);
+        let labels = Values::Words {
+            levels: (0..30).map(|i| i.to_string()).collect(),
+            of_row: (0..60).map(|i| Some(i % 30)).collect(),
+        };
+        assert!(Basis::of(&labels, &rows).is_none());
+    }
+}
