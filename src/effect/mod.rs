@@ -3,9 +3,23 @@
 //! A new effect is one file with a [`Kind`] and one line in [`KINDS`]; the model file, the C library, OpenFOAM and
 //! the documentation then know it.
 
+mod adhesion_energy;
+mod agglomerates;
 mod conversion_transition;
+mod gas_lift;
+mod liquid_film;
 mod melting_transition;
+mod micro_roughness;
+mod nano_roughness;
+mod oblique_angle;
 mod powder_layer;
+mod size_dependent_yield;
+mod sliding_to_rolling;
+mod strain_rate_hardening;
+mod tangential_compliance;
+mod thermal_softening;
+mod viscoelastic_loss;
+mod yield_ratio;
 
 use std::sync::Arc;
 
@@ -15,7 +29,39 @@ use crate::normal::Contact;
 use crate::tangential::{Glance, Rebound};
 
 /// Every effect there is.
-pub const KINDS: [&Kind; 3] = [&melting_transition::KIND, &conversion_transition::KIND, &powder_layer::KIND];
+pub const KINDS: [&Kind; 17] = [
+    &yield_ratio::KIND,
+    &adhesion_energy::KIND,
+    &oblique_angle::KIND,
+    &gas_lift::KIND,
+    &sliding_to_rolling::KIND,
+    &tangential_compliance::KIND,
+    &nano_roughness::KIND,
+    &micro_roughness::KIND,
+    &agglomerates::KIND,
+    &powder_layer::KIND,
+    &liquid_film::KIND,
+    &melting_transition::KIND,
+    &conversion_transition::KIND,
+    &thermal_softening::KIND,
+    &size_dependent_yield::KIND,
+    &strain_rate_hardening::KIND,
+    &viscoelastic_loss::KIND,
+];
+
+/// The streams of [`Draw`](crate::Draw): each effect with chance has its own, so that no two draw the same number.
+pub(crate) mod stream {
+    /// Whether a particle is captured (no effect).
+    pub const CAPTURE: u64 = 0;
+    /// How much of the work of adhesion is left.
+    pub const NANO_ROUGHNESS: u64 = 1;
+    /// How far the facet is tilted.
+    pub const MICRO_ROUGHNESS: u64 = 2;
+    /// Whether the particle is an agglomerate.
+    pub const AGGLOMERATE_CHOICE: u64 = 3;
+    /// Which `e_n` the agglomerate has.
+    pub const AGGLOMERATE_REBOUND: u64 = 4;
+}
 
 /// Two uniform random numbers in (0, 1), drawn anew for every impact and every effect that asks for them.
 pub type Chance = [f64; 2];
@@ -39,8 +85,15 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         None
     }
 
-    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall.
-    fn normal_restitution(&self, _impact: &Impact, restitution: f64, _chance: Chance) -> Option<f64> {
+    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall. The contact is
+    /// the one that the normal law saw.
+    fn normal_restitution(
+        &self,
+        _impact: &Impact,
+        _contact: &Contact,
+        restitution: f64,
+        _chance: Chance,
+    ) -> Option<f64> {
         Some(restitution)
     }
 
@@ -194,4 +247,42 @@ fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputErro
 /// A smooth step from 0 to 1 around `middle`; `width` is the distance over which the odds change by e.
 fn logistic(value: f64, middle: f64, width: f64) -> f64 {
     1.0 / (1.0 + ((middle - value) / width).exp())
+}
+
+/// A factor on a strength, kept within twelve decades either way: beyond, a solid is none, and numbers would overflow.
+fn bounded(factor: f64) -> f64 {
+    factor.clamp(1e-12, 1e12)
+}
+
+/// What the tests of several effects share.
+#[cfg(test)]
+mod testing {
+    use crate::material::Library;
+    use crate::normal::Contact;
+    use crate::tangential::Glance;
+
+    /// Troiano's wax on Pyrex, with `c = 0.7`.
+    pub fn wax_on_pyrex() -> Contact {
+        let library = Library::built_in().unwrap();
+        let solid = |name: &str| library.get(name).unwrap().mechanical(293.15).unwrap();
+        Contact::new(&solid("montan-wax"), &solid("pyrex"), 0.7, None)
+    }
+
+    /// Wax that hits at 1 m/s under `alpha` [degrees] from the surface.
+    pub fn glance(alpha: f64, spin: f64) -> Glance {
+        let (normal_speed, tangential_speed) = alpha.to_radians().sin_cos();
+        Glance {
+            normal_speed,
+            tangential_speed,
+            diameter: 75e-6,
+            spin,
+            normal_restitution: 0.39,
+            stiffness_ratio: 0.676,
+        }
+    }
+
+    /// Numbers spread evenly over (0, 1).
+    pub fn even(count: u32) -> impl Iterator<Item = f64> {
+        (0..count).map(move |index| (f64::from(index) + 0.5) / f64::from(count))
+    }
 }

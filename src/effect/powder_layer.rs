@@ -9,6 +9,7 @@
 
 use super::{Chance, Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
+use crate::normal::Contact;
 
 pub(super) const KIND: Kind = Kind {
     id: "powder-layer",
@@ -41,7 +42,7 @@ struct PowderLayer {
 }
 
 impl Effect for PowderLayer {
-    fn normal_restitution(&self, impact: &Impact, restitution: f64, _: Chance) -> Option<f64> {
+    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: Chance) -> Option<f64> {
         let decay = (-impact.layer_thickness / self.thickness).exp();
         Some(restitution * (self.residual + (1.0 - self.residual) * decay))
     }
@@ -49,15 +50,15 @@ impl Effect for PowderLayer {
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::wax_on_pyrex;
     use super::*;
 
     #[test]
     fn troiano_powder_layers() {
         let effect = (KIND.build)(&[0.128e-3, 0.25]);
         let e_n = |layer_thickness: f64| {
-            effect
-                .normal_restitution(&Impact { layer_thickness, ..Impact::default() }, 0.28, [0.0; 2])
-                .unwrap()
+            let impact = Impact { layer_thickness, ..Impact::default() };
+            effect.normal_restitution(&impact, &wax_on_pyrex(), 0.28, [0.0; 2]).unwrap()
         };
         assert_eq!(e_n(0.0), 0.28);
         assert!((e_n(0.25e-3) - 0.10).abs() < 0.005);

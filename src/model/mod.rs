@@ -14,7 +14,7 @@ use std::path::Path;
 
 use crate::capture::{MeltStickiness, Stickiness, ViscosityCriterion};
 use crate::draw::Draw;
-use crate::effect::Term;
+use crate::effect::{Term, stream};
 use crate::impact::{Impact, ImpactError, Outcome, Regime};
 use crate::input::{Document, InputError};
 use crate::material::{Material, overlap};
@@ -55,9 +55,6 @@ pub struct TemperatureRanges {
     /// Of the wall.
     pub wall: [f64; 2],
 }
-
-/// The stream of [`Draw`] that decides capture.
-const CAPTURE_STREAM: u64 = 0;
 
 impl Model {
     /// Reads a model file.
@@ -258,7 +255,7 @@ impl Model {
         note(self.normal.name(), "e_n", rebound.unwrap_or(0.0));
         for term in &self.terms {
             let Some(e_n) = rebound else { break };
-            rebound = term.effect().normal_restitution(impact, e_n, term.chance(&uniform));
+            rebound = term.effect().normal_restitution(impact, &contact, e_n, term.chance(&uniform));
             if rebound != Some(e_n) {
                 note(term.kind().id, "e_n", rebound.unwrap_or(0.0));
             }
@@ -294,7 +291,7 @@ impl Model {
             normal_restitution: e_n,
             tangential_restitution: e_t,
             sticking_probability: probability,
-            stuck: uniform(CAPTURE_STREAM) < probability,
+            stuck: uniform(stream::CAPTURE) < probability,
             spin,
             regime: Regime::of(
                 sticky.particle >= Stickiness::THRESHOLD,
