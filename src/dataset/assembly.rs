@@ -197,6 +197,9 @@ fn says_something(column: &Column) -> bool {
     }
 }
 
+/// Most characters of column names in a message.
+const LONGEST_LIST: usize = 1000;
+
 /// A fault of the header, with what the header has and the remedy.
 fn with_columns(problem: &str, headers: &csv::StringRecord) -> String {
     let found = headers.iter().collect::<Vec<_>>().join(", ");
@@ -205,5 +208,10 @@ fn with_columns(problem: &str, headers: &csv::StringRecord) -> String {
         let mark = if mark == '\t' { "tab".to_owned() } else { mark.to_string() };
         format!("; cells are separated by commas unless it says separator = \"{mark}\"")
     });
+    // A quotation mark that is not closed makes a header of the whole file.
+    let found = match found.char_indices().nth(LONGEST_LIST) {
+        Some((end, _)) => format!("{} ...", found.get(..end).unwrap_or_default()),
+        None => found,
+    };
     format!("{problem}; the columns are: {found}. A column map (--columns) says which is which{separator}")
 }
