@@ -58,6 +58,7 @@ impl<'a> Assembly<'a> {
 
     /// Takes the next record: its line, or why it is none.
     pub(super) fn take(&mut self, next: Result<u64, BadRow>, cells: &csv::StringRecord) {
+        let next = next.map_err(|bad| with_lines(bad, cells));
         let row = next.and_then(|line| self.read(line, cells).map_err(|reason| BadRow { line, reason }));
         match row {
             Ok(row) => {
@@ -194,6 +195,20 @@ fn says_something(column: &Column) -> bool {
     match &column.values {
         Values::Words { levels, .. } if column.name == "wall" => levels.len() > 1,
         _ => true,
+    }
+}
+
+/// A record of the wrong length that runs over several lines has most likely swallowed some.
+fn with_lines(bad: BadRow, cells: &csv::StringRecord) -> BadRow {
+    match cells.as_slice().matches('\n').count() {
+        0 => bad,
+        more => {
+            let reason = format!(
+                "{}, and a cell in quotation marks goes on for {more} more lines; is one not closed?",
+                bad.reason
+            );
+            BadRow { reason, ..bad }
+        }
     }
 }
 

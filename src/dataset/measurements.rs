@@ -365,6 +365,8 @@ mod tests {
             "{:?}",
             data.rejected
         );
+        let data = read("v_n,e_n,note\n1,0.5,\n1,\"0.4,broken\n1,0.3,lost");
+        assert_eq!(reasons(&data)[0].split(" and").next(), Some("3: 2 cells under 3 columns,"));
         let data = read("v_n,e_n,note\n1,0.5,\"two\nlines\"\n1,0.4,\n");
         assert_eq!((data.rows.len(), data.rows[1].line), (2, 4));
     }
