@@ -58,6 +58,7 @@ impl<'a> Assembly<'a> {
 
     /// Takes the next record: its line, or why it is none.
     pub(super) fn take(&mut self, next: Result<u64, BadRow>, cells: &csv::StringRecord) {
+        let next = next.map_err(|bad| with_lines(bad, cells));
         let row = next.and_then(|line| self.read(line, cells).map_err(|reason| BadRow { line, reason }));
         match row {
             Ok(row) => {
@@ -197,6 +198,23 @@ fn says_something(column: &Column) -> bool {
     }
 }
 
+/// A record of the wrong length that runs over several lines has most likely swallowed some.
+fn with_lines(bad: BadRow, cells: &csv::StringRecord) -> BadRow {
+    match cells.as_slice().matches('\n').count() {
+        0 => bad,
+        more => {
+            let reason = format!(
+                "{}, and a cell in quotation marks goes on for {more} more lines; is one not closed?",
+                bad.reason
+            );
+            BadRow { reason, ..bad }
+        }
+    }
+}
+
+/// Most characters of column names in a message.
+const LONGEST_LIST: usize = 1000;
+
 /// A fault of the header, with what the header has and the remedy.
 fn with_columns(problem: &str, headers: &csv::StringRecord) -> String {
     let found = headers.iter().collect::<Vec<_>>().join(", ");
@@ -205,5 +223,10 @@ fn with_columns(problem: &str, headers: &csv::StringRecord) -> String {
         let mark = if mark == '\t' { "tab".to_owned() } else { mark.to_string() };
         format!("; cells are separated by commas unless it says separator = \"{mark}\"")
     });
+    // A quotation mark that is not closed makes a header of the whole file.
+    let found = match found.char_indices().nth(LONGEST_LIST) {
+        Some((end, _)) => format!("{} ...", found.get(..end).unwrap_or_default()),
+        None => found,
+    };
     format!("{problem}; the columns are: {found}. A column map (--columns) says which is which{separator}")
 }

@@ -205,7 +205,7 @@ fn read_unit(details: &Section<'_>, quantity: Quantity) -> Result<Unit, InputErr
         return Ok(Unit::SI);
     }
     match details.text("unit")? {
-        Some(word) => units.iter().find(|unit| unit.name == word).copied().ok_or_else(|| {
+        Some(word) => quantity.unit(&word).ok_or_else(|| {
             let known: Vec<&str> = units.iter().map(|unit| unit.name).collect();
             details.fault("unit", unknown(&word, "unit", &known))
         }),
@@ -270,9 +270,9 @@ mod tests {
     #[test]
     fn faults_name_place_and_remedy() {
         let unit = fault("[columns]\nv_n = \"V\"\nd = { column = \"size\", unit = \"micron\" }\n");
-        assert!(unit.starts_with("map.toml:3:25: columns.d.unit: unknown unit `micron`"), "{unit}");
+        assert!(unit.starts_with("map.toml:3:24: columns.d.unit: unknown unit `micron`"), "{unit}");
         assert!(unit.contains("m, mm, um"), "{unit}");
-        assert!(fault("[columns]\nvn = \"V\"\n").contains("did you mean `v_n`"));
+        assert!(fault("[columns]\nn_impact = \"V\"\n").contains("did you mean `n_impacts`"));
         assert!(fault("[colums]\nv_n = \"V\"\n").contains("did you mean `columns`"));
         assert!(fault("[columns]\nv_n = 3\n").contains("columns.v_n: expected a text"));
         assert!(fault("[columns]\nd = { unit = \"m\" }\n").contains("columns.d.column: missing"));

@@ -2,21 +2,33 @@
 
 use std::io::Read;
 
-/// Passes a text on with each line end (CR LF, CR, LF) as one line feed and one more at its end, so that the number of
-/// line feeds read says on which line a record stands.
+/// Passes a text on with each line end (CR LF, CR, LF) as one line feed, so that the number of line feeds read says on
+/// which line a record stands. [`Self::EXTRA`] line feeds follow its end: the first closes the last line, and whoever
+/// reads the second within a record has met a quotation mark that is not closed.
 pub(super) struct Lines<R> {
     source: R,
     /// Lines that are still to be left out at the beginning.
     skip: u64,
     /// Whether the last byte was a carriage return, whose line feed may follow.
     after_return: bool,
-    ended: bool,
+    /// Line feeds that still follow the end.
+    extra: u8,
+    /// Bytes passed on.
+    passed: u64,
 }
 
 impl<R> Lines<R> {
+    /// Line feeds after the end.
+    const EXTRA: u8 = 2;
+
     /// Leaves out the first `skip` lines.
     pub(super) fn new(source: R, skip: u64) -> Self {
-        Self { source, skip, after_return: false, ended: false }
+        Self { source, skip, after_return: false, extra: Self::EXTRA, passed: 0 }
+    }
+
+    /// Whether the text ends with this many bytes passed on.
+    pub(super) fn ends_at(&self, bytes: u64) -> bool {
+        self.extra == 0 && self.passed == bytes
     }
 
     /// Rewrites the bytes in place; returns how many are left.
@@ -46,16 +58,19 @@ impl<R> Lines<R> {
 
 impl<R: Read> Read for Lines<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        while !self.ended && !buffer.is_empty() {
-            let size = self.source.read(buffer)?;
+        while self.extra > 0 && !buffer.is_empty() {
+            // Once it has ended, the source is not asked again.
+            let size = if self.extra < Self::EXTRA { 0 } else { self.source.read(buffer)? };
             if size == 0 {
-                self.ended = true;
+                self.extra -= 1;
+                self.passed += 1;
                 buffer[0] = b'\n';
                 return Ok(1);
             }
             let kept = self.rewrite(&mut buffer[..size]);
             // None kept does not mean the end, which is what 0 would say.
             if kept > 0 {
+                self.passed += kept as u64;
                 return Ok(kept);
             }
         }
@@ -87,7 +102,7 @@ mod tests {
             Lines::new(mixed.as_slice(), skip).read_to_string(&mut whole).unwrap();
             let mut torn = String::new();
             Lines::new(Trickle(mixed), skip).read_to_string(&mut torn).unwrap();
-            let expected = "a\nb\nc\n\nd\n";
+            let expected = "a\nb\nc\n\nd\n\n";
             assert_eq!(whole, expected[2 * skip as usize..]);
             assert_eq!(torn, whole);
         }

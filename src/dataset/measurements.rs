@@ -94,3 +94,372 @@ impl Measurements {
         assembly.finish(file, table.headers())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Values;
+    use super::*;
+    use crate::model::Model;
+
+    const MODEL: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+        [walls.roof]\nmaterial = \"pyrex\"\n[normal]\nmodel = \"constant\"\ne_n = 0.5\n\
+        [tangential]\nmodel = \"constant\"\ne_t = 0.76\n";
+
+    fn try_read(text: &[u8], map: &str, wall: Option<&str>) -> Result<Measurements, DatasetError> {
+        let model = Model::from_toml("m.toml", MODEL).unwrap();
+        let map = ColumnMap::from_toml("map.toml", map).unwrap();
+        Measurements::read("t.csv", text, Some(&map), &WallChoice::new(&model, wall)?)
+    }
+
+    fn read(text: &str) -> Measurements {
+        try_read(text.as_bytes(), "", None).unwrap()
+    }
+
+    fn mapped(text: &str, map: &str) -> Measurements {
+        try_read(text.as_bytes(), map, None).unwrap()
+    }
+
+    fn refused(text: &str, map: &str) -> String {
+        try_read(text.as_bytes(), map, None).unwrap_err().to_string()
+    }
+
+    fn reasons(data: &Measurements) -> Vec<String> {
+        data.rejected.iter().map(|bad| format!("{}: {}", bad.line, bad.reason)).collect()
+    }
+
+    fn exact(value: f64) -> Option<Reading> {
+        Some(Reading { value, error: None })
+    }
+
+    fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {
+        Values::Words { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
+    }
+
+    #[test]
+    fn rows_hold_impacts_observations_and_causes() {
+        let data = read(
+            "\u{feff}series,v_n,T_p,e_n,e_n_err,e_t,outcome,operator,humidity\r\n\
+             7,2.5,350,0.4,0.02,-0.1,Bounce,\"Ann, B.\",40\r\n\
+             # pause\r\n\r\n\
+             8,1,NA,n/a,,-,STUCK,,-\r\n",
+        );
+        assert!(data.rejected.is_empty(), "{:?}", data.rejected);
+        assert_eq!((data.file.as_str(), data.read), ("t.csv", 2));
+        assert_eq!(data.given, ["v_n", "T_p"]);
+        let first = data.rows[0];
+        let expected = Impact { normal_speed: 2.5, particle_temperature: 350.0, ..Impact::default() };
+        assert_eq!((first.line, first.impact, first.captured), (2, expected, Some(0.0)));
+        assert_eq!(first.e_n, Some(Reading { value: 0.4, error: Some(0.02) }));
+        assert_eq!((first.e_t, first.impacts, first.rebounds), (exact(-0.1), 1.0, 1.0));
+        let second = data.rows[1];
+        assert_eq!((second.line, second.impact.particle_temperature), (5, 293.15));
+        assert_eq!((second.stated[0], second.stated[3]), (true, false));
+        assert_eq!((second.captured, second.e_n, second.rebounds), (Some(1.0), None, 0.0));
+        let names: Vec<&str> = data.columns.iter().map(|column| column.name.as_str()).collect();
+        assert_eq!(names, ["series", "operator", "humidity"]);
+        assert_eq!(data.columns[0].values, words(&["7", "8"], &[Some(0), Some(1)]));
+        assert_eq!(data.columns[1].values, words(&["Ann, B."], &[Some(0), None]));
+        let Values::Numbers(humidity) = &data.columns[2].values else { unreachable!() };
+        assert!(humidity[0] == 40.0 && humidity[1].is_nan());
+        assert!(
+            data.notes.iter().any(|note| note.contains("T_p is blank in 1 of 2 rows, taken as 293.15 K"))
+        );
+        assert!(data.notes.iter().any(|note| note.contains("assumed: d = 0.0001 m")), "{:?}", data.notes);
+    }
+
+    #[test]
+    fn bad_rows_are_listed_and_leave_no_cell_behind() {
+        let data = read(
+            "v_n,d,e_n,e_t,outcome,e_n_err,note\n\
+             1,,0.5,,,,kept\n\
+             1,,-0.1,,,,a\n\
+             1,,high,,,,b\n\
+             1,,0.5,,,,c,d\n\
+             1,,inf,,,,e\n\
+             nan,,0.5,,,,f\n\
+             -1,,0.5,,,,g\n\
+             1,0,0.5,,,,h\n\
+             1,,3.5,,,,i\n\
+             1,,,-3.5,,,j\n\
+             1,,0.5,,melted,,k\n\
+             1,,,,,,l\n\
+             1,,0.5,,,-1,m\n\
+             inf,,0.5,,,,n\n\
+             1,,\"0,5\",,,,o\n",
+        );
+        assert_eq!((data.read, data.rows.len()), (15, 1));
+        assert_eq!(data.columns[0].values, words(&["kept"], &[Some(0)]));
+        assert_eq!(
+            reasons(&data),
+            [
+                "3: e_n is negative",
+                "4: e_n `high` is not a number",
+                "5: 8 cells under 7 columns",
+                "6: e_n is not finite",
+                "7: v_n is blank",
+                "8: v_n = -1: must be finite and not negative",
+                "9: d = 0: must be positive and finite",
+                "10: e_n is 3.5, above 3; is it in another unit?",
+                "11: e_t is -3.5, below -3",
+                "12: outcome `melted` is none of rebound, bounce, stick, stuck",
+                "13: nothing was observed: all columns of observations are blank",
+                "14: e_n_err is negative",
+                "15: v_n = inf: must be finite and not negative",
+                "16: e_n `0,5` is not a number; if it has a decimal comma, the column map has to say decimal = \",\"",
+            ]
+        );
+    }
+
+    #[test]
+    fn no_rebound_is_capture_and_capture_is_no_rebound() {
+        let data = read(
+            "v_n,e_n,e_t,outcome\n1,0,,\n1,0,0,\n1,0,0.3,\n1,0,0,rebound\n1,9,x,stick\n1,0.5,,\n1,,0,\n",
+        );
+        let seen: Vec<_> = data.rows.iter().map(|row| (row.captured, row.e_n, row.e_t)).collect();
+        assert_eq!(
+            seen,
+            [
+                (Some(1.0), None, None),
+                (Some(1.0), None, None),
+                (None, exact(0.0), exact(0.3)),
+                (Some(0.0), exact(0.0), exact(0.0)),
+                (Some(1.0), None, None),
+                (None, exact(0.5), None),
+                (None, None, exact(0.0)),
+            ]
+        );
+    }
+
+    #[test]
+    fn averages_stand_for_their_impacts() {
+        let data = read(
+            "v_n,n_impacts,captured,capture_efficiency,e_n,outcome\n\
+             1,10,4,,0.5,\n1,10,,0.25,0.5,\n1,10,,,0.5,\n1,10,10,,0.5,stick\n1,3,1,0.33,,\n\
+             1,,,0.4,0.5,\n1,100,,0.999,0.5,\n\
+             1,10,11,,,\n1,10,,1.2,,\n1,10,,-0.1,,\n1,10,3,0.5,,\n1,2.5,,0.5,,\n1,0,,,0.5,\n1,10,1.5,,,\n\
+             1,,5,,,\n1,10,,,0.5,stick\n1,10,4,,,rebound\n1,1,,0.4,,\n",
+        );
+        let seen: Vec<_> = data.rows.iter().map(|row| (row.impacts, row.captured, row.rebounds)).collect();
+        assert_eq!(
+            seen,
+            [
+                (10.0, Some(0.4), 6.0),
+                (10.0, Some(0.25), 7.5),
+                (10.0, None, 10.0),
+                (10.0, Some(1.0), 0.0),
+                (3.0, Some(1.0 / 3.0), 3.0 * (1.0 - 1.0 / 3.0)),
+                (1.0, Some(0.4), 1.0),
+                (100.0, Some(0.999), 1.0),
+            ]
+        );
+        assert_eq!(data.rows[3].e_n, None);
+        assert!(
+            data.notes.iter().any(|note| note.contains("in 1 of 7 rows capture_efficiency stands without"))
+        );
+        assert_eq!(
+            reasons(&data),
+            [
+                "9: captured is 11, more than n_impacts = 10",
+                "10: capture_efficiency is 1.2; it has to be between 0 and 1",
+                "11: capture_efficiency is -0.1; it has to be between 0 and 1",
+                "12: captured / n_impacts is 0.3000, but capture_efficiency is 0.5",
+                "13: n_impacts is 2.5; it has to be a whole number from 1 on",
+                "14: n_impacts is 0; it has to be a whole number from 1 on",
+                "15: captured is 1.5; it has to be a whole number from 0 on",
+                "16: captured is 5, but n_impacts is blank",
+                "17: one outcome for 10 impacts; give captured or capture_efficiency",
+                "18: outcome says rebound, but the share captured is 0.4",
+                "19: capture_efficiency is 0.4, but n_impacts is 1",
+            ]
+        );
+    }
+
+    const GERMAN: &str = "separator = \";\"\ndecimal = \",\"\nheader_line = 2\n[columns]\n\
+        d = { column = \"Größe\", unit = \"µm\" }\nT_p = { column = \"temp\", unit = \"C\" }\n\
+        e_n = { column = \"COR_n\", unit = \"%\" }\nspeed = { column = \"V\", unit = \"cm/s\" }\n\
+        angle = { column = \"theta\", unit = \"deg\", from = \"normal\" }\n\
+        outcome = { column = \"result\", rebound = [\"Abprall\"], stick = [\"haftet\", \"-\"] }\n\
+        [ignore]\ncolumns = [\"row id\"]\n[labels]\ncolumns = [\"plate\"]\n";
+
+    #[test]
+    fn a_laboratorys_own_file_is_read_untouched() {
+        let data = mapped(
+            "Prüfstand 3; \"2024\r\nrow id;Größe;temp;COR_n;V;theta;result;plate;rate;row id;;\r\n\
+             1;75;20;35,5;200;0;ABPRALL;01;1,5;1;;\r\n2;;-10;;200;90;-;1;-2;2;;\r\n3;75;20;1.5;200;30;;1;1;3;;\r\n",
+            GERMAN,
+        );
+        assert_eq!(reasons(&data), ["5: e_n `1.5` is not a number, for the column map says decimal = \",\""]);
+        let [first, second] = data.rows[..] else { unreachable!() };
+        let expected = Impact { normal_speed: 2.0, diameter: 75e-6, ..Impact::default() };
+        assert_eq!((first.line, first.impact, first.e_n), (3, expected, exact(0.355)));
+        assert_eq!((second.impact.normal_speed, second.impact.tangential_speed), (0.0, 2.0));
+        assert_eq!((second.impact.particle_temperature, second.captured), (263.15, Some(1.0)));
+        assert_eq!(data.given, ["v_n", "v_t", "d", "T_p"]);
+        assert_eq!(data.columns.len(), 2, "{:?}", data.columns);
+        assert_eq!(data.columns[0].values, words(&["01", "1"], &[Some(0), Some(1)]));
+        assert_eq!(data.columns[1].values, Values::Numbers(vec![1.5, -2.0]));
+        assert!(data.notes.iter().any(|note| note == "2 columns without a name are not used"));
+    }
+
+    #[test]
+    fn angles_give_the_other_speed() {
+        let speeds = |key: &str, unit: &str, from: &str, cells: &str| {
+            let map = format!(
+                "[columns]\n{key} = \"V\"\nangle = {{ column = \"a\", unit = \"{unit}\", from = \"{from}\" }}\n"
+            );
+            let data = mapped(&format!("V,a,e_n\n{cells},0.5\n"), &map);
+            match data.rows.first() {
+                Some(row) => Ok((row.impact.normal_speed, row.impact.tangential_speed)),
+                None => Err(data.rejected[0].reason.clone()),
+            }
+        };
+        let near = |found: Result<(f64, f64), String>, v_n: f64, v_t: f64| {
+            let (n, t) = found.unwrap();
+            assert!((n - v_n).abs() < 1e-12 && (t - v_t).abs() < 1e-12, "{n}, {t}");
+        };
+        near(speeds("speed", "deg", "surface", "2,30"), 1.0, 3f64.sqrt());
+        near(speeds("speed", "deg", "normal", "2,30"), 3f64.sqrt(), 1.0);
+        near(speeds("v_n", "deg", "surface", "2,45"), 2.0, 2.0);
+        near(speeds("v_t", "deg", "normal", "1,30"), 3f64.sqrt(), 1.0);
+        assert_eq!(speeds("speed", "rad", "surface", "2,1.5708"), Ok((2.0, 0.0)));
+        assert_eq!(speeds("v_n", "deg", "normal", "2,"), Ok((2.0, 0.0)));
+        assert!(
+            speeds("v_n", "deg", "surface", "2,0")
+                .unwrap_err()
+                .contains("leaves no part of the speed to v_n")
+        );
+        assert!(
+            speeds("v_t", "deg", "normal", "2,0").unwrap_err().contains("leaves no part of the speed to v_t")
+        );
+        assert!(speeds("speed", "deg", "normal", "2,120").unwrap_err().contains("angle = 120°"));
+        assert_eq!(speeds("speed", "deg", "normal", "2,"), Err("angle is blank".to_owned()));
+        assert_eq!(speeds("speed", "deg", "normal", "-2,3"), Err("speed is negative".to_owned()));
+    }
+
+    #[test]
+    fn headers_at_fault_are_named_with_the_remedy() {
+        let part = |text: &str, map: &str, part: &str| {
+            let message = refused(text, map);
+            assert!(message.contains(part), "`{part}` is not in: {message}");
+        };
+        part("", "", "t.csv:1: there is no header");
+        part("v_n,e_n\n# 1,2\n", "", "t.csv: no row follows the header");
+        part("speed,e_n\n1,1\n", "", "no column `v_n`");
+        part("v_n;e_n\n1;1\n", "", "separator = \";\"");
+        part("v_n\te_n\n1\t1\n", "", "separator = \"tab\"");
+        part("v_n,humidity\n1,1\n", "", "nothing observed: no column e_n, e_t, outcome");
+        part("v_n,e_n,e_n\n1,1,1\n", "", "column `e_n` stands there twice");
+        part("Vn (m/s),e_n\n1,1\n", "[columns]\nv_n = \"Vn [m/s]\"\n", "did you mean `Vn (m/s)`?");
+        part("V,v_n,e_n\n1,1,1\n", "[columns]\nv_n = \"V\"\n", "there is a column `v_n` too");
+        part("V,e_n\n1,1\n", "[columns]\nspeed = \"V\"\n", "speed alone does not say");
+        part("V,v_n,e_n\n1,1,1\n", "[columns]\nspeed = \"V\"\n", "v_n, speed together say too much");
+        assert!(refused("v_n,e_n\n1,1\n", "[ignore]\ncolumns = [\"e_n\"]\n").contains("nothing observed"));
+    }
+
+    #[test]
+    fn a_column_may_be_called_like_another_quantity() {
+        let data = mapped("v_n,e_n,V\n5,0.5,3\n", "[columns]\nv_n = \"V\"\nv_t = \"v_n\"\n");
+        assert_eq!((data.rows[0].impact.normal_speed, data.rows[0].impact.tangential_speed), (3.0, 5.0));
+    }
+
+    #[test]
+    fn walls_are_chosen_as_in_predict_and_may_be_causes() {
+        let text = "v_n,e_n,wall\n1,0.5,roof\n1,0.5,\n1,0.5,floor\n1,0.5,NA\n";
+        let data = read(text);
+        assert_eq!(data.rows.iter().map(|row| row.wall).collect::<Vec<_>>(), [1, 0, 0, 0]);
+        assert_eq!(data.columns[0].values, words(&["floor", "roof"], &[Some(1), None, Some(0), None]));
+        let data = try_read(text.as_bytes(), "", Some("roof")).unwrap();
+        assert!(data.rows.iter().all(|row| row.wall == 1));
+        assert!(read("v_n,e_n,wall\n1,0.5,roof\n1,0.4,roof\n").columns.is_empty());
+        assert!(matches!(try_read(b"v_n,e_n\n1,1\n", "", Some("door")), Err(DatasetError::Wall(_))));
+    }
+
+    #[test]
+    fn an_open_quotation_mark_does_not_swallow_rows_in_silence() {
+        let data = read("v_n,e_n,note\n1,0.5,fine\n1,0.4,\"broken\n1,0.3,lost\n1,0.2,lost\n");
+        assert_eq!(data.rows.len(), 1);
+        assert!(
+            reasons(&data)[0].starts_with("3: a cell in quotation marks swallows"),
+            "{:?}",
+            data.rejected
+        );
+        let data = read("v_n,e_n,note\n1,0.5,\n1,\"0.4,broken\n1,0.3,lost");
+        assert_eq!(reasons(&data)[0].split(" and").next(), Some("3: 2 cells under 3 columns,"));
+        let data = read("v_n,e_n,note\n1,0.5,\"two\nlines\"\n1,0.4,\n");
+        assert_eq!((data.rows.len(), data.rows[1].line), (2, 4));
+    }
+
+    #[test]
+    fn what_looks_like_a_mistake_is_noted() {
+        let data = mapped(
+            "v_n,Tp,T_w,en,e_n,e_n_err,angle,dirt\n1,300,20,0.3,1.2,0,30,1\n1,300,20,0.3,0.5,0.1,30,2\n1,1,20,1,1,,1,<1\n",
+            "[ignore]\ncolumns = [\"gone\"]\n",
+        );
+        for part in [
+            "column `Tp` is only a possible cause; if it is `T_p`",
+            "column `angle` is only a possible cause; a column map can make v_n and v_t of it",
+            "the column map speaks of a column `gone`",
+            "20 K; is that °C?",
+            "in 1 of 3 rows e_n is above 1",
+            "in 1 of 3 rows a standard error is 0",
+            "column `dirt` is read as words, for `<1` on line 4 is not a number",
+        ] {
+            assert!(
+                data.notes.iter().any(|note| note.contains(part)),
+                "`{part}` is not in {:#?}",
+                data.notes
+            );
+        }
+        assert_eq!(data.rows[0].e_n, exact(1.2));
+    }
+
+    #[test]
+    fn rows_that_are_not_utf8_are_rejected() {
+        let data = try_read(b"v_n,e_n\n1,0.5\n1,\xb5\n", "", None).unwrap();
+        assert_eq!(reasons(&data), ["3: not UTF-8"]);
+        let utf16: Vec<u8> = "\u{feff}v_n,e_n\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        let message = try_read(&utf16, "", None).unwrap_err().to_string();
+        assert!(message.contains("save the file as UTF-8"), "{message}");
+    }
+
+    /// The map in docs/data-file.md.
+    fn documented_map() -> &'static str {
+        let page = include_str!("../../docs/data-file.md");
+        page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap()
+    }
+
+    #[test]
+    fn the_examples_of_the_page_are_read() {
+        let page = include_str!("../../docs/data-file.md");
+        let data = read(page.split("```\n").nth(1).unwrap());
+        assert_eq!((data.rows.len(), data.rejected.len(), data.columns.len()), (2, 0, 2));
+        let data = mapped(
+            "Rig\n\nwall temperature;size;temp;COR_n;V;theta;result;row id;plate\n% pause\n300;75;20;41,5;2;0;1;1;7\n\
+             300;75;20;41,5;2;0;Bounced;2;7\n",
+            documented_map(),
+        );
+        assert_eq!(data.rejected, []);
+        assert_eq!((data.rows[0].captured, data.rows[1].e_n), (Some(1.0), exact(0.415)));
+        assert_eq!((data.rows[1].line, data.rows[1].impact.wall_temperature), (6, 300.0));
+        assert_eq!(
+            data.columns,
+            [Column { name: "plate".into(), values: words(&["7"], &[Some(0), Some(0)]) }]
+        );
+    }
+
+    /// 100,000 rows of 30 columns; run with `cargo test --release -- --ignored --nocapture`.
+    #[test]
+    #[ignore = "a measurement of time"]
+    fn a_large_file_is_read_in_about_a_second() {
+        let mut text = "v_n,d,T_p,e_n,outcome".to_owned();
+        (0..25).for_each(|column| text += &format!(",c{column}"));
+        for row in 0..100_000 {
+            text += &format!("\n{}.5,75e-6,350.25,0.4{},rebound", row % 7, row % 10);
+            (0..25).for_each(|column| text += &format!(",{}.25", row * column % 1013));
+        }
+        let start = std::time::Instant::now();
+        let data = read(&text);
+        println!("{} rows, {} bytes: {:?}", data.rows.len(), text.len(), start.elapsed());
+        assert_eq!(data.rows.len(), 100_000);
+    }
+}

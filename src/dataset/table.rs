@@ -46,7 +46,7 @@ impl<R: Read> Table<R> {
         let skipped = layout.header_line - 1;
         let reader = csv::ReaderBuilder::new()
             .delimiter(layout.separator)
-            .trim(csv::Trim::All)
+            .trim(csv::Trim::Headers)
             .comment(layout.comment)
             .flexible(true)
             .from_reader(Lines::new(source, skipped));
@@ -54,7 +54,9 @@ impl<R: Read> Table<R> {
         let mut table = Self { reader, file: file.to_owned(), headers, skipped };
         table.headers = table.read_headers()?;
         if table.headers.iter().all(str::is_empty) {
-            return Err(table.header_fault("there is no header: the file is empty or has only comments; its first line has to name the columns"));
+            let problem = "there is no header; the first line that is no comment has to name the columns";
+            let (file, problem) = (file.to_owned(), problem.to_owned());
+            return Err(DatasetError::Header { file, line: layout.header_line, problem });
         }
         for (index, name) in table.headers.iter().enumerate() {
             if !unused(name) && table.headers.iter().take(index).any(|earlier| earlier == name) {
@@ -99,14 +101,17 @@ impl<R: Read> Table<R> {
         cells: &mut csv::StringRecord,
     ) -> Result<Option<Result<u64, BadRow>>, DatasetError> {
         let read = self.reader.read_record(cells);
-        // The reader calls the first of the comments before a record its line; its end is certain.
-        let last = self.skipped + self.reader.position().line().saturating_sub(1);
+        let end = self.reader.position();
+        // Every record ends with its line feed, but for one in quotation marks that nobody closed.
+        let open = self.reader.get_ref().ends_at(end.byte());
+        let last = self.skipped + end.line() - u64::from(!open);
         match read {
             Ok(false) => Ok(None),
             Ok(true) => {
+                // The reader takes the first of the comments before a record for its line; the end is certain.
                 let inside = cells.as_slice().bytes().filter(|byte| *byte == b'\n').count();
-                let line = last - (inside as u64).min(last);
-                Ok(Some(self.check_width(cells, line)))
+                cells.trim();
+                Ok(Some(self.check_width(cells, last.saturating_sub(inside as u64))))
             }
             Err(error) if matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) => {
                 Ok(Some(Err(BadRow { line: last, reason: "not UTF-8".to_owned() })))
@@ -152,6 +157,8 @@ mod tests {
         let old = plain.replace('\n', "\r");
         assert_eq!(lines(&old, Layout::default()), [3, 6, 8, 9]);
         let preamble = format!("Rig 3\n\"weird\n{plain}");
+        assert_eq!(lines("a,b\n# c\n1,\"x\ny\n", Layout::default()), [3]);
+        assert_eq!(lines("a,b\n1,\" x\n \"\n1,2\n", Layout::default()), [2, 4]);
         assert_eq!(lines(&preamble, Layout { header_line: 3, ..Layout::default() }), [5, 8, 10, 11]);
     }
 
