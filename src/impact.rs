@@ -158,7 +158,8 @@ impl Impact {
 
     /// Angle between path and surface, `alpha` [rad], 0 glancing to pi/2 head-on.
     pub fn angle_from_surface(&self) -> f64 {
-        self.normal_speed.atan2(self.tangential_speed)
+        // A negative zero, which counts as a speed, would turn the angle round.
+        self.normal_speed.abs().atan2(self.tangential_speed.abs())
     }
 }
 
@@ -236,6 +237,13 @@ mod tests {
             0.31,
             epsilon = 1e-15
         );
+    }
+
+    #[test]
+    fn a_negative_zero_does_not_turn_the_angle_round() {
+        let impact = Impact { tangential_speed: -0.0, ..Impact::default() };
+        assert_eq!(Impact { normal_speed: -0.0, ..impact }.angle_from_surface(), 0.0);
+        assert_eq!(Impact { normal_speed: 1.0, ..impact }.angle_from_surface(), std::f64::consts::FRAC_PI_2);
     }
 
     #[test]

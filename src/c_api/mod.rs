@@ -223,8 +223,8 @@ pub unsafe extern "C" fn nw_resolve(
     guarded(resolve).map_or_else(|fault| fault.status, |()| NW_OK)
 }
 
-/// Adhesive, yield and sticking velocity [m/s] of an impact's particle and wall; only size and temperatures count.
-/// Outputs may be null.
+/// Adhesive, yield and sticking velocity [m/s] of an impact's particle and wall: size and temperatures count,
+/// and what effects on the contact look at; chance is at its median. Outputs may be null.
 ///
 /// # Safety
 /// `model` is a loaded model, `impact` begins with its `struct_size`, each output can be written or is null.

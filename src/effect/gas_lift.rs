@@ -37,7 +37,8 @@ impl Effect for GasLift {
     fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: Chance) -> Option<f64> {
         let speed = impact.speed();
         let cosine = if speed > 0.0 { impact.tangential_speed / speed } else { 0.0 };
-        Some(restitution * (1.0 + self.strength * impact.gas_speed * cosine))
+        // The bound only keeps a number finite.
+        Some((restitution * (1.0 + self.strength * impact.gas_speed * cosine)).min(f64::MAX))
     }
 }
 

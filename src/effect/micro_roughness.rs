@@ -47,8 +47,8 @@ impl Effect for MicroRoughness {
         let (lowest, highest) = (-impact.angle_from_surface(), FRAC_PI_2);
         let [above_lowest, above_highest] = [lowest, highest].map(|tilt| share_above(tilt / self.angle));
         let share = above_lowest + draw.clamp(0.0, 1.0) * (above_highest - above_lowest);
-        // The clamp takes up rounding, and the infinity of a share of 0 or 1.
-        (self.angle * quantile_above(share)).clamp(lowest, highest)
+        // The cut once more: rounding, and the infinity of a share of 0 or 1.
+        (self.angle * quantile_above(share)).max(lowest).min(highest)
     }
 }
 

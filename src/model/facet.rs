@@ -37,9 +37,9 @@ impl Facet {
         }
         let (sine, cosine) = self.tilt.sin_cos();
         let [_, along] = self.speeds(arriving);
-        let (out, along) = (e_n * turned.normal_speed, e_t * along);
+        let (out, along) = (finite(e_n * turned.normal_speed), finite(e_t * along));
         let ratio = |speed: f64, before: f64, otherwise: f64| {
-            if before > 0.0 { speed / before } else { otherwise }
+            if before > 0.0 { finite(speed / before) } else { otherwise }
         };
         [
             ratio((out * cosine + along * sine).abs(), arriving.normal_speed, e_n),
@@ -56,8 +56,13 @@ impl Facet {
     fn speeds(self, impact: &Impact) -> [f64; 2] {
         let (sine, cosine) = self.tilt.sin_cos();
         let (normal, along) = (impact.normal_speed, impact.tangential_speed);
-        [normal * cosine + along * sine, along * cosine - normal * sine]
+        [finite(normal * cosine + along * sine), finite(along * cosine - normal * sine)]
     }
+}
+
+/// Speeds near the largest number there is would turn into infinity, and that into no number at all.
+fn finite(number: f64) -> f64 {
+    number.clamp(f64::MIN, f64::MAX)
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! A model: the materials, the laws and the list of named terms that decide an impact.
 //!
 //! [`Model::resolve`] is the one door: the command, the C library and OpenFOAM all enter here. An impact walks
-//! through in one direction: materials at their temperatures, stickiness of particle and wall, normal law, effects
-//! on `e_n`, tangential law, effects on `e_t`, capture. [`Model::explain`] walks the same way and notes what each term
-//! did.
+//! through in one direction: tilt of the wall, contact of the materials at their temperatures and the effects on it,
+//! stickiness of particle and wall, normal law, effects on `e_n`, what stickiness takes of it, tangential law, effects on
+//! `e_t`, back to the mean wall, capture. [`Model::explain`] walks the same way and notes what each term did.
 
 mod describe;
 mod facet;
