@@ -66,7 +66,7 @@ fn best_contrast(
 ) -> Option<(f64, Observable, [usize; 2])> {
     let places: Vec<usize> = (0..rows.len()).collect();
     let says = |hypothesis: &Hypothesis| {
-        let forecast = Forecast::new(&hypothesis.model(study), rows, &places);
+        let forecast = Forecast::new(&hypothesis.model(study), rows, &places, study.draws);
         let one = |&place: &usize| mean(forecast.of(place), &Shift::default());
         places.iter().map(one).collect::<Vec<_>>()
     };

@@ -19,6 +19,9 @@ use crate::effect::KINDS;
 /// Gain on the rows of the fit [nats] below which a candidate is not worth a cross-validation.
 const HOPELESS: f64 = 2.0;
 
+/// Loss on a few rows [nats] at the best place of the grid from which no descent comes back.
+const FAR_OFF: f64 = 20.0;
+
 /// What may be added to a hypothesis.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Candidate {
@@ -98,7 +101,7 @@ pub(super) struct Round<'a> {
 impl<'a> Round<'a> {
     pub fn new(study: &'a Study, hypothesis: &'a Hypothesis, first: Scatter) -> Self {
         let shifts = hypothesis.shifts(study);
-        let forecast = Forecast::new(&hypothesis.model(study), &study.rows, &study.search);
+        let forecast = Forecast::new(&hypothesis.model(study), &study.rows, &study.search, study.draws);
         let mut places = vec![usize::MAX; study.rows.len()];
         for (place, &row) in study.search.iter().enumerate() {
             places[row] = place;
@@ -148,7 +151,8 @@ impl<'a> Round<'a> {
         let mut candidates: Vec<Candidate> = parts.map(Candidate::Part).collect();
         for factor in 0..study.factors.len() {
             for observable in Observable::ALL {
-                if !self.observed(observable) {
+                // An input that a named effect turns on is not blamed again: what is left is the law's shape.
+                if !self.observed(observable) || self.hypothesis.turns_on(&study.factors[factor].name) {
                     continue;
                 }
                 let modes: &[bool] =
@@ -279,6 +283,10 @@ impl<'a> Round<'a> {
         // The grid looks at some rows only: it has to find the valley, not its floor.
         let some: Vec<usize> = self.study.search.iter().copied().take(250).collect();
         let start = best_of_grid(self.cost_of(&blank, &some), dimensions);
+        let standing: f64 = self.scores(&some, &self.shifts, self.scatter).iter().sum();
+        if self.cost_of(&blank, &some)(&start) > FAR_OFF - standing {
+            return None;
+        }
         let rounds = 25 * dimensions as u64 + 10;
         let (at, _) = descend(self.cost_of(&blank, &self.study.search), &start, 0.12, rounds);
         Some(Fitted { at, ..blank })

@@ -26,7 +26,7 @@ impl Answers {
     pub fn new(hypothesis: &Hypothesis, study: &Study, rows: &[usize], scatter: Scatter) -> Self {
         let bare = Hypothesis { shape: None, ..hypothesis.clone() };
         let shifts = bare.shifts(study);
-        let forecast = Forecast::new(&bare.model(study), &study.rows, rows);
+        let forecast = Forecast::new(&bare.model(study), &study.rows, rows, study.draws);
         let each = || rows.iter().enumerate();
         Self {
             means: each().map(|(place, &row)| mean(forecast.of(place), &shifts[row])).collect(),

@@ -192,6 +192,11 @@ impl Hypothesis {
         model.with_terms(terms)
     }
 
+    /// Whether a part turns on this input.
+    pub fn turns_on(&self, input: &str) -> bool {
+        self.parts.iter().any(|fitted| fitted.part.inputs().contains(&input))
+    }
+
     /// The base with the parts.
     pub fn model(&self, study: &Study) -> Model {
         self.model_at(study, &self.parts)
@@ -228,7 +233,7 @@ impl Hypothesis {
 
     /// Fits every curve again to what the rest leaves.
     fn refit_unknowns(&mut self, study: &Study, rows: &[usize], scatter: Scatter) {
-        let forecast = Forecast::new(&self.model(study), &study.rows, rows);
+        let forecast = Forecast::new(&self.model(study), &study.rows, rows, study.draws);
         for place in 0..self.unknowns.len() {
             let unknown = self.unknowns.remove(place);
             let shifts = self.shifts(study);
@@ -257,7 +262,7 @@ impl Hypothesis {
         }
         if !self.unknowns.is_empty() {
             let all: Vec<usize> = (0..study.rows.len()).collect();
-            let forecast = Forecast::new(&self.model(study), &study.rows, &all);
+            let forecast = Forecast::new(&self.model(study), &study.rows, &all, study.draws);
             for unknown in &self.unknowns {
                 unknown.add(study, &forecast, &all, &mut shifts);
             }
@@ -279,14 +284,14 @@ impl Hypothesis {
         shifts: &[Shift],
         first: Scatter,
     ) -> Fit {
-        let forecast = Forecast::new(&self.model_at(study, parts), &study.rows, rows);
+        let forecast = Forecast::new(&self.model_at(study, parts), &study.rows, rows, study.draws);
         let scatter = fit_scatter(&study.rows, rows, &forecast, shifts, first);
         Fit { scatter, score: scores(study, rows, &forecast, shifts, scatter).iter().sum() }
     }
 
     /// Log score of each row under a given scatter.
     pub fn row_scores(&self, study: &Study, rows: &[usize], shifts: &[Shift], scatter: Scatter) -> Vec<f64> {
-        let forecast = Forecast::new(&self.model(study), &study.rows, rows);
+        let forecast = Forecast::new(&self.model(study), &study.rows, rows, study.draws);
         scores(study, rows, &forecast, shifts, scatter)
     }
 
@@ -303,7 +308,7 @@ impl Hypothesis {
         }
         let shifts = self.shifts(study);
         let all: Vec<usize> = (0..study.rows.len()).collect();
-        let forecast = Forecast::new(&self.model(study), &study.rows, &study.search);
+        let forecast = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
         let of = |observable| {
             let points = residuals(study, &study.search, &forecast, &shifts, scatter, observable, false);
             surface(&columns, &points, &all).unwrap_or_else(|| vec![0.0; all.len()])

@@ -67,16 +67,18 @@ pub(super) struct Mean {
 
 /// The forecast's mean over chance.
 pub(super) fn mean(said: &[Said], shift: &Shift) -> Mean {
-    let (mut weight, mut held) = (0.0, 0.0);
+    let (mut weight, mut held, mut all) = (0.0, 0.0, 0.0);
     let (mut n, mut nn, mut t, mut tt) = (0.0, 0.0, 0.0, 0.0);
     for one in said {
         let p = capture(one, shift);
-        held += p;
-        weight += 1.0 - p;
-        n += (1.0 - p) * one.e_n;
-        nn += (1.0 - p) * one.e_n * one.e_n;
-        t += (1.0 - p) * one.e_t;
-        tt += (1.0 - p) * one.e_t * one.e_t;
+        let rebounds = (1.0 - p) * one.weight;
+        held += p * one.weight;
+        all += one.weight;
+        weight += rebounds;
+        n += rebounds * one.e_n;
+        nn += rebounds * one.e_n * one.e_n;
+        t += rebounds * one.e_t;
+        tt += rebounds * one.e_t * one.e_t;
     }
     let (e_n, e_t) = (n / weight, t / weight);
     Mean {
@@ -84,7 +86,7 @@ pub(super) fn mean(said: &[Said], shift: &Shift) -> Mean {
         e_t: e_t + shift.e_t,
         variance_e_n: (nn / weight - e_n * e_n).max(0.0),
         variance_e_t: (tt / weight - e_t * e_t).max(0.0),
-        capture: held / said.len() as f64,
+        capture: held / all,
     }
 }
 
@@ -122,18 +124,19 @@ pub(super) fn score(row: &Measurement, said: &[Said], shift: &Shift, scatter: Sc
 }
 
 fn score_single(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatter) -> f64 {
-    let (mut sum, mut rebounds) = (0.0, 0.0);
+    let (mut sum, mut rebounds, mut all) = (0.0, 0.0, 0.0);
     for one in said {
         let p = capture(one, shift);
+        all += one.weight;
         if row.captured.is_some_and(|share| share > 0.5) {
-            sum += p;
+            sum += p * one.weight;
             continue;
         }
-        sum += (1.0 - p) * rebound_density(row, one, shift, scatter);
-        rebounds += 1.0 - p;
+        sum += (1.0 - p) * one.weight * rebound_density(row, one, shift, scatter);
+        rebounds += (1.0 - p) * one.weight;
     }
     // Where captures are not recorded, the row speaks of rebounds alone.
-    if row.captured.is_some() { (sum / said.len() as f64).ln() } else { (sum / rebounds).ln() }
+    if row.captured.is_some() { (sum / all).ln() } else { (sum / rebounds).ln() }
 }
 
 /// Density of the restitutions of a single rebound under one draw.
@@ -202,10 +205,16 @@ fn add_row(sums: &mut [[f64; 2]; 2], row: &Measurement, said: &[Said], shift: &S
         (said, [0.0; 2])
     } else {
         let mean = mean(said, shift);
-        average = [Said { e_n: mean.e_n - shift.e_n, e_t: mean.e_t - shift.e_t, capture: mean.capture }];
+        average = [Said {
+            e_n: mean.e_n - shift.e_n,
+            e_t: mean.e_t - shift.e_t,
+            capture: mean.capture,
+            weight: 1.0,
+        }];
         (&average[..], [mean.variance_e_n, mean.variance_e_t])
     };
-    let share = |one: &Said| (1.0 - capture(one, shift)) * rebound_density(row, one, shift, scatter);
+    let share =
+        |one: &Said| (1.0 - capture(one, shift)) * one.weight * rebound_density(row, one, shift, scatter);
     let whole: f64 = if said.len() == 1 { 1.0 } else { said.iter().map(share).sum() };
     for one in said {
         let weight = if said.len() == 1 { 1.0 } else { share(one) / whole };

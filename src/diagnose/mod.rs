@@ -130,7 +130,7 @@ pub fn diagnose(
         scatter = round.scatter();
         let contenders = round.contenders(&|| progress.step());
         misfit.get_or_insert_with(|| verdict::misfit(&study, &contenders, options.level));
-        let first_gain = discoveries.first().map_or(0.0, |d| d.winner.gain());
+        let first_gain = first_gain(&discoveries);
         let Some(winner) = choose(&study, &contenders, options.level, LEAST_GAIN.max(WORTH * first_gain))
         else {
             break;
@@ -147,6 +147,7 @@ pub fn diagnose(
     }
 
     hypothesis.shape = None;
+    let study = study.fine(hypothesis.parts.iter().any(|fitted| fitted.part.scatters()));
     let scatter = hypothesis.polish(&study, &study.fit, scatter);
     let shifts = hypothesis.shifts(&study);
     let intervals = interval::intervals(&hypothesis, &study, &study.fit, &shifts, scatter);
@@ -252,6 +253,11 @@ fn settle(hypothesis: &mut Hypothesis, study: &Study, scatter: Scatter) -> Scatt
     scatter
 }
 
+/// The gain of the first cause [nats]; another value for a number of the base is none.
+fn first_gain(discoveries: &[Discovery]) -> f64 {
+    discoveries.iter().find(|d| !is_number(&d.winner.added)).map_or(0.0, |d| d.winner.gain())
+}
+
 /// Drops parts that a later one made superfluous.
 fn drop_superfluous(
     hypothesis: &mut Hypothesis,
@@ -266,7 +272,7 @@ fn drop_superfluous(
         let with = score(&whole, scatter);
         let dropped = whole.parts.remove(place);
         let without_scatter = whole.polish(study, &study.search, scatter);
-        let first = discoveries.first().map_or(0.0, |d| d.winner.gain());
+        let first = first_gain(discoveries);
         let worth = (LEAST_GAIN + dropped.at.len() as f64).max(WORTH * first);
         if with - score(&whole, without_scatter) < worth {
             discoveries.retain(

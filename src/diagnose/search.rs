@@ -7,6 +7,9 @@ use argmin::solver::neldermead::NelderMead;
 
 use crate::effect::{Parameter, Search};
 
+/// The descent ends where the simplex' costs agree to this [nats].
+const TOLERANCE: f64 = 0.01;
+
 /// A parameter's range in this data set.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Axis {
@@ -79,7 +82,7 @@ pub(super) fn descend(
     let simplex: Vec<Vec<f64>> =
         std::iter::once(start.to_vec()).chain((0..start.len()).map(corner)).collect();
     let fallback = || (start.to_vec(), cost(start));
-    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(1e-3) else { return fallback() };
+    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(TOLERANCE) else { return fallback() };
     let run = Executor::new(Walled(&cost), solver).configure(|state| state.max_iters(rounds)).run();
     let Ok(result) = run else { return fallback() };
     match result.state.best_param {

@@ -137,7 +137,12 @@ impl Curve {
             .map(|point| scaled(basis.entry(values, point.row), point.factor))
             .collect::<Vec<_>>();
         let heights = ridge(basis.len(), &basis.penalty(), &entries, points)?;
-        Some(Self { basis: basis.clone(), heights })
+        // A column answers for how the residual varies with it, not for its level, which any column could carry.
+        let mut curve = Self { basis: basis.clone(), heights };
+        let weights: f64 = points.iter().map(|point| point.weight).sum();
+        let level = points.iter().map(|p| p.weight * curve.at(values, p.row)).sum::<f64>() / weights;
+        curve.heights.iter_mut().for_each(|height| *height -= level);
+        Some(curve)
     }
 
     /// Its height at a row, before any factor.

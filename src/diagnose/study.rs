@@ -4,6 +4,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::forecast::{COARSE, FINE};
 use crate::dataset::{Column, Measurement, Measurements, Values};
 use crate::impact::INPUTS;
 use crate::model::Model;
@@ -14,6 +15,8 @@ const FOLDS: usize = 5;
 const SEARCH_ROWS: usize = 1000;
 /// Rows that the last fit of the chosen parameters looks at.
 const FIT_ROWS: usize = 10_000;
+/// The same where a model leaves something to chance.
+const FIT_ROWS_BY_CHANCE: usize = 1000;
 /// Rows that the gain is measured on.
 const GAIN_ROWS: usize = 20_000;
 
@@ -42,6 +45,8 @@ pub(super) struct Study {
     pub fit: Vec<usize>,
     /// Rows that no fit and no choice sees.
     pub held_out: Vec<usize>,
+    /// Draws a row where a model leaves something to chance.
+    pub draws: usize,
 }
 
 impl Study {
@@ -65,7 +70,18 @@ impl Study {
             search,
             held_out: held_out.into_iter().take(GAIN_ROWS).collect(),
             rows: data.rows.clone(),
+            draws: COARSE,
         }
+    }
+
+    /// For the last fit: more draws a row, and fewer rows where there is chance, since each costs more.
+    #[must_use]
+    pub fn fine(mut self, by_chance: bool) -> Self {
+        self.draws = FINE;
+        if by_chance {
+            self.fit.truncate(FIT_ROWS_BY_CHANCE);
+        }
+        self
     }
 
     /// The rows of the search outside one fold.

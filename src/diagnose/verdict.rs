@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::advice::advise;
 use super::contest::{Added, Contender};
 use super::extend::rounded;
+use super::forecast::Forecast;
 use super::hypothesis::{Fitted, Hypothesis, Observable, Part, Unknown};
 use super::likelihood::Scatter;
 use super::record::{
@@ -190,7 +191,7 @@ impl Teller<'_> {
         let rows = &self.study.search;
         let means = |hypothesis: &Hypothesis| {
             let forecast =
-                super::forecast::Forecast::new(&hypothesis.model(self.study), &self.study.rows, rows);
+                Forecast::new(&hypothesis.model(self.study), &self.study.rows, rows, self.study.draws);
             let plain = super::likelihood::Shift::default();
             (0..rows.len())
                 .map(|place| super::likelihood::mean(forecast.of(place), &plain))

@@ -20,6 +20,7 @@ pub(super) const KIND: Kind = Kind {
         name: "work_of_adhesion",
         unit: "J/m2",
         bounds: (0.0, 1e3),
+        default: None,
         search: Search::Log(1e-3, 20.0),
         about: "work that separates a unit of contact area",
     }],

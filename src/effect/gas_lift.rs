@@ -22,6 +22,7 @@ pub(super) const KIND: Kind = Kind {
         name: "strength",
         unit: "s/m",
         bounds: (0.0, 10.0),
+        default: None,
         search: Search::Log(1e-3, 1.0),
         about: "relative gain of e_n of a grazing impact per gas speed",
     }],

@@ -1,6 +1,7 @@
 //! `melting-transition`: a particle becomes sticky as it melts.
 //!
-//! Particle stickiness `S = 1 / (1 + exp((T_50 - T_p) / width))`: capture rises with it and `e_n` falls.
+//! Particle stickiness `S = 1 / (1 + exp((T_50 - T_p) / width))`: capture rises with it and `e_n` falls, to
+//! `e_n (1 - softening S)`; `softening` [1] is 1 unless given.
 //! `T_50` [K] is the particle temperature at which half of head-on impacts stick, `width` [K] the sharpness.
 //! Valid around the melting range of one material.
 //!
@@ -21,6 +22,7 @@ pub(super) const KIND: Kind = Kind {
             name: "temperature",
             unit: "K",
             bounds: (1.0, 1e4),
+            default: None,
             search: Search::Over("T_p"),
             about: "particle temperature at which half of the impacts stick",
         },
@@ -28,22 +30,38 @@ pub(super) const KIND: Kind = Kind {
             name: "width",
             unit: "K",
             bounds: (1e-3, 1e4),
+            default: None,
             search: Search::Across("T_p"),
             about: "temperature over which the odds of sticking change by e",
         },
+        Parameter {
+            name: "softening",
+            unit: "1",
+            bounds: (0.0, 1.0),
+            default: Some(1.0),
+            search: Search::Linear(0.0, 1.0),
+            about: "share of e_n that a molten particle loses where it still rebounds",
+        },
     ],
-    build: |values| Box::new(MeltingTransition { temperature: values[0], width: values[1] }),
+    build: |values| {
+        Box::new(MeltingTransition { temperature: values[0], width: values[1], softening: values[2] })
+    },
 };
 
 #[derive(Debug)]
 struct MeltingTransition {
     temperature: f64,
     width: f64,
+    softening: f64,
 }
 
 impl Effect for MeltingTransition {
     fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
         Some(logistic(impact.particle_temperature, self.temperature, self.width))
+    }
+
+    fn rebound_loss(&self) -> f64 {
+        self.softening
     }
 }
 
@@ -53,7 +71,7 @@ mod tests {
 
     #[test]
     fn troiano_capture_against_temperature() {
-        let effect = (KIND.build)(&[360.1, 6.96]);
+        let effect = (KIND.build)(&[360.1, 6.96, 1.0]);
         let capture = |celsius: f64| {
             let impact = Impact { particle_temperature: celsius + 273.15, ..Impact::default() };
             effect.particle_stickiness(&impact).unwrap()

@@ -28,6 +28,7 @@ pub(super) const KIND: Kind = Kind {
         name: "angle",
         unit: "rad",
         bounds: (0.0, 1.0),
+        default: None,
         search: Search::Log(0.01, 0.5),
         about: "standard deviation of the facets' tilt",
     }],

@@ -85,6 +85,11 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         None
     }
 
+    /// Share of `e_n` that a fully sticky particle loses where it still rebounds [1]; of several effects the largest.
+    fn rebound_loss(&self) -> f64 {
+        0.0
+    }
+
     /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall. The contact is
     /// the one that the normal law saw.
     fn normal_restitution(
@@ -112,6 +117,8 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
+    /// Its value where a model file does not give it; `None` where it has to.
+    pub default: Option<f64>,
     /// Where a fit looks for it.
     pub search: Search,
     /// One line on what it is.
@@ -142,7 +149,7 @@ pub struct Kind {
     pub inputs: &'static [&'static str],
     /// The streams of random numbers that it draws from, at most two, its own; empty for an effect without chance.
     pub streams: &'static [u64],
-    /// Its parameters; all of them must be given.
+    /// Its parameters; those without a default must be given.
     pub parameters: &'static [Parameter],
     /// Makes the effect from its parameters, in their order.
     pub build: fn(&[f64]) -> Box<dyn Effect>,
@@ -218,10 +225,11 @@ impl Term {
 
 /// A number, or `{ value, low, high }` of a fit.
 fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, InputError> {
-    let Parameter { name, unit, bounds: (low, high), about, .. } = *parameter;
+    let Parameter { name, unit, bounds: (low, high), default, about, .. } = *parameter;
     let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
     if !section.is_section(name) {
-        return section.number_within(name, low, high)?.ok_or_else(|| missing(section));
+        let given = section.number_within(name, low, high)?.or(default);
+        return given.ok_or_else(|| missing(section));
     }
     let fitted = section.required_section(name)?;
     let value = fitted.number_within("value", low, high)?.ok_or_else(|| missing(&fitted))?;

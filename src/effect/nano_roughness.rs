@@ -21,6 +21,7 @@ pub(super) const KIND: Kind = Kind {
         name: "spread",
         unit: "1",
         bounds: (0.0, 1.0),
+        default: None,
         search: Search::Linear(0.2, 1.0),
         about: "largest share of the work of adhesion that roughness takes",
     }],

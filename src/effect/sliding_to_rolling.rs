@@ -20,6 +20,7 @@ pub(super) const KIND: Kind = Kind {
         name: "friction",
         unit: "1",
         bounds: (0.0, 10.0),
+        default: None,
         search: Search::Linear(0.03, 0.9),
         about: "friction coefficient of the sliding contact",
     }],

@@ -20,6 +20,7 @@ pub(super) const KIND: Kind = Kind {
         name: "ratio",
         unit: "1",
         bounds: (1e-6, 1e6),
+        default: None,
         search: Search::Log(0.2, 12.0),
         about: "limiting contact pressure over yield strength, p_y / sigma_y",
     }],

@@ -234,6 +234,12 @@ impl Model {
         Ok(product.unwrap_or(0.0))
     }
 
+    /// Share of `e_n` that full stickiness of the particle takes [1]: all of it for a melt known by its viscosity.
+    fn rebound_loss(&self) -> f64 {
+        let melt = if self.particle_melt.is_some() { 1.0 } else { 0.0 };
+        self.terms.iter().map(|term| term.effect().rebound_loss()).fold(melt, f64::max)
+    }
+
     fn walk(
         &self,
         wall: usize,
@@ -260,8 +266,8 @@ impl Model {
                 note(term.kind().id, "e_n", rebound.unwrap_or(0.0));
             }
         }
-        // What makes a particle sticky also takes up its rebound.
-        let e_n = rebound.unwrap_or(0.0) * (1.0 - sticky.particle);
+        // What makes a particle sticky may also take up its rebound.
+        let e_n = rebound.unwrap_or(0.0) * (1.0 - self.rebound_loss() * sticky.particle);
         note("stickiness", "e_n", e_n);
 
         let glance = Glance {
