@@ -15,6 +15,8 @@ pub enum System {
     Tungsten,
     /// Char on a brick.
     Char,
+    /// Tungsten dust of 3000 K on tungsten of 1000 K.
+    HotTungsten,
 }
 
 impl System {
@@ -46,6 +48,14 @@ impl System {
                 yield_ratio: 1.2,
                 adhesion: 2.0 * (0.05_f64 * 0.5).sqrt(),
             },
+            Self::HotTungsten => Contact {
+                particle: body(190e9, 0.308),
+                wall: body(382e9, 0.287),
+                density: 18290.0,
+                yield_strength: 300e6,
+                yield_ratio: 2.8,
+                adhesion: 2.0 * 3.265,
+            },
         }
     }
 
@@ -55,6 +65,7 @@ impl System {
             Self::Wax => ("montan-wax", "pyrex"),
             Self::Tungsten => ("w-dust", "w-dust"),
             Self::Char => ("char-bits", "brick"),
+            Self::HotTungsten => ("w-dust", "w-plate"),
         };
         let law = match law {
             Tangential::Constant(e_t) => format!("model = \"constant\"\ne_t = {e_t}"),
@@ -84,6 +95,12 @@ impl System {
                  yield_strength = 11e6\nsurface_energy = 0.05\nsource = \"assumed\"\n\n[materials.brick]\n\
                  density = 3000\nyoungs_modulus = 30e9\npoisson_ratio = 0.2\nyield_strength = 60e6\n\
                  surface_energy = 0.5\nsource = \"assumed\"\n"
+            }
+            Self::HotTungsten => {
+                "\n[materials.w-dust]\ndensity = 18290\nyoungs_modulus = 190e9\npoisson_ratio = 0.308\n\
+                 yield_strength = 300e6\nsurface_energy = 3.265\nsource = \"assumed\"\n\n[materials.w-plate]\n\
+                 density = 19050\nyoungs_modulus = 382e9\npoisson_ratio = 0.287\nyield_strength = 800e6\n\
+                 surface_energy = 3.265\nsource = \"assumed\"\n"
             }
         }
     }
@@ -136,6 +153,34 @@ pub struct Campaign {
     pub blanks: f64,
     /// Broken rows to mix in.
     pub broken: usize,
+    /// Series that replace the common ranges, if any.
+    pub series: Vec<Series>,
+}
+
+/// One series of a campaign.
+#[derive(Clone, Copy, Debug)]
+pub struct Series {
+    pub rows: usize,
+    pub v_n: Range,
+    /// Least, mean and largest angle from the normal, degrees.
+    pub theta: (f64, f64, f64),
+    pub d: Range,
+    pub t_p: f64,
+}
+
+impl Series {
+    /// An angle with the stated mean, between the ends.
+    fn angle(&self, dice: &mut Dice) -> f64 {
+        let (low, mean, high) = self.theta;
+        low + (high - low) * dice.unit().powf((high - low) / (mean - low) - 1.0)
+    }
+
+    /// One impact of the series.
+    fn inputs(&self, group: usize, common: Inputs, dice: &mut Dice) -> Inputs {
+        let v_n = dice.log_uniform(self.v_n);
+        let v_t = v_n * self.angle(dice).max(0.5).to_radians().tan();
+        Inputs { v_n, v_t, d: dice.uniform(self.d), t_p: self.t_p, t_w: 1000.0, group, ..common }
+    }
 }
 
 /// Inputs that a campaign can vary beside v_n, v_t, d and T_p.
@@ -163,6 +208,7 @@ impl Campaign {
         let (v_n, d, t_p) = match system {
             System::Wax => ((0.5, 5.0), (50e-6, 120e-6), (290.0, 320.0)),
             System::Tungsten => ((0.8, 13.0), (5e-6, 20e-6), (290.0, 320.0)),
+            System::HotTungsten => ((0.5, 13.0), (8e-6, 16e-6), (2900.0, 3000.0)),
             System::Char => ((0.5, 6.0), (40e-6, 120e-6), (1500.0, 1700.0)),
         };
         let noise_e_n = dice.uniform((0.02, 0.08));
@@ -191,6 +237,7 @@ impl Campaign {
             outliers: 0.0,
             blanks: 0.0,
             broken: 0,
+            series: vec![],
         }
     }
 
@@ -259,22 +306,37 @@ impl Campaign {
             e_t = outlier(e_t, dice);
         }
         let mut shown = |value: f64| (!stuck && !dice.chance(self.blanks)).then_some(value);
-        Row { x, stuck, e_n: shown(e_n), e_t: shown(e_t), outcome: !dice.chance(self.blanks) }
+        let (e_n, e_t) = (shown(e_n), shown(e_t));
+        Row { x, stuck, e_n, e_t, outcome: e_n.is_none() || !dice.chance(self.blanks) }
+    }
+
+    /// Draws all impacts.
+    pub fn impacts(&self, dice: &mut Dice) -> Vec<Inputs> {
+        if self.series.is_empty() {
+            return (0..self.rows).map(|_| self.inputs(dice)).collect();
+        }
+        let mut all = vec![];
+        for (group, series) in self.series.iter().enumerate() {
+            for _ in 0..series.rows {
+                let common = self.inputs(dice);
+                all.push(series.inputs(group, common, dice));
+            }
+        }
+        all
     }
 
     /// Measures the whole campaign.
     pub fn run(&self, world: &World, dice: &mut Dice) -> Vec<Row> {
-        (0..self.rows)
-            .map(|_| {
-                let x = self.inputs(dice);
-                self.measure(world, x, dice)
-            })
-            .collect()
+        self.impacts(dice).into_iter().map(|x| self.measure(world, x, dice)).collect()
     }
 
     /// The names of the input columns, in order.
     fn header(&self) -> Vec<&'static str> {
-        ["v_n", "v_t", "d", "T_p"].into_iter().chain(self.columns.clone()).chain(self.extras.clone()).collect()
+        ["v_n", "v_t", "d", "T_p"]
+            .into_iter()
+            .chain(self.columns.clone())
+            .chain(self.extras.clone())
+            .collect()
     }
 
     /// The file of inputs alone.
@@ -308,7 +370,16 @@ impl Campaign {
         let mut cells: Vec<_> = self.header().iter().map(|column| cell(column, &row.x, dice)).collect();
         let number = |value: Option<f64>| value.map(|value| format!("{value:.4}")).unwrap_or_default();
         cells.extend([number(row.e_n), number(row.e_t)]);
-        cells.push(if !row.outcome { "" } else if row.stuck { "stick" } else { "rebound" }.into());
+        cells.push(
+            if !row.outcome {
+                ""
+            } else if row.stuck {
+                "stick"
+            } else {
+                "rebound"
+            }
+            .into(),
+        );
         cells.join(",")
     }
 
@@ -359,6 +430,7 @@ fn cell(column: &str, x: &Inputs, dice: &mut Dice) -> String {
         "roughness" => format!("{:e}", x.roughness),
         "conversion" => x.conversion.to_string(),
         "humidity" => format!("{:.3}", x.foreign),
+        "series" => format!("set{}", x.group + 1),
         "batch" => format!("lot-{}", ["K", "M", "Q", "T"][x.group]),
         "operator" => pick(&["anna", "bo", "chen"], dice),
         "note" => pick(&["", "", "", "ok", "blurred"], dice),

@@ -112,7 +112,9 @@ impl Tangential {
         match *self {
             Self::Constant(e_t) => e_t,
             Self::Sliding { friction } => sliding(friction, e_n, v_n, v_t),
-            Self::SlidingRolling { friction } if v_t / v_n > critical_slope(friction, e_n, stiffness_ratio) => {
+            Self::SlidingRolling { friction }
+                if v_t / v_n > critical_slope(friction, e_n, stiffness_ratio) =>
+            {
                 sliding(friction, e_n, v_n, v_t)
             }
             Self::SlidingRolling { .. } => ROLLING,

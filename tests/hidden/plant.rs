@@ -33,12 +33,18 @@ pub struct Plant {
 }
 
 impl Plant {
-    fn solid(cause: &'static str, change: impl Fn(&Inputs, f64, &mut Contact) + Send + Sync + 'static) -> Self {
+    fn solid(
+        cause: &'static str,
+        change: impl Fn(&Inputs, f64, &mut Contact) + Send + Sync + 'static,
+    ) -> Self {
         let hook = Hook::Solid(Box::new(change));
         Self { cause, hook, scatters: false, observable: "e_n", parameters: vec![] }
     }
 
-    fn normal(cause: &'static str, change: impl Fn(&Inputs, f64, &mut Normal) + Send + Sync + 'static) -> Self {
+    fn normal(
+        cause: &'static str,
+        change: impl Fn(&Inputs, f64, &mut Normal) + Send + Sync + 'static,
+    ) -> Self {
         let hook = Hook::Normal(Box::new(change));
         Self { cause, hook, scatters: false, observable: "e_n", parameters: vec![] }
     }
@@ -91,6 +97,29 @@ pub fn oblique_angle(strength: f64, sign: f64, v_half: f64) -> Plant {
     })
 }
 
+/// e_n falls past an obliquity, in a straight line, more so when fast: what the published set 4 shows.
+pub fn oblique_loss(most: f64, v_half: f64) -> Plant {
+    Plant::normal("oblique-angle", move |x, _, n| {
+        n.e_n /= 1.0 + most * ramp(x.obliquity(), 0.35, 0.8) * x.v_n / (x.v_n + v_half);
+    })
+}
+
+/// Another constant e_t: a number of the base, no effect.
+pub fn tangential_level(e_t: f64) -> Plant {
+    Plant::tangential("calibration:tangential.e_t", move |_, _, _, _| e_t).with("e_t", e_t)
+}
+
+/// One series of molten particles, which all stick.
+pub fn molten_series(group: usize) -> Plant {
+    let mut plant = Plant::normal("molten-series", move |x, _, n| {
+        if x.group == group {
+            n.stick = 1.0;
+        }
+    });
+    plant.observable = "stick";
+    plant
+}
+
 /// Gas along the wall raises e_n past an obliquity, in straight lines.
 pub fn gas_lift(strength: f64, v_half: f64, onset: f64) -> Plant {
     let most = between(strength, 0.7, 1.6);
@@ -115,7 +144,7 @@ pub fn sliding_to_rolling(friction: f64, blend: f64) -> Plant {
 
 /// Below the critical slope the contact springs back: e_t dips at the slope and rises to `top` at normal impact.
 pub fn tangential_compliance(strength: f64, friction: f64, top: f64) -> Plant {
-    let share = between(strength, 0.6, 1.0);
+    let share = between(strength, 0.4, 1.0);
     Plant::tangential("tangential-compliance", move |x, e_n, k, base| {
         let critical = critical_slope(friction, e_n, k);
         let part = x.v_t / x.v_n / critical;
@@ -130,7 +159,7 @@ pub fn tangential_compliance(strength: f64, friction: f64, top: f64) -> Plant {
 
 /// Asperities: the work of adhesion is drawn between 0 and its full value, often small.
 pub fn nano_roughness(strength: f64, power: f64) -> Plant {
-    let most = between(strength, 0.75, 1.0);
+    let most = between(strength, 0.35, 1.0);
     Plant::solid("nano-roughness", move |_, draw, c| c.adhesion *= 1.0 - most * draw.powf(power)).scattering()
 }
 
@@ -156,7 +185,7 @@ pub fn agglomerates(fraction: f64, low: f64, high: f64) -> Plant {
 
 /// Powder takes energy by its thickness over `scale`, down to a rest: a rational law.
 pub fn powder_layer(strength: f64, scale: f64, power: f64) -> Plant {
-    let rest = between(strength, 0.6, 0.25);
+    let rest = between(strength, 0.7, 0.2);
     Plant::normal("powder-layer", move |x, _, n| {
         n.e_n *= rest + (1.0 - rest) / (1.0 + (x.layer / scale).powf(power));
     })
@@ -205,7 +234,7 @@ pub fn thermal_softening(strength: f64, from: f64, to: f64) -> Plant {
 
 /// Small particles are stronger: with the logarithm of the size below `reference`, up to a limit.
 pub fn size_dependent_yield(strength: f64, reference: f64) -> Plant {
-    let slope = between(strength, 0.6, 1.6);
+    let slope = between(strength, 0.25, 1.3);
     Plant::solid("size-dependent-yield", move |x, _, c| {
         c.yield_strength *= (1.0 + slope * (reference / x.d).ln()).clamp(0.3, 6.0);
     })
@@ -213,7 +242,7 @@ pub fn size_dependent_yield(strength: f64, reference: f64) -> Plant {
 
 /// Fast contacts are stronger: rational in the speed, half of the gain at `v_half`.
 pub fn strain_rate_hardening(strength: f64, v_half: f64) -> Plant {
-    let most = between(strength, 1.0, 3.0);
+    let most = between(strength, 0.7, 3.0);
     Plant::solid("strain-rate-hardening", move |x, _, c| {
         c.yield_strength *= 1.0 + most * x.v_n / (x.v_n + v_half);
     })
@@ -221,7 +250,7 @@ pub fn strain_rate_hardening(strength: f64, v_half: f64) -> Plant {
 
 /// Extra loss of energy that grows with speed, by a tanh.
 pub fn viscoelastic_loss(strength: f64, v_scale: f64) -> Plant {
-    let most = between(strength, 0.5, 0.9);
+    let most = between(strength, 0.35, 0.9);
     Plant::normal("viscoelastic-loss", move |x, _, n| {
         n.e_n *= (1.0 - most * (x.v_n / v_scale).tanh()).sqrt();
     })

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use crate::campaign::{Campaign, FOREIGN, Row, Spread, System};
-use crate::contact::Tangential;
+use crate::contact::{Tangential, critical_slope};
 use crate::dice::Dice;
 use crate::gain::{Gain, gain};
 use crate::plant::{self, Plant};
@@ -124,7 +124,7 @@ impl Set {
         json!({
             "name": self.name, "kind": format!("{:?}", self.kind), "causes": plants, "rows": self.rows.len(),
             "stuck": self.rows.iter().filter(|row| row.stuck).count(),
-            "noise_e_n": self.campaign.noise_e_n, "noise_e_t": self.campaign.noise_e_t,
+            "base_law": format!("{:?}", self.campaign.law), "noise_e_n": self.campaign.noise_e_n, "noise_e_t": self.campaign.noise_e_t,
             "spread": format!("{:?}", self.campaign.spread), "outliers": self.campaign.outliers,
             "gain_over_base_nats": self.gain.over_base, "gain_over_refitted_base_nats": self.gain.over_refitted,
             "rejected_lines": self.broken_lines,
@@ -225,7 +225,8 @@ fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
         let mut campaign = Campaign::new(system, law, dice);
         campaign.rows = 600 + dice.below(401);
         campaign.noise_e_n = campaign.noise_e_n.min(0.05);
-        let plants = [one, other].into_iter().flat_map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
+        let plants =
+            [one, other].into_iter().flat_map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
         Plan { campaign, plants }
     })
 }
@@ -286,7 +287,9 @@ fn any_system(dice: &mut Dice) -> System {
 /// The system in which the effect has its place.
 fn system_for(effect: &str, dice: &mut Dice) -> System {
     match effect {
-        "gas-lift" | "powder-layer" | "liquid-film" | "melting-transition" | "viscoelastic-loss" => System::Wax,
+        "gas-lift" | "powder-layer" | "liquid-film" | "melting-transition" | "viscoelastic-loss" => {
+            System::Wax
+        }
         "conversion-transition" => System::Char,
         _ => any_system(dice),
     }
@@ -333,7 +336,7 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
             plant::yield_ratio(contact.yield_ratio * if dice.chance(0.7) { factor } else { 1.0 / factor })
         }
         "adhesion-energy" => {
-            let factor = if dice.chance(0.7) { 0.6 - 0.45 * strength } else { 1.6 + 1.4 * strength };
+            let factor = if dice.chance(0.7) { 0.85 - 0.7 * strength } else { 1.2 + 1.5 * strength };
             slow_down(campaign, factor.max(1.0));
             plant::adhesion_energy(contact.adhesion * factor)
         }
@@ -350,6 +353,8 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
         }
         "sliding-to-rolling" => {
             let friction = friction_of(campaign.law, dice);
+            let end = critical_slope(friction, 0.35, contact.stiffness_ratio()).atan().to_degrees();
+            campaign.theta = (end * (0.75 - 0.65 * strength), 75.0);
             plant::sliding_to_rolling(friction, dice.uniform((0.02, 0.08)))
         }
         "tangential-compliance" => compliance(strength, campaign, dice),
@@ -363,7 +368,7 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
         }
         "agglomerates" => {
             let low = dice.uniform((0.6, 0.66));
-            plant::agglomerates(0.08 + 0.24 * strength, low, dice.uniform((0.85, 0.97)))
+            plant::agglomerates(0.05 + 0.25 * strength, low, dice.uniform((0.85, 0.97)))
         }
         "powder-layer" => {
             campaign.needs("layer_thickness");
@@ -388,7 +393,7 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
         "size-dependent-yield" => {
             campaign.d = if tungsten { (4e-6, 24e-6) } else { (35e-6, 180e-6) };
             let middle = (campaign.d.0 * campaign.d.1).sqrt();
-            plant::size_dependent_yield(0.7 * strength, dice.log_uniform((middle, campaign.d.1)))
+            plant::size_dependent_yield(strength, dice.log_uniform((middle, campaign.d.1)))
         }
         "strain-rate-hardening" => {
             campaign.v_n = if tungsten { (0.8, 13.0) } else { (0.4, 6.0) };
@@ -412,7 +417,7 @@ fn slow_down(campaign: &mut Campaign, factor: f64) {
 fn compliance(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
     let constant = matches!(campaign.law, Tangential::Constant(_));
     let friction = if constant { dice.uniform((0.3, 0.45)) } else { friction_of(campaign.law, dice) };
-    let critical = crate::contact::critical_slope(friction, 0.3, campaign.system.contact().stiffness_ratio());
+    let critical = critical_slope(friction, 0.3, campaign.system.contact().stiffness_ratio());
     let top = critical.atan().to_degrees();
     campaign.theta = if constant { (2.0, 0.9 * top) } else { (2.0, (1.8 * top).min(75.0)) };
     plant::tangential_compliance(strength, friction, dice.uniform((0.88, 0.97)))

@@ -84,11 +84,13 @@ impl World {
         let mut tilt = angle * normal_quantile(draws[0]);
         for _ in 0..20 {
             let (sine, cosine) = tilt.sin_cos();
-            let local = Inputs { v_n: x.v_n * cosine + x.v_t * sine, v_t: x.v_t * cosine - x.v_n * sine, ..*x };
+            let local =
+                Inputs { v_n: x.v_n * cosine + x.v_t * sine, v_t: x.v_t * cosine - x.v_n * sine, ..*x };
             if local.v_n > 0.0 && local.v_t > 0.0 {
                 let r = evaluate(&self.contact, self.tangential, &self.plants, &local, draws);
                 let (out, along) = (r.e_n * local.v_n, r.e_t * local.v_t);
-                let (e_n, e_t) = ((out * cosine + along * sine) / x.v_n, (along * cosine - out * sine) / x.v_t);
+                let (e_n, e_t) =
+                    ((out * cosine + along * sine) / x.v_n, (along * cosine - out * sine) / x.v_t);
                 if r.stick >= 1.0 || e_n > 0.0 && e_t > 0.0 {
                     return Response { stick: r.stick, e_n, e_t };
                 }
@@ -100,7 +102,13 @@ impl World {
 }
 
 /// Solids, then the normal part, then the tangential part, each with its plants.
-fn evaluate(contact: &Contact, law: Tangential, plants: &[Plant], x: &Inputs, draws: [f64; DRAWS]) -> Response {
+fn evaluate(
+    contact: &Contact,
+    law: Tangential,
+    plants: &[Plant],
+    x: &Inputs,
+    draws: [f64; DRAWS],
+) -> Response {
     let mut contact = *contact;
     for plant in plants {
         if let Hook::Solid(change) = &plant.hook {
