@@ -142,8 +142,8 @@ pub struct Campaign {
     pub columns: Vec<&'static str>,
     /// Foreign columns that are written.
     pub extras: Vec<&'static str>,
-    /// The input that the foreign number follows with a correlation of 0.85, if any.
-    pub decoy_of: Option<&'static str>,
+    /// What the foreign number follows, if anything.
+    pub decoy: Option<Decoy>,
     pub noise_e_n: f64,
     pub noise_e_t: f64,
     pub spread: Spread,
@@ -155,6 +155,17 @@ pub struct Campaign {
     pub broken: usize,
     /// Series that replace the common ranges, if any.
     pub series: Vec<Series>,
+}
+
+/// Correlation of a decoy with what it follows.
+pub const CORRELATION: f64 = 0.85;
+
+/// An input that the foreign number follows, its mean and deviation.
+#[derive(Clone, Copy, Debug)]
+pub struct Decoy {
+    pub input: &'static str,
+    pub mean: f64,
+    pub deviation: f64,
 }
 
 /// One series of a campaign.
@@ -230,7 +241,7 @@ impl Campaign {
             conversion: (0.0, 1.0),
             columns,
             extras,
-            decoy_of: None,
+            decoy: None,
             noise_e_n,
             noise_e_t: noise_e_n * dice.uniform((0.6, 1.0)),
             spread: Spread::Even,
@@ -267,26 +278,21 @@ impl Campaign {
             foreign: dice.uniform((10.0, 90.0)),
             group: dice.below(4),
         };
-        if let Some(name) = self.decoy_of {
-            let share = self.share(name, &x) * 2.0 - 1.0;
-            let other = dice.uniform((-1.0, 1.0));
-            x.foreign = 50.0 + 25.0 * (0.85 * share + (1.0 - 0.85_f64.powi(2)).sqrt() * other);
+        if let Some(decoy) = self.decoy {
+            let part = (x.value(decoy.input) - decoy.mean) / decoy.deviation;
+            let own = (1.0 - CORRELATION * CORRELATION).sqrt() * dice.normal();
+            x.foreign = 50.0 + 10.0 * (CORRELATION * part + own);
         }
         x
     }
 
-    /// Where an input lies in its range, 0 to 1, evenly spread.
-    fn share(&self, name: &str, x: &Inputs) -> f64 {
-        let linear = |value: f64, (low, high): Range| (value - low) / (high - low);
-        let log = |value: f64, (low, high): Range| (value / low).ln() / (high / low).ln();
-        match name {
-            "T_p" => linear(x.t_p, self.t_p),
-            "v_gas" => linear(x.v_gas, self.v_gas),
-            "conversion" => linear(x.conversion, self.conversion),
-            "d" => log(x.d, self.d),
-            "v_n" => log(x.v_n, self.v_n),
-            _ => 0.5 + linear(x.layer, self.layer) / 2.0 - f64::from(u8::from(x.layer == 0.0)) / 2.0,
-        }
+    /// Makes the foreign number follow an input.
+    pub fn follow(&mut self, input: &'static str, dice: &mut Dice) {
+        let values: Vec<f64> = (0..4000).map(|_| self.inputs(dice).value(input)).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let deviation = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+        self.decoy = Some(Decoy { input, mean, deviation });
     }
 
     /// Measures one impact.
@@ -296,7 +302,7 @@ impl Campaign {
         let size = match self.spread {
             Spread::Even => 1.0,
             Spread::Random => dice.log_uniform((0.3, 2.5)),
-            Spread::WithSpeed => 0.3 + 1.7 * self.share("v_n", &x),
+            Spread::WithSpeed => 0.3 + 1.7 * (x.v_n / self.v_n.0).ln() / (self.v_n.1 / self.v_n.0).ln(),
             Spread::WithForeign => 0.3 + 1.7 * (x.foreign - 10.0) / 80.0,
         };
         let mut e_n = r.e_n + dice.noise(r.e_n, size * self.noise_e_n);

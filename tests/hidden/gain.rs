@@ -11,25 +11,44 @@ const FLOOR: f64 = 0.01;
 /// Hidden draws a row over which a scattering truth is averaged.
 const GRID: usize = 24;
 
-/// Nats by which the truth beats the base as given, and the best base with another yield ratio and e_t level.
+/// Nats by which the truth beats the base as given, and the best base with another yield ratio, work of adhesion
+/// and level of e_t.
 #[derive(Clone, Copy, Debug)]
 pub struct Gain {
     pub over_base: f64,
     pub over_refitted: f64,
+    /// Nats that the least needed plant is worth among the others.
+    pub least_plant: f64,
 }
 
 /// Of the rows that a fit may see.
 pub fn gain(campaign: &Campaign, world: &World, rows: &[Row]) -> Gain {
     let truth = likelihood_of_truth(campaign, world, rows);
     let base = likelihood_of_model(rows, |x| world.base(x));
-    let refitted = (-12..=12).map(|step| {
+    let best = base.max(best_refitted(world, rows)) + level_gain(world, rows);
+    let without = |index| likelihood_of_truth(campaign, &world.without(index), rows);
+    let least = (0..world.plants.len()).map(|index| truth - without(index)).fold(f64::INFINITY, f64::min);
+    Gain {
+        over_base: FITTED * (truth - base),
+        over_refitted: FITTED * (truth - best),
+        least_plant: FITTED * least,
+    }
+}
+
+/// The best of the base laws with another yield ratio and work of adhesion; the one that is planted is not free.
+fn best_refitted(world: &World, rows: &[Row]) -> f64 {
+    let planted = |cause| world.plants.iter().any(|plant| plant.cause == cause);
+    let ratios = if planted("yield-ratio") { 0..=0 } else { -12..=12 };
+    let works = if planted("adhesion-energy") { 0..=0 } else { -6..=4 };
+    let grid = ratios.flat_map(|ratio| works.clone().map(move |work| (ratio, work)));
+    let likelihood = |(ratio, work): (i32, i32)| {
         let mut contact = world.contact;
-        contact.yield_ratio *= 1.15_f64.powi(step);
+        contact.yield_ratio *= 1.15_f64.powi(ratio);
+        contact.adhesion *= 1.4_f64.powi(work);
         let other = World { contact, tangential: world.tangential, plants: vec![] };
         likelihood_of_model(rows, |x| other.base(x))
-    });
-    let best = refitted.fold(base, f64::max) + level_gain(world, rows);
-    Gain { over_base: FITTED * (truth - base), over_refitted: FITTED * (truth - best) }
+    };
+    grid.map(likelihood).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// What a free constant e_t adds to a base of constant e_t.

@@ -12,8 +12,11 @@ pub const YIELD_RATIO: f64 = 4.0;
 /// The tangential restitution that has to be found.
 pub const E_T: f64 = 0.8;
 
+/// A set as published.
+type Published = (usize, (f64, f64), (f64, f64, f64), (f64, f64));
+
 /// Rows, v_n, least mean and largest angle from the normal, sizes in µm. Set 6 is molten molybdenum.
-const SETS: [(usize, (f64, f64), (f64, f64, f64), (f64, f64)); 6] = [
+const SETS: [Published; 6] = [
     (230, (1.36, 12.95), (0.0, 24.3, 73.4), (8.0, 10.0)),
     (65, (0.70, 8.86), (0.0, 22.9, 70.0), (8.0, 10.0)), // ends of the angle assumed
     (122, (0.78, 7.71), (0.0, 19.0, 70.0), (8.0, 10.0)), // ends of the angle assumed

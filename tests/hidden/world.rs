@@ -1,5 +1,7 @@
 //! The world that is measured: a base model and what is planted on it.
 
+use std::sync::Arc;
+
 use crate::contact::{Contact, Tangential};
 use crate::plant::{Hook, Plant};
 
@@ -28,6 +30,23 @@ impl Inputs {
     }
 }
 
+impl Inputs {
+    /// The input of this column.
+    pub fn value(&self, column: &str) -> f64 {
+        match column {
+            "T_p" => self.t_p,
+            "T_w" => self.t_w,
+            "d" => self.d,
+            "v_gas" => self.v_gas,
+            "layer_thickness" => self.layer,
+            "film_thickness" => self.film,
+            "roughness" => self.roughness,
+            "conversion" => self.conversion,
+            _ => panic!("{column} is no input"),
+        }
+    }
+}
+
 /// What becomes of the impact: probability of capture, and the restitutions if it rebounds.
 #[derive(Clone, Copy, Debug)]
 pub struct Response {
@@ -49,7 +68,7 @@ pub struct Normal {
 pub struct World {
     pub contact: Contact,
     pub tangential: Tangential,
-    pub plants: Vec<Plant>,
+    pub plants: Vec<Arc<Plant>>,
 }
 
 /// How many hidden draws an impact has.
@@ -73,6 +92,13 @@ impl World {
         }
     }
 
+    /// This world without its plant `index`.
+    pub fn without(&self, index: usize) -> Self {
+        let mut plants = self.plants.clone();
+        plants.remove(index);
+        Self { plants, ..*self }
+    }
+
     /// Whether the outcome of one and the same impact is scattered by what is planted.
     pub fn scatters(&self) -> bool {
         self.plants.iter().any(|plant| plant.scatters)
@@ -81,7 +107,7 @@ impl World {
     /// The impact in the frame of a facet that is tilted in the plane of impact, and back in the wall's frame.
     /// A facet that faces away, or sends the particle into the wall, is not what was hit: half the tilt then.
     fn tilted(&self, x: &Inputs, angle: f64, draws: [f64; DRAWS]) -> Response {
-        let mut tilt = angle * normal_quantile(draws[0]);
+        let mut tilt = angle * normal(draws);
         for _ in 0..20 {
             let (sine, cosine) = tilt.sin_cos();
             let local =
@@ -105,7 +131,7 @@ impl World {
 fn evaluate(
     contact: &Contact,
     law: Tangential,
-    plants: &[Plant],
+    plants: &[Arc<Plant>],
     x: &Inputs,
     draws: [f64; DRAWS],
 ) -> Response {
@@ -136,22 +162,7 @@ fn evaluate(
     Response { stick: normal.stick, e_n: normal.e_n, e_t }
 }
 
-/// Quantile of the standard normal (logit approximation refined by Newton steps on an integrated density).
-pub fn normal_quantile(share: f64) -> f64 {
-    let share = share.clamp(1e-6, 1.0 - 1e-6);
-    let mut z = (share / (1.0 - share)).ln() / 1.702;
-    for _ in 0..6 {
-        let density = (-z * z / 2.0).exp() / std::f64::consts::TAU.sqrt();
-        z -= (normal_share(z) - share) / density.max(1e-8);
-    }
-    z
-}
-
-/// Share of the standard normal below `z`: Simpson's rule from 0.
-fn normal_share(z: f64) -> f64 {
-    let steps = 40;
-    let width = z / f64::from(steps);
-    let density = |i: i32| (-(f64::from(i) * width).powi(2) / 2.0).exp() / std::f64::consts::TAU.sqrt();
-    let weight = |i: i32| if i == 0 || i == steps { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
-    0.5 + width / 3.0 * (0..=steps).map(|i| weight(i) * density(i)).sum::<f64>()
+/// A standard normal number from two uniform ones (Box and Muller).
+pub fn normal([one, two]: [f64; DRAWS]) -> f64 {
+    (-2.0 * (1.0 - one).ln()).sqrt() * (std::f64::consts::TAU * two).cos()
 }
