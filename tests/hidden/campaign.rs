@@ -217,8 +217,8 @@ impl Campaign {
     /// A campaign on this system, with irrelevant inputs chosen at random.
     pub fn new(system: System, law: Tangential, dice: &mut Dice) -> Self {
         let (v_n, d, t_p) = match system {
-            System::Wax => ((0.5, 5.0), (50e-6, 120e-6), (290.0, 320.0)),
-            System::Tungsten => ((0.8, 13.0), (5e-6, 20e-6), (290.0, 320.0)),
+            System::Wax => ((0.3, 5.0), (50e-6, 120e-6), (290.0, 320.0)),
+            System::Tungsten => ((0.5, 13.0), (5e-6, 20e-6), (290.0, 320.0)),
             System::HotTungsten => ((0.5, 13.0), (8e-6, 16e-6), (2900.0, 3000.0)),
             System::Char => ((0.5, 6.0), (40e-6, 120e-6), (1500.0, 1700.0)),
         };

@@ -314,6 +314,41 @@ fn verdicts() {
     assert!(judge(&null, &answer(&[])).trap_passed && !judge(&null, &answer(&[other])).trap_passed);
 }
 
+/// What an all-knowing diagnosis would answer.
+fn perfect(set: &Set) -> Value {
+    let cause = |plant: &std::sync::Arc<crate::plant::Plant>| {
+        let interval = |value: f64| json!({ "value": value, "low": 0.9 * value, "high": 1.1 * value });
+        let parameters: serde_json::Map<_, _> =
+            plant.parameters.iter().map(|(name, value)| ((*name).to_string(), interval(*value))).collect();
+        json!({ "cause": plant.cause, "parameters": parameters, "indistinguishable_from": [] })
+    };
+    let lines: Vec<_> = set.broken_lines.iter().map(|line| json!({ "line": line, "reason": "" })).collect();
+    let findings: Vec<_> = set.world.plants.iter().map(cause).collect();
+    let calibration = [json!({ "key": "tangential.e_t", "value": 0.81 })];
+    json!({ "rows": { "rejected": lines }, "findings": findings, "calibration": calibration })
+}
+
+/// The all-knowing passes, the silent and the one that always says the same do not.
+#[test]
+fn the_demands_can_be_met_and_missed() {
+    let sets: Vec<_> = recipes(1).iter().map(|recipe| recipe.make(random::seed())).collect();
+    let score = |answer: &dyn Fn(&Set) -> Value| {
+        crate::score::report(&sets.iter().map(|set| judge(set, &answer(set))).collect::<Vec<_>>())
+    };
+    assert_eq!(score(&perfect), Vec::<String>::new());
+    assert!(score(&|_| answer(&[])).len() >= 3);
+    let always = json!({ "cause": "agglomerates", "indistinguishable_from": [] });
+    assert!(score(&|_| answer(std::slice::from_ref(&always))).len() >= 3);
+}
+
+#[test]
+fn the_level_in_a_model_file() {
+    let model = |line: &str| format!("[normal]\ne_t = 3\n[tangential]\nmodel = \"constant\"\n{line}\n[x]\n");
+    assert_eq!(runner::tangential_level(&model("e_t = 0.81 # fitted")), Some(0.81));
+    assert_eq!(runner::tangential_level(&model("e_t = { value = 0.79, low = 0.7, high = 0.8 }")), Some(0.79));
+    assert_eq!(runner::tangential_level(&model("friction = 0.2")), None);
+}
+
 /// The base model is far from a strong truth, the truth is at the attainable error.
 #[test]
 fn held_out_errors() {

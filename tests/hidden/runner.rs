@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 use std::time::Instant;
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::dice::Dice;
 use crate::score::{HeldOut, Interval, Judgement, Verdict, judge};
@@ -45,11 +45,28 @@ fn answer(folder: &Path, output: &Output) -> Result<Value, String> {
         return Err(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr)));
     }
     let text = std::fs::read_to_string(folder.join("out/diagnosis.json")).map_err(|e| e.to_string())?;
-    let diagnosis: Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
+    let mut diagnosis: Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
+    if diagnosis["calibration"].is_null() {
+        let model = std::fs::read_to_string(folder.join("out/extended.toml")).unwrap_or_default();
+        let levels: Vec<_> = tangential_level(&model)
+            .map(|value| json!({ "key": "tangential.e_t", "value": value }))
+            .into_iter()
+            .collect();
+        diagnosis["calibration"] = levels.into();
+    }
     let whole = diagnosis["findings"].is_array() && diagnosis["rows"]["rejected"].is_array();
     if whole { Ok(diagnosis) } else { Err("diagnosis.json lacks findings or rows.rejected".into()) }
 }
 
+/// `e_t` of the section `[tangential]`, plain or as `{ value = .. }`.
+pub fn tangential_level(model: &str) -> Option<f64> {
+    let section = model.split("[tangential]").nth(1)?.split("\n[").next()?;
+    let line = section.lines().find(|line| line.trim_start().starts_with("e_t"))?;
+    let text = line.rsplit_once("value =").or_else(|| line.split_once('='))?.1;
+    text.split([',', '}', '#']).next()?.trim().parse().ok()
+}
+
+/// The judgement where there is no answer.
 fn crashed(set: &Set, message: String, seconds: f64) -> Judgement {
     Judgement {
         name: set.name.clone(),

@@ -191,7 +191,8 @@ pub fn recipes(repeats: usize) -> Vec<Recipe> {
     let mut all = planted(repeats);
     all.extend((0..20 * repeats).map(null));
     all.extend((0..repeats).flat_map(traps));
-    all.push(Recipe::new("migraine:0".into(), Kind::Migraine, crate::migraine::plan));
+    let migraine = |index| Recipe::new(format!("migraine:{index}"), Kind::Migraine, crate::migraine::plan);
+    all.extend((0..repeats).map(migraine));
     all
 }
 
@@ -257,8 +258,7 @@ fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
         let mut campaign = Campaign::new(system, law, dice);
         campaign.rows = 600 + dice.below(401);
         campaign.noise_e_n = campaign.noise_e_n.min(0.05);
-        let plants =
-            [one, other].into_iter().flat_map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
+        let plants = [one, other].into_iter().map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
         Plan { campaign, plants }
     })
 }
@@ -308,7 +308,7 @@ fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> Plan {
     let system = system_for(effect, dice);
     let law = law_for(effect, system, dice);
     let mut campaign = Campaign::new(system, law, dice);
-    let plants = sow(effect, strength, &mut campaign, dice);
+    let plants = vec![sow(effect, strength, &mut campaign, dice)];
     Plan { campaign, plants }
 }
 
@@ -359,10 +359,20 @@ fn friction_of(law: Tangential, dice: &mut Dice) -> f64 {
 }
 
 /// Sets the campaign's ranges so that the effect shows, and plants it.
-fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Vec<Plant> {
+fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+    in_the_solids(effect, strength, campaign, dice)
+        .or_else(|| in_the_scatter(effect, strength, campaign, dice))
+        .or_else(|| on_the_surface(effect, strength, campaign, dice))
+        .or_else(|| in_the_particle(effect, strength, campaign, dice))
+        .or_else(|| along_the_wall(effect, strength, campaign, dice))
+        .unwrap_or_else(|| panic!("{effect} is no effect"))
+}
+
+/// Other numbers of the solids.
+fn in_the_solids(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
     let tungsten = campaign.system == System::Tungsten;
     let contact = campaign.system.contact();
-    let one = match effect {
+    let plant = match effect {
         "yield-ratio" => {
             let factor = 1.15 + 0.85 * strength;
             plant::yield_ratio(contact.yield_ratio * if dice.chance(0.7) { factor } else { 1.0 / factor })
@@ -372,24 +382,24 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
             slow_down(campaign, factor.max(1.0));
             plant::adhesion_energy(contact.adhesion * factor)
         }
-        "oblique-angle" | "oblique-angle-rise" => {
-            campaign.theta = (3.0, dice.uniform((70.0, 80.0)));
-            let sign = if effect == "oblique-angle" { -1.0 } else { 1.0 };
-            plant::oblique_angle(strength, sign, if tungsten { 3.0 } else { 1.0 })
+        "thermal-softening" => softening(strength, campaign, dice),
+        "size-dependent-yield" => {
+            campaign.d = if tungsten { (4e-6, 24e-6) } else { (35e-6, 180e-6) };
+            let middle = (campaign.d.0 * campaign.d.1).sqrt();
+            plant::size_dependent_yield(strength, dice.log_uniform((middle, campaign.d.1)))
         }
-        "gas-lift" => {
-            campaign.needs("v_gas");
-            campaign.theta = (5.0, 80.0);
-            campaign.v_gas = (0.0, 30.0);
-            plant::gas_lift(strength, dice.uniform((10.0, 20.0)), dice.uniform((0.2, 0.4)))
-        }
-        "sliding-to-rolling" => {
-            let friction = friction_of(campaign.law, dice);
-            let end = critical_slope(friction, 0.35, contact.stiffness_ratio()).atan().to_degrees();
-            campaign.theta = (end * (0.75 - 0.65 * strength), 75.0);
-            plant::sliding_to_rolling(friction, dice.uniform((0.02, 0.08)))
-        }
-        "tangential-compliance" => compliance(strength, campaign, dice),
+        "strain-rate-hardening" => plant::strain_rate_hardening(
+            strength,
+            dice.uniform(if tungsten { (4.0, 8.0) } else { (1.5, 3.5) }),
+        ),
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What makes equal impacts come out differently.
+fn in_the_scatter(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let plant = match effect {
         "nano-roughness" => {
             slow_down(campaign, 1.0);
             plant::nano_roughness(strength, dice.uniform((0.5, 1.2)))
@@ -402,6 +412,20 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
             let low = dice.uniform((0.6, 0.66));
             plant::agglomerates(0.05 + 0.25 * strength, low, dice.uniform((0.85, 0.97)))
         }
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What lies on the wall or flows along it.
+fn on_the_surface(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let plant = match effect {
+        "gas-lift" => {
+            campaign.needs("v_gas");
+            campaign.theta = (5.0, 80.0);
+            campaign.v_gas = (0.0, 30.0);
+            plant::gas_lift(strength, dice.uniform((10.0, 20.0)), dice.uniform((0.2, 0.4)))
+        }
         "powder-layer" => {
             campaign.needs("layer_thickness");
             campaign.layer = (2e-5, 1.5e-3);
@@ -410,31 +434,50 @@ fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut 
         "liquid-film" => {
             campaign.needs("film_thickness");
             campaign.film = (2e-6, 2e-4);
-            let viscosity = 0.3e-3 * 5_f64.powf(strength);
-            plant::liquid_film(viscosity, contact.density, dice.uniform((1e-6, 3e-6)))
+            let viscosity = 0.3e-3 * 8_f64.powf(strength);
+            plant::liquid_film(viscosity, campaign.system.contact().density, dice.uniform((1e-6, 3e-6)))
         }
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What the particle's state and speed do.
+fn in_the_particle(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let plant = match effect {
         "melting-transition" => melting(strength, campaign, dice),
         "conversion-transition" => {
             campaign.needs("conversion");
-            let threshold = dice.uniform((0.84, 0.91));
-            let width = dice.uniform((0.02, 0.08));
+            let (threshold, width) = (dice.uniform((0.84, 0.91)), dice.uniform((0.02, 0.08)));
             campaign.conversion = (0.4, (threshold + 0.02 + 0.14 * strength).min(1.0));
             plant::conversion_transition(threshold, width)
         }
-        "thermal-softening" => softening(strength, campaign, dice),
-        "size-dependent-yield" => {
-            campaign.d = if tungsten { (4e-6, 24e-6) } else { (35e-6, 180e-6) };
-            let middle = (campaign.d.0 * campaign.d.1).sqrt();
-            plant::size_dependent_yield(strength, dice.log_uniform((middle, campaign.d.1)))
-        }
-        "strain-rate-hardening" => {
-            campaign.v_n = if tungsten { (0.8, 13.0) } else { (0.4, 6.0) };
-            plant::strain_rate_hardening(strength, if tungsten { 6.0 } else { 2.5 })
-        }
         "viscoelastic-loss" => plant::viscoelastic_loss(strength, dice.uniform((3.0, 6.0))),
-        _ => panic!("{effect} is no effect"),
+        _ => return None,
     };
-    vec![one]
+    Some(plant)
+}
+
+/// What the angle does, and the tangential law.
+fn along_the_wall(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let tungsten = campaign.system == System::Tungsten;
+    let plant = match effect {
+        "oblique-angle" | "oblique-angle-rise" => {
+            campaign.theta = (3.0, dice.uniform((70.0, 80.0)));
+            let sign = if effect == "oblique-angle" { -1.0 } else { 1.0 };
+            plant::oblique_angle(strength, sign, if tungsten { 3.0 } else { 1.0 })
+        }
+        "sliding-to-rolling" => {
+            let friction = friction_of(campaign.law, dice);
+            let stiffness_ratio = campaign.system.contact().stiffness_ratio();
+            let end = critical_slope(friction, 0.35, stiffness_ratio).atan().to_degrees();
+            campaign.theta = (end * (0.75 - 0.65 * strength), 75.0);
+            plant::sliding_to_rolling(friction, dice.uniform((0.02, 0.08)))
+        }
+        "tangential-compliance" => compliance(strength, campaign, dice),
+        _ => return None,
+    };
+    Some(plant)
 }
 
 /// Impacts from about the sticking speed to some four times that.
