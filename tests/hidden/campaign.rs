@@ -1,0 +1,460 @@
+//! The laboratory: base systems, ranges of inputs, nuisance columns, noise, and the files.
+
+use std::fmt::Write;
+
+use crate::contact::{Body, Contact, Tangential};
+use crate::dice::Dice;
+use crate::world::{Inputs, World};
+
+/// What is shot at what.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum System {
+    /// Montan wax on Pyrex.
+    Wax,
+    /// Tungsten dust on tungsten.
+    Tungsten,
+    /// Char on a brick.
+    Char,
+    /// Tungsten dust of 3000 K on tungsten of 1000 K.
+    HotTungsten,
+}
+
+impl System {
+    /// The base contact.
+    pub fn contact(self) -> Contact {
+        let body = |modulus, poisson| Body { modulus, poisson };
+        match self {
+            Self::Wax => Contact {
+                particle: body(700e6, 0.49),
+                wall: body(64e9, 0.2),
+                density: 1000.0,
+                yield_strength: 9.5e6,
+                yield_ratio: 0.7,
+                adhesion: 2.0 * 0.03_f64.sqrt(),
+            },
+            Self::Tungsten => Contact {
+                particle: body(398e9, 0.28),
+                wall: body(398e9, 0.28),
+                density: 19250.0,
+                yield_strength: 0.6e9,
+                yield_ratio: 2.8,
+                adhesion: 2.0 * 3.265,
+            },
+            Self::Char => Contact {
+                particle: body(1e9, 0.25),
+                wall: body(30e9, 0.2),
+                density: 900.0,
+                yield_strength: 11e6,
+                yield_ratio: 1.2,
+                adhesion: 2.0 * (0.05_f64 * 0.5).sqrt(),
+            },
+            Self::HotTungsten => Contact {
+                particle: body(190e9, 0.308),
+                wall: body(382e9, 0.287),
+                density: 18290.0,
+                yield_strength: 300e6,
+                yield_ratio: 2.8,
+                adhesion: 2.0 * 3.265,
+            },
+        }
+    }
+
+    /// The model file of base and law.
+    pub fn model(self, law: Tangential) -> String {
+        let (particle, wall) = match self {
+            Self::Wax => ("montan-wax", "pyrex"),
+            Self::Tungsten => ("w-dust", "w-dust"),
+            Self::Char => ("char-bits", "brick"),
+            Self::HotTungsten => ("w-dust", "w-plate"),
+        };
+        let law = match law {
+            Tangential::Constant(e_t) => format!("model = \"constant\"\ne_t = {e_t}"),
+            Tangential::Sliding { friction } => format!("model = \"sliding\"\nfriction = {friction}"),
+            Tangential::SlidingRolling { friction } => {
+                format!("model = \"sliding-rolling\"\nfriction = {friction}")
+            }
+        };
+        let ratio = self.contact().yield_ratio;
+        format!(
+            "[particle]\nmaterial = \"{particle}\"\n\n[walls.default]\nmaterial = \"{wall}\"\n\n[normal]\n\
+             model = \"thornton-ning\"\nyield_ratio = {ratio}\n\n[tangential]\n{law}\n{}",
+            self.materials()
+        )
+    }
+
+    /// The materials that are not built in.
+    fn materials(self) -> &'static str {
+        match self {
+            Self::Wax => "",
+            Self::Tungsten => {
+                "\n[materials.w-dust]\ndensity = 19250\nyoungs_modulus = 398e9\npoisson_ratio = 0.28\n\
+                 yield_strength = 0.6e9\nsurface_energy = 3.265\nsource = \"assumed\"\n"
+            }
+            Self::Char => {
+                "\n[materials.char-bits]\ndensity = 900\nyoungs_modulus = 1e9\npoisson_ratio = 0.25\n\
+                 yield_strength = 11e6\nsurface_energy = 0.05\nsource = \"assumed\"\n\n[materials.brick]\n\
+                 density = 3000\nyoungs_modulus = 30e9\npoisson_ratio = 0.2\nyield_strength = 60e6\n\
+                 surface_energy = 0.5\nsource = \"assumed\"\n"
+            }
+            Self::HotTungsten => {
+                "\n[materials.w-dust]\ndensity = 18290\nyoungs_modulus = 190e9\npoisson_ratio = 0.308\n\
+                 yield_strength = 300e6\nsurface_energy = 3.265\nsource = \"assumed\"\n\n[materials.w-plate]\n\
+                 density = 19050\nyoungs_modulus = 382e9\npoisson_ratio = 0.287\nyield_strength = 800e6\n\
+                 surface_energy = 3.265\nsource = \"assumed\"\n"
+            }
+        }
+    }
+}
+
+type Range = (f64, f64);
+
+/// How a deviation depends on the row, in null sets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spread {
+    /// The same everywhere.
+    Even,
+    /// Drawn for each row.
+    Random,
+    /// Grows with the normal speed.
+    WithSpeed,
+    /// Grows with a nuisance column.
+    WithForeign,
+}
+
+/// A campaign: ranges of what is varied, and noise.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    pub system: System,
+    pub law: Tangential,
+    pub rows: usize,
+    pub v_n: Range,
+    /// Angle from the normal, degrees.
+    pub theta: Range,
+    pub d: Range,
+    pub t_p: Range,
+    pub t_w: Range,
+    pub v_gas: Range,
+    pub layer: Range,
+    pub film: Range,
+    pub roughness: Range,
+    pub conversion: Range,
+    /// Known input columns that are written, beyond v_n v_t d T_p.
+    pub columns: Vec<&'static str>,
+    /// Foreign columns that are written.
+    pub extras: Vec<&'static str>,
+    /// What the foreign number follows, if anything.
+    pub decoy: Option<Decoy>,
+    pub noise_e_n: f64,
+    pub noise_e_t: f64,
+    pub spread: Spread,
+    /// Share of gross outliers.
+    pub outliers: f64,
+    /// Share of blank observations.
+    pub blanks: f64,
+    /// Broken rows to mix in.
+    pub broken: usize,
+    /// Series that replace the common ranges, if any.
+    pub series: Vec<Series>,
+}
+
+/// Correlation of a decoy with what it follows.
+pub const CORRELATION: f64 = 0.85;
+
+/// An input that the foreign number follows, its mean and deviation.
+#[derive(Clone, Copy, Debug)]
+pub struct Decoy {
+    pub input: &'static str,
+    pub mean: f64,
+    pub deviation: f64,
+}
+
+/// One series of a campaign.
+#[derive(Clone, Copy, Debug)]
+pub struct Series {
+    pub rows: usize,
+    pub v_n: Range,
+    /// Least, mean and largest angle from the normal, degrees.
+    pub theta: (f64, f64, f64),
+    pub d: Range,
+    pub t_p: f64,
+}
+
+impl Series {
+    /// An angle with the stated mean, between the ends.
+    fn angle(&self, dice: &mut Dice) -> f64 {
+        let (low, mean, high) = self.theta;
+        low + (high - low) * dice.unit().powf((high - low) / (mean - low) - 1.0)
+    }
+
+    /// One impact of the series.
+    fn inputs(&self, group: usize, common: Inputs, dice: &mut Dice) -> Inputs {
+        let v_n = dice.log_uniform(self.v_n);
+        let v_t = v_n * self.angle(dice).max(0.5).to_radians().tan();
+        Inputs { v_n, v_t, d: dice.uniform(self.d), t_p: self.t_p, t_w: 1000.0, group, ..common }
+    }
+}
+
+/// Inputs that a campaign can vary beside v_n, v_t, d and T_p.
+pub const KNOWN: [&str; 6] = ["T_w", "v_gas", "layer_thickness", "film_thickness", "roughness", "conversion"];
+
+/// Columns that no model knows.
+pub const FOREIGN: [&str; 12] = [
+    "humidity",
+    "batch",
+    "day",
+    "operator",
+    "lens",
+    "pressure",
+    "voltage",
+    "camera_gain",
+    "frame",
+    "note",
+    "room_temperature",
+    "plate_id",
+];
+
+impl Campaign {
+    /// A campaign on this system, with irrelevant inputs chosen at random.
+    pub fn new(system: System, law: Tangential, dice: &mut Dice) -> Self {
+        let (v_n, d, t_p) = match system {
+            System::Wax => ((0.3, 5.0), (50e-6, 120e-6), (290.0, 320.0)),
+            System::Tungsten => ((0.5, 13.0), (5e-6, 20e-6), (290.0, 320.0)),
+            System::HotTungsten => ((0.5, 13.0), (8e-6, 16e-6), (2900.0, 3000.0)),
+            System::Char => ((0.5, 6.0), (40e-6, 120e-6), (1500.0, 1700.0)),
+        };
+        let noise_e_n = dice.uniform((0.02, 0.08));
+        let columns = KNOWN.into_iter().filter(|_| dice.chance(0.6)).collect();
+        let extras = FOREIGN[2..].iter().copied().filter(|_| dice.chance(0.25)).collect();
+        Self {
+            system,
+            law,
+            rows: 250 + dice.below(751),
+            v_n,
+            theta: (5.0, 70.0),
+            d,
+            t_p,
+            t_w: (285.0, 305.0),
+            v_gas: (0.0, 15.0),
+            layer: (1e-5, 4e-4),
+            film: (1e-6, 5e-5),
+            roughness: (1e-8, 1e-6),
+            conversion: (0.0, 1.0),
+            columns,
+            extras,
+            decoy: None,
+            noise_e_n,
+            noise_e_t: noise_e_n * dice.uniform((0.6, 1.0)),
+            spread: Spread::Even,
+            outliers: 0.0,
+            blanks: 0.0,
+            broken: 0,
+            series: vec![],
+        }
+    }
+
+    /// Makes sure that a known or foreign column is written.
+    pub fn needs(&mut self, column: &'static str) {
+        let list = if KNOWN.contains(&column) { &mut self.columns } else { &mut self.extras };
+        if column != "d" && column != "T_p" && !list.contains(&column) {
+            list.push(column);
+        }
+    }
+
+    /// Draws the inputs of one impact.
+    pub fn inputs(&self, dice: &mut Dice) -> Inputs {
+        let v_n = dice.log_uniform(self.v_n);
+        let v_t = v_n * dice.uniform(self.theta).to_radians().tan();
+        let mut x = Inputs {
+            v_n,
+            v_t,
+            d: dice.log_uniform(self.d),
+            t_p: dice.uniform(self.t_p),
+            t_w: dice.uniform(self.t_w),
+            v_gas: dice.uniform(self.v_gas),
+            layer: sometimes(dice, self.layer),
+            film: sometimes(dice, self.film),
+            roughness: sometimes(dice, self.roughness),
+            conversion: dice.uniform(self.conversion),
+            foreign: dice.uniform((10.0, 90.0)),
+            group: dice.below(4),
+        };
+        if let Some(decoy) = self.decoy {
+            let part = (x.value(decoy.input) - decoy.mean) / decoy.deviation;
+            let own = (1.0 - CORRELATION * CORRELATION).sqrt() * dice.normal();
+            x.foreign = 50.0 + 10.0 * (CORRELATION * part + own);
+        }
+        x
+    }
+
+    /// Makes the foreign number follow an input.
+    pub fn follow(&mut self, input: &'static str, dice: &mut Dice) {
+        let values: Vec<f64> = (0..4000).map(|_| self.inputs(dice).value(input)).collect();
+        let count = values.len() as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        let deviation = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+        self.decoy = Some(Decoy { input, mean, deviation });
+    }
+
+    /// Measures one impact.
+    pub fn measure(&self, world: &World, x: Inputs, dice: &mut Dice) -> Row {
+        let r = world.truth(&x, [dice.unit(), dice.unit()]);
+        let stuck = dice.chance(r.stick);
+        let size = match self.spread {
+            Spread::Even => 1.0,
+            Spread::Random => dice.log_uniform((0.3, 2.5)),
+            Spread::WithSpeed => 0.3 + 1.7 * (x.v_n / self.v_n.0).ln() / (self.v_n.1 / self.v_n.0).ln(),
+            Spread::WithForeign => 0.3 + 1.7 * (x.foreign - 10.0) / 80.0,
+        };
+        let mut e_n = r.e_n + dice.noise(r.e_n, size * self.noise_e_n);
+        let mut e_t = r.e_t + dice.noise(r.e_t, size * self.noise_e_t);
+        if dice.chance(self.outliers) {
+            e_n = outlier(e_n, dice);
+            e_t = outlier(e_t, dice);
+        }
+        let mut shown = |value: f64| (!stuck && !dice.chance(self.blanks)).then_some(value);
+        let (e_n, e_t) = (shown(e_n), shown(e_t));
+        Row { x, stuck, e_n, e_t, outcome: e_n.is_none() || !dice.chance(self.blanks) }
+    }
+
+    /// Draws all impacts.
+    pub fn impacts(&self, dice: &mut Dice) -> Vec<Inputs> {
+        if self.series.is_empty() {
+            return (0..self.rows).map(|_| self.inputs(dice)).collect();
+        }
+        let mut all = vec![];
+        for (group, series) in self.series.iter().enumerate() {
+            for _ in 0..series.rows {
+                let common = self.inputs(dice);
+                all.push(series.inputs(group, common, dice));
+            }
+        }
+        all
+    }
+
+    /// Measures the whole campaign.
+    pub fn run(&self, world: &World, dice: &mut Dice) -> Vec<Row> {
+        self.impacts(dice).into_iter().map(|x| self.measure(world, x, dice)).collect()
+    }
+
+    /// The names of the input columns, in order.
+    fn header(&self) -> Vec<&'static str> {
+        ["v_n", "v_t", "d", "T_p"]
+            .into_iter()
+            .chain(self.columns.clone())
+            .chain(self.extras.clone())
+            .collect()
+    }
+
+    /// The file of inputs alone.
+    pub fn inputs_csv(&self, inputs: &[Inputs]) -> String {
+        let mut dice = Dice::new(0, "cells");
+        let mut text = self.header().join(",");
+        for x in inputs {
+            let cells: Vec<_> = self.header().iter().map(|column| cell(column, x, &mut dice)).collect();
+            write!(text, "\n{}", cells.join(",")).unwrap();
+        }
+        text + "\n"
+    }
+
+    /// The file of a campaign, and the lines on which broken rows stand.
+    pub fn csv(&self, rows: &[Row], dice: &mut Dice) -> (String, Vec<usize>) {
+        let mut lines: Vec<_> = rows.iter().map(|row| (self.line(row, dice), false)).collect();
+        for kind in 0..self.broken {
+            let at = dice.below(lines.len());
+            let line = self.broken_line(&rows[at % rows.len()], kind, dice);
+            lines.insert(at, (line, true));
+        }
+        let mut text = format!("{},e_n,e_t,outcome", self.header().join(","));
+        for (line, _) in &lines {
+            write!(text, "\n{line}").unwrap();
+        }
+        let broken = lines.iter().enumerate().filter(|(_, line)| line.1).map(|(i, _)| i + 2).collect();
+        (text + "\n", broken)
+    }
+
+    fn line(&self, row: &Row, dice: &mut Dice) -> String {
+        let mut cells: Vec<_> = self.header().iter().map(|column| cell(column, &row.x, dice)).collect();
+        let number = |value: Option<f64>| value.map(|value| format!("{value:.4}")).unwrap_or_default();
+        cells.extend([number(row.e_n), number(row.e_t)]);
+        cells.push(
+            if !row.outcome {
+                ""
+            } else if row.stuck {
+                "stick"
+            } else {
+                "rebound"
+            }
+            .into(),
+        );
+        cells.join(",")
+    }
+
+    /// A row that cannot be used, of one of six kinds.
+    fn broken_line(&self, row: &Row, kind: usize, dice: &mut Dice) -> String {
+        let rebound = Row { stuck: false, e_n: Some(0.3), e_t: Some(0.7), outcome: true, ..*row };
+        let line = self.line(&rebound, dice);
+        let mut cells: Vec<String> = line.split(',').map(String::from).collect();
+        let (e_n, outcome) = (cells.len() - 3, cells.len() - 1);
+        match kind % 6 {
+            0 => cells[0] = "fast".into(),
+            1 => cells[e_n] = "-0.31".into(),
+            2 => cells[0] = String::new(),
+            3 => cells[outcome] = "perhaps".into(),
+            4 => cells[2] = "-8e-5".into(),
+            _ => cells[0] = "-1.5".into(),
+        }
+        cells.join(",")
+    }
+}
+
+/// Nothing in four of ten cases, else log-uniform.
+fn sometimes(dice: &mut Dice, range: Range) -> f64 {
+    if dice.chance(0.4) { 0.0 } else { dice.log_uniform(range) }
+}
+
+/// A slipped decimal point, a wrong particle, or anything.
+fn outlier(value: f64, dice: &mut Dice) -> f64 {
+    match dice.below(4) {
+        0 => value * 10.0,
+        1 => value / 10.0,
+        _ => dice.uniform((0.02, 1.2)),
+    }
+}
+
+/// A cell of an input column.
+fn cell(column: &str, x: &Inputs, dice: &mut Dice) -> String {
+    let pick = |names: &[&str], dice: &mut Dice| names[dice.below(names.len())].to_string();
+    match column {
+        "v_n" => format!("{:e}", x.v_n),
+        "v_t" => format!("{:e}", x.v_t),
+        "d" => format!("{:e}", x.d),
+        "T_p" => x.t_p.to_string(),
+        "T_w" => x.t_w.to_string(),
+        "v_gas" => x.v_gas.to_string(),
+        "layer_thickness" => format!("{:e}", x.layer),
+        "film_thickness" => format!("{:e}", x.film),
+        "roughness" => format!("{:e}", x.roughness),
+        "conversion" => x.conversion.to_string(),
+        "humidity" => format!("{:.3}", x.foreign),
+        "series" => format!("set{}", x.group + 1),
+        "batch" => format!("lot-{}", ["K", "M", "Q", "T"][x.group]),
+        "operator" => pick(&["anna", "bo", "chen"], dice),
+        "note" => pick(&["", "", "", "ok", "blurred"], dice),
+        "plate_id" => pick(&["P1", "P2", "P3", "P4", "P5", "P6"], dice),
+        "day" => (1 + dice.below(5)).to_string(),
+        "lens" => pick(&["50", "85", "105"], dice),
+        "frame" => dice.below(100_000).to_string(),
+        _ => format!("{:.4}", 10.0 + dice.normal()),
+    }
+}
+
+/// One measured impact.
+#[derive(Clone, Copy, Debug)]
+pub struct Row {
+    pub x: Inputs,
+    pub stuck: bool,
+    pub e_n: Option<f64>,
+    pub e_t: Option<f64>,
+    /// Whether the outcome is written.
+    pub outcome: bool,
+}

@@ -1,0 +1,59 @@
+//! Sets with a planted cause that `nearwall diagnose` has to find, made without any of the crate's own laws.
+//!
+//! - `cargo test --release --test hidden -- --ignored diagnose` scores the command on all sets.
+//! - `NEARWALL_HIDDEN_OUT=DIR cargo test --release --test hidden -- --ignored write_sets` writes them.
+//!
+//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_HIDDEN_SETS` makes more of each, `NEARWALL_HIDDEN_ONLY` names those wanted.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "clippy.toml's leave for tests does not reach their helpers"
+)]
+
+mod campaign;
+mod check;
+mod contact;
+mod dice;
+mod gain;
+mod migraine;
+mod plant;
+#[path = "../common/random.rs"]
+mod random;
+mod runner;
+mod score;
+mod sets;
+mod world;
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+/// The right cause first, silence on nothing, errors near the attainable, honest intervals, no crash.
+#[test]
+#[ignore = "until the command `diagnose` is there"]
+fn diagnose_finds_what_is_planted() {
+    let seed = random::seed();
+    let one = |recipe: &sets::Recipe| runner::run(&recipe.make(seed), seed);
+    let all: Vec<_> = sets::wanted().par_iter().map(one).collect();
+    let failures = score::report(&all);
+    assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// Writes every set to the folder `NEARWALL_HIDDEN_OUT`.
+#[test]
+#[ignore = "writes files on request"]
+fn write_sets() {
+    let folder = std::env::var("NEARWALL_HIDDEN_OUT").unwrap();
+    let folder = Path::new(&folder);
+    std::fs::create_dir_all(folder).unwrap();
+    let seed = random::seed();
+    for recipe in sets::wanted() {
+        let set = recipe.make(seed);
+        let file = |ending: &str| folder.join(format!("{}.{ending}", set.name.replace(':', "-")));
+        std::fs::write(file("csv"), &set.csv).unwrap();
+        std::fs::write(file("toml"), set.model()).unwrap();
+        std::fs::write(file("truth.json"), serde_json::to_string_pretty(&set.truth()).unwrap()).unwrap();
+        println!("{:45} {} rows, {}", set.name, set.rows.len(), set.truth()["gain_nats"]);
+    }
+}

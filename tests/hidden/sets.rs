@@ -1,0 +1,514 @@
+//! The sets: every effect at three strengths, nothing at all, and traps.
+
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use crate::campaign::{Campaign, FOREIGN, Row, Spread, System};
+use crate::contact::{Tangential, critical_slope};
+use crate::dice::Dice;
+use crate::gain::{Gain, gain};
+use crate::plant::{self, Plant};
+use crate::world::World;
+
+/// What a set is for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// One effect.
+    Planted,
+    /// Nothing: the answer is silence.
+    Null,
+    /// Two effects.
+    Pair,
+    /// One effect, and a column that follows its input.
+    Decoy,
+    /// A cause outside every known effect.
+    Unknown,
+    /// Rows that cannot be used.
+    Broken,
+    /// Too few rows to tell.
+    Few,
+    /// The published tungsten campaign.
+    Migraine,
+}
+
+/// One set: a campaign, its world, what was measured, and how much it tells.
+pub struct Set {
+    pub name: String,
+    pub kind: Kind,
+    pub campaign: Campaign,
+    pub world: World,
+    pub rows: Vec<Row>,
+    pub csv: String,
+    pub broken_lines: Vec<usize>,
+    pub gain: Gain,
+}
+
+/// What a set is made from.
+pub struct Plan {
+    pub campaign: Campaign,
+    pub plants: Vec<Plant>,
+}
+
+/// Name, kind and recipe of a set; nothing is drawn before `make`.
+pub struct Recipe {
+    pub name: String,
+    pub kind: Kind,
+    plan: Box<dyn Fn(&mut Dice) -> Plan + Send + Sync>,
+}
+
+/// What the data have to be worth, nats.
+const LEAST: Gain = Gain { over_base: 30.0, over_refitted: 20.0, least_plant: 30.0 };
+
+impl Recipe {
+    pub fn new(name: String, kind: Kind, plan: impl Fn(&mut Dice) -> Plan + Send + Sync + 'static) -> Self {
+        Self { name, kind, plan: Box::new(plan) }
+    }
+
+    /// The set of this seed: redrawn while the data could not tell.
+    pub fn make(&self, seed: u64) -> Set {
+        let mut dice = Dice::new(seed, &self.name);
+        for _ in 0..200 {
+            let set = self.draw(&mut dice);
+            if self.tells(&set) {
+                return set;
+            }
+        }
+        panic!("{}: no draw can be told from its base", self.name);
+    }
+
+    fn draw(&self, dice: &mut Dice) -> Set {
+        let Plan { campaign, plants } = (self.plan)(dice);
+        let plants = plants.into_iter().map(Arc::new).collect();
+        let world = World { contact: campaign.system.contact(), tangential: campaign.law, plants };
+        let rows = campaign.run(&world, dice);
+        let gain = gain(&campaign, &world, &rows);
+        let (csv, broken_lines) = campaign.csv(&rows, dice);
+        Set { name: self.name.clone(), kind: self.kind, campaign, world, rows, csv, broken_lines, gain }
+    }
+
+    /// Whether the data can tell the truth from the base, from a refitted base, and each plant from its absence.
+    fn tells(&self, set: &Set) -> bool {
+        match self.kind {
+            Kind::Null | Kind::Few => true,
+            Kind::Migraine => set.gain.over_base > LEAST.over_base,
+            _ => {
+                set.gain.over_base > LEAST.over_base
+                    && set.gain.least_plant > LEAST.least_plant
+                    && set.gain.over_refitted > LEAST.over_refitted
+            }
+        }
+    }
+}
+
+impl Set {
+    /// The planted causes.
+    pub fn causes(&self) -> Vec<&'static str> {
+        self.world.plants.iter().map(|plant| plant.cause).collect()
+    }
+
+    /// The model file.
+    pub fn model(&self) -> String {
+        self.campaign.system.model(self.campaign.law)
+    }
+
+    /// The truth, for whoever develops against the set.
+    pub fn truth(&self) -> Value {
+        let plants: Vec<Value> = self
+            .world
+            .plants
+            .iter()
+            .map(|plant| {
+                let parameters: serde_json::Map<_, _> =
+                    plant.parameters.iter().map(|(name, value)| ((*name).into(), json!(value))).collect();
+                json!({ "cause": plant.cause, "observable": plant.observable, "parameters": parameters })
+            })
+            .collect();
+        json!({
+            "name": self.name, "kind": format!("{:?}", self.kind), "causes": plants, "rows": self.rows.len(),
+            "stuck": self.rows.iter().filter(|row| row.stuck).count(),
+            "base_law": format!("{:?}", self.campaign.law), "noise_e_n": self.campaign.noise_e_n, "noise_e_t": self.campaign.noise_e_t,
+            "spread": format!("{:?}", self.campaign.spread), "outliers": self.campaign.outliers,
+            "gain_nats": self.gain_block(),
+            "rejected_lines": self.broken_lines,
+        })
+    }
+}
+
+impl Set {
+    /// What the data are worth, where something is planted.
+    fn gain_block(&self) -> Value {
+        if self.world.plants.is_empty() {
+            return Value::Null;
+        }
+        let Gain { over_base, over_refitted, least_plant } = self.gain;
+        json!({ "over_base": over_base, "over_refitted_base": over_refitted, "least_plant": least_plant })
+    }
+
+    /// The name without its index: a row of the table.
+    pub fn family(&self) -> &str {
+        self.name.split(':').next().unwrap()
+    }
+}
+
+/// Every effect that is planted, as the table in physics.md has them; oblique-angle stands twice, for both signs.
+pub const EFFECTS: [&str; 18] = [
+    "yield-ratio",
+    "adhesion-energy",
+    "oblique-angle",
+    "oblique-angle-rise",
+    "gas-lift",
+    "sliding-to-rolling",
+    "tangential-compliance",
+    "nano-roughness",
+    "micro-roughness",
+    "agglomerates",
+    "powder-layer",
+    "liquid-film",
+    "melting-transition",
+    "conversion-transition",
+    "thermal-softening",
+    "size-dependent-yield",
+    "strain-rate-hardening",
+    "viscoelastic-loss",
+];
+
+/// The sets that this run is asked for: `NEARWALL_HIDDEN_SETS` repeats (1), and of those only
+/// `NEARWALL_HIDDEN_ONLY`, a name (`gas-lift:2`) or a family (`gas-lift`), several with commas.
+pub fn wanted() -> Vec<Recipe> {
+    let repeats = std::env::var("NEARWALL_HIDDEN_SETS").map_or(1, |count| count.parse().unwrap());
+    let mut all = recipes(repeats);
+    if let Ok(only) = std::env::var("NEARWALL_HIDDEN_ONLY") {
+        all.retain(|recipe| {
+            only.split(',').any(|one| recipe.name == one || recipe.name.split(':').next() == Some(one))
+        });
+    }
+    all
+}
+
+/// All sets, each effect `repeats` times at three strengths.
+pub fn recipes(repeats: usize) -> Vec<Recipe> {
+    let mut all = planted(repeats);
+    all.extend((0..20 * repeats).map(null));
+    all.extend((0..repeats).flat_map(traps));
+    let migraine = |index| Recipe::new(format!("migraine:{index}"), Kind::Migraine, crate::migraine::plan);
+    all.extend((0..repeats).map(migraine));
+    all
+}
+
+fn planted(repeats: usize) -> Vec<Recipe> {
+    let one = |effect: &'static str, index: usize| {
+        Recipe::new(format!("{effect}:{index}"), Kind::Planted, move |dice| plan(effect, index % 3, dice))
+    };
+    EFFECTS.iter().flat_map(|effect| (0..3 * repeats).map(move |index| one(effect, index))).collect()
+}
+
+/// Nothing planted, a dozen nuisance columns, noise of a different kind in each.
+fn null(index: usize) -> Recipe {
+    Recipe::new(format!("null:{index}"), Kind::Null, move |dice| {
+        let system = [System::Wax, System::Tungsten][index % 2];
+        let mut campaign = Campaign::new(system, any_law(system, dice), dice);
+        campaign.extras = FOREIGN.to_vec();
+        campaign.spread =
+            [Spread::Even, Spread::Random, Spread::WithSpeed, Spread::WithForeign][index / 2 % 4];
+        campaign.outliers = if index % 5 == 4 { 0.0 } else { 0.02 };
+        Plan { campaign, plants: vec![] }
+    })
+}
+
+/// Sixteen traps.
+fn traps(repeat: usize) -> Vec<Recipe> {
+    let mut all: Vec<Recipe> = DECOYS.iter().map(|(effect, input)| decoy(effect, input, repeat)).collect();
+    all.extend(PAIRS.iter().map(|(one, other)| pair(one, other, repeat)));
+    all.extend((2 * repeat..2 * repeat + 2).flat_map(|index| [unknown_number(index), unknown_group(index)]));
+    all.extend((2 * repeat..2 * repeat + 2).flat_map(|index| [broken(index), few(index)]));
+    all
+}
+
+/// Effect and the input that the decoy follows.
+const DECOYS: [(&str, &str); 4] = [
+    ("thermal-softening", "T_p"),
+    ("powder-layer", "layer_thickness"),
+    ("conversion-transition", "conversion"),
+    ("size-dependent-yield", "d"),
+];
+
+/// Two effects on different inputs.
+const PAIRS: [(&str, &str); 4] = [
+    ("powder-layer", "thermal-softening"),
+    ("agglomerates", "sliding-to-rolling"),
+    ("size-dependent-yield", "oblique-angle"),
+    ("liquid-film", "gas-lift"),
+];
+
+fn decoy(effect: &'static str, input: &'static str, repeat: usize) -> Recipe {
+    Recipe::new(format!("decoy-{effect}:{repeat}"), Kind::Decoy, move |dice| {
+        let mut plan = plan(effect, 1, dice);
+        plan.campaign.needs("humidity");
+        plan.campaign.follow(input, dice);
+        plan
+    })
+}
+
+/// Both effects at full strength, in a campaign that has the ranges of both.
+fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
+    Recipe::new(format!("pair-{one}-{other}:{repeat}"), Kind::Pair, move |dice| {
+        let system = if other == "oblique-angle" { System::Tungsten } else { System::Wax };
+        let law = law_for(other, system, dice);
+        let mut campaign = Campaign::new(system, law, dice);
+        campaign.rows = 600 + dice.below(401);
+        campaign.noise_e_n = campaign.noise_e_n.min(0.05);
+        let plants = [one, other].into_iter().map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
+        Plan { campaign, plants }
+    })
+}
+
+fn unknown_number(index: usize) -> Recipe {
+    Recipe::new(format!("unknown-humidity:{index}"), Kind::Unknown, move |dice| {
+        let system = any_system(dice);
+        let mut campaign = Campaign::new(system, any_law(system, dice), dice);
+        campaign.needs("humidity");
+        Plan { plants: vec![plant::unknown_number(dice.uniform((0.3, 0.6)))], campaign }
+    })
+}
+
+fn unknown_group(index: usize) -> Recipe {
+    Recipe::new(format!("unknown-batch:{index}"), Kind::Unknown, move |dice| {
+        let system = any_system(dice);
+        let mut campaign = Campaign::new(system, any_law(system, dice), dice);
+        campaign.needs("batch");
+        let size = dice.uniform((0.2, 0.4));
+        Plan { plants: vec![plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size])], campaign }
+    })
+}
+
+/// One effect, blanks, and rows that have to be rejected by line.
+fn broken(index: usize) -> Recipe {
+    Recipe::new(format!("broken:{index}"), Kind::Broken, move |dice| {
+        let effect = ["powder-layer", "yield-ratio", "oblique-angle", "melting-transition"][dice.below(4)];
+        let mut plan = plan(effect, 2, dice);
+        plan.campaign.blanks = 0.12;
+        plan.campaign.broken = 6 + dice.below(7);
+        plan
+    })
+}
+
+/// Too few rows.
+fn few(index: usize) -> Recipe {
+    Recipe::new(format!("few:{index}"), Kind::Few, move |dice| {
+        let mut plan = plan(EFFECTS[dice.below(EFFECTS.len())], 0, dice);
+        plan.campaign.rows = 15 + dice.below(6);
+        plan
+    })
+}
+
+/// One effect at level 0, 1 or 2, in a campaign in which it shows.
+fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> Plan {
+    let strength = (level as f64 / 2.0 + dice.uniform((-0.2, 0.2))).clamp(0.0, 1.0);
+    let system = system_for(effect, dice);
+    let law = law_for(effect, system, dice);
+    let mut campaign = Campaign::new(system, law, dice);
+    let plants = vec![sow(effect, strength, &mut campaign, dice)];
+    Plan { campaign, plants }
+}
+
+fn any_system(dice: &mut Dice) -> System {
+    [System::Wax, System::Tungsten][dice.below(2)]
+}
+
+/// The system in which the effect has its place.
+fn system_for(effect: &str, dice: &mut Dice) -> System {
+    match effect {
+        "gas-lift" | "powder-layer" | "liquid-film" | "melting-transition" | "viscoelastic-loss" => {
+            System::Wax
+        }
+        "conversion-transition" => System::Char,
+        _ => any_system(dice),
+    }
+}
+
+fn any_law(system: System, dice: &mut Dice) -> Tangential {
+    let e_t = rounded(dice.uniform(if system == System::Tungsten { (0.75, 0.95) } else { (0.65, 0.85) }));
+    let friction = rounded(dice.uniform((0.1, 0.35)));
+    [Tangential::Constant(e_t), Tangential::SlidingRolling { friction }][dice.below(2)]
+}
+
+/// To three places, so that the model file holds it exactly.
+fn rounded(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
+
+/// The base law on which the effect can be planted.
+fn law_for(effect: &str, system: System, dice: &mut Dice) -> Tangential {
+    let friction = rounded(dice.uniform((0.12, 0.35)));
+    match effect {
+        "sliding-to-rolling" if dice.chance(0.5) => Tangential::Sliding { friction },
+        "sliding-to-rolling" => Tangential::Constant(rounded(dice.uniform((0.65, 0.85)))),
+        "tangential-compliance" if dice.chance(0.7) => Tangential::SlidingRolling { friction },
+        "tangential-compliance" => Tangential::Constant(rounded(dice.uniform((0.65, 0.8)))),
+        _ => any_law(system, dice),
+    }
+}
+
+/// Friction of the law, or one of this campaign's own.
+fn friction_of(law: Tangential, dice: &mut Dice) -> f64 {
+    match law {
+        Tangential::Sliding { friction } | Tangential::SlidingRolling { friction } => friction,
+        Tangential::Constant(_) => dice.uniform((0.12, 0.35)),
+    }
+}
+
+/// Sets the campaign's ranges so that the effect shows, and plants it.
+fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+    in_the_solids(effect, strength, campaign, dice)
+        .or_else(|| in_the_scatter(effect, strength, campaign, dice))
+        .or_else(|| on_the_surface(effect, strength, campaign, dice))
+        .or_else(|| in_the_particle(effect, strength, campaign, dice))
+        .or_else(|| along_the_wall(effect, strength, campaign, dice))
+        .unwrap_or_else(|| panic!("{effect} is no effect"))
+}
+
+/// Other numbers of the solids.
+fn in_the_solids(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let tungsten = campaign.system == System::Tungsten;
+    let contact = campaign.system.contact();
+    let plant = match effect {
+        "yield-ratio" => {
+            let factor = 1.15 + 0.85 * strength;
+            plant::yield_ratio(contact.yield_ratio * if dice.chance(0.7) { factor } else { 1.0 / factor })
+        }
+        "adhesion-energy" => {
+            let factor = if dice.chance(0.7) { 0.85 - 0.7 * strength } else { 1.2 + 1.5 * strength };
+            slow_down(campaign, factor.max(1.0));
+            plant::adhesion_energy(contact.adhesion * factor)
+        }
+        "thermal-softening" => softening(strength, campaign, dice),
+        "size-dependent-yield" => {
+            campaign.d = if tungsten { (4e-6, 24e-6) } else { (35e-6, 180e-6) };
+            let middle = (campaign.d.0 * campaign.d.1).sqrt();
+            plant::size_dependent_yield(strength, dice.log_uniform((middle, campaign.d.1)))
+        }
+        "strain-rate-hardening" => plant::strain_rate_hardening(
+            strength,
+            dice.uniform(if tungsten { (4.0, 8.0) } else { (1.5, 3.5) }),
+        ),
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What makes equal impacts come out differently.
+fn in_the_scatter(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let plant = match effect {
+        "nano-roughness" => {
+            slow_down(campaign, 1.0);
+            plant::nano_roughness(strength, dice.uniform((0.5, 1.2)))
+        }
+        "micro-roughness" => {
+            campaign.theta = (15.0, 80.0);
+            plant::micro_roughness(0.03 + 0.09 * strength)
+        }
+        "agglomerates" => {
+            let low = dice.uniform((0.6, 0.66));
+            plant::agglomerates(0.05 + 0.25 * strength, low, dice.uniform((0.85, 0.97)))
+        }
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What lies on the wall or flows along it.
+fn on_the_surface(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let plant = match effect {
+        "gas-lift" => {
+            campaign.needs("v_gas");
+            campaign.theta = (5.0, 80.0);
+            campaign.v_gas = (0.0, 30.0);
+            plant::gas_lift(strength, dice.uniform((10.0, 20.0)), dice.uniform((0.2, 0.4)))
+        }
+        "powder-layer" => {
+            campaign.needs("layer_thickness");
+            campaign.layer = (2e-5, 1.5e-3);
+            plant::powder_layer(strength, dice.uniform((0.08e-3, 0.25e-3)), dice.uniform((0.8, 1.6)))
+        }
+        "liquid-film" => {
+            campaign.needs("film_thickness");
+            campaign.film = (2e-6, 2e-4);
+            let viscosity = 0.3e-3 * 8_f64.powf(strength);
+            plant::liquid_film(viscosity, campaign.system.contact().density, dice.uniform((1e-6, 3e-6)))
+        }
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What the particle's state and speed do.
+fn in_the_particle(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let plant = match effect {
+        "melting-transition" => melting(strength, campaign, dice),
+        "conversion-transition" => {
+            campaign.needs("conversion");
+            let (threshold, width) = (dice.uniform((0.84, 0.91)), dice.uniform((0.02, 0.08)));
+            campaign.conversion = (0.4, (threshold + 0.02 + 0.14 * strength).min(1.0));
+            plant::conversion_transition(threshold, width)
+        }
+        "viscoelastic-loss" => plant::viscoelastic_loss(strength, dice.uniform((3.0, 6.0))),
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// What the angle does, and the tangential law.
+fn along_the_wall(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+    let tungsten = campaign.system == System::Tungsten;
+    let plant = match effect {
+        "oblique-angle" | "oblique-angle-rise" => {
+            campaign.theta = (3.0, dice.uniform((70.0, 80.0)));
+            let sign = if effect == "oblique-angle" { -1.0 } else { 1.0 };
+            plant::oblique_angle(strength, sign, if tungsten { 3.0 } else { 1.0 })
+        }
+        "sliding-to-rolling" => {
+            let friction = friction_of(campaign.law, dice);
+            let stiffness_ratio = campaign.system.contact().stiffness_ratio();
+            let end = critical_slope(friction, 0.35, stiffness_ratio).atan().to_degrees();
+            campaign.theta = (end * (0.75 - 0.65 * strength), 75.0);
+            plant::sliding_to_rolling(friction, dice.uniform((0.02, 0.08)))
+        }
+        "tangential-compliance" => compliance(strength, campaign, dice),
+        _ => return None,
+    };
+    Some(plant)
+}
+
+/// Impacts from about the sticking speed to some four times that.
+fn slow_down(campaign: &mut Campaign, factor: f64) {
+    let mut contact = campaign.system.contact();
+    contact.adhesion *= factor;
+    let speed = contact.sticking_speed((campaign.d.0 * campaign.d.1).sqrt());
+    campaign.v_n = (0.6 * speed, 4.5 * speed);
+}
+
+/// On a constant law, only impacts that do not slide, so that nothing else is missing.
+fn compliance(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+    let constant = matches!(campaign.law, Tangential::Constant(_));
+    let friction = if constant { dice.uniform((0.3, 0.45)) } else { friction_of(campaign.law, dice) };
+    let critical = critical_slope(friction, 0.3, campaign.system.contact().stiffness_ratio());
+    let top = critical.atan().to_degrees();
+    campaign.theta = if constant { (2.0, 0.9 * top) } else { (2.0, (1.8 * top).min(75.0)) };
+    plant::tangential_compliance(strength, friction, dice.uniform((0.88, 0.97)))
+}
+
+fn melting(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+    let half = dice.uniform((348.0, 362.0));
+    campaign.t_p = (290.0, (half + 4.0 + 40.0 * strength).min(400.0));
+    plant::melting_transition(half, half - 32.0, dice.uniform((3.0, 6.0)), dice.uniform((0.4, 0.9)))
+}
+
+fn softening(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+    if campaign.system == System::Tungsten {
+        campaign.t_p = (300.0, 2800.0);
+        return plant::thermal_softening(strength, dice.uniform((350.0, 900.0)), 2900.0);
+    }
+    campaign.t_p = (288.0, 342.0);
+    plant::thermal_softening(strength, dice.uniform((292.0, 305.0)), 344.0)
+}
