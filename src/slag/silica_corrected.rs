@@ -17,8 +17,8 @@
 //! ([`TEMPERATURES`]). Outside it the law goes on, and [`super::SlagViscosity::holds_at`] says no: impacts are then
 //! counted as outside the stated range. On references held out whole, all weighing the same, the root mean square error
 //! in log10 is 0.161 against 0.197 without the correction; it is larger than without on three of the twelve.
-//! The ratio is 0.815 [0.696, 0.964]; it hangs on the slags above 55 wt% SiO2, and with one reference of those left out
-//! of the table (MY1954) nothing of it is certain: 0.951 [0.786, 1.182].
+//! The ratio is 0.815 [0.696, 0.964]; it hangs on few slags above 60 wt% SiO2: with one reference (MY1954) left out of
+//! the table the same search gains nothing that is certain, 0.951 [0.786, 1.182].
 
 use super::composition::{Composition, Oxide};
 
@@ -102,7 +102,7 @@ mod tests {
             holds_for(&slag(50.0, 30.0)) && !holds_for(&slag(71.0, 9.0)) && !holds_for(&slag(29.0, 51.0))
         );
         let with = |oxide: &'static str, share: f64| {
-            let oxides = [("SiO2", 75.0 - share), ("Al2O3", 25.0), (oxide, share)];
+            let oxides = [("SiO2", 65.0 - share), ("Al2O3", 25.0), ("CaO", 10.0), (oxide, share)];
             holds_for(&Composition::new(oxides).unwrap())
         };
         assert!(with("FeO", 22.0) && !with("FeO", 23.0) && !with("Fe2O3", 23.0));
