@@ -10,61 +10,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may stop at a broken table")]
 
+mod common;
+
+use common::measured_slags::{Measured, OXIDES, measured};
 use nearwall::slag::{Composition, SlagViscosity, ViscosityLaw};
-
-const TABLE: &str = include_str!("data/slag_viscosity_measured.csv");
-
-const OXIDES: [&str; 11] =
-    ["SiO2", "TiO2", "Al2O3", "FeO", "Fe2O3", "MnO", "Na2O", "K2O", "MgO", "CaO", "P2O5"];
-
-struct Measured {
-    source: &'static str,
-    shares: [f64; 11],
-    temperature: f64,
-    log10_viscosity: f64,
-    in_ash_window: bool,
-}
-
-impl Measured {
-    fn share(&self, oxide: &str) -> f64 {
-        OXIDES.iter().position(|name| *name == oxide).map(|i| self.shares[i]).unwrap()
-    }
-
-    fn iron(&self) -> f64 {
-        self.share("FeO") + self.share("Fe2O3")
-    }
-
-    fn composition(&self) -> Composition {
-        Composition::new(OXIDES.into_iter().zip(self.shares)).unwrap()
-    }
-}
-
-/// The numbers stand at the end of a line; source and sample before them may carry commas of their own.
-fn measured() -> Vec<Measured> {
-    let mut lines = TABLE.lines().filter(|line| !line.starts_with('#'));
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let expected: Vec<String> = OXIDES.iter().map(|o| format!("{}_wt", o.to_lowercase())).collect();
-    assert_eq!(header[2..13], expected);
-    assert_eq!(header[13..], ["T_K", "log10_eta_Pa_s", "ash_window"]);
-    lines
-        .map(|line| {
-            let mut fields: Vec<&str> = line.rsplitn(15, ',').collect();
-            fields.reverse();
-            let numbers: Vec<f64> = fields[1..].iter().map(|field| field.parse().unwrap()).collect();
-            let source = match fields[0].strip_prefix('"') {
-                Some(quoted) => quoted.split('"').next().unwrap(),
-                None => fields[0].split(',').next().unwrap(),
-            };
-            Measured {
-                source,
-                shares: numbers[..11].try_into().unwrap(),
-                temperature: numbers[11],
-                log10_viscosity: numbers[12],
-                in_ash_window: numbers[13] == 1.0,
-            }
-        })
-        .collect()
-}
 
 /// Root mean square and mean of predicted minus measured log10 viscosity.
 fn error<'a>(

@@ -49,7 +49,8 @@ impl ViscosityCriterion {
 
     /// The criterion in words.
     pub fn describe(self) -> String {
-        format!("viscosity ({}), reference_viscosity {} Pa s", self.law.name(), self.reference)
+        let range = self.law.stated_for().map_or_else(String::new, |range| format!(", stated for {range}"));
+        format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name(), self.reference)
     }
 
     /// How sticky a melt is as a function of temperature; `None` for a material with neither a viscosity of its own
@@ -86,6 +87,15 @@ impl MeltStickiness {
         match &self.melt {
             Melt::Oxides(_) => [0.0, f64::INFINITY],
             Melt::Given(material) => material.viscosity_range(),
+        }
+    }
+
+    /// Whether the viscosity law is stated for this melt at a temperature [K]. A material's own viscosity is not
+    /// judged: beyond [`Self::known_range`] it is an error.
+    pub fn holds_at(&self, temperature: f64) -> bool {
+        match &self.melt {
+            Melt::Oxides(law) => law.holds_at(temperature),
+            Melt::Given(_) => true,
         }
     }
 

@@ -2,7 +2,10 @@
 //!
 //! A candidate's gain is the sum over rows of the difference in log score to the hypothesis that stands, each row scored
 //! by a fit that did not see it. Its p-value is that of a paired t-test of these differences (one-sided); q-values are
-//! Benjamini and Hochberg's over all candidates of the round, so the level is the share of false discoveries.
+//! Benjamini and Hochberg's over all candidates of the round, so the level is the share of false discoveries. A curve over
+//! a column has a level too, which any column could carry: its test is against the level alone.
+
+use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -83,6 +86,9 @@ impl Contender {
     }
 }
 
+/// Gains of mere levels, row by row, by observable and whether they multiply.
+type Levels = BTreeMap<(Observable, bool), Vec<f64>>;
+
 /// The round as the hypothesis stands.
 pub(super) struct Round<'a> {
     study: &'a Study,
@@ -127,10 +133,11 @@ impl<'a> Round<'a> {
     /// All candidates with their gains, those without hope left out; `done` is called after each.
     pub fn contenders(&self, done: &(dyn Fn() + Sync)) -> Vec<Contender> {
         let candidates = self.candidates();
+        let levels = self.levels();
         let mut contenders: Vec<Contender> = candidates
             .par_iter()
             .filter_map(|&candidate| {
-                let contender = self.contend(candidate);
+                let contender = self.contend(candidate, &levels);
                 done();
                 contender
             })
@@ -178,32 +185,57 @@ impl<'a> Round<'a> {
         count.count() >= 10
     }
 
-    fn contend(&self, candidate: Candidate) -> Option<Contender> {
+    fn contend(&self, candidate: Candidate, levels: &Levels) -> Option<Contender> {
         let added = match candidate {
             Candidate::Part(part) => Added::Part(self.fit_part(part)?),
-            Candidate::Unknown { factor, observable, factorwise } => Added::Unknown(self.fit_unknown(
-                factor,
-                observable,
-                factorwise,
-                &self.study.search,
-                self.scatter,
-            )?),
+            Candidate::Unknown { factor, observable, factorwise } => {
+                let basis = Basis::of(&self.study.factors[factor].values, &self.study.search)?;
+                let blank =
+                    Unknown { factor, observable, factorwise, curve: Curve { basis, heights: Vec::new() } };
+                Added::Unknown(self.fit_unknown(&blank, &self.study.search, self.scatter)?)
+            }
             Candidate::Noise { factor } => self.fit_noise(factor, &self.study.search, 0.0),
         };
         if self.gain_in_sample(&added) < HOPELESS {
             return None;
         }
+        let differences = self.unseen(&added);
+        let tested: Vec<f64> = match &added {
+            Added::Unknown(unknown) => {
+                let level = levels.get(&(unknown.observable, unknown.factorwise))?;
+                differences.iter().zip(level).map(|(whole, level)| whole - level).collect()
+            }
+            _ => differences.clone(),
+        };
+        let freedom = (tested.len() as f64 - 1.0).max(1.0);
+        let t = t_statistic(&tested);
+        let p_value = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(t)).max(1e-300);
+        Some(Contender { added, differences, p_value, q_value: 1.0 })
+    }
+
+    /// What a mere level gains in each observable, added or multiplied.
+    fn levels(&self) -> Levels {
+        let mut levels = Levels::new();
+        for (observable, factorwise) in Observable::ALL.into_iter().flat_map(|o| [(o, false), (o, true)]) {
+            let curve = Curve { basis: Basis::Level, heights: Vec::new() };
+            let blank = Unknown { factor: 0, observable, factorwise, curve };
+            let fitted = self.fit_unknown(&blank, &self.study.search, self.scatter);
+            let gained = fitted.map(|unknown| self.unseen(&Added::Unknown(unknown)));
+            levels.insert((observable, factorwise), gained.unwrap_or(vec![0.0; self.study.search.len()]));
+        }
+        levels
+    }
+
+    /// Gain of each row by fits that did not see it.
+    fn unseen(&self, added: &Added) -> Vec<f64> {
         let mut differences = vec![0.0; self.study.search.len()];
         for (fold, (outside, scatter, before)) in self.study.folds.iter().zip(&self.folds) {
-            let after = self.score_fold(&added, outside, *scatter, fold);
+            let after = self.score_fold(added, outside, *scatter, fold);
             for ((row, after), before) in fold.iter().zip(after).zip(before) {
                 differences[self.places[*row]] = after - before;
             }
         }
-        let freedom = (differences.len() as f64 - 1.0).max(1.0);
-        let t = t_statistic(&differences);
-        let p_value = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(t)).max(1e-300);
-        Some(Contender { added, differences, p_value, q_value: 1.0 })
+        differences
     }
 
     fn scores(&self, rows: &[usize], shifts: &[Shift], scatter: Scatter) -> Vec<f64> {
@@ -230,7 +262,7 @@ impl<'a> Round<'a> {
 
     /// Scores of a fold's rows by a fit to the rows outside it.
     fn score_fold(&self, added: &Added, outside: &[usize], scatter: Scatter, fold: &[usize]) -> Vec<f64> {
-        let nothing = || vec![f64::NEG_INFINITY; 0];
+        let nothing = Vec::new;
         match added {
             Added::Part(fitted) => {
                 let rounds = 15 * fitted.at.len() as u64 + 5;
@@ -240,15 +272,13 @@ impl<'a> Round<'a> {
                 let fit = hypothesis.fit(self.study, outside, &self.shifts, scatter);
                 hypothesis.row_scores(self.study, fold, &self.shifts, fit.scatter)
             }
-            Added::Unknown(Unknown { factor, observable, factorwise, .. }) => {
-                match self.fit_unknown(*factor, *observable, *factorwise, outside, scatter) {
-                    Some(unknown) => {
-                        let shifts = self.with_unknown(&unknown);
-                        self.scores(fold, &shifts, self.fit_scatter(outside, &shifts))
-                    }
-                    None => nothing(),
+            Added::Unknown(unknown) => match self.fit_unknown(unknown, outside, scatter) {
+                Some(unknown) => {
+                    let shifts = self.with_unknown(&unknown);
+                    self.scores(fold, &shifts, self.fit_scatter(outside, &shifts))
                 }
-            }
+                None => nothing(),
+            },
             Added::Noise(factor, change) => match self.fit_noise(*factor, outside, *change) {
                 Added::Noise(factor, change) => {
                     let shifts = self.with_noise(factor, change);
@@ -292,19 +322,12 @@ impl<'a> Round<'a> {
         Some(Fitted { at, ..blank })
     }
 
-    fn fit_unknown(
-        &self,
-        factor: usize,
-        observable: Observable,
-        factorwise: bool,
-        rows: &[usize],
-        scatter: Scatter,
-    ) -> Option<Unknown> {
-        let values = &self.study.factors[factor].values;
-        let basis = Basis::of(values, &self.study.search)?;
+    /// The curve that the residuals of these rows ask for, over the factor and basis of `blank`.
+    fn fit_unknown(&self, blank: &Unknown, rows: &[usize], scatter: Scatter) -> Option<Unknown> {
+        let Unknown { factor, observable, factorwise, ref curve } = *blank;
         let forecast = self.forecast.of_places(rows.iter().map(|&row| self.places[row]));
         let points = residuals(self.study, rows, &forecast, &self.shifts, scatter, observable, factorwise);
-        let curve = Curve::fit(values, &basis, &points)?;
+        let curve = Curve::fit(&self.study.factors[factor].values, &curve.basis, &points)?;
         Some(Unknown { factor, observable, factorwise, curve })
     }
 

@@ -23,6 +23,10 @@ pub(super) enum Basis {
     Hats(Vec<f64>),
     /// One function a word.
     Words(usize),
+    /// One function for all rows: a level.
+    Level,
+    /// One function for all rows: a level.
+    Level,
 }
 
 impl Basis {
@@ -57,6 +61,8 @@ impl Basis {
         match self {
             Self::Hats(knots) => knots.len(),
             Self::Words(count) => *count,
+            Self::Level => 1,
+            Self::Level => 1,
         }
     }
 
@@ -67,6 +73,8 @@ impl Basis {
             (Self::Words(_), Values::Words { of_row, .. }) => {
                 of_row[row].map_or(Vec::new(), |level| vec![(level, 1.0)])
             }
+            (Self::Level, _) => vec![(0, 1.0)],
+            (Self::Level, _) => vec![(0, 1.0)],
             _ => Vec::new(),
         }
     }
@@ -137,12 +145,7 @@ impl Curve {
             .map(|point| scaled(basis.entry(values, point.row), point.factor))
             .collect::<Vec<_>>();
         let heights = ridge(basis.len(), &basis.penalty(), &entries, points)?;
-        // A column answers for how the residual varies with it, not for its level, which any column could carry.
-        let mut curve = Self { basis: basis.clone(), heights };
-        let weights: f64 = points.iter().map(|point| point.weight).sum();
-        let level = points.iter().map(|p| p.weight * curve.at(values, p.row)).sum::<f64>() / weights;
-        curve.heights.iter_mut().for_each(|height| *height -= level);
-        Some(curve)
+        Some(Self { basis: basis.clone(), heights })
     }
 
     /// Its height at a row, before any factor.

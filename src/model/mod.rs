@@ -307,9 +307,14 @@ impl Model {
         })
     }
 
-    /// Whether a property or a fitted term is used outside the range it is stated for.
+    /// Whether a property, a viscosity law or a fitted term is used outside the range it is stated for.
     fn outside_range(&self, wall: &Wall, impact: &Impact) -> bool {
-        !(self.particle.holds_at(impact.particle_temperature)
+        let holds = |melt: &Option<MeltStickiness>, temperature| {
+            melt.as_ref().is_none_or(|melt| melt.holds_at(temperature))
+        };
+        !(holds(&self.particle_melt, impact.particle_temperature)
+            && holds(&wall.melt, impact.wall_temperature)
+            && self.particle.holds_at(impact.particle_temperature)
             && wall.material().holds_at(impact.wall_temperature)
             && self.terms.iter().all(|term| term.holds_for(impact)))
     }

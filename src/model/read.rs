@@ -238,6 +238,32 @@ e_t = 0.76
     }
 
     #[test]
+    fn a_fitted_viscosity_law_says_where_it_was_not_measured() {
+        let outside = |law: &str, silica: f64, temperature: f64| {
+            let text = SMALLEST.replace("\"montan-wax\"", "\"own\"")
+                + &format!(
+                    "[capture]\nmodel = \"viscosity\"\nlaw = \"{law}\"\nreference_viscosity = 25\n\
+                     [materials.own]\ndensity = 2500\nyoungs_modulus = 7e10\npoisson_ratio = 0.2\n\
+                     yield_strength = 1e9\nsurface_energy = 0.4\n\
+                     composition = {{ SiO2 = {silica}, Al2O3 = 20, CaO = 30 }}\n"
+                );
+            let model = Model::from_toml("m.toml", &text).unwrap();
+            assert!(model.describe().iter().any(|(_, text)| text.contains(law)));
+            let impact = Impact {
+                normal_speed: 2.0,
+                diameter: 80e-6,
+                particle_temperature: temperature,
+                ..Impact::default()
+            };
+            model.resolve(0, &impact, Draw::default()).unwrap().outside_range
+        };
+        assert!(!outside("kalmanovitch-frank-silica", 50.0, 1700.0));
+        assert!(outside("kalmanovitch-frank-silica", 50.0, 1400.0));
+        assert!(outside("kalmanovitch-frank-silica", 10.0, 1700.0));
+        assert!(!outside("kalmanovitch-frank", 10.0, 1400.0));
+    }
+
+    #[test]
     fn every_term_is_named_in_the_walk() {
         let text = format!(
             "{SMALLEST}[[effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n"

@@ -4,6 +4,7 @@
 //! many temperatures. How well each law meets measurements is shown in `tests/slag_viscosity.rs`.
 
 mod composition;
+pub mod silica_corrected;
 pub mod urbain;
 pub mod watt_fereday;
 
@@ -26,11 +27,14 @@ pub enum ViscosityLaw {
     KalmanovitchFrank,
     /// Watt and Fereday 1969, see [`watt_fereday`].
     WattFereday,
+    /// Kalmanovitch and Frank's law with a correction for silica, fitted here, see [`silica_corrected`].
+    SilicaCorrected,
 }
 
 impl ViscosityLaw {
     /// Every law.
-    pub const ALL: [Self; 3] = [Self::Urbain, Self::KalmanovitchFrank, Self::WattFereday];
+    pub const ALL: [Self; 4] =
+        [Self::Urbain, Self::KalmanovitchFrank, Self::WattFereday, Self::SilicaCorrected];
 
     /// The name in model files.
     pub fn name(self) -> &'static str {
@@ -38,12 +42,23 @@ impl ViscosityLaw {
             Self::Urbain => "urbain",
             Self::KalmanovitchFrank => "kalmanovitch-frank",
             Self::WattFereday => "watt-fereday",
+            Self::SilicaCorrected => "kalmanovitch-frank-silica",
         }
     }
 
     /// The law of this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|law| law.name() == name)
+    }
+
+    /// The slags that it is stated for, in words; `None` for the published laws, whose ranges are not checked.
+    pub fn stated_for(self) -> Option<&'static str> {
+        match self {
+            Self::Urbain | Self::KalmanovitchFrank | Self::WattFereday => None,
+            Self::SilicaCorrected => {
+                Some("SiO2 30 to 70, Al2O3 9 to 40, iron oxides up to 22 wt%, 1523 to 2456 K")
+            }
+        }
     }
 
     /// Viscosity of the slag [Pa s] at a temperature [K].
@@ -78,6 +93,8 @@ pub struct UnsuitableComposition {
 pub struct SlagViscosity {
     law: ViscosityLaw,
     form: Form,
+    /// Temperatures [K] that the law is stated for with this composition; `None` for none.
+    range: Option<[f64; 2]>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,9 +121,19 @@ impl SlagViscosity {
             ViscosityLaw::WattFereday => watt_fereday::Line::new(composition)
                 .map(Form::WattFereday)
                 .ok_or("it has too little SiO2 and Al2O3"),
+            ViscosityLaw::SilicaCorrected => urbain::Weymann::new(urbain::KALMANOVITCH_FRANK, composition)
+                .zip(silica_corrected::factor(composition))
+                .map(|(law, factor)| Form::Weymann(law.thickened(factor)))
+                .ok_or("it has no oxide that stays in the melt"),
+        };
+        let range = match law {
+            ViscosityLaw::SilicaCorrected => {
+                silica_corrected::holds_for(composition).then_some(silica_corrected::TEMPERATURES)
+            }
+            _ => Some([0.0, f64::INFINITY]),
         };
         match form {
-            Ok(form) => Ok(Self { law, form }),
+            Ok(form) => Ok(Self { law, form, range }),
             Err(reason) => Err(UnsuitableComposition { law, reason }),
         }
     }
@@ -114,6 +141,11 @@ impl SlagViscosity {
     /// The law it follows.
     pub fn law(&self) -> ViscosityLaw {
         self.law
+    }
+
+    /// Whether the law is stated for this composition at a temperature [K]; see [`ViscosityLaw::stated_for`].
+    pub fn holds_at(&self, temperature: f64) -> bool {
+        self.range.is_some_and(|[low, high]| (low..=high).contains(&temperature))
     }
 
     /// Viscosity [Pa s] at a temperature [K].
@@ -151,6 +183,7 @@ mod tests {
             ViscosityLaw::Urbain => urbain::viscosity(urbain::URBAIN, &slag(), t),
             ViscosityLaw::KalmanovitchFrank => urbain::viscosity(urbain::KALMANOVITCH_FRANK, &slag(), t),
             ViscosityLaw::WattFereday => watt_fereday::viscosity(&slag(), t),
+            ViscosityLaw::SilicaCorrected => law.viscosity(&slag(), t),
         };
         for law in ViscosityLaw::ALL {
             let prepared = SlagViscosity::new(law, &slag()).unwrap();
@@ -160,6 +193,18 @@ mod tests {
                 assert_eq!(law.viscosity(&slag(), t).to_bits(), direct(law, t).to_bits());
             }
         }
+    }
+
+    /// 15.124931412384822 Pa s after Kalmanovitch and Frank (see [`urbain`]), times 10^0.068970746.
+    #[test]
+    fn the_corrected_law_is_a_factor_on_kalmanovitch_and_frank() {
+        let found = SlagViscosity::new(ViscosityLaw::SilicaCorrected, &slag()).unwrap();
+        assert_relative_eq!(found.at(1700.0), 17.728180298, max_relative = 1e-8);
+        assert!(found.holds_at(1700.0) && !found.holds_at(1500.0) && !found.holds_at(2500.0));
+        let lime = Composition::new([("SiO2", 20.0), ("CaO", 80.0)]).unwrap();
+        let outside = SlagViscosity::new(ViscosityLaw::SilicaCorrected, &lime).unwrap();
+        assert!(!outside.holds_at(1700.0) && outside.at(1700.0) > 0.0);
+        assert!(SlagViscosity::new(ViscosityLaw::Urbain, &lime).unwrap().holds_at(300.0));
     }
 
     #[test]

@@ -119,6 +119,11 @@ impl Weymann {
         Some(Self { factor, activation: 1000.0 * b })
     }
 
+    /// The same with a viscosity that is larger by a factor [1] at every temperature.
+    pub(super) fn thickened(self, factor: f64) -> Self {
+        Self { factor: self.factor * factor, ..self }
+    }
+
     /// Viscosity [Pa s] at a temperature [K] of 1 or more.
     pub(super) fn at(self, temperature: f64) -> f64 {
         let exponent = (self.activation / temperature).min(super::LARGEST_EXPONENT);

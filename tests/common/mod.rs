@@ -1,4 +1,4 @@
-//! What several tests share: the golden table, random impacts, the C library loaded as a stranger loads it.
+//! What several tests share: the golden table, the measured slags, random impacts, the C library loaded as a stranger loads it.
 #![allow(dead_code, reason = "each test uses its part")]
 #![allow(unsafe_code, reason = "calling a C library")]
 #![allow(
@@ -11,6 +11,7 @@
 pub mod browser;
 pub mod compile;
 pub mod golden;
+pub mod measured_slags;
 pub mod random;
 
 use std::ffi::{CString, c_char};
