@@ -133,19 +133,18 @@ fn searches_lie_in_bounds_and_inputs_are_known() {
 
 #[test]
 fn streams_are_distinct_and_each_effect_draws_from_its_own() {
-    let all: Vec<u64> = KINDS.iter().flat_map(|kind| kind.streams).copied().collect();
+    let all: Vec<u64> = KINDS.iter().filter_map(|kind| kind.stream).collect();
     assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
     assert!(!all.contains(&0), "capture's");
     let impact = Impact { normal_speed: 2.0, tangential_speed: 1.0, ..Impact::default() };
     for kind in KINDS {
-        assert!(kind.streams.len() <= 2);
         let drawn = RefCell::new(BTreeSet::new());
         let uniform = |stream| {
             drawn.borrow_mut().insert(stream);
             0.5
         };
         model(&table(kind, &typicals(kind))).resolve_with(0, &impact, uniform).unwrap();
-        let own: BTreeSet<u64> = kind.streams.iter().copied().chain([0]).collect();
+        let own: BTreeSet<u64> = kind.stream.into_iter().chain([0]).collect();
         assert_eq!(drawn.into_inner(), own, "{}", kind.id);
     }
 }
@@ -226,7 +225,7 @@ fn chance_counts_for_effects_with_streams_and_for_no_others() {
             [outcome.normal_restitution, outcome.tangential_restitution, outcome.sticking_probability]
         };
         let changed = cases.iter().any(|case| numbers(&case.1, 0.1) != numbers(&case.1, 0.9));
-        assert_eq!(changed, !kind.streams.is_empty(), "{}", kind.id);
+        assert_eq!(changed, kind.stream.is_some(), "{}", kind.id);
     }
 }
 

@@ -22,8 +22,12 @@ use crate::effect::KINDS;
 /// Gain on the rows of the fit [nats] below which a candidate is not worth a cross-validation.
 const HOPELESS: f64 = 2.0;
 
-/// Loss on a few rows [nats] at the best place of the grid from which no descent comes back.
-const FAR_OFF: f64 = 20.0;
+/// Rows that the first search looks at.
+const SOME_ROWS: usize = 250;
+/// Places of the grid that a first descent starts from.
+const STARTS: usize = 2;
+/// Gain on these rows [nats] that a candidate has to show after the first descents.
+const PROMISING: f64 = 0.3;
 
 /// What may be added to a hypothesis.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +64,8 @@ pub(super) struct Contender {
     pub added: Added,
     /// Difference in log score of each row of [`Study::search`].
     pub differences: Vec<f64>,
+    /// Gain that is its own rather than that of a mere level [nats].
+    pub own_gain: f64,
     pub p_value: f64,
     pub q_value: f64,
 }
@@ -207,10 +213,11 @@ impl<'a> Round<'a> {
             }
             _ => differences.clone(),
         };
+        let own_gain = tested.iter().sum();
         let freedom = (tested.len() as f64 - 1.0).max(1.0);
         let t = t_statistic(&tested);
         let p_value = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(t)).max(1e-300);
-        Some(Contender { added, differences, p_value, q_value: 1.0 })
+        Some(Contender { added, differences, own_gain, p_value, q_value: 1.0 })
     }
 
     /// What a mere level gains in each observable, added or multiplied.
@@ -265,7 +272,7 @@ impl<'a> Round<'a> {
         let nothing = Vec::new;
         match added {
             Added::Part(fitted) => {
-                let rounds = 15 * fitted.at.len() as u64 + 5;
+                let rounds = 10 * fitted.at.len() as u64 + 5;
                 let (at, _) = descend(self.cost_of(fitted, outside), &fitted.at, 0.05, rounds);
                 let mut hypothesis = self.hypothesis.clone();
                 hypothesis.parts.push(Fitted { at, ..fitted.clone() });
@@ -310,15 +317,20 @@ impl<'a> Round<'a> {
         let axes = part.axes(self.study)?;
         let dimensions = axes.len();
         let blank = Fitted { part, axes, at: vec![0.5; dimensions] };
-        // The grid looks at some rows only: it has to find the valley, not its floor.
-        let some: Vec<usize> = self.study.search.iter().copied().take(250).collect();
-        let start = best_of_grid(self.cost_of(&blank, &some), dimensions);
+        // Grid and first descents look at some rows only: they have to find the valley, not its floor.
+        let some: Vec<usize> = self.study.search.iter().copied().take(SOME_ROWS).collect();
+        let rounds = 20 * dimensions as u64 + 5;
+        let cost = self.cost_of(&blank, &some);
+        let starts = best_of_grid(&cost, dimensions, STARTS);
+        let descents =
+            starts.iter().map(|start| descend(&cost, start, 0.5 / starts.len().max(5) as f64, rounds));
+        let (start, loss) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let standing: f64 = self.scores(&some, &self.shifts, self.scatter).iter().sum();
-        if self.cost_of(&blank, &some)(&start) > FAR_OFF - standing {
+        if loss > -standing - PROMISING {
             return None;
         }
-        let rounds = 25 * dimensions as u64 + 10;
-        let (at, _) = descend(self.cost_of(&blank, &self.study.search), &start, 0.12, rounds);
+        drop(cost);
+        let (at, _) = descend(self.cost_of(&blank, &self.study.search), &start, 0.06, rounds);
         Some(Fitted { at, ..blank })
     }
 

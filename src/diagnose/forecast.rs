@@ -17,6 +17,9 @@ pub(super) struct Said {
     pub capture: f64,
     /// Share of the row's draws that this one stands for [1].
     pub weight: f64,
+    /// How far it stands from its neighbours among the row's draws, in `e_n` and `e_t` [1]: what lies between two draws
+    /// is as likely as they are.
+    pub reach: [f64; 2],
 }
 
 /// What a model says of several rows: `draws` answers a row.
@@ -31,19 +34,24 @@ pub(super) struct Forecast {
 pub(super) const COARSE: usize = 16;
 pub(super) const FINE: usize = 64;
 /// Steps of the lattice of draws, one a stream: odd, so that each visits all places.
-const STEPS: [usize; 6] = [1, 1, 3, 5, 7, 11];
+const STEPS: [usize; 4] = [1, 3, 5, 7];
+/// No draw stands for more than this on either side [1].
+const FARTHEST: f64 = 0.1;
 /// Rows below which threads cost more than they bring.
 const WORTH_THREADS: usize = 20_000;
 
 impl Forecast {
     /// Asks the model about the rows with these indices, `draws` times each where it leaves something to chance.
     pub fn new(model: &Model, all: &[Measurement], rows: &[usize], draws: usize) -> Self {
-        let streams: Vec<u64> = model.terms().iter().flat_map(|t| t.kind().streams.iter().copied()).collect();
+        let streams: Vec<u64> = model.terms().iter().filter_map(|t| t.kind().stream).collect();
         let draws = if streams.is_empty() { 1 } else { draws };
         let (streams, count) = (&streams, draws);
         let ask = |&index: &usize| {
-            let row = &all[index];
-            (0..count).map(move |draw| ask(model, row, streams, Node { row: index, draw, count }))
+            let draws = Draws::new(index, streams, count);
+            let mut said: Vec<Said> =
+                (0..count).map(|draw| ask(model, &all[index], streams, &draws, draw)).collect();
+            set_reach(&mut said);
+            said
         };
         let said = if rows.len() * draws > WORTH_THREADS {
             rows.par_iter().flat_map_iter(ask).collect()
@@ -64,20 +72,28 @@ impl Forecast {
     }
 }
 
-/// One draw of a row's.
-#[derive(Clone, Copy)]
-struct Node {
-    row: usize,
-    draw: usize,
+/// The draws of one row.
+struct Draws {
+    /// How far the lattice is turned in each stream, by its number.
+    turns: [f64; STEPS.len()],
     count: usize,
 }
 
-impl Node {
+impl Draws {
+    fn new(row: usize, streams: &[u64], count: usize) -> Self {
+        let turn = Draw::new(0, row as u64);
+        let mut turns = [0.0; STEPS.len()];
+        for &stream in streams {
+            turns[stream as usize % STEPS.len()] = turn.uniform(stream);
+        }
+        Self { turns, count }
+    }
+
     /// A place in 0 to 1: a lattice that is turned at random for every row, even within a row and smooth over all.
-    fn place(self, stream: u64) -> f64 {
-        let step = STEPS[stream as usize % STEPS.len()];
-        let place = ((self.draw * step) % self.count) as f64 / self.count as f64;
-        (place + Draw::new(0, self.row as u64).uniform(stream)).fract()
+    fn place(&self, draw: usize, stream: u64) -> f64 {
+        let which = stream as usize % STEPS.len();
+        let place = ((draw * STEPS[which]) % self.count) as f64 / self.count as f64;
+        (place + self.turns[which]).fract()
     }
 }
 
@@ -91,16 +107,39 @@ fn share(place: f64) -> f64 {
     0.3 + 4.2 * place * (1.0 - place)
 }
 
-fn ask(model: &Model, row: &Measurement, streams: &[u64], node: Node) -> Said {
-    let weight = streams.iter().map(|&stream| share(node.place(stream))).product::<f64>();
-    match model.resolve_with(row.wall, &row.impact, |stream| stretched(node.place(stream))) {
+/// Half the mean gap to both neighbours; the geometric mean, so that draws that agree stay sharp.
+fn set_reach(said: &mut [Said]) {
+    if said.len() < 2 {
+        return;
+    }
+    let quantities: [fn(&Said) -> f64; 2] = [|one| one.e_n, |one| one.e_t];
+    let mut order: Vec<usize> = (0..said.len()).collect();
+    for (place, of) in quantities.into_iter().enumerate() {
+        order.sort_unstable_by(|&a, &b| of(&said[a]).total_cmp(&of(&said[b])));
+        let mut before = None;
+        for rank in 0..order.len() {
+            let after = order.get(rank + 1).map(|&next| of(&said[next]) - of(&said[order[rank]]));
+            let gap = match (before, after) {
+                (Some(before), Some(after)) => f64::sqrt(before * after),
+                (one, other) => one.or(other).unwrap_or(0.0),
+            };
+            said[order[rank]].reach[place] = (0.5 * gap).min(FARTHEST);
+            before = after;
+        }
+    }
+}
+
+fn ask(model: &Model, row: &Measurement, streams: &[u64], draws: &Draws, draw: usize) -> Said {
+    let weight = streams.iter().map(|&stream| share(draws.place(draw, stream))).product::<f64>();
+    match model.resolve_with(row.wall, &row.impact, |stream| stretched(draws.place(draw, stream))) {
         Ok(outcome) => Said {
             e_n: outcome.normal_restitution,
             e_t: outcome.tangential_restitution,
             capture: outcome.sticking_probability,
             weight,
+            reach: [0.0; 2],
         },
         // Rows that the base model cannot answer were left out before; effects change no property's range.
-        Err(_) => Said { e_n: 0.0, e_t: 0.0, capture: 0.5, weight },
+        Err(_) => Said { e_n: 0.0, e_t: 0.0, capture: 0.5, weight, reach: [0.0; 2] },
     }
 }

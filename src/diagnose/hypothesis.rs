@@ -83,7 +83,7 @@ impl Part {
 
     /// Whether it leaves something to chance.
     pub fn scatters(&self) -> bool {
-        matches!(self, Self::Effect(kind) if !kind.streams.is_empty())
+        matches!(self, Self::Effect(kind) if kind.stream.is_some())
     }
 
     /// The inputs that it turns on.

@@ -15,8 +15,16 @@ use crate::dataset::{Measurement, Reading};
 const GROSS_SHARE: f64 = 0.02;
 /// Density of a gross error [1].
 const GROSS_DENSITY: f64 = 0.4;
+/// Beyond this many times the scatter the normal density is nothing beside that of a gross error.
+const FAR: f64 = 8.0;
+/// Rounds of the estimate of the scatter.
+const ROUNDS: usize = 6;
+/// It is near enough where a round changes it by this share.
+const NEAR: f64 = 3e-3;
 /// No outcome is ever held to be certain.
 const DOUBT: f64 = 0.005;
+/// Largest shift of the log odds of capture.
+const LARGEST_ODDS: f64 = 10.0;
 /// Smallest scatter of a restitution [1].
 const SMALLEST_SCATTER: f64 = 1e-3;
 
@@ -52,7 +60,7 @@ pub(super) fn capture(said: &Said, shift: &Shift) -> f64 {
     if shift.capture == 0.0 {
         return plain;
     }
-    let odds = plain / (1.0 - plain) * shift.capture.exp();
+    let odds = plain / (1.0 - plain) * shift.capture.clamp(-LARGEST_ODDS, LARGEST_ODDS).exp();
     odds / (1.0 + odds)
 }
 
@@ -93,7 +101,7 @@ pub(super) fn mean(said: &[Said], shift: &Shift) -> Mean {
 /// One quantity's scatter in one row [1].
 fn row_scatter(scatter: f64, spread: f64, reading: &Reading, rebounds: f64, chance: f64) -> f64 {
     let own = match reading.error {
-        Some(error) => (scatter * spread).powi(2) + error * error,
+        Some(error) => (scatter * spread).powi(2) + error * error + chance / rebounds.max(1.0),
         None => ((scatter * spread).powi(2) + chance) / rebounds.max(1.0),
     };
     own.sqrt().max(SMALLEST_SCATTER)
@@ -101,6 +109,9 @@ fn row_scatter(scatter: f64, spread: f64, reading: &Reading, rebounds: f64, chan
 
 fn normal_density(residual: f64, scatter: f64) -> f64 {
     let z = residual / scatter;
+    if z.abs() > FAR {
+        return 0.0;
+    }
     (-0.5 * z * z).exp() / (scatter * (2.0 * std::f64::consts::PI).sqrt())
 }
 
@@ -141,13 +152,14 @@ fn score_single(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatte
 
 /// Density of the restitutions of a single rebound under one draw.
 fn rebound_density(row: &Measurement, one: &Said, shift: &Shift, scatter: Scatter) -> f64 {
-    let of = |reading: &Option<Reading>, said: f64, scatter: f64| {
+    let of = |reading: &Option<Reading>, said: f64, scatter: f64, reach: f64| {
         reading.as_ref().map_or(1.0, |reading| {
-            let scatter = row_scatter(scatter, shift.spread, reading, 1.0, 0.0);
+            let scatter = row_scatter(scatter, shift.spread, reading, 1.0, reach * reach);
             density(reading.value - said, scatter)
         })
     };
-    of(&row.e_n, one.e_n + shift.e_n, scatter.e_n) * of(&row.e_t, one.e_t + shift.e_t, scatter.e_t)
+    of(&row.e_n, one.e_n + shift.e_n, scatter.e_n, one.reach[0])
+        * of(&row.e_t, one.e_t + shift.e_t, scatter.e_t, one.reach[1])
 }
 
 fn score_average(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatter) -> f64 {
@@ -175,7 +187,7 @@ pub(super) fn fit_scatter(
     first: Scatter,
 ) -> Scatter {
     let mut scatter = first;
-    for _ in 0..12 {
+    for _ in 0..ROUNDS {
         let mut sums = [[0.0; 2]; 2];
         for (place, &index) in rows.iter().enumerate() {
             add_row(&mut sums, &all[index], forecast.of(place), &shifts[index], scatter);
@@ -184,8 +196,8 @@ pub(super) fn fit_scatter(
             if weight > 0.0 { (sum / weight).max(SMALLEST_SCATTER.powi(2)).sqrt() } else { before }
         };
         let next = Scatter { e_n: root(sums[0], scatter.e_n), e_t: root(sums[1], scatter.e_t) };
-        let done = (next.e_n - scatter.e_n).abs() < 1e-3 * next.e_n
-            && (next.e_t - scatter.e_t).abs() < 1e-3 * next.e_t;
+        let done = (next.e_n - scatter.e_n).abs() < NEAR * next.e_n
+            && (next.e_t - scatter.e_t).abs() < NEAR * next.e_t;
         scatter = next;
         if done {
             break;
@@ -210,28 +222,40 @@ fn add_row(sums: &mut [[f64; 2]; 2], row: &Measurement, said: &[Said], shift: &S
             e_t: mean.e_t - shift.e_t,
             capture: mean.capture,
             weight: 1.0,
+            reach: [0.0; 2],
         }];
         (&average[..], [mean.variance_e_n, mean.variance_e_t])
     };
-    let share =
-        |one: &Said| (1.0 - capture(one, shift)) * one.weight * rebound_density(row, one, shift, scatter);
-    let whole: f64 = if said.len() == 1 { 1.0 } else { said.iter().map(share).sum() };
+    // Each draw counts by how likely it makes the row; the sum of these weights is not known before the last draw.
+    let (mut own, mut whole) = ([[0.0; 2]; 2], 0.0);
     for one in said {
-        let weight = if said.len() == 1 { 1.0 } else { share(one) / whole };
         let readings =
             [(&row.e_n, one.e_n + shift.e_n, scatter.e_n), (&row.e_t, one.e_t + shift.e_t, scatter.e_t)];
+        let mut likely = (1.0 - capture(one, shift)) * one.weight;
+        let mut terms = [[0.0; 2]; 2];
         for (quantity, (reading, said, scatter)) in readings.into_iter().enumerate() {
             let Some(reading) = reading else { continue };
             let residual = reading.value - said;
-            let own = row_scatter(scatter, shift.spread, reading, row.rebounds, chance[quantity]);
-            let weight = weight * ordinary(residual, own);
+            let chance = chance[quantity] + one.reach[quantity].powi(2);
+            let width = row_scatter(scatter, shift.spread, reading, row.rebounds, chance);
+            let normal = (1.0 - GROSS_SHARE) * normal_density(residual, width);
+            let density = normal + GROSS_SHARE * GROSS_DENSITY;
             let (foreign, count) = match reading.error {
                 Some(error) => (error * error, 1.0),
-                None => (chance[quantity] / row.rebounds.max(1.0), row.rebounds.max(1.0)),
+                None => (chance / row.rebounds.max(1.0), row.rebounds.max(1.0)),
             };
             let squared = (residual * residual - foreign).max(0.0) * count / (shift.spread * shift.spread);
-            sums[quantity][0] += weight * squared;
-            sums[quantity][1] += weight;
+            likely *= density;
+            terms[quantity] = [squared * normal / density, normal / density];
+        }
+        for (sum, term) in own.iter_mut().flatten().zip(terms.as_flattened()) {
+            *sum += likely * term;
+        }
+        whole += likely;
+    }
+    if whole > 0.0 {
+        for (sum, own) in sums.iter_mut().flatten().zip(own.as_flattened()) {
+            *sum += own / whole;
         }
     }
 }

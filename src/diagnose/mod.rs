@@ -75,6 +75,8 @@ const MOST_CAUSES: usize = 6;
 const WORTH: f64 = 0.05;
 /// Least gain of any cause [nats].
 const LEAST_GAIN: f64 = 3.0;
+/// A curve over a column has to owe this share of its gain to the column rather than to its level.
+const OWN: f64 = 0.25;
 /// Standard errors by which one candidate has to lead another to be told apart from it (5 %, one-sided).
 const CLEAR: f64 = 1.645;
 
@@ -181,7 +183,11 @@ fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Op
     let part = simplest_of_best(&parts);
     let unknown = most(unknowns.into_iter().filter(|unknown| !explained(study, unknown, &parts)));
     let cause = match (part, unknown) {
-        (Some(part), Some(unknown)) if unknown.lead(part) > CLEAR => Some(unknown),
+        (Some(part), Some(unknown))
+            if unknown.lead(part) > CLEAR && unknown.own_gain > OWN * unknown.gain() =>
+        {
+            Some(unknown)
+        }
         (Some(part), _) => Some(part),
         (None, unknown) => unknown,
     };

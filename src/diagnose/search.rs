@@ -91,16 +91,25 @@ pub(super) fn descend(
     }
 }
 
-/// The best of a grid over all coordinates.
-pub(super) fn best_of_grid(cost: impl Fn(&[f64]) -> f64, dimensions: usize) -> Vec<f64> {
-    let steps = [1, 9, 6, 4][dimensions.min(3)];
-    let count = usize::pow(steps, dimensions as u32);
+/// The best places of a grid over all coordinates, at most `count` of them, no two of them neighbours.
+pub(super) fn best_of_grid(cost: impl Fn(&[f64]) -> f64, dimensions: usize, count: usize) -> Vec<Vec<f64>> {
+    let steps = [1, 24, 9, 5][dimensions.min(3)];
+    let size = usize::pow(steps, dimensions as u32);
     let point = |index: usize| {
         let digit = |place: usize| (index / usize::pow(steps, place as u32)) % steps;
         (0..dimensions).map(|place| (digit(place) as f64 + 0.5) / steps as f64).collect::<Vec<f64>>()
     };
-    let costs = (0..count).map(|index| (point(index), cost(&point(index))));
-    costs.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(vec![0.5; dimensions], |best| best.0)
+    let mut all: Vec<(Vec<f64>, f64)> = (0..size).map(|index| (point(index), cost(&point(index)))).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let mut best: Vec<Vec<f64>> = Vec::new();
+    for (place, _) in all {
+        let near =
+            |other: &Vec<f64>| place.iter().zip(other).all(|(a, b)| (a - b).abs() * (steps as f64) < 1.5);
+        if best.len() < count && !best.iter().any(near) {
+            best.push(place);
+        }
+    }
+    best
 }
 
 #[cfg(test)]
@@ -110,7 +119,7 @@ mod tests {
     #[test]
     fn grid_and_descent_find_a_minimum_at_the_wall_and_inside() {
         let cost = |x: &[f64]| (x[0] - 0.31).powi(2) + 10.0 * (x[1] - 1.2).powi(2);
-        let start = best_of_grid(cost, 2);
+        let start = best_of_grid(cost, 2, 1).remove(0);
         let (at, _) = descend(cost, &start, 0.1, 200);
         assert!((at[0] - 0.31).abs() < 0.02 && at[1] > 0.99, "{at:?}");
     }

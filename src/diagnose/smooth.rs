@@ -25,8 +25,6 @@ pub(super) enum Basis {
     Words(usize),
     /// One function for all rows: a level.
     Level,
-    /// One function for all rows: a level.
-    Level,
 }
 
 impl Basis {
@@ -62,7 +60,6 @@ impl Basis {
             Self::Hats(knots) => knots.len(),
             Self::Words(count) => *count,
             Self::Level => 1,
-            Self::Level => 1,
         }
     }
 
@@ -73,7 +70,6 @@ impl Basis {
             (Self::Words(_), Values::Words { of_row, .. }) => {
                 of_row[row].map_or(Vec::new(), |level| vec![(level, 1.0)])
             }
-            (Self::Level, _) => vec![(0, 1.0)],
             (Self::Level, _) => vec![(0, 1.0)],
             _ => Vec::new(),
         }

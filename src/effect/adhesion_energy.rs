@@ -7,7 +7,7 @@
 //! between. Valid with `thornton-ning`, whose adhesion is that of JKR: for contacts soft and wide against the range of the
 //! surface forces. Slow impacts determine it; fast ones do not.
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -15,7 +15,7 @@ pub(super) const KIND: Kind = Kind {
     id: "adhesion-energy",
     about: "the work of adhesion differs from that of the surface energies",
     inputs: &["v_n", "d"],
-    streams: &[],
+    stream: None,
     parameters: &[Parameter {
         name: "work_of_adhesion",
         unit: "J/m2",
@@ -33,7 +33,7 @@ struct AdhesionEnergy {
 }
 
 impl Effect for AdhesionEnergy {
-    fn contact(&self, _: &Impact, contact: Contact, _: Chance) -> Contact {
+    fn contact(&self, _: &Impact, contact: Contact, _: f64) -> Contact {
         Contact { work_of_adhesion: self.work_of_adhesion, ..contact }
     }
 }
@@ -47,10 +47,7 @@ mod tests {
 
     fn holds_up_to(work_of_adhesion: f64) -> f64 {
         let plain = Contact { work_of_adhesion: 7.0, ..wax_on_pyrex() };
-        adhesive_velocity(
-            &(KIND.build)(&[work_of_adhesion]).contact(&Impact::default(), plain, [0.0; 2]),
-            75e-6,
-        )
+        adhesive_velocity(&(KIND.build)(&[work_of_adhesion]).contact(&Impact::default(), plain, 0.0), 75e-6)
     }
 
     /// Troiano Eq. 1 for wax on Pyrex, `W = 0.346 J/m²`: 0.116 m/s, which is 0.953 of the right number.

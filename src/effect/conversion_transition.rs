@@ -14,7 +14,7 @@ pub(super) const KIND: Kind = Kind {
     id: "conversion-transition",
     about: "capture rises past a carbon conversion",
     inputs: &["conversion"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "threshold",

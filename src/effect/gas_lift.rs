@@ -9,7 +9,7 @@
 //! on; nothing limits it beyond. Where the solver itself moves particles through the boundary layer, its drag and lift may
 //! already hold part of this.
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -17,7 +17,7 @@ pub(super) const KIND: Kind = Kind {
     id: "gas-lift",
     about: "gas that flows along the wall raises e_n of glancing impacts",
     inputs: &["v_gas", "v_t"],
-    streams: &[],
+    stream: None,
     parameters: &[Parameter {
         name: "strength",
         unit: "s/m",
@@ -35,7 +35,7 @@ struct GasLift {
 }
 
 impl Effect for GasLift {
-    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: Chance) -> Option<f64> {
+    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
         let speed = impact.speed();
         let cosine = if speed > 0.0 { impact.tangential_speed / speed } else { 0.0 };
         // The bound only keeps a number finite.
@@ -52,7 +52,7 @@ mod tests {
     fn e_n(alpha: f64, gas_speed: f64) -> f64 {
         let tangential_speed = 1.0 / alpha.to_radians().tan();
         let impact = Impact { normal_speed: 1.0, tangential_speed, gas_speed, ..Impact::default() };
-        (KIND.build)(&[0.0567]).normal_restitution(&impact, &wax_on_pyrex(), 0.28, [0.0; 2]).unwrap()
+        (KIND.build)(&[0.0567]).normal_restitution(&impact, &wax_on_pyrex(), 0.28, 0.0).unwrap()
     }
 
     /// With the air four times as fast at 35° as near normal, both of the paper's values come out.

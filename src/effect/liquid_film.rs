@@ -15,7 +15,7 @@
 //! `viscosity` alone. Under a powder layer the film does not act: give such a wall no film (Troiano et al., Fig 10, found
 //! powder on syrup like powder on a dry target).
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -23,7 +23,7 @@ pub(super) const KIND: Kind = Kind {
     id: "liquid-film",
     about: "a liquid film on the wall brakes the particle and may hold it",
     inputs: &["film_thickness", "v_n", "d"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "viscosity",
@@ -65,7 +65,7 @@ impl Effect for LiquidFilm {
         impact: &Impact,
         contact: &Contact,
         restitution: f64,
-        _: Chance,
+        _: f64,
     ) -> Option<f64> {
         let cost = self.cost(impact, contact.density);
         if cost <= 0.0 {
@@ -89,7 +89,7 @@ mod tests {
     fn e_n(viscosity: f64, film_thickness: f64, normal_speed: f64) -> Option<f64> {
         let impact = Impact { normal_speed, film_thickness, diameter: 100e-6, ..Impact::default() };
         let effect = (KIND.build)(&[viscosity, 1e-7]);
-        effect.normal_restitution(&impact, &wax_on_pyrex(), DRY, [0.0; 2])
+        effect.normal_restitution(&impact, &wax_on_pyrex(), DRY, 0.0)
     }
 
     /// Newton's law with the lubrication force, integrated through a film of 10 µm and out of it again (Heun's method in the

@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind {
     id: "melting-transition",
     about: "capture rises and e_n falls as the particle melts",
     inputs: &["T_p"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "temperature",

@@ -16,14 +16,14 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use statrs::function::erf::{erfc, erfc_inv};
 
-use super::{Chance, Effect, Kind, Parameter, Search, stream};
+use super::{Effect, Kind, Parameter, Search, stream};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
     id: "micro-roughness",
     about: "the wall is tilted at random where it is hit",
     inputs: &["v_t", "v_n"],
-    streams: &[stream::MICRO_ROUGHNESS],
+    stream: Some(stream::MICRO_ROUGHNESS),
     parameters: &[Parameter {
         name: "angle",
         unit: "rad",
@@ -41,7 +41,7 @@ struct MicroRoughness {
 }
 
 impl Effect for MicroRoughness {
-    fn tilt(&self, impact: &Impact, [draw, _]: Chance) -> f64 {
+    fn tilt(&self, impact: &Impact, draw: f64) -> f64 {
         if self.angle <= 0.0 {
             return 0.0;
         }
@@ -73,7 +73,7 @@ mod tests {
     fn tilt(angle: f64, alpha: f64, draw: f64) -> f64 {
         let (normal_speed, tangential_speed) = alpha.sin_cos();
         let impact = Impact { normal_speed, tangential_speed, ..Impact::default() };
-        (KIND.build)(&[angle]).tilt(&impact, [draw, 0.0])
+        (KIND.build)(&[angle]).tilt(&impact, draw)
     }
 
     /// Mean of a normal density between the cuts, by the trapezoidal rule.

@@ -57,26 +57,22 @@ pub(crate) mod stream {
     pub const NANO_ROUGHNESS: u64 = 1;
     /// How far the facet is tilted.
     pub const MICRO_ROUGHNESS: u64 = 2;
-    /// Whether the particle is an agglomerate.
-    pub const AGGLOMERATE_CHOICE: u64 = 3;
-    /// Which `e_n` the agglomerate has.
-    pub const AGGLOMERATE_REBOUND: u64 = 4;
+    /// Whether a particle is an agglomerate, and how it rebounds.
+    pub const AGGLOMERATES: u64 = 3;
 }
-
-/// Two uniform random numbers in (0, 1), drawn anew for every impact and every effect that asks for them.
-pub type Chance = [f64; 2];
 
 /// A named term of a model. Each method is one step of an impact's walk; an effect overrides those it acts on.
 ///
-/// `chance` means something only to effects with [`Kind::streams`]; the others get zeros.
+/// `chance` is a uniform random number in (0, 1), drawn anew for every impact and every effect with a [`Kind::stream`]; the
+/// others get zero.
 pub trait Effect: Send + Sync + std::fmt::Debug {
     /// How far the wall is tilted towards the particle where it is hit [rad]; tilts of several effects add.
-    fn tilt(&self, _impact: &Impact, _chance: Chance) -> f64 {
+    fn tilt(&self, _impact: &Impact, _chance: f64) -> f64 {
         0.0
     }
 
     /// Changes the contact before the normal law.
-    fn contact(&self, _impact: &Impact, contact: Contact, _chance: Chance) -> Contact {
+    fn contact(&self, _impact: &Impact, contact: Contact, _chance: f64) -> Contact {
         contact
     }
 
@@ -97,7 +93,7 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         _impact: &Impact,
         _contact: &Contact,
         restitution: f64,
-        _chance: Chance,
+        _chance: f64,
     ) -> Option<f64> {
         Some(restitution)
     }
@@ -147,8 +143,8 @@ pub struct Kind {
     pub about: &'static str,
     /// The inputs (names of [`INPUTS`]) that it turns on, beyond what the plain laws use.
     pub inputs: &'static [&'static str],
-    /// The streams of random numbers that it draws from, at most two, its own; empty for an effect without chance.
-    pub streams: &'static [u64],
+    /// The stream of random numbers that it draws from, its own; `None` for an effect without chance.
+    pub stream: Option<u64>,
     /// Its parameters; those without a default must be given.
     pub parameters: &'static [Parameter],
     /// Makes the effect from its parameters, in their order.
@@ -207,12 +203,8 @@ impl Term {
     }
 
     /// What it draws for one impact, from a source that gives each stream's number.
-    pub fn chance(&self, uniform: &impl Fn(u64) -> f64) -> Chance {
-        match *self.kind.streams {
-            [] => [0.0; 2],
-            [first] => [uniform(first), 0.0],
-            [first, second, ..] => [uniform(first), uniform(second)],
-        }
+    pub fn chance(&self, uniform: &impl Fn(u64) -> f64) -> f64 {
+        self.kind.stream.map_or(0.0, uniform)
     }
 
     /// Whether the impact lies in the range the term was fitted on.

@@ -8,7 +8,7 @@
 //! adhesion matters. The asperities' own height enters nowhere: `spread` stands for it. One draw, stream
 //! `stream::NANO_ROUGHNESS`.
 
-use super::{Chance, Effect, Kind, Parameter, Search, stream};
+use super::{Effect, Kind, Parameter, Search, stream};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind {
     id: "nano-roughness",
     about: "adhesion is drawn between a part and all of its value on smooth solids",
     inputs: &["v_n", "d"],
-    streams: &[stream::NANO_ROUGHNESS],
+    stream: Some(stream::NANO_ROUGHNESS),
     parameters: &[Parameter {
         name: "spread",
         unit: "1",
@@ -34,7 +34,7 @@ struct NanoRoughness {
 }
 
 impl Effect for NanoRoughness {
-    fn contact(&self, _: &Impact, contact: Contact, [draw, _]: Chance) -> Contact {
+    fn contact(&self, _: &Impact, contact: Contact, draw: f64) -> Contact {
         Contact { work_of_adhesion: contact.work_of_adhesion * (1.0 - self.spread * draw), ..contact }
     }
 }

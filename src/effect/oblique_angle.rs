@@ -10,7 +10,7 @@
 //! aluminium gained 5 to 10 % from 0 to 45°, finer glass lost (cited by Troiano et al.). The sign is therefore free.
 //! Valid within the angles and speeds it was fitted on.
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -18,7 +18,7 @@ pub(super) const KIND: Kind = Kind {
     id: "oblique-angle",
     about: "e_n falls (or rises) with obliquity, the more the faster the impact",
     inputs: &["v_t", "v_n"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "strength",
@@ -50,7 +50,7 @@ struct ObliqueAngle {
 const LARGEST_GAIN: f64 = 600.0;
 
 impl Effect for ObliqueAngle {
-    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: Chance) -> Option<f64> {
+    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
         let loss = self.strength * obliquity(impact).powi(2) * impact.normal_speed.powf(self.speed_exponent);
         let changed = restitution * (-loss).min(LARGEST_GAIN).exp();
         let no_faster = restitution.max(impact.speed() / impact.normal_speed);
@@ -75,7 +75,7 @@ mod tests {
     fn e_n(parameters: [f64; 2], theta: f64, normal_speed: f64) -> f64 {
         let tangential_speed = normal_speed * theta.to_radians().tan();
         let impact = Impact { normal_speed, tangential_speed, ..Impact::default() };
-        (KIND.build)(&parameters).normal_restitution(&impact, &wax_on_pyrex(), 0.4, [0.0; 2]).unwrap()
+        (KIND.build)(&parameters).normal_restitution(&impact, &wax_on_pyrex(), 0.4, 0.0).unwrap()
     }
 
     #[test]

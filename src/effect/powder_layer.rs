@@ -7,7 +7,7 @@
 //! 1.4 mm of wax powder, the same on a dry target as on syrup. `h0 = 0.128 mm` and `r = 0.25` pass through all three.
 //! Three points determine two numbers and the form is a choice: between 0 and 0.2 mm it is an interpolation.
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -15,7 +15,7 @@ pub(super) const KIND: Kind = Kind {
     id: "powder-layer",
     about: "powder on the wall dissipates the rebound",
     inputs: &["layer_thickness"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "thickness",
@@ -44,7 +44,7 @@ struct PowderLayer {
 }
 
 impl Effect for PowderLayer {
-    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: Chance) -> Option<f64> {
+    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
         let decay = (-impact.layer_thickness / self.thickness).exp();
         Some(restitution * (self.residual + (1.0 - self.residual) * decay))
     }
@@ -60,7 +60,7 @@ mod tests {
         let effect = (KIND.build)(&[0.128e-3, 0.25]);
         let e_n = |layer_thickness: f64| {
             let impact = Impact { layer_thickness, ..Impact::default() };
-            effect.normal_restitution(&impact, &wax_on_pyrex(), 0.28, [0.0; 2]).unwrap()
+            effect.normal_restitution(&impact, &wax_on_pyrex(), 0.28, 0.0).unwrap()
         };
         assert_eq!(e_n(0.0), 0.28);
         assert!((e_n(0.25e-3) - 0.10).abs() < 0.005);

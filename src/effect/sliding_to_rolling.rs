@@ -15,7 +15,7 @@ pub(super) const KIND: Kind = Kind {
     id: "sliding-to-rolling",
     about: "sliding ends at a critical angle, beyond which the particle rolls",
     inputs: &["v_t", "v_n"],
-    streams: &[],
+    stream: None,
     parameters: &[Parameter {
         name: "friction",
         unit: "1",

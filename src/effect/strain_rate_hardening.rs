@@ -9,7 +9,7 @@
 //! on; much slower impacts find the solid too weak. The sticking velocity is then that of a solid as strong as at the
 //! impact's own speed.
 
-use super::{Chance, Effect, Kind, Parameter, Search, bounded};
+use super::{Effect, Kind, Parameter, Search, bounded};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -17,7 +17,7 @@ pub(super) const KIND: Kind = Kind {
     id: "strain-rate-hardening",
     about: "the yield strength rises with the speed of the impact",
     inputs: &["v_n"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "speed",
@@ -46,7 +46,7 @@ struct StrainRateHardening {
 }
 
 impl Effect for StrainRateHardening {
-    fn contact(&self, impact: &Impact, contact: Contact, _: Chance) -> Contact {
+    fn contact(&self, impact: &Impact, contact: Contact, _: f64) -> Contact {
         // At rest the bound keeps a strength above zero.
         let factor = bounded((impact.normal_speed / self.speed).powf(self.exponent));
         Contact { yield_strength: contact.yield_strength * factor, ..contact }
@@ -64,7 +64,7 @@ mod tests {
     fn e_n(exponent: f64, normal_speed: f64) -> f64 {
         let plain = Contact { work_of_adhesion: 0.0, ..wax_on_pyrex() };
         let impact = Impact { normal_speed, ..Impact::default() };
-        let contact = (KIND.build)(&[1e3, exponent]).contact(&impact, plain, [0.0; 2]);
+        let contact = (KIND.build)(&[1e3, exponent]).contact(&impact, plain, 0.0);
         NormalLaw::ThorntonNing.restitution(&contact, impact.diameter, normal_speed).unwrap()
     }
 
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn a_particle_at_rest_has_a_strength() {
-        let contact = (KIND.build)(&[1.0, 2.0]).contact(&Impact::default(), wax_on_pyrex(), [0.0; 2]);
+        let contact = (KIND.build)(&[1.0, 2.0]).contact(&Impact::default(), wax_on_pyrex(), 0.0);
         assert!(contact.yield_strength > 0.0);
     }
 }

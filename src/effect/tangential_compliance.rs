@@ -23,7 +23,7 @@ pub(super) const KIND: Kind = Kind {
     id: "tangential-compliance",
     about: "e_t falls below rolling past the critical angle and rises towards head-on",
     inputs: &["v_t", "v_n"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "friction",

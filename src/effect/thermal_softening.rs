@@ -9,7 +9,7 @@
 //! this acts on top of them. It softens the contact as a whole: it means a particle that yields before the wall does and
 //! holds most of the compliance.
 
-use super::{Chance, Effect, Kind, Parameter, Search, bounded};
+use super::{Effect, Kind, Parameter, Search, bounded};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -17,7 +17,7 @@ pub(super) const KIND: Kind = Kind {
     id: "thermal-softening",
     about: "yield strength and modulus fall with the particle's temperature",
     inputs: &["T_p"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "onset",
@@ -46,7 +46,7 @@ struct ThermalSoftening {
 }
 
 impl Effect for ThermalSoftening {
-    fn contact(&self, impact: &Impact, contact: Contact, _: Chance) -> Contact {
+    fn contact(&self, impact: &Impact, contact: Contact, _: f64) -> Contact {
         let excess = (impact.particle_temperature - self.onset).max(0.0);
         let share = bounded((-excess / self.scale).exp());
         Contact {
@@ -66,7 +66,7 @@ mod tests {
 
     fn softened(particle_temperature: f64) -> Contact {
         let impact = Impact { particle_temperature, ..Impact::default() };
-        (KIND.build)(&[400.0, 100.0]).contact(&impact, wax_on_pyrex(), [0.0; 2])
+        (KIND.build)(&[400.0, 100.0]).contact(&impact, wax_on_pyrex(), 0.0)
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! multiplies what plasticity and adhesion leave. Expected of soft particles. Valid over the speeds it was fitted on; size
 //! and temperature enter by the fitted values alone.
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -16,7 +16,7 @@ pub(super) const KIND: Kind = Kind {
     id: "viscoelastic-loss",
     about: "a further loss of e_n that grows with speed",
     inputs: &["v_n"],
-    streams: &[],
+    stream: None,
     parameters: &[
         Parameter {
             name: "speed",
@@ -45,7 +45,7 @@ struct ViscoelasticLoss {
 }
 
 impl Effect for ViscoelasticLoss {
-    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: Chance) -> Option<f64> {
+    fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
         Some(restitution * (-(impact.normal_speed / self.speed).powf(self.exponent)).exp())
     }
 }
@@ -58,7 +58,7 @@ mod tests {
 
     fn e_n(exponent: f64, normal_speed: f64) -> f64 {
         let impact = Impact { normal_speed, ..Impact::default() };
-        (KIND.build)(&[50.0, exponent]).normal_restitution(&impact, &wax_on_pyrex(), 1.0, [0.0; 2]).unwrap()
+        (KIND.build)(&[50.0, exponent]).normal_restitution(&impact, &wax_on_pyrex(), 1.0, 0.0).unwrap()
     }
 
     /// Viscoelastic spheres lose `v^(1/5)` at first: 32 times the speed, twice the loss.

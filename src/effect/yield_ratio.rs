@@ -7,7 +7,7 @@
 //! with wax spheres, soft against a hard target: 0.7 (Troiano et al.). Valid with `thornton-ning`, whose limits it shares.
 //! A rebound shows `c` and `sigma_y` only as their product: a ratio far from 1.6 to 4 may well mean a strength.
 
-use super::{Chance, Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -15,7 +15,7 @@ pub(super) const KIND: Kind = Kind {
     id: "yield-ratio",
     about: "the limiting contact pressure over the yield strength differs from the assumed one",
     inputs: &["v_n"],
-    streams: &[],
+    stream: None,
     parameters: &[Parameter {
         name: "ratio",
         unit: "1",
@@ -33,7 +33,7 @@ struct YieldRatio {
 }
 
 impl Effect for YieldRatio {
-    fn contact(&self, _: &Impact, contact: Contact, _: Chance) -> Contact {
+    fn contact(&self, _: &Impact, contact: Contact, _: f64) -> Contact {
         Contact { yield_ratio: self.ratio, ..contact }
     }
 }
@@ -47,7 +47,7 @@ mod tests {
 
     fn yields_at(ratio: f64) -> f64 {
         let plain = Contact { yield_ratio: 2.8, ..wax_on_pyrex() };
-        yield_velocity(&(KIND.build)(&[ratio]).contact(&Impact::default(), plain, [0.0; 2]))
+        yield_velocity(&(KIND.build)(&[ratio]).contact(&Impact::default(), plain, 0.0))
     }
 
     /// Troiano Table 4: wax with 0.7 yields at 6.8e-3 m/s on Pyrex.
