@@ -1,0 +1,309 @@
+//! What the page's figures have in common: columns as axes, running means, ranges that gross errors do not stretch.
+
+use super::super::figure::{Chart, Errors, round_edges};
+use crate::diagnose::{Sample, SampleRow};
+
+/// Words along an axis at most.
+const WORDS: usize = 16;
+/// Letters of a word along an axis at most.
+const LETTERS: usize = 16;
+/// Running means along an axis at most.
+const BINS: usize = 12;
+/// Values of a column up to which each has a running mean of its own.
+const DISTINCT: usize = 12;
+/// Rows that a running mean takes at least where there are enough.
+const ROWS_A_BIN: usize = 12;
+/// A column of positive numbers is drawn over its logarithm when it spans more than this factor.
+const LOG_SPAN: f64 = 30.0;
+/// Share of the points beyond each end of an axis, at most.
+const BEYOND: f64 = 0.005;
+
+/// Which of a row's three numbers.
+pub(super) const BASE: usize = 1;
+/// The extended model's.
+pub(super) const EXTENDED: usize = 2;
+
+/// Observables in the order of the page.
+pub(super) const OBSERVABLES: [&str; 3] = ["e_n", "e_t", "outcome"];
+
+/// An observable for a reader.
+pub(super) fn title(observable: &str) -> &str {
+    match observable {
+        "outcome" => "capture",
+        other => other,
+    }
+}
+
+/// Measured, base model, extended model.
+pub(super) fn triple(row: &SampleRow, observable: &str) -> Option<[f64; 3]> {
+    let triple = match observable {
+        "e_n" => row.e_n,
+        "e_t" => row.e_t,
+        _ => row.captured,
+    };
+    triple.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+}
+
+/// Letters, digits and hyphens that no other column's name comes to.
+pub(super) fn identifier(name: &str) -> String {
+    let mut id = String::new();
+    for letter in name.chars() {
+        match letter {
+            '_' => id.push('-'),
+            letter if letter.is_ascii_alphanumeric() => id.push(letter),
+            letter => id += &format!("x{:x}-", u32::from(letter)),
+        }
+    }
+    id
+}
+
+/// A column along the x axis.
+pub(super) struct Axis<'a> {
+    pub name: &'a str,
+    unit: &'a str,
+    place: usize,
+    scale: Scale,
+}
+
+enum Scale {
+    Numbers {
+        low: f64,
+        high: f64,
+    },
+    /// Labels, and by place of the word where it stands.
+    Words {
+        labels: Vec<String>,
+        stands: Vec<Option<usize>>,
+    },
+}
+
+impl<'a> Axis<'a> {
+    /// The axis of a column; `None` where the sample does not vary in it.
+    pub fn new(sample: &'a Sample, column: &str) -> Option<Self> {
+        let place = sample.columns.iter().position(|(name, _)| name == column)?;
+        let (name, unit) = &sample.columns[place];
+        let cells = || sample.rows.iter().filter_map(|row| row.cells.get(place).copied());
+        let scale = match sample.words.get(place) {
+            Some(Some(words)) => of_words(words, cells()),
+            _ => of_numbers(cells()),
+        }?;
+        Some(Self { name, unit, place, scale })
+    }
+
+    /// Name and unit.
+    pub fn label(&self) -> String {
+        if self.unit.is_empty() { self.name.to_owned() } else { format!("{} [{}]", self.name, self.unit) }
+    }
+
+    /// Where a row stands; `None` where its cell is blank or its word is not shown.
+    pub fn at(&self, row: &SampleRow) -> Option<f64> {
+        let cell = row.cells.get(self.place).copied().filter(|cell| cell.is_finite())?;
+        match &self.scale {
+            Scale::Numbers { .. } => Some(cell),
+            Scale::Words { stands, .. } => {
+                stands.get(cell as usize).copied().flatten().map(|place| place as f64)
+            }
+        }
+    }
+
+    /// Where a word or a number of a fitted curve stands.
+    pub fn find(&self, sample: &Sample, text: &str) -> Option<f64> {
+        match &self.scale {
+            Scale::Numbers { .. } => text.parse().ok(),
+            Scale::Words { stands, .. } => {
+                let words = sample.words.get(self.place)?.as_ref()?;
+                let place = words.iter().position(|word| word == text)?;
+                stands.get(place).copied().flatten().map(|place| place as f64)
+            }
+        }
+    }
+
+    pub fn has_words(&self) -> bool {
+        matches!(self.scale, Scale::Words { .. })
+    }
+
+    /// The ends of a numeric axis.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match self.scale {
+            Scale::Numbers { low, high } => Some([low, high]),
+            Scale::Words { .. } => None,
+        }
+    }
+
+    /// An empty chart over this column.
+    pub fn chart(&self, title: &str, y_label: &str) -> Chart {
+        let chart = Chart::new(title, &self.label(), y_label);
+        match &self.scale {
+            Scale::Words { labels, .. } => chart.words(labels),
+            Scale::Numbers { .. } if self.is_wide() => chart.log_x(),
+            Scale::Numbers { low, high } => chart.x_range(*low, *high),
+        }
+    }
+
+    fn is_wide(&self) -> bool {
+        matches!(self.scale, Scale::Numbers { low, high } if low > 0.0 && high > LOG_SPAN * low)
+    }
+}
+
+fn of_numbers(cells: impl Iterator<Item = f64>) -> Option<Scale> {
+    let finite = cells.filter(|cell| cell.is_finite());
+    let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+    (low < high).then_some(Scale::Numbers { low, high })
+}
+
+/// The words with the most rows, in their own order.
+fn of_words(words: &[String], cells: impl Iterator<Item = f64>) -> Option<Scale> {
+    let mut counts = vec![0_usize; words.len()];
+    for cell in cells.filter(|cell| cell.is_finite()) {
+        if let Some(count) = counts.get_mut(cell as usize) {
+            *count += 1;
+        }
+    }
+    let mut order: Vec<usize> = (0..words.len()).filter(|&word| counts[word] > 0).collect();
+    order.sort_by_key(|&word| (std::cmp::Reverse(counts[word]), word));
+    order.truncate(WORDS);
+    order.sort_unstable();
+    let mut stands = vec![None; words.len()];
+    for (place, &word) in order.iter().enumerate() {
+        stands[word] = Some(place + 1);
+    }
+    let labels: Vec<String> = order.iter().map(|&word| short(&words[word])).collect();
+    (labels.len() > 1).then_some(Scale::Words { labels, stands })
+}
+
+fn short(word: &str) -> String {
+    if word.chars().count() <= LETTERS {
+        return word.to_owned();
+    }
+    let mut short: String = word.chars().take(LETTERS - 1).collect();
+    short.push('…');
+    short
+}
+
+/// Means over parts of the x axis, with their standard errors.
+#[derive(Default)]
+pub(super) struct Running {
+    pub means: Vec<[f64; 2]>,
+    pub errors: Errors,
+}
+
+/// Running means of `points`: one for each word or value where there are few, else for equally many rows each.
+pub(super) fn running(points: &[[f64; 2]]) -> Running {
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let groups: Vec<&[[f64; 2]]> = sorted.chunk_by(|a, b| a[0] == b[0]).collect();
+    let most = if groups.len() <= DISTINCT.max(WORDS) {
+        1
+    } else {
+        (sorted.len() / BINS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1)
+    };
+    let mut running = Running::default();
+    let mut from = 0;
+    let mut to = 0;
+    for group in groups {
+        to += group.len();
+        let rest = sorted.len() - to;
+        // The last part takes what would be too few for another.
+        if to - from >= most && (rest == 0 || rest >= most.div_ceil(2) || most == 1) {
+            running.push(&sorted[from..to]);
+            from = to;
+        }
+    }
+    if from < to {
+        running.push(&sorted[from..to]);
+    }
+    running
+}
+
+impl Running {
+    fn push(&mut self, points: &[[f64; 2]]) {
+        let count = points.len() as f64;
+        let mean = |of: usize| points.iter().map(|point| point[of]).sum::<f64>() / count;
+        let (x, y) = (mean(0), mean(1));
+        let square = points.iter().map(|point| (point[1] - y).powi(2)).sum::<f64>();
+        // A single row says nothing of its own error.
+        let error = if points.len() > 1 { (square / (count - 1.0) / count).sqrt() } else { 0.0 };
+        self.means.push([x, y]);
+        self.errors.push((error, error));
+    }
+
+    /// The ends of the error bars.
+    pub fn reach(&self) -> impl Iterator<Item = f64> {
+        let bars = self.means.iter().zip(&self.errors);
+        bars.flat_map(|(mean, (below, above))| [mean[1] - below, mean[1] + above])
+    }
+}
+
+/// A range of the y axis that holds `always` and all but a few of `points`, and the points inside.
+pub(super) struct Window {
+    pub low: f64,
+    pub high: f64,
+    pub step: f64,
+    pub inside: Vec<[f64; 2]>,
+    pub outside: usize,
+}
+
+impl Window {
+    pub fn new(points: &[[f64; 2]], always: impl Iterator<Item = f64>) -> Self {
+        let mut sorted: Vec<f64> = points.iter().map(|point| point[1]).collect();
+        sorted.sort_by(f64::total_cmp);
+        let beyond = (BEYOND * sorted.len() as f64) as usize;
+        let ends = [sorted.get(beyond), sorted.get(sorted.len().saturating_sub(1 + beyond))];
+        let kept = ends.into_iter().flatten().copied().chain(always).filter(|y| y.is_finite());
+        let [low, high] = kept.fold([0.0_f64, 0.0], |[l, h], y| [l.min(y), h.max(y)]);
+        let high = if high > low { high } else { low + 0.1 };
+        let edges = round_edges(low, high, 6);
+        let (low, high) = (edges[0], edges[edges.len() - 1]);
+        let inside: Vec<[f64; 2]> =
+            points.iter().copied().filter(|point| (low..=high).contains(&point[1])).collect();
+        let outside = points.len() - inside.len();
+        Self { low, high, step: edges[1] - edges[0], inside, outside }
+    }
+
+    /// Sets the axis of a chart.
+    pub fn on(&self, chart: Chart) -> Chart {
+        chart.y_range(self.low, self.high).y_step(self.step)
+    }
+
+    /// What a caption has to say of points that are not drawn.
+    pub fn note(&self) -> String {
+        match self.outside {
+            0 => String::new(),
+            1 => " One row lies beyond the picture.".to_owned(),
+            count => format!(" {count} rows lie beyond the picture."),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn running_means_hold_every_row_once_and_have_its_standard_error() {
+        let points: Vec<[f64; 2]> =
+            (0..100).map(|i| [f64::from(i), if i % 2 == 0 { 1.0 } else { 3.0 }]).collect();
+        let found = running(&points);
+        assert!((6..=BINS).contains(&found.means.len()), "{}", found.means.len());
+        assert!(found.means.iter().all(|mean| (mean[1] - 2.0).abs() < 0.2));
+        // 0.5 sqrt(n/(n-1)) 2 / sqrt(n): a spread of 1 over some 12 rows.
+        assert!(found.errors.iter().all(|(below, above)| below == above && (0.2..0.4).contains(below)));
+        let few = running(&[[1.0, 0.0], [1.0, 2.0], [2.0, 5.0]]);
+        assert_eq!(few.means, [[1.0, 1.0], [2.0, 5.0]]);
+        assert_eq!(few.errors, [(1.0, 1.0), (0.0, 0.0)]);
+    }
+
+    #[test]
+    fn a_gross_error_does_not_stretch_the_window() {
+        let mut points: Vec<[f64; 2]> = (0..400).map(|i| [0.0, 0.001 * f64::from(i % 100) - 0.05]).collect();
+        points.push([0.0, 40.0]);
+        let window = Window::new(&points, std::iter::once(0.0));
+        assert!(window.high < 0.11 && window.outside == 1, "{} {}", window.high, window.outside);
+    }
+
+    #[test]
+    fn names_of_columns_stay_apart() {
+        assert_eq!(identifier("v_n"), "v-n");
+        assert_ne!(identifier("v n"), identifier("v-n"));
+    }
+}
