@@ -1,8 +1,8 @@
 //! One cause: what it is, its numbers, why the others lost, and what it mends.
 
-use super::super::figure::{Chart, Figure, round_edges};
+use super::super::figure::{Chart, Figure};
 use super::super::page::{Block, Page, Table, number};
-use super::plot::{Axis, BASE, EXTENDED, OBSERVABLES, Window, identifier, running, title, triple};
+use super::plot::{Axis, BASE, EXTENDED, OBSERVABLES, Window, identifier, running, span, title, triple};
 use super::{cause_title, chance, strings, usage};
 use crate::diagnose::{Diagnosis, Estimate, Finding, Shape};
 use crate::effect::KINDS;
@@ -16,12 +16,15 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
         None => format!("Cause {}: {}", place + 1, finding.cause),
     };
     page.add(Block::Heading(heading));
-    page.add(Block::Lead(finding.explanation.clone()));
+    page.add(Block::Lead(finding.explanation.replace('`', "")));
     page.add(Block::Text(format!(
-        "It predicts unseen rows better by {:.1} nats in all; q = {} is the chance of that by luck, corrected for the number \
-         of candidates.",
+        "It predicts unseen rows better by {:.1} nats in all. The chance of that by luck, corrected for the number of \
+         candidates, is q {}.",
         finding.gain,
-        chance(finding.q_value)
+        match chance(finding.q_value) {
+            bound if bound.starts_with('<') => bound,
+            value => format!("= {value}"),
+        }
     )));
     if !finding.parameters.is_empty() {
         page.add(Block::Table(parameters(finding)));
@@ -35,8 +38,8 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
         let others: Vec<String> =
             finding.indistinguishable_from.iter().map(|cause| cause_title(cause)).collect();
         page.add(Block::Text(format!(
-            "These data cannot tell it from {}. Take it for the simplest of them, not for proven.",
-            others.join(", ")
+            "With these data {} might as well be the cause: what is named here is the simplest of them, not proven.",
+            others.join(" or ")
         )));
     }
     for measure in &finding.measure_next {
@@ -96,7 +99,10 @@ fn add_alternatives(page: &mut Page, finding: &Finding) {
 }
 
 fn figures(diagnosis: &Diagnosis, finding: &Finding) -> Vec<Figure> {
-    let id = identifier(&finding.cause);
+    let id = match finding.cause.strip_prefix("unknown:") {
+        Some(column) => format!("unknown-{}", identifier(column)),
+        None => finding.cause.clone(),
+    };
     let kind = KINDS.iter().find(|kind| kind.id == finding.cause);
     if kind.is_some_and(|kind| !kind.streams.is_empty()) && finding.observable != "outcome" {
         return scatter(diagnosis, finding, &id);
@@ -131,7 +137,7 @@ fn before_and_after(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Optio
     if before.is_empty() {
         return None;
     }
-    let (means, mended) = (running(&before), running(&after));
+    let (means, mended) = (running(&before, axis.has_words()), running(&after, axis.has_words()));
     let is_capture = finding.observable == "outcome";
     let cloud: &[[f64; 2]] = if is_capture { &[] } else { &before };
     let window = Window::new(cloud, means.reach().chain(mended.reach()));
@@ -195,7 +201,7 @@ fn curve(diagnosis: &Diagnosis, finding: &Finding, shape: &Shape, id: &str) -> O
             (format!("added to {quantity} [1]"), left(diagnosis, &axis, observable, &line, rest))
         }
     };
-    let means = running(&points);
+    let means = running(&points, axis.has_words());
     let window = Window::new(&points, line.iter().map(|point| point[1]).chain(means.reach()));
     let mut chart = window.on(axis.chart(&heading, &label)).mark_y(0.0, "");
     if !points.is_empty() {
@@ -257,6 +263,11 @@ fn scatter(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
     if rows.len() < 2 {
         return Vec::new();
     }
+    let own = if observable == "e_n" { diagnosis.scatter.e_n } else { diagnosis.scatter.e_t };
+    histograms(&rows, observable, own, id).to_vec()
+}
+
+fn histograms(rows: &[[f64; 3]], observable: &str, own: f64, id: &str) -> [Figure; 2] {
     let of = |which: usize| rows.iter().map(|numbers| numbers[which]).collect::<Vec<f64>>();
     let residuals: Vec<f64> = rows.iter().map(|numbers| numbers[0] - numbers[BASE]).collect();
     let y_label = "share of the rows [%]";
@@ -265,7 +276,6 @@ fn scatter(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
         Chart::new(&format!("{observable}, measured and forecast"), &format!("{observable} [1]"), y_label)
             .histogram("measured", &edges, &shares(&of(0), &edges))
             .histogram("base model, without scatter", &edges, &shares(&of(BASE), &edges));
-    let own = if observable == "e_n" { diagnosis.scatter.e_n } else { diagnosis.scatter.e_t };
     let edges = self::edges(residuals.clone());
     let label = format!("{observable}, measured − base model [1]");
     let mut left = Chart::new(&format!("What the base model leaves of {observable}"), &label, y_label)
@@ -273,7 +283,7 @@ fn scatter(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
     if own > 0.0 {
         left = left.line("scatter of the rest alone", &bell(&edges, own));
     }
-    vec![
+    [
         values.figure(
             &format!("spread-{id}"),
             "A single forecast a row is not enough here: the measured values spread wider, or have a second hump.",
@@ -289,7 +299,7 @@ fn scatter(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
 fn edges(mut values: Vec<f64>) -> Vec<f64> {
     values.sort_by(f64::total_cmp);
     let beyond = values.len() / 400;
-    round_edges(values[beyond], values[values.len() - 1 - beyond], BINS)
+    span(values[beyond], values[values.len() - 1 - beyond], BINS)
 }
 
 /// Shares [%] of the values between edges.
@@ -318,6 +328,7 @@ fn bell(edges: &[f64], deviation: f64) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::figure::round_edges;
     use super::*;
 
     #[test]
@@ -327,6 +338,19 @@ mod tests {
         let bell = bell(&edges, 0.1);
         let sum: f64 = bell.iter().map(|point| point[1]).sum::<f64>() * (2.0 / 200.0) / (edges[1] - edges[0]);
         assert!((sum - 100.0).abs() < 0.1, "{sum}");
+    }
+
+    #[test]
+    fn a_cause_of_chance_shows_in_histograms() {
+        let rows: Vec<[f64; 3]> = (0..200)
+            .map(|i| f64::from(i % 20) * 0.01)
+            .map(|e| [if e < 0.05 { 0.1 + e } else { 0.5 + e }, 0.6, 0.5])
+            .collect();
+        let [values, left] = histograms(&rows, "e_n", 0.05, "agglomerates");
+        assert_eq!([values.id.as_str(), left.id.as_str()], ["spread-agglomerates", "residuals-agglomerates"]);
+        for figure in [values, left] {
+            assert!(figure.svg.contains("[1]") && !figure.svg.contains("NaN"), "{}", figure.svg);
+        }
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! What the extended model gains, on rows that no fit and no choice saw.
 
-use super::super::figure::{Chart, Errors, Figure, round_edges};
+use super::super::figure::{Chart, Errors, Figure};
 use super::super::page::{Block, Page, Table, number};
-use super::plot::{BASE, EXTENDED, OBSERVABLES, identifier, title, triple};
+use super::plot::{BASE, EXTENDED, OBSERVABLES, identifier, span, title, triple};
 use super::strings;
 use crate::diagnose::{Diagnosis, Gain};
 
@@ -88,13 +88,13 @@ fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
         return Vec::new();
     }
     let sides: &[(usize, &str)] =
-        if changed { &[(BASE, "before"), (EXTENDED, "after")] } else { &[(BASE, "before")] };
+        if changed { &[(BASE, "base model"), (EXTENDED, "extended model")] } else { &[(BASE, "base model")] };
     if observable == "outcome" {
         let varied = sides.iter().any(|&(which, _)| calibration(&rows, which).0.len() > 1);
         return if varied { vec![reliability(&rows, sides)] } else { Vec::new() };
     }
     let ends = ends(&rows);
-    sides.iter().map(|&(which, when)| scatter(observable, &rows, which, when, ends)).collect()
+    sides.iter().map(|&(which, model)| scatter(observable, &rows, which, model, ends)).collect()
 }
 
 /// Ends of both axes that hold nearly all rows.
@@ -102,12 +102,13 @@ fn ends(rows: &[[f64; 3]]) -> [f64; 2] {
     let mut all: Vec<f64> = rows.iter().flatten().copied().collect();
     all.sort_by(f64::total_cmp);
     let beyond = (BEYOND * all.len() as f64) as usize;
-    let edges = round_edges(all[beyond].min(0.0), all[all.len() - 1 - beyond], 6);
+    let edges = span(all[beyond], all[all.len() - 1 - beyond], 6);
+    // Once more, so that the steps of both axes come out the same.
+    let edges = span(edges[0], edges[edges.len() - 1], 6);
     [edges[0], edges[edges.len() - 1]]
 }
 
-fn scatter(observable: &str, rows: &[[f64; 3]], which: usize, when: &str, [low, high]: [f64; 2]) -> Figure {
-    let model = if which == BASE { "base model" } else { "extended model" };
+fn scatter(observable: &str, rows: &[[f64; 3]], which: usize, model: &str, [low, high]: [f64; 2]) -> Figure {
     let inside = |point: &[f64; 2]| point.iter().all(|value| (low..=high).contains(value));
     let points: Vec<[f64; 2]> =
         rows.iter().map(|numbers| [numbers[which], numbers[0]]).filter(inside).collect();
@@ -115,19 +116,21 @@ fn scatter(observable: &str, rows: &[[f64; 3]], which: usize, when: &str, [low, 
         0 => String::new(),
         count => format!(" Beyond the picture: {count}."),
     };
-    let edges = round_edges(low, high, 6);
+    let edges = span(low, high, 6);
+    // A touch wider, so that rounding does not lose the ticks at the ends.
+    let touch = 1e-9 * (high - low);
     Chart::new(
-        &format!("{observable} {when}: measured against predicted"),
+        &format!("{observable}, {model}: measured against predicted"),
         &format!("{observable} of the {model} [1]"),
         &format!("{observable} measured [1]"),
     )
     .x_range(low, high)
-    .y_range(low, high)
+    .y_range(low - touch, high + touch)
     .y_step(edges[1] - edges[0])
     .points(&format!("{} held-out rows", rows.len()), &points)
     .line("measured = predicted", &[[low, low], [high, high]])
     .figure(
-        &format!("parity-{}-{when}", identifier(observable)),
+        &format!("parity-{}-{}", identifier(observable), if which == BASE { "before" } else { "after" }),
         &format!("The closer to the line, the better.{beyond}"),
     )
 }
@@ -156,17 +159,16 @@ fn reliability(rows: &[[f64; 3]], sides: &[(usize, &str)]) -> Figure {
         "share captured [1]",
     )
     .x_range(0.0, 1.0)
-    .y_range(0.0, 1.0)
+    .y_range(-0.04, 1.04)
     .y_step(0.2);
-    for &(which, when) in sides {
+    for &(which, model) in sides {
         let (points, errors) = calibration(rows, which);
-        chart = chart.points_with_errors(when, &points, &errors);
+        chart = chart.points_with_errors(model, &points, &errors);
     }
     chart.line("measured = predicted", &[[0.0, 0.0], [1.0, 1.0]]).figure(
         "parity-outcome",
         &format!(
-            "{} held-out rows, sorted by the predicted probability and averaged over equally many each; ± standard error. On \
-             the line, the model means what it says; points near 0 and 1 on the line decide most impacts.",
+            "{} held-out rows, sorted by the predicted probability and averaged over equally many each; ± standard error. On the line, as many are captured as the model says.",
             rows.len()
         ),
     )

@@ -27,15 +27,15 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
         ));
     } else {
         page.add(Block::Text(
-            "No column shows more than noise: the running means below stay about zero within some two of their bars. A \
-             fault smaller than the bars cannot be seen with so many rows."
+            "No column stands out beyond chance, once it is counted how many were tried. A fault smaller than the bars below \
+             cannot be seen with so many rows."
                 .into(),
         ));
     }
     let sample = &diagnosis.sample;
-    let figures = pairs(diagnosis).into_iter().filter_map(|(column, observable)| {
-        residuals(sample, observable, column, if wrong { "" } else { " This is noise." })
-    });
+    let figures = pairs(diagnosis)
+        .into_iter()
+        .filter_map(|(column, observable)| residuals(sample, observable, column, wrong));
     let figures: Vec<Figure> = figures.take(FIGURES).collect();
     if !figures.is_empty() {
         page.add(Block::Figures(figures));
@@ -85,15 +85,16 @@ fn add_ranking(page: &mut Page, misfit: &[Misfit]) {
         rows: misfit.iter().map(row).collect(),
         text_columns: 2,
     }));
-    for observable in OBSERVABLES {
-        if let Some(shared) = shared(misfit, observable) {
-            page.add(Block::Text(format!(
-                "A curve over any column also takes up an error that is the same everywhere. Some {:.0} nats in {} are of that \
-                 kind: they stand beside every column. What a column gains beyond them is its own.",
-                shared,
-                title(observable)
-            )));
-        }
+    let everywhere: Vec<String> = OBSERVABLES
+        .iter()
+        .filter_map(|name| Some(format!("{:.0} nats in {}", shared(misfit, name)?, title(name))))
+        .collect();
+    if !everywhere.is_empty() {
+        page.add(Block::Text(format!(
+            "A curve over any column also takes up an error that is the same everywhere. Some {} are of that kind: they stand \
+             beside every column. What a column gains beyond them is its own.",
+            everywhere.join(" and ")
+        )));
     }
 }
 
@@ -112,6 +113,9 @@ fn pairs(diagnosis: &Diagnosis) -> Vec<(&str, &'static str)> {
     for finding in &diagnosis.findings {
         chosen.extend(finding.variables.iter().map(|column| (column.as_str(), finding.observable)));
     }
+    // The worst of each observable.
+    let worst = |observable: &&'static str| misfit.iter().find(|one| one.observable == *observable);
+    chosen.extend(OBSERVABLES.iter().filter_map(worst).map(|one| (one.column.as_str(), one.observable)));
     let stands_out =
         |one: &&Misfit| shared(misfit, one.observable).is_none_or(|shared| one.gain > shared + CLEAR);
     chosen.extend(misfit.iter().filter(stands_out).map(|one| (one.column.as_str(), one.observable)));
@@ -147,7 +151,7 @@ fn distinct(pairs: &mut Vec<(&str, &'static str)>) {
 }
 
 /// Measured minus base model over a column, with running means.
-fn residuals(sample: &Sample, observable: &str, column: &str, note: &str) -> Option<Figure> {
+fn residuals(sample: &Sample, observable: &str, column: &str, wrong: bool) -> Option<Figure> {
     let axis = Axis::new(sample, column)?;
     let rows = sample.rows.iter();
     let points: Vec<[f64; 2]> = rows
@@ -159,7 +163,7 @@ fn residuals(sample: &Sample, observable: &str, column: &str, note: &str) -> Opt
     if points.is_empty() {
         return None;
     }
-    let means = running(&points);
+    let means = running(&points, axis.has_words());
     let quantity = title(observable);
     let label = match observable {
         "outcome" => "captured, measured − model [1]".to_owned(),
@@ -174,11 +178,12 @@ fn residuals(sample: &Sample, observable: &str, column: &str, note: &str) -> Opt
         chart = chart.cloud("single rows", &window.inside);
     }
     let chart = chart.points_with_errors("running mean ± standard error", &means.means, &means.errors);
-    let of = if axis.has_words() { "for each word" } else { "over parts of the column" };
-    let caption = format!(
-        "{} rows. Blue points off the dashed line: the base model errs there. Means {of}.{}{note}",
-        points.len(),
-        window.note()
-    );
+    let of = if axis.has_words() { "each word" } else { "parts of the column" };
+    let see = if wrong {
+        "Where the large points leave the dashed line, the base model errs."
+    } else {
+        "Noise: as far as the large points leave the dashed line, chance does that too."
+    };
+    let caption = format!("{see} {} rows; means over {of}.{}", points.len(), window.note());
     Some(chart.figure(&format!("misfit-{}-{}", identifier(observable), identifier(column)), &caption))
 }

@@ -73,7 +73,11 @@ fn with_unit(value: f64, unit: &str) -> String {
 
 /// A chance for a reader: a number too small for one is a bound.
 fn chance(value: f64) -> String {
-    if value < 1e-12 { "< 1e-12".to_owned() } else { format!("{value:.1e}") }
+    match value {
+        small if small < 1e-12 => "< 1e-12".to_owned(),
+        small if small < 1e-3 => format!("{small:.1e}"),
+        _ => format!("{value:.3}"),
+    }
 }
 
 /// Numbers of the base that the data want otherwise, and the scatter.
@@ -103,8 +107,8 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
     let all: Vec<String> = [one("e_n", scatter.e_n), one("e_t", scatter.e_t)].into_iter().flatten().collect();
     if !all.is_empty() {
         let mut text = format!(
-            "Single values scatter about the extended model by {} (standard deviation); no wall model predicts a single \
-             impact better than that in this rig.",
+            "Single values scatter about the model by {} (standard deviation): what no column of the file accounts for, the \
+             rig's own error included.",
             all.join(" and ")
         );
         if !scatter.changes_with.is_empty() {
@@ -153,7 +157,7 @@ fn add_judgement(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str
         diagnosis.seed, diagnosis.level
     )));
     page.add(Block::Code(format!(
-        "nearwall diagnose {} --model {} --seed {} --level {} --out DIR",
+        "nearwall diagnose {} \\\n  --model {} \\\n  --seed {} --level {} --out DIR",
         quoted(data),
         quoted(model),
         diagnosis.seed,

@@ -9,11 +9,13 @@ const WORDS: usize = 16;
 const LETTERS: usize = 16;
 /// Running means along an axis at most.
 const BINS: usize = 12;
-/// Values of a column up to which each has a running mean of its own.
+/// Values of a column up to which each has a running mean of its own, if it has so many rows on average.
 const DISTINCT: usize = 12;
+/// See [`DISTINCT`].
+const ROWS_A_VALUE: usize = 4;
 /// Rows that a running mean takes at least where there are enough.
 const ROWS_A_BIN: usize = 12;
-/// A column of positive numbers is drawn over its logarithm when it spans more than this factor.
+/// A column of positive numbers is drawn over its logarithm when nine tenths of its rows span more than this factor.
 const LOG_SPAN: f64 = 30.0;
 /// Share of the points beyond each end of an axis, at most.
 const BEYOND: f64 = 0.005;
@@ -69,6 +71,7 @@ enum Scale {
     Numbers {
         low: f64,
         high: f64,
+        wide: bool,
     },
     /// Labels, and by place of the word where it stands.
     Words {
@@ -125,7 +128,7 @@ impl<'a> Axis<'a> {
     /// The ends of a numeric axis.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match self.scale {
-            Scale::Numbers { low, high } => Some([low, high]),
+            Scale::Numbers { low, high, .. } => Some([low, high]),
             Scale::Words { .. } => None,
         }
     }
@@ -135,20 +138,24 @@ impl<'a> Axis<'a> {
         let chart = Chart::new(title, &self.label(), y_label);
         match &self.scale {
             Scale::Words { labels, .. } => chart.words(labels),
-            Scale::Numbers { .. } if self.is_wide() => chart.log_x(),
-            Scale::Numbers { low, high } => chart.x_range(*low, *high),
+            Scale::Numbers { wide: true, .. } => chart.log_x(),
+            // Room for the markers at the ends, but no speeds below zero.
+            Scale::Numbers { low, high, .. } => {
+                let room = 0.015 * (high - low);
+                let from = if *low >= 0.0 { (low - room).max(0.0) } else { low - room };
+                chart.x_range(from, high + room)
+            }
         }
-    }
-
-    fn is_wide(&self) -> bool {
-        matches!(self.scale, Scale::Numbers { low, high } if low > 0.0 && high > LOG_SPAN * low)
     }
 }
 
 fn of_numbers(cells: impl Iterator<Item = f64>) -> Option<Scale> {
-    let finite = cells.filter(|cell| cell.is_finite());
-    let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
-    (low < high).then_some(Scale::Numbers { low, high })
+    let mut sorted: Vec<f64> = cells.filter(|cell| cell.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let (low, high) = (*sorted.first()?, *sorted.last()?);
+    let beyond = sorted.len() / 20;
+    let wide = low > 0.0 && sorted[sorted.len() - 1 - beyond] > LOG_SPAN * sorted[beyond];
+    (low < high).then_some(Scale::Numbers { low, high, wide })
 }
 
 /// The words with the most rows, in their own order.
@@ -180,6 +187,12 @@ fn short(word: &str) -> String {
     short
 }
 
+/// Round edges about `low` to `high`, which may be one value.
+pub(super) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let room = if high - low > 1e-6 { 0.0 } else { 0.05 };
+    round_edges(low - room, high + room, count)
+}
+
 /// Means over parts of the x axis, with their standard errors.
 #[derive(Default)]
 pub(super) struct Running {
@@ -187,16 +200,14 @@ pub(super) struct Running {
     pub errors: Errors,
 }
 
-/// Running means of `points`: one for each word or value where there are few, else for equally many rows each.
-pub(super) fn running(points: &[[f64; 2]]) -> Running {
+/// Running means of `points`: one for each word, for each value where there are few, else for equally many rows each.
+pub(super) fn running(points: &[[f64; 2]], words: bool) -> Running {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let groups: Vec<&[[f64; 2]]> = sorted.chunk_by(|a, b| a[0] == b[0]).collect();
-    let most = if groups.len() <= DISTINCT.max(WORDS) {
-        1
-    } else {
-        (sorted.len() / BINS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1)
-    };
+    let few = groups.len() <= DISTINCT && sorted.len() >= ROWS_A_VALUE * groups.len();
+    let most =
+        if words || few { 1 } else { (sorted.len() / BINS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1) };
     let mut running = Running::default();
     let mut from = 0;
     let mut to = 0;
@@ -249,10 +260,14 @@ impl Window {
         sorted.sort_by(f64::total_cmp);
         let beyond = (BEYOND * sorted.len() as f64) as usize;
         let ends = [sorted.get(beyond), sorted.get(sorted.len().saturating_sub(1 + beyond))];
-        let kept = ends.into_iter().flatten().copied().chain(always).filter(|y| y.is_finite());
-        let [low, high] = kept.fold([0.0_f64, 0.0], |[l, h], y| [l.min(y), h.max(y)]);
-        let high = if high > low { high } else { low + 0.1 };
-        let edges = round_edges(low, high, 6);
+        let reach = |[l, h]: [f64; 2], y: f64| [l.min(y), h.max(y)];
+        let [low, high] = always.filter(|y| y.is_finite()).fold([0.0; 2], reach);
+        // Room for the markers at the ends.
+        let room = 0.06 * (high - low);
+        let [low, high] =
+            [low - if low < 0.0 { room } else { 0.0 }, high + if high > 0.0 { room } else { 0.0 }];
+        let [low, high] = ends.into_iter().flatten().copied().fold([low, high], reach);
+        let edges = span(low, high, 6);
         let (low, high) = (edges[0], edges[edges.len() - 1]);
         let inside: Vec<[f64; 2]> =
             points.iter().copied().filter(|point| (low..=high).contains(&point[1])).collect();
@@ -262,7 +277,9 @@ impl Window {
 
     /// Sets the axis of a chart.
     pub fn on(&self, chart: Chart) -> Chart {
-        chart.y_range(self.low, self.high).y_step(self.step)
+        // A touch wider, so that rounding does not lose the ticks at the ends.
+        let touch = 1e-9 * self.step;
+        chart.y_range(self.low - touch, self.high + touch).y_step(self.step)
     }
 
     /// What a caption has to say of points that are not drawn.
@@ -283,12 +300,12 @@ mod tests {
     fn running_means_hold_every_row_once_and_have_its_standard_error() {
         let points: Vec<[f64; 2]> =
             (0..100).map(|i| [f64::from(i), if i % 2 == 0 { 1.0 } else { 3.0 }]).collect();
-        let found = running(&points);
+        let found = running(&points, false);
         assert!((6..=BINS).contains(&found.means.len()), "{}", found.means.len());
         assert!(found.means.iter().all(|mean| (mean[1] - 2.0).abs() < 0.2));
         // 0.5 sqrt(n/(n-1)) 2 / sqrt(n): a spread of 1 over some 12 rows.
         assert!(found.errors.iter().all(|(below, above)| below == above && (0.2..0.4).contains(below)));
-        let few = running(&[[1.0, 0.0], [1.0, 2.0], [2.0, 5.0]]);
+        let few = running(&[[1.0, 0.0], [1.0, 2.0], [2.0, 5.0]], true);
         assert_eq!(few.means, [[1.0, 1.0], [2.0, 5.0]]);
         assert_eq!(few.errors, [(1.0, 1.0), (0.0, 0.0)]);
     }
