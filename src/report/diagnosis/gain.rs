@@ -168,7 +168,8 @@ fn reliability(rows: &[[f64; 3]], sides: &[(usize, &str)]) -> Figure {
     chart.line("measured = predicted", &[[0.0, 0.0], [1.0, 1.0]]).figure(
         "parity-outcome",
         &format!(
-            "{} held-out rows, sorted by the predicted probability and averaged over equally many each; ± standard error. On the line, as many are captured as the model says.",
+            "{} held-out rows, sorted by the predicted probability and averaged over equally many each; ± standard error. \
+             On the line, as many are captured as the model says.",
             rows.len()
         ),
     )

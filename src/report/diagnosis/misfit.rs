@@ -2,7 +2,8 @@
 
 use super::super::figure::Figure;
 use super::super::page::{Block, Page, Table, number};
-use super::plot::{Axis, BASE, OBSERVABLES, Window, identifier, running, title, triple};
+use super::axis::Axis;
+use super::plot::{BASE, OBSERVABLES, Window, identifier, running, title, triple};
 use super::{chance, strings};
 use crate::diagnose::{Diagnosis, Misfit, Sample};
 

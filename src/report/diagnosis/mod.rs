@@ -1,10 +1,13 @@
 //! The page of a diagnosis: verdict, what was wrong, the cause, the gain, what to measure next, how to run the extended
 //! model.
 
+mod axis;
 mod cause;
+mod curve;
 mod gain;
 mod misfit;
 mod plot;
+mod spread;
 mod usage;
 
 use super::page::{Block, Page, Table, number};
