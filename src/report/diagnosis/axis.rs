@@ -1,6 +1,7 @@
 //! Columns as axes: numbers even or by their logarithm, words side by side.
 
 use super::super::figure::Chart;
+use super::plot::DISTINCT;
 use crate::diagnose::{Sample, SampleRow};
 
 /// Words along an axis at most.
@@ -23,12 +24,11 @@ enum Scale {
         low: f64,
         high: f64,
         wide: bool,
+        /// Whether its values are few: markers stand at its ends.
+        few: bool,
     },
     /// Labels, and by place of the word where it stands.
-    Words {
-        labels: Vec<String>,
-        stands: Vec<Option<usize>>,
-    },
+    Words { labels: Vec<String>, stands: Vec<Option<usize>> },
 }
 
 impl<'a> Axis<'a> {
@@ -90,9 +90,9 @@ impl<'a> Axis<'a> {
         match &self.scale {
             Scale::Words { labels, .. } => chart.words(labels),
             Scale::Numbers { wide: true, .. } => chart.log_x(),
-            // Room for the markers at the ends, but no speeds below zero.
-            Scale::Numbers { low, high, .. } => {
-                let room = 0.015 * (high - low);
+            // Room for markers at the ends, but no speeds below zero.
+            Scale::Numbers { low, high, few, .. } => {
+                let room = if *few { 0.015 * (high - low) } else { 0.0 };
                 let from = if *low >= 0.0 { (low - room).max(0.0) } else { low - room };
                 chart.x_range(from, high + room)
             }
@@ -106,7 +106,8 @@ fn of_numbers(cells: impl Iterator<Item = f64>) -> Option<Scale> {
     let (low, high) = (*sorted.first()?, *sorted.last()?);
     let beyond = sorted.len() / 20;
     let wide = low > 0.0 && sorted[sorted.len() - 1 - beyond] > LOG_SPAN * sorted[beyond];
-    (low < high).then_some(Scale::Numbers { low, high, wide })
+    let few = sorted.chunk_by(|a, b| a == b).count() <= DISTINCT;
+    (low < high).then_some(Scale::Numbers { low, high, wide, few })
 }
 
 /// The words with the most rows, in their own order.

@@ -127,7 +127,8 @@ fn before_and_after(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Optio
         let rows = diagnosis.sample.rows.iter();
         rows.filter_map(|row| {
             let numbers = triple(row, finding.observable)?;
-            Some([axis.at(row)?, numbers[0] - numbers[which]])
+            let left = numbers[0] - numbers[which];
+            left.is_finite().then_some([axis.at(row)?, left])
         })
         .collect::<Vec<[f64; 2]>>()
     };

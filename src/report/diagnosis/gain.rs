@@ -51,6 +51,11 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     }
 }
 
+/// Three decimals, or a dash for what is no number.
+fn digits(value: f64) -> String {
+    if value.is_finite() { format!("{value:.3}") } else { number(value) }
+}
+
 fn table(gains: &[Gain]) -> Table {
     let row = |gain: &Gain| {
         let ratio = gain.rmse_after / gain.rmse_before;
@@ -60,8 +65,12 @@ fn table(gains: &[Gain]) -> Table {
             gain.held_out_rows.to_string(),
             number(gain.rmse_before),
             number(gain.rmse_after),
-            if same { "unchanged".to_owned() } else { format!("{ratio:.3}") },
-            if same { "–".to_owned() } else { format!("{:.3} to {:.3}", gain.ci95[0], gain.ci95[1]) },
+            if same { "unchanged".to_owned() } else { digits(ratio) },
+            if same {
+                "–".to_owned()
+            } else {
+                format!("{} to {}", digits(gain.ci95[0]), digits(gain.ci95[1]))
+            },
         ]
     };
     Table {
@@ -82,7 +91,10 @@ fn table(gains: &[Gain]) -> Table {
 /// Measured against predicted, held-out rows only; nothing where the extension changes nothing.
 fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
     let rows = diagnosis.sample.rows.iter().filter(|row| row.held_out);
-    let rows: Vec<[f64; 3]> = rows.filter_map(|row| triple(row, observable)).collect();
+    let rows: Vec<[f64; 3]> = rows
+        .filter_map(|row| triple(row, observable))
+        .filter(|numbers| numbers[EXTENDED].is_finite())
+        .collect();
     let changed = rows.iter().any(|numbers| numbers[BASE] != numbers[EXTENDED]);
     if rows.is_empty() || (!changed && !diagnosis.gains.is_empty()) {
         return Vec::new();

@@ -6,7 +6,7 @@ use crate::diagnose::SampleRow;
 /// Running means along an axis at most.
 const BINS: usize = 12;
 /// Values of a column up to which each has a running mean of its own, if it has so many rows on average.
-const DISTINCT: usize = 12;
+pub(super) const DISTINCT: usize = 12;
 /// See [`DISTINCT`].
 const ROWS_A_VALUE: usize = 4;
 /// Rows that a running mean takes at least where there are enough.
@@ -30,14 +30,14 @@ pub(super) fn title(observable: &str) -> &str {
     }
 }
 
-/// Measured, base model, extended model.
+/// Measured, base model, extended model; the last may be no number.
 pub(super) fn triple(row: &SampleRow, observable: &str) -> Option<[f64; 3]> {
     let triple = match observable {
         "e_n" => row.e_n,
         "e_t" => row.e_t,
         _ => row.captured,
     };
-    triple.filter(|numbers| numbers.iter().all(|number| number.is_finite()))
+    triple.filter(|numbers| numbers[0].is_finite() && numbers[BASE].is_finite())
 }
 
 /// Letters, digits and hyphens that no other column's name comes to.
