@@ -13,6 +13,8 @@ use kuva::render::plots::Plot;
 
 /// Okabe and Ito's colours in an order that keeps neighbours apart, black left for text.
 const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8A8A8A"];
+/// Of single readings behind what is drawn over them: pale, but not lost on paper.
+const CLOUD: &str = "#A6A6A6";
 const MARKERS: [MarkerShape; 7] = [
     MarkerShape::Circle,
     MarkerShape::Square,
@@ -31,6 +33,8 @@ const DASHES: [(LineStyle, &str); 4] = [
 
 const WIDTH: f64 = 620.0;
 const HEIGHT: f64 = 370.0;
+/// Letters that fit side by side under an x axis.
+const WORDS_LETTERS: usize = 60;
 /// Where a legend begins.
 const LEGEND_LEFT: f64 = 60.0;
 
@@ -191,6 +195,7 @@ pub struct Chart {
     y_range: Option<[f64; 2]>,
     y_step: Option<f64>,
     log: [bool; 2],
+    words: Vec<String>,
     lines: Vec<ReferenceLine>,
 }
 
@@ -208,8 +213,16 @@ impl Chart {
             y_range: None,
             y_step: None,
             log: [false; 2],
+            words: Vec::new(),
             lines: Vec::new(),
         }
+    }
+
+    /// Words along the x axis instead of numbers; the first stands at 1, the next at 2.
+    #[must_use]
+    pub fn words(mut self, words: &[String]) -> Self {
+        self.words = words.to_vec();
+        self
     }
 
     /// Fixes the ends of the x axis.
@@ -251,6 +264,19 @@ impl Chart {
     #[must_use]
     pub fn points(mut self, name: &str, points: &[[f64; 2]]) -> Self {
         let plot = self.scatter(name, points);
+        self.plots.push(plot.into());
+        self
+    }
+
+    /// Small pale points for single readings; what is drawn after them lies on top.
+    #[must_use]
+    pub fn cloud(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let points = finite(points);
+        let plot = ScatterPlot::new()
+            .with_data(points.iter().map(|p| (p[0], p[1])))
+            .with_color(CLOUD)
+            .with_size(if points.len() > 500 { 1.5 } else { 2.0 });
+        self.keys.push(Key { name: name.to_owned(), colour: CLOUD, sign: Sign::Marker(MarkerShape::Circle) });
         self.plots.push(plot.into());
         self
     }
@@ -341,6 +367,16 @@ impl Chart {
             let step = round_step((high - low) / 6.0);
             let (low, high) = ((low / step).floor() * step, (high / step - 1e-9).ceil() * step);
             layout = layout.with_x_axis_min(low).with_x_axis_max(high).with_x_tick_step(step);
+        }
+        if !self.words.is_empty() {
+            let last = self.words.len() as f64 + 0.5;
+            layout = layout.with_x_axis_min(0.5).with_x_axis_max(last);
+            // Level words lie side by side as far as there is room.
+            let letters: usize = self.words.iter().map(|word| word.chars().count() + 2).sum();
+            if letters > WORDS_LETTERS {
+                layout = layout.with_x_tick_rotate(-40.0);
+            }
+            layout = layout.with_x_categories(self.words);
         }
         if let Some([low, high]) = self.y_range {
             layout = layout.with_y_axis_min(low).with_y_axis_max(high);
@@ -574,6 +610,14 @@ mod tests {
         );
         assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
         assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
+    }
+
+    #[test]
+    fn words_stand_along_the_axis() {
+        let words = ["Ann".to_owned(), "Bob".to_owned()];
+        let chart = Chart::new("t", "who", "y [1]").words(&words).cloud("rows", &[[1.0, 2.0], [2.0, 3.0]]);
+        let svg = chart.figure("w", "").svg;
+        assert!(svg.contains(">Ann<") && svg.contains(">Bob<") && svg.contains(CLOUD), "{svg}");
     }
 
     #[test]

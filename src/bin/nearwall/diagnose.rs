@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use nearwall::Model;
 use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
-use nearwall::diagnose::{Diagnosis, Options, diagnose};
+use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose};
 use nearwall::report::diagnosis_page;
 
 use crate::{CommandResult, progress};
@@ -58,7 +58,11 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     }
     let bar = progress::spinner("candidates tried");
     let options = Options { seed: arguments.seed, level: arguments.level };
-    let (diagnosis, extended) = diagnose(&model, &text, &data, options, &|| bar.inc(1))?;
+    let (diagnosis, extended) =
+        diagnose(&model, &text, &data, options, &|| bar.inc(1)).map_err(|error| match error {
+            DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
+            DiagnosisError::Unextendable(_) => format!("{}: {error}", arguments.model.display()),
+        })?;
     bar.finish_and_clear();
     write(&arguments.out, arguments, &diagnosis, &extended)?;
     crate::print(&summary(&diagnosis, &arguments.out))

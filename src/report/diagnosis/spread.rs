@@ -1,0 +1,108 @@
+//! Causes that leave something to chance: they show in the spread of what was measured.
+
+use super::super::figure::{Chart, Figure};
+use super::plot::{BASE, span, triple};
+use crate::diagnose::{Diagnosis, Finding};
+
+/// Bins of a histogram, about.
+const BINS: usize = 30;
+
+/// Histograms of the values and of what the base model leaves of them.
+pub(super) fn figures(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
+    let observable = if finding.observable == "e_t" { "e_t" } else { "e_n" };
+    let rows: Vec<[f64; 3]> =
+        diagnosis.sample.rows.iter().filter_map(|row| triple(row, observable)).collect();
+    if rows.len() < 2 {
+        return Vec::new();
+    }
+    let own = if observable == "e_n" { diagnosis.scatter.e_n } else { diagnosis.scatter.e_t };
+    histograms(&rows, observable, own, id).to_vec()
+}
+
+fn histograms(rows: &[[f64; 3]], observable: &str, own: f64, id: &str) -> [Figure; 2] {
+    let of = |which: usize| rows.iter().map(|numbers| numbers[which]).collect::<Vec<f64>>();
+    let residuals: Vec<f64> = rows.iter().map(|numbers| numbers[0] - numbers[BASE]).collect();
+    let y_label = "share of the rows [%]";
+    let edges = edges([of(0), of(BASE)].concat());
+    let values =
+        Chart::new(&format!("{observable}, measured and forecast"), &format!("{observable} [1]"), y_label)
+            .histogram("measured", &edges, &shares(&of(0), &edges))
+            .histogram("base model, without scatter", &edges, &shares(&of(BASE), &edges));
+    let edges = self::edges(residuals.clone());
+    let label = format!("{observable}, measured − base model [1]");
+    let mut left = Chart::new(&format!("What the base model leaves of {observable}"), &label, y_label)
+        .histogram("measured − base model", &edges, &shares(&residuals, &edges));
+    if own > 0.0 {
+        left = left.line("scatter of the rest alone", &bell(&edges, own));
+    }
+    [
+        values.figure(
+            &format!("spread-{id}"),
+            "A single forecast a row is not enough here: the measured values spread wider, or have a second hump.",
+        ),
+        left.figure(
+            &format!("residuals-{id}"),
+            "The line is what scatter would leave were the base model right; what stands outside it is the cause's.",
+        ),
+    ]
+}
+
+/// Edges of bins over all but the outermost few values.
+fn edges(mut values: Vec<f64>) -> Vec<f64> {
+    values.sort_by(f64::total_cmp);
+    let beyond = values.len() / 400;
+    span(values[beyond], values[values.len() - 1 - beyond], BINS)
+}
+
+/// Shares [%] of the values between edges.
+fn shares(values: &[f64], edges: &[f64]) -> Vec<f64> {
+    let (low, step, bins) = (edges[0], edges[1] - edges[0], edges.len() - 1);
+    let mut counts = vec![0.0; bins];
+    for value in values {
+        let place = (value - low) / step;
+        // A hair of rounding at the upper end.
+        if place >= 0.0 && place <= bins as f64 + 1e-9 {
+            counts[(place as usize).min(bins - 1)] += 100.0 / values.len() as f64;
+        }
+    }
+    counts
+}
+
+/// A normal distribution about zero, in per cent a bin.
+fn bell(edges: &[f64], deviation: f64) -> Vec<[f64; 2]> {
+    let (low, high, step) = (edges[0], edges[edges.len() - 1], edges[1] - edges[0]);
+    let density =
+        |x: f64| (-0.5 * (x / deviation).powi(2)).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt());
+    (0..=200)
+        .map(|i| low + (high - low) * f64::from(i) / 200.0)
+        .map(|x| [x, 100.0 * step * density(x)])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::figure::round_edges;
+    use super::*;
+
+    #[test]
+    fn histograms_hold_all_rows_and_the_bell_its_whole() {
+        let edges = round_edges(-1.0, 1.0, 20);
+        assert!((shares(&[-0.95, 0.0, 0.5, 1.0], &edges).iter().sum::<f64>() - 100.0).abs() < 1e-9);
+        let bell = bell(&edges, 0.1);
+        let sum: f64 = bell.iter().map(|point| point[1]).sum::<f64>() * (2.0 / 200.0) / (edges[1] - edges[0]);
+        assert!((sum - 100.0).abs() < 0.1, "{sum}");
+    }
+
+    #[test]
+    fn a_cause_of_chance_shows_in_histograms() {
+        let rows: Vec<[f64; 3]> = (0..200)
+            .map(|i| f64::from(i % 20) * 0.01)
+            .map(|e| [if e < 0.05 { 0.1 + e } else { 0.5 + e }, 0.6, 0.5])
+            .collect();
+        let [values, left] = histograms(&rows, "e_n", 0.05, "agglomerates");
+        assert_eq!([values.id.as_str(), left.id.as_str()], ["spread-agglomerates", "residuals-agglomerates"]);
+        for figure in [values, left] {
+            assert!(figure.svg.contains("[1]") && !figure.svg.contains("NaN"), "{}", figure.svg);
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! `nearwall diagnose` as a laboratory uses it: a file of measured impacts in, page, JSON and extended model out.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod common;
+
+use std::fmt::Write;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use common::browser::{Seen, browse};
+use nearwall::{Draw, Impact, Model};
+use serde_json::Value;
+
+const WAX: &str = r#"
+[particle]
+material = "montan-wax"
+[walls.default]
+material = "pyrex"
+[normal]
+model = "thornton-ning"
+yield_ratio = 0.7
+[tangential]
+model = "constant"
+e_t = 0.76
+"#;
+
+/// Rows that hold no impact, with the lines that they stand on.
+const BROKEN: [(usize, &str); 2] = [(8, "fast,0.5,7e-5,0,dry,0.3,0.7"), (21, "1.5,0.5,-7e-5,0,dry,0.3,0.7")];
+
+fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// Asserts exit 0 and returns what was printed.
+fn done(folder: &Path, arguments: &[&str]) -> String {
+    let output = nearwall(folder, arguments);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Asserts exit 1 and that the message holds each of `parts`.
+fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
+    let output = nearwall(folder, arguments);
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{message}");
+    for part in parts {
+        assert!(message.contains(part), "`{part}` is not in: {message}");
+    }
+    assert!(!message.contains("panicked"), "{message}");
+}
+
+/// About normal with mean 0 and deviation 1: the sum of twelve even draws.
+fn noise(draw: Draw, first: u64) -> f64 {
+    (first..first + 12).map(|stream| draw.uniform(stream)).sum::<f64>() - 6.0
+}
+
+/// Measured impacts: the wax model, times what `planted` makes of layer and plate, and noise.
+fn measured(rows: u64, planted: impl Fn(f64, &str) -> f64) -> String {
+    let model = Model::from_toml("wax.toml", WAX).unwrap();
+    let mut text = "v_n,v_t,d,layer_thickness,plate,e_n,e_t\n".to_owned();
+    for key in 0..rows {
+        let draw = Draw::new(11, key);
+        let layer_thickness = if key % 5 == 0 { 0.0 } else { 8e-4 * draw.uniform(103) };
+        let plate = ["dry", "old, worn", "wet"][(3.0 * draw.uniform(104)) as usize];
+        let impact = Impact {
+            normal_speed: 0.5 + 3.0 * draw.uniform(100),
+            tangential_speed: 2.0 * draw.uniform(101),
+            diameter: 5e-5 + 5e-5 * draw.uniform(102),
+            layer_thickness,
+            ..Impact::default()
+        };
+        let outcome = model.resolve(0, &impact, draw).unwrap();
+        let e_n = outcome.normal_restitution * planted(layer_thickness, plate) + 0.02 * noise(draw, 200);
+        let e_t = outcome.tangential_restitution + 0.03 * noise(draw, 300);
+        writeln!(
+            text,
+            "{},{},{:e},{layer_thickness:e},\"{plate}\",{:.4},{e_t:.4}",
+            impact.normal_speed,
+            impact.tangential_speed,
+            impact.diameter,
+            e_n.max(0.0)
+        )
+        .unwrap();
+    }
+    let mut lines: Vec<&str> = text.lines().collect();
+    for (line, row) in BROKEN {
+        if line <= lines.len() {
+            lines.insert(line - 1, row);
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// What a layer leaves of a rebound: a form of its own, not the library's.
+fn rational(layer: f64) -> f64 {
+    0.4 + 0.6 / (1.0 + (layer / 1.5e-4).powi(2))
+}
+
+fn folder(data: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("wax.toml"), WAX).unwrap();
+    std::fs::write(folder.path().join("lab.csv"), data).unwrap();
+    folder
+}
+
+const DIAGNOSE: [&str; 6] = ["diagnose", "lab.csv", "--model", "wax.toml", "--out", "out"];
+
+fn json(folder: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(folder.join("out/diagnosis.json")).unwrap()).unwrap()
+}
+
+/// Asserts that the page stands alone, shows a figure under each of `ids`, and says each of `words`.
+fn page_shows(folder: &Path, ids: &[&str], words: &[&str]) {
+    let page = folder.join("out/report.html");
+    let html = std::fs::read_to_string(&page).unwrap();
+    let namespaces = html.replace("http://www.w3.org/", "");
+    for elsewhere in ["http://", "https://", "src=", "url(//", "@import", "NaN"] {
+        assert!(!namespaces.contains(elsewhere), "the page holds {elsewhere}");
+    }
+    for word in words {
+        assert!(html.contains(word), "`{word}` is not on the page");
+    }
+    let mut named: Vec<&str> =
+        html.split("<figure id=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+    named.sort_unstable();
+    assert!(named.windows(2).all(|pair| pair[0] != pair[1]), "two figures of one name: {named:?}");
+    let Some(Seen { dom, complaints }) = browse(&page) else { return };
+    assert!(complaints.is_empty(), "{complaints:?}");
+    for id in ids {
+        let figure = dom.split_once(&format!("<figure id=\"{id}\">"));
+        let figure = figure.and_then(|(_, rest)| rest.split("</figure>").next()).unwrap_or_default();
+        assert!(figure.contains("<svg") && figure.contains("<text"), "no figure {id} among {named:?}");
+        let caption = figure.split("<figcaption>").nth(1).unwrap_or_default();
+        assert!(caption.len() > 20, "{id} has no caption");
+    }
+}
+
+#[test]
+fn a_planted_layer_is_found_and_the_three_files_hold_together() {
+    let folder = folder(&measured(300, |layer, _| rational(layer)));
+    let folder = folder.path();
+    let printed = done(folder, &DIAGNOSE);
+    assert!(printed.contains("powder-layer") && printed.contains("report.html"), "{printed}");
+
+    let json = json(folder);
+    assert_eq!(json["schema"], "nearwall.diagnosis/1");
+    assert_eq!((json["seed"].as_u64(), json["level"].as_f64()), (Some(1), Some(0.05)));
+    assert_eq!((json["rows"]["read"].as_u64(), json["rows"]["used"].as_u64()), (Some(302), Some(300)));
+    assert_eq!(json["rows"]["held_out"], 75);
+    let lines: Vec<u64> = json["rows"]["rejected"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|bad| bad["line"].as_u64().unwrap())
+        .collect();
+    assert_eq!(lines, BROKEN.map(|(line, _)| line as u64));
+    assert!(json["base"]["rmse_e_n"].as_f64().unwrap() > 0.03);
+    assert!((json["base"]["rmse_e_t"].as_f64().unwrap() - 0.03).abs() < 0.005);
+    assert!(json["base"]["log_loss_stick"].is_null());
+    assert_eq!(json["misfit"][0]["column"], "layer_thickness");
+    assert_eq!(json["extended_model"], "extended.toml");
+
+    let finding = &json["findings"][0];
+    assert_eq!(
+        (finding["cause"].as_str(), finding["observable"].as_str()),
+        (Some("powder-layer"), Some("e_n"))
+    );
+    assert_eq!(finding["variables"], serde_json::json!(["layer_thickness"]));
+    assert!(finding["p_value"].as_f64().unwrap() <= finding["q_value"].as_f64().unwrap());
+    assert!(finding["q_value"].as_f64().unwrap() < 1e-3);
+    let residual = &finding["parameters"]["residual"];
+    let [low, value, high] = ["low", "value", "high"].map(|key| residual[key].as_f64().unwrap());
+    assert!(
+        low < value && value < high && (0.2..0.6).contains(&value) && residual["unit"] == "1",
+        "{residual}"
+    );
+    assert!(!finding["alternatives"].as_array().unwrap().is_empty());
+    assert!(finding["alternatives"][0]["score_difference"].is_number());
+    assert!(
+        finding["indistinguishable_from"].is_array() && finding["explanation"].as_str().unwrap().len() > 20
+    );
+    let gain = &json["gain"];
+    let [before, after] = ["rmse_before", "rmse_after"].map(|key| gain[key].as_f64().unwrap());
+    assert!(after < 0.7 * before && gain["ci95"][1].as_f64().unwrap() < 0.8, "{gain}");
+    // The noise that was put in is all that is left, but for the other form of the layer's law.
+    assert!((0.015..0.028).contains(&after), "{after}");
+
+    page_shows(
+        folder,
+        &["misfit-e-n-layer-thickness", "cause-powder-layer", "parity-e-n-before", "parity-e-n-after"],
+        &[
+            "<td class=\"w\">8</td>",
+            "<td class=\"w\">21</td>",
+            "nearwall predict --model extended.toml",
+            "nearWallInteractionCoeffs",
+        ],
+    );
+}
+
+#[test]
+fn the_extended_model_is_accepted_and_predicts_what_was_found() {
+    let folder = folder(&measured(300, |layer, _| rational(layer)));
+    let folder = folder.path();
+    done(folder, &DIAGNOSE);
+    assert!(done(folder, &["check", "out/extended.toml"]).contains("accepted"));
+    std::fs::write(folder.join("two.csv"), "v_n,d,layer_thickness\n2,7e-5,0\n2,7e-5,8e-4\n").unwrap();
+    let predicted = done(folder, &["predict", "--model", "out/extended.toml", "two.csv"]);
+    let mut lines = predicted.lines().map(|line| line.split(',').collect::<Vec<&str>>());
+    let place = lines.next().unwrap().iter().position(|name| *name == "e_n").unwrap();
+    let e_n: Vec<f64> = lines.map(|cells| cells[place].parse().unwrap()).collect();
+    let (found, planted) = (e_n[1] / e_n[0], rational(8e-4));
+    assert!((found - planted).abs() < 0.06, "a thick layer leaves {found}, planted was {planted}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes() {
+    let folder = folder(&measured(150, |layer, _| rational(layer)));
+    let folder = folder.path();
+    let files = || {
+        done(folder, &DIAGNOSE);
+        ["extended.toml", "diagnosis.json", "report.html"]
+            .map(|name| std::fs::read(folder.join("out").join(name)).unwrap())
+    };
+    assert!(files() == files(), "two runs differ");
+}
+
+#[test]
+fn a_plate_that_no_effect_explains_is_shown_word_by_word() {
+    let plates = |_, plate: &str| if plate == "old, worn" { 0.6 } else { 1.0 };
+    let folder = folder(&measured(300, plates));
+    let folder = folder.path();
+    done(folder, &DIAGNOSE);
+    let json = json(folder);
+    assert_eq!(json["findings"][0]["cause"], "unknown:plate", "{json}");
+    assert!(done(folder, &["check", "out/extended.toml"]).contains("accepted"));
+    page_shows(
+        folder,
+        &["misfit-e-n-plate", "curve-unknown-plate", "cause-unknown-plate"],
+        &[">old, worn<", "What the model file cannot carry"],
+    );
+}
+
+#[test]
+fn a_model_without_fault_gets_a_page_of_noise() {
+    let folder = folder(&measured(120, |_, _| 1.0));
+    let folder = folder.path();
+    done(folder, &DIAGNOSE);
+    let json = json(folder);
+    assert_eq!(json["findings"], serde_json::json!([]), "{json}");
+    let extended = std::fs::read_to_string(folder.join("out/extended.toml")).unwrap();
+    assert_eq!(extended, WAX);
+    page_shows(
+        folder,
+        &["misfit-e-n-v-n", "parity-e-n-before"],
+        &["No column stands out", "Nothing was added"],
+    );
+}
+
+#[test]
+fn what_cannot_be_diagnosed_is_refused_with_the_remedy() {
+    let folder = folder("v_n,d\n1,7e-5\n2,7e-5\n");
+    let folder = folder.path();
+    refused(folder, &DIAGNOSE, &["lab.csv", "e_n", "capture_efficiency"]);
+    refused(folder, &["diagnose", "lab.csv", "--model", "absent.toml", "--out", "out"], &["absent.toml"]);
+    refused(folder, &["diagnose", "absent.csv", "--model", "wax.toml", "--out", "out"], &["absent.csv"]);
+    std::fs::write(folder.join("lab.csv"), "v_n,e_n\n1,0.3\n2,0.3\nslow,0.3\n").unwrap();
+    refused(folder, &DIAGNOSE, &["lab.csv", "2 of 3 rows", "at least 8", "Line 4"]);
+    for level in ["2", "0", "nan"] {
+        let mut arguments = DIAGNOSE.to_vec();
+        arguments.extend(["--level", level]);
+        refused(folder, &arguments, &["--level", "between 0 and 0.5"]);
+    }
+    assert!(!folder.join("out").exists(), "a refused diagnosis leaves nothing behind");
+}
