@@ -1,6 +1,6 @@
 //! Which measurement would tell two causes apart.
 //!
-//! One input after the other is moved over its range and a factor of two beyond, all others at their medians. Where the
+//! One input after the other is moved over its range and a quarter of it beyond, all others at their medians. Where the
 //! two fitted models' forecasts part most, relative to the scatter, is where to measure: the number of impacts is that of
 //! a comparison of two groups, one at each end, with 5 % false alarms and 80 % power,
 //! `n = 2 · 2 (1.96 + 0.84)² (scatter / difference)²`.
@@ -31,8 +31,11 @@ pub(super) fn advise(
     let middle = median_row(study)?;
     let candidates = INPUTS.iter().filter_map(|input| {
         let [low, high] = study.range(input.name)?;
-        let ends =
-            [if low > 0.0 { 0.5 * low } else { low }, if input.unit == "1" { high } else { 2.0 * high }];
+        let beyond = 0.25 * (high - low);
+        let ends = [
+            if low > 0.0 { (low - beyond).max(0.5 * low) } else { low },
+            if input.unit == "1" { high } else { high + beyond },
+        ];
         let rows: Vec<Measurement> = (0..STEPS)
             .map(|step| {
                 let mut row = middle;

@@ -1,7 +1,7 @@
 //! One round of the contest: every candidate is fitted to four fifths of the rows and scored on the last, five times over.
 //!
 //! A candidate's gain is the sum over rows of the difference in log score to the hypothesis that stands, each row scored
-//! by a fit that did not see it. Its p-value is that of a paired t-test of these differences (one-sided); q-values are
+//! by a fit that did not see it. Its p-value is that of a paired t-test of these differences (one-sided, corrected for skewness); q-values are
 //! Benjamini and Hochberg's over all candidates of the round, so the level is the share of false discoveries. A curve over
 //! a column has a level too, which any column could carry: its test is against the level alone.
 
@@ -29,6 +29,9 @@ const STARTS: usize = 2;
 /// Gain on these rows [nats] that a candidate has to show after the first descents.
 const PROMISING: f64 = 0.3;
 
+/// Largest correction for skewness, as a share of the mean.
+const LARGEST_SKEW: f64 = 0.3;
+
 /// What may be added to a hypothesis.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Candidate {
@@ -40,8 +43,6 @@ pub(super) enum Candidate {
         factor: usize,
         /// What it acts on.
         observable: Observable,
-        /// Whether it multiplies the forecast.
-        factorwise: bool,
     },
     /// Scatter that changes with a factor.
     Noise {
@@ -168,10 +169,7 @@ impl<'a> Round<'a> {
                 if !self.observed(observable) || self.hypothesis.turns_on(&study.factors[factor].name) {
                     continue;
                 }
-                let modes: &[bool] =
-                    if observable == Observable::Capture { &[false] } else { &[false, true] };
-                let unknown = |&factorwise| Candidate::Unknown { factor, observable, factorwise };
-                candidates.extend(modes.iter().map(unknown));
+                candidates.push(Candidate::Unknown { factor, observable });
             }
             let numeric = matches!(study.factors[factor].values, Values::Numbers(_));
             if numeric && !self.hypothesis.noise.iter().any(|&(other, _)| other == factor) {
@@ -194,12 +192,7 @@ impl<'a> Round<'a> {
     fn contend(&self, candidate: Candidate, levels: &Levels) -> Option<Contender> {
         let added = match candidate {
             Candidate::Part(part) => Added::Part(self.fit_part(part)?),
-            Candidate::Unknown { factor, observable, factorwise } => {
-                let basis = Basis::of(&self.study.factors[factor].values, &self.study.search)?;
-                let blank =
-                    Unknown { factor, observable, factorwise, curve: Curve { basis, heights: Vec::new() } };
-                Added::Unknown(self.fit_unknown(&blank, &self.study.search, self.scatter)?)
-            }
+            Candidate::Unknown { factor, observable } => self.better_curve(factor, observable)?,
             Candidate::Noise { factor } => self.fit_noise(factor, &self.study.search, 0.0),
         };
         if self.gain_in_sample(&added) < HOPELESS {
@@ -334,6 +327,20 @@ impl<'a> Round<'a> {
         Some(Fitted { at, ..blank })
     }
 
+    /// The curve over a factor, added or multiplied, whichever fits better.
+    fn better_curve(&self, factor: usize, observable: Observable) -> Option<Added> {
+        let basis = Basis::of(&self.study.factors[factor].values, &self.study.search)?;
+        let fit = |factorwise| {
+            let curve = Curve { basis: basis.clone(), heights: Vec::new() };
+            let blank = Unknown { factor, observable, factorwise, curve };
+            let added = Added::Unknown(self.fit_unknown(&blank, &self.study.search, self.scatter)?);
+            Some((self.gain_in_sample(&added), added))
+        };
+        let multiplied = if observable == Observable::Capture { None } else { fit(true) };
+        let better = fit(false).into_iter().chain(multiplied).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(better.1)
+    }
+
     /// The curve that the residuals of these rows ask for, over the factor and basis of `blank`.
     fn fit_unknown(&self, blank: &Unknown, rows: &[usize], scatter: Scatter) -> Option<Unknown> {
         let Unknown { factor, observable, factorwise, ref curve } = *blank;
@@ -366,13 +373,19 @@ impl<'a> Round<'a> {
     }
 }
 
-/// Mean over its standard error.
+/// Mean over its standard error, corrected for skewness (Johnson 1978): a rare kind of impact gains much in few rows.
 fn t_statistic(differences: &[f64]) -> f64 {
     let count = differences.len() as f64;
     let mean = differences.iter().sum::<f64>() / count;
-    let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    let error = (variance / count).sqrt();
-    if error > 0.0 { mean / error } else { 0.0 }
+    let moment = |power: i32| differences.iter().map(|d| (d - mean).powi(power)).sum::<f64>() / count;
+    let (variance, third) = (moment(2), moment(3));
+    if variance <= 0.0 {
+        return 0.0;
+    }
+    let skew = third / (6.0 * variance * count) + third * mean * mean / (3.0 * variance * variance);
+    // The correction is the first term of a series: where it is large, the mean is far from nought anyhow.
+    let skew = skew.clamp(-LARGEST_SKEW * mean.abs(), LARGEST_SKEW * mean.abs());
+    (mean + skew) / (variance / (count - 1.0).max(1.0)).sqrt()
 }
 
 /// Benjamini and Hochberg's q-values for `count` candidates, of which those without hope are not in the list.

@@ -79,10 +79,18 @@ fn valid(study: &Study) -> InlineTable {
     let mut ranges = InlineTable::new();
     for factor in study.factors.iter().filter(|f| f.input && matches!(f.values, Values::Numbers(_))) {
         if let Some([low, high]) = study.range(&factor.name) {
-            ranges.insert(&factor.name, Value::Array([low, high].into_iter().collect()));
+            ranges.insert(
+                &factor.name,
+                Value::Array([outward(low, -1.0), outward(high, 1.0)].into_iter().collect()),
+            );
         }
     }
     ranges
+}
+
+/// Six digits, rounded so that the rows at the ends of the range stay within it.
+fn outward(end: f64, direction: f64) -> f64 {
+    rounded(end + direction * 1e-5 * end.abs())
 }
 
 /// Six digits are more than a fit is worth, and easier to read than seventeen.

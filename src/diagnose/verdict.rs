@@ -53,7 +53,7 @@ pub(super) fn record(
     scatter: Scatter,
     options: Options,
 ) -> Diagnosis {
-    let teller = Teller { study, hypothesis, intervals, scatter };
+    let teller = Teller { study, hypothesis, intervals, scatter, level: options.level };
     let mut findings: Vec<Finding> = Vec::new();
     let mut calibration = Vec::new();
     for discovery in discoveries {
@@ -125,6 +125,7 @@ struct Teller<'a> {
     hypothesis: &'a Hypothesis,
     intervals: &'a [Vec<[f64; 2]>],
     scatter: Scatter,
+    level: f64,
 }
 
 impl Teller<'_> {
@@ -254,7 +255,16 @@ impl Teller<'_> {
     /// The best of each other cause in the round.
     fn alternatives(&self, winner: &Contender, others: &[Contender]) -> Vec<Alternative> {
         let mut best: BTreeMap<String, f64> = BTreeMap::new();
-        for other in others.iter().filter(|other| !matches!(other.added, Added::Noise(..))) {
+        let variables = self.variables(winner);
+        let rival = |other: &&Contender| match &other.added {
+            Added::Part(_) => true,
+            // A curve over the winner's own inputs is no other cause, and one that owes all to its level is none.
+            Added::Unknown(curve) => {
+                other.q_value <= self.level && !variables.contains(&self.study.factors[curve.factor].name)
+            }
+            Added::Noise(..) => false,
+        };
+        for other in others.iter().filter(rival) {
             let difference = winner.gain() - other.gain();
             let kept = best.entry(cause_of(self.study, &other.added)).or_insert(difference);
             *kept = kept.min(difference);
@@ -274,7 +284,7 @@ impl Teller<'_> {
                 Added::Unknown(unknown) => !self.study.factors[unknown.factor].input,
                 Added::Noise(..) => false,
             };
-            cause && !is_number(&other.added) && other.q_value < 0.05 && winner.lead(other) < CLEAR
+            cause && !is_number(&other.added) && other.q_value <= self.level && winner.lead(other) < CLEAR
         };
         let mut twins: Vec<&Contender> = others.iter().filter(as_good).collect();
         twins.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
@@ -336,6 +346,9 @@ pub(super) fn sentence(diagnosis: &Diagnosis) -> String {
             " On {} rows that no fit saw, the error in {} falls from {:.3} to {:.3}.",
             gain.held_out_rows, gain.observable, gain.rmse_before, gain.rmse_after
         );
+    }
+    if diagnosis.findings.iter().any(|finding| finding.curve.is_some()) {
+        text += " A model file cannot carry a column that the library does not know; extended.toml is without it.";
     }
     if rows < 60 {
         text += &format!(" {rows} rows are few: a cause of usual size may be there and not be seen.");

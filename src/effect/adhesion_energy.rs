@@ -14,7 +14,7 @@ use crate::normal::Contact;
 pub(super) const KIND: Kind = Kind {
     id: "adhesion-energy",
     about: "the work of adhesion differs from that of the surface energies",
-    inputs: &["v_n", "d"],
+    inputs: &[],
     stream: None,
     parameters: &[Parameter {
         name: "work_of_adhesion",

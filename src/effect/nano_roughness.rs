@@ -15,7 +15,7 @@ use crate::normal::Contact;
 pub(super) const KIND: Kind = Kind {
     id: "nano-roughness",
     about: "adhesion is drawn between a part and all of its value on smooth solids",
-    inputs: &["v_n", "d"],
+    inputs: &[],
     stream: Some(stream::NANO_ROUGHNESS),
     parameters: &[Parameter {
         name: "spread",
@@ -51,7 +51,7 @@ mod tests {
         let effect = (KIND.build)(&[0.6]);
         let plain = wax_on_pyrex();
         let share = |draw| {
-            let rough = effect.contact(&Impact::default(), plain, [draw, 0.0]);
+            let rough = effect.contact(&Impact::default(), plain, draw);
             rough.work_of_adhesion / plain.work_of_adhesion
         };
         let mean = even(1000).map(share).sum::<f64>() / 1000.0;

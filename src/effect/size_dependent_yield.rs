@@ -23,7 +23,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "m",
             bounds: (1e-9, 1.0),
             default: None,
-            search: Search::Over("d"),
+            search: Search::Log(1e-8, 1e-2),
             about: "diameter for which the material's yield strength holds",
         },
         Parameter {

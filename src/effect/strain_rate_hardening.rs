@@ -24,7 +24,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "m/s",
             bounds: (1e-6, 1e4),
             default: None,
-            search: Search::Over("v_n"),
+            search: Search::Log(1e-3, 1e3),
             about: "speed towards the wall at which the material's yield strength holds",
         },
         Parameter {

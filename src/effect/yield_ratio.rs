@@ -14,7 +14,7 @@ use crate::normal::Contact;
 pub(super) const KIND: Kind = Kind {
     id: "yield-ratio",
     about: "the limiting contact pressure over the yield strength differs from the assumed one",
-    inputs: &["v_n"],
+    inputs: &[],
     stream: None,
     parameters: &[Parameter {
         name: "ratio",

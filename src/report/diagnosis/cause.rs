@@ -102,7 +102,7 @@ fn figures(diagnosis: &Diagnosis, finding: &Finding) -> Vec<Figure> {
         None => finding.cause.clone(),
     };
     let kind = KINDS.iter().find(|kind| kind.id == finding.cause);
-    if kind.is_some_and(|kind| !kind.streams.is_empty()) && finding.observable != "outcome" {
+    if kind.is_some_and(|kind| kind.stream.is_some()) && finding.observable != "outcome" {
         return spread::figures(diagnosis, finding, &id);
     }
     let mut figures = Vec::new();
