@@ -65,7 +65,7 @@ fn typical(parameter: &Parameter) -> f64 {
         Search::Over("d") | Search::Across("layer_thickness") => 1e-4,
         Search::Over("conversion") => 0.9,
         Search::Across("conversion") => 0.05,
-        other => panic!("{other:?}"),
+        other => unreachable!("{other:?}"),
     }
 }
 

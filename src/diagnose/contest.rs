@@ -54,7 +54,8 @@ pub(super) enum Candidate {
 /// A candidate with what the fit made of it.
 #[derive(Debug, Clone)]
 pub(super) enum Added {
-    Part(Fitted),
+    /// A part, and the parts that stood before as they fit best beside it.
+    Part(Fitted, Vec<Fitted>),
     Unknown(Unknown),
     Noise(usize, f64),
 }
@@ -86,7 +87,7 @@ impl Contender {
     /// Count of its free numbers.
     pub fn parameters(&self) -> usize {
         match &self.added {
-            Added::Part(fitted) => fitted.at.len(),
+            Added::Part(fitted, _) => fitted.at.len(),
             Added::Unknown(unknown) => unknown.curve.heights.len(),
             Added::Noise(..) => 1,
         }
@@ -191,7 +192,7 @@ impl<'a> Round<'a> {
 
     fn contend(&self, candidate: Candidate, levels: &Levels) -> Option<Contender> {
         let added = match candidate {
-            Candidate::Part(part) => Added::Part(self.fit_part(part)?),
+            Candidate::Part(part) => self.fit_part(part)?,
             Candidate::Unknown { factor, observable } => self.better_curve(factor, observable)?,
             Candidate::Noise { factor } => self.fit_noise(factor, &self.study.search, 0.0),
         };
@@ -253,7 +254,10 @@ impl<'a> Round<'a> {
     fn gain_in_sample(&self, added: &Added) -> f64 {
         let rows = &self.study.search;
         let after = match added {
-            Added::Part(fitted) => self.cost_of(fitted, rows)(&fitted.at),
+            Added::Part(fitted, others) => {
+                let joint = self.joined(fitted, others);
+                self.joint_cost(&joint, rows)(&joint.coordinates())
+            }
             Added::Unknown(unknown) => self.cost_with_shifts(&self.with_unknown(unknown), rows),
             Added::Noise(factor, change) => self.cost_with_shifts(&self.with_noise(*factor, *change), rows),
         };
@@ -264,13 +268,14 @@ impl<'a> Round<'a> {
     fn score_fold(&self, added: &Added, outside: &[usize], scatter: Scatter, fold: &[usize]) -> Vec<f64> {
         let nothing = Vec::new;
         match added {
-            Added::Part(fitted) => {
-                let rounds = 10 * fitted.at.len() as u64 + 5;
-                let (at, _) = descend(self.cost_of(fitted, outside), &fitted.at, 0.05, rounds);
-                let mut hypothesis = self.hypothesis.clone();
-                hypothesis.parts.push(Fitted { at, ..fitted.clone() });
-                let fit = hypothesis.fit(self.study, outside, &self.shifts, scatter);
-                hypothesis.row_scores(self.study, fold, &self.shifts, fit.scatter)
+            Added::Part(fitted, others) => {
+                let joint = self.joined(fitted, others);
+                let start = joint.coordinates();
+                let rounds = 8 * start.len() as u64 + 7;
+                let (at, _) = descend(self.joint_cost(&joint, outside), &start, 0.05, rounds);
+                let refitted = joint.with_coordinates(&at);
+                let fit = refitted.fit(self.study, outside, &self.shifts, scatter);
+                refitted.row_scores(self.study, fold, &self.shifts, fit.scatter)
             }
             Added::Unknown(unknown) => match self.fit_unknown(unknown, outside, scatter) {
                 Some(unknown) => {
@@ -306,7 +311,7 @@ impl<'a> Round<'a> {
         -self.scores(rows, shifts, self.fit_scatter(rows, shifts)).iter().sum::<f64>()
     }
 
-    fn fit_part(&self, part: Part) -> Option<Fitted> {
+    fn fit_part(&self, part: Part) -> Option<Added> {
         let axes = part.axes(self.study)?;
         let dimensions = axes.len();
         let blank = Fitted { part, axes, at: vec![0.5; dimensions] };
@@ -323,8 +328,29 @@ impl<'a> Round<'a> {
             return None;
         }
         drop(cost);
-        let (at, _) = descend(self.cost_of(&blank, &self.study.search), &start, 0.06, rounds);
-        Some(Fitted { at, ..blank })
+        let (at, loss) = descend(self.cost_of(&blank, &self.study.search), &start, 0.06, rounds);
+        let fitted = Fitted { at, ..blank };
+        if self.hypothesis.parts.is_empty() || loss > -self.score {
+            return Some(Added::Part(fitted, self.hypothesis.parts.clone()));
+        }
+        // The parts that stand make room for the new one.
+        let joint = self.joined(&fitted, &self.hypothesis.parts);
+        let start = joint.coordinates();
+        let (at, _) =
+            descend(self.joint_cost(&joint, &self.study.search), &start, 0.04, 20 * start.len() as u64);
+        let mut parts = joint.with_coordinates(&at).parts;
+        parts.pop().map(|fitted| Added::Part(fitted, parts))
+    }
+
+    /// The hypothesis with a new part beside others.
+    fn joined(&self, fitted: &Fitted, others: &[Fitted]) -> Hypothesis {
+        let parts = others.iter().chain([fitted]).cloned().collect();
+        Hypothesis { parts, ..self.hypothesis.clone() }
+    }
+
+    /// Minus the log score as a function of all coordinates.
+    fn joint_cost<'b>(&'b self, joint: &'b Hypothesis, rows: &'b [usize]) -> impl Fn(&[f64]) -> f64 + 'b {
+        move |at: &[f64]| -joint.with_coordinates(at).fit(self.study, rows, &self.shifts, self.scatter).score
     }
 
     /// The curve over a factor, added or multiplied, whichever fits better.

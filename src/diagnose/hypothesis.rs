@@ -202,6 +202,11 @@ impl Hypothesis {
         self.model_at(study, &self.parts)
     }
 
+    /// The coordinates of all parts, one part after the other.
+    pub fn coordinates(&self) -> Vec<f64> {
+        self.parts.iter().flat_map(|part| part.at.iter().copied()).collect()
+    }
+
     /// The same with all parts at these coordinates, one part after the other.
     pub fn with_coordinates(&self, at: &[f64]) -> Self {
         let mut moved = self.clone();
@@ -219,7 +224,7 @@ impl Hypothesis {
         let mut scatter = first;
         for _ in 0..if self.unknowns.is_empty() { 1 } else { 2 } {
             let shifts = self.shifts(study);
-            let start: Vec<f64> = self.parts.iter().flat_map(|part| part.at.iter().copied()).collect();
+            let start = self.coordinates();
             if !start.is_empty() {
                 let cost = |at: &[f64]| -self.with_coordinates(at).fit(study, rows, &shifts, scatter).score;
                 let (at, _) = descend(cost, &start, 0.06, 60 * start.len() as u64);
@@ -301,9 +306,23 @@ impl Hypothesis {
         let mut names: Vec<&str> = self.parts.iter().flat_map(|p| p.part.inputs().iter().copied()).collect();
         names.sort_unstable();
         names.dedup();
-        let columns: Vec<&Values> =
-            names.iter().filter_map(|name| study.factor(name)).map(|f| &f.values).collect();
-        if columns.is_empty() {
+        // Speed and size belong to the plain laws: beside an input of its own, an effect answers for them together with
+        // that input only.
+        let plain = |name: &&str| ["v_n", "d"].contains(name);
+        let values = |name: &str| study.factor(name).map(|factor| &factor.values);
+        let mut own: Vec<&Values> =
+            names.iter().filter(|name| !plain(name)).filter_map(|name| values(name)).collect();
+        let mut others: Vec<&Values> = Vec::new();
+        let alone = |p: &Fitted| p.part.inputs().iter().all(|input| plain(&input));
+        for name in ["v_n", "d"] {
+            let Some(values) = values(name) else { continue };
+            if self.parts.iter().any(|p| alone(p) && p.part.inputs().contains(&name)) {
+                own.push(values);
+            } else {
+                others.push(values);
+            }
+        }
+        if own.is_empty() {
             return;
         }
         let shifts = self.shifts(study);
@@ -311,7 +330,7 @@ impl Hypothesis {
         let forecast = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
         let of = |observable| {
             let points = residuals(study, &study.search, &forecast, &shifts, scatter, observable, false);
-            surface(&columns, &points, &all).unwrap_or_else(|| vec![0.0; all.len()])
+            surface(&own, &others, &points, &all)
         };
         self.shape = Some([of(Observable::NormalRestitution), of(Observable::TangentialRestitution)]);
     }

@@ -23,7 +23,7 @@ pub(super) fn intervals(
     shifts: &[Shift],
     scatter: Scatter,
 ) -> Vec<Vec<[f64; 2]>> {
-    let at: Vec<f64> = hypothesis.parts.iter().flat_map(|part| part.at.iter().copied()).collect();
+    let at = hypothesis.coordinates();
     let count = at.len();
     let scores_at = |at: &[f64]| {
         let moved = hypothesis.with_coordinates(at);

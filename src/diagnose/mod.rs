@@ -175,7 +175,7 @@ fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Op
     let (mut parts, mut unknowns, mut noises) = (Vec::new(), Vec::new(), Vec::new());
     for contender in significant {
         match contender.added {
-            Added::Part(_) => parts.push(contender),
+            Added::Part(..) => parts.push(contender),
             Added::Unknown(_) => unknowns.push(contender),
             Added::Noise(..) => noises.push(contender),
         }
@@ -195,7 +195,7 @@ fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Op
     match (cause, noise) {
         (Some(cause), Some(noise)) => {
             // Scatter that an effect makes is no noise, unless a plain change of noise says it clearly better.
-            let scatters = matches!(&cause.added, Added::Part(fitted) if fitted.part.scatters());
+            let scatters = matches!(&cause.added, Added::Part(fitted, _) if fitted.part.scatters());
             let share = if scatters { 0.6 } else { 1.0 };
             Some(if cause.gain() >= share * noise.gain() { cause.clone() } else { noise.clone() })
         }
@@ -226,7 +226,7 @@ fn explained(study: &Study, unknown: &Contender, parts: &[&Contender]) -> bool {
     let Added::Unknown(curve) = &unknown.added else { return false };
     let factor = &study.factors[curve.factor];
     let turns_on_it = |part: &&&Contender| match &part.added {
-        Added::Part(fitted) => fitted.part.inputs().contains(&factor.name.as_str()),
+        Added::Part(fitted, _) => fitted.part.inputs().contains(&factor.name.as_str()),
         _ => false,
     };
     factor.input && parts.iter().filter(turns_on_it).any(|part| part.gain() > 0.4 * unknown.gain())
@@ -234,7 +234,7 @@ fn explained(study: &Study, unknown: &Contender, parts: &[&Contender]) -> bool {
 
 fn same(a: &Added, b: &Added) -> bool {
     match (a, b) {
-        (Added::Part(a), Added::Part(b)) => a.part.name() == b.part.name(),
+        (Added::Part(a, _), Added::Part(b, _)) => a.part.name() == b.part.name(),
         (Added::Unknown(a), Added::Unknown(b)) => a.factor == b.factor,
         (Added::Noise(a, _), Added::Noise(b, _)) => a == b,
         _ => false,
@@ -244,7 +244,10 @@ fn same(a: &Added, b: &Added) -> bool {
 /// Adds the winner and fits everything together.
 fn adopt(hypothesis: &mut Hypothesis, study: &Study, winner: &Contender, scatter: Scatter) -> Scatter {
     match &winner.added {
-        Added::Part(fitted) => hypothesis.parts.push(fitted.clone()),
+        Added::Part(fitted, others) => {
+            hypothesis.parts.clone_from(others);
+            hypothesis.parts.push(fitted.clone());
+        }
         Added::Unknown(unknown) => hypothesis.unknowns.push(unknown.clone()),
         Added::Noise(factor, change) => hypothesis.noise.push((*factor, *change)),
     }
@@ -282,7 +285,7 @@ fn drop_superfluous(
         let worth = (LEAST_GAIN + dropped.at.len() as f64).max(WORTH * first);
         if with - score(&whole, without_scatter) < worth {
             discoveries.retain(
-                |d| !matches!(&d.winner.added, Added::Part(f) if f.part.name() == dropped.part.name()),
+                |d| !matches!(&d.winner.added, Added::Part(f, _) if f.part.name() == dropped.part.name()),
             );
             *hypothesis = whole;
             hypothesis.absorb_shape(study, without_scatter);
@@ -321,7 +324,7 @@ fn measure_gain(
 /// The id or name of what was added.
 fn cause_of(study: &Study, added: &Added) -> String {
     match added {
-        Added::Part(fitted) => fitted.part.name(),
+        Added::Part(fitted, _) => fitted.part.name(),
         Added::Unknown(unknown) => format!("unknown:{}", study.factors[unknown.factor].name),
         Added::Noise(factor, _) => format!("scatter:{}", study.factors[*factor].name),
     }
@@ -329,5 +332,5 @@ fn cause_of(study: &Study, added: &Added) -> String {
 
 /// Whether something added is a number of the base rather than a cause.
 fn is_number(added: &Added) -> bool {
-    matches!(added, Added::Part(fitted) if matches!(fitted.part, Part::Number(_)))
+    matches!(added, Added::Part(fitted, _) if matches!(fitted.part, Part::Number(_)))
 }

@@ -187,48 +187,61 @@ fn ridge(count: usize, penalty: &DMatrix<f64>, entries: &[Entry], points: &[Poin
     Some(best.1.iter().copied().collect())
 }
 
-/// What smooth curves over several columns, and over every two of them together, leave of the points: the fitted values at
-/// `targets`, centred on the points.
-pub(super) fn surface(columns: &[&Values], points: &[Point], targets: &[usize]) -> Option<Vec<f64>> {
+/// What curves over the columns `own`, and over each of them together with another of `own` or `others`, make of the
+/// points: the fitted values at `targets`, centred on the points.
+pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], targets: &[usize]) -> Vec<f64> {
     let rows: Vec<usize> = points.iter().map(|point| point.row).collect();
-    let bases: Vec<(&Values, Basis)> =
-        columns.iter().filter_map(|values| Some((*values, Basis::of(values, &rows)?))).collect();
-    let mut offset = 0;
-    let mut blocks = Vec::new();
-    for (index, (_, basis)) in bases.iter().enumerate() {
-        blocks.push((vec![index], offset));
-        offset += basis.len();
-    }
-    for first in 0..bases.len() {
-        for second in 0..first {
-            blocks.push((vec![second, first], offset));
-            offset += bases[first].1.len() * bases[second].1.len();
-        }
-    }
-    let entry = |row: usize, factor: f64| {
-        let mut all = Vec::new();
-        for (members, offset) in &blocks {
-            let parts: Vec<Entry> = members.iter().map(|&m| bases[m].1.entry(bases[m].0, row)).collect();
-            match parts.as_slice() {
-                [one] => all.extend(one.iter().map(|&(place, share)| (offset + place, share * factor))),
-                [one, two] => {
-                    let wide = bases[members[1]].1.len();
-                    for &(a, x) in one {
-                        all.extend(two.iter().map(|&(b, y)| (offset + a * wide + b, x * y * factor)));
-                    }
-                }
-                _ => {}
+    let based = |values: &[&'_ Values]| {
+        let with_basis = |values: &&'_ Values| Some((Basis::of(values, &rows)?, (*values).clone()));
+        values.iter().filter_map(with_basis).collect::<Vec<_>>()
+    };
+    let (own, others) = (based(own), based(others));
+    let mut left: Vec<Point> = points.to_vec();
+    let mut fitted = vec![0.0; targets.len()];
+    let mut take = |left: &mut Vec<Point>, at: &dyn Fn(usize) -> f64| {
+        left.iter_mut().for_each(|point| point.residual -= point.factor * at(point.row));
+        fitted.iter_mut().zip(targets).for_each(|(sum, &row)| *sum += at(row));
+    };
+    // Columns that run along with each other share their part after a second turn.
+    for _ in 0..2 {
+        for (basis, values) in &own {
+            if let Some(curve) = Curve::fit(values, basis, &left) {
+                take(&mut left, &|row| curve.at(values, row));
             }
         }
-        all
-    };
-    let entries: Vec<Entry> = points.iter().map(|point| entry(point.row, point.factor)).collect();
-    let heights = ridge(offset, &DMatrix::identity(offset, offset), &entries, points)?;
-    let at = |entry: &Entry| entry.iter().map(|&(place, share)| share * heights[place]).sum::<f64>();
+    }
+    for first in 0..own.len() {
+        for (basis, values) in own[first + 1..].iter().chain(&others) {
+            let pair = [(&own[first].0, &own[first].1), (basis, values)];
+            if let Some(heights) = fit_pair(&pair, &left) {
+                let at = |row: usize| {
+                    pair_entry(&pair, row, 1.0).iter().map(|&(place, share)| share * heights[place]).sum()
+                };
+                take(&mut left, &at);
+            }
+        }
+    }
+    // Residuals are now what is left; the level stays with the model.
     let weights: f64 = points.iter().map(|point| point.weight).sum();
-    let centre =
-        entries.iter().zip(points).map(|(entry, point)| point.weight * at(entry)).sum::<f64>() / weights;
-    Some(targets.iter().map(|&row| at(&entry(row, 1.0)) - centre).collect())
+    let taken =
+        points.iter().zip(&left).map(|(before, after)| before.weight * (before.residual - after.residual));
+    let level = if weights > 0.0 { taken.sum::<f64>() / weights } else { 0.0 };
+    fitted.iter_mut().for_each(|value| *value -= level);
+    fitted
+}
+
+/// The functions of two columns together: every product of theirs.
+fn pair_entry(pair: &[(&Basis, &Values); 2], row: usize, factor: f64) -> Entry {
+    let [one, two] = pair.map(|(basis, values)| basis.entry(values, row));
+    let wide = pair[1].0.len();
+    let product = |&(a, x): &(usize, f64)| two.iter().map(move |&(b, y)| (a * wide + b, x * y * factor));
+    one.iter().flat_map(product).collect()
+}
+
+fn fit_pair(pair: &[(&Basis, &Values); 2], points: &[Point]) -> Option<Vec<f64>> {
+    let count = pair[0].0.len() * pair[1].0.len();
+    let entries: Vec<Entry> = points.iter().map(|point| pair_entry(pair, point.row, point.factor)).collect();
+    ridge(count, &DMatrix::identity(count, count), &entries, points)
 }
 
 #[cfg(test)]

@@ -221,7 +221,7 @@ impl Teller<'_> {
 
     fn alone(&self, contender: &Contender) -> Hypothesis {
         let mut hypothesis = Hypothesis::default();
-        if let Added::Part(fitted) = &contender.added {
+        if let Added::Part(fitted, _) = &contender.added {
             hypothesis.parts.push(fitted.clone());
         }
         hypothesis
@@ -229,7 +229,7 @@ impl Teller<'_> {
 
     fn variables(&self, winner: &Contender) -> Vec<String> {
         match &winner.added {
-            Added::Part(fitted) => fitted.part.inputs().iter().map(|&input| input.to_owned()).collect(),
+            Added::Part(fitted, _) => fitted.part.inputs().iter().map(|&input| input.to_owned()).collect(),
             Added::Unknown(unknown) => vec![self.study.factors[unknown.factor].name.clone()],
             Added::Noise(..) => Vec::new(),
         }
@@ -257,7 +257,7 @@ impl Teller<'_> {
         let mut best: BTreeMap<String, f64> = BTreeMap::new();
         let variables = self.variables(winner);
         let rival = |other: &&Contender| match &other.added {
-            Added::Part(_) => true,
+            Added::Part(..) => true,
             // A curve over the winner's own inputs is no other cause, and one that owes all to its level is none.
             Added::Unknown(curve) => {
                 other.q_value <= self.level && !variables.contains(&self.study.factors[curve.factor].name)
@@ -280,7 +280,7 @@ impl Teller<'_> {
     fn twins<'a>(&self, winner: &Contender, others: &'a [Contender]) -> Vec<&'a Contender> {
         let as_good = |other: &&Contender| {
             let cause = match &other.added {
-                Added::Part(_) => other.parameters() <= winner.parameters().max(2),
+                Added::Part(..) => other.parameters() <= winner.parameters().max(2),
                 Added::Unknown(unknown) => !self.study.factors[unknown.factor].input,
                 Added::Noise(..) => false,
             };

@@ -1,6 +1,6 @@
 //! Sets with a planted cause that `nearwall diagnose` has to find, made without any of the crate's own laws.
 //!
-//! - `cargo test --release --test hidden -- --ignored diagnose` scores the command on all sets.
+//! - `cargo test --release --test hidden -- --nocapture diagnose` scores the command on all sets.
 //! - `NEARWALL_HIDDEN_OUT=DIR cargo test --release --test hidden -- --ignored write_sets` writes them.
 //!
 //! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_HIDDEN_SETS` makes more of each, `NEARWALL_HIDDEN_ONLY` names those wanted.
@@ -31,7 +31,6 @@ use rayon::prelude::*;
 
 /// The right cause first, silence on nothing, errors near the attainable, honest intervals, no crash.
 #[test]
-#[ignore = "until the command `diagnose` is there"]
 fn diagnose_finds_what_is_planted() {
     let seed = random::seed();
     let one = |recipe: &sets::Recipe| runner::run(&recipe.make(seed), seed);
