@@ -313,7 +313,7 @@ impl Hypothesis {
         let mut own: Vec<&Values> =
             names.iter().filter(|name| !plain(name)).filter_map(|name| values(name)).collect();
         let mut others: Vec<&Values> = Vec::new();
-        let alone = |p: &Fitted| p.part.inputs().iter().all(|input| plain(&input));
+        let alone = |p: &Fitted| p.part.inputs().iter().all(plain);
         for name in ["v_n", "d"] {
             let Some(values) = values(name) else { continue };
             if self.parts.iter().any(|p| alone(p) && p.part.inputs().contains(&name)) {

@@ -1,10 +1,10 @@
 //! Intervals of fitted parameters, which hold although the law's shape or the scatter may be wrong.
 //!
 //! The covariance is the sandwich `H⁻¹ (Σ s sᵀ) H⁻¹`, with `s` each row's derivative of the log score by the coordinates
-//! and `H` the second derivatives of the sum, both by differences. The 95 % interval is symmetric in the coordinate and
+//! and `H` the second derivatives of the sum, both by differences, or `H⁻¹` where that is larger. The 95 % interval is symmetric in the coordinate and
 //! so not in the value where the axis is logarithmic; it ends at the ends of the search range.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::hypothesis::Hypothesis;
 use super::likelihood::{Scatter, Shift};
@@ -12,6 +12,8 @@ use super::study::Study;
 
 /// Step of the differences, in the coordinate.
 const STEP: f64 = 4e-3;
+/// A coordinate nearer than this to 0 or 1 lies at the end of its range.
+const EDGE: f64 = 0.02;
 /// 97.5 % quantile of the normal distribution.
 const NORMAL_975: f64 = 1.959_963_985;
 
@@ -59,7 +61,7 @@ pub(super) fn intervals(
             curvature[(b, a)] = -second;
         }
     }
-    let errors = sandwich(&curvature, &meat, rows.len());
+    let errors = errors(&at, &curvature, &meat, rows.len());
     let mut place = 0;
     let ends = |place: usize, axis: super::search::Axis| {
         let reach = NORMAL_975 * errors[place];
@@ -75,15 +77,20 @@ pub(super) fn intervals(
     hypothesis.parts.iter().map(of_part).collect()
 }
 
-/// Standard errors of the coordinates; where the curvature is no use, those of the scores alone.
-fn sandwich(curvature: &DMatrix<f64>, meat: &DMatrix<f64>, rows: usize) -> DVector<f64> {
-    let count = curvature.nrows();
-    let factor = rows as f64 / (rows as f64 - count as f64).max(1.0);
-    let by_scores =
-        |m: &DMatrix<f64>| (m + DMatrix::identity(count, count) * 1e-9).cholesky().map(|c| c.inverse());
-    let covariance = match curvature.clone().cholesky().map(|c| c.inverse()) {
-        Some(inverse) => &inverse * meat * &inverse,
-        None => by_scores(meat).unwrap_or_else(|| DMatrix::identity(count, count)),
-    };
-    DVector::from_iterator(count, (0..count).map(|i| (covariance[(i, i)] * factor).max(0.0).sqrt().min(1.0)))
+/// Standard errors of the coordinates. A coordinate at an end of its range has no curvature to speak of: it is left out
+/// of the others' and has the error that its own scores give.
+fn errors(at: &[f64], curvature: &DMatrix<f64>, meat: &DMatrix<f64>, rows: usize) -> Vec<f64> {
+    let free: Vec<usize> = (0..at.len()).filter(|&i| (EDGE..=1.0 - EDGE).contains(&at[i])).collect();
+    let mut errors: Vec<f64> = (0..at.len()).map(|i| meat[(i, i)].max(1.0).recip().sqrt()).collect();
+    let part = |m: &DMatrix<f64>| DMatrix::from_fn(free.len(), free.len(), |i, j| m[(free[i], free[j])]);
+    let factor = rows as f64 / (rows as f64 - free.len() as f64).max(1.0);
+    if let Some(inverse) = part(curvature).cholesky().map(|c| c.inverse()) {
+        let sandwich = &inverse * part(meat) * &inverse;
+        for (place, &coordinate) in free.iter().enumerate() {
+            // The larger of the two: the sandwich is too hopeful where few rows carry the information.
+            let variance = sandwich[(place, place)].max(inverse[(place, place)]);
+            errors[coordinate] = (variance * factor).sqrt().min(1.0);
+        }
+    }
+    errors
 }

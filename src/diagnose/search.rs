@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn grid_and_descent_find_a_minimum_at_the_wall_and_inside() {
-        let cost = |x: &[f64]| (x[0] - 0.31).powi(2) + 10.0 * (x[1] - 1.2).powi(2);
+        let cost = |x: &[f64]| 1e4 * (x[0] - 0.31).powi(2) + 1e5 * (x[1] - 1.2).powi(2);
         let start = best_of_grid(cost, 2, 1).remove(0);
         let (at, _) = descend(cost, &start, 0.1, 200);
         assert!((at[0] - 0.31).abs() < 0.02 && at[1] > 0.99, "{at:?}");

@@ -1,13 +1,14 @@
 //! `conversion-transition`: char becomes sticky once most of its carbon is gone.
 //!
-//! Particle stickiness `S = 1 / (1 + exp((X_50 - X_c) / width))`: below the threshold the refractory carbon encloses
+//! Particle stickiness `S = (1 + (2^(1/a) - 1) exp((X_50 - X_c) / width))^-a`, with the asymmetry `a` = 1, unless given, the
+//! logistic `1 / (1 + exp((X_50 - X_c) / width))`: below the threshold the refractory carbon encloses
 //! the molten ash, beyond it the ash encloses what carbon is left. `X_c` carbon conversion [1], `X_50` threshold [1],
 //! `width` [1]. Together with `melting-transition` both are needed, so their stickiness is multiplied.
 //!
 //! Seen with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise lies at a conversion of
 //! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
 
-use super::{Effect, Kind, Parameter, Search, logistic};
+use super::{Effect, Kind, Parameter, Search, rise};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
@@ -32,19 +33,30 @@ pub(super) const KIND: Kind = Kind {
             search: Search::Across("conversion"),
             about: "conversion over which the odds of sticking change by e",
         },
+        Parameter {
+            name: "asymmetry",
+            unit: "1",
+            bounds: (0.01, 100.0),
+            default: Some(1.0),
+            search: Search::Log(0.2, 10.0),
+            about: "above 1 the rise begins steeply and ends slowly, below 1 the other way round",
+        },
     ],
-    build: |values| Box::new(ConversionTransition { threshold: values[0], width: values[1] }),
+    build: |values| {
+        Box::new(ConversionTransition { threshold: values[0], width: values[1], asymmetry: values[2] })
+    },
 };
 
 #[derive(Debug)]
 struct ConversionTransition {
     threshold: f64,
     width: f64,
+    asymmetry: f64,
 }
 
 impl Effect for ConversionTransition {
     fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
-        Some(logistic(impact.conversion, self.threshold, self.width))
+        Some(rise(impact.conversion, self.threshold, self.width, self.asymmetry))
     }
 }
 
@@ -54,7 +66,7 @@ mod tests {
 
     #[test]
     fn capture_rises_past_the_threshold() {
-        let effect = (KIND.build)(&[0.89, 0.01]);
+        let effect = (KIND.build)(&[0.89, 0.01, 1.0]);
         let stickiness = |conversion: f64| {
             effect.particle_stickiness(&Impact { conversion, ..Impact::default() }).unwrap()
         };

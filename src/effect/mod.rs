@@ -244,9 +244,13 @@ fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputErro
     Ok(valid)
 }
 
-/// A smooth step from 0 to 1 around `middle`; `width` is the distance over which the odds change by e.
-fn logistic(value: f64, middle: f64, width: f64) -> f64 {
-    1.0 / (1.0 + ((middle - value) / width).exp())
+/// A smooth rise from 0 to 1 that passes one half at `middle` (Richards' curve); `width` is the distance over which the
+/// odds change by e where `asymmetry` is 1.
+fn rise(value: f64, middle: f64, width: f64, asymmetry: f64) -> f64 {
+    if asymmetry == 1.0 {
+        return 1.0 / (1.0 + ((middle - value) / width).exp());
+    }
+    (1.0 + (asymmetry.recip().exp2() - 1.0) * ((middle - value) / width).exp()).powf(-asymmetry)
 }
 
 /// A factor on a strength, kept within twelve decades either way: beyond, a solid is none, and numbers would overflow.
