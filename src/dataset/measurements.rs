@@ -71,6 +71,37 @@ impl Measurements {
         }
     }
 
+    /// The data with the captures of every average told impact by impact: `k` of `n` captured says exactly what `k` single
+    /// captures and `n-k` single rebounds say, and so counts as `n` observations. What the average says of restitution
+    /// stays in one row. Averages of more than `most` impacts stay as they are.
+    #[must_use]
+    pub fn unfolded(&self, most: f64) -> Self {
+        let (mut rows, mut from) = (Vec::new(), Vec::new());
+        for (index, row) in self.rows.iter().enumerate() {
+            let Some(share) = row.captured.filter(|_| row.impacts > 1.0 && row.impacts <= most) else {
+                rows.push(*row);
+                from.push(index);
+                continue;
+            };
+            if share < 1.0 && (row.e_n.is_some() || row.e_t.is_some()) {
+                rows.push(Measurement { captured: None, ..*row });
+            }
+            let captured = (share * row.impacts).round();
+            let single = |impact: u64| Measurement {
+                impacts: 1.0,
+                rebounds: 1.0,
+                e_n: None,
+                e_t: None,
+                captured: Some(if (impact as f64) < captured { 1.0 } else { 0.0 }),
+                ..*row
+            };
+            rows.extend((0..row.impacts as u64).map(single));
+            from.resize(rows.len(), index);
+        }
+        let columns = self.columns.iter().map(|column| column.at(&from)).collect();
+        Self { rows, columns, ..self.clone() }
+    }
+
     /// Reads a file to its end; `file` stands for the source in messages. A row that cannot be used is listed with its
     /// reason, never dropped in silence.
     ///

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::forecast::Forecast;
-use super::hypothesis::{Fitted, Hypothesis, Number, Observable, Part, Unknown, residuals, standardised};
+use super::hypothesis::{Fitted, Hypothesis, Number, Observable, Part, Unknown, changes, standardised};
 use super::likelihood::{Scatter, Shift, fit_scatter, score};
 use super::search::{best_of_grid, descend};
 use super::smooth::{Basis, Curve};
@@ -29,6 +29,8 @@ const STARTS: usize = 2;
 /// Gain on these rows [nats] that a candidate has to show after the first descents.
 const PROMISING: f64 = 0.3;
 
+/// A coordinate nearer than this to 0 or 1 lies at an end.
+const END: f64 = 0.03;
 /// Largest correction for skewness, as a share of the mean.
 const LARGEST_SKEW: f64 = 0.3;
 
@@ -44,6 +46,8 @@ pub(super) enum Candidate {
         /// What it acts on.
         observable: Observable,
     },
+    /// Captures at a constant rate that nothing explains.
+    Lapses,
     /// Scatter that changes with a factor.
     Noise {
         /// Place among the study's factors.
@@ -58,6 +62,8 @@ pub(super) enum Added {
     Part(Fitted, Vec<Fitted>),
     Unknown(Unknown),
     Noise(usize, f64),
+    /// Log odds of capture that no column explains.
+    Lapses(f64),
 }
 
 /// A candidate after the round.
@@ -84,13 +90,22 @@ impl Contender {
         t_statistic(&pairs.map(|(a, b)| a - b).collect::<Vec<_>>())
     }
 
-    /// Count of its free numbers.
+    /// Count of its free numbers; those with a default refine a law and are not held against it.
     pub fn parameters(&self) -> usize {
         match &self.added {
+            Added::Part(Fitted { part: Part::Effect(kind), .. }, _) => {
+                kind.parameters.iter().filter(|parameter| parameter.default.is_none()).count()
+            }
             Added::Part(fitted, _) => fitted.at.len(),
             Added::Unknown(unknown) => unknown.curve.heights.len(),
-            Added::Noise(..) => 1,
+            Added::Noise(..) | Added::Lapses(_) => 1,
         }
+    }
+
+    /// Whether one of its parameters lies at an end of its range: such a fit stands for something simpler.
+    pub fn at_an_end(&self) -> bool {
+        let at_end = |at: &f64| !(END..=1.0 - END).contains(at);
+        matches!(&self.added, Added::Part(fitted, _) if fitted.at.len() > 1 && fitted.at.iter().any(at_end))
     }
 }
 
@@ -163,11 +178,14 @@ impl<'a> Round<'a> {
         let numbers = [Number::NormalRestitution, Number::TangentialRestitution, Number::Friction];
         let numbers = numbers.into_iter().filter(|number| number.of(&study.base).is_some()).map(Part::Number);
         let parts = effects.chain(numbers).filter(|part| !taken(&part.name()) && !in_base(&part.name()));
+        let parts = parts.filter(|part| self.shows(*part));
         let mut candidates: Vec<Candidate> = parts.map(Candidate::Part).collect();
         for factor in 0..study.factors.len() {
             for observable in Observable::ALL {
                 // An input that a named effect turns on is not blamed again: what is left is the law's shape.
-                if !self.observed(observable) || self.hypothesis.turns_on(&study.factors[factor].name) {
+                if !self.observed(observable)
+                    || self.hypothesis.turns_on(&study.factors[factor].name, observable)
+                {
                     continue;
                 }
                 candidates.push(Candidate::Unknown { factor, observable });
@@ -177,17 +195,33 @@ impl<'a> Round<'a> {
                 candidates.push(Candidate::Noise { factor });
             }
         }
+        if self.hypothesis.lapses == 0.0 && self.observed(Observable::Capture) {
+            candidates.push(Candidate::Lapses);
+        }
         candidates
     }
 
+    /// Whether a part, at the middle of its ranges, changes anything that was observed.
+    fn shows(&self, part: Part) -> bool {
+        let Some(axes) = part.axes(self.study) else { return false };
+        let middle = Fitted { part, at: vec![0.5; axes.len()], axes };
+        let model = self.joined(&middle, &[]).model(self.study);
+        let plain = Forecast::new(&self.study.base, &self.study.rows, &self.study.search, 1);
+        let changed = Forecast::new(&model, &self.study.rows, &self.study.search, self.study.draws);
+        changes(self.study, &plain, &changed, self.scatter).iter().any(|change| *change > 0.0)
+    }
+
+    /// Whether there is enough of an observable for a curve.
     fn observed(&self, observable: Observable) -> bool {
         let rows = self.study.search.iter().map(|&row| &self.study.rows[row]);
-        let count = rows.filter(|row| match observable {
-            Observable::NormalRestitution => row.e_n.is_some(),
-            Observable::TangentialRestitution => row.e_t.is_some(),
-            Observable::Capture => row.captured.is_some(),
-        });
-        count.count() >= 10
+        let values: Vec<f64> = rows
+            .filter_map(|row| match observable {
+                Observable::NormalRestitution => row.e_n.as_ref().map(|reading| reading.value),
+                Observable::TangentialRestitution => row.e_t.as_ref().map(|reading| reading.value),
+                Observable::Capture => row.captured,
+            })
+            .collect();
+        values.len() >= 10 && values.iter().any(|value| *value != values[0])
     }
 
     fn contend(&self, candidate: Candidate, levels: &Levels) -> Option<Contender> {
@@ -195,6 +229,7 @@ impl<'a> Round<'a> {
             Candidate::Part(part) => self.fit_part(part)?,
             Candidate::Unknown { factor, observable } => self.better_curve(factor, observable)?,
             Candidate::Noise { factor } => self.fit_noise(factor, &self.study.search, 0.0),
+            Candidate::Lapses => Added::Lapses(self.fit_lapses(&self.study.search)?),
         };
         if self.gain_in_sample(&added) < HOPELESS {
             return None;
@@ -260,6 +295,7 @@ impl<'a> Round<'a> {
             }
             Added::Unknown(unknown) => self.cost_with_shifts(&self.with_unknown(unknown), rows),
             Added::Noise(factor, change) => self.cost_with_shifts(&self.with_noise(*factor, *change), rows),
+            Added::Lapses(odds) => self.cost_with_shifts(&self.with_lapses(*odds), rows),
         };
         -after - self.score
     }
@@ -282,6 +318,10 @@ impl<'a> Round<'a> {
                     let shifts = self.with_unknown(&unknown);
                     self.scores(fold, &shifts, self.fit_scatter(outside, &shifts))
                 }
+                None => nothing(),
+            },
+            Added::Lapses(_) => match self.fit_lapses(outside) {
+                Some(odds) => self.scores(fold, &self.with_lapses(odds), scatter),
                 None => nothing(),
             },
             Added::Noise(factor, change) => match self.fit_noise(*factor, outside, *change) {
@@ -371,9 +411,8 @@ impl<'a> Round<'a> {
     fn fit_unknown(&self, blank: &Unknown, rows: &[usize], scatter: Scatter) -> Option<Unknown> {
         let Unknown { factor, observable, factorwise, ref curve } = *blank;
         let forecast = self.forecast.of_places(rows.iter().map(|&row| self.places[row]));
-        let points = residuals(self.study, rows, &forecast, &self.shifts, scatter, observable, factorwise);
-        let curve = Curve::fit(&self.study.factors[factor].values, &curve.basis, &points)?;
-        Some(Unknown { factor, observable, factorwise, curve })
+        let blank = Unknown { factor, observable, factorwise, curve: curve.clone() };
+        blank.fitted(self.study, rows, &forecast, &self.shifts, scatter)
     }
 
     fn with_unknown(&self, unknown: &Unknown) -> Vec<Shift> {
@@ -387,6 +426,19 @@ impl<'a> Round<'a> {
         for (shift, z) in shifts.iter_mut().zip(standardised(&self.study.factors[factor].values)) {
             shift.spread *= (change * z).exp();
         }
+        shifts
+    }
+
+    /// The log odds by which captures are more or less frequent than forecast.
+    fn fit_lapses(&self, rows: &[usize]) -> Option<f64> {
+        let curve = Curve { basis: Basis::Level, heights: Vec::new() };
+        let blank = Unknown { factor: 0, observable: Observable::Capture, factorwise: false, curve };
+        self.fit_unknown(&blank, rows, self.scatter)?.curve.heights.first().copied()
+    }
+
+    fn with_lapses(&self, odds: f64) -> Vec<Shift> {
+        let mut shifts = self.shifts.clone();
+        shifts.iter_mut().for_each(|shift| shift.capture += odds);
         shifts
     }
 

@@ -3,13 +3,22 @@
 use super::forecast::Forecast;
 use super::likelihood::{Scatter, Shift, fit_scatter, mean, ordinary, score};
 use super::search::{Axis, descend};
-use super::smooth::{Curve, Point, surface};
+use super::smooth::{Basis, Curve, Point, surface};
 use super::study::Study;
 use crate::dataset::Values;
 use crate::effect::{Kind, Term};
 use crate::model::Model;
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
+
+/// A part acts on an observable where it changes it by this share of its largest change.
+const MINOR: f64 = 0.05;
+/// Rounds of the reweighted fit of capture, after its level.
+const ROUNDS: usize = 5;
+/// Levels of capture are looked for within these log odds.
+const WIDEST_ODDS: f64 = 10.0;
+/// Scatter of a capture for comparisons with that of restitutions [1].
+const CAPTURE_SCATTER: f64 = 0.25;
 
 /// A number of the base model's own laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,7 +170,11 @@ pub(super) struct Unknown {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Hypothesis {
     pub parts: Vec<Fitted>,
+    /// What each part acts on, in their order, as far as [`Hypothesis::absorb_shape`] has looked.
+    pub acts_on: Vec<Vec<Observable>>,
     pub unknowns: Vec<Unknown>,
+    /// Log odds of capture that nothing explains.
+    pub lapses: f64,
     /// Columns with which the scatter changes: factor and log change a standard deviation of the column.
     pub noise: Vec<(usize, f64)>,
     /// What the named causes' own inputs still leave, row by row: the laws' shape need not be exact.
@@ -192,9 +205,30 @@ impl Hypothesis {
         model.with_terms(terms)
     }
 
-    /// Whether a part turns on this input.
-    pub fn turns_on(&self, input: &str) -> bool {
-        self.parts.iter().any(|fitted| fitted.part.inputs().contains(&input))
+    /// Whether a part turns on this input and acts on this observable.
+    pub fn turns_on(&self, input: &str, observable: Observable) -> bool {
+        let acting = self.parts.iter().zip(&self.acts_on).filter(|(_, on)| on.contains(&observable));
+        acting.into_iter().any(|(fitted, _)| fitted.part.inputs().contains(&input))
+    }
+
+    /// What each part acts on: the observables that it changes by more than a small share of what it changes most.
+    fn actions(&self, study: &Study, scatter: Scatter) -> Vec<Vec<Observable>> {
+        let whole = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
+        let without = |place: usize| {
+            let mut parts = self.parts.clone();
+            parts.remove(place);
+            let model = self.model_at(study, &parts);
+            let changes = changes(
+                study,
+                &whole,
+                &Forecast::new(&model, &study.rows, &study.search, study.draws),
+                scatter,
+            );
+            let most = changes.iter().copied().fold(0.0, f64::max);
+            let strong = |o: &Observable| changes[*o as usize] > MINOR * most;
+            Observable::ALL.into_iter().filter(strong).collect()
+        };
+        (0..self.parts.len()).map(without).collect()
     }
 
     /// The base with the parts.
@@ -242,18 +276,14 @@ impl Hypothesis {
         for place in 0..self.unknowns.len() {
             let unknown = self.unknowns.remove(place);
             let shifts = self.shifts(study);
-            let points =
-                residuals(study, rows, &forecast, &shifts, scatter, unknown.observable, unknown.factorwise);
-            let values = &study.factors[unknown.factor].values;
-            let curve = Curve::fit(values, &unknown.curve.basis, &points);
-            let curve = curve.unwrap_or_else(|| unknown.curve.clone());
-            self.unknowns.insert(place, Unknown { curve, ..unknown });
+            let fitted = unknown.fitted(study, rows, &forecast, &shifts, scatter);
+            self.unknowns.insert(place, fitted.unwrap_or(unknown));
         }
     }
 
     /// What is added to each row's forecast; all rows of the study.
     pub fn shifts(&self, study: &Study) -> Vec<Shift> {
-        let mut shifts = vec![Shift::default(); study.rows.len()];
+        let mut shifts = vec![Shift { capture: self.lapses, ..Shift::default() }; study.rows.len()];
         for &(factor, change) in &self.noise {
             for (shift, z) in shifts.iter_mut().zip(standardised(&study.factors[factor].values)) {
                 shift.spread *= (change * z).exp();
@@ -303,37 +333,61 @@ impl Hypothesis {
     /// Takes up what the inputs of the named effects still leave, so that an inexact law does not call for a second cause.
     pub fn absorb_shape(&mut self, study: &Study, scatter: Scatter) {
         self.shape = None;
-        let mut names: Vec<&str> = self.parts.iter().flat_map(|p| p.part.inputs().iter().copied()).collect();
-        names.sort_unstable();
-        names.dedup();
-        // Speed and size belong to the plain laws: beside an input of its own, an effect answers for them together with
-        // that input only.
-        let plain = |name: &&str| ["v_n", "d"].contains(name);
-        let values = |name: &str| study.factor(name).map(|factor| &factor.values);
-        let mut own: Vec<&Values> =
-            names.iter().filter(|name| !plain(name)).filter_map(|name| values(name)).collect();
-        let mut others: Vec<&Values> = Vec::new();
-        let alone = |p: &Fitted| p.part.inputs().iter().all(plain);
-        for name in ["v_n", "d"] {
-            let Some(values) = values(name) else { continue };
-            if self.parts.iter().any(|p| alone(p) && p.part.inputs().contains(&name)) {
-                own.push(values);
-            } else {
-                others.push(values);
-            }
-        }
-        if own.is_empty() {
-            return;
-        }
+        self.acts_on = self.actions(study, scatter);
         let shifts = self.shifts(study);
         let all: Vec<usize> = (0..study.rows.len()).collect();
         let forecast = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
         let of = |observable| {
+            let (own, others) = self.shaping(study, observable);
+            if own.is_empty() {
+                return vec![0.0; all.len()];
+            }
             let points = residuals(study, &study.search, &forecast, &shifts, scatter, observable, false);
             surface(&own, &others, &points, &all)
         };
         self.shape = Some([of(Observable::NormalRestitution), of(Observable::TangentialRestitution)]);
     }
+
+    /// Columns whose effect on an observable the parts answer for: on their own, and together with one of those.
+    ///
+    /// Speed and size belong to the plain laws: a part with an input of its own answers for them beside that input only.
+    fn shaping<'a>(&self, study: &'a Study, observable: Observable) -> (Vec<&'a Values>, Vec<&'a Values>) {
+        let plain = |name: &&str| ["v_n", "d"].contains(name);
+        let acting = self.parts.iter().zip(&self.acts_on).filter(|(_, on)| on.contains(&observable));
+        let mut own: Vec<&str> = Vec::new();
+        for (fitted, _) in acting {
+            let inputs = fitted.part.inputs();
+            let alone = inputs.iter().all(plain);
+            own.extend(inputs.iter().filter(|name| alone || !plain(name)));
+        }
+        own.sort_unstable();
+        own.dedup();
+        let others = ["v_n", "d"].into_iter().filter(|name| !own.contains(name));
+        let values = |name: &str| study.factor(name).map(|factor| &factor.values);
+        (own.iter().copied().filter_map(values).collect(), others.filter_map(values).collect())
+    }
+}
+
+/// Mean squared change between two forecasts of the search's rows, in units of the scatter, by observable; 0 where it was
+/// not observed.
+pub(super) fn changes(study: &Study, one: &Forecast, other: &Forecast, scatter: Scatter) -> [f64; 3] {
+    let plain = Shift::default();
+    let mut sums = [0.0; 3];
+    for (place, &index) in study.search.iter().enumerate() {
+        let row = &study.rows[index];
+        let (a, b) = (mean(one.of(place), &plain), mean(other.of(place), &plain));
+        let squared = |x: f64, variance: f64, scatter: f64| (x * x + variance.abs()) / (scatter * scatter);
+        if row.e_n.is_some() {
+            sums[0] += squared(a.e_n - b.e_n, a.variance_e_n - b.variance_e_n, scatter.e_n);
+        }
+        if row.e_t.is_some() {
+            sums[1] += squared(a.e_t - b.e_t, a.variance_e_t - b.variance_e_t, scatter.e_t);
+        }
+        if row.captured.is_some() {
+            sums[2] += squared(a.capture - b.capture, 0.0, CAPTURE_SCATTER);
+        }
+    }
+    sums.map(|sum| sum / study.search.len() as f64)
 }
 
 /// What is left of an observable in each of the rows that have it; `forecast` is of these rows.
@@ -391,7 +445,60 @@ fn scores(
     rows.iter().enumerate().map(one).collect()
 }
 
+/// The log odds to add to every forecast of capture so that as many are captured as were; by bisection. `None` where
+/// nothing was observed.
+fn level_of_capture(study: &Study, rows: &[usize], forecast: &Forecast, shifts: &[Shift]) -> Option<f64> {
+    let excess = |level: f64| {
+        let one = |(place, &index): (usize, &usize)| {
+            let row = &study.rows[index];
+            let shift = Shift { capture: shifts[index].capture + level, ..shifts[index] };
+            Some(row.impacts * (mean(forecast.of(place), &shift).capture - row.captured?))
+        };
+        rows.iter().enumerate().filter_map(one).fold(None, |sum, one| Some(sum.unwrap_or(0.0) + one))
+    };
+    let (mut low, mut high) = (-WIDEST_ODDS, WIDEST_ODDS);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if excess(middle)? < 0.0 { low = middle } else { high = middle }
+    }
+    Some(0.5 * (low + high))
+}
+
 impl Unknown {
+    /// The curve over its basis that the residuals of these rows ask for.
+    ///
+    /// Capture goes by log odds: least squares, reweighted a few times, from the level on.
+    pub fn fitted(
+        &self,
+        study: &Study,
+        rows: &[usize],
+        forecast: &Forecast,
+        shifts: &[Shift],
+        scatter: Scatter,
+    ) -> Option<Self> {
+        let values = &study.factors[self.factor].values;
+        let Self { factor, observable, factorwise, .. } = *self;
+        let new = |curve| Self { factor, observable, factorwise, curve };
+        if observable != Observable::Capture {
+            let points = residuals(study, rows, forecast, shifts, scatter, observable, factorwise);
+            return Curve::fit(values, &self.curve.basis, &points).map(new);
+        }
+        let mut moved = shifts.to_vec();
+        let level = level_of_capture(study, rows, forecast, shifts)?;
+        let mut curve = Curve { basis: Basis::Level, heights: vec![level] };
+        for _ in 0..if matches!(self.curve.basis, Basis::Level) { 0 } else { ROUNDS } {
+            for &row in rows {
+                moved[row].capture = shifts[row].capture + curve.at(values, row);
+            }
+            let mut points = residuals(study, rows, forecast, &moved, scatter, observable, factorwise);
+            for point in &mut points {
+                point.residual += curve.at(values, point.row);
+            }
+            curve = Curve::fit(values, &self.curve.basis, &points)?;
+        }
+        Some(new(curve))
+    }
+
     /// Adds the curve to the shifts of these rows.
     pub fn add(&self, study: &Study, forecast: &Forecast, rows: &[usize], shifts: &mut [Shift]) {
         let values = &study.factors[self.factor].values;

@@ -54,14 +54,15 @@ pub(super) struct Scatter {
     pub e_t: f64,
 }
 
-/// The probability of capture after a shift, kept off 0 and 1.
+/// The probability of capture after a shift, kept off 0 and 1: no curve may win by claiming to be certain.
 pub(super) fn capture(said: &Said, shift: &Shift) -> f64 {
-    let plain = DOUBT + (1.0 - 2.0 * DOUBT) * said.capture;
+    let doubted = |share: f64| DOUBT + (1.0 - 2.0 * DOUBT) * share;
+    let plain = doubted(said.capture);
     if shift.capture == 0.0 {
         return plain;
     }
     let odds = plain / (1.0 - plain) * shift.capture.clamp(-LARGEST_ODDS, LARGEST_ODDS).exp();
-    odds / (1.0 + odds)
+    doubted(odds / (1.0 + odds))
 }
 
 /// Mean `e_n`, `e_t` of the rebounds, their variances over chance, and the mean probability of capture.

@@ -21,7 +21,7 @@ mod verdict;
 
 pub use record::{
     Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, Gain, Measure, Misfit, NotExamined,
-    Rejected, Rows, Sample, SampleRow, ScatterFound, Shape,
+    Rejected, Rows, Sample, SampleRow, ScatterFound, Shape, Unexplained,
 };
 
 use crate::dataset::Measurements;
@@ -69,6 +69,8 @@ pub enum DiagnosisError {
 
 /// Fewer rows than this cannot be split into fits, tests and a gain.
 const LEAST_ROWS: usize = 8;
+/// An average of more impacts than this is one observation of its captured share.
+const MOST_UNFOLDED: f64 = 1000.0;
 /// Causes looked for at most.
 const MOST_CAUSES: usize = 6;
 /// A further cause has to gain this share of the first one's gain; less is put down to the shape of the laws.
@@ -77,6 +79,8 @@ const WORTH: f64 = 0.05;
 const LEAST_GAIN: f64 = 3.0;
 /// A curve over a column has to owe this share of its gain to the column rather than to its level.
 const OWN: f64 = 0.25;
+/// An effect that explains this share of what a curve over an input does goes first.
+const ENOUGH: f64 = 0.1;
 /// Standard errors by which one candidate has to lead another to be told apart from it (5 %, one-sided).
 const CLEAR: f64 = 1.645;
 
@@ -118,6 +122,7 @@ pub fn diagnose(
         let (used, read) = (data.rows.len(), data.read);
         return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons: reasons.join(" ") });
     }
+    let data = &data.unfolded(MOST_UNFOLDED);
     let study = Study::new(base, data, options.seed);
     let plain = Hypothesis::default();
     let first =
@@ -139,7 +144,7 @@ pub fn diagnose(
         };
         let others = contenders.into_iter().filter(|c| !same(&c.added, &winner.added)).collect();
         scatter = adopt(&mut hypothesis, &study, &winner, scatter);
-        if !matches!(winner.added, Added::Noise(..)) {
+        if !matches!(winner.added, Added::Noise(..) | Added::Lapses(_)) {
             discoveries.push(Discovery { winner, others });
         }
         scatter = drop_superfluous(&mut hypothesis, &study, &mut discoveries, scatter);
@@ -177,11 +182,11 @@ fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Op
         match contender.added {
             Added::Part(..) => parts.push(contender),
             Added::Unknown(_) => unknowns.push(contender),
-            Added::Noise(..) => noises.push(contender),
+            Added::Noise(..) | Added::Lapses(_) => noises.push(contender),
         }
     }
     let part = simplest_of_best(&parts);
-    let unknown = most(unknowns.into_iter().filter(|unknown| !explained(study, unknown, &parts)));
+    let unknown = most(unknowns.into_iter().filter(|unknown| !waits(study, unknown, &parts)));
     let cause = match (part, unknown) {
         (Some(part), Some(unknown))
             if unknown.lead(part) > CLEAR && unknown.own_gain > OWN * unknown.gain() =>
@@ -196,7 +201,7 @@ fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Op
         (Some(cause), Some(noise)) => {
             // Scatter that an effect makes is no noise, unless a plain change of noise says it clearly better.
             let scatters = matches!(&cause.added, Added::Part(fitted, _) if fitted.part.scatters());
-            let share = if scatters { 0.6 } else { 1.0 };
+            let share = if scatters { 0.85 } else { 1.0 };
             Some(if cause.gain() >= share * noise.gain() { cause.clone() } else { noise.clone() })
         }
         (cause, noise) => cause.or(noise).cloned(),
@@ -211,7 +216,8 @@ fn most<'a>(contenders: impl Iterator<Item = &'a Contender>) -> Option<&'a Conte
 fn simplest_of_best<'a>(parts: &[&'a Contender]) -> Option<&'a Contender> {
     let best = most(parts.iter().copied())?;
     let about_as_good = |part: &&&Contender| {
-        best.lead(part) < 1.0 && (part.gain() > 0.9 * best.gain() || best.gain() - part.gain() < LEAST_GAIN)
+        (best.lead(part) < 1.0 || best.at_an_end())
+            && (part.gain() > 0.9 * best.gain() || best.gain() - part.gain() < LEAST_GAIN)
     };
     let key = |part: &&&Contender| (part.parameters(), -part.gain());
     parts
@@ -221,15 +227,14 @@ fn simplest_of_best<'a>(parts: &[&'a Contender]) -> Option<&'a Contender> {
         .copied()
 }
 
-/// Whether an effect that turns on the same input explains enough of what a curve over it does.
-fn explained(study: &Study, unknown: &Contender, parts: &[&Contender]) -> bool {
+/// Whether a curve over an input has to wait: effects of the library turn on it, and some part explains a good deal.
+///
+/// Several causes together may shape what the residuals show over one input; they are looked for first.
+fn waits(study: &Study, unknown: &Contender, parts: &[&Contender]) -> bool {
     let Added::Unknown(curve) = &unknown.added else { return false };
     let factor = &study.factors[curve.factor];
-    let turns_on_it = |part: &&&Contender| match &part.added {
-        Added::Part(fitted, _) => fitted.part.inputs().contains(&factor.name.as_str()),
-        _ => false,
-    };
-    factor.input && parts.iter().filter(turns_on_it).any(|part| part.gain() > 0.4 * unknown.gain())
+    let turned_on = crate::effect::KINDS.iter().any(|kind| kind.inputs.contains(&factor.name.as_str()));
+    factor.input && turned_on && parts.iter().any(|part| part.gain() > ENOUGH * unknown.gain())
 }
 
 fn same(a: &Added, b: &Added) -> bool {
@@ -237,6 +242,7 @@ fn same(a: &Added, b: &Added) -> bool {
         (Added::Part(a, _), Added::Part(b, _)) => a.part.name() == b.part.name(),
         (Added::Unknown(a), Added::Unknown(b)) => a.factor == b.factor,
         (Added::Noise(a, _), Added::Noise(b, _)) => a == b,
+        (Added::Lapses(_), Added::Lapses(_)) => true,
         _ => false,
     }
 }
@@ -250,6 +256,7 @@ fn adopt(hypothesis: &mut Hypothesis, study: &Study, winner: &Contender, scatter
         }
         Added::Unknown(unknown) => hypothesis.unknowns.push(unknown.clone()),
         Added::Noise(factor, change) => hypothesis.noise.push((*factor, *change)),
+        Added::Lapses(odds) => hypothesis.lapses = *odds,
     }
     settle(hypothesis, study, scatter)
 }
@@ -327,6 +334,7 @@ fn cause_of(study: &Study, added: &Added) -> String {
         Added::Part(fitted, _) => fitted.part.name(),
         Added::Unknown(unknown) => format!("unknown:{}", study.factors[unknown.factor].name),
         Added::Noise(factor, _) => format!("scatter:{}", study.factors[*factor].name),
+        Added::Lapses(_) => "lapses".to_owned(),
     }
 }
 

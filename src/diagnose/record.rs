@@ -29,6 +29,8 @@ pub struct Diagnosis {
     pub scatter: ScatterFound,
     /// Effects that these data cannot speak of.
     pub not_examined: Vec<NotExamined>,
+    /// Captures that neither the base nor a cause accounts for, at a rate that no column explains.
+    pub unexplained_capture: Option<Unexplained>,
     /// The gain on rows that no fit and no choice saw.
     pub gain: Option<Gain>,
     /// The same for every observable.
@@ -193,6 +195,15 @@ pub struct ScatterFound {
     pub e_t: f64,
     /// Columns with which it changes.
     pub changes_with: Vec<String>,
+}
+
+/// Captured share [1].
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Unexplained {
+    /// In the rows.
+    pub measured: f64,
+    /// By the named causes.
+    pub expected: f64,
 }
 
 /// An effect that the data cannot speak of.

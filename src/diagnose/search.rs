@@ -36,7 +36,7 @@ impl Axis {
             Search::Log(low, high) => Some(Self::log(low, high)),
             Search::Over(input) => range(input).map(|[low, high]| Self::linear(low, high)),
             Search::Across(input) => {
-                range(input).map(|[low, high]| Self::log((high - low) / 50.0, high - low))
+                range(input).map(|[low, high]| Self::log((high - low) / 50.0, 4.0 * (high - low)))
             }
         }
     }

@@ -6,11 +6,11 @@ use super::advice::advise;
 use super::contest::{Added, Contender};
 use super::extend::rounded;
 use super::forecast::Forecast;
-use super::hypothesis::{Fitted, Hypothesis, Observable, Part, Unknown};
+use super::hypothesis::{Fitted, Hypothesis, Observable, Part, Unknown, changes};
 use super::likelihood::Scatter;
 use super::record::{
-    Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, Misfit, NotExamined, Rejected, Rows,
-    Sample, ScatterFound, Shape,
+    Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, Gain, Misfit, NotExamined, Rejected,
+    Rows, Sample, ScatterFound, Shape, Unexplained,
 };
 use super::smooth::Basis;
 use super::study::Study;
@@ -93,11 +93,31 @@ pub(super) fn record(
             changes_with: hypothesis.noise.iter().map(|(f, _)| study.factors[*f].name.clone()).collect(),
         },
         not_examined: not_examined(study),
+        unexplained_capture: unexplained_capture(study, hypothesis),
         gain: None,
         gains: Vec::new(),
         extended_model: "extended.toml",
         sample: Sample::default(),
     }
+}
+
+/// Captured share, measured and by the named parts, where a constant rate had to be taken into account.
+fn unexplained_capture(study: &Study, hypothesis: &Hypothesis) -> Option<Unexplained> {
+    if hypothesis.lapses == 0.0 {
+        return None;
+    }
+    let forecast = Forecast::new(&hypothesis.model(study), &study.rows, &study.search, study.draws);
+    let pairs: Vec<[f64; 2]> = study
+        .search
+        .iter()
+        .enumerate()
+        .filter_map(|(place, &row)| {
+            let said = super::likelihood::mean(forecast.of(place), &super::likelihood::Shift::default());
+            Some([study.rows[row].captured?, said.capture])
+        })
+        .collect();
+    let mean = |which: usize| pairs.iter().map(|pair| pair[which]).sum::<f64>() / pairs.len().max(1) as f64;
+    Some(Unexplained { measured: mean(0), expected: mean(1) })
 }
 
 /// Effects that the data cannot speak of, with what is missing.
@@ -190,33 +210,14 @@ impl Teller<'_> {
             return unknown.observable;
         }
         let rows = &self.study.search;
-        let means = |hypothesis: &Hypothesis| {
-            let forecast =
-                Forecast::new(&hypothesis.model(self.study), &self.study.rows, rows, self.study.draws);
-            let plain = super::likelihood::Shift::default();
-            (0..rows.len())
-                .map(|place| super::likelihood::mean(forecast.of(place), &plain))
-                .collect::<Vec<_>>()
+        let says = |hypothesis: &Hypothesis| {
+            Forecast::new(&hypothesis.model(self.study), &self.study.rows, rows, self.study.draws)
         };
-        let (before, after) = (means(&Hypothesis::default()), means(&self.alone(winner)));
-        let mut sums = [0.0; 3];
-        for ((row, b), a) in rows.iter().zip(&before).zip(&after) {
-            let row = &self.study.rows[*row];
-            let squared = |x: f64, scatter: f64| (x / scatter).powi(2);
-            let chance = |b: f64, a: f64| (a - b).max(0.0).sqrt();
-            if row.e_n.is_some() {
-                sums[0] += squared(a.e_n - b.e_n, self.scatter.e_n)
-                    + squared(chance(b.variance_e_n, a.variance_e_n), self.scatter.e_n);
-            }
-            if row.e_t.is_some() {
-                sums[1] += squared(a.e_t - b.e_t, self.scatter.e_t);
-            }
-            if row.captured.is_some() {
-                sums[2] += squared(a.capture - b.capture, 0.25);
-            }
-        }
-        let worst = (0..3).max_by(|&a, &b| sums[a].total_cmp(&sums[b])).unwrap_or(0);
-        Observable::ALL[worst]
+        let (before, after) = (says(&Hypothesis::default()), says(&self.alone(winner)));
+        let changes = changes(self.study, &before, &after, self.scatter);
+        let larger = |a: &Observable, b: &Observable| changes[*a as usize].total_cmp(&changes[*b as usize]);
+        // The first of equals: a file may hold one observable only.
+        Observable::ALL.into_iter().rev().max_by(larger).unwrap_or(Observable::NormalRestitution)
     }
 
     fn alone(&self, contender: &Contender) -> Hypothesis {
@@ -231,7 +232,7 @@ impl Teller<'_> {
         match &winner.added {
             Added::Part(fitted, _) => fitted.part.inputs().iter().map(|&input| input.to_owned()).collect(),
             Added::Unknown(unknown) => vec![self.study.factors[unknown.factor].name.clone()],
-            Added::Noise(..) => Vec::new(),
+            Added::Noise(..) | Added::Lapses(_) => Vec::new(),
         }
     }
 
@@ -262,7 +263,7 @@ impl Teller<'_> {
             Added::Unknown(curve) => {
                 other.q_value <= self.level && !variables.contains(&self.study.factors[curve.factor].name)
             }
-            Added::Noise(..) => false,
+            Added::Noise(..) | Added::Lapses(_) => false,
         };
         for other in others.iter().filter(rival) {
             let difference = winner.gain() - other.gain();
@@ -280,9 +281,11 @@ impl Teller<'_> {
     fn twins<'a>(&self, winner: &Contender, others: &'a [Contender]) -> Vec<&'a Contender> {
         let as_good = |other: &&Contender| {
             let cause = match &other.added {
-                Added::Part(..) => other.parameters() <= winner.parameters().max(2),
+                Added::Part(..) => {
+                    other.parameters() <= winner.parameters().max(2) || other.gain() > winner.gain()
+                }
                 Added::Unknown(unknown) => !self.study.factors[unknown.factor].input,
-                Added::Noise(..) => false,
+                Added::Noise(..) | Added::Lapses(_) => false,
             };
             cause && !is_number(&other.added) && other.q_value <= self.level && winner.lead(other) < CLEAR
         };
@@ -333,8 +336,11 @@ pub(super) fn sentence(diagnosis: &Diagnosis) -> String {
         .map(|c| format!("{} = {} instead of {}", c.key, c.value, c.from))
         .collect();
     let mut text = match (causes.as_slice(), numbers.is_empty()) {
-        ([], true) => format!("In {rows} impacts nothing beyond noise speaks against the model."),
-        ([], false) => format!("{rows} impacts ask for {}, and for no further cause.", numbers.join(", ")),
+        ([], true) if diagnosis.unexplained_capture.is_some() => {
+            format!("In {rows} rows no cause stands out, but the model is wrong about captures.")
+        }
+        ([], true) => format!("In {rows} rows nothing beyond noise speaks against the model."),
+        ([], false) => format!("{rows} rows ask for {}, and for no further cause.", numbers.join(", ")),
         ([one], _) => format!("The model lacks {one}."),
         (several, _) => format!("The model lacks {} causes: {}.", several.len(), several.join(", ")),
     };
@@ -342,9 +348,25 @@ pub(super) fn sentence(diagnosis: &Diagnosis) -> String {
         text += &format!(" Besides, the data ask for {}.", numbers.join(", "));
     }
     if let Some(gain) = &diagnosis.gain {
+        let Gain { held_out_rows, observable, rmse_before, rmse_after, ci95, .. } = gain;
+        text += &if ci95[1] < 1.0 {
+            format!(
+                " On {held_out_rows} rows that no fit saw, the error in {observable} falls from {rmse_before:.3} to \
+                 {rmse_after:.3}."
+            )
+        } else {
+            format!(
+                " The mean error in {observable} on {held_out_rows} rows that no fit saw stays as it is ({rmse_before:.3} \
+                 before, {rmse_after:.3} after); mean log score of a row {:.3} before, {:.3} after.",
+                gain.log_score_before, gain.log_score_after
+            )
+        };
+    }
+    if let Some(unexplained) = &diagnosis.unexplained_capture {
         text += &format!(
-            " On {} rows that no fit saw, the error in {} falls from {:.3} to {:.3}.",
-            gain.held_out_rows, gain.observable, gain.rmse_before, gain.rmse_after
+            " {:.1} % of the impacts were captured where the model says {:.1} %, and no column says when.",
+            100.0 * unexplained.measured,
+            100.0 * unexplained.expected
         );
     }
     if diagnosis.findings.iter().any(|finding| finding.curve.is_some()) {

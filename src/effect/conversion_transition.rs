@@ -1,6 +1,7 @@
 //! `conversion-transition`: char becomes sticky once most of its carbon is gone.
 //!
-//! Particle stickiness `S = (1 + (2^(1/a) - 1) exp((X_50 - X_c) / width))^-a`, with the asymmetry `a` = 1, unless given, the
+//! Capture rises with the particle's stickiness, and `e_n` falls to `e_n (1 - softening S)`; `softening` is 0 unless given.
+//! `S = (1 + (2^(1/a) - 1) exp((X_50 - X_c) / width))^-a`, with the asymmetry `a` = 1, unless given, the
 //! logistic `1 / (1 + exp((X_50 - X_c) / width))`: below the threshold the refractory carbon encloses
 //! the molten ash, beyond it the ash encloses what carbon is left. `X_c` carbon conversion [1], `X_50` threshold [1],
 //! `width` [1]. Together with `melting-transition` both are needed, so their stickiness is multiplied.
@@ -34,6 +35,14 @@ pub(super) const KIND: Kind = Kind {
             about: "conversion over which the odds of sticking change by e",
         },
         Parameter {
+            name: "softening",
+            unit: "1",
+            bounds: (0.0, 1.0),
+            default: Some(0.0),
+            search: Search::Linear(0.0, 1.0),
+            about: "share of e_n that a sticky particle loses where it still rebounds",
+        },
+        Parameter {
             name: "asymmetry",
             unit: "1",
             bounds: (0.01, 100.0),
@@ -43,7 +52,12 @@ pub(super) const KIND: Kind = Kind {
         },
     ],
     build: |values| {
-        Box::new(ConversionTransition { threshold: values[0], width: values[1], asymmetry: values[2] })
+        Box::new(ConversionTransition {
+            threshold: values[0],
+            width: values[1],
+            softening: values[2],
+            asymmetry: values[3],
+        })
     },
 };
 
@@ -51,12 +65,17 @@ pub(super) const KIND: Kind = Kind {
 struct ConversionTransition {
     threshold: f64,
     width: f64,
+    softening: f64,
     asymmetry: f64,
 }
 
 impl Effect for ConversionTransition {
     fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
         Some(rise(impact.conversion, self.threshold, self.width, self.asymmetry))
+    }
+
+    fn rebound_loss(&self) -> f64 {
+        self.softening
     }
 }
 
@@ -66,7 +85,7 @@ mod tests {
 
     #[test]
     fn capture_rises_past_the_threshold() {
-        let effect = (KIND.build)(&[0.89, 0.01, 1.0]);
+        let effect = (KIND.build)(&[0.89, 0.01, 0.0, 1.0]);
         let stickiness = |conversion: f64| {
             effect.particle_stickiness(&Impact { conversion, ..Impact::default() }).unwrap()
         };

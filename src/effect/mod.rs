@@ -130,7 +130,7 @@ pub enum Search {
     Log(f64, f64),
     /// Within the range that the data have of an input, evenly.
     Over(&'static str),
-    /// From a fiftieth of the range that the data have of an input to the whole of it, evenly in the logarithm.
+    /// From a fiftieth of the range that the data have of an input to four times it, evenly in the logarithm.
     Across(&'static str),
 }
 

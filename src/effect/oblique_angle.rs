@@ -1,11 +1,12 @@
 //! `oblique-angle`: `e_n` falls or rises with the obliquity of the impact, the more the faster the impact.
 //!
-//! `e_n -> e_n exp(-a s² (v_n / 1 m/s)^p)` with `s = sin²(theta) = v_t²/(v_n²+v_t²)`, `theta` counted from the normal, `a`
-//! the `strength` [1] (positive lowers `e_n`, negative raises it) and `p` the `speed_exponent` [1]. Where it raises `e_n`,
+//! `e_n -> e_n exp(-a s^q (v_n / 1 m/s)^p)` with `s = sin²(theta) = v_t²/(v_n²+v_t²)`, `theta` counted from the normal, `a`
+//! the `strength` [1] (positive lowers `e_n`, negative raises it), `p` the `speed_exponent` [1] and `q` the
+//! `sharpness` [1], 2 unless given. Where it raises `e_n`,
 //! the particle leaves the wall no faster than it came: `e_n <= v/v_n`.
 //!
 //! The form is assumed; the observations are these. Theories let `e_n` depend on `v_n` alone up to about 45° and on the
-//! angle beyond (here at most a quarter of `a` acts up to 45°). Tungsten dust on tungsten at a mean `theta` of 60.6°
+//! angle beyond (with `q = 2` at most a quarter of `a` acts up to 45°). Tungsten dust on tungsten at a mean `theta` of 60.6°
 //! rebounds slower than Thornton–Ning says, the more so the higher `v_n` (MIGRAINE dust study, set 4). Broom's 11 µm glass on
 //! aluminium gained 5 to 10 % from 0 to 45°, finer glass lost (cited by Troiano et al.). The sign is therefore free.
 //! Valid within the angles and speeds it was fitted on.
@@ -36,14 +37,25 @@ pub(super) const KIND: Kind = Kind {
             search: Search::Linear(0.0, 1.5),
             about: "power of v_n with which the loss grows",
         },
+        Parameter {
+            name: "sharpness",
+            unit: "1",
+            bounds: (0.1, 20.0),
+            default: Some(2.0),
+            search: Search::Linear(0.5, 4.0),
+            about: "power of sin² of the angle from the normal: the higher, the more only glancing impacts are concerned",
+        },
     ],
-    build: |values| Box::new(ObliqueAngle { strength: values[0], speed_exponent: values[1] }),
+    build: |values| {
+        Box::new(ObliqueAngle { strength: values[0], speed_exponent: values[1], sharpness: values[2] })
+    },
 };
 
 #[derive(Debug)]
 struct ObliqueAngle {
     strength: f64,
     speed_exponent: f64,
+    sharpness: f64,
 }
 
 /// Largest gain of `ln e_n`; only keeps a number finite, as the speed of arrival limits `e_n` far below.
@@ -51,7 +63,9 @@ const LARGEST_GAIN: f64 = 600.0;
 
 impl Effect for ObliqueAngle {
     fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
-        let loss = self.strength * obliquity(impact).powi(2) * impact.normal_speed.powf(self.speed_exponent);
+        let loss = self.strength
+            * obliquity(impact).powf(self.sharpness)
+            * impact.normal_speed.powf(self.speed_exponent);
         let changed = restitution * (-loss).min(LARGEST_GAIN).exp();
         let no_faster = restitution.max(impact.speed() / impact.normal_speed);
         // Without speed towards the wall there is nothing to limit.
@@ -72,10 +86,12 @@ mod tests {
     use approx::assert_relative_eq;
 
     /// `e_n` of an impact whose plain one is 0.4, at `theta` [degrees] from the normal.
-    fn e_n(parameters: [f64; 2], theta: f64, normal_speed: f64) -> f64 {
+    fn e_n([strength, speed_exponent]: [f64; 2], theta: f64, normal_speed: f64) -> f64 {
         let tangential_speed = normal_speed * theta.to_radians().tan();
         let impact = Impact { normal_speed, tangential_speed, ..Impact::default() };
-        (KIND.build)(&parameters).normal_restitution(&impact, &wax_on_pyrex(), 0.4, 0.0).unwrap()
+        (KIND.build)(&[strength, speed_exponent, 2.0])
+            .normal_restitution(&impact, &wax_on_pyrex(), 0.4, 0.0)
+            .unwrap()
     }
 
     #[test]
