@@ -31,6 +31,10 @@ use rayon::prelude::*;
 
 /// The right cause first, silence on nothing, errors near the attainable, honest intervals, no crash.
 #[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes in a debug build: cargo test --release --test hidden -- --nocapture"
+)]
 fn diagnose_finds_what_is_planted() {
     let seed = random::seed();
     let one = |recipe: &sets::Recipe| runner::run(&recipe.make(seed), seed);
