@@ -22,6 +22,8 @@ use crate::effect::KINDS;
 /// Gain on the rows of the fit [nats] below which a candidate is not worth a cross-validation.
 const HOPELESS: f64 = 2.0;
 
+/// Gain on the rows of the fit [nats] that each refinement of a law has to bring.
+const REFINEMENT: f64 = 1.0;
 /// Rows that the first search looks at.
 const SOME_ROWS: usize = 250;
 /// Places of the grid that a first descent starts from.
@@ -203,7 +205,7 @@ impl<'a> Round<'a> {
 
     /// Whether a part, at the middle of its ranges, changes anything that was observed.
     fn shows(&self, part: Part) -> bool {
-        let Some(axes) = part.axes(self.study) else { return false };
+        let Some(axes) = part.axes(self.study, false) else { return false };
         let middle = Fitted { part, at: vec![0.5; axes.len()], axes };
         let model = self.joined(&middle, &[]).model(self.study);
         let plain = Forecast::new(&self.study.base, &self.study.rows, &self.study.search, 1);
@@ -351,8 +353,21 @@ impl<'a> Round<'a> {
         -self.scores(rows, shifts, self.fit_scatter(rows, shifts)).iter().sum::<f64>()
     }
 
+    /// The part as it fits best; its refinements are free only where they are worth it.
     fn fit_part(&self, part: Part) -> Option<Added> {
-        let axes = part.axes(self.study)?;
+        let plain = self.fit_with(part, false);
+        let Part::Effect(kind) = part else { return plain };
+        let refinements = kind.parameters.iter().filter(|parameter| parameter.default.is_some()).count();
+        if refinements == 0 {
+            return plain;
+        }
+        let refined = self.fit_with(part, true);
+        let gain = |added: &Option<Added>| added.as_ref().map_or(0.0, |added| self.gain_in_sample(added));
+        if gain(&refined) > gain(&plain) + REFINEMENT * refinements as f64 { refined } else { plain }
+    }
+
+    fn fit_with(&self, part: Part, refined: bool) -> Option<Added> {
+        let axes = part.axes(self.study, refined)?;
         let dimensions = axes.len();
         let blank = Fitted { part, axes, at: vec![0.5; dimensions] };
         // Grid and first descents look at some rows only: they have to find the valley, not its floor.

@@ -103,15 +103,17 @@ impl Part {
         }
     }
 
-    /// The axes of its parameters; `None` where the data cannot show it.
-    pub fn axes(&self, study: &Study) -> Option<Vec<Axis>> {
+    /// The axes of its parameters, with `refined` also of those that have a default (they come last); `None` where the
+    /// data cannot show it.
+    pub fn axes(&self, study: &Study, refined: bool) -> Option<Vec<Axis>> {
         match self {
             Self::Number(_) => Some(vec![Axis::linear(0.02, 1.1)]),
             Self::Effect(kind) => {
                 // Laws work with speed and size as they are; whatever else an effect turns on has to vary.
                 let needed = kind.inputs.iter().filter(|input| !["v_n", "d"].contains(*input));
                 needed.map(|input| study.range(input)).collect::<Option<Vec<_>>>()?;
-                kind.parameters.iter().map(|p| Axis::of(p, |input| study.range(input))).collect()
+                let free = kind.parameters.iter().filter(|p| refined || p.default.is_none());
+                free.map(|p| Axis::of(p, |input| study.range(input))).collect()
             }
         }
     }
@@ -127,9 +129,14 @@ pub(super) struct Fitted {
 }
 
 impl Fitted {
-    /// The parameters in SI units.
+    /// The parameters in SI units; those without an axis have their defaults.
     pub fn values(&self) -> Vec<f64> {
-        self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect()
+        let mut values: Vec<f64> = self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect();
+        if let Part::Effect(kind) = self.part {
+            values
+                .extend(kind.parameters.iter().skip(values.len()).filter_map(|parameter| parameter.default));
+        }
+        values
     }
 }
 

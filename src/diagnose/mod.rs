@@ -122,6 +122,7 @@ pub fn diagnose(
         let (used, read) = (data.rows.len(), data.read);
         return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons: reasons.join(" ") });
     }
+    let used = data.rows.len();
     let data = &data.unfolded(MOST_UNFOLDED);
     let study = Study::new(base, data, options.seed);
     let plain = Hypothesis::default();
@@ -160,6 +161,7 @@ pub fn diagnose(
     let intervals = interval::intervals(&hypothesis, &study, &study.fit, &shifts, scatter);
     let mut diagnosis =
         verdict::record(&study, data, &hypothesis, &discoveries, &intervals, scatter, options);
+    diagnosis.rows.used = used;
     diagnosis.misfit = misfit.unwrap_or_default();
     measure_gain(&mut diagnosis, &study, &plain, first, &hypothesis, scatter, options.seed);
     diagnosis.verdict = verdict::sentence(&diagnosis);

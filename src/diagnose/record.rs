@@ -49,7 +49,7 @@ pub struct Rows {
     pub read: usize,
     /// Rows that the diagnosis used.
     pub used: usize,
-    /// Rows that no fit and no choice saw.
+    /// Impacts and readings that no fit and no choice saw; an average counts as the captures and rebounds it states.
     pub held_out: usize,
     /// Rows left out.
     pub rejected: Vec<Rejected>,

@@ -126,7 +126,7 @@ fn not_examined(study: &Study) -> Vec<NotExamined> {
         if study.base.terms().iter().any(|term| term.kind().id == kind.id) {
             return Some(NotExamined { cause: kind.id, reason: "the base model has it".to_owned() });
         }
-        if Part::Effect(kind).axes(study).is_some() {
+        if Part::Effect(kind).axes(study, false).is_some() {
             return None;
         }
         let missing: Vec<&str> =
