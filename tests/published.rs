@@ -69,18 +69,8 @@ fn tungsten_at_normal_incidence_does_what_the_plain_model_does_not_say() {
 fn the_published_wax_numbers_name_the_melting() {
     let folder = tempfile::tempdir().unwrap();
     let wax = Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials/waxImpactor");
-    let unfolded = Command::new("awk")
-        .args(["-f", "scripts/unfold.awk", "measured/troiano.csv"])
-        .current_dir(&wax)
-        .output()
-        .unwrap();
-    assert!(unfolded.status.success());
-    let impacts = folder.path().join("impacts.csv");
-    std::fs::write(&impacts, unfolded.stdout).unwrap();
     let found = Command::new(env!("CARGO_BIN_EXE_nearwall"))
-        .arg("diagnose")
-        .arg(&impacts)
-        .args(["--model", "measured/base.toml", "--out"])
+        .args(["diagnose", "measured/troiano.csv", "--model", "measured/base.toml", "--out"])
         .arg(folder.path())
         .current_dir(&wax)
         .output()
