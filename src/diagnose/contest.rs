@@ -11,11 +11,13 @@ use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::forecast::Forecast;
-use super::hypothesis::{Fitted, Hypothesis, Number, Observable, Part, Unknown, changes, standardised};
+use super::hypothesis::{Hypothesis, Observable, changes, standardised};
 use super::likelihood::{Scatter, Shift, fit_scatter, score};
+use super::part::{Fitted, Number, Part};
 use super::search::{best_of_grid, descend};
 use super::smooth::{Basis, Curve};
 use super::study::Study;
+use super::unknown::Unknown;
 use crate::dataset::Values;
 use crate::effect::KINDS;
 

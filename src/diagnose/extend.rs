@@ -2,7 +2,7 @@
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
-use super::hypothesis::{Fitted, Part};
+use super::part::{Fitted, Part};
 use super::study::Study;
 use crate::dataset::Values;
 

@@ -2,143 +2,19 @@
 
 use super::forecast::Forecast;
 use super::likelihood::{Scatter, Shift, fit_scatter, mean, ordinary, score};
-use super::search::{Axis, descend};
-use super::smooth::{Basis, Curve, Point, surface};
+use super::part::{Fitted, Part};
+use super::search::descend;
+use super::smooth::{Point, surface};
 use super::study::Study;
+use super::unknown::Unknown;
 use crate::dataset::Values;
-use crate::effect::{Kind, Term};
+use crate::effect::Term;
 use crate::model::Model;
-use crate::normal::NormalLaw;
-use crate::tangential::TangentialLaw;
 
 /// A part acts on an observable where it changes it by this share of its largest change.
 const MINOR: f64 = 0.05;
-/// Rounds of the reweighted fit of capture, after its level.
-const ROUNDS: usize = 5;
-/// Levels of capture are looked for within these log odds.
-const WIDEST_ODDS: f64 = 10.0;
 /// Scatter of a capture for comparisons with that of restitutions [1].
 const CAPTURE_SCATTER: f64 = 0.25;
-
-/// A number of the base model's own laws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Number {
-    /// `normal.e_n` of constant restitution.
-    NormalRestitution,
-    /// `tangential.e_t` of constant restitution.
-    TangentialRestitution,
-    /// `tangential.friction`.
-    Friction,
-}
-
-impl Number {
-    /// Table and key in the model file.
-    pub fn key(self) -> [&'static str; 2] {
-        match self {
-            Self::NormalRestitution => ["normal", "e_n"],
-            Self::TangentialRestitution => ["tangential", "e_t"],
-            Self::Friction => ["tangential", "friction"],
-        }
-    }
-
-    /// Its value in a model, where the model has it.
-    pub fn of(self, model: &Model) -> Option<f64> {
-        match (self, model.normal_law(), model.tangential_law()) {
-            (Self::NormalRestitution, NormalLaw::Constant { restitution }, _) => Some(restitution),
-            (Self::TangentialRestitution, _, TangentialLaw::Constant { restitution }) => Some(restitution),
-            (
-                Self::Friction,
-                _,
-                TangentialLaw::Sliding { friction } | TangentialLaw::SlidingRolling { friction },
-            ) => Some(friction),
-            _ => None,
-        }
-    }
-
-    fn set(self, model: &Model, value: f64) -> Model {
-        let (normal, tangential) = (model.normal_law(), model.tangential_law());
-        match (self, tangential) {
-            (Self::NormalRestitution, _) => {
-                model.with_laws(NormalLaw::Constant { restitution: value }, tangential)
-            }
-            (Self::TangentialRestitution, _) => {
-                model.with_laws(normal, TangentialLaw::Constant { restitution: value })
-            }
-            (Self::Friction, TangentialLaw::Sliding { .. }) => {
-                model.with_laws(normal, TangentialLaw::Sliding { friction: value })
-            }
-            (Self::Friction, _) => model.with_laws(normal, TangentialLaw::SlidingRolling { friction: value }),
-        }
-    }
-}
-
-/// Something with parameters that can be added to the base.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Part {
-    /// An effect of the library.
-    Effect(&'static Kind),
-    /// Another value for a number of the base.
-    Number(Number),
-}
-
-impl Part {
-    /// Its name: an effect's id, or a number's key.
-    pub fn name(&self) -> String {
-        match self {
-            Self::Effect(kind) => kind.id.to_owned(),
-            Self::Number(number) => number.key().join("."),
-        }
-    }
-
-    /// Whether it leaves something to chance.
-    pub fn scatters(&self) -> bool {
-        matches!(self, Self::Effect(kind) if kind.stream.is_some())
-    }
-
-    /// The inputs that it turns on.
-    pub fn inputs(&self) -> &'static [&'static str] {
-        match self {
-            Self::Effect(kind) => kind.inputs,
-            Self::Number(_) => &[],
-        }
-    }
-
-    /// The axes of its parameters, with `refined` also of those that have a default (they come last); `None` where the
-    /// data cannot show it.
-    pub fn axes(&self, study: &Study, refined: bool) -> Option<Vec<Axis>> {
-        match self {
-            Self::Number(_) => Some(vec![Axis::linear(0.02, 1.1)]),
-            Self::Effect(kind) => {
-                // Laws work with speed and size as they are; whatever else an effect turns on has to vary.
-                let needed = kind.inputs.iter().filter(|input| !["v_n", "d"].contains(*input));
-                needed.map(|input| study.range(input)).collect::<Option<Vec<_>>>()?;
-                let free = kind.parameters.iter().filter(|p| refined || p.default.is_none());
-                free.map(|p| Axis::of(p, |input| study.range(input))).collect()
-            }
-        }
-    }
-}
-
-/// A part with its parameters.
-#[derive(Debug, Clone)]
-pub(super) struct Fitted {
-    pub part: Part,
-    pub axes: Vec<Axis>,
-    /// Coordinates on the axes.
-    pub at: Vec<f64>,
-}
-
-impl Fitted {
-    /// The parameters in SI units; those without an axis have their defaults.
-    pub fn values(&self) -> Vec<f64> {
-        let mut values: Vec<f64> = self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect();
-        if let Part::Effect(kind) = self.part {
-            values
-                .extend(kind.parameters.iter().skip(values.len()).filter_map(|parameter| parameter.default));
-        }
-        values
-    }
-}
 
 /// What a row's observation is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -160,17 +36,6 @@ impl Observable {
     pub fn title(self) -> &'static str {
         ["normal restitution e_n", "tangential restitution e_t", "capture"][self as usize]
     }
-}
-
-/// A smooth curve over a column, for which no effect is known.
-#[derive(Debug, Clone)]
-pub(super) struct Unknown {
-    /// Place among the study's factors.
-    pub factor: usize,
-    pub observable: Observable,
-    /// Whether it multiplies the forecast rather than adding to it.
-    pub factorwise: bool,
-    pub curve: Curve,
 }
 
 /// The base and what was added.
@@ -450,80 +315,6 @@ fn scores(
         score(&study.rows[index], forecast.of(place), &shifts[index], scatter)
     };
     rows.iter().enumerate().map(one).collect()
-}
-
-/// The log odds to add to every forecast of capture so that as many are captured as were; by bisection. `None` where
-/// nothing was observed.
-fn level_of_capture(study: &Study, rows: &[usize], forecast: &Forecast, shifts: &[Shift]) -> Option<f64> {
-    let excess = |level: f64| {
-        let one = |(place, &index): (usize, &usize)| {
-            let row = &study.rows[index];
-            let shift = Shift { capture: shifts[index].capture + level, ..shifts[index] };
-            Some(row.impacts * (mean(forecast.of(place), &shift).capture - row.captured?))
-        };
-        rows.iter().enumerate().filter_map(one).fold(None, |sum, one| Some(sum.unwrap_or(0.0) + one))
-    };
-    let (mut low, mut high) = (-WIDEST_ODDS, WIDEST_ODDS);
-    for _ in 0..40 {
-        let middle = 0.5 * (low + high);
-        if excess(middle)? < 0.0 { low = middle } else { high = middle }
-    }
-    Some(0.5 * (low + high))
-}
-
-impl Unknown {
-    /// The curve over its basis that the residuals of these rows ask for.
-    ///
-    /// Capture goes by log odds: least squares, reweighted a few times, from the level on.
-    pub fn fitted(
-        &self,
-        study: &Study,
-        rows: &[usize],
-        forecast: &Forecast,
-        shifts: &[Shift],
-        scatter: Scatter,
-    ) -> Option<Self> {
-        let values = &study.factors[self.factor].values;
-        let Self { factor, observable, factorwise, .. } = *self;
-        let new = |curve| Self { factor, observable, factorwise, curve };
-        if observable != Observable::Capture {
-            let points = residuals(study, rows, forecast, shifts, scatter, observable, factorwise);
-            return Curve::fit(values, &self.curve.basis, &points).map(new);
-        }
-        let mut moved = shifts.to_vec();
-        let level = level_of_capture(study, rows, forecast, shifts)?;
-        let mut curve = Curve { basis: Basis::Level, heights: vec![level] };
-        for _ in 0..if matches!(self.curve.basis, Basis::Level) { 0 } else { ROUNDS } {
-            for &row in rows {
-                moved[row].capture = shifts[row].capture + curve.at(values, row);
-            }
-            let mut points = residuals(study, rows, forecast, &moved, scatter, observable, factorwise);
-            for point in &mut points {
-                point.residual += curve.at(values, point.row);
-            }
-            curve = Curve::fit(values, &self.curve.basis, &points)?;
-        }
-        Some(new(curve))
-    }
-
-    /// Adds the curve to the shifts of these rows.
-    pub fn add(&self, study: &Study, forecast: &Forecast, rows: &[usize], shifts: &mut [Shift]) {
-        let values = &study.factors[self.factor].values;
-        for (place, &index) in rows.iter().enumerate() {
-            let height = self.curve.at(values, index);
-            let shift = &mut shifts[index];
-            let factor = |quantity: f64| if self.factorwise { quantity } else { 1.0 };
-            match self.observable {
-                Observable::NormalRestitution => {
-                    shift.e_n += height * factor(mean(forecast.of(place), &Shift::default()).e_n);
-                }
-                Observable::TangentialRestitution => {
-                    shift.e_t += height * factor(mean(forecast.of(place), &Shift::default()).e_t);
-                }
-                Observable::Capture => shift.capture += height,
-            }
-        }
-    }
 }
 
 /// A column in standard deviations from its mean, at most three; words and blanks are 0.

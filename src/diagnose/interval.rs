@@ -69,7 +69,7 @@ pub(super) fn intervals(
         ends.sort_by(f64::total_cmp);
         ends
     };
-    let of_part = |part: &super::hypothesis::Fitted| {
+    let of_part = |part: &super::part::Fitted| {
         let first = place;
         place += part.axes.len();
         part.axes.iter().enumerate().map(|(index, axis)| ends(first + index, *axis)).collect()

@@ -13,10 +13,12 @@ mod gain;
 mod hypothesis;
 mod interval;
 mod likelihood;
+mod part;
 mod record;
 mod search;
 mod smooth;
 mod study;
+mod unknown;
 mod verdict;
 
 pub use record::{
@@ -28,8 +30,9 @@ use crate::dataset::Measurements;
 use crate::model::Model;
 use contest::{Added, Contender, Round};
 use gain::Answers;
-use hypothesis::{Hypothesis, Observable, Part};
+use hypothesis::{Hypothesis, Observable};
 use likelihood::Scatter;
+use part::Part;
 use study::Study;
 
 /// What a diagnosis may be told.
@@ -84,18 +87,6 @@ const ENOUGH: f64 = 0.1;
 /// Standard errors by which one candidate has to lead another to be told apart from it (5 %, one-sided).
 const CLEAR: f64 = 1.645;
 
-/// Work done so far, for a progress bar: rounds of the contest and candidates in them.
-pub trait Progress: Sync {
-    /// A step is done.
-    fn step(&self);
-}
-
-impl<F: Fn() + Sync> Progress for F {
-    fn step(&self) {
-        self();
-    }
-}
-
 /// A discovery on the way: what was added, and the round it won.
 struct Discovery {
     winner: Contender,
@@ -103,8 +94,8 @@ struct Discovery {
     others: Vec<Contender>,
 }
 
-/// Diagnoses `data` against the model `base` whose file has the text `text`. Returns the diagnosis and the text of the
-/// extended model.
+/// Diagnoses `data` against the model `base` whose file has the text `text`. `progress` is called after
+/// each candidate. Returns the diagnosis and the text of the extended model.
 ///
 /// # Errors
 /// [`DiagnosisError`].
@@ -113,7 +104,7 @@ pub fn diagnose(
     text: &str,
     data: &Measurements,
     options: Options,
-    progress: &dyn Progress,
+    progress: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, String), DiagnosisError> {
     let data = &within_tables(base, data);
     if data.rows.len() < LEAST_ROWS {
@@ -136,7 +127,7 @@ pub fn diagnose(
     for _ in 0..2 * MOST_CAUSES {
         let round = Round::new(&study, &hypothesis, scatter);
         scatter = round.scatter();
-        let contenders = round.contenders(&|| progress.step());
+        let contenders = round.contenders(progress);
         misfit.get_or_insert_with(|| verdict::misfit(&study, &contenders, options.level));
         let first_gain = first_gain(&discoveries);
         let Some(winner) = choose(&study, &contenders, options.level, LEAST_GAIN.max(WORTH * first_gain))

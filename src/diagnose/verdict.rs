@@ -6,14 +6,16 @@ use super::advice::advise;
 use super::contest::{Added, Contender};
 use super::extend::rounded;
 use super::forecast::Forecast;
-use super::hypothesis::{Fitted, Hypothesis, Observable, Part, Unknown, changes};
+use super::hypothesis::{Hypothesis, Observable, changes};
 use super::likelihood::Scatter;
+use super::part::{Fitted, Part};
 use super::record::{
     Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, Gain, Misfit, NotExamined, Rejected,
     Rows, Sample, ScatterFound, Shape, Unexplained,
 };
 use super::smooth::Basis;
 use super::study::Study;
+use super::unknown::Unknown;
 use super::{CLEAR, Discovery, Options, cause_of, is_number};
 use crate::dataset::{Measurements, Values};
 use crate::effect::KINDS;
