@@ -209,7 +209,7 @@ fn most<'a>(contenders: impl Iterator<Item = &'a Contender>) -> Option<&'a Conte
 fn simplest_of_best<'a>(parts: &[&'a Contender]) -> Option<&'a Contender> {
     let best = most(parts.iter().copied())?;
     let about_as_good = |part: &&&Contender| {
-        (best.lead(part) < 1.0 || best.at_an_end())
+        (best.lead(part) < CLEAR || best.at_an_end())
             && (part.gain() > 0.9 * best.gain() || best.gain() - part.gain() < LEAST_GAIN)
     };
     let key = |part: &&&Contender| (part.parameters(), -part.gain());
