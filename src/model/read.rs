@@ -77,7 +77,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
         (None, NormalLaw::Constant { .. }) => 1.0,
-        (None, NormalLaw::ThorntonNing) => {
+        (None, NormalLaw::ThorntonNing | NormalLaw::RaisedPullOff) => {
             let what = "p_y / sigma_y (1.6 to 4 for hard, 0.7 for soft particles)";
             return Err(section.missing("yield_ratio", what));
         }
