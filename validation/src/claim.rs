@@ -165,6 +165,11 @@ impl Claim {
         }
     }
 
+    /// Where our number comes from, in a word for a table.
+    pub fn basis_name(&self) -> &'static str {
+        if self.verdict == Verdict::Unchecked { "–" } else { self.basis.name() }
+    }
+
     /// Why it stands as it stands.
     #[must_use]
     pub fn because(mut self, why: &str) -> Self {

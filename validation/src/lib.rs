@@ -7,9 +7,11 @@
 //! no code with the library, so that it can disagree with it.
 
 pub mod claim;
+pub mod materials;
 pub mod oracle;
 pub mod page;
 pub mod study;
+pub mod summary;
 
 pub use claim::{Basis, Claim, Published, Verdict};
 pub use study::{Extent, Part, STUDIES, Study};

@@ -59,7 +59,6 @@ fn add_part(page: &mut Page, part: &Part) {
         page.add(Block::Subheading(part.heading.clone()));
     }
     part.text.iter().for_each(|text| page.add(Block::Text(text.clone())));
-    part.tables.iter().for_each(|table| page.add(Block::Table(table.clone())));
     if !part.figures.is_empty() {
         page.add(Block::Figures(part.figures.clone()));
     }
@@ -67,6 +66,7 @@ fn add_part(page: &mut Page, part: &Part) {
         let marks = part.claims.iter().map(|claim| mark(claim.verdict)).collect();
         page.add(Block::Marked(claims(&part.claims), marks));
     }
+    part.tables.iter().for_each(|table| page.add(Block::Table(table.clone())));
 }
 
 fn mark(verdict: Verdict) -> Mark {
@@ -75,14 +75,13 @@ fn mark(verdict: Verdict) -> Mark {
 
 fn claims(claims: &[Claim]) -> Table {
     let row = |claim: &Claim| {
-        let basis = if claim.verdict == Verdict::Unchecked { "–" } else { claim.basis.name() };
         let cells: [&str; 7] = [
             claim.verdict.name(),
             &claim.place,
             &claim.what,
             &claim.published,
             &claim.ours,
-            basis,
+            claim.basis_name(),
             &claim.why,
         ];
         cells.map(str::to_owned).to_vec()
