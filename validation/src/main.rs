@@ -2,11 +2,11 @@
 
 use std::error::Error;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use validation::{Claim, Extent, STUDIES, Study, Verdict, page};
+use validation::{Claim, Extent, STUDIES, Study, Verdict, page, summary};
 
 /// Both source papers and independent checks, reproduced on one page.
 #[derive(Debug, Parser)]
@@ -15,9 +15,12 @@ struct Arguments {
     /// Folder for report.html and claims.csv.
     #[arg(long, default_value = "target/validation")]
     out: PathBuf,
-    /// Fewer draws and coarser steps, as in the tests.
+    /// Fewer draws and coarser steps, as in the tests; the summary is then not compared.
     #[arg(long)]
     short: bool,
+    /// The summary kept beside the code: the run fails when it says something else. NEARWALL_BLESS=1 writes it anew.
+    #[arg(long, default_value = "docs/validation.md")]
+    summary: PathBuf,
 }
 
 fn main() -> ExitCode {
@@ -55,5 +58,26 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
             claim.place, claim.what, claim.ours, claim.published
         );
     }
-    Ok(unexplained.is_empty())
+    let kept = arguments.short || keep(&arguments.summary, &summary::summary(&studies))?;
+    Ok(unexplained.is_empty() && kept)
+}
+
+/// Whether the kept summary is the one of this run; writes it where the caller wants that.
+fn keep(path: &Path, text: &str) -> Result<bool, Box<dyn Error>> {
+    let fault = |error: std::io::Error| format!("{}: {error}", path.display());
+    if std::env::var_os("NEARWALL_BLESS").is_some() {
+        fs::write(path, text).map_err(fault)?;
+        return Ok(true);
+    }
+    let kept = fs::read_to_string(path).map_err(fault)?;
+    let mut pairs = kept.lines().zip(text.lines());
+    if let Some((old, new)) = pairs.find(|(old, new)| old != new) {
+        eprintln!(
+            "{} is not what this run says; look at the difference, then NEARWALL_BLESS=1 validation/run",
+            path.display()
+        );
+        eprintln!("  kept: {old}\n  now:  {new}");
+        return Ok(false);
+    }
+    Ok(kept.lines().count() == text.lines().count())
 }
