@@ -182,7 +182,8 @@ impl<'a> Round<'a> {
         let numbers = [Number::NormalRestitution, Number::TangentialRestitution, Number::Friction];
         let numbers = numbers.into_iter().filter(|number| number.of(&study.base).is_some()).map(Part::Number);
         let parts = effects.chain(numbers).filter(|part| !taken(&part.name()) && !in_base(&part.name()));
-        let parts = parts.filter(|part| self.shows(*part));
+        let plain = Forecast::new(&study.base, &study.rows, &study.search, 1);
+        let parts = parts.filter(|part| self.shows(*part, &plain));
         let mut candidates: Vec<Candidate> = parts.map(Candidate::Part).collect();
         for factor in 0..study.factors.len() {
             for observable in Observable::ALL {
@@ -205,14 +206,13 @@ impl<'a> Round<'a> {
         candidates
     }
 
-    /// Whether a part, at the middle of its ranges, changes anything that was observed.
-    fn shows(&self, part: Part) -> bool {
+    /// Whether a part, at the middle of its ranges, changes anything that was observed; `plain` is the base's forecast.
+    fn shows(&self, part: Part, plain: &Forecast) -> bool {
         let Some(axes) = part.axes(self.study, false) else { return false };
         let middle = Fitted { part, at: vec![0.5; axes.len()], axes };
         let model = self.joined(&middle, &[]).model(self.study);
-        let plain = Forecast::new(&self.study.base, &self.study.rows, &self.study.search, 1);
         let changed = Forecast::new(&model, &self.study.rows, &self.study.search, self.study.draws);
-        changes(self.study, &plain, &changed, self.scatter).iter().any(|change| *change > 0.0)
+        changes(self.study, plain, &changed, self.scatter).iter().any(|change| *change > 0.0)
     }
 
     /// Whether there is enough of an observable for a curve.

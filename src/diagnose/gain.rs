@@ -101,18 +101,15 @@ fn bootstrap(squares: &[[f64; 2]], seed: u64) -> [f64; 2] {
 pub(super) fn errors(study: &Study, rows: &[usize], answers: &Answers) -> Errors {
     let pairs = |observable| {
         let all = rows.iter().zip(&answers.means);
-        all.filter_map(|(&row, said)| Some((pair(&study.rows[row], said, observable)?, said.capture)))
-            .collect::<Vec<_>>()
+        all.filter_map(|(&row, said)| pair(&study.rows[row], said, observable)).collect::<Vec<_>>()
     };
     let average =
         |losses: Vec<f64>| (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64);
     let rmse = |observable| {
-        let squares =
-            pairs(observable).iter().map(|([measured, said], _)| (measured - said).powi(2)).collect();
+        let squares = pairs(observable).iter().map(|[measured, said]| (measured - said).powi(2)).collect();
         average(squares).map(f64::sqrt)
     };
-    let loss =
-        |([share, said], _): &([f64; 2], f64)| -(share * said.ln() + (1.0 - share) * (1.0 - said).ln());
+    let loss = |[share, said]: &[f64; 2]| -(share * said.ln() + (1.0 - share) * (1.0 - said).ln());
     Errors {
         rmse_e_n: rmse(Observable::NormalRestitution),
         rmse_e_t: rmse(Observable::TangentialRestitution),

@@ -116,14 +116,16 @@ fn normal_density(residual: f64, scatter: f64) -> f64 {
     (-0.5 * z * z).exp() / (scatter * (2.0 * std::f64::consts::PI).sqrt())
 }
 
-fn density(residual: f64, scatter: f64) -> f64 {
-    (1.0 - GROSS_SHARE) * normal_density(residual, scatter) + GROSS_SHARE * GROSS_DENSITY
+/// Density of a residual, and the part of it that is ordinary scatter.
+fn densities(residual: f64, scatter: f64) -> (f64, f64) {
+    let normal = (1.0 - GROSS_SHARE) * normal_density(residual, scatter);
+    (normal + GROSS_SHARE * GROSS_DENSITY, normal)
 }
 
 /// Whether a residual is ordinary scatter rather than a gross error, 0 to 1.
 pub(super) fn ordinary(residual: f64, scatter: f64) -> f64 {
-    let normal = (1.0 - GROSS_SHARE) * normal_density(residual, scatter);
-    normal / (normal + GROSS_SHARE * GROSS_DENSITY)
+    let (density, normal) = densities(residual, scatter);
+    normal / density
 }
 
 /// Log score of one row.
@@ -156,7 +158,7 @@ fn rebound_density(row: &Measurement, one: &Said, shift: &Shift, scatter: Scatte
     let of = |reading: &Option<Reading>, said: f64, scatter: f64, reach: f64| {
         reading.as_ref().map_or(1.0, |reading| {
             let scatter = row_scatter(scatter, shift.spread, reading, 1.0, reach * reach);
-            density(reading.value - said, scatter)
+            densities(reading.value - said, scatter).0
         })
     };
     of(&row.e_n, one.e_n + shift.e_n, scatter.e_n, one.reach[0])
@@ -168,7 +170,7 @@ fn score_average(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatt
     let of = |reading: &Option<Reading>, said: f64, scatter: f64, chance: f64| {
         reading.as_ref().map_or(0.0, |reading| {
             let scatter = row_scatter(scatter, shift.spread, reading, row.rebounds, chance);
-            density(reading.value - said, scatter).ln()
+            densities(reading.value - said, scatter).0.ln()
         })
     };
     let captured = row.captured.map_or(0.0, |share| {
@@ -239,8 +241,7 @@ fn add_row(sums: &mut [[f64; 2]; 2], row: &Measurement, said: &[Said], shift: &S
             let residual = reading.value - said;
             let chance = chance[quantity] + one.reach[quantity].powi(2);
             let width = row_scatter(scatter, shift.spread, reading, row.rebounds, chance);
-            let normal = (1.0 - GROSS_SHARE) * normal_density(residual, width);
-            let density = normal + GROSS_SHARE * GROSS_DENSITY;
+            let (density, normal) = densities(residual, width);
             let (foreign, count) = match reading.error {
                 Some(error) => (error * error, 1.0),
                 None => (chance / row.rebounds.max(1.0), row.rebounds.max(1.0)),

@@ -82,7 +82,8 @@ pub struct Misfit {
     pub column: String,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
-    /// Gain in log score on rows that the curve was not fitted to [nats].
+    /// Gain in log score on rows that the curve was not fitted to, beyond what an error that is the same everywhere
+    /// would give [nats].
     pub gain: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,

@@ -32,8 +32,12 @@ pub(super) fn misfit(study: &Study, contenders: &[Contender], level: f64) -> Vec
         let Added::Unknown(unknown) = &contender.added else { continue };
         let column = study.factors[unknown.factor].name.clone();
         let observable = unknown.observable.name();
-        let one =
-            Misfit { column: column.clone(), observable, gain: contender.gain(), q_value: contender.q_value };
+        let one = Misfit {
+            column: column.clone(),
+            observable,
+            gain: contender.own_gain,
+            q_value: contender.q_value,
+        };
         let kept = best.entry((column, observable)).or_insert_with(|| one.clone());
         if one.gain > kept.gain {
             *kept = one;

@@ -11,4 +11,4 @@ pub mod sweep;
 
 pub use diagnosis::page as diagnosis_page;
 pub use figure::{Bars, Chart, Errors, Figure, FigureMap, round_edges};
-pub use page::{Block, Page, Table, number, percent};
+pub use page::{Block, Mark, Page, Table, number, percent};

@@ -9,6 +9,8 @@ use super::figure::Figure;
 pub enum Block {
     /// A heading, which begins a part.
     Heading(String),
+    /// A heading within a part.
+    Subheading(String),
     /// The first sentences.
     Lead(String),
     /// A paragraph.
@@ -23,6 +25,30 @@ pub enum Block {
     Figures(Vec<Figure>),
     /// A table.
     Table(Table),
+    /// A table whose first column says how each row stands, in colour; its texts may take several lines.
+    Marked(Table, Vec<Mark>),
+}
+
+/// How a row of a table stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// As it should.
+    Good,
+    /// Otherwise, and it is known why.
+    Watch,
+    /// Not known.
+    Open,
+}
+
+impl Mark {
+    /// The name of its style on the page.
+    fn style(self) -> &'static str {
+        match self {
+            Self::Good => "good",
+            Self::Watch => "watch",
+            Self::Open => "open",
+        }
+    }
 }
 
 /// A table of texts.

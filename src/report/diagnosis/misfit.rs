@@ -9,12 +9,8 @@ use crate::diagnose::{Diagnosis, Misfit, Sample};
 
 /// Figures at most.
 const FIGURES: usize = 8;
-/// Figures at least where there is something to show.
+/// Figures where no column stands out.
 const LEAST_FIGURES: usize = 4;
-/// As many columns of one observable show what they all share.
-const SHARED_BY: usize = 5;
-/// A gain of so many nats over what all columns share is the column's own.
-const CLEAR: f64 = 3.0;
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     page.add(Block::Heading("What was wrong".into()));
@@ -80,34 +76,16 @@ fn add_ranking(page: &mut Page, misfit: &[Misfit]) {
         ]
     };
     page.add(Block::Table(Table {
-        caption: "How much better a free curve over one column predicts rows that it was not fitted to."
+        caption: "How much better a free curve over one column predicts rows that it was not fitted to, beyond what an \
+                  error that is the same everywhere would give."
             .into(),
         header: strings(["column", "observable", "gain [nats]", "q"]),
         rows: misfit.iter().map(row).collect(),
         text_columns: 2,
     }));
-    let everywhere: Vec<String> = OBSERVABLES
-        .iter()
-        .filter_map(|name| Some(format!("{:.0} nats in {}", shared(misfit, name)?, title(name))))
-        .collect();
-    if !everywhere.is_empty() {
-        page.add(Block::Text(format!(
-            "A curve over any column also takes up an error that is the same everywhere. Some {} are of that kind: they stand \
-             beside every column. What a column gains beyond them is its own.",
-            everywhere.join(" and ")
-        )));
-    }
 }
 
-/// The gain that the columns have in common: a model that is off everywhere gains over any of them.
-fn shared(misfit: &[Misfit], observable: &str) -> Option<f64> {
-    let mut gains: Vec<f64> =
-        misfit.iter().filter(|one| one.observable == observable).map(|one| one.gain).collect();
-    gains.sort_by(f64::total_cmp);
-    (gains.len() >= SHARED_BY).then(|| gains[gains.len() / 2])
-}
-
-/// Columns and observables to show, the worst misfit first: those of the causes, those that stand out, some more.
+/// Columns and observables to show, the worst misfit first: those of the causes, then those that stand out.
 fn pairs(diagnosis: &Diagnosis) -> Vec<(&str, &'static str)> {
     let misfit = &diagnosis.misfit;
     let mut chosen: Vec<(&str, &'static str)> = Vec::new();
@@ -117,17 +95,9 @@ fn pairs(diagnosis: &Diagnosis) -> Vec<(&str, &'static str)> {
     // The worst of each observable.
     let worst = |observable: &&'static str| misfit.iter().find(|one| one.observable == *observable);
     chosen.extend(OBSERVABLES.iter().filter_map(worst).map(|one| (one.column.as_str(), one.observable)));
-    let stands_out =
-        |one: &&Misfit| shared(misfit, one.observable).is_none_or(|shared| one.gain > shared + CLEAR);
-    chosen.extend(misfit.iter().filter(stands_out).map(|one| (one.column.as_str(), one.observable)));
+    chosen.extend(misfit.iter().map(|one| (one.column.as_str(), one.observable)));
     distinct(&mut chosen);
     chosen.truncate(FIGURES);
-    for one in misfit {
-        if chosen.len() < LEAST_FIGURES {
-            chosen.push((&one.column, one.observable));
-            distinct(&mut chosen);
-        }
-    }
     if chosen.is_empty() {
         let sample = &diagnosis.sample;
         let seen = |observable: &&&str| sample.rows.iter().any(|row| triple(row, observable).is_some());

@@ -1,0 +1,134 @@
+//! Where every number of the material library comes from.
+
+use std::error::Error;
+
+use nearwall::material::{Library, Material, Property};
+use nearwall::report::{Bars, Table, number};
+
+use crate::claim::{Basis, Claim};
+use crate::study::{Extent, Part, Study};
+
+/// Where a number comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Origin {
+    Published,
+    PartlyAssumed,
+    NotReRead,
+    Assumed,
+}
+
+impl Origin {
+    const ALL: [Self; 4] = [Self::Published, Self::PartlyAssumed, Self::NotReRead, Self::Assumed];
+
+    /// As the source's own words tell it.
+    fn of(source: &str) -> Self {
+        if source.starts_with("assumed") {
+            Self::Assumed
+        } else if source.contains("not re-read") {
+            Self::NotReRead
+        } else if source.contains("assumed") {
+            Self::PartlyAssumed
+        } else {
+            Self::Published
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Published => "published",
+            Self::PartlyAssumed => "published, range assumed",
+            Self::NotReRead => "cited, not re-read here",
+            Self::Assumed => "assumed",
+        }
+    }
+}
+
+/// The study.
+///
+/// # Errors
+/// When the built-in library cannot be read.
+pub fn study(_: Extent) -> Result<Study, Box<dyn Error>> {
+    let library = Library::built_in()?;
+    let materials: Vec<&Material> = library.names().iter().filter_map(|name| library.get(name)).collect();
+    let origins = |origin: Origin| -> Vec<f64> {
+        let count = |material: &&Material| {
+            material.properties().filter(|(_, _, p)| Origin::of(p.source().unwrap_or("")) == origin).count()
+        };
+        materials.iter().map(|material| count(material) as f64).collect()
+    };
+    let total = |origin| origins(origin).iter().sum::<f64>();
+    let all: f64 = Origin::ALL.map(total).iter().sum();
+    let lead = format!(
+        "Of {all} property values {} are published, {} published with an assumed temperature range, {} cited from a source that was \
+         not read again, and {} assumed. The assumed ones that matter most are the yield strength of hot tungsten and every \
+         mechanical number of char, ash and slag above 1000 K.",
+        total(Origin::Published),
+        total(Origin::PartlyAssumed),
+        total(Origin::NotReRead),
+        total(Origin::Assumed)
+    );
+    let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
+    let bars = Origin::ALL.iter().fold(
+        Bars::new("Where the numbers come from", "property values", &names).stacked(),
+        |bars, origin| bars.series(origin.name(), &origins(*origin)),
+    );
+    let figure = bars.figure(
+        "materials-origin",
+        "One bar a material. A calculation stands on firm ground where the bars are published, and is a study of assumptions where \
+         they are not.",
+    );
+    let nameless = materials
+        .iter()
+        .flat_map(|material| material.properties())
+        .filter(|(_, unit, p)| unit.is_empty() || p.valid().is_none() || p.source().is_none_or(str::is_empty))
+        .count();
+    let claim = Claim::statement(
+        "library",
+        "every number names unit, range of temperature and source, or says \"assumed\"",
+        "all",
+        &format!("{} of {all}", all - nameless as f64),
+        nameless == 0,
+        Basis::Derived,
+    );
+    let part = Part {
+        text: vec!["The same as nearwall materials NAME prints.".to_owned()],
+        figures: vec![figure],
+        claims: vec![claim],
+        tables: vec![table(&materials)],
+        ..Part::default()
+    };
+    Ok(Study {
+        title: "Materials".to_owned(),
+        source: "src/material/materials.toml".to_owned(),
+        lead,
+        parts: vec![part],
+    })
+}
+
+fn table(materials: &[&Material]) -> Table {
+    let row = |material: &Material, key: &str, unit: &str, property: &Property| {
+        let [low, high] = property.valid().unwrap_or([f64::NAN; 2]);
+        let at = |temperature| property.at(temperature).map_or_else(|_| "–".to_owned(), number);
+        let value = if property.is_constant() { at(low) } else { format!("{} to {}", at(low), at(high)) };
+        let uncertainty = property.uncertainty().map_or(String::new(), |u| format!(" ± {}", number(u)));
+        let source = property.source().unwrap_or("");
+        [
+            material.name(),
+            key,
+            format!("{value}{uncertainty} {unit}").trim_end_matches(" 1"),
+            &format!("{} to {}", number(low), number(high)),
+            Origin::of(source).name(),
+        ]
+        .map(str::to_owned)
+        .to_vec()
+    };
+    let rows = materials.iter().flat_map(|material| {
+        material.properties().map(|(key, unit, property)| row(material, key, unit, property))
+    });
+    Table {
+        caption: "Values at both ends of their range of temperature where they depend on it.".to_owned(),
+        header: ["material", "property", "value", "range [K]", "origin"].map(str::to_owned).to_vec(),
+        rows: rows.collect(),
+        text_columns: 5,
+    }
+}

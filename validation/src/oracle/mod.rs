@@ -1,0 +1,1 @@
+//! The same impact computed another way. Nothing here uses the library.
