@@ -19,11 +19,11 @@
 //! - `e_n² = [phi(t, rho) - (3/2) beta² (beta rho/2)^(4/3)] / (v/v_y)²` with the `t` that `v` reaches.
 //!
 //! Below yield this is Thornton–Ning to the last bit. Without adhesion it is their `P(v_y/v)`. Its own yield velocity is
-//! that of the JKR contact: `v_y` less terms of second order in `beta`, and 0 where adhesion alone makes the contact yield
-//! (from `v_adh` of about 0.8 `v_y` on). The sticking velocity is above Thornton–Ning's wherever the contact yields.
+//! that of the JKR contact: `v_y (1 - 3.1 beta²)` for weak adhesion, and 0 from `v_adh = 0.61 v_y` on, where adhesion alone makes
+//! the contact yield. The sticking velocity is that of Thornton–Ning up to `v_adh = 0.48 v_y` and higher from there on.
 //!
-//! Weak adhesion also makes a fast contact flatten a little less, since it takes pressure from the centre: where `v` is far
-//! above `v_s`, `e_n` may lie some hundredths above Thornton–Ning's.
+//! Adhesion also takes pressure from the centre, so that a fast contact flattens less: far above `v_s`, `e_n` is up to 0.01
+//! above Thornton–Ning's.
 //!
 //! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, and for `a` small against `R`: far beyond `v_adh = 10 v_y`
 //! adhesion sinks the particle in by itself, and no law of small contacts holds. For 4.9 µm ammonium fluorescein
