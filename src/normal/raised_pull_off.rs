@@ -25,9 +25,10 @@
 //! Adhesion also takes pressure from the centre, so that a fast contact flattens less: far above `v_s`, `e_n` is up to 0.01
 //! above Thornton–Ning's.
 //!
-//! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, and for `a` small against `R`: far beyond `v_adh = 10 v_y`
-//! adhesion sinks the particle in by itself, and no law of small contacts holds. For 4.9 µm ammonium fluorescein
-//! the sticking velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that Thornton & Ning found.
+//! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, for `a` small against `R`; at the sticking velocity `a` is 0.7 to
+//! 1.2 times `a_h v_adh/v_y` for `v_adh/v_y` of 3 to 1000, and much of it is there at rest, since adhesion alone pulls the
+//! particle in. How `delta(a)` changes under the pressure limit is left out, as by Thornton & Ning. For 4.9 µm ammonium
+//! fluorescein the sticking velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that they found.
 
 use super::thornton_ning::{ADHESIVE_FACTOR, YIELD_FACTOR, restitution as plain_restitution};
 
