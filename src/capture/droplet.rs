@@ -14,9 +14,10 @@
 //! probability that all of it stays (assumed).
 //!
 //! Valid for dry, smooth walls. Left out: freezing on a cold wall (it flattens and pins the drop, towards capture); roughness,
-//! which promotes splashing and so lowers `K_cr` (give a smaller `splash_K`); a liquid film; the gas, without which drops
-//! splash less. A slow droplet on a wall that it does not wet can bounce off whole: aqueous drops of 30 to 50 µm did so on
-//! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527); the criterion calls them deposited.
+//! which promotes prompt splashing and so lowers `K_cr` (give a smaller `splash_K`); a liquid film; the gas, without which drops
+//! splash less (arXiv 1203.2718). A droplet that does not splash can bounce off whole where it does not wet the wall: aqueous
+//! drops of 30 to 50 µm did so on Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The
+//! criterion calls them deposited, for the contact angle is not among the inputs.
 
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
