@@ -2,7 +2,7 @@
 //!
 //! Yielding flattens the contact: it parts along the JKR curve of a larger radius of curvature `R_p`, with a larger
 //! pull-off and more adhesive work than the way in had (Thornton & Ning, Powder Technology 99 (1998) 154, who follow
-//! such a contact numerically). This law is the exact balance of that contact, from three assumptions of theirs:
+//! such a contact numerically). This law is the exact balance of that contact, from three assumptions:
 //! - `delta = a²/R - sqrt(2πWa/E*)` (JKR) holds while the contact grows, elastic or plastic, from `delta = 0` on;
 //! - the JKR pressure `p(r) = p0 u - p1/u`, `u = sqrt(1 - r²/a²)`, `p0 = 2E*a/πR`, `p1 = sqrt(2WE*/πa)`, is limited
 //!   to `p_y` where it would be higher, first at the centre: adhesion takes `p1` of the pressure there;
@@ -13,8 +13,8 @@
 //! `t² = a/a_h` and `beta = p1/p_y` at `a_h`, which is `(2/π)(C2 v_adh/(C1 v_y))^(3/5)`:
 //! - elastic force `t⁶/rho - 3 beta t³`, displacement `t⁴/rho - 2 beta t`, `rho = R_p/R`, and their work
 //!   `phi(t, rho) = t¹⁰/rho² - 5 beta t⁷/rho + (15/4) beta² t⁴`;
-//! - the limited pressure begins at `t = y(1 + beta y)`, where `1/y = t u` at its edge, so `y` parametrises the yielded
-//!   contact and makes force and work polynomials: with `s = beta y`, `F = 3t⁴/2 - (1+s)²(1/2 + 2s)`;
+//! - past yield the pressure is limited up to the `u` with `t u = 1/y`, `t = y(1 + beta y)`, and in `y` force and work are
+//!   polynomials: with `s = beta y`, `F = 3t⁴/2 - (1+s)²(1/2 + 2s)`;
 //! - first contact `t³ = 2 beta`, yield `y²(1 + beta y) = 1`, parting `t³ = beta rho/2`;
 //! - `e_n² = [phi(t, rho) - (3/2) beta² (beta rho/2)^(4/3)] / (v/v_y)²` with the `t` that `v` reaches.
 //!
@@ -27,8 +27,10 @@
 //!
 //! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, for `a` small against `R`; at the sticking velocity `a` is 0.7 to
 //! 1.2 times `a_h v_adh/v_y` for `v_adh/v_y` of 3 to 1000, and much of it is there at rest, since adhesion alone pulls the
-//! particle in. How `delta(a)` changes under the pressure limit is left out, as by Thornton & Ning. For 4.9 µm ammonium
-//! fluorescein the sticking velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that they found.
+//! particle in. How `delta(a)` changes under the pressure limit is left out. For 4.9 µm ammonium fluorescein the sticking
+//! velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that Thornton & Ning found. Their paper was not
+//! at hand, so the three assumptions are its accounts': a force past yield of `dF/da = 2πap_y - sqrt(2πWE*a)`, which keeps the
+//! pull at the rim as at yield, would make it 1.82 m/s, which measures what is open here.
 
 use super::thornton_ning::{ADHESIVE_FACTOR, YIELD_FACTOR, restitution as plain_restitution};
 
