@@ -191,7 +191,7 @@ impl Model {
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        Ok(Speeds::of(&self.contact(wall, &impact, &|_| 0.5)?, impact.diameter))
+        Ok(self.normal.speeds(&self.contact(wall, &impact, &|_| 0.5)?, impact.diameter))
     }
 
     /// The wall with this index, and the impact as it sees it.

@@ -77,7 +77,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
         (None, NormalLaw::Constant { .. }) => 1.0,
-        (None, NormalLaw::ThorntonNing) => {
+        (None, NormalLaw::ThorntonNing | NormalLaw::RaisedPullOff) => {
             let what = "p_y / sigma_y (1.6 to 4 for hard, 0.7 for soft particles)";
             return Err(section.missing("yield_ratio", what));
         }
@@ -190,6 +190,23 @@ e_t = 0.76
         assert_eq!(outcome.regime, Regime::NspNsw);
         let slow = Impact { normal_speed: 0.05, ..impact };
         assert!(model.resolve(0, &slow, Draw::default()).unwrap().stuck);
+    }
+
+    #[test]
+    fn the_raised_pull_off_is_read_named_and_needs_its_ratio() {
+        let text = SMALLEST.replace("thornton-ning", "thornton-ning-raised-pull-off");
+        let model = Model::from_toml("m.toml", &text).unwrap();
+        assert_eq!(model.normal_law().name(), "thornton-ning-raised-pull-off");
+        let normal = model.describe().into_iter().find(|line| line.0 == "normal").unwrap().1;
+        assert!(normal.starts_with("thornton-ning-raised-pull-off, yield_ratio 0.7"), "{normal}");
+        let impact = Impact { normal_speed: 1.0, diameter: 75e-6, ..Impact::default() };
+        let sticking = model.speeds(0, &impact).unwrap().sticking;
+        for (share, stuck) in [(0.999, true), (1.001, false)] {
+            let near = Impact { normal_speed: share * sticking, ..impact };
+            assert_eq!(model.resolve(0, &near, Draw::default()).unwrap().stuck, stuck);
+        }
+        let no_ratio = error(&text.replace("yield_ratio = 0.7", ""));
+        assert!(no_ratio.contains("normal.yield_ratio: missing"), "{no_ratio}");
     }
 
     #[test]
