@@ -2,6 +2,7 @@
 
 mod constant;
 mod contact;
+pub mod doublet;
 mod thornton_ning;
 
 pub use contact::{Contact, reduced_modulus, stiffness_ratio};
