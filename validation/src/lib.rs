@@ -7,6 +7,7 @@
 //! no code with the library, so that it can disagree with it.
 
 pub mod claim;
+pub mod migraine;
 pub mod oracle;
 pub mod page;
 pub mod study;
