@@ -72,12 +72,7 @@ pub fn effective_mass(axis_normal: f64) -> f64 {
 ///
 /// `diameter` [m] is that of one sphere, `speed` [m/s] that at which its surface closes on the wall, `effective_mass` [1]
 /// as [`effective_mass`] gives it.
-pub fn contact_restitution(
-    contact: &Contact,
-    diameter: f64,
-    speed: f64,
-    effective_mass: f64,
-) -> Option<f64> {
+pub fn contact_restitution(contact: &Contact, diameter: f64, speed: f64, effective_mass: f64) -> Option<f64> {
     let contact = Contact { density: contact.density * effective_mass, ..*contact };
     NormalLaw::ThorntonNing.restitution(&contact, diameter, speed)
 }
@@ -162,9 +157,8 @@ impl Flight {
         if turning.abs() < 1.0 {
             let angle = turning.acos();
             let rounds = (last * rate / TAU).ceil() as i64 + 2;
-            let times = (-1..rounds).flat_map(|round| {
-                [angle, -angle].map(|angle| (angle - start + TAU * round as f64) / rate)
-            });
+            let times = (-1..rounds)
+                .flat_map(|round| [angle, -angle].map(|angle| (angle - start + TAU * round as f64) / rate));
             turns = times.filter(|time| (0.0..last).contains(time)).collect();
             turns.sort_by(f64::total_cmp);
         }

@@ -8,7 +8,7 @@ use nearwall::{Draw, Model};
 use super::published::{PARTING, SETS, Set};
 use super::sample::{Sampler, Spread};
 use super::statistics::{binomial, mean, quantile};
-use super::{CALIBRATED, OLD, model, table};
+use super::{CALIBRATED, OLD, model, table, with};
 use crate::claim::{Basis, Claim, Published};
 use crate::study::{Extent, Part};
 
@@ -61,14 +61,14 @@ type Both = [[Campaigns; 2]; 2];
 
 pub fn part(extent: Extent) -> Result<(Part, String), Box<dyn Error>> {
     let models = [model(OLD)?, model(CALIBRATED)?];
-    let replicates = extent.count(1000);
+    let replicates = extent.count(500);
     let run = |spread: Spread| -> Result<[Campaigns; 2], Box<dyn Error>> {
         Ok([campaigns(&models[0], spread, replicates)?, campaigns(&models[1], spread, replicates)?])
     };
     let both = [run(Spread::Even)?, run(Spread::Slow)?];
     let gains = gains(&both);
     let lead = format!(
-        "With two numbers set to set 1 and set 4 (agglomerates 29 %, e_t 0.84), a strength bounded by set 4, and the paper's p_y = 4 sigma_y, the unseen sets 2, 3 and 5 come out with an error of {} in the share \
+        "With three numbers set to sets 1 and 4 (39 % weakly dissipating impacts, strength 1 of the loss by obliquity, e_t 0.84) and the paper's p_y = 4 sigma_y, the unseen sets 2, 3 and 5 come out with an error of {} in the share \
          below 0.6 (before: {}) and {} in the mean e_t (before: {}); of sticking nothing is gained.",
         percent(gains[1].0[1]),
         percent(gains[1].0[0]),
@@ -84,12 +84,13 @@ pub fn part(extent: Extent) -> Result<(Part, String), Box<dyn Error>> {
             ),
             "Set to data: e_t to the means of sets 1 and 4, the fraction of agglomerates to set 1, the strength of oblique-angle to \"all below 0.6\" of set 4, and p_y = 4 sigma_y, which the paper read off all near-normal sets, \
              so that it is not unseen; it moves none of the three observables by itself, because the 0.6 is crossed by agglomerates only. Predicted: sets 2, 3 and 5. Not predictable: who sticks (27 % and 1.6 % with the same \
-             dust), as neither plasma nor dust temperature is an input; and the scatter of e_t, which has no term here."
+             dust), as neither plasma nor dust temperature is an input; and the scatter of e_t, which has no term here. As the sets below 0.6 differ little among each other (66 to 79 %), a model that knows set 1 does well on the others whatever its physics: the gain shows that the quarter is there in \
+             every set, not why."
                 .to_owned(),
             "Both models leave sticking out almost wholly, so its error neither falls nor rises. Fitting W to set 1 would make it worse for sets 3 to 5 (see \"Work of adhesion and who sticks\"), so the calibrated model does not."
                 .to_owned(),
         ],
-        tables: vec![table_of(&both), gain_table(&gains)],
+        tables: vec![table_of(&both), gain_table(&gains), steps(&both, &models, replicates)?],
         figures: vec![figure(&both)],
         claims: claims(&both, &gains)?,
     };
@@ -183,10 +184,10 @@ type Gain = ([f64; 2], [f64; 3]);
 fn gains(both: &Both) -> Vec<Gain> {
     let replicates = both[0][0][0].len();
     let gain = |(place, observable): (usize, &Observable)| {
-        let (mut errors, mut gained) = ([Vec::new(), Vec::new()], Vec::new());
+        let mut gained = Vec::new();
         for spread in both {
             for replicate in 0..replicates {
-                let error = |model: usize| {
+                let off_by = |model: usize| {
                     let unseen = SETS.iter().enumerate().filter(|(_, set)| UNSEEN.contains(&set.number));
                     let off = unseen.map(|(index, set)| {
                         let published = redrawn(observable, set, replicate, place);
@@ -194,20 +195,56 @@ fn gains(both: &Both) -> Vec<Gain> {
                     });
                     mean(&off.collect::<Vec<f64>>())
                 };
-                gained.push(error(0) - error(1));
-            }
-            for (model, errors) in errors.iter_mut().enumerate() {
-                let unseen = SETS.iter().enumerate().filter(|(_, set)| UNSEEN.contains(&set.number));
-                errors.extend(unseen.map(|(index, set)| {
-                    let [expected, ..] = interval(&spread[model][index], observable.of);
-                    (expected - (observable.published)(set)).abs()
-                }));
+                gained.push(off_by(0) - off_by(1));
             }
         }
-        let errors = errors.map(|errors| mean(&errors));
+        let errors = [0, 1].map(|model| error(both.iter().map(|spread| &spread[model]), observable));
         (errors, [errors[0] - errors[1], quantile(&gained, 0.05), quantile(&gained, 0.95)])
     };
     OBSERVABLES.iter().enumerate().map(gain).collect()
+}
+
+/// Mean distance of the expected from the published over the unseen sets and all assumptions.
+fn error<'a>(assumptions: impl Iterator<Item = &'a Campaigns>, observable: &Observable) -> f64 {
+    let mut off = Vec::new();
+    for campaigns in assumptions {
+        for (set, counts) in SETS.iter().zip(campaigns).filter(|(set, _)| UNSEEN.contains(&set.number)) {
+            off.push((interval(counts, observable.of)[0] - (observable.published)(set)).abs());
+        }
+    }
+    mean(&off)
+}
+
+/// What each step from the old to the calibrated model does to the error on the unseen sets.
+fn steps(both: &Both, models: &[Model; 2], replicates: usize) -> Result<Table, Box<dyn Error>> {
+    let [old, calibrated] = models;
+    let bare = calibrated.with_terms(Vec::new());
+    let between = [
+        ("p_y = 4 sigma_y", with(old, &[("yield-ratio", &[4.0])])?),
+        ("and 0.13 J/m², e_t = 0.84", bare.clone()),
+        ("and agglomerates, 0.29 of them for set 1", with(&bare, &[("agglomerates", &[0.29, 0.8, 0.1])])?),
+    ];
+    let row = |name: &str, assumptions: [&Campaigns; 2]| {
+        let mut row = vec![name.to_owned()];
+        row.extend(
+            OBSERVABLES.iter().map(|observable| hundredths(error(assumptions.into_iter(), observable))),
+        );
+        row
+    };
+    let mut rows = vec![row("old", [&both[0][0], &both[1][0]])];
+    for (name, model) in &between {
+        let found =
+            [campaigns(model, Spread::Even, replicates)?, campaigns(model, Spread::Slow, replicates)?];
+        rows.push(row(name, [&found[0], &found[1]]));
+    }
+    rows.push(row("and oblique-angle for set 4, agglomerates 0.39: calibrated", [&both[0][1], &both[1][1]]));
+    Ok(table(
+        "Error on the unseen sets step by step. oblique-angle, which set 4 asks for, acts on the oblique tail of the near-normal sets, too, and costs there what it gains on set 4: a sharper form, or no agglomerates in set 4, would \
+         not. The published counts do not choose.",
+        1,
+        &["model", "stuck", "rebounds below 0.6", "mean e_t"],
+        rows,
+    ))
 }
 
 /// The published share with the luck of its count drawn again; other numbers as printed.
@@ -263,8 +300,13 @@ fn figure(both: &Both) -> Figure {
 fn claims(both: &Both, gains: &[Gain]) -> Result<Vec<Claim>, Box<dyn Error>> {
     let mut claims = Vec::new();
     let calibrated = &both[0][1];
-    const ROWS: [[&str; 3]; 5] =
-        [["W0", "W2", "W3"], ["W4", "W6", "W7"], ["W8", "W10", "W11"], ["W12", "W14", "W15"], ["W16", "W18", "W19"]];
+    const ROWS: [[&str; 3]; 5] = [
+        ["W0", "W2", "W3"],
+        ["W4", "W6", "W7"],
+        ["W8", "W10", "W11"],
+        ["W12", "W14", "W15"],
+        ["W16", "W18", "W19"],
+    ];
     for (place, set) in SETS.iter().enumerate() {
         let seen = !UNSEEN.contains(&set.number);
         for (observable, row) in OBSERVABLES.iter().zip(ROWS[place]) {
@@ -324,7 +366,10 @@ fn reason(observable: &Observable, [low, high]: [f64; 2]) -> String {
     let drawn = format!("5 to 95 % of campaigns: {low:.3} to {high:.3}.");
     match observable.name {
         "stuck" => format!("Band: 95 % binomial. {drawn} What decides who sticks is not among the inputs."),
-        "mean e_t" => "One constant for all sets; the sets' means differ by up to 0.12 and the paper gives no cause.".to_owned(),
+        "mean e_t" => {
+            "One constant for all sets; the sets' means differ by up to 0.12 and the paper gives no cause."
+                .to_owned()
+        }
         _ => format!("Band: 95 % binomial. {drawn}"),
     }
 }

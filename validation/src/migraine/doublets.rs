@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nearwall::Draw;
 use nearwall::normal::doublet::{Motion, Rebound, contact_restitution, rebound};
 use nearwall::normal::{Contact, Speeds, restitution};
-use nearwall::report::{Chart, Figure, Table, number, round_edges};
+use nearwall::report::{Chart, Figure, Table, round_edges};
 
 use super::curves::contact;
 use super::published::{PARTING, RATIO, SETS, Set};
@@ -21,31 +21,23 @@ const RADIUS: f64 = 0.5 * DIAMETER;
 /// Normal speed of the tables [m/s], in the middle of the sets'.
 const SPEED: f64 = 4.0;
 /// Spins `R omega/v_n` [1] before the impact.
-const SPINS: [f64; 6] = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0];
-/// Hits at the same speed before the one that counts, so that the spin has forgotten where it began.
+const SPINS: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 4.0];
+/// Normal speeds of the hits before, over that of the hit that counts [1].
+const EARLIER: [f64; 3] = [1.0, 2.0, 4.0];
+/// Hits before the one that counts, so that the spin has forgotten where it began.
 const HISTORY: u64 = 8;
 
-/// Impacts of doublets: restitution of the centre and spin `R omega/v_n` after it; how many were held; hits.
+/// Impacts of doublets: restitution of the centre and spin `R omega/v_n` after it; hits; spin before.
 struct Sample {
     restitution: Vec<f64>,
     spin: Vec<f64>,
     hits: Vec<f64>,
     arriving_spin: Vec<f64>,
-    tried: usize,
 }
 
 impl Sample {
     fn above(&self, limit: f64) -> f64 {
         self.restitution.iter().filter(|e| **e > limit).count() as f64 / self.restitution.len() as f64
-    }
-
-    fn held(&self) -> f64 {
-        1.0 - self.restitution.len() as f64 / self.tried as f64
-    }
-
-    fn spread(&self) -> f64 {
-        let middle = mean(&self.restitution);
-        mean(&self.restitution.iter().map(|e| (e - middle).powi(2)).collect::<Vec<f64>>()).sqrt()
     }
 }
 
@@ -53,14 +45,14 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
     let solid = contact(&model(PLAIN)?, RATIO[0], Some(MEASURED_ADHESION))?;
     let count = extent.count(20_000);
     let fixed = SPINS.map(|spin| sample(&solid, SPEED, count, |_| spin));
-    let travelled = travelled(&solid, SPEED, count / 2);
+    let travelled = EARLIER.map(|earlier| travelled(&solid, earlier, count / 4));
     let single = single(&solid, SPEED);
     Ok(Part {
         heading: "Doublets: can agglomerates be the quarter above 0.6?".to_owned(),
-        text: text(&fixed[0], &travelled, single),
-        tables: vec![spin_table(&fixed, &travelled, single), population_table(&solid, extent)],
-        figures: vec![angle_figure(&solid), histogram(&fixed, &travelled)],
-        claims: claims(&fixed, &travelled, single),
+        text: text(&fixed[0], &travelled[0], single),
+        tables: vec![spin_table(&fixed, &travelled, single)],
+        figures: vec![angle_figure(&solid), histogram(&fixed, &travelled[0])],
+        claims: claims(&fixed, &travelled[0], single),
     })
 }
 
@@ -76,9 +68,9 @@ fn text(still: &Sample, travelled: &Sample, single: f64) -> Vec<String> {
              1.2 GPa and 0.13 J/m², seen with the effective mass at the contact; no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed 15."
         ),
         format!(
-            "Without spin a doublet rebounds slower than a grain: mean {:.2}, and {:.1} % above 0.6. What it does not return it turns into spin. A doublet that hit the vessel before arrives \
-             with that spin: after {HISTORY} hits at the same speed (orientation forgotten in between, spin kept) it arrives with R omega/v_n = {:.2} on average, the mean e_n is {:.2}, the spread wide, and \
-             {:.1} % lie above 0.6.",
+            "Without spin a doublet rebounds on average about as fast as a grain, mean {:.2}, and {:.1} % above 0.6: the first hit alone would leave it slower, the second end's hit gives some back. What the centre does not return turns the doublet. A doublet that hit the vessel before arrives \
+             with that spin: after {HISTORY} hits at the same speed (orientation forgotten in between, spin kept) it arrives with R omega/v_n = {:.2} on average, the mean e_n is {:.2}, and \
+             {:.1} % lie above 0.6. Only a doublet whose earlier hits were several times as fast, or glancing and rough, arrives with R omega/v_n of 1.5 or more, where half lie above 0.6.",
             mean(&still.restitution),
             100.0 * still.above(PARTING),
             mean(&travelled.arriving_spin),
@@ -114,7 +106,7 @@ fn spin_of(motion: &Motion, speed: f64) -> f64 {
 }
 
 fn sample(solid: &Contact, speed: f64, count: usize, spin: impl Fn(u64) -> f64) -> Sample {
-    let mut sample = empty(count);
+    let mut sample = empty();
     for key in 0..count as u64 {
         let motion = arriving(speed, spin(key), Draw::new(SEED, key));
         sample.arriving_spin.push(spin_of(&motion, speed));
@@ -125,27 +117,27 @@ fn sample(solid: &Contact, speed: f64, count: usize, spin: impl Fn(u64) -> f64) 
     sample
 }
 
-/// Doublets that hit before and kept their spin.
-fn travelled(solid: &Contact, speed: f64, count: usize) -> Sample {
-    let mut sample = empty(count);
+/// Doublets that hit before, `earlier` times as fast, and kept their spin.
+fn travelled(solid: &Contact, earlier: f64, count: usize) -> Sample {
+    let mut sample = empty();
     for key in 0..count as u64 {
         let mut spin = 0.0;
         for round in 0..HISTORY {
             let draw = Draw::new(SEED + 1, HISTORY * key + round);
-            if let Some(after) = hit(solid, &arriving(speed, spin, draw)) {
-                spin = spin_of(&after.motion, speed);
+            if let Some(after) = hit(solid, &arriving(earlier * SPEED, spin, draw)) {
+                spin = spin_of(&after.motion, earlier * SPEED);
             }
         }
-        sample.arriving_spin.push(spin);
-        if let Some(after) = hit(solid, &arriving(speed, spin, Draw::new(SEED + 2, key))) {
-            sample.add(&after, speed);
+        sample.arriving_spin.push(earlier * spin);
+        if let Some(after) = hit(solid, &arriving(SPEED, earlier * spin, Draw::new(SEED + 2, key))) {
+            sample.add(&after, SPEED);
         }
     }
     sample
 }
 
-fn empty(tried: usize) -> Sample {
-    Sample { restitution: Vec::new(), spin: Vec::new(), hits: Vec::new(), arriving_spin: Vec::new(), tried }
+fn empty() -> Sample {
+    Sample { restitution: Vec::new(), spin: Vec::new(), hits: Vec::new(), arriving_spin: Vec::new() }
 }
 
 impl Sample {
@@ -156,90 +148,67 @@ impl Sample {
     }
 }
 
-fn spin_table(fixed: &[Sample], travelled: &Sample, single: f64) -> Table {
-    let mut rows = vec![vec![
-        "one grain".to_owned(),
-        format!("{single:.2}"),
-        "–".to_owned(),
-        "–".to_owned(),
-        "0".to_owned(),
-        "0".to_owned(),
-        "0".to_owned(),
-        "1".to_owned(),
-        "–".to_owned(),
-    ]];
-    let names = SPINS.map(|spin| format!("spin {spin}"));
-    let kept = "spin of earlier hits".to_owned();
-    for (name, sample) in names.into_iter().zip(fixed).chain([(kept, travelled)]) {
+fn spin_table(fixed: &[Sample], travelled: &[Sample], single: f64) -> Table {
+    let dash = "–".to_owned();
+    let mut one =
+        vec!["one grain".to_owned(), "0".to_owned(), format!("{single:.2}"), "0".to_owned(), dash.clone()];
+    one.extend(["0".to_owned(), "0".to_owned(), dash.clone(), "1".to_owned(), dash.clone(), dash.clone()]);
+    let mut rows = vec![one];
+    let given = SPINS.map(|_| "doublets, one spin".to_owned());
+    let kept = EARLIER.map(|earlier| format!("doublets, earlier hits {earlier} times as fast"));
+    for (name, sample) in given.into_iter().zip(fixed).chain(kept.into_iter().zip(travelled)) {
+        let above = sample.above(PARTING);
+        let needed = published() / above;
+        let fast: Vec<f64> = sample.restitution.iter().copied().filter(|e| *e > PARTING).collect();
         rows.push(vec![
             name,
+            format!("{:.2}", mean(&sample.arriving_spin)),
             format!("{:.2}", mean(&sample.restitution)),
-            format!("{:.2}", sample.spread()),
-            format!("{:.2} to {:.2}", quantile(&sample.restitution, 0.05), quantile(&sample.restitution, 0.95)),
-            format!("{:.1}", 100.0 * sample.above(PARTING)),
+            format!("{:.2}", spread(&sample.restitution)),
+            format!(
+                "{:.2} to {:.2}",
+                quantile(&sample.restitution, 0.05),
+                quantile(&sample.restitution, 0.95)
+            ),
+            format!("{:.1}", 100.0 * above),
             format!("{:.1}", 100.0 * sample.above(1.0)),
-            format!("{:.1}", 100.0 * sample.held()),
+            if needed > 1.0 { "more than all".to_owned() } else { format!("{:.0} %", 100.0 * needed) },
             format!("{:.2}", mean(&sample.hits)),
             format!("{:.2}", mean(&sample.spin)),
+            if fast.len() < 30 { dash.clone() } else { format!("{:.2}, {:.2}", mean(&fast), spread(&fast)) },
         ]);
     }
     table(
-        "Restitution of the centre of mass over random orientations at 4 m/s, against the spin R omega/v_n before.",
+        "Centre-of-mass restitution over random orientations at 4 m/s, against the spin before (in units of v_n/R, its mean). \"Doublets needed\": share of the rebounds that would have to be doublets, the rest grains, for 27.6 % above 0.6. \
+         Last column: what agglomerates' restitution and spread stand for then, its fraction being the 27.6 %.",
         1,
         &[
-            "doublets with",
+            "population",
+            "spin",
             "mean e_n",
             "deviation",
             "5 to 95 %",
             "above 0.6 [%]",
             "above 1 [%]",
-            "held [%]",
+            "doublets needed",
             "hits",
             "spin after",
+            "mean, deviation above 0.6",
         ],
         rows,
     )
 }
 
-/// Share of doublets among the rebounds that would make a set's weak dissipation, and the effect that stands for it.
-fn population_table(solid: &Contact, extent: Extent) -> Table {
-    let count = extent.count(4000);
-    let row = |set: &Set| {
-        let speed = 0.5 * (set.normal[0] + set.normal[1]);
-        let sample = travelled(solid, speed, count);
-        let above = sample.above(PARTING);
-        let needed = 1.0 - set.below as f64 / set.rebounds() as f64;
-        let fast: Vec<f64> = sample.restitution.iter().copied().filter(|e| *e > PARTING).collect();
-        let middle = mean(&fast);
-        let deviation = mean(&fast.iter().map(|e| (e - middle).powi(2)).collect::<Vec<f64>>()).sqrt();
-        let share = if needed > above {
-            format!("impossible (100 % give {:.1})", 100.0 * above)
-        } else {
-            format!("{:.0}", 100.0 * needed / above)
-        };
-        vec![
-            set.name(),
-            format!("{:.1}", 100.0 * needed),
-            format!("{speed:.1}"),
-            share,
-            format!("{:.2}, {:.2}", mean(&sample.restitution), sample.spread()),
-            format!("{middle:.2}, {deviation:.2}"),
-        ]
-    };
-    table(
-        "Singles (none above 0.6) and doublets with the spin of earlier hits, at the middle of each set's v_n: share of doublets among the rebounds that the printed weak dissipation needs. Last columns: what \
-         agglomerates' restitution and spread would be for all doublets, and for those above 0.6 only; its even draw has no tail beyond sqrt(3) spread.",
-        1,
-        &[
-            "set",
-            "above 0.6, published [%]",
-            "v_n [m/s]",
-            "doublets needed [%]",
-            "mean, deviation of all",
-            "of those above 0.6",
-        ],
-        SETS.iter().filter(|set| set.number != 4).map(row).collect(),
-    )
+/// Share of the near-normal rebounds above 0.6.
+fn published() -> f64 {
+    let near_normal = || SETS.iter().filter(|set| set.number != 4);
+    let rebounds: usize = near_normal().map(Set::rebounds).sum();
+    1.0 - near_normal().map(|set| set.below).sum::<usize>() as f64 / rebounds as f64
+}
+
+fn spread(numbers: &[f64]) -> f64 {
+    let middle = mean(numbers);
+    mean(&numbers.iter().map(|number| (number - middle).powi(2)).collect::<Vec<f64>>()).sqrt()
 }
 
 fn angle_figure(solid: &Contact) -> Figure {
@@ -289,7 +258,7 @@ fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
         "e_n of the centre of mass [1]",
         "density [1]",
     );
-    for (spin, sample) in SPINS.iter().zip(fixed).filter(|(spin, _)| [0.0, 0.5, 1.0].contains(*spin)) {
+    for (spin, sample) in SPINS.iter().zip(fixed).filter(|(spin, _)| [0.0, 1.0, 1.5].contains(*spin)) {
         chart = chart.histogram(&format!("spin R omega/v_n = {spin}"), &edges, &heights(sample));
     }
     chart.histogram("spin of earlier hits", &edges, &heights(travelled)).mark_x(PARTING, "0.6").figure(
@@ -299,13 +268,11 @@ fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
 }
 
 fn claims(fixed: &[Sample], travelled: &Sample, single: f64) -> Vec<Claim> {
+    let fast = &fixed[5];
     let still = &fixed[0];
-    let spinning = &fixed[3];
-    let near_normal = || SETS.iter().filter(|set| set.number != 4);
-    let rebounds: usize = near_normal().map(Set::rebounds).sum();
-    let published = 1.0 - near_normal().map(|set| set.below).sum::<usize>() as f64 / rebounds as f64;
+    let spinning = &fixed[4];
     let above = |sample: &Sample| 100.0 * sample.above(PARTING);
-    let needed = published / travelled.above(PARTING);
+    let needed = published() / travelled.above(PARTING);
     vec![
         Claim::statement(
             "section 3 (i)",
@@ -313,10 +280,10 @@ fn claims(fixed: &[Sample], travelled: &Sample, single: f64) -> Vec<Claim> {
             "off the curve",
             &format!(
                 "deviation {:.2} around {:.2}, where a grain has {single:.2}",
-                travelled.spread(),
+                spread(&travelled.restitution),
                 mean(&travelled.restitution)
             ),
-            travelled.spread() > 0.1,
+            spread(&travelled.restitution) > 0.1,
             Basis::Predicted,
         ),
         Claim::statement(
@@ -324,19 +291,25 @@ fn claims(fixed: &[Sample], travelled: &Sample, single: f64) -> Vec<Claim> {
             "doublets without spin are the 27.6 % (108 of 391) above 0.6",
             "speculation",
             &format!("{:.1} % of them lie above 0.6; mean {:.2}", above(still), mean(&still.restitution)),
-            still.above(PARTING) > published,
+            still.above(PARTING) > published(),
             Basis::Predicted,
         )
-        .because("The shape alone takes speed from the centre: it lowers e_n. Even if all dust were doublets the quarter would be missing."),
+        .because("No orientation passes 0.6, with second hits counted. Even if all dust were doublets the quarter would be missing."),
         Claim::statement(
             "section 4, mechanisms [21]",
-            "spin gives back energy to translation: rebounds faster than the arrival at R omega/v_n = 1",
-            "speculation",
-            &format!("{:.1} % above 1, {:.1} % above 0.6", 100.0 * spinning.above(1.0), above(spinning)),
-            spinning.above(1.0) > 0.01,
+            "spinning transfers energy from rotation to translation: mean e_n at R omega/v_n = 1.5 above that without spin",
+            "enables",
+            &format!(
+                "{:.2} against {:.2}; {:.1} % above 0.6, {:.1} % above 1",
+                mean(&spinning.restitution),
+                mean(&still.restitution),
+                above(spinning),
+                100.0 * spinning.above(1.0)
+            ),
+            mean(&spinning.restitution) > mean(&still.restitution) + 0.05,
             Basis::Predicted,
         )
-        .because("A rim that turns as fast as the doublet flies."),
+        .because("It takes a rim that turns faster than the doublet flies."),
         Claim::statement(
             "section 5 (iv)",
             "a major source of systematic deviations is agglomerate injection: a share of doublets that explains 27.6 % above 0.6",
@@ -349,10 +322,12 @@ fn claims(fixed: &[Sample], travelled: &Sample, single: f64) -> Vec<Claim> {
             needed < 0.5,
             Basis::Predicted,
         )
-        .because(
-            "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such hits leave are not enough; a spin of R omega/v_n near 1, from elsewhere (rubbing, plasma), would be. \
-             The effect agglomerates describes the quarter, it does not explain it.",
-        ),
+        .because(&format!(
+            "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such hits leave are not enough; even at R omega/v_n = {}, from elsewhere (glancing hits, plasma), {:.0} % of the \
+             rebounds would have to be doublets. The effect agglomerates describes the quarter, it does not explain it.",
+            SPINS[5],
+            100.0 * published() / fast.above(PARTING)
+        )),
         Claim::number(
             "section 3 (i)",
             "contact mass of a doublet end-on over a grain's, which shifts T&N's yield velocity by its root",
@@ -369,11 +344,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn number_of_doublets_is_kept() {
+    fn doublets_arrive_with_the_stated_spin() {
         let solid = contact(&model(PLAIN).unwrap(), 4.0, Some(6.5)).unwrap();
         let sample = sample(&solid, 1.0, 500, |_| 0.3);
-        assert_eq!(sample.tried, 500);
-        assert!(sample.restitution.len() <= 500 && (0.0..=1.0).contains(&sample.held()), "seed {SEED}");
-        assert!(sample.arriving_spin.iter().all(|spin| (spin - 0.3).abs() < 1e-9), "{}", number(0.3));
+        assert!(sample.restitution.len() <= 500);
+        assert!(sample.arriving_spin.iter().all(|spin| (spin - 0.3).abs() < 1e-9), "seed {SEED}");
     }
 }

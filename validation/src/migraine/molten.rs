@@ -34,7 +34,8 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
             let molten = model.particle().is_molten(temperature)?;
             let mut row = vec![number(temperature), number(speed)];
             if molten {
-                let numbers = DropletNumbers::new(&model.particle().molten(temperature)?, speed, impact.diameter);
+                let numbers =
+                    DropletNumbers::new(&model.particle().molten(temperature)?, speed, impact.diameter);
                 row.extend([numbers.weber, numbers.reynolds, numbers.splash].map(number));
                 if speed <= SETS[4].normal[1] {
                     least = least.min(outcome.sticking_probability);

@@ -46,11 +46,7 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
 
 /// `e_n` at three places of the draw: 5, 50 and 95 %. It falls as adhesion grows, which falls with the draw.
 fn quantiles(model: &Model, speed: f64) -> Result<[f64; 3], Box<dyn Error>> {
-    Ok([
-        e_n(model, SIZE, speed, 0.05)?,
-        e_n(model, SIZE, speed, 0.5)?,
-        e_n(model, SIZE, speed, 0.95)?,
-    ])
+    Ok([e_n(model, SIZE, speed, 0.05)?, e_n(model, SIZE, speed, 0.5)?, e_n(model, SIZE, speed, 0.95)?])
 }
 
 fn width(model: &Model, speed: f64) -> Result<f64, Box<dyn Error>> {
@@ -60,9 +56,10 @@ fn width(model: &Model, speed: f64) -> Result<f64, Box<dyn Error>> {
 
 fn nano_figure(nano: &Model, measured: &Model) -> Result<Figure, Box<dyn Error>> {
     let speeds: Vec<f64> = even(0.3, 13.0, 160).collect();
-    let mut chart = Chart::new("Adhesion at random: e_n of 90 % of impacts", "normal speed v_n [m/s]", "e_n [1]")
-        .y_range(0.0, 0.8)
-        .y_step(0.2);
+    let mut chart =
+        Chart::new("Adhesion at random: e_n of 90 % of impacts", "normal speed v_n [m/s]", "e_n [1]")
+            .y_range(0.0, 0.8)
+            .y_step(0.2);
     for (name, model) in [("clean metal, 2 gamma", nano), ("0.13 J/m²", measured)] {
         let mut rows = Vec::new();
         for speed in &speeds {
@@ -200,7 +197,12 @@ fn claims(plain: &Model, nano: &Model, measured: &Model, draws: usize) -> Result
     ];
     let mut most = 0f64;
     for set in SETS.iter().filter(|set| set.number != 4) {
-        most = most.max(e_n(&with(plain, &[("adhesion-energy", &[0.0])])?, set.size[2] * 1e-6, set.normal[0], 0.5)?);
+        most = most.max(e_n(
+            &with(plain, &[("adhesion-energy", &[0.0])])?,
+            set.size[2] * 1e-6,
+            set.normal[0],
+            0.5,
+        )?);
     }
     claims.push(
         Claim::statement(

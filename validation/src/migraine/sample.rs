@@ -127,7 +127,8 @@ mod tests {
         for (set, (spread, name)) in SETS.iter().flat_map(|set| Spread::ALL.map(|spread| (set, spread))) {
             let sampler = Sampler::new(*set, spread).unwrap();
             let impacts: Vec<Impact> = (0..2000).map(|key| sampler.impact(Draw::new(5, key))).collect();
-            let inside = |value: f64, [low, high]: [f64; 2]| (low * 0.999999..=high * 1.000001).contains(&value);
+            let inside =
+                |value: f64, [low, high]: [f64; 2]| (low * 0.999999..=high * 1.000001).contains(&value);
             for impact in &impacts {
                 assert!(inside(impact.normal_speed, set.normal), "{name}: {impact:?}");
                 assert!(inside(impact.tangential_speed, set.along), "{name}: {impact:?}");
