@@ -224,7 +224,7 @@ impl Cases {
             )
             .because(
                 "The largest adhesion two clean metals can have is not enough. Yielding raises pull-off beyond the closed form by a factor of some 2 in \
-                 v_s at most (known limit), which would reach the slowest impacts but not 27 % of them.",
+                 v_s (known limit), which would reach the slowest impacts but not 27 % of them.",
             ),
         );
         let fits = |case: &Case| -> Result<bool, Box<dyn Error>> {

@@ -76,7 +76,7 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
             .because(&format!("K is at most {most_k:.1}: nothing is fitted, and there is much room.")),
             Claim::statement(
                 "section 4, sticking events (iii)",
-                "droplets are consistent with all 13 sticking; solid molybdenum just below its melting point is not",
+                "droplets are consistent with all 13 sticking; solid molybdenum just below its melting point hardly is",
                 "formation of droplets is consistent with the observation",
                 &format!(
                     "droplets p = {}; at 2890 K and the speeds of set 5 {:.0} to {:.0} % stick by adhesion, so 13 of 13 has a chance of at most {:.0e}",
@@ -89,7 +89,7 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
                 Basis::Predicted,
             )
             .because(
-                "Clean-metal adhesion, 4 x 30 MPa (both assumed, both towards sticking); v_n of set 5 spread evenly or evenly in its logarithm (assumed, seed 16).",
+                "Clean-metal adhesion, 4 x 30 MPa (both assumed, both towards sticking); v_n of set 5 spread evenly or evenly in its logarithm (assumed, seed 16). Weak evidence by itself; the SEM images of re-solidified grains are the strong one.",
             ),
             Claim::unchecked(
                 "Fig 7b",

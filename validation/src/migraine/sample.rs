@@ -35,7 +35,7 @@ const STREAM: u64 = 100;
 /// Streams of one attempt.
 const ATTEMPT: u64 = 4;
 /// Impacts that the mean angle is set with.
-const TRIAL: u64 = 2000;
+const TRIAL: u64 = 1000;
 
 impl Sampler {
     /// A sampler whose mean angle, after impacts outside the printed `v_t` are thrown away, is the printed one.
@@ -50,7 +50,7 @@ impl Sampler {
             Spread::Even => (-30.0, 30.0),
             Spread::Slow => (-4.0, 4.0),
         };
-        for _ in 0..24 {
+        for _ in 0..16 {
             let middle = 0.5 * (low + high);
             if mean(middle) < set.angle[1] { low = middle } else { high = middle }
         }
