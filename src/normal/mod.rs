@@ -2,6 +2,7 @@
 
 mod constant;
 mod contact;
+pub mod doublet;
 mod raised_pull_off;
 mod thornton_ning;
 

@@ -8,6 +8,7 @@
 
 pub mod claim;
 pub mod materials;
+pub mod migraine;
 pub mod oracle;
 pub mod page;
 pub mod study;

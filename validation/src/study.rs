@@ -72,4 +72,5 @@ impl Study {
 pub type Maker = (&'static str, fn(Extent) -> Result<Study, Box<dyn std::error::Error>>);
 
 /// Every study, in the order of the page.
-pub const STUDIES: [Maker; 1] = [("materials", crate::materials::study)];
+pub const STUDIES: [Maker; 2] =
+    [("migraine", crate::migraine::study), ("materials", crate::materials::study)];
