@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use nearwall::Draw;
-use nearwall::normal::{Contact, Speeds};
+use nearwall::normal::{Contact, NormalLaw};
 use nearwall::report::{Chart, Figure, Table, number};
 
 use super::curves::contact;
@@ -70,7 +70,7 @@ fn sets_table() -> Result<Table, Box<dyn Error>> {
 }
 
 fn sticking(contact: &Contact, diameter: f64) -> f64 {
-    Speeds::of(contact, diameter).sticking
+    NormalLaw::ThorntonNing.speeds(contact, diameter).sticking
 }
 
 fn speeds_table(clean: &Contact) -> Table {
@@ -80,7 +80,7 @@ fn speeds_table(clean: &Contact) -> Table {
             let contact = Contact { work_of_adhesion, yield_ratio: ratio, ..*clean };
             let mut row = vec![number(work_of_adhesion), number(ratio)];
             for diameter in [9e-6, 14e-6] {
-                let speeds = Speeds::of(&contact, diameter);
+                let speeds = NormalLaw::ThorntonNing.speeds(&contact, diameter);
                 row.extend([speeds.adhesive, speeds.sticking].map(number));
             }
             rows.push(row);

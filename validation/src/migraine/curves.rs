@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use nearwall::Model;
-use nearwall::normal::{Contact, Speeds, plastic_term, restitution, yield_velocity};
+use nearwall::normal::{Contact, NormalLaw, plastic_term, restitution, yield_velocity};
 use nearwall::report::{Chart, Figure, number};
 
 use super::published::{ALL_IMPACTS, DURATION, MOLTEN, PARTING, RATIO, RATIOS, SETS, Set, TEMPERATURES};
@@ -145,7 +145,7 @@ fn smallest_pressure(contact: &Contact, set: &Set) -> f64 {
 /// `e_n` at a normal speed [m/s] with the limiting pressure [Pa].
 fn at_pressure(contact: &Contact, set: &Set, pressure: f64, speed: f64) -> f64 {
     let contact = Contact { yield_ratio: 1.0, yield_strength: pressure, ..*contact };
-    let speeds = Speeds::of(&contact, 1e-6 * set.size[1]);
+    let speeds = NormalLaw::ThorntonNing.speeds(&contact, 1e-6 * set.size[1]);
     restitution(speed, speeds.adhesive, speeds.yielding)
 }
 
@@ -213,7 +213,7 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Erro
     for strength in [1.0 / STRENGTH_FACTOR, 1.0, STRENGTH_FACTOR] {
         for ratio in RATIOS {
             let contact = contact(plain, ratio * strength, None)?;
-            let speeds = Speeds::of(&contact, 9e-6);
+            let speeds = NormalLaw::ThorntonNing.speeds(&contact, 9e-6);
             let e_n = |speed| number(restitution(speed, speeds.adhesive, speeds.yielding));
             rows.push(vec![
                 number(strength * ASSUMED_STRENGTH / 1e6),

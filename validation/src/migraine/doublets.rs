@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nearwall::Draw;
 use nearwall::normal::doublet::{Motion, Rebound, contact_restitution, rebound};
-use nearwall::normal::{Contact, Speeds, restitution};
+use nearwall::normal::{Contact, NormalLaw, restitution};
 use nearwall::report::{Chart, Figure, Table, round_edges};
 
 use super::curves::contact;
@@ -57,7 +57,7 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
 }
 
 fn single(solid: &Contact, speed: f64) -> f64 {
-    let speeds = Speeds::of(solid, DIAMETER);
+    let speeds = NormalLaw::ThorntonNing.speeds(solid, DIAMETER);
     restitution(speed, speeds.adhesive, speeds.yielding)
 }
 

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use nearwall::normal::{Speeds, restitution};
+use nearwall::normal::{NormalLaw, restitution};
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::{Draw, Model};
 
@@ -114,7 +114,7 @@ fn micro_figure(plain: &Model, draws: usize) -> Result<Figure, Box<dyn Error>> {
 
 /// Mean and 5 to 95 % of `e_n` of the rebounds, and the share that sticks, when `v_adh` or when `W` is drawn evenly.
 fn by_draw(plain: &Model, speed: f64, power: f64) -> Result<[f64; 4], Box<dyn Error>> {
-    let speeds = Speeds::of(&contact(plain, 4.0, None)?, SIZE);
+    let speeds = NormalLaw::ThorntonNing.speeds(&contact(plain, 4.0, None)?, SIZE);
     let count = 2000;
     let all: Vec<f64> = (0..count)
         .map(|place| ((f64::from(place) + 0.5) / f64::from(count)).powf(power))
