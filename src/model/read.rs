@@ -4,7 +4,7 @@ use regex_lite::Regex;
 
 use super::Model;
 use super::wall::{Adhesion, Wall};
-use crate::capture::ViscosityCriterion;
+use crate::capture::{Criterion, ViscosityCriterion};
 use crate::effect::Term;
 use crate::input::{Document, InputError, Section};
 use crate::material::{Library, Material};
@@ -32,27 +32,27 @@ impl Model {
             own.finish()?;
         }
         let criterion = match top.section("capture")? {
-            Some(section) => finished(section, ViscosityCriterion::read)?,
+            Some(section) => finished(section, Criterion::read)?,
             None => None,
         };
-        let particle = finished(top.required_section("particle")?, |section| {
-            library.named_by(section, "material")?.ok_or_else(|| missing_material(section))
+        let (particle, stickiness) = finished(top.required_section("particle")?, |section| {
+            let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
+            let stickiness = criterion.map(|criterion| criterion.of_particle(&material)).transpose();
+            let stickiness = stickiness.map_err(|error| section.fault("material", error))?.flatten();
+            Ok((material, stickiness))
         })?;
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
-        let reader = WallReader { library: &library, criterion, particle: &particle, adhesion };
+        let of_slag = criterion.and_then(Criterion::of_slag);
+        let reader = WallReader { library: &library, of_slag, particle: &particle, adhesion };
         let walls = reader.read_all(top)?;
         let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
-        let particle_melt = match criterion {
-            Some(criterion) => criterion.prepare(&particle).map_err(|error| top.fault("particle", error))?,
-            None => None,
-        };
-        if criterion.is_some() && particle_melt.is_none() && walls.iter().all(|w| w.melt.is_none()) {
+        if criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
             let problem = "neither the particle nor the slag of a wall has a composition or a viscosity; \
                            give one to a material";
             return Err(top.fault("capture", problem));
         }
-        Ok(Self { particle, particle_melt, criterion, walls, normal, tangential, terms })
+        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms })
     }
 }
 
@@ -88,7 +88,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
 /// What the walls of a model share.
 struct WallReader<'a> {
     library: &'a Library,
-    criterion: Option<ViscosityCriterion>,
+    of_slag: Option<ViscosityCriterion>,
     particle: &'a Material,
     adhesion: Adhesion,
 }
@@ -111,7 +111,7 @@ impl WallReader<'_> {
         let material = material.ok_or_else(|| missing_material(section))?;
         let slag = self.library.named_by(section, "slag")?;
         let slag_name = slag.as_ref().map(|slag| slag.name().to_owned());
-        let melt = match (slag, self.criterion) {
+        let melt = match (slag, self.of_slag) {
             (None, _) => None,
             (Some(_), None) => {
                 let problem =
