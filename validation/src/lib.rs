@@ -10,6 +10,7 @@ pub mod claim;
 pub mod oracle;
 pub mod page;
 pub mod study;
+pub mod troiano;
 
 pub use claim::{Basis, Claim, Published, Verdict};
 pub use study::{Extent, Part, STUDIES, Study};

@@ -1,1 +1,3 @@
 //! The same impact computed another way. Nothing here uses the library.
+
+pub mod carried;

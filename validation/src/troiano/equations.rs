@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use nearwall::global_restitution;
-use nearwall::normal::{Speeds, adhesive_velocity, plastic_term, reduced_modulus, restitution, yield_velocity};
+use nearwall::normal::{
+    Speeds, adhesive_velocity, plastic_term, reduced_modulus, restitution, yield_velocity,
+};
 use nearwall::report::number;
 use nearwall::tangential::critical_angle;
 
@@ -33,7 +35,8 @@ pub(super) fn normal() -> Answer<Part> {
     let solids = [model.particle(), model.walls()[3].material()].map(|solid| solid.mechanical(293.15));
     let [wax, glass] = solids;
     let equation_2 = 4.0 / 3.0 / ((1.0 - 0.49_f64.powi(2)) / 700e6 + (1.0 - 0.2_f64.powi(2)) / 64e9);
-    let equation_3 = (2.0 * PI / (3.0 * k)).powi(2) * (0.4 / pyrex.density).sqrt() * pyrex.limiting_pressure().powf(2.5);
+    let equation_3 =
+        (2.0 * PI / (3.0 * k)).powi(2) * (0.4 / pyrex.density).sqrt() * pyrex.limiting_pressure().powf(2.5);
     let elastic = 0.5 * (adhesive_velocity(&teflon, DIAMETER) + yield_velocity(&teflon));
     let at = |v: f64| {
         let (a, y) = (adhesive_velocity(&teflon, DIAMETER), yield_velocity(&teflon));

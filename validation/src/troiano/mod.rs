@@ -37,7 +37,12 @@ pub fn study(extent: Extent) -> Answer<Study> {
     ];
     parts.extend(angle::parts()?);
     parts.extend([speed::part()?, targets::part()?, layers::part()?]);
-    parts.extend([temperature::melting()?, temperature::conversion()?, droplets::part()?]);
+    parts.extend([
+        temperature::melting()?,
+        temperature::conversion()?,
+        droplets::part()?,
+        droplets::regimes()?,
+    ]);
     parts.extend([tube::part(extent)?, tube::plate(extent)?]);
     Ok(Study {
         title: "Wax on targets (Troiano et al.)".to_owned(),
@@ -91,7 +96,8 @@ fn contact(
 ) -> Answer<Contact> {
     let wall = model.find_wall(wall).ok_or_else(|| format!("no wall {wall}"))?;
     let room = Impact::default().particle_temperature;
-    let solid = |material: &nearwall::material::Material| -> Result<_, ImpactError> { material.mechanical(room) };
+    let solid =
+        |material: &nearwall::material::Material| -> Result<_, ImpactError> { material.mechanical(room) };
     let mut wax = solid(model.particle())?;
     change(&mut wax);
     Ok(Contact::new(&wax, &solid(model.walls()[wall].material())?, yield_ratio, None))
@@ -124,7 +130,12 @@ fn passes(quantity: impl Fn(f64) -> f64, target: f64, [mut low, mut high]: [f64;
 }
 
 /// A plain table of the page.
-fn table(caption: &str, header: &[&str], rows: Vec<Vec<String>>, text_columns: usize) -> nearwall::report::Table {
+fn table(
+    caption: &str,
+    header: &[&str],
+    rows: Vec<Vec<String>>,
+    text_columns: usize,
+) -> nearwall::report::Table {
     nearwall::report::Table {
         caption: caption.to_owned(),
         header: header.iter().map(|head| (*head).to_owned()).collect(),

@@ -41,7 +41,8 @@ pub const STRENGTH_SPREAD: f64 = 2.5e6;
 pub const MODULUS_SPREAD: f64 = 66e6;
 
 pub const E_N_GLANCING: Stated = stated("Fig 6", "e_n at 35° and v_n = 1 m/s, \"around\"", 0.41, 0.01);
-pub const E_N_NEAR_NORMAL: Stated = stated("Fig 6", "e_n near the normal at v_n = 1 m/s, \"around\"", 0.28, 0.01);
+pub const E_N_NEAR_NORMAL: Stated =
+    stated("Fig 6", "e_n near the normal at v_n = 1 m/s, \"around\"", 0.28, 0.01);
 pub const E_T_GLANCING: Stated = stated("Fig 6", "e_t at 13°, \"around\"", 0.8, 0.05);
 pub const E_T_STEEP: Stated = stated("Fig 6", "e_t at about 80°", 0.85, 0.005);
 pub const E_T_LEAST: Stated = stated("Fig 6", "angle of the least e_t, \"≈\" [°]", 40.0, 5.0);
@@ -156,9 +157,19 @@ pub struct Operation {
 }
 
 pub const OPERATIONS: [Operation; 3] = [
-    Operation { regime: "NSP–NSW", air: [20.0, 20.0], flow: [2.0, 8.0], diameter: 75e-6, speed: [0.5, 3.0] },
-    Operation { regime: "NSP→SP", air: [20.0, 110.0], flow: [3.0, 4.0], diameter: 80e-6, speed: [2.0, 2.0] },
-    Operation { regime: "SP–NSW", air: [120.0, 120.0], flow: [3.0, 5.0], diameter: 120e-6, speed: [0.7, 5.0] },
+    Operation {
+        regime: "NSP–NSW", air: [20.0, 20.0], flow: [2.0, 8.0], diameter: 75e-6, speed: [0.5, 3.0]
+    },
+    Operation {
+        regime: "NSP→SP", air: [20.0, 110.0], flow: [3.0, 4.0], diameter: 80e-6, speed: [2.0, 2.0]
+    },
+    Operation {
+        regime: "SP–NSW",
+        air: [120.0, 120.0],
+        flow: [3.0, 5.0],
+        diameter: 120e-6,
+        speed: [0.7, 5.0],
+    },
 ];
 
 /// Inner diameter and length of the outer tube, and how far the inner one reaches into it [m] (section 3.1).

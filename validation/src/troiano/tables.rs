@@ -18,18 +18,24 @@ pub(super) fn materials() -> Answer<Part> {
     let property = |material: &str, key: &str, temperature: f64| -> Answer<f64> {
         let found = library.get(material).and_then(|material| material.property(key));
         let found = found.ok_or_else(|| format!("{material} has no {key}"))?;
-        found.at(temperature).map_err(|range| format!("{material} {key}: {} to {} K", range.low, range.high).into())
+        found
+            .at(temperature)
+            .map_err(|range| format!("{material} {key}: {} to {} K", range.low, range.high).into())
     };
     let spread = |material: &str, key: &str| {
         library.get(material).and_then(|material| material.property(key)).and_then(|p| p.uncertainty())
     };
     let (mut rows, mut same) = (Vec::new(), 0);
     for (name, material, modulus, strength) in SOLIDS {
-        let ours = ["youngs_modulus", "yield_strength"].map(|key| (property(material, key, ROOM), spread(material, key)));
+        let ours = ["youngs_modulus", "yield_strength"]
+            .map(|key| (property(material, key, ROOM), spread(material, key)));
         let [(e, e_spread), (y, y_spread)] = ours;
         let (e, y) = (e?, y?);
         same += u32::from(
-            e == modulus[0] && y == strength[0] && e_spread == Some(modulus[1]) && y_spread == Some(strength[1]),
+            e == modulus[0]
+                && y == strength[0]
+                && e_spread == Some(modulus[1])
+                && y_spread == Some(strength[1]),
         );
         let mega = |value: f64| number(value / 1e6);
         rows.push(vec![
@@ -52,7 +58,8 @@ pub(super) fn materials() -> Answer<Part> {
             && read("youngs_modulus")? == target.modulus
             && read("poisson_ratio")? == target.poisson;
     }
-    let [hot, cool] = [property("montan-wax", "viscosity", 403.15)?, property("montan-wax", "viscosity", 363.15)?];
+    let [hot, cool] =
+        [property("montan-wax", "viscosity", 403.15)?, property("montan-wax", "viscosity", 363.15)?];
     Ok(Part {
         heading: "Tables 1 and 2: the materials".to_owned(),
         text: vec![
@@ -155,7 +162,10 @@ pub(super) fn operation() -> Answer<Part> {
         let holds = range[0] <= low && high <= range[1];
         let claim = Claim::statement(
             "Table 3",
-            &format!("{}: impact speeds that the air flow gives, air plus terminal velocity [m/s]", operation.regime),
+            &format!(
+                "{}: impact speeds that the air flow gives, air plus terminal velocity [m/s]",
+                operation.regime
+            ),
             &format!("{low} to {high}"),
             &format!("{:.2} to {:.2}", range[0], range[1]),
             holds,
