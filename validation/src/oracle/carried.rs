@@ -128,20 +128,17 @@ impl Flight<'_> {
         way
     }
 
-    /// The place where it comes to `end` [m], between two steps by a straight line.
+    /// The place where it comes to `end` [m]; the last step is shortened until it ends there.
     pub fn arrives(&self, start: Place, step: f64, end: f64) -> Place {
         let ahead = (end - start.at).signum();
         let way = self.way(start, step, |place| (end - place.at) * ahead > 0.0);
-        let after = way[way.len() - 1];
         let before = way[way.len().saturating_sub(2)];
-        let share = if after.at == before.at { 1.0 } else { (end - before.at) / (after.at - before.at) };
-        let mix = |a: f64, b: f64| a + share * (b - a);
-        Place {
-            time: mix(before.time, after.time),
-            at: end,
-            speed: mix(before.speed, after.speed),
-            temperature: mix(before.temperature, after.temperature),
+        let (mut low, mut high) = (0.0, step);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if (end - self.step(before, middle).at) * ahead > 0.0 { low = middle } else { high = middle }
         }
+        self.step(before, high)
     }
 }
 

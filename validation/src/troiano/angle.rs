@@ -94,7 +94,7 @@ fn restitutions() -> Answer<Part> {
                 "Plain laws: e_n depends on v_n alone, which Fig. 6 keeps at 1 m/s, so it is {base:.3} at every angle; e_t slides \
                  down to 0.63 and jumps to 5/7. The paper names what is missing: air that lifts particles at glancing angles, and \
                  tangential compliance. Both are effects here. Each has one number set to one of the paper's (e_n at 35°, e_t at \
-                 80°), and c is set to {ratio:.2} so that e_n is 0.28 near the normal at 1 m/s.",
+                 80°), and c is lowered so that e_n is 0.28 near the normal at 1 m/s ({ratio:.2} without lift).",
             ),
             format!(
                 "What lift would have to be: e_n a factor {:.2} at 35°, that is strength {by_four:.2} s/m if the air was four times as \
@@ -147,7 +147,7 @@ fn angle_claims(
         )),
         E_N_NEAR_NORMAL
             .beside(at(refined, STEEP, four / 4.0)?.normal_restitution, Basis::Fitted)
-            .because("c set to it; lift adds what is left of the 0.83 m/s of air at 84°."),
+            .because("c set to it, 0.58; lift adds 1.5 % at 84°."),
         E_N_GLANCING
             .beside(at(plain, GLANCING, 0.0)?.normal_restitution, Basis::Predicted)
             .because("The plain law knows no angle."),

@@ -153,8 +153,8 @@ pub(super) fn conversion() -> Answer<Part> {
                 .x_range(0.7, 1.0)
                 .y_range(0.0, 100.0)
                 .line("conversion-transition", &curve)
-                .mark_x(0.88, "0.88")
-                .mark_x(0.9, "0.90")
+                .mark_x(0.88, "")
+                .mark_x(0.9, "0.88–0.90")
                 .figure("troiano-conversion", "43 to 63 µm coal at 1300 °C (assumed). The threshold is the paper's, the width assumed."),
         ],
         claims: vec![

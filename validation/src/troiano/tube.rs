@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use nearwall::report::Chart;
+use nearwall::normal::Contact;
+use nearwall::report::{Chart, number};
 use nearwall::simulate::{self, Case, Hit, Shape};
 
-use super::published::{DENSITY, FUSION_TIME, RESIDENCE, TUBE, TUBE_LENGTH, TUBE_SPEED};
-use super::{Answer, even, table};
+use super::published::{DENSITY, DIAMETER, FUSION_TIME, RESIDENCE, TUBE, TUBE_LENGTH, TUBE_SPEED};
+use super::{Answer, contact, even, mean_over_speeds, model, passes, table, thornton_ning};
 use crate::oracle::carried::{
     Air, Flight, Law, Place, Sphere, relaxation_time, stokes_closed_form, terminal_speed,
 };
@@ -67,7 +68,7 @@ fn integrated(diameter: f64, air: Air, end: f64) -> Place {
     };
     let start = Place { time: 0.0, at: TUBE[2], speed: FIRST_SPEED, temperature: 293.15 };
     // The library's wall is touched by the particle's surface.
-    flight.arrives(start, 2e-5, end - 0.5 * diameter)
+    flight.arrives(start, 1e-4, end - 0.5 * diameter)
 }
 
 /// Relative difference.
@@ -93,20 +94,23 @@ fn fusion_time(diameter: f64, air: f64, latent: f64) -> f64 {
 pub(super) fn part(extent: Extent) -> Answer<Part> {
     let mut case = read("validation/troiano/tube.toml", include_str!("../../troiano/tube.toml"))?;
     let sizes = [50e-6, 80e-6, 100e-6, 120e-6];
-    let mut chart = Chart::new("Speed in the tube", "way from the top of the outer tube [m]", "speed [m/s]")
-        .x_range(0.0, 0.7)
+    let mut chart = Chart::new("Speed in the tube", "way from the end of the inner tube [m]", "speed [m/s]")
+        .x_range(0.0, 0.6)
         .y_range(0.0, 2.5);
     let (mut rows, mut largest, mut shares) = (Vec::new(), 0.0_f64, Vec::new());
     let mut checks = Vec::new();
     for diameter in sizes {
-        let mut line = vec![[TUBE[2], FIRST_SPEED]];
-        for end in even([TUBE[2] + 0.005, TUBE[1]], extent.count(80).max(12)) {
+        let mut line = vec![[0.0, FIRST_SPEED]];
+        for share in even([0.1, 1.0], extent.count(80).max(12)) {
+            // Closer together where the speed changes.
+            let end = TUBE[2] + (TUBE[1] - TUBE[2]) * share.powi(3);
             let hit = tracked(&mut case, diameter, end)?;
             let other = integrated(diameter, ROOM, end);
-            line.push([end, hit.impact.speed()]);
+            line.push([end - TUBE[2], hit.impact.speed()]);
             largest = largest.max(apart(hit.impact.speed(), other.speed)).max(apart(hit.time, other.time));
         }
-        checks.extend([0.12, 0.2, 0.35, 0.5].map(|end| [end, integrated(diameter, ROOM, end).speed]));
+        checks
+            .extend([0.12, 0.2, 0.35, 0.5].map(|end| [end - TUBE[2], integrated(diameter, ROOM, end).speed]));
         let hit = tracked(&mut case, diameter, TUBE[1])?;
         let terminal = terminal_speed(diameter, &ROOM);
         let last = AIR_SPEED + terminal;
@@ -129,6 +133,12 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
     let hundred = tracked(&mut case, 100e-6, TUBE[1])?;
     let eighty = tracked(&mut case, 80e-6, TUBE[1])?;
     let spread = [65e-6, 95e-6].map(|d| terminal_speed(d, &ROOM));
+    let usual = {
+        let strict = std::mem::replace(&mut case.tolerance, 1e-6);
+        let hit = tracked(&mut case, 80e-6, TUBE[1])?;
+        case.tolerance = strict;
+        apart(hit.impact.speed(), integrated(80e-6, ROOM, TUBE[1]).speed)
+    };
     case.set("gas_temperature", WARM.temperature)?;
     let warm = tracked(&mut case, 80e-6, TUBE[1])?;
     let warm_other = integrated(80e-6, WARM, TUBE[1]);
@@ -136,13 +146,13 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
     let tau = |temperature: f64| relaxation_time(&wax(100e-6), &Air::at(temperature));
     let after_length = {
         let ten = tau(293.15);
-        let time =
-            super::passes(|t| stokes_closed_form(0.0, 2.0, ten, t)[1], 10.0 * ten * 2.0, [0.0, 40.0 * ten]);
+        let time = passes(|t| stokes_closed_form(0.0, 2.0, ten, t)[1], 10.0 * ten * 2.0, [0.0, 40.0 * ten]);
         stokes_closed_form(0.0, 2.0, ten, time)[0] / 2.0
     };
     let fusion =
         [383.15, 393.15].map(|air| [100e3, 150e3, 200e3].map(|latent| fusion_time(100e-6, air, latent)));
     let slow = fusion_time(80e-6, 358.15, 150e3);
+    let molten = passes(|air| fusion_time(80e-6, air, 150e3), eighty.time, [354.0, 450.0]) - 273.15;
     Ok(Part {
         heading: "Eq. 13 and Fig 3: the tube".to_owned(),
         text: vec![
@@ -161,7 +171,7 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
             format!(
                 "The fusion time 0.11 s of 100 µm is stated without its air temperature or heat of fusion. With Nu = 2, 2000 J/(kg K), \
                  melting at 80 °C and 100 to 200 kJ/kg (assumed) it is {:.2} to {:.2} s in air of 110 °C and {:.2} to {:.2} s at 120 °C; \
-                 warming alone takes {:.2} s. So \"three times\" is one and a half to three at 120 °C. Just above the melting range it is \
+                 warming alone takes {:.2} s. So \"three times\" is 1.7 to 2.7 times at 120 °C. Just above the melting range it is \
                  not even one: in air of 85 °C an 80 µm particle needs {slow:.2} s and has 0.3.",
                 fusion[0][0],
                 fusion[0][2],
@@ -186,7 +196,7 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
             rows,
             0,
         )],
-        figures: vec![chart.figure("troiano-tube", "Lines: nearwall simulate. Crosses or marks: Runge–Kutta, own drag.")],
+        figures: vec![chart.figure("troiano-tube", "Lines: nearwall simulate. Marks: Runge and Kutta, drag written anew.")],
         claims: vec![
             TUBE_LENGTH
                 .beside(20.0 * tau(273.15), Basis::Predicted)
@@ -249,8 +259,10 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "Sensible heat takes five relaxation times, 0.17 s; the heat of fusion (150 kJ/kg assumed) flows at a difference of 5 K \
-                 only. Between some 80 and 95 °C particles arrive partly molten, whatever the air's temperature.",
+                &format!(
+                    "Sensible heat takes five relaxation times, 0.17 s; the heat of fusion (150 kJ/kg assumed) flows at a difference of \
+                     5 K only. From 80 °C (melting assumed there) to {molten:.0} °C of air, particles arrive partly molten.",
+                ),
             ),
             Claim::number(
                 "check",
@@ -258,7 +270,11 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 Published::Below(1e-6),
                 largest,
                 Basis::Derived,
-            ),
+            )
+            .because(&format!(
+                "Tolerance 1e-11; the difference is the library's and falls with it. At the default 1e-6 it is {} at the end.",
+                number(usual)
+            )),
             Claim::number(
                 "check",
                 "`simulate` against Runge–Kutta: particle temperature at the end, air of 105 °C [K]",
@@ -277,15 +293,14 @@ fn seen(speed: f64, e_n: f64, air: f64) -> f64 {
     let height = 0.03_f64;
     let gas = |z: f64| -air * (std::f64::consts::FRAC_PI_2 * (z / height).clamp(0.0, 1.0)).sin();
     let flight = Flight {
-        sphere: wax(super::published::DIAMETER),
+        sphere: wax(DIAMETER),
         air: ROOM,
         law: Law::SchillerNaumann,
         downwards: -1.0,
         air_speed: &gas,
     };
     let at = |speed: f64, step: f64| {
-        let start =
-            Place { time: 0.0, at: 0.5 * super::published::DIAMETER, speed, temperature: ROOM.temperature };
+        let start = Place { time: 0.0, at: 0.5 * DIAMETER, speed, temperature: ROOM.temperature };
         let way = flight.way(start, step, |place| place.time.abs() < 1e-3 - 1e-9);
         way[way.len() - 1].speed
     };
@@ -307,6 +322,11 @@ pub(super) fn plate(extent: Extent) -> Answer<Part> {
         .map(|d| [d * 1e6, AIR_SPEED + terminal_speed(d, &ROOM)])
         .collect();
     let camera: Vec<[f64; 2]> = [0.5, 1.0, 2.0, 3.0].map(|v| [v, seen(v, 0.28, v)]).to_vec();
+    let pyrex = contact(&model!("wax-on-pyrex.toml")?, "default", 0.7, |_| {})?;
+    let mean = |c: f64, seen: f64| {
+        seen * mean_over_speeds(|v| thornton_ning(&Contact { yield_ratio: c, ..pyrex }, DIAMETER, v))
+    };
+    let corrected = passes(|c| mean(c, camera[1][1]), 0.28, [0.3, 2.0]);
     let [low, high] = [camera[0][1], camera[3][1]];
     Ok(Part {
         heading: "Fig 3: the plate below the tube".to_owned(),
@@ -322,7 +342,7 @@ pub(super) fn plate(extent: Extent) -> Answer<Part> {
                 "Those frames are 1 ms apart, and the relaxation time of 75 µm is 17 ms. The pair of frames next to the wall shows the \
                  particle a millisecond before and after, on average: faster than it hits, slower than it leaves. An e_n of 0.28 would \
                  be seen as {:.2} of itself at 0.5 m/s and {:.2} at 3 m/s. If no correction was made, the contact's own e_n was some \
-                 {:.2} where 0.28 was read, and c nearer to 0.9 than to 0.7. The paper says nothing of it; its own Fig. 5 calls the \
+                 {:.2} where 0.28 was read, and c for the mean of Fig. 10 {corrected:.2} in place of 0.66. The paper says nothing of it; its own Fig. 5 calls the \
                  paths linear.",
                 low,
                 high,
