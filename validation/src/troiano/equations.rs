@@ -51,13 +51,18 @@ pub(super) fn normal() -> Answer<Part> {
     Ok(Part {
         heading: "Equations 1 to 6: the normal impact".to_owned(),
         text: vec![
-            "Each equation was computed as it is printed and held against Thornton and Ning's closed form, which the library \
-             uses and which the study of independent checks integrates numerically. Two of six carry a slip. Neither changes \
-             a conclusion of the paper by itself; the one in Eq. 6 cannot have been in the authors' calculation, since e_n \
+            "Each equation was computed as it is printed and held against Thornton and Ning's closed form, \
+             which the library \
+             uses and which the study of independent checks integrates numerically. Two of six carry a \
+             slip. Neither changes \
+             a conclusion of the paper by itself; the one in Eq. 6 cannot have been in the authors' \
+             calculation, since e_n \
              would jump at v_y."
                 .to_owned(),
-            "A third point is no slip but a gap: Eq. 4 lets particles rebound from v_s on, while Eq. 6 with the same v_s is \
-             negative up to about twice that speed when v_y < v_s, as it is here. The speed at which wax really sticks on \
+            "A third point is no slip but a gap: Eq. 4 lets particles rebound from v_s on, while Eq. 6 \
+             with the same v_s is \
+             negative up to about twice that speed when v_y < v_s, as it is here. The speed at which wax \
+             really sticks on \
              Pyrex by these equations is where Eq. 6 vanishes."
                 .to_owned(),
         ],
@@ -97,8 +102,10 @@ pub(super) fn normal() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is seventeen times less than v_s, so the \
-                 loss by yielding adds to adhesion and the sticking velocity doubles. No test of the paper was so slow.",
+                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is seventeen times \
+                 less than v_s, so the \
+                 loss by yielding adds to adhesion and the sticking velocity doubles. No test of the paper \
+                 was so slow.",
             ),
             Claim::number(
                 "Eq 5",
@@ -120,7 +127,8 @@ pub(super) fn normal() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(&format!(
-                "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With it Eq. 6 is the \
+                "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With \
+                 it Eq. 6 is the \
                  library's plastic term within {}.",
                 number(largest_gap)
             )),
@@ -143,8 +151,9 @@ pub(super) fn oblique() -> Answer<Part> {
     let (e_n, e_t) = (FIT_E_N.value, FIT_E_T.value);
     let middle = |alpha: f64| {
         let (sine, cosine) = alpha.to_radians().sin_cos();
-        let (normal, along) = ((e_n * sine / sine).powi(2), (e_t * cosine / cosine).powi(2));
-        (normal + along) / ((sine / sine).powi(2) + (cosine / cosine).powi(2))
+        let [normal, along] = [2.0 * sine, 2.0 * cosine];
+        let sum = |n: f64, t: f64| (n / sine).powi(2) + (t / cosine).powi(2);
+        sum(e_n * normal, e_t * along) / sum(normal, along)
     };
     let right = |alpha: f64| global_restitution(e_n, e_t, alpha.to_radians());
     let sliding = decide(&model, "default", &arriving(1.0, 30.0))?;
@@ -170,19 +179,27 @@ pub(super) fn oblique() -> Answer<Part> {
         heading: "Equations 7 to 14: the oblique impact".to_owned(),
         text: vec![
             format!(
-                "Eq. 9's middle expression and Eq. 12 are slips; Eq. 11 is not what the text calls it. A sphere that is rigid \
-                 rolls from the angle at which sliding reaches e_t = 5/7, which is {:.1}° for e_n = 0.31 and {:.1}° for 0.39. \
-                 Eq. 11 with k is where an elastic contact ceases to slide all through the impact, later; at that angle \
-                 sliding has brought e_t down to {:.3}, below 5/7, and a law of Eqs 10, 11 and 5/7 jumps there.",
+                "Eq. 9's middle expression and Eq. 12 are slips; Eq. 11 is not what the text calls it. A \
+                 sphere that is rigid \
+                 rolls from the angle at which sliding reaches e_t = 5/7, which is {:.1}° for e_n = 0.31 \
+                 and {:.1}° for 0.39. \
+                 Eq. 11 with k is where an elastic contact ceases to slide all through the impact, later; \
+                 at that angle \
+                 sliding has brought e_t down to {:.3}, below 5/7, and a law of Eqs 10, 11 and 5/7 jumps \
+                 there.",
                 rigid(0.31),
                 rigid(0.39),
                 end_of_sliding
             ),
             format!(
-                "What Eq. 12 was in the authors' calculation cannot be told from 43°: with Mindlin's k = {k:.3} Eq. 11 gives 43° \
-                 for e_n = {:.3}, with k = 1, which the equation as printed gives for any two materials, for e_n = {:.3}. The \
-                 first lies between Fig. 6's 0.41 at 35° and 0.28 near the normal, the second is the mean of Fig. 10. The data of \
-                 Fig. 7 tell more: where (1+e_n) tan(alpha) ends sliding does not depend on e_n, and is {:.2} with Mindlin's k, {:.2} with \
+                "What Eq. 12 was in the authors' calculation cannot be told from 43°: with Mindlin's k = \
+                 {k:.3} Eq. 11 gives 43° \
+                 for e_n = {:.3}, with k = 1, which the equation as printed gives for any two materials, \
+                 for e_n = {:.3}. The \
+                 first lies between Fig. 6's 0.41 at 35° and 0.28 near the normal, the second is the mean \
+                 of Fig. 10. The data of \
+                 Fig. 7 tell more: where (1+e_n) tan(alpha) ends sliding does not depend on e_n, and is \
+                 {:.2} with Mindlin's k, {:.2} with \
                  k = 1 and {:.2} for a rigid sphere. The paper reads 1.31.",
                 angle_for(43.0, k),
                 angle_for(43.0, 1.0),
@@ -196,8 +213,11 @@ pub(super) fn oblique() -> Answer<Part> {
                 "Eqs 7, 8, 9",
                 "e_g by the right-hand side over rebound speed by impact speed, from e_n and e_t at 50° [1]",
                 Published::within(1.0, 1e-12),
-                global_restitution(bounce.normal_restitution, bounce.tangential_restitution, impact.angle_from_surface())
-                    / (back / impact.speed()),
+                global_restitution(
+                    bounce.normal_restitution,
+                    bounce.tangential_restitution,
+                    impact.angle_from_surface(),
+                ) / (back / impact.speed()),
                 Basis::Derived,
             ),
             Claim::statement(
@@ -217,8 +237,10 @@ pub(super) fn oblique() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out and has no root: it is \
-                 (e_n² + e_t²)/2 at every angle. What is meant is the root of (v_n,r² + v_t,r²)/(v_n,i² + v_t,i²); the right-hand \
+                "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out \
+                 and has no root: it is \
+                 (e_n² + e_t²)/2 at every angle. What is meant is the root of (v_n,r² + v_t,r²)/(v_n,i² + \
+                 v_t,i²); the right-hand \
                  side is right and is what the library computes.",
             ),
             Claim::number(
@@ -231,21 +253,25 @@ pub(super) fn oblique() -> Answer<Part> {
             ROLLING.beside(rolling, Basis::Derived),
             Claim::statement(
                 "Eq 11",
-                "\"rigid body theory\": the angle at which a rigid sphere begins to roll [°], e_n 0.28 to 0.41",
+                "\"rigid body theory\": the angle at which a rigid sphere begins to roll [°], e_n 0.28 to \
+                 0.41",
                 "43",
                 &format!("{:.1} to {:.1}", rigid(0.41), rigid(0.28)),
                 (rigid(0.41)..=rigid(0.28)).contains(&43.0),
                 Basis::Derived,
             )
             .because(
-                "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it is the limit of \
-                 gross sliding of an elastic sphere. That the data leave the line near 43° to 45° supports elastic contact, \
+                "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: \
+                 it is the limit of \
+                 gross sliding of an elastic sphere. That the data leave the line near 43° to 45° supports \
+                 elastic contact, \
                  not rigid-body theory.",
             ),
             CRITICAL_ANGLE
                 .beside(degrees(0.41 + (0.28 - 0.41) * (43.0 - 35.0) / (84.0 - 35.0), k), Basis::Predicted)
                 .because(&format!(
-                    "Takes Mindlin's k and e_n = 0.39 at 43°, drawn straight between Fig. 6's 0.41 at 35° and 0.28 at 84°. With \
+                    "Takes Mindlin's k and e_n = 0.39 at 43°, drawn straight between Fig. 6's 0.41 at 35° \
+                     and 0.28 at 84°. With \
                      e_n = 0.31, which 1.31 at 45° implies, it is {:.1}°; with 0.28, {:.1}°.",
                     degrees(0.31, k),
                     degrees(0.28, k)
@@ -258,11 +284,18 @@ pub(super) fn oblique() -> Answer<Part> {
                 (k - 1.0).abs() < 0.005,
                 Basis::Derived,
             )
-            .because("The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print or in the scan."),
+            .because(
+                "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print \
+             or in the scan.",
+            ),
             Claim::number(
                 "Eq 14",
-                "captured over all, 4000 impacts drawn at 70 °C (seed 1) [%]; the model's probability ± three standard errors",
-                Published::within(100.0 * probability, 300.0 * (probability * (1.0 - probability) / 4000.0).sqrt()),
+                "captured over all, 4000 impacts drawn at 70 °C (seed 1) [%]; the model's probability ± \
+                 three standard errors",
+                Published::within(
+                    100.0 * probability,
+                    300.0 * (probability * (1.0 - probability) / 4000.0).sqrt(),
+                ),
                 counted / 40.0,
                 Basis::Derived,
             ),

@@ -4,7 +4,8 @@ use nearwall::normal::{Contact, Speeds, restitution, yield_velocity};
 use nearwall::report::Chart;
 
 use super::published::{
-    DIAMETER, DIAMETER_SPREAD, E_N_MEAN, MODULUS_SPREAD, SPEEDS, STEEP, STRENGTH_SPREAD, YIELD_RATIO,
+    DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, MODULUS_SPREAD, SPEEDS, STEEP, STRENGTH_SPREAD,
+    YIELD_RATIO,
 };
 use super::{Answer, arriving, contact, decide, even, mean_over_speeds, model, passes, thornton_ning};
 use crate::{Basis, Claim, Part, Published};
@@ -74,10 +75,14 @@ pub(super) fn part() -> Answer<Part> {
         heading: "Fig 8: the speed".to_owned(),
         text: vec![
             format!(
-                "Thornton and Ning's law with the paper's inputs and c = 0.7 has a mean e_n of {:.3} between 0.5 and 3 m/s, {:.3} at \
-                 0.5, {:.3} at 1 and {:.3} at 3 m/s; the deviations of sigma_y (26 %) and E (9 %) alone, in quadrature, make that mean \
-                 {low:.2} to {high:.2}. Sizes of 65 to 85 µm move it by {:.3} at 0.5 m/s and {:.3} at 3. So c is known no better than \
-                 sigma_y: only p_y = c sigma_y = 6.7 MPa enters, and the fit cannot tell a soft contact from a softer wax.",
+                "Thornton and Ning's law with the paper's inputs and c = 0.7 has a mean e_n of {:.3} \
+                 between 0.5 and 3 m/s, {:.3} at \
+                 0.5, {:.3} at 1 and {:.3} at 3 m/s; the deviations of sigma_y (26 %) and E (9 %) alone, \
+                 in quadrature, make that mean \
+                 {low:.2} to {high:.2}. Sizes of 65 to 85 µm move it by {:.3} at 0.5 m/s and {:.3} at 3. \
+                 So c is known no better than \
+                 sigma_y: only p_y = c sigma_y = 6.7 MPa enters, and the fit cannot tell a soft contact \
+                 from a softer wax.",
                 mean(&centre),
                 at(0.5),
                 at(1.0),
@@ -86,9 +91,12 @@ pub(super) fn part() -> Answer<Part> {
                 sizes[1][2] - sizes[0][2]
             ),
             format!(
-                "Table 4's slip of ten in v_s decides the form at the low end. With the mended 0.12 m/s adhesion lowers e_n at 0.5 m/s \
-                 from {:.2} to {:.2} and the curve is nearly flat, as the paper says of its data (\"about constant\"); with the \
-                 printed 0.0115 it falls from {:.2} to {:.2} and its mean is {printed_mean:.3}. Which of the two the authors drew cannot \
+                "Table 4's slip of ten in v_s decides the form at the low end. With the mended 0.12 m/s \
+                 adhesion lowers e_n at 0.5 m/s \
+                 from {:.2} to {:.2} and the curve is nearly flat, as the paper says of its data (\"about \
+                 constant\"); with the \
+                 printed 0.0115 it falls from {:.2} to {:.2} and its mean is {printed_mean:.3}. Which of \
+                 the two the authors drew cannot \
                  be read from the text. The best c for a mean of 0.28 is {best:.2} or {best_printed:.2}.",
                 without(0.5),
                 at(0.5),
@@ -98,15 +106,18 @@ pub(super) fn part() -> Answer<Part> {
         ],
         figures: vec![figure.figure(
             "troiano-speed",
-            "Wax of 75 µm on Pyrex. Band: sigma_y ± 2.5 MPa and E ± 66 MPa. The points are the stated mean, not data.",
+            "Wax of 75 µm on Pyrex. Band: sigma_y ± 2.5 MPa and E ± 66 MPa. The points are the stated \
+             mean, not data.",
         )],
         claims: vec![
             E_N_MEAN.beside(mean(&centre), Basis::Fitted).because(&format!(
-                "c = 0.7 is the paper's fit and printed to one digit; 0.65 to 0.75 gives {:.3} to {:.3}. Of our making are even weights \
+                "c = 0.7 is the paper's fit and printed to one digit; 0.65 to 0.75 gives {:.3} to {:.3}. \
+                 Of our making are even weights \
                  over the speeds.",
                 mean_of(0.65)?,
                 mean_of(0.75)?
             )),
+            E_N_FIG_8.beside(mean(&centre), Basis::Fitted),
             YIELD_RATIO.beside(best, Basis::Fitted).because("c for a mean e_n of 0.28 with the mended v_s."),
             Claim::statement(
                 "Fig 8",
@@ -144,10 +155,14 @@ pub(super) fn part() -> Answer<Part> {
                 at(3.0) / at(0.5) > 0.6,
                 Basis::Predicted,
             )
-            .because("Far above v_y the law tends to v^(-1/4): six times the speed lowers e_n to 0.64 at the least."),
+            .because(
+                "Far above v_y the law tends to v^(-1/4): six times the speed lowers e_n to 0.64 at \
+             the least.",
+            ),
             Claim::statement(
                 "Sec 4.1",
-                "e_n \"is a function of the yield velocity only\": what leaving adhesion out adds to e_n at 0.5, 1.25, 3 m/s [%]",
+                "e_n \"is a function of the yield velocity only\": what leaving adhesion out adds to e_n \
+                 at 0.5, 1.25, 3 m/s [%]",
                 "nothing",
                 &format!(
                     "{:.0}, {:.0}, {:.0}",
@@ -159,7 +174,8 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "True from 1.25 m/s on within 5 %. At 0.5 m/s adhesion takes a third of what plasticity leaves of the energy; with \
+                "True from 1.25 m/s on within 5 %. At 0.5 m/s adhesion takes a third of what plasticity \
+                 leaves of the energy; with \
                  the printed v_s, ten times too small, it would not be seen.",
             ),
             Claim::number(

@@ -53,24 +53,35 @@ pub(super) fn melting() -> Answer<Part> {
     Ok(Part {
         heading: "Figs 12 and 13: the temperature".to_owned(),
         text: vec![
-            "A logistic curve in temperature has two numbers, set to the two captures that the text prints, 8 % at 70 °C and 93 % at \
-             105 °C. What it then says below 55 °C and of e_n was not used. Half of the impacts stick at 87 °C, above the melting \
+            "A logistic curve in temperature has two numbers, set to the two captures that the text \
+             prints, 8 % at 70 °C and 93 % at \
+             105 °C. What it then says below 55 °C and of e_n was not used. Half of the impacts stick at \
+             87 °C, above the melting \
              range of 75 to 85 °C."
                 .to_owned(),
             format!(
-                "The flow test that the paper calls \"in agreement\" is another curve: 1, 50 and 70 % at 65, 71.1 and 74.6 °C. Taken as \
-                 the share that sticks it gives {:.0} % at 70 °C ({straight:.0} % on a straight line between its points) where 8 % \
-                 were captured, and all at 105 °C where 93 % were. It agrees in where the change begins, not in how it goes on: \
-                 particles stick some 15 °C later than the wax flows. Part of that may be heat: in air of 85 °C an 80 µm particle has no \
+                "The flow test that the paper calls \"in agreement\" is another curve: 1, 50 and 70 % at \
+                 65, 71.1 and 74.6 °C. Taken as \
+                 the share that sticks it gives {:.0} % at 70 °C ({straight:.0} % on a straight line \
+                 between its points) where 8 % \
+                 were captured, and all at 105 °C where 93 % were. It agrees in where the change begins, \
+                 not in how it goes on: \
+                 particles stick some 15 °C later than the wax flows. Part of that may be heat: in air of \
+                 85 °C an 80 µm particle has no \
                  time to melt in the tube (part on the tube).",
                 capture(&flow, 70.0)?
             ),
-            "The same rig in OpenFOAM, flow and spread of sizes included, gives 0.6 % at 50, 8.2 % at 70 and 92.7 % at 105 °C \
+            "The same rig in OpenFOAM, flow and spread of sizes included, gives 0.6 % at 50, 8.2 % at 70 \
+             and 92.7 % at 105 °C \
              (`tutorials/waxImpactor/Allrun`; its README has the table)."
                 .to_owned(),
         ],
         figures: vec![
-            captures.figure("troiano-capture", "80 µm, 2 m/s, 84°. Two numbers set to the captures at 70 and 105 °C."),
+            captures.figure(
+                "troiano-capture",
+                "80 µm, 2 m/s, 84°. Two numbers set to the captures at 70 \
+             and 105 °C.",
+            ),
             restitutions.figure("troiano-restitution-temperature", "The same curve takes up the rebound."),
         ],
         claims: vec![
@@ -82,14 +93,25 @@ pub(super) fn melting() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because("Below one of 100; at least 50 impacts a point."),
-            Claim::number("Fig 12", "capture at 20 °C [%]", Published::Below(1.0), capture(&model, 20.0)?, Basis::Predicted),
+            Claim::number(
+                "Fig 12",
+                "capture at 20 °C \
+             [%]",
+                Published::Below(1.0),
+                capture(&model, 20.0)?,
+                Basis::Predicted,
+            ),
             CAPTURE_70.beside(capture(&model, 70.0)?, Basis::Fitted),
             CAPTURE_105.beside(capture(&model, 105.0)?, Basis::Fitted),
             CAPTURE_70.beside(capture(&flow, 70.0)?, Basis::Predicted).because(
-                "Capture taken as the share of the flow test (`flow-test.toml`). The two measure different things: a wax that flows \
+                "Capture taken as the share of the flow test (`flow-test.toml`). The two measure different \
+                 things: a wax that flows \
                  under its weight in minutes need not stick in microseconds.",
             ),
-            CAPTURE_105.beside(capture(&flow, 105.0)?, Basis::Predicted).because("As above: its curve has ended long before."),
+            CAPTURE_105.beside(capture(&flow, 105.0)?, Basis::Predicted).because(
+                "As above: its curve has \
+             ended long before.",
+            ),
             Claim::number(
                 "Sec 4.2",
                 "flow at 74.6 °C by the sharpest smooth curve through 1 % and 50 % [%]",
@@ -97,7 +119,10 @@ pub(super) fn melting() -> Answer<Part> {
                 capture(&flow, last_at)?,
                 Basis::Predicted,
             )
-            .because("The three points rise by 8 % and then by 6 % a degree: no Richards curve passes through all of them."),
+            .because(
+                "The three points rise by 8 % and then by 6 % a degree: no Richards curve passes \
+             through all of them.",
+            ),
             Claim::number(
                 "Fig 13",
                 "e_n at 55 °C over e_n at 20 °C, \"constant\" [1]",
@@ -113,12 +138,16 @@ pub(super) fn melting() -> Answer<Part> {
                 e_n(105.0)?,
                 Basis::Predicted,
             )
-            .because("Of those that rebound; below 0.05 taken for \"vanishingly\". The effect takes the rebound by the same share that it captures (softening 1), a choice that this confirms."),
+            .because(
+                "Of those that rebound; below 0.05 taken for \"vanishingly\". The effect takes the \
+             rebound by the same share that it captures (softening 1), a choice that this confirms.",
+            ),
             Claim::unchecked(
                 "Fig 13",
                 "e_g between 55 and 105 °C",
                 "decreases",
-                "No values are printed, nor e_t over the temperature; the model lowers e_n only and keeps e_t, so that e_g at 84° ends at 0.08.",
+                "No values are printed, nor e_t over the temperature; the model lowers e_n only and keeps \
+                 e_t, so that e_g at 84° ends at 0.08.",
             ),
         ],
         ..Part::default()
@@ -143,8 +172,10 @@ pub(super) fn conversion() -> Answer<Part> {
     Ok(Part {
         heading: "Fig 12, coal: the conversion".to_owned(),
         text: vec![
-            "Li et al.'s captures are in a figure, their numbers not in the text. What can be posed is where the rise lies: \
-             `conversion-transition` puts half of the captures at 0.89, the middle of the stated 0.88 to 0.90, with an assumed \
+            "Li et al.'s captures are in a figure, their numbers not in the text. What can be posed is \
+             where the rise lies: \
+             `conversion-transition` puts half of the captures at 0.89, the middle of the stated 0.88 to \
+             0.90, with an assumed \
              width. Nothing here is a test."
                 .to_owned(),
         ],
@@ -155,7 +186,11 @@ pub(super) fn conversion() -> Answer<Part> {
                 .line("conversion-transition", &curve)
                 .mark_x(0.88, "")
                 .mark_x(0.9, "0.88–0.90")
-                .figure("troiano-conversion", "43 to 63 µm coal at 1300 °C (assumed). The threshold is the paper's, the width assumed."),
+                .figure(
+                    "troiano-conversion",
+                    "43 to 63 µm coal at 1300 °C (assumed). The threshold is the \
+                 paper's, the width assumed.",
+                ),
         ],
         claims: vec![
             Claim::statement(
