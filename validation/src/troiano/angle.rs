@@ -92,49 +92,42 @@ fn restitutions() -> Answer<Part> {
         text: vec![
             format!(
                 "Plain laws: e_n depends on v_n alone, which Fig. 6 keeps at 1 m/s, so it is {base:.3} at \
-                 every angle; e_t slides \
-                 down to 0.63 and jumps to 5/7. The paper names what is missing: air that lifts particles \
-                 at glancing angles, and \
-                 tangential compliance. Both are effects here. Each has one number set to one of the \
-                 paper's (e_n at 35°, e_t at \
-                 80°), and c is lowered so that e_n is 0.28 near the normal at 1 m/s ({ratio:.2} without \
-                 lift).",
+                 every angle; e_t slides down to 0.63 and jumps to 5/7. The paper names what is missing: air \
+                 that lifts particles at glancing angles, and tangential compliance. Both are effects here. \
+                 Each has one number set to one of the paper's (e_n at 35°, e_t at 80°), and c is lowered so \
+                 that e_n is 0.28 near the normal at 1 m/s ({ratio:.2} without lift).",
             ),
             format!(
-                "What lift would have to be: e_n a factor {:.2} at 35°, that is strength {by_four:.2} s/m \
-                 if the air was four times as \
-                 fast as the {:.2} m/s of normal impacts. But at v_n = 1 m/s the impact speed at 35° is \
-                 only 1.74 times that of a \
-                 normal impact; four times belongs to 14.5°. With the air that 35° needs the strength is \
-                 {by_tube:.2} s/m, and e_n at \
-                 13° would be {with_tube_13:.2}. The paper has no e_n above 0.41. Its explanation and its \
-                 data agree only if lift \
-                 saturates, or if the cause at 35° is another.",
+                "What lift would have to be: e_n a factor {:.2} at 35°, that is strength {by_four:.2} s/m if \
+                 the air was four times as fast as the {:.2} m/s of normal impacts. But at v_n = 1 m/s the \
+                 impact speed at 35° is only 1.74 times that of a normal impact; four times belongs to \
+                 14.5°. With the air that 35° needs the strength is {by_tube:.2} s/m, and e_n at 13° would \
+                 be {with_tube_13:.2}. The paper has no e_n above 0.41. Its explanation and its data agree \
+                 only if lift saturates, or if the cause at 35° is another.",
                 1.0 + gain,
                 tube_air(90.0)
             ),
             format!(
-                "The paper's numbers for e_t do not agree among themselves: the line e_t = 1 - 0.28 \
-                 (1+e_n) tan(alpha) gives \
-                 {:.2} at 13°, Fig. 6 says 0.8. Sliding holds this whatever the spin, so rotation does not \
-                 explain it. A line \
-                 of the same slope that is not forced through e_t = 1 would meet 0.8 with an intercept of \
-                 {intercept:.2}, and then \
-                 falls to {:.2} at 1.31; the paper does not say which line it drew.",
+                "The paper's numbers for e_t do not agree among themselves: the line e_t = 1 - 0.28 (1+e_n) \
+                 tan(alpha) gives {:.2} at 13°, Fig. 6 says 0.8. Sliding holds this whatever the spin, so \
+                 rotation does not explain it; it would take f = {:.2}. A line of the same slope that is not \
+                 forced through e_t = 1 would meet 0.8 with an intercept of {intercept:.2}, and then falls \
+                 to {:.2} at 1.31; the paper does not say which line it drew.",
                 sliding_at_13.tangential_restitution,
+                0.2 / (1.41 * 13f64.to_radians().tan()),
                 intercept - FRICTION.value * 1.31
             ),
         ],
         figures: vec![
             e_n_figure.figure(
                 "troiano-angle-normal",
-                "v_n = 1 m/s, wax of 75 µm on Pyrex. Lift that grows with the air along the wall \
-                 overshoots below 35°.",
+                "v_n = 1 m/s, wax of 75 µm on Pyrex. Lift that grows with the air along the wall overshoots \
+                 below 35°.",
             ),
             e_t_figure.figure(
                 "troiano-angle-tangential",
-                "The point at 45° is the end of the stated sliding line (1.31); compliance is set to the \
-                 one at 80°.",
+                "The point at 45° is the end of the stated sliding line (1.31); compliance is set to the one \
+                 at 80°.",
             ),
         ],
         claims: angle_claims(
@@ -163,8 +156,7 @@ fn angle_claims(
         E_N_NEAR_NORMAL.beside(at(plain, STEEP, 0.0)?.normal_restitution, Basis::Predicted).because(
             &format!(
                 "With c = 0.7, which the paper fitted to Fig. 8. Fig. 6 alone asks for c = {ratio:.2}. The \
-             deviation is within what \
-             sigma_y = 9.5 ± 2.5 MPa leaves open (part on speed)."
+             deviation is within what sigma_y = 9.5 ± 2.5 MPa leaves open (part on speed)."
             ),
         ),
         E_N_NEAR_NORMAL
@@ -173,10 +165,9 @@ fn angle_claims(
         E_N_GLANCING
             .beside(at(plain, GLANCING, 0.0)?.normal_restitution, Basis::Predicted)
             .because("The plain law knows no angle."),
-        E_N_GLANCING.beside(at(refined, GLANCING, four)?.normal_restitution, Basis::Fitted).because(
-            "Lift \
-         set to it.",
-        ),
+        E_N_GLANCING
+            .beside(at(refined, GLANCING, four)?.normal_restitution, Basis::Fitted)
+            .because("Lift set to it."),
         Claim::number(
             "Fig 6",
             "e_n at 13° by the lift that fits 35°; \"the largest value\" was 0.41",
@@ -185,17 +176,16 @@ fn angle_claims(
             Basis::Predicted,
         )
         .because(&format!(
-            "Air as fast as each angle needs. With four times the air of normal impacts at 35° and 13° \
-             alike it is {four_at_13:.2}. \
-             A gain that is proportional to the air along the wall cannot stop at 35°."
+            "Air as fast as each angle needs. With four times the air of normal impacts at 35° and 13° alike \
+             it is {four_at_13:.2}. A gain that is proportional to the air along the wall cannot stop at \
+             35°."
         )),
         Claim::statement(
             "Sec 4.1",
             "air at small angles over air at normal impact, v_n = 1 m/s [1]",
             "around 4",
             &format!(
-                "{:.1} at 35°, {:.1} at \
-             13°",
+                "{:.1} at 35°, {:.1} at 13°",
                 tube_air(35.0) / tube_air(90.0),
                 tube_air(13.0) / tube_air(90.0)
             ),
@@ -203,16 +193,15 @@ fn angle_claims(
             Basis::Derived,
         )
         .because(
-            "Follows from v_i = 1/sin(alpha) less terminal velocity; 4 is right near 16°, not at 35°, \
-         where e_n was 0.41.",
+            "Follows from v_i = 1/sin(alpha) less terminal velocity; 4 is right near 16°, not at 35°, where \
+         e_n was 0.41.",
         ),
-        FRICTION.beside(slope, Basis::Fitted).because(
-            "The law's own parameter; checks only that 10° to \
-         45° is sliding.",
-        ),
+        FRICTION
+            .beside(slope, Basis::Fitted)
+            .because("The law's own parameter; checks only that 10° to 45° is sliding."),
         E_T_GLANCING.beside(at(plain, 13.0, 0.0)?.tangential_restitution, Basis::Predicted).because(
-            "The paper contradicts itself here: its own f = 0.28 in its own Eq. 10 gives 0.91 (e_n 0.41) \
-             to 0.92 (0.28).",
+            "The paper contradicts itself here: its own f = 0.28 in its own Eq. 10 gives 0.91 (e_n 0.41) to \
+             0.92 (0.28).",
         ),
         E_T_LEAST
             .beside(least, Basis::Predicted)
@@ -220,8 +209,8 @@ fn angle_claims(
         SLIDING_END
             .beside((1.0 + end.normal_restitution) * least.to_radians().tan(), Basis::Predicted)
             .because(
-                "For finite k the law ends at 2/(7 - 1/k)/f = 1.29 at any e_n; 1.31 is 43.3° for e_n \
-             = 0.39.",
+                "For finite k the law ends at 2/(7 - 1/k)/f = 1.29 at any e_n; 1.31 is 43.3° for e_n = \
+             0.39.",
             ),
         Claim::statement(
             "Fig 7",
@@ -233,8 +222,7 @@ fn angle_claims(
         )
         .because(
             "It is the best-fit mean of all angles, not a value between 0.41 at 35° and 0.28 (some 0.38 at \
-             45°), for which 1.31 \
-             lies at 43.5°. Within the scatter the two cannot be told apart.",
+             45°), for which 1.31 lies at 43.5°. Within the scatter the two cannot be told apart.",
         ),
         SLIDING_END_ANGLE
             .beside(least, Basis::Predicted)
@@ -305,16 +293,12 @@ fn best_fit() -> Answer<Part> {
         heading: "Fig 6: Eq. 9 with constant e_n and e_t".to_owned(),
         text: vec![format!(
             "The paper fits e_g over all angles with two constants. Its points are in a figure only; here \
-             e_n and e_t are drawn \
-             straight through the values that the text states (0.41 up to 35°, falling to 0.28 at 84°; 0.8 \
-             up to 13°, 0.633 at \
-             43°, 0.85 from 80° on) and Eq. 9 is fitted to the e_g that follow, every 5° from 10° to 90°. \
-             Through the stated \
-             points: {:.3} and {:.3}; every 10°: {:.3} and {:.3}. With the sliding line up to 43° in place \
-             of 0.8 at 13°: {:.3} \
-             and {:.3}. The paper's pair fits the stated points, not the line of its Fig. 7, and never \
-             misses their e_g by more than \
-             {offset:.2}.",
+             e_n and e_t are drawn straight through the values that the text states (0.41 up to 35°, falling \
+             to 0.28 at 84°; 0.8 up to 13°, 0.633 at 43°, 0.85 from 80° on) and Eq. 9 is fitted to the e_g \
+             that follow, every 5° from 10° to 90°. Through the stated points: {:.3} and {:.3}; every 10°: \
+             {:.3} and {:.3}. With the sliding line up to 43° in place of 0.8 at 13°: {:.3} and {:.3}. The \
+             paper's pair fits the stated points, not the line of its Fig. 7, and never misses their e_g by \
+             more than {offset:.2}.",
             points[0], points[1], coarse[0], coarse[1], slid[0], slid[1]
         )],
         figures: vec![
@@ -328,13 +312,12 @@ fn best_fit() -> Answer<Part> {
         ],
         claims: vec![
             FIT_E_N.beside(points[0], Basis::Predicted).because(
-                "From stated values at five angles in place of the figure's points; where those lie, and \
-                 how they are weighted, \
-                 moves the result by 0.01 to 0.02.",
+                "From stated values at five angles in place of the figure's points; where those lie, and how \
+                 they are weighted, moves the result by 0.01 to 0.02.",
             ),
             FIT_E_T.beside(points[1], Basis::Predicted).because(
-                "As above. With the line f = 0.28 it would be 0.82: the fit confirms 0.8 at 13° against \
-                 Fig. 7's line.",
+                "As above. With the line f = 0.28 it would be 0.82: the fit confirms 0.8 at 13° against Fig. \
+                 7's line.",
             ),
         ],
         ..Part::default()

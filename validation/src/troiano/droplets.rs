@@ -73,21 +73,17 @@ pub(super) fn part() -> Answer<Part> {
         heading: "Fig 14: molten wax".to_owned(),
         text: vec![
             format!(
-                "Two ways to pose it, both predictions. Melting as set at 70 and 105 °C says {:.1} % at \
-                 120 °C for every speed and angle. \
-                 The droplet criterion says 100 %: over Fig. 14 We is {}, Re {} and K = We^½ Re^¼ {}, and \
-                 nothing splashes below {SPLASH_K}. \
-                 Both meet \"above 85 %\".",
+                "Two ways to pose it, both predictions. Melting as set at 70 and 105 °C says {:.1} % at 120 \
+                 °C for every speed and angle. The droplet criterion says 100 %: over Fig. 14 We is {}, Re \
+                 {} and K = We^½ Re^¼ {}, and nothing splashes below {SPLASH_K}. Both meet \"above 85 %\".",
                 by_melting[0],
                 show(weber),
                 show(reynolds),
                 show(splash)
             ),
-            "Neither has the slight trends, falling with speed at small angles and rising at large ones. \
-             No numbers are printed to \
-             hold a law against. The droplet criterion excludes splashing as their cause; a melt that \
-             slides off or bounces whole \
-             is not in it."
+            "Neither has the slight trends, falling with speed at small angles and rising at large ones. No \
+             numbers are printed to hold a law against. The droplet criterion excludes splashing as their \
+             cause; a melt that slides off or bounces whole is not in it."
                 .to_owned(),
         ],
         figures: vec![
@@ -117,16 +113,15 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "Nothing of the wax tests entered but density, viscosity and surface tension. The 0 \
-             to 15 % that did not stick are not explained.",
+                "Nothing of the wax tests entered but density, viscosity and surface tension. The 0 to 15 % \
+             that did not stick are not explained.",
             ),
             Claim::statement(
                 "Fig 14",
                 "capture falls with speed at small angles",
                 "\"slightly decreases\"",
                 &format!(
-                    "{} % by melting, {} % by the droplet \
-                 criterion",
+                    "{} % by melting, {} % by the droplet criterion",
                     show(by_melting),
                     show(by_droplet)
                 ),
@@ -134,9 +129,9 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "The 100 % are impacts below the solid's sticking velocity (glancing and slow), the \
-             only trend there is: of the stated sign, by the wrong cause. Sliding of a molten particle \
-             along the wall, the paper's cause, is not modelled.",
+                "The 100 % are impacts below the solid's sticking velocity (glancing and slow), the only \
+             trend there is: of the stated sign, by the wrong cause. Sliding of a molten particle along the \
+             wall, the paper's cause, is not modelled.",
             ),
             Claim::statement(
                 "Fig 14",
@@ -152,10 +147,9 @@ pub(super) fn part() -> Answer<Part> {
                 "\"at larger impact velocities the viscous dissipation overtakes the inertial energy\"",
                 "cause of the rise",
                 &format!(
-                    "Re, inertia over viscous force, grows with speed ({}), so it cannot be meant \
-                     literally; that less of the energy is \
-                     left in the surface to throw the drop back (it goes with 1/We) could. Needs the \
-                     contact angle of wax on glass.",
+                    "Re, inertia over viscous force, grows with speed ({}), so it cannot be meant literally; \
+                     that less of the energy is left in the surface to throw the drop back (it goes with \
+                     1/We) could. Needs the contact angle of wax on glass.",
                     show(reynolds)
                 ),
             ),
@@ -279,22 +273,19 @@ pub(super) fn regimes() -> Answer<Part> {
         heading: "Section 3.1: neither entrapped nor over-layered".to_owned(),
         text: vec![
             format!(
-                "The paper says of slag and of wax that the criteria of entrapment and over-layering are \
-                 not met, and does not write \
-                 them down. The forms here are derived from surface energy, Stokes drag and a balance of \
-                 fresh slag (`docs/physics.md`), so \
-                 the claim is tested by criteria of the same names, not by the same criteria. From the \
-                 paper: tension, viscosity and \
-                 density, 2 m/s, 50 to 100 µm. Assumed: contact angle, {SLAG_FLUX} kg/(m² s) of slag, \
-                 {BURN} s to burn off, char density."
+                "The paper says of slag and of wax that the criteria of entrapment and over-layering are not \
+                 met, and does not write them down. The forms here are derived from surface energy, Stokes \
+                 drag and a balance of fresh slag (`docs/physics.md`), so the claim is tested by criteria of \
+                 the same names, not by the same criteria. From the paper: tension, viscosity and density, 2 \
+                 m/s, 50 to 100 µm. Assumed: contact angle, {SLAG_FLUX} kg/(m² s) of slag, {BURN} s to burn \
+                 off, char density."
             ),
             "Largest value over all corners of these ranges; 1 or more entraps or buries. For slag the \
-             statement on entrapment is robust: \
-             the surface alone holds char at 2 m/s from 90° on, drag aside. For wax it is not: the surface \
-             is some twenty times weaker, drag \
-             alone stops the particle, and wax on its own melt has a small contact angle, at which it goes \
-             under. Over-layering hangs on the \
-             flux of slag and the time of stay, neither of which the paper gives."
+             statement on entrapment is robust: the surface alone holds char at 2 m/s from 90° on, drag \
+             aside. For wax it is not: the surface is some twenty times weaker, drag alone stops the \
+             particle, and wax on its own melt has a small contact angle, at which it goes under. \
+             Over-layering hangs on the flux of slag and the time of stay, neither of which the paper \
+             gives."
                 .to_owned(),
         ],
         tables: vec![table(
@@ -320,8 +311,7 @@ pub(super) fn regimes() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(&format!(
-                "Without any drag {}. The contact angle is \
-             assumed.",
+                "Without any drag {}. The contact angle is assumed.",
                 number(most(slag, false))
             )),
             Claim::number(
@@ -332,8 +322,8 @@ pub(super) fn regimes() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "By 20 % only, and by the assumed flux and burn-off: a gasifier with 0.0125 kg/(m² s) \
-             would bury the smallest.",
+                "By 20 % only, and by the assumed flux and burn-off: a gasifier with 0.0125 kg/(m² s) would \
+             bury the smallest.",
             ),
             Claim::number(
                 "Sec 3.1",
@@ -344,8 +334,7 @@ pub(super) fn regimes() -> Answer<Part> {
             )
             .because(&format!(
                 "Drag alone: without it {} at 90°, and the statement fails. Drag in full is generous for a \
-                 particle that is only half \
-                 immersed.",
+                 particle that is only half immersed.",
                 number(range(wax.judged(90.0, 2.0, false).iter().map(|judged| judged.inertia))[1])
             )),
             Claim::unchecked(
@@ -353,8 +342,7 @@ pub(super) fn regimes() -> Answer<Part> {
                 "wax: entrapment by wetting",
                 "not met",
                 "The contact angle of molten wax on solid wax is not given; near 0°, as for most melts on \
-                 their own solid, the particle \
-                 goes under at any speed.",
+                 their own solid, the particle goes under at any speed.",
             ),
             Claim::unchecked(
                 "Sec 3.1",

@@ -52,18 +52,13 @@ pub(super) fn normal() -> Answer<Part> {
         heading: "Equations 1 to 6: the normal impact".to_owned(),
         text: vec![
             "Each equation was computed as it is printed and held against Thornton and Ning's closed form, \
-             which the library \
-             uses and which the study of independent checks integrates numerically. Two of six carry a \
-             slip. Neither changes \
-             a conclusion of the paper by itself; the one in Eq. 6 cannot have been in the authors' \
-             calculation, since e_n \
-             would jump at v_y."
+             which the library uses and which the study of independent checks integrates numerically. Two of \
+             six carry a slip. Neither changes a conclusion of the paper by itself; the one in Eq. 6 cannot \
+             have been in the authors' calculation, since e_n would jump at v_y."
                 .to_owned(),
-            "A third point is no slip but a gap: Eq. 4 lets particles rebound from v_s on, while Eq. 6 \
-             with the same v_s is \
-             negative up to about twice that speed when v_y < v_s, as it is here. The speed at which wax \
-             really sticks on \
-             Pyrex by these equations is where Eq. 6 vanishes."
+            "A third point is no slip but a gap: Eq. 4 lets particles rebound from v_s on, while Eq. 6 with \
+             the same v_s is negative up to about twice that speed when v_y < v_s, as it is here. The speed \
+             at which wax really sticks on Pyrex by these equations is where Eq. 6 vanishes."
                 .to_owned(),
         ],
         claims: vec![
@@ -102,10 +97,9 @@ pub(super) fn normal() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is seventeen times \
-                 less than v_s, so the \
-                 loss by yielding adds to adhesion and the sticking velocity doubles. No test of the paper \
-                 was so slow.",
+                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is seventeen times less \
+                 than v_s, so the loss by yielding adds to adhesion and the sticking velocity doubles. No \
+                 test of the paper was so slow.",
             ),
             Claim::number(
                 "Eq 5",
@@ -127,9 +121,8 @@ pub(super) fn normal() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(&format!(
-                "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With \
-                 it Eq. 6 is the \
-                 library's plastic term within {}.",
+                "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With it \
+                 Eq. 6 is the library's plastic term within {}.",
                 number(largest_gap)
             )),
         ],
@@ -180,27 +173,21 @@ pub(super) fn oblique() -> Answer<Part> {
         text: vec![
             format!(
                 "Eq. 9's middle expression and Eq. 12 are slips; Eq. 11 is not what the text calls it. A \
-                 sphere that is rigid \
-                 rolls from the angle at which sliding reaches e_t = 5/7, which is {:.1}° for e_n = 0.31 \
-                 and {:.1}° for 0.39. \
-                 Eq. 11 with k is where an elastic contact ceases to slide all through the impact, later; \
-                 at that angle \
-                 sliding has brought e_t down to {:.3}, below 5/7, and a law of Eqs 10, 11 and 5/7 jumps \
-                 there.",
+                 sphere that is rigid rolls from the angle at which sliding reaches e_t = 5/7, which is \
+                 {:.1}° for e_n = 0.31 and {:.1}° for 0.39. Eq. 11 with k is where an elastic contact ceases \
+                 to slide all through the impact, later; at that angle sliding has brought e_t down to \
+                 {:.3}, below 5/7, and a law of Eqs 10, 11 and 5/7 jumps there.",
                 rigid(0.31),
                 rigid(0.39),
                 end_of_sliding
             ),
             format!(
                 "What Eq. 12 was in the authors' calculation cannot be told from 43°: with Mindlin's k = \
-                 {k:.3} Eq. 11 gives 43° \
-                 for e_n = {:.3}, with k = 1, which the equation as printed gives for any two materials, \
-                 for e_n = {:.3}. The \
-                 first lies between Fig. 6's 0.41 at 35° and 0.28 near the normal, the second is the mean \
-                 of Fig. 10. The data of \
-                 Fig. 7 tell more: where (1+e_n) tan(alpha) ends sliding does not depend on e_n, and is \
-                 {:.2} with Mindlin's k, {:.2} with \
-                 k = 1 and {:.2} for a rigid sphere. The paper reads 1.31.",
+                 {k:.3} Eq. 11 gives 43° for e_n = {:.3}, with k = 1, which the equation as printed gives \
+                 for any two materials, for e_n = {:.3}. The first lies between Fig. 6's 0.41 at 35° and \
+                 0.28 near the normal, the second is the mean of Fig. 10. The data of Fig. 7 tell more: \
+                 where (1+e_n) tan(alpha) ends sliding does not depend on e_n, and is {:.2} with Mindlin's \
+                 k, {:.2} with k = 1 and {:.2} for a rigid sphere. The paper reads 1.31.",
                 angle_for(43.0, k),
                 angle_for(43.0, 1.0),
                 sliding_ends(k),
@@ -238,10 +225,9 @@ pub(super) fn oblique() -> Answer<Part> {
             )
             .because(
                 "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out \
-                 and has no root: it is \
-                 (e_n² + e_t²)/2 at every angle. What is meant is the root of (v_n,r² + v_t,r²)/(v_n,i² + \
-                 v_t,i²); the right-hand \
-                 side is right and is what the library computes.",
+                 and has no root: it is (e_n² + e_t²)/2 at every angle. What is meant is the root of (v_n,r² \
+                 + v_t,r²)/(v_n,i² + v_t,i²); the right-hand side is right and is what the library \
+                 computes.",
             ),
             Claim::number(
                 "Eq 10",
@@ -261,18 +247,16 @@ pub(super) fn oblique() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: \
-                 it is the limit of \
-                 gross sliding of an elastic sphere. That the data leave the line near 43° to 45° supports \
-                 elastic contact, \
-                 not rigid-body theory.",
+                "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it \
+                 is the limit of gross sliding of an elastic sphere. That the data leave the line near 43° \
+                 to 45° supports elastic contact, not rigid-body theory.",
             ),
             CRITICAL_ANGLE
                 .beside(degrees(0.41 + (0.28 - 0.41) * (43.0 - 35.0) / (84.0 - 35.0), k), Basis::Predicted)
                 .because(&format!(
                     "Takes Mindlin's k and e_n = 0.39 at 43°, drawn straight between Fig. 6's 0.41 at 35° \
-                     and 0.28 at 84°. With \
-                     e_n = 0.31, which 1.31 at 45° implies, it is {:.1}°; with 0.28, {:.1}°.",
+                     and 0.28 at 84°. With e_n = 0.31, which 1.31 at 45° implies, it is {:.1}°; with 0.28, \
+                     {:.1}°.",
                     degrees(0.31, k),
                     degrees(0.28, k)
                 )),
@@ -285,8 +269,8 @@ pub(super) fn oblique() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print \
-             or in the scan.",
+                "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print or in \
+             the scan.",
             ),
             Claim::number(
                 "Eq 14",

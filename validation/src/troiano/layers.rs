@@ -78,26 +78,21 @@ pub(super) fn part() -> Answer<Part> {
         heading: "Figs 10 and 11: powder on the target".to_owned(),
         text: vec![
             "`powder-layer` has two numbers, set on the two dry layers; their e_n follows and proves \
-             nothing. Three points of a curve \
-             in two numbers do not test its form: any law that falls fast and levels off would do. The row \
-             on syrup was not used, \
-             but its thickness lies between points that were, so what it tests is that the liquid below \
-             does nothing."
+             nothing. Three points of a curve in two numbers do not test its form: any law that falls fast \
+             and levels off would do. The row on syrup was not used, but its thickness lies between points \
+             that were, so what it tests is that the liquid below does nothing."
                 .to_owned(),
             format!(
                 "That is a real test against the film's own law: bare syrup of 0.5 Pa s would hold every \
-                 particle of 75 µm at 0.5 to \
-                 3 m/s (Stokes number at most {stokes:.2}, some 10 to 25 needed). The measured 0.1 says \
-                 that particles never reach \
-                 it. The library does not switch `liquid-film` off under powder by itself: a wall with \
-                 both has to be given no film."
+                 particle of 75 µm at 0.5 to 3 m/s (Stokes number at most {stokes:.2}, some 10 to 25 \
+                 needed). The measured 0.1 says that particles never reach it. The library does not switch \
+                 `liquid-film` off under powder by itself: a wall with both has to be given no film."
             ),
             "The paper explains the loss by a softer, wider contact with more adhesion. Neither the effect \
-             nor the paper's data (means \
-             of restitution) can tell that from the work of pushing powder aside. At the low end the data \
-             are at the limit of the rig: e_n = 0.07 at 0.5 m/s is a rebound \
-             of 0.035 m/s, 1.3 pixels a frame (27 µm, 1 ms), that rises by 0.06 mm, less than the \
-             particle's diameter."
+             nor the paper's data (means of restitution) can tell that from the work of pushing powder \
+             aside. At the low end the data are at the limit of the rig: e_n = 0.07 at 0.5 m/s is a rebound \
+             of 0.035 m/s, 1.3 pixels a frame (27 µm, 1 ms), that rises by 0.06 mm, less than the particle's \
+             diameter."
                 .to_owned(),
         ],
         tables: vec![table(
@@ -106,23 +101,20 @@ pub(super) fn part() -> Answer<Part> {
             rows,
             1,
         )],
-        figures: vec![lines.figure(
-            "troiano-layers",
-            "Set through the two dry layers; the point on syrup \
-         was not used.",
-        )],
+        figures: vec![
+            lines
+                .figure("troiano-layers", "Set through the two dry layers; the point on syrup was not used."),
+        ],
         claims: vec![
             E_N_THIN.beside(thin[0], Basis::Fitted).because(
-                "With c = 0.7 the bare e_n is 0.291, 4 % above \
-             0.28 (Fig. 8), and so are the layers. One of the effect's two numbers set to it. Band: 0.01, \
-             as 0.07 beside it has two decimals.",
+                "With c = 0.7 the bare e_n is 0.291, 4 % above 0.28 (Fig. 8), and so are the layers. One of \
+             the effect's two numbers set to it. Band: 0.01, as 0.07 beside it has two decimals.",
             ),
             E_N_THICK.beside(thick[0], Basis::Fitted).because("The other number set to it."),
             E_N_SYRUP.beside(on_syrup[0], Basis::Predicted).because(
                 "0.2 mm lies where the fitted curve is steep: it says 0.12, a fifth above 0.1. \"The same \
-                 regardless\" is not a number; \
-                 within ± 0.02 the two agree. A decay length of 0.09 mm with a residual of 0.27 would meet \
-                 all three rows.",
+                 regardless\" is not a number; within ± 0.02 the two agree. A decay length of 0.09 mm with a \
+                 residual of 0.27 would meet all three rows.",
             ),
             Claim::statement(
                 "Fig 10",
@@ -134,8 +126,8 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "0.2 mm of syrup and asperities of 1 µm assumed; the film's law is beyond its range \
-             (film thicker than the particle), but by orders of magnitude.",
+                "0.2 mm of syrup and asperities of 1 µm assumed; the film's law is beyond its range (film \
+             thicker than the particle), but by orders of magnitude.",
             ),
             Claim::statement(
                 "Fig 11",
@@ -146,8 +138,8 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none \
-             over powder.",
+                "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none over \
+             powder.",
             ),
             Claim::statement(
                 "Sec 4.1",
@@ -158,8 +150,8 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "Less than a quarter over a sixfold range is taken for it; it would be more than a \
-             third with the printed v_s (Fig. 8).",
+                "Less than a quarter over a sixfold range is taken for it; it would be more than a third \
+             with the printed v_s (Fig. 8).",
             ),
         ],
     })

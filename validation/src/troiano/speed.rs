@@ -75,14 +75,12 @@ pub(super) fn part() -> Answer<Part> {
         heading: "Fig 8: the speed".to_owned(),
         text: vec![
             format!(
-                "Thornton and Ning's law with the paper's inputs and c = 0.7 has a mean e_n of {:.3} \
-                 between 0.5 and 3 m/s, {:.3} at \
-                 0.5, {:.3} at 1 and {:.3} at 3 m/s; the deviations of sigma_y (26 %) and E (9 %) alone, \
-                 in quadrature, make that mean \
-                 {low:.2} to {high:.2}. Sizes of 65 to 85 µm move it by {:.3} at 0.5 m/s and {:.3} at 3. \
-                 So c is known no better than \
-                 sigma_y: only p_y = c sigma_y = 6.7 MPa enters, and the fit cannot tell a soft contact \
-                 from a softer wax.",
+                "Thornton and Ning's law with the paper's inputs and c = 0.7 has a mean e_n of {:.3} between \
+                 0.5 and 3 m/s, {:.3} at 0.5, {:.3} at 1 and {:.3} at 3 m/s; the deviations of sigma_y (26 \
+                 %) and E (9 %) alone, in quadrature, make that mean {low:.2} to {high:.2}. Sizes of 65 to \
+                 85 µm move it by {:.3} at 0.5 m/s and {:.3} at 3. So c is known no better than sigma_y: \
+                 only p_y = c sigma_y = 6.7 MPa enters, and the fit cannot tell a soft contact from a softer \
+                 wax.",
                 mean(&centre),
                 at(0.5),
                 at(1.0),
@@ -92,12 +90,10 @@ pub(super) fn part() -> Answer<Part> {
             ),
             format!(
                 "Table 4's slip of ten in v_s decides the form at the low end. With the mended 0.12 m/s \
-                 adhesion lowers e_n at 0.5 m/s \
-                 from {:.2} to {:.2} and the curve is nearly flat, as the paper says of its data (\"about \
-                 constant\"); with the \
-                 printed 0.0115 it falls from {:.2} to {:.2} and its mean is {printed_mean:.3}. Which of \
-                 the two the authors drew cannot \
-                 be read from the text. The best c for a mean of 0.28 is {best:.2} or {best_printed:.2}.",
+                 adhesion lowers e_n at 0.5 m/s from {:.2} to {:.2} and the curve is nearly flat, as the \
+                 paper says of its data (\"about constant\"); with the printed 0.0115 it falls from {:.2} to \
+                 {:.2} and its mean is {printed_mean:.3}. Which of the two the authors drew cannot be read \
+                 from the text. The best c for a mean of 0.28 is {best:.2} or {best_printed:.2}.",
                 without(0.5),
                 at(0.5),
                 printed(0.5),
@@ -106,14 +102,13 @@ pub(super) fn part() -> Answer<Part> {
         ],
         figures: vec![figure.figure(
             "troiano-speed",
-            "Wax of 75 µm on Pyrex. Band: sigma_y ± 2.5 MPa and E ± 66 MPa. The points are the stated \
-             mean, not data.",
+            "Wax of 75 µm on Pyrex. Band: sigma_y ± 2.5 MPa and E ± 66 MPa. The points are the stated mean, \
+             not data.",
         )],
         claims: vec![
             E_N_MEAN.beside(mean(&centre), Basis::Fitted).because(&format!(
-                "c = 0.7 is the paper's fit and printed to one digit; 0.65 to 0.75 gives {:.3} to {:.3}. \
-                 Of our making are even weights \
-                 over the speeds.",
+                "c = 0.7 is the paper's fit and printed to one digit; 0.65 to 0.75 gives {:.3} to {:.3}. Of \
+                 our making are even weights over the speeds.",
                 mean_of(0.65)?,
                 mean_of(0.75)?
             )),
@@ -156,13 +151,13 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "Far above v_y the law tends to v^(-1/4): six times the speed lowers e_n to 0.64 at \
-             the least.",
+                "Far above v_y the law tends to v^(-1/4): six times the speed lowers e_n to 0.64 at the \
+             least.",
             ),
             Claim::statement(
                 "Sec 4.1",
-                "e_n \"is a function of the yield velocity only\": what leaving adhesion out adds to e_n \
-                 at 0.5, 1.25, 3 m/s [%]",
+                "e_n \"is a function of the yield velocity only\": what leaving adhesion out adds to e_n at \
+                 0.5, 1.25, 3 m/s [%]",
                 "nothing",
                 &format!(
                     "{:.0}, {:.0}, {:.0}",
@@ -175,8 +170,7 @@ pub(super) fn part() -> Answer<Part> {
             )
             .because(
                 "True from 1.25 m/s on within 5 %. At 0.5 m/s adhesion takes a third of what plasticity \
-                 leaves of the energy; with \
-                 the printed v_s, ten times too small, it would not be seen.",
+                 leaves of the energy; with the printed v_s, ten times too small, it would not be seen.",
             ),
             Claim::number(
                 "Fig 8",

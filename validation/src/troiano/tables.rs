@@ -58,6 +58,13 @@ pub(super) fn materials() -> Answer<Part> {
             && read("youngs_modulus")? == target.modulus
             && read("poisson_ratio")? == target.poisson;
     }
+    let melt = [
+        property("montan-wax", "density", 373.15)?,
+        property("montan-wax", "surface_tension", 373.15)?,
+        property("montan-wax", "melting_point", 353.15)?,
+    ];
+    let slag_melt =
+        [property("coal-slag", "density", 1673.15)?, property("coal-slag", "surface_tension", 1673.15)?];
     let ends = |of: fn(&Solid) -> f64| {
         let values = SOLIDS.iter().skip(1).map(of);
         values.fold([f64::INFINITY, 0.0_f64], |[low, high], value| [low.min(value), high.max(value)])
@@ -73,10 +80,8 @@ pub(super) fn materials() -> Answer<Part> {
         heading: "Tables 1 and 2: the materials".to_owned(),
         text: vec![
             "The library's materials against the printed ones, room temperature, MPa. The table says that \
-             the wax resembles \
-             coal. It does so in the middle of a range of two decades: what a char particle does at a wall \
-             cannot be read off \
-             the wax alone."
+             the wax resembles coal. It does so in the middle of a range of two decades: what a char \
+             particle does at a wall cannot be read off the wax alone."
                 .to_owned(),
         ],
         tables: vec![table(
@@ -94,8 +99,8 @@ pub(super) fn materials() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "Inputs, not results. Coal 801's ± 41.37 MPa is a tenth of what the others have; it \
-             is kept as printed.",
+                "Inputs, not results. Coal 801's ± 41.37 MPa is a tenth of what the others have; it is kept \
+             as printed.",
             ),
             Claim::statement(
                 "Table 1",
@@ -120,8 +125,8 @@ pub(super) fn materials() -> Answer<Part> {
                 Basis::Derived,
             )
             .because(
-                "The range is 90-fold in E. By Eq. 3, v_y goes with sigma_y^(5/2)/E² and spreads over \
-             far more.",
+                "The range is 90-fold in E. By Eq. 3, v_y goes with sigma_y^(5/2)/E² and spreads over far \
+             more.",
             ),
             Claim::statement(
                 "Tables 2, 4",
@@ -131,6 +136,32 @@ pub(super) fn materials() -> Answer<Part> {
                 energies,
                 Basis::Derived,
             ),
+            Claim::statement(
+                "Sec 3.1",
+                "wax: density [kg/m³], surface tension [N/m], melting [°C]",
+                "around 1000; 0.03; 75 to 85",
+                &format!("{}; {}; {}", number(melt[0]), number(melt[1]), number(melt[2] - 273.15)),
+                melt[0] == 1000.0 && melt[1] == 0.03 && (348.15..=358.15).contains(&melt[2]),
+                Basis::Derived,
+            )
+            .because("Inputs: what the library's wax has."),
+            Claim::statement(
+                "Sec 3.1",
+                "slag: density [kg/m³], surface tension [N/m]",
+                "2500 to 3000; 0.4 to 0.7",
+                &format!("{}; {}", number(slag_melt[0]), number(slag_melt[1])),
+                (2500.0..=3000.0).contains(&slag_melt[0]) && (0.4..=0.7).contains(&slag_melt[1]),
+                Basis::Derived,
+            )
+            .because("Inputs: what the library's coal slag has, the middles."),
+            Claim::number(
+                "Sec 3.2",
+                "width of a pixel, 0.028 m over 1024 [µm], \"about\"",
+                Published::within(27.0, 0.5),
+                0.028e6 / 1024.0,
+                Basis::Derived,
+            )
+            .because("The shutter of 42 µs smears 2 m/s over 84 µm: three pixels, one particle."),
             Claim::number(
                 "Sec 3.1",
                 "viscosity of the wax at 130 °C [Pa s]",
@@ -150,8 +181,7 @@ pub(super) fn materials() -> Answer<Part> {
                 "kinematic viscosity of wax \"consistent\" with that of slag [m²/s]",
                 "both 1e-5 to 1e-4",
                 &format!(
-                    "wax {} to {}; slag {} to \
-                 {}",
+                    "wax {} to {}; slag {} to {}",
                     number(hot / 1e3),
                     number(cool / 1e3),
                     number(slag_range[0]),
@@ -162,8 +192,8 @@ pub(super) fn materials() -> Answer<Part> {
             )
             .because(
                 "The slag's own numbers of the same sentence (0.01 to 1 Pa s, 2500 to 3000 kg/m³) span two \
-                 decades, three times \
-                 below and four times above those of the wax. The wax covers the middle.",
+                 decades, three times below and four times above those of the wax. The wax covers the \
+                 middle.",
             ),
         ],
         ..Part::default()
@@ -207,18 +237,16 @@ pub(super) fn operation() -> Answer<Part> {
         claims.push(if holds {
             let flow = |celsius: f64| passes(|flow| speed(flow, celsius), high, [1.0, 10.0]);
             claim.because(&format!(
-                "2 m/s needs {:.1} m³/h at 20 °C and {:.1} at 110 °C: the lower temperatures take more \
-                 than the stated 4.",
+                "2 m/s needs {:.1} m³/h at 20 °C and {:.1} at 110 °C: the lower temperatures take more than \
+                 the stated 4.",
                 flow(20.0),
                 flow(110.0)
             ))
         } else {
             claim.because(
-                "Plug flow in 30 mm. A laminar profile carries particles near the axis up to twice as \
-                 fast, which would reach \
-                 the upper end, and the air that turns aside at the target slows them (last part), which \
-                 may reach the lower; \
-                 the paper counts neither.",
+                "Plug flow in 30 mm. A laminar profile carries particles near the axis up to twice as fast, \
+                 which would reach the upper end, and the air that turns aside at the target slows them \
+                 (last part), which may reach the lower; the paper counts neither.",
             )
         });
     }
@@ -234,9 +262,8 @@ pub(super) fn operation() -> Answer<Part> {
         )
         .because(&format!(
             "v_n = 1 m/s at 13° is v_i = {:.1} m/s and at 10° {:.1} m/s, above the table's 3 m/s; the \
-             largest air flow, 8 m³/h, \
-             gives 3.5 m/s and {:.0}°. Either v_n was less at the smallest angles or the speeds were \
-             higher than the table says.",
+             largest air flow, 8 m³/h, gives 3.5 m/s and {:.0}°. Either v_n was less at the smallest angles \
+             or the speeds were higher than the table says.",
             1.0 / 13f64.to_radians().sin(),
             1.0 / 10f64.to_radians().sin(),
             lowest(3.54)
@@ -259,10 +286,9 @@ pub(super) fn operation() -> Answer<Part> {
         heading: "Table 3: the operating conditions".to_owned(),
         text: vec![
             "The paper takes the impact speed as air speed plus terminal velocity. Put into that sum, its \
-             air flows (at 273 K, \
-             brought to the air's temperature, over the tube's cross-section) do not give its ranges of \
-             speed. The speeds enter \
-             the other parts as stated; they were measured by camera."
+             air flows (at 273 K, brought to the air's temperature, over the tube's cross-section) do not \
+             give its ranges of speed. The speeds enter the other parts as stated; they were measured by \
+             camera."
                 .to_owned(),
         ],
         tables: vec![table(
@@ -311,8 +337,7 @@ pub(super) fn speeds() -> Answer<Part> {
                 "steel" => "The printed value is that of Pyrex; Eq. 3 with steel's modulus gives 1.6 % less.",
                 _ => {
                     "The printed value is that of Pyrex. Eq. 3 takes both moduli, and a soft target halves \
-                     E* or more: v_y goes \
-                     with 1/E*²."
+                     E* or more: v_y goes with 1/E*²."
                 }
             }),
         );
@@ -328,8 +353,7 @@ pub(super) fn speeds() -> Answer<Part> {
                 "Teflon" => "0.6 % off, more than rounding but close enough to fix how Γ was formed.",
                 "wax" => {
                     "11 % more. Two equal solids give W = 0.06 J/m²; the printed value needs 0.053, for \
-                     which no input of the \
-                     paper stands."
+                     which no input of the paper stands."
                 }
                 "Pyrex" => "Ten times, to the last digit: the exponent slipped, 1.15e-1.",
                 _ => "Ten times and 1 %: the exponent slipped as on Pyrex.",
@@ -339,16 +363,14 @@ pub(super) fn speeds() -> Answer<Part> {
     Ok(Part {
         heading: "Table 4: yield and sticking velocities".to_owned(),
         text: vec![
-            "Work of adhesion W = 2√(γ1 γ2), which the paper does not state; Teflon's value confirms it, \
-             and so do Pyrex and steel \
-             once their exponents are mended. Thornton and Ning's own v_s is 4.9 % above Eq. 1 as printed. \
-             The last column is where \
-             the plastic branch vanishes: below it particles stick."
+            "Work of adhesion W = 2√(γ1 γ2), which the paper does not state; Teflon's value confirms it, and \
+             so do Pyrex and steel once their exponents are mended. Thornton and Ning's own v_s is 4.9 % \
+             above Eq. 1 as printed. The last column is where the plastic branch vanishes: below it \
+             particles stick."
                 .to_owned(),
             "What the slips did: v_y < v_s, from which the paper infers plastic impacts, holds for Pyrex, \
-             steel and wax also with \
-             the mended numbers, not for Teflon (0.040 against 0.032). All impacts from 0.5 m/s on are \
-             plastic in any case."
+             steel and wax also with the mended numbers, not for Teflon (0.040 against 0.032). All impacts \
+             from 0.5 m/s on are plastic in any case."
                 .to_owned(),
         ],
         tables: vec![table(

@@ -52,26 +52,22 @@ pub(super) fn part() -> Answer<Part> {
         text: vec![
             format!(
                 "The paper measured the same e_n on Pyrex, steel, wax and Teflon, and explains it by one \
-                 yield velocity, 6.8e-3 m/s. \
-                 With that number for all four the law does give the same e_n within {:.1} %. But Eq. 3 \
-                 does not give that number for \
-                 the soft targets: half the stiffness means a quarter of E*² and four times v_y, six on \
-                 Teflon. The law then predicts \
-                 e_n {:.0} and {:.0} % above Pyrex's. So the model does not agree with the measurement, \
-                 and the paper's explanation \
-                 rests on the slip in its Table 4.",
+                 yield velocity, 6.8e-3 m/s. With that number for all four the law does give the same e_n \
+                 within {:.1} %. But Eq. 3 does not give that number for the soft targets: half the \
+                 stiffness means a quarter of E*² and four times v_y, six on Teflon. The law then predicts \
+                 e_n {:.0} and {:.0} % above Pyrex's. So the model does not agree with the measurement, and \
+                 the paper's explanation rests on the slip in its Table 4.",
                 100.0 * spread(&as_printed),
                 100.0 * (law[1] / law[3] - 1.0),
                 100.0 * (law[0] / law[3] - 1.0)
             ),
             format!(
                 "The data are the stronger side: at least 50 impacts a point. What the law lacks on soft \
-                 targets is that they, too, \
-                 dissipate. On wax both solids yield (the law's yield pressure belongs to one), and data \
-                 sheets let PTFE yield from 1.5 to 23 MPa, perhaps below the wax. On wax the measured 0.28 \
-                 would take c = {ratio_needed:.2} in place of 0.7. A single p_y carried from target to \
-                 target is therefore not tested by Fig. 9; it fails there unless \
-                 only the stiff targets count."
+                 targets is that they, too, dissipate. On wax both solids yield (the law's yield pressure \
+                 belongs to one), and data sheets let PTFE yield from 1.5 to 23 MPa, perhaps below the wax. \
+                 On wax the measured 0.28 would take c = {ratio_needed:.2} in place of 0.7. A single p_y \
+                 carried from target to target is therefore not tested by Fig. 9; it fails there unless only \
+                 the stiff targets count."
             ),
         ],
         tables: vec![table(
@@ -94,8 +90,8 @@ pub(super) fn part() -> Answer<Part> {
                 .series("T–N, v_y and v_s as printed", &as_printed)
                 .figure(
                     "troiano-targets",
-                    "1.25 m/s at 84°. Measured: the same on all; the means stated \
-                 are 0.28 on Pyrex and on wax.",
+                    "1.25 m/s at 84°. Measured: the same on all; the means stated are 0.28 on Pyrex and on \
+                 wax.",
                 ),
         ],
         claims: vec![
@@ -116,16 +112,15 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "Eq. 3 makes v_y four to six times that on Pyrex and e_n goes with about v_y^(1/4); \
-             see the text.",
+                "Eq. 3 makes v_y four to six times that on Pyrex and e_n goes with about v_y^(1/4); see the \
+             text.",
             ),
             Claim::statement(
                 "Sec 4.1",
                 "\"the elastic yield limit velocity was the same in each case\" [m/s]",
                 "6.8e-3 on all four",
                 &format!(
-                    "{:.4} on Pyrex, {:.4} on \
-                 wax",
+                    "{:.4} on Pyrex, {:.4} on wax",
                     yield_velocity(&contact(&model, "pyrex", 0.7, |_| {})?),
                     yield_velocity(&wax)
                 ),
@@ -133,13 +128,12 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "A slip of Table 4: Pyrex's value stands for all. The inference from equal e_n to \
-             equal v_y is right only within the law.",
+                "A slip of Table 4: Pyrex's value stands for all. The inference from equal e_n to equal v_y \
+             is right only within the law.",
             ),
-            E_N_MEAN_WAX.beside(means[1], Basis::Predicted).because(
-                "As above for soft targets; c was \
-             fitted on Pyrex, where the mean is 0.29.",
-            ),
+            E_N_MEAN_WAX
+                .beside(means[1], Basis::Predicted)
+                .because("As above for soft targets; c was fitted on Pyrex, where the mean is 0.29."),
             Claim::statement(
                 "Sec 4.1",
                 "\"the target surface energy does not affect\" e_n at 1.25 m/s: e_n on Pyrex without \

@@ -172,30 +172,25 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
         heading: "Eq. 13 and Fig 3: the tube".to_owned(),
         text: vec![
             "`validation/troiano/tube.toml` is the tube as a case of `nearwall simulate`: particles leave \
-             the inner tube, 0.08 m down, at \
-             their speed of fall, air of 1.81 m/s (4.3 m³/h at 273 K) carries them to the end at 0.65 m. \
-             Every speed and time was \
-             also computed by Runge and Kutta's method with drag and heat written anew, which was itself \
-             held against the closed form of \
+             the inner tube, 0.08 m down, at their speed of fall, air of 1.81 m/s (4.3 m³/h at 273 K) \
+             carries them to the end at 0.65 m. Every speed and time was also computed by Runge and Kutta's \
+             method with drag and heat written anew, which was itself held against the closed form of \
              Stokes' drag."
                 .to_owned(),
             format!(
-                "Eq. 13's 0.65 m is that of 100 µm, the largest particle, at 2 m/s in air of 0 °C; for 80 \
-                 µm it is 0.39 m. \
-                 Ten relaxation times are indeed generous: {:.4} % of the speed is reached then, and 99 % \
-                 after {:.2} τ v_i. What \
-                 reaches 0.65 m has 99.9 % of it even at 120 µm, with 0.57 m to go in place of 0.65.",
+                "Eq. 13's 0.65 m is that of 100 µm, the largest particle, at 2 m/s in air of 0 °C; for 80 µm \
+                 it is 0.39 m. Ten relaxation times are indeed generous: {:.4} % of the speed is reached \
+                 then, and 99 % after {:.2} τ v_i. What reaches 0.65 m has 99.9 % of it even at 120 µm, with \
+                 0.57 m to go in place of 0.65.",
                 100.0 * after_length,
                 way_until(0.01)
             ),
             format!(
                 "The fusion time 0.11 s of 100 µm is stated without its air temperature or heat of fusion. \
-                 With Nu = 2, 2000 J/(kg K), \
-                 melting at 80 °C and 100 to 200 kJ/kg (assumed) it is {:.2} to {:.2} s in air of 110 °C \
-                 and {:.2} to {:.2} s at 120 °C; \
-                 warming alone takes {:.2} s. So \"three times\" is 1.7 to 2.7 times at 120 °C. Just above \
-                 the melting range it is \
-                 not even one: in air of 85 °C an 80 µm particle needs {slow:.2} s and has 0.3.",
+                 With Nu = 2, 2000 J/(kg K), melting at 80 °C and 100 to 200 kJ/kg (assumed) it is {:.2} to \
+                 {:.2} s in air of 110 °C and {:.2} to {:.2} s at 120 °C; warming alone takes {:.2} s. So \
+                 \"three times\" is 1.7 to 2.7 times at 120 °C. Just above the melting range it is not even \
+                 one: in air of 85 °C an 80 µm particle needs {slow:.2} s and has 0.3.",
                 fusion[0][0],
                 fusion[0][2],
                 fusion[1][0],
@@ -220,16 +215,16 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
             rows,
             0,
         )],
-        figures: vec![chart.figure(
-            "troiano-tube",
-            "Lines: nearwall simulate. Marks: Runge and Kutta, drag \
-         written anew.",
-        )],
+        figures: vec![
+            chart.figure(
+                "troiano-tube",
+                "Lines: nearwall simulate. Marks: Runge and Kutta, drag written anew.",
+            ),
+        ],
         claims: vec![
             TUBE_LENGTH.beside(20.0 * tau(273.15), Basis::Predicted).because(&format!(
-                "100 µm, 2 m/s, air of 0 °C, to which the paper refers its flows; {:.2} m with air of \
-                     20 °C. \"Typical values\" \
-                     are not given.",
+                "100 µm, 2 m/s, air of 0 °C, to which the paper refers its flows; {:.2} m with air of 20 °C. \
+                     \"Typical values\" are not given.",
                 20.0 * tau(293.15)
             )),
             Claim::number(
@@ -247,10 +242,9 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 shares[1],
                 Basis::Predicted,
             ),
-            TUBE_SPEED.beside(eighty.impact.speed(), Basis::Fitted).because(
-                "The air's speed is chosen for \
-             it.",
-            ),
+            TUBE_SPEED
+                .beside(eighty.impact.speed(), Basis::Fitted)
+                .because("The air's speed is chosen for it."),
             Claim::number(
                 "Fig 12",
                 "spread of the impact speed from 80 ± 15 µm alone [m/s]",
@@ -260,8 +254,8 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
             )
             .because("At the tube's end; the stated ± 0.1 m/s holds. At the plate it is more, see below."),
             RESIDENCE.beside(hundred.time / FUSION_TIME, Basis::Predicted).because(
-                "100 µm from the inner tube's end; 0.65 m at 2 m/s would be 2.95 times. ± half a \
-                 unit taken for \"about three\".",
+                "100 µm from the inner tube's end; 0.65 m at 2 m/s would be 2.95 times. ± half a unit taken \
+                 for \"about three\".",
             ),
             Claim::unchecked(
                 "Sec 3.1",
@@ -269,8 +263,7 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 "about 0.11",
                 &format!(
                     "Air temperature and heat of fusion are not given. {:.2} to {:.2} s with 100 to 200 \
-                     kJ/kg at 120 °C, {:.2} to {:.2} at \
-                     110 °C: the right order, at its short end.",
+                     kJ/kg at 120 °C, {:.2} to {:.2} at 110 °C: the right order, at its short end.",
                     fusion[1][0], fusion[1][2], fusion[0][0], fusion[0][2]
                 ),
             ),
@@ -292,10 +285,9 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(&format!(
-                "Sensible heat takes five relaxation times, 0.17 s; the heat of fusion (150 kJ/kg \
-                     assumed) flows at a difference of \
-                     5 K only. From 80 °C (melting assumed there) to {molten:.0} °C of air, particles \
-                     arrive partly molten.",
+                "Sensible heat takes five relaxation times, 0.17 s; the heat of fusion (150 kJ/kg assumed) \
+                     flows at a difference of 5 K only. From 80 °C (melting assumed there) to {molten:.0} °C \
+                     of air, particles arrive partly molten.",
             )),
             Claim::number(
                 "check",
@@ -306,8 +298,8 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 Basis::Derived,
             )
             .because(&format!(
-                "Tolerance 1e-11; the difference is the library's and falls with it. At the default 1e-6 \
-                 it is {} at the end.",
+                "Tolerance 1e-11; the difference is the library's and falls with it. At the default 1e-6 it \
+                 is {} at the end.",
                 number(usual)
             )),
             Claim::number(
@@ -368,26 +360,20 @@ pub(super) fn plate(extent: Extent) -> Answer<Part> {
         text: vec![
             format!(
                 "`validation/troiano/rig.toml` is the same tube with the air turning aside in front of the \
-                 target, 50 mm below its end \
-                 (an inviscid stagnation flow, felt from one tube diameter on, assumed). Particles that \
-                 leave the tube with 2 m/s arrive \
-                 with {speed:.2} ± {deviation:.2} m/s. OpenFOAM with a computed jet says 1.3 m/s, and that \
-                 2 m/s at the plate take some 2.7 m/s of air \
-                 (`tutorials/waxImpactor/Allrun`, README \"Impact speed and the air\"). The paper checked \
-                 the speed at the exit of the \
-                 tube; for the impacts it took frames before and after the wall, so its restitutions need \
-                 not be wrong by this."
+                 target, 50 mm below its end (an inviscid stagnation flow, felt from one tube diameter on, \
+                 assumed). Particles that leave the tube with 2 m/s arrive with {speed:.2} ± {deviation:.2} \
+                 m/s. OpenFOAM with a computed jet says 1.3 m/s, and that 2 m/s at the plate take some 2.7 \
+                 m/s of air (`tutorials/waxImpactor/Allrun`, README \"Impact speed and the air\"). The paper \
+                 checked the speed at the exit of the tube; for the impacts it took frames before and after \
+                 the wall, so its restitutions need not be wrong by this."
             ),
             format!(
-                "Those frames are 1 ms apart, and the relaxation time of 75 µm is 17 ms. The pair of \
-                 frames next to the wall shows the \
-                 particle a millisecond before and after, on average: faster than it hits, slower than it \
-                 leaves. An e_n of 0.28 would \
-                 be seen as {:.2} of itself at 0.5 m/s and {:.2} at 3 m/s. If no correction was made, the \
-                 contact's own e_n was some \
-                 {:.2} where 0.28 was read, and c for the mean of Fig. 10 {corrected:.2} in place of 0.66. \
-                 The paper says nothing of it; its own Fig. 5 calls the \
-                 paths linear.",
+                "Those frames are 1 ms apart, and the relaxation time of 75 µm is 17 ms. The pair of frames \
+                 next to the wall shows the particle a millisecond before and after, on average: faster than \
+                 it hits, slower than it leaves. An e_n of 0.28 would be seen as {:.2} of itself at 0.5 m/s \
+                 and {:.2} at 3 m/s. If no correction was made, the contact's own e_n was some {:.2} where \
+                 0.28 was read, and c for the mean of Fig. 10 {corrected:.2} in place of 0.66. The paper \
+                 says nothing of it; its own Fig. 5 calls the paths linear.",
                 low,
                 high,
                 0.28 / camera[1][1]
@@ -410,15 +396,14 @@ pub(super) fn plate(extent: Extent) -> Answer<Part> {
                 .line("air + terminal velocity", &tube)
                 .figure(
                     "troiano-plate",
-                    "The air in front of the target brakes small particles most. Seed \
-                 1.",
+                    "The air in front of the target brakes small particles most. Seed 1.",
                 ),
         ],
         claims: vec![
             TUBE_SPEED.beside(speed, Basis::Predicted).because(
-                "At the plate, for 2 m/s at the tube's end. The plate's size and the flow around it are \
-                 not given; a small plate brakes less. \
-                 If 2 m/s were the tube's value, Figs 12 to 14 were made at less.",
+                "At the plate, for 2 m/s at the tube's end. The plate's size and the flow around it are not \
+                 given; a small plate brakes less. If 2 m/s were the tube's value, Figs 12 to 14 were made \
+                 at less.",
             ),
             Claim::unchecked(
                 "Sec 3.2",
