@@ -73,9 +73,9 @@ pub(super) fn part() -> Answer<Part> {
         heading: "Fig 14: molten wax".to_owned(),
         text: vec![
             format!(
-                "Two ways to pose it, both predictions. Melting as set at 70 and 105 °C says {:.1} % at 120 \
-                 °C for every speed and angle. The droplet criterion says 100 %: over Fig. 14 We is {}, Re \
-                 {} and K = We^½ Re^¼ {}, and nothing splashes below {SPLASH_K}. Both meet \"above 85 %\".",
+                "Two ways to pose it, both predictions. Melting as set at 70 and 105 °C says {:.1} % or more \
+                 at 120 °C. The droplet criterion says 100 %: over Fig. 14 We is {}, Re {} and K = We^½ Re^¼ \
+                 {}, and nothing splashes below {SPLASH_K}. Both meet \"above 85 %\".",
                 by_melting[0],
                 show(weber),
                 show(reynolds),

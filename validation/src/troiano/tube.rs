@@ -274,7 +274,7 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 WARM.temperature - warm.impact.particle_temperature,
                 Basis::Predicted,
             )
-            .because("80 µm, without the heat of fusion, which costs 0.07 to 0.1 s more of its 0.3 s."),
+            .because("80 µm, without the heat of fusion, which costs 0.07 to 0.13 s more of its 0.3 s."),
             Claim::statement(
                 "Fig 12",
                 "\"temperature equal to that of the air\", taken as molten where the air is above the \
