@@ -13,11 +13,13 @@
 //! its bound at their `E² = 7500`. The codes that are served cannot split a parcel, so the deposited share is taken as the
 //! probability that all of it stays (assumed).
 //!
-//! Valid for dry, smooth walls. Left out: freezing on a cold wall (it flattens and pins the drop, towards capture); roughness,
-//! which promotes prompt splashing and so lowers `K_cr` (give a smaller `splash_K`); a liquid film; the gas, without which drops
-//! splash less (arXiv 1203.2718). A droplet that does not splash can bounce off whole where it does not wet the wall: aqueous
-//! drops of 30 to 50 µm did so on Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The
-//! criterion calls them deposited, for the contact angle is not among the inputs.
+//! Valid for dry walls. `K_cr` is no constant of nature: water drops of 12 to 100 µm at up to 100 m/s did not splash at all (Visser
+//! et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the highest speed): there `splash_K` has to be larger.
+//! Roughness promotes prompt splashing: there it has to be smaller. Left out: freezing on a cold wall (it flattens and pins the
+//! drop, towards capture); a liquid film; the gas, without which drops splash less (arXiv 1203.2718, abstract, as for roughness).
+//! A droplet that does not splash can bounce off whole where it does not wet the wall: aqueous drops of 30 to 50 µm did so on
+//! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion calls them deposited, for
+//! the contact angle is not among the inputs.
 
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
