@@ -189,7 +189,7 @@ fn angle_claims(
                 tube_air(35.0) / tube_air(90.0),
                 tube_air(13.0) / tube_air(90.0)
             ),
-            false,
+            (3.5..4.5).contains(&(tube_air(35.0) / tube_air(90.0))),
             Basis::Derived,
         )
         .because(

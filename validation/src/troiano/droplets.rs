@@ -19,6 +19,42 @@ fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
+/// What capture gains from the slowest to the fastest impact at one angle [points], by melting and by the droplet criterion.
+struct Trend([f64; 2]);
+
+impl Trend {
+    fn of(models: [&Model; 2], angle: f64) -> Answer<Self> {
+        let [mut by_melting, mut by_droplet] = [0.0; 2];
+        for (model, gain) in models.into_iter().zip([&mut by_melting, &mut by_droplet]) {
+            let at = |speed: f64| decide(model, "default", &molten(speed, angle, SIZES[1]));
+            *gain = 100.0 * (at(SPEEDS[1])?.sticking_probability - at(SPEEDS[0])?.sticking_probability);
+        }
+        Ok(Self([by_melting, by_droplet]))
+    }
+
+    fn text(&self) -> String {
+        format!("{:.1} points by melting, {:.1} by the droplet criterion", self.0[0], self.0[1])
+    }
+
+    /// Whether both go beyond so many points, in that direction.
+    fn beyond(&self, points: f64) -> bool {
+        self.0.iter().all(|gain| gain * points.signum() >= points.abs())
+    }
+}
+
+/// A molten particle: speed [m/s], angle [degrees], diameter [m].
+fn molten(speed: f64, angle: f64, diameter: f64) -> Impact {
+    let (sine, cosine) = angle.to_radians().sin_cos();
+    Impact {
+        normal_speed: speed * sine,
+        tangential_speed: (speed * cosine).max(0.0),
+        diameter,
+        particle_temperature: HOT,
+        wall_temperature: HOT,
+        ..Impact::default()
+    }
+}
+
 /// The part on droplets.
 pub(super) fn part() -> Answer<Part> {
     let melting = model!("melting.toml")?;
@@ -26,16 +62,8 @@ pub(super) fn part() -> Answer<Part> {
     let melt = droplet.particle().molten(HOT)?;
     let impacts: Vec<Impact> = even(SPEEDS, 12)
         .into_iter()
-        .flat_map(|speed| even(ANGLES, 6).into_iter().map(move |angle| (speed, angle.to_radians())))
-        .flat_map(|(speed, angle)| SIZES.map(|diameter| (speed, angle, diameter)))
-        .map(|(speed, angle, diameter)| Impact {
-            normal_speed: speed * angle.sin(),
-            tangential_speed: speed * angle.cos(),
-            diameter,
-            particle_temperature: HOT,
-            wall_temperature: HOT,
-            ..Impact::default()
-        })
+        .flat_map(|speed| even(ANGLES, 6).into_iter().map(move |angle| (speed, angle)))
+        .flat_map(|(speed, angle)| SIZES.map(|diameter| molten(speed, angle, diameter)))
         .collect();
     let captured = |model: &Model| -> Answer<[f64; 2]> {
         let all = impacts
@@ -67,8 +95,9 @@ pub(super) fn part() -> Answer<Part> {
             })
             .collect()
     };
-    let straight = Impact { normal_speed: 2.0, tangential_speed: 0.0, diameter: SIZES[1], ..impacts[0] };
-    let rebound = decide(&melting, "default", &straight)?.normal_restitution;
+    let at_15 = Trend::of([&melting, &droplet], 15.0)?;
+    let at_90 = Trend::of([&melting, &droplet], 90.0)?;
+    let rebound = decide(&melting, "default", &molten(2.0, 90.0, SIZES[1]))?.normal_restitution;
     Ok(Part {
         heading: "Fig 14: molten wax".to_owned(),
         text: vec![
@@ -120,25 +149,21 @@ pub(super) fn part() -> Answer<Part> {
                 "Fig 14",
                 "capture falls with speed at small angles",
                 "\"slightly decreases\"",
-                &format!(
-                    "{} % by melting, {} % by the droplet criterion",
-                    show(by_melting),
-                    show(by_droplet)
-                ),
-                false,
+                &at_15.text(),
+                at_15.beyond(-1.0),
                 Basis::Predicted,
             )
             .because(
-                "The 100 % are impacts below the solid's sticking velocity (glancing and slow), the only \
-             trend there is: of the stated sign, by the wrong cause. Sliding of a molten particle along the \
-             wall, the paper's cause, is not modelled.",
+                "At 0.7 m/s and 15° the model holds all: the impact is below the solid's sticking velocity. \
+                 It is the only trend there is: of the stated sign, by the wrong cause. Sliding of a molten \
+                 particle along the wall, the paper's cause, is not modelled.",
             ),
             Claim::statement(
                 "Fig 14",
                 "capture rises with speed at large angles",
                 "\"slightly increased\"",
-                "no change",
-                false,
+                &at_90.text(),
+                at_90.beyond(1.0),
                 Basis::Predicted,
             )
             .because("As above."),

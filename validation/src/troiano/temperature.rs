@@ -45,7 +45,7 @@ pub(super) fn melting() -> Answer<Part> {
         celsius.iter().map(|t| Ok([*t, of(*t)?])).collect()
     };
     let e_n = |t: f64| -> Answer<f64> { Ok(warm(&model, t)?.normal_restitution) };
-    let [[_, first], [_, middle], [last_at, last]] = FLOW_TEST;
+    let [[_, first], [_, middle], _] = FLOW_TEST;
     let ends = corners([CAPTURE_70.value, CAPTURE_105.value].map(|percent| {
         let share = percent / 100.0;
         let error = (share * (1.0 - share) / 50.0).sqrt();
@@ -101,83 +101,102 @@ pub(super) fn melting() -> Answer<Part> {
             ),
             restitutions.figure("troiano-restitution-temperature", "The same curve takes up the rebound."),
         ],
-        claims: vec![
-            Claim::number(
-                "Fig 12",
-                "capture at 50 °C, \"practically zero\" [%]",
-                Published::Below(1.0),
-                capture(&model, 50.0)?,
-                Basis::Predicted,
-            )
-            .because("Below one of 100; at least 50 impacts a point."),
-            Claim::number(
-                "Fig 12",
-                "capture at 20 °C [%]",
-                Published::Below(1.0),
-                capture(&model, 20.0)?,
-                Basis::Predicted,
-            ),
-            CAPTURE_70.beside(capture(&model, 70.0)?, Basis::Fitted),
-            CAPTURE_105.beside(capture(&model, 105.0)?, Basis::Fitted),
-            Claim::number(
-                "Sec 4.2",
-                "capture at 70 °C if the flow test's share stuck, \"in agreement\" [%]",
-                Published::within(CAPTURE_70.value, CAPTURE_70.tolerance),
-                capture(&flow, 70.0)?,
-                Basis::Predicted,
-            )
-            .because(
-                "Capture taken as the share of the flow test (`flow-test.toml`). The two measure different \
-                 things: a wax that flows under its weight in minutes need not stick in microseconds.",
-            ),
-            Claim::number(
-                "Sec 4.2",
-                "capture at 105 °C if the flow test's share stuck [%]",
-                Published::within(CAPTURE_105.value, CAPTURE_105.tolerance),
-                capture(&flow, 105.0)?,
-                Basis::Predicted,
-            )
-            .because("As above: its curve has ended long before."),
-            Claim::number(
-                "Sec 4.2",
-                "flow at 74.6 °C by the sharpest smooth curve through 1 % and 50 % [%]",
-                Published::within(100.0 * last, 0.5),
-                capture(&flow, last_at)?,
-                Basis::Predicted,
-            )
-            .because(
-                "The three points rise by 8 % and then by 6 % a degree: no Richards curve passes through all \
-             of them.",
-            ),
-            Claim::number(
-                "Fig 13",
-                "e_n at 55 °C over e_n at 20 °C, \"constant\" [1]",
-                Published::within(1.0, 0.02),
-                e_n(55.0)? / e_n(20.0)?,
-                Basis::Predicted,
-            )
-            .because("± 0.02 taken for \"constant\"."),
-            Claim::number(
-                "Fig 13",
-                "e_n at 105 °C, \"vanishingly small\"",
-                Published::Below(0.05),
-                e_n(105.0)?,
-                Basis::Predicted,
-            )
-            .because(
-                "Of those that rebound; below 0.05 taken for \"vanishingly\". The effect takes the rebound \
-             by the same share that it captures (softening 1), a choice that this confirms.",
-            ),
-            Claim::unchecked(
-                "Fig 13",
-                "e_g between 55 and 105 °C",
-                "decreases",
-                "No values are printed, nor e_t over the temperature; the model lowers e_n only and keeps \
-                 e_t, so that e_g at 84° ends at 0.08.",
-            ),
-        ],
+        claims: [captures_claims(&model)?, flow_claims(&flow)?, rebound_claims(&model)?].concat(),
         ..Part::default()
     })
+}
+
+/// Of the captures.
+fn captures_claims(model: &Model) -> Answer<Vec<Claim>> {
+    Ok(vec![
+        Claim::number(
+            "Fig 12",
+            "capture at 50 °C, \"practically zero\" [%]",
+            Published::Below(1.0),
+            capture(model, 50.0)?,
+            Basis::Predicted,
+        )
+        .because("Below one of 100; at least 50 impacts a point."),
+        Claim::number(
+            "Fig 12",
+            "capture at 20 °C [%]",
+            Published::Below(1.0),
+            capture(model, 20.0)?,
+            Basis::Predicted,
+        ),
+        CAPTURE_70.beside(capture(model, 70.0)?, Basis::Fitted),
+        CAPTURE_105.beside(capture(model, 105.0)?, Basis::Fitted),
+    ])
+}
+
+/// Of the flow test.
+fn flow_claims(flow: &Model) -> Answer<Vec<Claim>> {
+    let [_, _, [last_at, last]] = FLOW_TEST;
+    Ok(vec![
+        Claim::number(
+            "Sec 4.2",
+            "capture at 70 °C if the flow test's share stuck, \"in agreement\" [%]",
+            Published::within(CAPTURE_70.value, CAPTURE_70.tolerance),
+            capture(flow, 70.0)?,
+            Basis::Predicted,
+        )
+        .because(
+            "Capture taken as the share of the flow test (`flow-test.toml`). The two measure different \
+                 things: a wax that flows under its weight in minutes need not stick in microseconds.",
+        ),
+        Claim::number(
+            "Sec 4.2",
+            "capture at 105 °C if the flow test's share stuck [%]",
+            Published::within(CAPTURE_105.value, CAPTURE_105.tolerance),
+            capture(flow, 105.0)?,
+            Basis::Predicted,
+        )
+        .because("As above: its curve has ended long before."),
+        Claim::number(
+            "Sec 4.2",
+            "flow at 74.6 °C by the sharpest smooth curve through 1 % and 50 % [%]",
+            Published::within(100.0 * last, 0.5),
+            capture(flow, last_at)?,
+            Basis::Predicted,
+        )
+        .because(
+            "The three points rise by 8 % and then by 6 % a degree: no Richards curve passes through all of \
+             them.",
+        ),
+    ])
+}
+
+/// Of the restitution.
+fn rebound_claims(model: &Model) -> Answer<Vec<Claim>> {
+    let e_n = |t: f64| -> Answer<f64> { Ok(warm(model, t)?.normal_restitution) };
+    Ok(vec![
+        Claim::number(
+            "Fig 13",
+            "e_n at 55 °C over e_n at 20 °C, \"constant\" [1]",
+            Published::within(1.0, 0.02),
+            e_n(55.0)? / e_n(20.0)?,
+            Basis::Predicted,
+        )
+        .because("± 0.02 taken for \"constant\"."),
+        Claim::number(
+            "Fig 13",
+            "e_n at 105 °C, \"vanishingly small\"",
+            Published::Below(0.05),
+            e_n(105.0)?,
+            Basis::Predicted,
+        )
+        .because(
+            "Of those that rebound; below 0.05 taken for \"vanishingly\". The effect takes the rebound by \
+             the same share that it captures (softening 1), a choice that this confirms.",
+        ),
+        Claim::unchecked(
+            "Fig 13",
+            "e_g between 55 and 105 °C",
+            "decreases",
+            "No values are printed, nor e_t over the temperature; the model lowers e_n only and keeps e_t, \
+                 so that e_g at 84° ends at 0.08.",
+        ),
+    ])
 }
 
 /// The part on coal conversion.

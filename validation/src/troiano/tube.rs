@@ -104,9 +104,17 @@ fn fusion_time(diameter: f64, air: f64, latent: f64) -> f64 {
     warming + DENSITY * latent * diameter * diameter / (12.0 * conductivity * (air - melting))
 }
 
-/// The part on the tube.
-pub(super) fn part(extent: Extent) -> Answer<Part> {
-    let mut case = read("validation/troiano/tube.toml", include_str!("../../troiano/tube.toml"))?;
+/// The particles of all sizes on their way, by the library and by Runge and Kutta.
+struct Tracks {
+    chart: Chart,
+    rows: Vec<Vec<String>>,
+    /// Speed at the end over air plus terminal velocity [1].
+    shares: Vec<f64>,
+    /// Largest relative difference between the two [1].
+    apart: f64,
+}
+
+fn tracks(case: &mut Case, extent: Extent) -> Answer<Tracks> {
     let sizes = [50e-6, 80e-6, 100e-6, 120e-6];
     let mut chart = Chart::new("Speed in the tube", "way from the end of the inner tube [m]", "speed [m/s]")
         .x_range(0.0, 0.6)
@@ -118,14 +126,14 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
         for share in even([0.1, 1.0], extent.count(80).max(12)) {
             // Closer together where the speed changes.
             let end = TUBE[2] + (TUBE[1] - TUBE[2]) * share.powi(3);
-            let hit = tracked(&mut case, diameter, end)?;
+            let hit = tracked(case, diameter, end)?;
             let other = integrated(diameter, ROOM, end);
             line.push([end - TUBE[2], hit.impact.speed()]);
             largest = largest.max(apart(hit.impact.speed(), other.speed)).max(apart(hit.time, other.time));
         }
         checks
             .extend([0.12, 0.2, 0.35, 0.5].map(|end| [end - TUBE[2], integrated(diameter, ROOM, end).speed]));
-        let hit = tracked(&mut case, diameter, TUBE[1])?;
+        let hit = tracked(case, diameter, TUBE[1])?;
         let terminal = terminal_speed(diameter, &ROOM);
         let last = AIR_SPEED + terminal;
         let tau = relaxation_time(&wax(diameter), &ROOM);
@@ -144,30 +152,21 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
         ]);
         chart = chart.line(&format!("{:.0} µm", diameter * 1e6), &line);
     }
-    let chart = chart.points("Runge–Kutta", &checks);
-    let hundred = tracked(&mut case, 100e-6, TUBE[1])?;
-    let eighty = tracked(&mut case, 80e-6, TUBE[1])?;
-    let spread = [65e-6, 95e-6].map(|d| terminal_speed(d, &ROOM));
-    let usual = {
-        let strict = std::mem::replace(&mut case.tolerance, 1e-6);
-        let hit = tracked(&mut case, 80e-6, TUBE[1])?;
-        case.tolerance = strict;
-        apart(hit.impact.speed(), integrated(80e-6, ROOM, TUBE[1]).speed)
-    };
-    case.set("gas_temperature", WARM.temperature)?;
-    let warm = tracked(&mut case, 80e-6, TUBE[1])?;
-    let warm_other = integrated(80e-6, WARM, TUBE[1]);
-    let largest_warmth = (warm.impact.particle_temperature - warm_other.temperature).abs();
-    let tau = |temperature: f64| relaxation_time(&wax(100e-6), &Air::at(temperature));
-    let after_length = {
-        let ten = tau(293.15);
-        let time = passes(|t| stokes_closed_form(0.0, 2.0, ten, t)[1], 10.0 * ten * 2.0, [0.0, 40.0 * ten]);
-        stokes_closed_form(0.0, 2.0, ten, time)[0] / 2.0
-    };
-    let fusion =
-        [383.15, 393.15].map(|air| [100e3, 150e3, 200e3].map(|latent| fusion_time(100e-6, air, latent)));
-    let slow = fusion_time(80e-6, 358.15, 150e3);
-    let molten = passes(|air| fusion_time(80e-6, air, 150e3), eighty.time, [354.0, 450.0]) - 273.15;
+    Ok(Tracks { chart: chart.points("Runge–Kutta", &checks), rows, shares, apart: largest })
+}
+
+/// The part on the tube.
+pub(super) fn part(extent: Extent) -> Answer<Part> {
+    let mut case = read("validation/troiano/tube.toml", include_str!("../../troiano/tube.toml"))?;
+    let tracks = tracks(&mut case, extent)?;
+    let in_tube = tracked(&mut case, 80e-6, TUBE[1])?.time;
+    let mut claims = speeds(&mut case, &tracks.shares)?;
+    let (fusion_text, fusion_claims) = fusion(in_tube);
+    claims.extend(fusion_claims);
+    claims.extend(checks(&mut case, tracks.apart)?);
+    let ten = relaxation_time(&wax(100e-6), &ROOM);
+    let time = passes(|t| stokes_closed_form(0.0, 2.0, ten, t)[1], 20.0 * ten, [0.0, 40.0 * ten]);
+    let after_length = stokes_closed_form(0.0, 2.0, ten, time)[0] / 2.0;
     Ok(Part {
         heading: "Eq. 13 and Fig 3: the tube".to_owned(),
         text: vec![
@@ -185,18 +184,7 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 100.0 * after_length,
                 way_until(0.01)
             ),
-            format!(
-                "The fusion time 0.11 s of 100 µm is stated without its air temperature or heat of fusion. \
-                 With Nu = 2, 2000 J/(kg K), melting at 80 °C and 100 to 200 kJ/kg (assumed) it is {:.2} to \
-                 {:.2} s in air of 110 °C and {:.2} to {:.2} s at 120 °C; warming alone takes {:.2} s. So \
-                 \"three times\" is 1.7 to 2.7 times at 120 °C. Just above the melting range it is not even \
-                 one: in air of 85 °C an 80 µm particle needs {slow:.2} s and has 0.3.",
-                fusion[0][0],
-                fusion[0][2],
-                fusion[1][0],
-                fusion[1][2],
-                fusion_time(100e-6, 393.15, 0.0)
-            ),
+            fusion_text,
         ],
         tables: vec![table(
             "air 1.81 m/s, 20 °C",
@@ -212,105 +200,147 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 "way to 99 % [m]",
                 "time [s]",
             ],
-            rows,
+            tracks.rows,
             0,
         )],
         figures: vec![
-            chart.figure(
+            tracks.chart.figure(
                 "troiano-tube",
                 "Lines: nearwall simulate. Marks: Runge and Kutta, drag written anew.",
             ),
         ],
-        claims: vec![
-            TUBE_LENGTH.beside(20.0 * tau(273.15), Basis::Predicted).because(&format!(
-                "100 µm, 2 m/s, air of 0 °C, to which the paper refers its flows; {:.2} m with air of 20 °C. \
-                     \"Typical values\" are not given.",
-                20.0 * tau(293.15)
-            )),
-            Claim::number(
-                "Eq 13",
-                "least share of the final speed at the end of the tube, 50 to 120 µm [1]",
-                Published::Above(0.99),
-                shares.iter().copied().fold(1.0, f64::min),
-                Basis::Predicted,
-            )
-            .because("\"Conservatively\"; 0.99 taken for it."),
-            Claim::number(
-                "Sec 3.1",
-                "speed at the end, 80 µm, over air plus terminal velocity [1]",
-                Published::within(1.0, 0.01),
-                shares[1],
-                Basis::Predicted,
-            ),
-            TUBE_SPEED
-                .beside(eighty.impact.speed(), Basis::Fitted)
-                .because("The air's speed is chosen for it."),
-            Claim::number(
-                "Fig 12",
-                "spread of the impact speed from 80 ± 15 µm alone [m/s]",
-                Published::Below(0.1),
-                0.5 * (spread[1] - spread[0]),
-                Basis::Predicted,
-            )
-            .because("At the tube's end; the stated ± 0.1 m/s holds. At the plate it is more, see below."),
-            RESIDENCE.beside(hundred.time / FUSION_TIME, Basis::Predicted).because(
-                "100 µm from the inner tube's end; 0.65 m at 2 m/s would be 2.95 times. ± half a unit taken \
-                 for \"about three\".",
-            ),
-            Claim::unchecked(
-                "Sec 3.1",
-                "fusion time of 100 µm [s]",
-                "about 0.11",
-                &format!(
-                    "Air temperature and heat of fusion are not given. {:.2} to {:.2} s with 100 to 200 \
-                     kJ/kg at 120 °C, {:.2} to {:.2} at 110 °C: the right order, at its short end.",
-                    fusion[1][0], fusion[1][2], fusion[0][0], fusion[0][2]
-                ),
-            ),
-            Claim::number(
-                "Fig 12",
-                "particle at the end of the tube, air of 105 °C: what it lacks in temperature [K]",
-                Published::Below(1.0),
-                WARM.temperature - warm.impact.particle_temperature,
-                Basis::Predicted,
-            )
-            .because("80 µm, without the heat of fusion, which costs 0.07 to 0.13 s more of its 0.3 s."),
-            Claim::statement(
-                "Fig 12",
-                "\"temperature equal to that of the air\", taken as molten where the air is above the \
-                 melting range: 80 µm in air of 85 °C",
-                "time in the tube suffices",
-                &format!("{slow:.2} s to melt, {:.2} s in the tube", eighty.time),
-                slow < eighty.time,
-                Basis::Predicted,
-            )
-            .because(&format!(
-                "Sensible heat takes five relaxation times, 0.17 s; the heat of fusion (150 kJ/kg assumed) \
-                     flows at a difference of 5 K only. From 80 °C (melting assumed there) to {molten:.0} °C \
-                     of air, particles arrive partly molten.",
-            )),
-            Claim::number(
-                "check",
-                "`simulate` against Runge–Kutta: largest relative difference of speed and time, 4 sizes \
-                 along the tube",
-                Published::Below(1e-6),
-                largest,
-                Basis::Derived,
-            )
-            .because(&format!(
-                "Tolerance 1e-11; the difference is the library's and falls with it. At the default 1e-6 it \
-                 is {} at the end.",
-                number(usual)
-            )),
-            Claim::number(
-                "check",
-                "`simulate` against Runge–Kutta: particle temperature at the end, air of 105 °C [K]",
-                Published::Below(1e-3),
-                largest_warmth,
-                Basis::Derived,
-            ),
-        ],
+        claims,
     })
+}
+
+/// Length, speed and time.
+fn speeds(case: &mut Case, shares: &[f64]) -> Answer<Vec<Claim>> {
+    let hundred = tracked(case, 100e-6, TUBE[1])?;
+    let eighty = tracked(case, 80e-6, TUBE[1])?;
+    let spread = [65e-6, 95e-6].map(|d| terminal_speed(d, &ROOM));
+    let tau = |temperature: f64| relaxation_time(&wax(100e-6), &Air::at(temperature));
+    Ok(vec![
+        TUBE_LENGTH.beside(20.0 * tau(273.15), Basis::Predicted).because(&format!(
+            "100 µm, 2 m/s, air of 0 °C, to which the paper refers its flows; {:.2} m with air of 20 °C. \
+                     \"Typical values\" are not given.",
+            20.0 * tau(293.15)
+        )),
+        Claim::number(
+            "Eq 13",
+            "least share of the final speed at the end of the tube, 50 to 120 µm [1]",
+            Published::Above(0.99),
+            shares.iter().copied().fold(1.0, f64::min),
+            Basis::Predicted,
+        )
+        .because("\"Conservatively\"; 0.99 taken for it."),
+        Claim::number(
+            "Sec 3.1",
+            "speed at the end, 80 µm, over air plus terminal velocity [1]",
+            Published::within(1.0, 0.01),
+            shares[1],
+            Basis::Predicted,
+        ),
+        TUBE_SPEED.beside(eighty.impact.speed(), Basis::Fitted).because("The air's speed is chosen for it."),
+        Claim::number(
+            "Fig 12",
+            "spread of the impact speed from 80 ± 15 µm alone [m/s]",
+            Published::Below(0.1),
+            0.5 * (spread[1] - spread[0]),
+            Basis::Predicted,
+        )
+        .because("At the tube's end; the stated ± 0.1 m/s holds. At the plate it is more, see below."),
+        RESIDENCE.beside(hundred.time / FUSION_TIME, Basis::Predicted).because(
+            "100 µm from the inner tube's end; 0.65 m at 2 m/s would be 2.95 times. ± half a unit taken for \
+                 \"about three\".",
+        ),
+    ])
+}
+
+/// What melting takes, in words and claims; `in_tube` is the time that 80 µm have [s].
+fn fusion(in_tube: f64) -> (String, Vec<Claim>) {
+    let fusion = [383.15, 393.15].map(|air| [100e3, 200e3].map(|latent| fusion_time(100e-6, air, latent)));
+    let slow = fusion_time(80e-6, 358.15, 150e3);
+    let molten = passes(|air| fusion_time(80e-6, air, 150e3), in_tube, [354.0, 450.0]) - 273.15;
+    let text = format!(
+        "The fusion time 0.11 s of 100 µm is stated without its air temperature or heat of fusion. With Nu = \
+                 2, 2000 J/(kg K), melting at 80 °C and 100 to 200 kJ/kg (assumed) it is {:.2} to {:.2} s in \
+                 air of 110 °C and {:.2} to {:.2} s at 120 °C; warming alone takes {:.2} s. So \"three \
+                 times\" is 1.7 to 2.7 times at 120 °C. Just above the melting range it is not even one: in \
+                 air of 85 °C an 80 µm particle needs {slow:.2} s and has 0.3.",
+        fusion[0][0],
+        fusion[0][1],
+        fusion[1][0],
+        fusion[1][1],
+        fusion_time(100e-6, 393.15, 0.0)
+    );
+    let claims = vec![
+        Claim::unchecked(
+            "Sec 3.1",
+            "fusion time of 100 µm [s]",
+            "about 0.11",
+            &format!(
+                "Air temperature and heat of fusion are not given. {:.2} to {:.2} s with 100 to 200 kJ/kg at \
+                     120 °C, {:.2} to {:.2} at 110 °C: the right order, at its short end.",
+                fusion[1][0], fusion[1][1], fusion[0][0], fusion[0][1]
+            ),
+        ),
+        Claim::statement(
+            "Fig 12",
+            "\"temperature equal to that of the air\", taken as molten where the air is above the melting \
+                 range: 80 µm in air of 85 °C",
+            "time in the tube suffices",
+            &format!("{slow:.2} s to melt, {:.2} s in the tube", in_tube),
+            slow < in_tube,
+            Basis::Predicted,
+        )
+        .because(&format!(
+            "Sensible heat takes five relaxation times, 0.17 s; the heat of fusion (150 kJ/kg assumed) flows \
+                     at a difference of 5 K only. From 80 °C (melting assumed there) to {molten:.0} °C of \
+                     air, particles arrive partly molten.",
+        )),
+    ];
+    (text, claims)
+}
+
+/// Temperature at the end, and the library against Runge and Kutta: `apart` is their largest relative difference. Leaves
+/// the case with warm air.
+fn checks(case: &mut Case, apart_at_most: f64) -> Answer<Vec<Claim>> {
+    let strict = std::mem::replace(&mut case.tolerance, 1e-6);
+    let usual = apart(tracked(case, 80e-6, TUBE[1])?.impact.speed(), integrated(80e-6, ROOM, TUBE[1]).speed);
+    case.tolerance = strict;
+    case.set("gas_temperature", WARM.temperature)?;
+    let warm = tracked(case, 80e-6, TUBE[1])?.impact.particle_temperature;
+    let warmth_apart = (warm - integrated(80e-6, WARM, TUBE[1]).temperature).abs();
+    Ok(vec![
+        Claim::number(
+            "Fig 12",
+            "particle at the end of the tube, air of 105 °C: what it lacks in temperature [K]",
+            Published::Below(1.0),
+            WARM.temperature - warm,
+            Basis::Predicted,
+        )
+        .because("80 µm, without the heat of fusion, which costs 0.07 to 0.13 s more of its 0.3 s."),
+        Claim::number(
+            "check",
+            "`simulate` against Runge–Kutta: largest relative difference of speed and time, 4 sizes along \
+                 the tube",
+            Published::Below(1e-6),
+            apart_at_most,
+            Basis::Derived,
+        )
+        .because(&format!(
+            "Tolerance 1e-11; the difference is the library's and falls with it. At the default 1e-6 it is \
+                 {} at the end.",
+            number(usual)
+        )),
+        Claim::number(
+            "check",
+            "`simulate` against Runge–Kutta: particle temperature at the end, air of 105 °C [K]",
+            Published::Below(1e-3),
+            warmth_apart,
+            Basis::Derived,
+        ),
+    ])
 }
 
 /// What two frames a millisecond apart make of a normal restitution [1] at a plate, over what it is: the particle is braked
