@@ -13,6 +13,7 @@ pub mod oracle;
 pub mod page;
 pub mod study;
 pub mod summary;
+pub mod troiano;
 
 pub use claim::{Basis, Claim, Published, Verdict};
 pub use study::{Extent, Part, STUDIES, Study};

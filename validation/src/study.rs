@@ -72,5 +72,8 @@ impl Study {
 pub type Maker = (&'static str, fn(Extent) -> Result<Study, Box<dyn std::error::Error>>);
 
 /// Every study, in the order of the page.
-pub const STUDIES: [Maker; 2] =
-    [("migraine", crate::migraine::study), ("materials", crate::materials::study)];
+pub const STUDIES: [Maker; 3] = [
+    ("migraine", crate::migraine::study),
+    ("troiano", crate::troiano::study),
+    ("materials", crate::materials::study),
+];
