@@ -4,14 +4,16 @@ use nearwall::effect::KINDS;
 use nearwall::{Draw, Impact};
 use proptest::prelude::*;
 
-use crate::cases::{config, decades, effects_but, impacts, normal_laws, resolve, table, tangential_laws, wax};
+use crate::cases::{
+    config, decades, effects_but, impacts, normal_laws, resolve, table, tangential_laws, wax,
+};
 
 /// Effects that leave 0 to 1 by design.
 const BEYOND_ONE: [&str; 5] = [
     "micro-roughness",       // turns speed along the wall into speed away from it
     "agglomerates",          // draws e_n up to 1.5: turned spin adds to what came towards the wall
     "gas-lift",              // the gas does work
-    "oblique-angle",         // a negative strength turns speed along the wall into speed away from it, e_n <= v/v_n
+    "oblique-angle", // a negative strength turns speed along the wall into speed away from it, e_n <= v/v_n
     "tangential-compliance", // near_normal may be given as up to 1.5; below with 0 to 1
 ];
 

@@ -4,12 +4,14 @@
 //! which goes from 0 to 1 where adhesion or a film begins to hold (there `e_n` reaches 0 without a jump). What is drawn jumps
 //! by chance.
 
-use nearwall::normal::{restitution, stiffness_ratio, sticking_velocity};
+use nearwall::normal::{restitution, sticking_velocity, stiffness_ratio};
 use nearwall::tangential::critical_angle;
 use nearwall::{Impact, Model, Outcome};
 use proptest::prelude::*;
 
-use crate::cases::{FREE, THORNTON_NING, config, constant_normal, decades, e_n, impacts, resolve, table, wax};
+use crate::cases::{
+    FREE, THORNTON_NING, config, constant_normal, decades, e_n, impacts, resolve, table, wax,
+};
 
 /// How far to each side of the place.
 const ASIDE: f64 = 1e-12;

@@ -5,7 +5,9 @@ use nearwall::normal::{restitution, sticking_velocity};
 use nearwall::{Draw, Impact, Model};
 use proptest::prelude::*;
 
-use crate::cases::{FREE, THORNTON_NING, config, constant_normal, decades, e_n, impacts, resolve, table, wax};
+use crate::cases::{
+    FREE, THORNTON_NING, config, constant_normal, decades, e_n, impacts, resolve, table, wax,
+};
 
 /// Values from `low` to `high`, even in the logarithm.
 fn ladder(low: f64, high: f64, count: usize) -> Vec<f64> {

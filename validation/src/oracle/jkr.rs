@@ -102,9 +102,7 @@ impl Jkr {
             Cycle::FixedGrips => self.work(formed, self.opens_at_fixed_grips()),
             Cycle::FixedLoad => self.work(formed, self.opens_at_fixed_load()),
             // Elastic energy less surface energy at a_0 is the work along the curve from nothing.
-            Cycle::SnapInCounted => {
-                self.work(0.0, formed) + self.work(formed, self.opens_at_fixed_grips())
-            }
+            Cycle::SnapInCounted => self.work(0.0, formed) + self.work(formed, self.opens_at_fixed_grips()),
         }
     }
 
@@ -151,7 +149,13 @@ fn gauss(from: f64, to: f64, of: impl Fn(f64) -> f64) -> f64 {
     let far = (5.0 + 2.0 * (10f64 / 7.0).sqrt()).sqrt() / 3.0;
     let near_weight = (322.0 + 13.0 * 70f64.sqrt()) / 900.0;
     let far_weight = (322.0 - 13.0 * 70f64.sqrt()) / 900.0;
-    let points = [(0.0, 128.0 / 225.0), (near, near_weight), (-near, near_weight), (far, far_weight), (-far, far_weight)];
+    let points = [
+        (0.0, 128.0 / 225.0),
+        (near, near_weight),
+        (-near, near_weight),
+        (far, far_weight),
+        (-far, far_weight),
+    ];
     let pieces = 16;
     let half = 0.5 * (to - from) / f64::from(pieces);
     let piece = |index: i32| {

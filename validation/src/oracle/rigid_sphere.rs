@@ -40,6 +40,8 @@ impl RigidSphere {
     pub fn impact(&self, friction: f64, normal_restitution: f64, steps: u32) -> Left {
         let step = (1.0 + normal_restitution) * self.normal_speed / f64::from(steps);
         let slip = |u: f64, spin: f64| u - 0.5 * self.diameter * spin;
+        // What rounding leaves of a slip that has stopped.
+        let none = 1e-9 * slip(self.tangential_speed, self.spin).abs();
         let mut left =
             Left { tangential_speed: self.tangential_speed, spin: self.spin, sticks: false, reversals: 0 };
         for _ in 0..steps {
@@ -52,7 +54,7 @@ impl RigidSphere {
             left.tangential_speed -= change;
             left.spin += 5.0 * change / self.diameter;
             let after = slip(left.tangential_speed, left.spin);
-            left.reversals += u32::from(before * after < 0.0 && after.abs() > 1e-12 * before.abs());
+            left.reversals += u32::from(before * after < 0.0 && after.abs() > none);
         }
         left
     }
