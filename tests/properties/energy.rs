@@ -27,7 +27,7 @@ fn energy(normal: f64, along: f64, rim: f64) -> f64 {
 const DRIVEN: [&str; 4] = [
     "gas-lift",              // the gas does work
     "agglomerates",          // draws e_n up to 1.5
-    "oblique-angle",         // a negative strength moves speed along the wall to e_n, and leaves e_t as it is
+    "oblique-angle", // a negative strength moves speed along the wall to e_n, and leaves e_t as it is; a positive one is added
     "tangential-compliance", // near_normal outside 3/7 to 1 says so: tested within
 ];
 
@@ -40,10 +40,12 @@ proptest! {
         tangential in tangential_laws(),
         effects in effects_but(&DRIVEN),
         impact in spinning(),
+        oblique in (0.0..20.0, 0.0..3.0),
         still in any::<bool>(),
         key in any::<u64>(),
     ) {
         let impact = Impact { spin: if still { 0.0 } else { impact.spin }, ..impact };
+        let effects = effects + &table("oblique-angle", &[oblique.0, oblique.1, 2.0]);
         let outcome = wax(&normal, &tangential, &effects).resolve(0, &impact, Draw::new(1, key)).unwrap();
         let (before, after) = (before(&impact), after(&impact, &outcome));
         prop_assert!(after <= before * (1.0 + 1e-12), "{before} -> {after}: {outcome:?}\n{tangential}\n{effects}");

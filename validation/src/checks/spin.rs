@@ -168,7 +168,8 @@ pub fn part(extent: Extent) -> Outcome<Part> {
                 "The rigid sphere sticks where |s| <= 7/2 f (1+e_n) v_n. The library takes (7k-1)/(2k) in place of 7/2, as the \
                  paper does, which allows for an elastic contact. Between the two the library slides on where the rigid sphere \
                  already rolls: for wax on Pyrex without spin (k = {}, f = {FRICTION}, e_n = {E_N}) from {rigid_angle:.1}° to \
-                 {paper_angle:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {} of the impacts lie in it.",
+                 {paper_angle:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {} of the impacts lie in it. That is no fault: an elastic contact slips up to (7k-1)/(2k) (next part); only the rolling \
+                 above it is the rigid sphere's.",
                 number(k),
                 paper_angle - rigid_angle,
                 number(5.0 / 7.0 - jump),
@@ -267,10 +268,11 @@ fn over_spin(k: f64) -> Figure {
     Chart::new("Spin at 45°, wax on Pyrex", "rim speed over speed along the wall [1]", "e_t [1]")
         .line("library, sliding-rolling", &library)
         .line("rigid sphere", &rigid)
-        .mark_x(1.0, "rolls as it comes")
+        .mark_x(1.0, "")
+        .y_range(0.5, 1.5)
         .figure(
             "checks-spin",
-            "Positive spin rolls forward: fast forward spin drives the particle on (e_t above 1), backspin brakes it. The jumps of \
+            "At 1 (thin line) it rolls as it comes. Positive spin rolls forward: fast forward spin drives the particle on (e_t above 1), backspin brakes it. The jumps of \
              the library are the two ends of its window.",
         )
 }
