@@ -168,7 +168,7 @@ pub fn part(extent: Extent) -> Outcome<Part> {
                 "The rigid sphere sticks where |s| <= 7/2 f (1+e_n) v_n. The library takes (7k-1)/(2k) in place of 7/2, as the \
                  paper does, which allows for an elastic contact. Between the two the library slides on where the rigid sphere \
                  already rolls: for wax on Pyrex without spin (k = {}, f = {FRICTION}, e_n = {E_N}) from {rigid_angle:.1}° to \
-                 {paper_angle:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {} of the impacts lie in it. That is no fault: an elastic contact slips up to (7k-1)/(2k) (next part); only the rolling \
+                 {paper_angle:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {} of the impacts lie in it. That is no fault: an elastic contact (e_n = 1) slips throughout from (7k-1)/(2k) on (next part); only the rolling \
                  above it is the rigid sphere's.",
                 number(k),
                 paper_angle - rigid_angle,

@@ -182,7 +182,6 @@ mod tests {
             (fine.impact(0.3, 1.0).tangential_restitution() - 5.0 / 7.0).abs()
         };
         let (stiff, stiffer) = (away(30.0), away(3000.0));
-        println!("{stiff} {stiffer}");
         assert!(stiff < 0.02 && stiffer < 0.2 * stiff, "{stiff} {stiffer}");
     }
 
