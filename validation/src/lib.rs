@@ -6,6 +6,7 @@
 //! [`oracle`] computes the same things another way (numerical integration of a contact, of an impulse, of an energy); it shares
 //! no code with the library, so that it can disagree with it.
 
+pub mod checks;
 pub mod claim;
 pub mod materials;
 pub mod migraine;
