@@ -104,9 +104,10 @@ pub fn tangential_laws() -> impl Strategy<Value = String> {
 pub fn normal_laws() -> impl Strategy<Value = String> {
     prop_oneof![
         (0.0..=1.0).prop_map(constant_normal),
-        (decades(0.1, 10.0), decades(1e-4, 10.0)).prop_map(|(ratio, work)| format!(
-            "model = \"thornton-ning\"\nyield_ratio = {ratio:e}\nwork_of_adhesion = {work:e}"
-        )),
+        (any::<bool>(), decades(0.1, 10.0), decades(1e-4, 10.0)).prop_map(|(raised, ratio, work)| {
+            let law = if raised { "thornton-ning-raised-pull-off" } else { "thornton-ning" };
+            format!("model = \"{law}\"\nyield_ratio = {ratio:e}\nwork_of_adhesion = {work:e}")
+        }),
     ]
 }
 
