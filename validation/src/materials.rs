@@ -6,7 +6,7 @@ use nearwall::material::{Library, Material, Property};
 use nearwall::report::{Bars, Table, number};
 
 use crate::claim::{Basis, Claim};
-use crate::study::{Extent, Part, Study};
+use crate::study::{self, Extent, Part, Study};
 
 /// Where a number comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -125,10 +125,10 @@ fn table(materials: &[&Material]) -> Table {
     let rows = materials.iter().flat_map(|material| {
         material.properties().map(|(key, unit, property)| row(material, key, unit, property))
     });
-    Table {
-        caption: "Values at both ends of their range of temperature where they depend on it.".to_owned(),
-        header: ["material", "property", "value", "range [K]", "origin"].map(str::to_owned).to_vec(),
-        rows: rows.collect(),
-        text_columns: 5,
-    }
+    study::table(
+        "Values at both ends of their range of temperature where they depend on it.",
+        5,
+        &["material", "property", "value", "range [K]", "origin"],
+        rows.collect(),
+    )
 }

@@ -68,6 +68,12 @@ impl Study {
     }
 }
 
+/// A table of the page; of its columns the first `text_columns` are words.
+pub fn table(caption: &str, text_columns: usize, header: &[&str], rows: Vec<Vec<String>>) -> Table {
+    let header = header.iter().map(|&head| head.to_owned()).collect();
+    Table { caption: caption.to_owned(), header, rows, text_columns }
+}
+
 /// One study: its name on the command line and what makes it.
 pub type Maker = (&'static str, fn(Extent) -> Result<Study, Box<dyn std::error::Error>>);
 

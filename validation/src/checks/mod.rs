@@ -61,11 +61,6 @@ fn wax_on_pyrex() -> Outcome<Contact> {
     Ok(Contact::new(&solid("montan-wax")?, &solid("pyrex")?, 0.7, None))
 }
 
-/// `count` numbers from `low` to `high`, even.
-fn steps(low: f64, high: f64, count: usize) -> impl Iterator<Item = f64> + Clone {
-    (0..count).map(move |i| low + (high - low) * i as f64 / (count - 1).max(1) as f64)
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]

@@ -5,6 +5,7 @@ use nearwall::report::{Chart, number};
 
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::normal_contact::{Impact, follow};
+use crate::steps::even_in_logarithm;
 use crate::study::{Extent, Part};
 
 /// Error of a step of the integration.
@@ -59,12 +60,6 @@ fn restitution(law: NormalLaw, contact: &Contact, diameter: f64, speed: f64) -> 
     law.restitution(contact, diameter, speed).unwrap_or(0.0)
 }
 
-/// Evenly in the logarithm from one end to the other.
-fn decades(low: f64, high: f64, count: usize) -> Vec<f64> {
-    let step = (high / low).ln() / (count - 1) as f64;
-    (0..count).map(|i| low * (step * i as f64).exp()).collect()
-}
-
 /// Heading of the part.
 pub(super) const HEADING: &str = "Normal impact, followed through time";
 
@@ -78,9 +73,9 @@ pub fn part(extent: Extent) -> Part {
         let contact = contact(ratio);
         let plain = NormalLaw::ThorntonNing.speeds(&contact, DIAMETER);
         let raised = NormalLaw::RaisedPullOff.speeds(&contact, DIAMETER);
-        let speeds = decades(0.9 * plain.sticking, 30.0 * raised.sticking, steps);
+        let speeds = even_in_logarithm([0.9 * plain.sticking, 30.0 * raised.sticking], steps);
         let line = |e_n: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-            speeds.iter().map(|v| [v / plain.yielding, e_n(*v)]).collect()
+            speeds.clone().map(|v| [v / plain.yielding, e_n(v)]).collect()
         };
         let of = |law: NormalLaw| line(&|v| restitution(law, &contact, DIAMETER, v));
         let (closed, raised) = (of(NormalLaw::ThorntonNing), of(NormalLaw::RaisedPullOff));
@@ -114,10 +109,9 @@ pub fn part(extent: Extent) -> Part {
 }
 
 fn ratios(extent: Extent) -> nearwall::report::Figure {
-    let ratios = decades(0.05, 100.0, extent.count(80).max(20));
+    let ratios = even_in_logarithm([0.05, 100.0], extent.count(80).max(20));
     let line: Vec<[f64; 2]> = ratios
-        .iter()
-        .map(|&ratio| {
+        .map(|ratio| {
             let contact = contact(ratio);
             let sticking = |law: NormalLaw| law.speeds(&contact, DIAMETER).sticking;
             [ratio, sticking(NormalLaw::RaisedPullOff) / sticking(NormalLaw::ThorntonNing)]

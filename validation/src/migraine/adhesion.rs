@@ -10,9 +10,10 @@ use super::curves::contact;
 use super::published::{RATIO, SETS};
 use super::sample::{Sampler, Spread};
 use super::statistics::binomial;
-use super::{MEASURED_ADHESION, PLAIN, even, model, table};
+use super::{MEASURED_ADHESION, PLAIN, model};
 use crate::claim::{Basis, Claim};
-use crate::study::{Extent, Part};
+use crate::steps::even_in_logarithm;
+use crate::study::{Extent, Part, table};
 
 const SEED: u64 = 11;
 
@@ -95,7 +96,7 @@ fn speeds_table(clean: &Contact) -> Table {
 }
 
 fn figure(clean: &Contact) -> Figure {
-    let works: Vec<f64> = even(0.1f64.ln(), 60f64.ln(), 60).map(f64::exp).collect();
+    let works: Vec<f64> = even_in_logarithm([0.1, 60.0], 60).collect();
     let line = |ratio, diameter| -> Vec<[f64; 2]> {
         let at = |work_of_adhesion| Contact { work_of_adhesion, yield_ratio: ratio, ..*clean };
         works.iter().map(|work| [*work, sticking(&at(*work), diameter)]).collect()
@@ -242,7 +243,7 @@ impl Cases {
             any |= fits(case)?;
         }
         let work = |contact: &Contact, work_of_adhesion| Contact { work_of_adhesion, ..*contact };
-        for work_of_adhesion in even(0.1f64.ln(), 300f64.ln(), 40).map(f64::exp) {
+        for work_of_adhesion in even_in_logarithm([0.1, 300.0], 40) {
             let contact = work(clean, work_of_adhesion);
             let shares = (0..SETS.len()).map(|set| [0, 1].map(|spread| self.share(&contact, set, spread)));
             any |= fits(&Case { name: String::new(), contact, shares: shares.collect() })?;

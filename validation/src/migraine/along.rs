@@ -9,9 +9,10 @@ use nearwall::{Draw, Impact, Model};
 use super::published::{E_T, SETS, Set};
 use super::sample::{Sampler, Spread, angle};
 use super::statistics::{mean, quantile};
-use super::{PLAIN, even, impact, model, table, with};
+use super::{PLAIN, impact, model, with};
 use crate::claim::{Basis, Claim, Published};
-use crate::study::{Extent, Part};
+use crate::steps::even_in_logarithm;
+use crate::study::{Extent, Part, table};
 
 const SEED: u64 = 12;
 
@@ -145,7 +146,7 @@ fn figure(plain: &Model, friction: f64) -> Result<Figure, Box<dyn Error>> {
     .y_step(0.2);
     for (name, model) in laws(plain, friction)?.into_iter().skip(1) {
         let mut line = Vec::new();
-        for slope in even(0.15f64.ln(), 60f64.ln(), 150).map(f64::exp) {
+        for slope in even_in_logarithm([0.15, 60.0], 150) {
             let outcome = model.resolve_with(0, &impact(9e-6, 4.0, 4.0 / slope), |_| 0.5)?;
             line.push([slope, outcome.tangential_restitution]);
         }

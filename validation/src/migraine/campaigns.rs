@@ -8,9 +8,9 @@ use nearwall::{Draw, Model};
 use super::published::{PARTING, SETS, Set};
 use super::sample::{Sampler, Spread};
 use super::statistics::{binomial, mean, quantile};
-use super::{CALIBRATED, OLD, model, table, with};
+use super::{CALIBRATED, OLD, model, with};
 use crate::claim::{Basis, Claim, Published};
-use crate::study::{Extent, Part};
+use crate::study::{Extent, Part, table};
 
 const SEED: u64 = 17;
 /// Numbers of the sets that nothing was set to.

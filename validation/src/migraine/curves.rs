@@ -7,9 +7,10 @@ use nearwall::normal::{Contact, NormalLaw, plastic_term, restitution, yield_velo
 use nearwall::report::{Chart, Figure, number};
 
 use super::published::{ALL_IMPACTS, DURATION, MOLTEN, PARTING, RATIO, RATIOS, SETS, Set, TEMPERATURES};
-use super::{PLAIN, e_n, even, model, table, with};
+use super::{PLAIN, e_n, model, with};
 use crate::claim::{Basis, Claim, Published};
-use crate::study::Part;
+use crate::steps::even;
+use crate::study::{Part, table};
 
 /// Yield strength that the library assumes for tungsten dust at 3000 K [Pa], and how far either way it may be off [1].
 pub const ASSUMED_STRENGTH: f64 = 300e6;
@@ -64,8 +65,7 @@ pub fn contact(
 }
 
 fn figure(plain: &Model, set: &Set) -> Result<Figure, Box<dyn Error>> {
-    let [slow, fast] = set.normal;
-    let speeds: Vec<f64> = even(slow, fast, 120).collect();
+    let speeds: Vec<f64> = even(set.normal, 120).collect();
     let [small, middle, large] = set.size.map(|size| size * 1e-6);
     let title = format!("Set {} ({}): normal restitution", set.number, set.figure);
     let mut chart = Chart::new(&title, "normal speed v_n [m/s]", "e_n [1]").y_range(0.0, 0.7).y_step(0.1);
@@ -131,7 +131,7 @@ fn counts() -> Vec<Claim> {
 /// Largest `p_y` [Pa] at which every impact of a set has `e_n < 0.6`: `e_n` rises with `p_y`. By halving.
 fn largest_pressure(contact: &Contact, set: &Set) -> f64 {
     let fastest = |pressure| {
-        let speeds = even(set.normal[0], set.normal[1], 300);
+        let speeds = even(set.normal, 300);
         speeds.map(|speed| at_pressure(contact, set, pressure, speed)).fold(0.0, f64::max)
     };
     pressure_where(|pressure| fastest(pressure) < PARTING)
@@ -248,7 +248,7 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Erro
 }
 
 fn strength_figure(plain: &Model) -> Result<Figure, Box<dyn Error>> {
-    let speeds: Vec<f64> = even(0.5, 13.0, 120).collect();
+    let speeds: Vec<f64> = even([0.5, 13.0], 120).collect();
     let mut chart =
         Chart::new("What the yield strength does at c = 4 and c = 2.8", "normal speed v_n [m/s]", "e_n [1]")
             .y_range(0.0, 1.0)
@@ -274,7 +274,7 @@ fn ratio_claims(plain: &Model) -> Result<Vec<Claim>, Box<dyn Error>> {
     for set in &SETS {
         let mut most = 0f64;
         for size in [set.size[0], set.size[2]] {
-            for speed in even(set.normal[0], set.normal[1], 60) {
+            for speed in even(set.normal, 60) {
                 most = most.max(e_n(plain, size * 1e-6, speed, 0.5)?);
             }
         }

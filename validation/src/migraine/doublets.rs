@@ -11,9 +11,10 @@ use nearwall::report::{Chart, Figure, Table, round_edges};
 use super::curves::contact;
 use super::published::{PARTING, RATIO, SETS, Set};
 use super::statistics::{mean, quantile};
-use super::{MEASURED_ADHESION, PLAIN, even, model, table};
+use super::{MEASURED_ADHESION, PLAIN, model};
 use crate::claim::{Basis, Claim};
-use crate::study::{Extent, Part};
+use crate::steps::even;
+use crate::study::{Extent, Part, table};
 
 const SEED: u64 = 15;
 const DIAMETER: f64 = 9e-6;
@@ -225,7 +226,7 @@ fn angle_figure(solid: &Contact) -> Figure {
     .y_range(-0.5, 1.1)
     .y_step(0.25);
     let along = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-        even(0.0, 89.9, 200).map(|angle| [angle, of(angle.to_radians())]).collect()
+        even([0.0, 89.9], 200).map(|angle| [angle, of(angle.to_radians())]).collect()
     };
     let followed = |e: Option<f64>| {
         along(&|phi| {

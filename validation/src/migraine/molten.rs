@@ -9,9 +9,9 @@ use nearwall::{Draw, Impact, Model};
 use super::published::{MOLTEN, MOLTEN_SIZE, MOLTEN_TEMPERATURES, SETS};
 use super::sample::{Sampler, Spread};
 use super::statistics::binomial;
-use super::{MOLYBDENUM, model, table};
+use super::{MOLYBDENUM, model};
 use crate::claim::{Basis, Claim, Published};
-use crate::study::Part;
+use crate::study::{Part, table};
 
 const SEED: u64 = 16;
 /// Temperatures [K]: below melting (2896 K), the paper's "> 2900", and the upper end of the melt's properties.

@@ -9,9 +9,10 @@ use statrs::distribution::{Discrete, Hypergeometric};
 use super::published::{PARTING, SETS, Set};
 use super::sample::{Sampler, Spread};
 use super::statistics::{binomial, mean};
-use super::{MEASURED_ADHESION, PLAIN, even, impact, model, table, with};
+use super::{MEASURED_ADHESION, PLAIN, impact, model, with};
 use crate::claim::{Basis, Claim, Published};
-use crate::study::{Extent, Part};
+use crate::steps::even;
+use crate::study::{Extent, Part, table};
 
 const SEED: u64 = 14;
 const EXPONENTS: [f64; 3] = [0.0, 0.5, 1.0];
@@ -49,7 +50,7 @@ fn figure(plain: &Model) -> Result<Figure, Box<dyn Error>> {
     for exponent in EXPONENTS {
         let oblique = with(plain, &[("oblique-angle", &[CHOSEN[0], exponent, 2.0])])?;
         let mut line = Vec::new();
-        for speed in even(SETS[3].normal[0], SETS[3].normal[1], 60) {
+        for speed in even(SETS[3].normal, 60) {
             line.push([speed, at(&oblique, speed, 0.0)? / at(&oblique, speed, SETS[3].angle[1])?]);
         }
         chart = chart.line(&format!("a = {}, p = {exponent}", CHOSEN[0]), &line);

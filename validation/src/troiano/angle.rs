@@ -8,8 +8,9 @@ use super::published::{
     E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_LEAST, E_T_STEEP, FIT_E_N, FIT_E_T, FRICTION,
     SLIDING_END, SLIDING_END_ANGLE, STEEP,
 };
-use super::{Answer, arriving, contact, decide, even, model, passes, thornton_ning};
+use super::{Answer, arriving, contact, decide, model, passes, thornton_ning};
 use crate::oracle::carried::{Air, terminal_speed};
+use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
 /// Where e_n was 0.41.
@@ -51,7 +52,7 @@ fn restitutions() -> Answer<Part> {
     let at_13 = lifted(13.0, four)?;
     let with_tube_13 =
         0.28 * (1.0 + gain / cosine / tube_air(GLANCING) * tube_air(13.0) * 13f64.to_radians().cos());
-    let angles = even([5.0, 89.5], 340);
+    let angles: Vec<f64> = even([5.0, 89.5], 340).collect();
     let curve = |of: &dyn Fn(f64) -> Answer<f64>| -> Answer<Vec<[f64; 2]>> {
         angles.iter().map(|angle| Ok([*angle, of(*angle)?])).collect()
     };
@@ -275,18 +276,17 @@ fn best_fit() -> Answer<Part> {
     let e_g = |angle: f64, e_t: f64| global_restitution(e_n(angle), e_t, angle.to_radians());
     let fits = |of: &dyn Fn(f64) -> f64, count: usize| {
         let points: Vec<[f64; 2]> =
-            even([10.0, 90.0], count).into_iter().map(|angle| [angle, e_g(angle, of(angle))]).collect();
+            even([10.0, 90.0], count).map(|angle| [angle, e_g(angle, of(angle))]).collect();
         fit(&points)
     };
     let points = fits(&|angle| through(&stated, angle), 17);
     let coarse = fits(&|angle| through(&stated, angle), 9);
     let slid = fits(&line, 17);
     let curve = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-        even([5.0, 90.0], 171).into_iter().map(|angle| [angle, of(angle)]).collect()
+        even([5.0, 90.0], 171).map(|angle| [angle, of(angle)]).collect()
     };
     let paper = |angle: f64| global_restitution(FIT_E_N.value, FIT_E_T.value, angle.to_radians());
     let offset = even([10.0, 90.0], 161)
-        .into_iter()
         .map(|angle| (paper(angle) - e_g(angle, through(&stated, angle))).abs())
         .fold(0.0, f64::max);
     Ok(Part {

@@ -4,7 +4,9 @@ use nearwall::report::Chart;
 use nearwall::{Impact, Outcome, global_restitution};
 
 use super::published::{E_N_SYRUP, E_N_THICK, E_N_THIN, SPEEDS, STEEP};
-use super::{Answer, arriving, decide, even, model, table};
+use super::{Answer, arriving, decide, model};
+use crate::steps::even;
+use crate::study::table;
 use crate::{Basis, Claim, Part};
 
 /// The walls of `layers.toml`, what lies on them, and what the paper states.
@@ -19,7 +21,7 @@ const FILM: f64 = 0.2e-3;
 
 /// Mean `e_n` and `e_g` over the speeds of Fig. 10.
 fn means(outcome: &dyn Fn(f64) -> Answer<Outcome>) -> Answer<[f64; 2]> {
-    let speeds = even(SPEEDS, 51);
+    let speeds: Vec<f64> = even(SPEEDS, 51).collect();
     let (mut e_n, mut e_g) = (0.0, 0.0);
     for speed in &speeds {
         let outcome = outcome(*speed)?;
@@ -48,7 +50,7 @@ pub(super) fn part() -> Answer<Part> {
         let impact = Impact { film_thickness: FILM, ..arriving(speed, STEEP) };
         decide(&syrup, "default", &impact)
     };
-    let held = even(SPEEDS, 26).into_iter().map(wet).collect::<Answer<Vec<_>>>()?;
+    let held = even(SPEEDS, 26).map(wet).collect::<Answer<Vec<_>>>()?;
     let held = held.iter().filter(|outcome| outcome.sticking_probability == 1.0).count();
     let stokes = 1000.0 * super::published::DIAMETER * SPEEDS[1] / (9.0 * 0.5);
     let over = |thickness: f64| -> Answer<f64> {
@@ -58,7 +60,6 @@ pub(super) fn part() -> Answer<Part> {
         Ok(e_n)
     };
     let curve = even([0.0, 1.5e-3], 76)
-        .into_iter()
         .map(|thickness| Ok([1e3 * thickness, over(thickness)?]))
         .collect::<Answer<Vec<_>>>()?;
     let lines = Chart::new(
@@ -97,9 +98,9 @@ pub(super) fn part() -> Answer<Part> {
         ],
         tables: vec![table(
             "wax of 75 µm at 84°, mean over 0.5 to 3 m/s",
+            1,
             &["target", "e_n, stated", "e_n", "e_g"],
             rows,
-            1,
         )],
         figures: vec![
             lines

@@ -19,6 +19,7 @@ use std::error::Error;
 use nearwall::normal::{Contact, NormalLaw};
 use nearwall::{Impact, ImpactError, Model, Outcome};
 
+use crate::steps::even;
 use crate::{Extent, Study};
 
 /// What a part returns.
@@ -118,15 +119,10 @@ fn thornton_ning(contact: &Contact, diameter: f64, speed: f64) -> f64 {
     NormalLaw::ThorntonNing.restitution(contact, diameter, speed).unwrap_or(0.0)
 }
 
-/// Evenly spaced numbers from `low` to `high`, both among them.
-fn even([low, high]: [f64; 2], count: usize) -> Vec<f64> {
-    (0..count).map(|i| low + (high - low) * i as f64 / (count - 1) as f64).collect()
-}
-
 /// Mean of a quantity over the speeds of Figs 8 and 10, evenly spaced.
 fn mean_over_speeds(quantity: impl Fn(f64) -> f64) -> f64 {
-    let speeds = even(published::SPEEDS, 251);
-    speeds.iter().map(|speed| quantity(*speed)).sum::<f64>() / speeds.len() as f64
+    const COUNT: usize = 251;
+    even(published::SPEEDS, COUNT).map(quantity).sum::<f64>() / COUNT as f64
 }
 
 /// Where a rising or falling quantity passes `target`, between two numbers.
@@ -137,21 +133,6 @@ fn passes(quantity: impl Fn(f64) -> f64, target: f64, [mut low, mut high]: [f64;
         if (quantity(middle) < target) == rises { low = middle } else { high = middle }
     }
     0.5 * (low + high)
-}
-
-/// A plain table of the page.
-fn table(
-    caption: &str,
-    header: &[&str],
-    rows: Vec<Vec<String>>,
-    text_columns: usize,
-) -> nearwall::report::Table {
-    nearwall::report::Table {
-        caption: caption.to_owned(),
-        header: header.iter().map(|head| (*head).to_owned()).collect(),
-        rows,
-        text_columns,
-    }
 }
 
 #[cfg(test)]

@@ -8,7 +8,8 @@ use super::published::{
     DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, MODULUS_SPREAD, SPEEDS, STEEP, STRENGTH_SPREAD,
     YIELD_RATIO,
 };
-use super::{Answer, arriving, contact, decide, even, mean_over_speeds, model, passes, thornton_ning};
+use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
+use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
 /// The contact of wax and Pyrex with strength [Pa] and modulus [Pa] off by so much, and `c`.
@@ -29,7 +30,7 @@ pub(super) fn part() -> Answer<Part> {
     let model = model!("wax-on-pyrex.toml")?;
     let stiff = |strength: f64, modulus: f64, c: f64| wax(&model, strength, modulus, c);
     let centre = stiff(0.0, 0.0, 0.7)?;
-    let speeds = even([0.1, 3.5], 171);
+    let speeds: Vec<f64> = even([0.1, 3.5], 171).collect();
     // Each uncertain input moved by its deviation, the others kept; what they move e_n by is added in quadrature.
     let moved = [
         [stiff(STRENGTH_SPREAD, 0.0, 0.7)?, stiff(-STRENGTH_SPREAD, 0.0, 0.7)?],
@@ -57,7 +58,6 @@ pub(super) fn part() -> Answer<Part> {
     let curve = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> { speeds.iter().map(|v| [*v, of(*v)]).collect() };
     let hard = stiff(0.0, 0.0, 2.8)?;
     let top = even([0.05, 3.0], 2951)
-        .into_iter()
         .map(|v| [v, thornton_ning(&centre, DIAMETER, v)])
         .max_by(|a, b| a[1].total_cmp(&b[1]))
         .unwrap_or([0.0; 2]);
@@ -73,10 +73,7 @@ pub(super) fn part() -> Answer<Part> {
             .line("c = 0.7", &curve(&at))
             .line("c = 0.7 with the printed v_s", &curve(&printed))
             .line("c = 2.8, hard sphere", &curve(&|v| thornton_ning(&hard, DIAMETER, v)))
-            .points(
-                "stated mean",
-                &even(SPEEDS, 6).into_iter().map(|v| [v, E_N_MEAN.value]).collect::<Vec<_>>(),
-            );
+            .points("stated mean", &even(SPEEDS, 6).map(|v| [v, E_N_MEAN.value]).collect::<Vec<_>>());
     Ok(Part {
         heading: "Fig 8: the speed".to_owned(),
         text: vec![

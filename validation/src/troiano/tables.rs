@@ -6,8 +6,9 @@ use nearwall::report::number;
 
 use super::equations::equation_1;
 use super::published::{DIAMETER, OPERATIONS, SLAG, SOLIDS, Solid, TARGETS, TUBE};
-use super::{Answer, contact, model, passes, table};
+use super::{Answer, contact, model, passes};
 use crate::oracle::carried::{Air, terminal_speed};
+use crate::study::table;
 use crate::{Basis, Claim, Part, Published};
 
 const ROOM: f64 = 293.15;
@@ -60,9 +61,9 @@ pub(super) fn materials() -> Answer<Part> {
         ],
         tables: vec![table(
             "Table 1 beside the library, MPa",
+            2,
             &["printed as", "material", "E, printed", "E, library", "strength, printed", "strength, library"],
             rows,
-            2,
         )],
         claims,
         ..Part::default()
@@ -321,9 +322,9 @@ pub(super) fn operation() -> Answer<Part> {
         ],
         tables: vec![table(
             "Table 3, and the speed that follows",
+            1,
             &["regime", "air [°C]", "flow [m³/h]", "d [µm]", "v_i, printed [m/s]", "v_i from the flow [m/s]"],
             rows,
-            1,
         )],
         claims,
         ..Part::default()
@@ -403,6 +404,7 @@ pub(super) fn speeds() -> Answer<Part> {
         ],
         tables: vec![table(
             "wax of 75 µm, c = 0.7; speeds in m/s",
+            1,
             &[
                 "target",
                 "E* [GPa]",
@@ -415,7 +417,6 @@ pub(super) fn speeds() -> Answer<Part> {
                 "sticks below",
             ],
             rows,
-            1,
         )],
         claims,
         ..Part::default()

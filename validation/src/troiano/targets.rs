@@ -5,7 +5,8 @@ use nearwall::report::Bars;
 use nearwall::{Model, global_restitution};
 
 use super::published::{DIAMETER, E_N_MEAN_WAX, STEEP, TARGETS};
-use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, table, thornton_ning};
+use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
+use crate::study::table;
 use crate::{Basis, Claim, Part};
 
 /// Speed of Fig. 9 [m/s], not its normal part.
@@ -72,6 +73,7 @@ pub(super) fn part() -> Answer<Part> {
         ],
         tables: vec![table(
             "v_i = 1.25 m/s at 84°, 75 µm",
+            1,
             &[
                 "target",
                 "E* [GPa]",
@@ -82,7 +84,6 @@ pub(super) fn part() -> Answer<Part> {
                 "mean e_n, 0.5–3 m/s",
             ],
             rows,
-            1,
         )],
         figures: vec![
             Bars::new("Normal restitution on four targets", "e_n [1]", &names)

@@ -4,7 +4,8 @@ use nearwall::report::Chart;
 use nearwall::{Impact, Model, Outcome};
 
 use super::published::{CAPTURE_70, CAPTURE_105, FLOW_TEST};
-use super::{Answer, arriving, decide, even, model};
+use super::{Answer, arriving, decide, model};
+use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
 /// Wax of 80 µm at 2 m/s and 84° and a temperature [°C] of particle and target.
@@ -40,7 +41,7 @@ fn corners([low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
 pub(super) fn melting() -> Answer<Part> {
     let model = model!("melting.toml")?;
     let flow = model!("flow-test.toml")?;
-    let celsius = even([20.0, 120.0], 201);
+    let celsius: Vec<f64> = even([20.0, 120.0], 201).collect();
     let line = |of: &dyn Fn(f64) -> Answer<f64>| -> Answer<Vec<[f64; 2]>> {
         celsius.iter().map(|t| Ok([*t, of(*t)?])).collect()
     };
@@ -213,7 +214,7 @@ pub(super) fn conversion() -> Answer<Part> {
         };
         Ok(100.0 * decide(&model, "default", &impact)?.sticking_probability)
     };
-    let curve = even([0.7, 1.0], 301).into_iter().map(|x| Ok([x, at(x)?])).collect::<Answer<Vec<_>>>()?;
+    let curve = even([0.7, 1.0], 301).map(|x| Ok([x, at(x)?])).collect::<Answer<Vec<_>>>()?;
     Ok(Part {
         heading: "Fig 12, coal: the conversion".to_owned(),
         text: vec![

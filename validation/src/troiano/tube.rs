@@ -7,10 +7,12 @@ use nearwall::report::{Chart, number};
 use nearwall::simulate::{self, Case, Hit, Shape};
 
 use super::published::{DENSITY, DIAMETER, FUSION_TIME, RESIDENCE, TUBE, TUBE_LENGTH, TUBE_SPEED};
-use super::{Answer, contact, even, mean_over_speeds, model, passes, table, thornton_ning};
+use super::{Answer, contact, mean_over_speeds, model, passes, thornton_ning};
 use crate::oracle::carried::{
     Air, Flight, Law, Place, Sphere, relaxation_time, stokes_closed_form, terminal_speed,
 };
+use crate::steps::even;
+use crate::study::table;
 use crate::{Basis, Claim, Extent, Part, Published};
 
 /// The air of `tube.toml` at 20 and 105 °C: the numbers of its tables.
@@ -188,6 +190,7 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
         ],
         tables: vec![table(
             "air 1.81 m/s, 20 °C",
+            0,
             &[
                 "d [µm]",
                 "τ [ms]",
@@ -201,7 +204,6 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
                 "time [s]",
             ],
             tracks.rows,
-            0,
         )],
         figures: vec![
             tracks.chart.figure(
@@ -373,10 +375,8 @@ pub(super) fn plate(extent: Extent) -> Answer<Part> {
     let deviation = mean(&|hit| (hit.impact.speed() - speed).powi(2)).sqrt();
     let points: Vec<[f64; 2]> =
         hits.iter().map(|hit| [hit.impact.diameter * 1e6, hit.impact.speed()]).collect();
-    let tube: Vec<[f64; 2]> = even([50e-6, 110e-6], 31)
-        .into_iter()
-        .map(|d| [d * 1e6, AIR_SPEED + terminal_speed(d, &ROOM)])
-        .collect();
+    let tube: Vec<[f64; 2]> =
+        even([50e-6, 110e-6], 31).map(|d| [d * 1e6, AIR_SPEED + terminal_speed(d, &ROOM)]).collect();
     let camera: Vec<[f64; 2]> = [0.5, 1.0, 2.0, 3.0].map(|v| [v, seen(v, 0.28, v)]).to_vec();
     let still = |v: f64| seen(v, 0.28, 0.0);
     let pyrex = contact(&model!("wax-on-pyrex.toml")?, "default", 0.7, |_| {})?;
@@ -411,12 +411,12 @@ pub(super) fn plate(extent: Extent) -> Answer<Part> {
         ],
         tables: vec![table(
             "e_n = 0.28 as two frames 1 ms apart show it, air as fast as the particle (assumed)",
+            0,
             &["v_n at the wall [m/s]", "seen over true", "the same in still air"],
             camera
                 .iter()
                 .map(|[v, share]| vec![format!("{v}"), format!("{share:.3}"), format!("{:.3}", still(*v))])
                 .collect(),
-            0,
         )],
         figures: vec![
             Chart::new("Speed at the plate", "diameter [µm]", "speed [m/s]")
