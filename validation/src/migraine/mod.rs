@@ -65,8 +65,7 @@ pub fn study(extent: Extent) -> Result<Study, Box<dyn Error>> {
                  compared is what the text says."
             .to_owned(),
         lead: format!(
-            "{gain} No work of adhesion and no limiting pressure explains the sticking counts of sets 1 to 5 at once, and rigid doublets do not explain the quarter of rebounds above 0.6 unless they \
-             spin faster than earlier hits leave them. What the paper calibrates is p_y, not p_y/sigma_y."
+            "{gain} It does not say who sticks, and what the experiment calibrates is p_y, not p_y/sigma_y."
         ),
         parts,
     })

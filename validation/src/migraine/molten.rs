@@ -67,8 +67,11 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
         figures: Vec::new(),
         claims: vec![
             Claim::number(
-                "set 6 (Mo6)",
-                "probability of capture, 13 of 13 (95 % lower bound), smallest over 0.57 to 7.9 m/s and 2900 to 3200 K",
+                "set 6",
+                &format!(
+                    "probability of capture, 13 of 13 (95 % lower bound), smallest over {} to {} m/s and 2900 to 3200 K",
+                    SETS[4].normal[0], SETS[4].normal[1]
+                ),
                 Published::Between(low, 1.0),
                 least,
                 Basis::Predicted,
@@ -79,7 +82,7 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
                 "droplets are consistent with all 13 sticking; solid molybdenum just below its melting point hardly is",
                 "formation of droplets is consistent with the observation",
                 &format!(
-                    "droplets p = {}; at 2890 K and the speeds of set 5 {:.0} to {:.0} % stick by adhesion, so 13 of 13 has a chance of at most {:.0e}",
+                    "droplets p = {}; at 2890 K and the speeds of set 5 {:.0} to {:.0} % stick by adhesion, so 13 of 13 has a chance of at most {:.2}",
                     number(least),
                     100.0 * solid[0],
                     100.0 * solid[1],

@@ -220,17 +220,17 @@ fn claims(plain: &Model, nano: &Model, measured: &Model, draws: usize) -> Result
     claims.push(
         Claim::number(
             "section 3 (iv)",
-            "mean e_n at 1 m/s: MIGRAINE draws v_adh, nano-roughness draws W",
+            "mean e_n at 1 m/s, both computed here: v_adh drawn as MIGRAINE does (left), W drawn as nano-roughness does (right)",
             Published::within(of_velocity, 0.01),
             of_work,
             Basis::Derived,
         )
-        .because("The left number is ours, too, with v_adh drawn. 0.01 is far below anything the experiment resolves."),
+        .because("Not the paper's number: it prints none. 0.01 is far below anything the experiment resolves."),
     );
     let tilt = largest_tilt(plain, draws / 100)?;
     claims.push(
         Claim::statement(
-            "section 3, targets; W3",
+            "section 3, targets; set 1",
             "polishing made normal and tangential directions the same for all impacts: tilt with which set 1 keeps e_t above 0.61",
             "no tilt",
             &format!("at most some {} rad in half of the campaigns", number(tilt)),
