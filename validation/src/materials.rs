@@ -59,12 +59,9 @@ pub fn study(_: Extent) -> Result<Study, Box<dyn Error>> {
     let total = |origin| origins(origin).iter().sum::<f64>();
     let all: f64 = Origin::ALL.map(total).iter().sum();
     let lead = format!(
-        "Of {all} property values {} are published, {} published with an assumed temperature range, {} cited from a source that was \
-         not read again, and {} assumed. The assumed ones that matter most are the yield strength of hot tungsten and every \
-         mechanical number of char, ash and slag above 1000 K.",
-        total(Origin::Published),
-        total(Origin::PartlyAssumed),
-        total(Origin::NotReRead),
+        "Of {all} property values {} are published, in part or from sources not read again here, and {} are assumed. The assumed ones \
+         that matter most are the yield strength of hot tungsten and every mechanical number of char, ash and slag above 1000 K.",
+        all - total(Origin::Assumed),
         total(Origin::Assumed)
     );
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();

@@ -45,7 +45,7 @@ pub struct Study {
     pub title: String,
     /// The source in full.
     pub source: String,
-    /// The result in two or three sentences.
+    /// The result in two short sentences.
     pub lead: String,
     /// What it consists of.
     pub parts: Vec<Part>,

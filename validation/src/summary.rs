@@ -1,8 +1,7 @@
 //! The page in short, as Markdown: what is kept beside the code and compared with every run.
 
-use std::fmt::Write;
-
-use crate::claim::{Claim, Verdict};
+use crate::claim::Verdict;
+use crate::page::{self, ADVICE};
 use crate::study::Study;
 
 /// Every statement of every study, without pictures.
@@ -18,20 +17,34 @@ pub fn summary(studies: &[Study]) -> String {
         total(Verdict::Differs),
         total(Verdict::Unchecked)
     );
+    for paragraph in ADVICE {
+        text += &format!("\n{paragraph}\n");
+    }
+    let overview = page::overview(studies);
+    text += &format!("\n{}", rows(&overview.header, &overview.rows));
     for study in studies {
-        let _ = write!(text, "\n## {}\n{}\n\n{}\n", study.title, study.source, study.lead);
-        for part in &study.parts {
-            if part.claims.is_empty() {
-                continue;
-            }
+        text += &format!("\n## {}\n{}\n", study.title, study.source);
+        for part in study.parts.iter().filter(|part| !part.claims.is_empty()) {
             if !part.heading.is_empty() {
-                let _ = write!(text, "\n### {}\n", part.heading);
+                text += &format!("\n### {}\n", part.heading);
             }
-            text += "\n| | where | what | source | here | basis | why, or what to know |\n|---|---|---|---|---|---|---|\n";
-            text.extend(part.claims.iter().map(row));
+            let claims: Vec<_> = part.claims.iter().map(page::row).collect();
+            text += &format!("\n{}", rows(&page::HEADER, &claims));
         }
     }
     text
+}
+
+/// A table in Markdown.
+fn rows<T: AsRef<str>, R: AsRef<[T]>>(header: &[impl AsRef<str>], rows: &[R]) -> String {
+    let mut text = line(header) + &"|---".repeat(header.len()) + "|\n";
+    text.extend(rows.iter().map(|row| line(row.as_ref())));
+    text
+}
+
+fn line(cells: &[impl AsRef<str>]) -> String {
+    let cell = |cell: &dyn AsRef<str>| cell.as_ref().replace('|', "\\|").replace('*', "\\*");
+    format!("| {} |\n", cells.iter().map(|text| cell(text)).collect::<Vec<_>>().join(" | "))
 }
 
 /// Whether two lines say the same: numbers may differ by the last digits, as another machine's mathematical functions do, and by all
@@ -47,19 +60,6 @@ pub fn alike(one: &str, other: &str) -> bool {
         _ => a == b,
     };
     one.len() == other.len() && one.iter().zip(&other).all(same)
-}
-
-fn row(claim: &Claim) -> String {
-    let cells = [
-        claim.verdict.name(),
-        &claim.place,
-        &claim.what,
-        &claim.published,
-        &claim.ours,
-        claim.basis_name(),
-        &claim.why,
-    ];
-    format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
 }
 
 #[cfg(test)]

@@ -41,11 +41,9 @@ pub fn study(extent: Extent) -> Outcome<Study> {
         source: "No paper: the same quantities computed another way (validation/src/oracle, which uses nothing of the library), \
                  measured viscosities of 1161 melts, and properties that hold for every model."
             .to_owned(),
-        lead: "The elastic–adhesive law is the energy of JKR's cycle to rounding, and the law with raised pull-off is the contact \
-               followed through time; the closed form under-predicts sticking once adhesion rivals yield. Sliding and rolling are those of a rigid sphere \
-               with any spin, but for a window of angles below the paper's transition. The assumed power law of \
-               tangential-compliance is not what elastic theory gives: that dips deeper past the transition and, for wax on \
-               Pyrex, never rises above rolling. The viscosity laws meet their stated errors."
+        lead: "The laws of adhesion, yielding, sliding and rolling are those of the integrated contact, and the viscosity laws \
+               meet their stated errors. Known differences: the default law under-predicts sticking once adhesion rivals \
+               yield, and tangential-compliance is not elastic theory's curve."
             .to_owned(),
         parts,
     })

@@ -154,9 +154,9 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "For 120 µm. Particles of 100 µm at 0.7 m/s and 15° are below the solid's sticking velocity \
-                 and held for certain: 0.9 points, of the stated sign but by the wrong cause. Sliding of a \
-                 molten particle along the wall, the paper's cause, is not modelled.",
+                "For 120 µm. Smaller particles at 0.7 m/s and 15° lie below the solid's sticking velocity and are held \
+                 for certain, which has the stated sign but not the stated cause. Sliding of a molten particle \
+                 along the wall, the paper's cause, is not modelled.",
             ),
             Claim::statement(
                 "Fig 14",
@@ -343,10 +343,10 @@ pub(super) fn regimes() -> Answer<Part> {
                 burial(slag),
                 Basis::Predicted,
             )
-            .because(
-                "By 20 % only, and by the assumed flux and burn-off: a gasifier with 0.0125 kg/(m² s) would \
-             bury the smallest.",
-            ),
+            .because(&format!(
+                "Hangs on the assumed flux and burn-off: a gasifier with {} kg/(m² s) would bury the smallest.",
+                number(SLAG_FLUX / burial(slag))
+            )),
             Claim::number(
                 "Sec 3.1",
                 "wax: kinetic energy over the work of going under, 90° to 160° [1]",

@@ -96,11 +96,13 @@ pub(super) fn normal() -> Answer<Part> {
                 (speeds.sticking / adhesive - 1.0).abs() < 0.05,
                 Basis::Derived,
             )
-            .because(
-                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is seventeen times less \
-                 than v_s, so the loss by yielding adds to adhesion and the sticking velocity doubles. No \
-                 test of the paper was so slow.",
-            ),
+            .because(&format!(
+                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than \
+                 v_s, so the loss by yielding adds to adhesion and the sticking velocity grows {:.1} times. No test \
+                 of the paper was so slow.",
+                adhesive * ratio(4.0 / 3.0) / yield_velocity(&pyrex),
+                speeds.sticking / (adhesive * ratio(4.0 / 3.0))
+            )),
             Claim::number(
                 "Eq 5",
                 "e_n between v_s and v_y (Teflon, its only elastic window), formula over library [1]",

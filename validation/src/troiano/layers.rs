@@ -107,15 +107,16 @@ pub(super) fn part() -> Answer<Part> {
                 .figure("troiano-layers", "Set through the two dry layers; the point on syrup was not used."),
         ],
         claims: vec![
-            E_N_THIN.beside(thin[0], Basis::Fitted).because(
-                "With c = 0.7 the bare e_n is 0.291, 4 % above 0.28 (Fig. 8), and so are the layers. One of \
-             the effect's two numbers set to it. Band: 0.01, as 0.07 beside it has two decimals.",
-            ),
+            E_N_THIN.beside(thin[0], Basis::Fitted).because(&format!(
+                "One of the effect's two numbers set to it. With c = 0.7 the bare e_n is {:.3}, {:.0} % above 0.28 (Fig. \
+             8), and so are the layers. Band: 0.01, as 0.07 beside it has two decimals.",
+                bare[0],
+                100.0 * (bare[0] / 0.28 - 1.0)
+            )),
             E_N_THICK.beside(thick[0], Basis::Fitted).because("The other number set to it."),
             E_N_SYRUP.beside(on_syrup[0], Basis::Predicted).because(
-                "0.2 mm lies where the fitted curve is steep: it says 0.12, a fifth above 0.1. \"The same \
-                 regardless\" is not a number; within ± 0.02 the two agree. A decay length of 0.09 mm with a \
-                 residual of 0.27 would meet all three rows.",
+                "0.2 mm lies where the curve set to the other two is steep. \"The same regardless\" is not a number; \
+                 within ± 0.02 the two agree.",
             ),
             Claim::statement(
                 "Fig 10",

@@ -54,21 +54,19 @@ pub fn study(extent: Extent) -> Answer<Study> {
          the stated uncertainty, else half of the last digit; where the paper says \"around\" or \"about\", \
          one unit of that digit unless the row says otherwise."
             .to_owned(),
-        lead: lead(),
+        lead: lead()?,
         parts,
     })
 }
 
-fn lead() -> String {
-    "With the paper's inputs the library meets its numbers on stiff targets within what the scatter of the \
-     wax's strength leaves open (mean e_n 0.29 against 0.28), capture and restitution over temperature, the \
-     end of sliding, and the tube. It does not meet the equal restitution on soft targets, which the paper \
-     explains by a slip of its Table 4, nor e_n and e_t at glancing angles without a term set to them; most \
-     other differences are slips of print (Eqs 1, 6, 9, 12, Table 4) and air flows that do not give the \
-     stated speeds. The largest doubt left is the air in front of the target: it slows particles on their \
-     way in and out, so that e_n from two frames 1 ms apart reads a sixth too low; the paper does not say \
-     that it was allowed for."
-        .to_owned()
+fn lead() -> Answer<String> {
+    Ok(format!(
+        "Near the normal on stiff targets (mean e_n {:.2} against {}), over the temperature and in the tube the library \
+         meets the paper. It meets neither the equal rebound on soft targets nor, without a term set to them, glancing \
+         angles; most other differences are slips of print.",
+        speed::mean_on_pyrex()?,
+        published::E_N_MEAN.value
+    ))
 }
 
 /// A model of `validation/troiano/`.

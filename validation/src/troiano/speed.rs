@@ -5,7 +5,7 @@ use nearwall::normal::{Contact, NormalLaw, restitution, yield_velocity};
 use nearwall::report::Chart;
 
 use super::published::{
-    DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, MODULUS_SPREAD, SPEEDS, STEEP, STRENGTH_SPREAD,
+    DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, MODULUS_SPREAD, PYREX, SPEEDS, STEEP, STRENGTH_SPREAD,
     YIELD_RATIO,
 };
 use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
@@ -23,6 +23,11 @@ fn wax(model: &Model, strength: f64, modulus: f64, c: f64) -> Answer<Contact> {
 /// Mean `e_n` over the paper's speeds.
 fn mean(contact: &Contact) -> f64 {
     mean_over_speeds(|v| thornton_ning(contact, DIAMETER, v))
+}
+
+/// Mean `e_n` on Pyrex with the paper's inputs.
+pub(super) fn mean_on_pyrex() -> Answer<f64> {
+    Ok(mean(&wax(&model!("wax-on-pyrex.toml")?, 0.0, 0.0, YIELD_RATIO.value)?))
 }
 
 /// The part on speed.
@@ -48,10 +53,10 @@ pub(super) fn part() -> Answer<Part> {
     let yielding = yield_velocity(&centre);
     let with = |c: f64| Contact { yield_ratio: c, ..centre };
     let best = passes(|c| mean(&with(c)), E_N_MEAN.value, [0.3, 1.5]);
-    let printed = |speed: f64| restitution(speed, 0.0115, yielding);
+    let printed = |speed: f64| restitution(speed, PYREX.sticking[0], yielding);
     let printed_mean = mean_over_speeds(printed);
     let best_printed = passes(
-        |c| mean_over_speeds(|v| restitution(v, 0.0115, yield_velocity(&with(c)))),
+        |c| mean_over_speeds(|v| restitution(v, PYREX.sticking[0], yield_velocity(&with(c)))),
         E_N_MEAN.value,
         [0.3, 1.5],
     );
@@ -186,8 +191,11 @@ fn claims(model: &Model, [best, top_at, top]: [f64; 3]) -> Answer<Vec<Claim>> {
             Basis::Predicted,
         )
         .because(
-            "True from 1.25 m/s on within 5 %. At 0.5 m/s adhesion takes a third of what plasticity leaves \
-                 of the energy; with the printed v_s, ten times too small, it would not be seen.",
+            &format!(
+                "At 0.5 m/s adhesion takes {:.0} % of the energy that plasticity leaves; with the printed v_s, ten times \
+                 too small, it would not be seen.",
+                100.0 * (1.0 - (at(0.5) / without(0.5)).powi(2))
+            ),
         ),
         Claim::number(
             "Fig 8",
