@@ -64,7 +64,26 @@ pub fn alike(one: &str, other: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
     use super::alike;
+
+    /// The README's counts of both papers are those of the kept summary.
+    #[test]
+    fn the_readme_counts_as_the_summary() {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+        let read = |name: &str| std::fs::read_to_string(format!("{root}/{name}")).unwrap();
+        let (summary, readme) = (read("docs/validation.md"), read("README.md"));
+        for (study, paper) in
+            [("| Tungsten dust", "| the tungsten paper"), ("| Wax on targets", "| the wax paper")]
+        {
+            let row = summary.lines().find(|line| line.starts_with(study)).unwrap();
+            let counts: Vec<&str> = row.split('|').skip(2).take(3).map(str::trim).collect();
+            let line = readme.lines().find(|line| line.starts_with(paper)).unwrap();
+            for (count, word) in counts.iter().zip([" agree", " differ", " cannot"]) {
+                assert!(line.contains(&format!(" {count}{word}")), "{count}{word} is not in {line}");
+            }
+        }
+    }
 
     #[test]
     fn lines_are_alike_up_to_rounding() {

@@ -30,7 +30,7 @@ const DIAMETER: f64 = 75e-6;
 pub fn study(extent: Extent) -> Outcome<Study> {
     let parts = vec![
         adhesion::part()?,
-        normal_contact::part(extent),
+        normal_contact::part(extent)?,
         spin::part(extent)?,
         compliance::part(extent)?,
         viscosity::part()?,
@@ -51,12 +51,17 @@ pub fn study(extent: Extent) -> Outcome<Study> {
 
 /// Wax on Pyrex at room temperature, with Troiano's yield ratio.
 fn wax_on_pyrex() -> Outcome<Contact> {
+    wax_on("pyrex")
+}
+
+/// The same on another material.
+fn wax_on(target: &str) -> Outcome<Contact> {
     let library = Library::built_in()?;
     let solid = |name: &str| -> Outcome<_> {
         let material = library.get(name).ok_or_else(|| format!("no material {name}"))?;
         Ok(material.mechanical(293.15)?)
     };
-    Ok(Contact::new(&solid("montan-wax")?, &solid("pyrex")?, 0.7, None))
+    Ok(Contact::new(&solid("montan-wax")?, &solid(target)?, 0.7, None))
 }
 
 #[cfg(test)]

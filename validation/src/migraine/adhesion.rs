@@ -147,7 +147,7 @@ fn figure(clean: &Contact) -> Figure {
         .figure(
             "migraine-adhesion",
             "Set 1 stuck 62 of 230 between 1.36 and 12.95 m/s. By the closed form its slowest impact alone asks more than clean metal can give; \
-             by the raised pull-off clean metal holds most of the set.",
+             with the raised pull-off it holds the slower ones.",
         )
 }
 
