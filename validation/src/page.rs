@@ -1,6 +1,6 @@
 //! The page: what agrees, what differs and why, what cannot be checked and why.
 
-use nearwall::report::{Block, Mark, Page, Table};
+use nearwall::report::{Block, Figure, Mark, Page, Table};
 
 use crate::claim::{Claim, Verdict};
 use crate::study::{Part, Study, table};
@@ -80,7 +80,8 @@ fn add_part(page: &mut Page, part: &Part) {
     }
     part.text.iter().for_each(|text| page.add(Block::Text(plain(text))));
     if !part.figures.is_empty() {
-        page.add(Block::Figures(part.figures.clone()));
+        let captioned = |figure: &Figure| Figure { caption: plain(&figure.caption), ..figure.clone() };
+        page.add(Block::Figures(part.figures.iter().map(captioned).collect()));
     }
     if !part.claims.is_empty() {
         let marks = part.claims.iter().map(|claim| mark(claim.verdict)).collect();

@@ -83,6 +83,10 @@ pub fn part(extent: Extent) -> Outcome<Part> {
         let truth = line(&|v| followed(&contact, DIAMETER, v));
         let gap = raised.iter().zip(&truth).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max);
         worst = worst.max(gap);
+        // Weak adhesion: the curves lie on each other.
+        if ratio < 1.0 {
+            continue;
+        }
         let few: Vec<[f64; 2]> = truth.iter().step_by(6).copied().collect();
         curves = curves
             .line(&format!("closed form, v_adh/v_y = {ratio}"), &closed)
@@ -132,12 +136,13 @@ fn ratios(extent: Extent) -> Outcome<nearwall::report::Figure> {
     .log_x()
     .log_y()
     .line("ratio of sticking velocities", &line)
-    .mark_x(adhesion_over_yield(&wax_on("montan-wax")?, WAX), "wax on wax")
-    .mark_x(adhesion_over_yield(&fluorescein(), FLUORESCEIN_DIAMETER), "fluorescein")
-    .mark_x(adhesion_over_yield(&wax_on("pyrex")?, WAX), "wax on Pyrex")
+    .mark_x(adhesion_over_yield(&wax_on("montan-wax")?, WAX), "")
+    .mark_x(adhesion_over_yield(&fluorescein(), FLUORESCEIN_DIAMETER), "")
+    .mark_x(adhesion_over_yield(&wax_on("pyrex")?, WAX), "")
     .figure(
         "checks-normal-ratio",
-        "Below v_adh/v_y = 0.5 both say the same. Beyond, adhesion alone begins to yield the contact.",
+        "Below v_adh/v_y = 0.5 both say the same. Beyond, adhesion alone begins to yield the contact. Thin lines from the left: wax on \
+         wax, ammonium fluorescein, wax on Pyrex.",
     ))
 }
 

@@ -89,7 +89,7 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
                 Basis::Predicted,
             )
             .because(&format!(
-                "It does not exclude solid grains: at 2890 K and the speeds of set 5 adhesion holds {:.0} to {:.0} % of them by the closed form (13 of 13 then has a chance of at most {:.2}), but {:.0} % at least with the pull-off that \
+                "It does not exclude solid grains: at 2890 K and the speeds of set 5 adhesion holds {:.0} to {:.0} % of them by the closed form (13 of 13 then has a chance of at most {:.2}), but {:.0} % with the pull-off that \
                  yielding raises. Clean metal, 4 x 30 MPa, v_n even or even in its logarithm (all assumed, seed 16). The SEM images of re-solidified grains are the strong evidence.",
                 100.0 * solid[0],
                 100.0 * solid[1],

@@ -314,10 +314,10 @@ fn best_fit() -> Answer<Part> {
                 "From stated values at five angles in place of the figure's points; where those lie, and how \
                  they are weighted, moves the result by 0.01 to 0.02.",
             ),
-            FIT_E_T.beside(points[1], Basis::Predicted).because(
-                "As above. With the line f = 0.28 it would be 0.82: the fit confirms 0.8 at 13° against Fig. \
-                 7's line.",
-            ),
+            FIT_E_T.beside(points[1], Basis::Predicted).because(&format!(
+"As above. With the line f = 0.28 it would be {:.2}: the paper's fit goes with 0.8 at 13°, not with Fig. 7's line.",
+slid[1]
+)),
         ],
         ..Part::default()
     })
