@@ -154,7 +154,7 @@ fn claims(worst: f64) -> Vec<Claim> {
     vec![
         Claim::number(
             "oracle",
-            "e_n of raised pull-off less that of the followed impact, largest over the figure [1]",
+            "e_n of raised pull-off less that of the followed impact, largest for v_adh/v_y = 0.3, 3 and 30 [1]",
             Published::Below(1e-8),
             worst,
             Basis::Derived,
