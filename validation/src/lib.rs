@@ -12,8 +12,10 @@ pub mod materials;
 pub mod migraine;
 pub mod oracle;
 pub mod page;
+pub mod steps;
 pub mod study;
 pub mod summary;
+pub mod terms;
 pub mod troiano;
 
 pub use claim::{Basis, Claim, Published, Verdict};

@@ -6,7 +6,7 @@ use nearwall::material::{Library, Material, Property};
 use nearwall::report::{Bars, Table, number};
 
 use crate::claim::{Basis, Claim};
-use crate::study::{Extent, Part, Study};
+use crate::study::{self, Extent, Part, Study};
 
 /// Where a number comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,12 +59,9 @@ pub fn study(_: Extent) -> Result<Study, Box<dyn Error>> {
     let total = |origin| origins(origin).iter().sum::<f64>();
     let all: f64 = Origin::ALL.map(total).iter().sum();
     let lead = format!(
-        "Of {all} property values {} are published, {} published with an assumed temperature range, {} cited from a source that was \
-         not read again, and {} assumed. The assumed ones that matter most are the yield strength of hot tungsten and every \
-         mechanical number of char, ash and slag above 1000 K.",
-        total(Origin::Published),
-        total(Origin::PartlyAssumed),
-        total(Origin::NotReRead),
+        "Of {all} property values {} are published, in part or from sources not read again here, and {} are assumed. The assumed ones \
+         that matter most are the yield strength of hot tungsten and every mechanical number of char, ash and slag above 1000 K.",
+        all - total(Origin::Assumed),
         total(Origin::Assumed)
     );
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
@@ -125,10 +122,10 @@ fn table(materials: &[&Material]) -> Table {
     let rows = materials.iter().flat_map(|material| {
         material.properties().map(|(key, unit, property)| row(material, key, unit, property))
     });
-    Table {
-        caption: "Values at both ends of their range of temperature where they depend on it.".to_owned(),
-        header: ["material", "property", "value", "range [K]", "origin"].map(str::to_owned).to_vec(),
-        rows: rows.collect(),
-        text_columns: 5,
-    }
+    study::table(
+        "Values at both ends of their range of temperature where they depend on it.",
+        5,
+        &["material", "property", "value", "range [K]", "origin"],
+        rows.collect(),
+    )
 }

@@ -1,24 +1,27 @@
 //! The page: what agrees, what differs and why, what cannot be checked and why.
 
-use nearwall::report::{Block, Mark, Page, Table};
+use nearwall::report::{Block, Figure, Mark, Page, Table};
 
 use crate::claim::{Claim, Verdict};
-use crate::study::{Part, Study};
+use crate::study::{Part, Study, table};
 
 /// Every verdict in the order of the page, with its colour.
 const VERDICTS: [(Verdict, Mark); 3] =
     [(Verdict::Agrees, Mark::Good), (Verdict::Differs, Mark::Watch), (Verdict::Unchecked, Mark::Open)];
 
-/// What the studies come to, for someone who decides whether to use it.
-const TRUST: &str = "Trust it for: the normal rebound of solid, dry particles from a harder wall once p_y is known (Thornton–Ning to \
-    rounding, wax on Pyrex within the scatter of its measured strength); sliding and rolling with any spin; silicate viscosities \
-    within their stated errors; deposit or splash of the drops that both papers saw.";
-const CALIBRATE: &str = "Calibrate before use: yield strength of hot dust, char and ash (a factor of 3 and more is open, and only p_y is \
-    seen in a rebound); work of adhesion; the reference viscosity; melting and conversion thresholds; agglomerates, powder layers and \
+const TRUST: &str = "Trust it for: the normal rebound of solid, dry particles from a harder wall once the limiting pressure p_y is \
+    known (Thornton and Ning's law to rounding, wax on Pyrex within the scatter of its measured strength); the mechanics of sliding and \
+    rolling with any spin, once the friction is known; silicate viscosities within their stated errors; that the molten drops of both \
+    papers stay on the wall.";
+const CALIBRATE: &str = "Calibrate before use: yield strength of hot dust, char and ash (a factor of 3 and more is open, and a rebound \
+    shows only p_y); work of adhesion; the reference viscosity; melting and conversion thresholds; agglomerates, powder layers and \
     gas lift, which describe what was seen and do not explain it.";
 const DOUBT: &str = "Do not expect: who sticks in Pilot-PSI (no adhesion explains all sets); equal rebound from soft and hard walls, as \
-    measured with wax (the law says 1.5 times more from soft ones); small, soft, adhesive particles by the default law (it lets go what \
-    the flattened contact holds; thornton-ning-raised-pull-off does not); trends of droplet capture with speed and angle.";
+    measured with wax (the law says clearly more from soft ones); the sticking of small, soft, adhesive particles by the default law \
+    (it lets go what the flattened contact holds; thornton-ning-raised-pull-off does not); trends of droplet capture with speed and angle.";
+
+/// What the studies come to, for someone who decides whether to use it.
+pub const ADVICE: [&str; 3] = [TRUST, CALIBRATE, DOUBT];
 
 /// The page of all studies.
 pub fn page(studies: &[Study]) -> Page {
@@ -49,32 +52,36 @@ fn summary(page: &mut Page, studies: &[Study]) {
          proves little; \"predicted\" and \"derived\" ones were not used."
             .to_owned(),
     ]));
-    page.add(Block::Text(TRUST.to_owned()));
-    page.add(Block::Text(CALIBRATE.to_owned()));
-    page.add(Block::Text(DOUBT.to_owned()));
-    let mut header = vec!["study".to_owned()];
-    header.extend(VERDICTS.map(|(verdict, _)| verdict.name().to_owned()));
-    header.push("in short".to_owned());
+    for text in ADVICE {
+        page.add(Block::Text(text.to_owned()));
+    }
+    let marks =
+        studies.iter().map(|study| if study.count(Verdict::Differs) == 0 { Mark::Good } else { Mark::Watch });
+    page.add(Block::Marked(overview(studies), marks.collect()));
+}
+
+/// The studies with their verdicts.
+pub fn overview(studies: &[Study]) -> Table {
+    let mut header = vec!["study"];
+    header.extend(VERDICTS.map(|(verdict, _)| verdict.name()));
+    header.push("in short");
     let row = |study: &Study| {
         let mut row = vec![study.title.clone()];
         row.extend(VERDICTS.map(|(verdict, _)| study.count(verdict).to_string()));
         row.push(study.lead.clone());
         row
     };
-    let table =
-        Table { caption: String::new(), header, rows: studies.iter().map(row).collect(), text_columns: 0 };
-    let marks =
-        studies.iter().map(|study| if study.count(Verdict::Differs) == 0 { Mark::Good } else { Mark::Watch });
-    page.add(Block::Marked(table, marks.collect()));
+    table("", 0, &header, studies.iter().map(row).collect())
 }
 
 fn add_part(page: &mut Page, part: &Part) {
     if !part.heading.is_empty() {
         page.add(Block::Subheading(part.heading.clone()));
     }
-    part.text.iter().for_each(|text| page.add(Block::Text(text.clone())));
+    part.text.iter().for_each(|text| page.add(Block::Text(plain(text))));
     if !part.figures.is_empty() {
-        page.add(Block::Figures(part.figures.clone()));
+        let captioned = |figure: &Figure| Figure { caption: plain(&figure.caption), ..figure.clone() };
+        page.add(Block::Figures(part.figures.iter().map(captioned).collect()));
     }
     if !part.claims.is_empty() {
         let marks = part.claims.iter().map(|claim| mark(claim.verdict)).collect();
@@ -87,24 +94,20 @@ fn mark(verdict: Verdict) -> Mark {
     VERDICTS.iter().find(|(known, _)| *known == verdict).map_or(Mark::Open, |(_, mark)| *mark)
 }
 
+/// Columns of the statements.
+pub const HEADER: [&str; 7] = ["", "where", "what", "source", "here", "basis", "why, or what to know"];
+
+/// One statement.
+pub fn row(claim: &Claim) -> [&str; 7] {
+    let verdict = claim.verdict.name();
+    [verdict, &claim.place, &claim.what, &claim.published, &claim.ours, claim.basis_name(), &claim.why]
+}
+
 fn claims(claims: &[Claim]) -> Table {
-    let row = |claim: &Claim| {
-        let cells: [&str; 7] = [
-            claim.verdict.name(),
-            &claim.place,
-            &claim.what,
-            &claim.published,
-            &claim.ours,
-            claim.basis_name(),
-            &claim.why,
-        ];
-        cells.map(str::to_owned).to_vec()
-    };
-    let header = ["", "where", "what", "source", "here", "basis", "why, or what to know"];
-    Table {
-        caption: String::new(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: claims.iter().map(row).collect(),
-        text_columns: 7,
-    }
+    table("", 7, &HEADER, claims.iter().map(|claim| row(claim).map(plain).to_vec()).collect())
+}
+
+/// Without the marks of code, which only Markdown knows.
+fn plain(text: &str) -> String {
+    text.replace('`', "")
 }

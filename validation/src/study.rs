@@ -45,7 +45,7 @@ pub struct Study {
     pub title: String,
     /// The source in full.
     pub source: String,
-    /// The result in two or three sentences.
+    /// The result in two short sentences.
     pub lead: String,
     /// What it consists of.
     pub parts: Vec<Part>,
@@ -66,6 +66,12 @@ impl Study {
     pub fn unexplained(&self) -> impl Iterator<Item = &Claim> {
         self.claims().filter(|claim| claim.verdict != Verdict::Agrees && claim.why.is_empty())
     }
+}
+
+/// A table of the page; of its columns the first `text_columns` are words.
+pub fn table(caption: &str, text_columns: usize, header: &[&str], rows: Vec<Vec<String>>) -> Table {
+    let header = header.iter().map(|&head| head.to_owned()).collect();
+    Table { caption: caption.to_owned(), header, rows, text_columns }
 }
 
 /// One study: its name on the command line and what makes it.

@@ -1,8 +1,7 @@
 //! The page in short, as Markdown: what is kept beside the code and compared with every run.
 
-use std::fmt::Write;
-
-use crate::claim::{Claim, Verdict};
+use crate::claim::Verdict;
+use crate::page::{self, ADVICE};
 use crate::study::Study;
 
 /// Every statement of every study, without pictures.
@@ -18,20 +17,34 @@ pub fn summary(studies: &[Study]) -> String {
         total(Verdict::Differs),
         total(Verdict::Unchecked)
     );
+    for paragraph in ADVICE {
+        text += &format!("\n{paragraph}\n");
+    }
+    let overview = page::overview(studies);
+    text += &format!("\n{}", rows(&overview.header, &overview.rows));
     for study in studies {
-        let _ = write!(text, "\n## {}\n{}\n\n{}\n", study.title, study.source, study.lead);
-        for part in &study.parts {
-            if part.claims.is_empty() {
-                continue;
-            }
+        text += &format!("\n## {}\n{}\n", study.title, study.source);
+        for part in study.parts.iter().filter(|part| !part.claims.is_empty()) {
             if !part.heading.is_empty() {
-                let _ = write!(text, "\n### {}\n", part.heading);
+                text += &format!("\n### {}\n", part.heading);
             }
-            text += "\n| | where | what | source | here | basis | why, or what to know |\n|---|---|---|---|---|---|---|\n";
-            text.extend(part.claims.iter().map(row));
+            let claims: Vec<_> = part.claims.iter().map(page::row).collect();
+            text += &format!("\n{}", rows(&page::HEADER, &claims));
         }
     }
     text
+}
+
+/// A table in Markdown.
+fn rows<T: AsRef<str>, R: AsRef<[T]>>(header: &[impl AsRef<str>], rows: &[R]) -> String {
+    let mut text = line(header) + &"|---".repeat(header.len()) + "|\n";
+    text.extend(rows.iter().map(|row| line(row.as_ref())));
+    text
+}
+
+fn line(cells: &[impl AsRef<str>]) -> String {
+    let cell = |cell: &dyn AsRef<str>| cell.as_ref().replace('|', "\\|").replace('*', "\\*");
+    format!("| {} |\n", cells.iter().map(|text| cell(text)).collect::<Vec<_>>().join(" | "))
 }
 
 /// Whether two lines say the same: numbers may differ by the last digits, as another machine's mathematical functions do, and by all
@@ -49,22 +62,28 @@ pub fn alike(one: &str, other: &str) -> bool {
     one.len() == other.len() && one.iter().zip(&other).all(same)
 }
 
-fn row(claim: &Claim) -> String {
-    let cells = [
-        claim.verdict.name(),
-        &claim.place,
-        &claim.what,
-        &claim.published,
-        &claim.ours,
-        claim.basis_name(),
-        &claim.why,
-    ];
-    format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
-}
-
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
     use super::alike;
+
+    /// The README's counts of both papers are those of the kept summary.
+    #[test]
+    fn the_readme_counts_as_the_summary() {
+        let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+        let read = |name: &str| std::fs::read_to_string(format!("{root}/{name}")).unwrap();
+        let (summary, readme) = (read("docs/validation.md"), read("README.md"));
+        for (study, paper) in
+            [("| Tungsten dust", "| the tungsten paper"), ("| Wax on targets", "| the wax paper")]
+        {
+            let row = summary.lines().find(|line| line.starts_with(study)).unwrap();
+            let counts: Vec<&str> = row.split('|').skip(2).take(3).map(str::trim).collect();
+            let line = readme.lines().find(|line| line.starts_with(paper)).unwrap();
+            for (count, word) in counts.iter().zip([" agree", " differ", " cannot"]) {
+                assert!(line.contains(&format!(" {count}{word}")), "{count}{word} is not in {line}");
+            }
+        }
+    }
 
     #[test]
     fn lines_are_alike_up_to_rounding() {

@@ -8,7 +8,8 @@ use nearwall::report::{Chart, Figure, Table, number};
 use super::{DIAMETER, Outcome, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::jkr::{Cycle, Jkr};
-use crate::study::Part;
+use crate::steps::{even, even_in_logarithm};
+use crate::study::{Part, table};
 
 const PLACE: &str = "Thornton & Ning 1998";
 
@@ -73,18 +74,16 @@ fn conventions() -> Table {
         let factor = Jkr::UNIT.adhesive_velocity(cycle);
         vec![name.to_owned(), format!("{factor:.10}"), number(Jkr::UNIT.lost(cycle))]
     };
-    Table {
-        caption:
-            "C1 in v_adh = C1 (W⁵/(rho³ E*² R⁵))^(1/6), and the energy lost in units of (W⁵ R⁴/E*²)^(1/3)"
-                .to_owned(),
-        header: ["cycle", "C1", "lost"].map(str::to_owned).to_vec(),
-        rows: vec![
+    table(
+        "C1 in v_adh = C1 (W⁵/(rho³ E*² R⁵))^(1/6), and the energy lost in units of (W⁵ R⁴/E*²)^(1/3)",
+        1,
+        &["cycle", "C1", "lost"],
+        vec![
             row("forms without work, opens at fixed grips (Thornton & Ning)", Cycle::FixedGrips),
             row("forms without work, opens at the largest pull (dead weight)", Cycle::FixedLoad),
             row("snap-in speeds the particle up, opens at fixed grips", Cycle::SnapInCounted),
         ],
-        text_columns: 1,
-    }
+    )
 }
 
 /// Wax on Pyrex, with each of size, stiffness, density and adhesion a thousandth and a thousandfold of it.
@@ -115,8 +114,7 @@ fn worst_adhesive_velocity() -> Outcome<f64> {
 
 fn worst_restitution() -> f64 {
     let adhesive = Jkr::UNIT.adhesive_velocity(Cycle::FixedGrips);
-    let ratios = (0..60).map(|i| 1.001 * 10f64.powf(4.0 * f64::from(i) / 59.0));
-    ratios.fold(0.0, |worst, ratio| {
+    even_in_logarithm([1.001, 1.001e4], 60).fold(0.0, |worst, ratio| {
         larger(
             worst,
             restitution(ratio * adhesive, adhesive, f64::INFINITY) - Jkr::UNIT.restitution(ratio * adhesive),
@@ -135,7 +133,7 @@ fn curve() -> Figure {
     let pull = -sphere.force(sphere.opens_at_fixed_load());
     let depth = -sphere.approach(opens);
     let along = |from: f64, to: f64| -> Vec<[f64; 2]> {
-        let radii = super::steps(from, to, 80);
+        let radii = even([from, to], 80);
         radii.map(|a| [sphere.approach(a) / depth, sphere.force(a) / pull]).collect()
     };
     let snap = [[0.0, 0.0], [0.0, sphere.force(formed) / pull]];
@@ -153,7 +151,7 @@ fn curve() -> Figure {
 fn restitutions() -> Figure {
     let adhesive = Jkr::UNIT.adhesive_velocity(Cycle::FixedGrips);
     let library: Vec<[f64; 2]> =
-        super::steps(0.8, 5.0, 200).map(|v| [v, restitution(v, 1.0, f64::INFINITY)]).collect();
+        even([0.8, 5.0], 200).map(|v| [v, restitution(v, 1.0, f64::INFINITY)]).collect();
     let oracle: Vec<[f64; 2]> = [1.02, 1.1, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0]
         .map(|ratio| [ratio, Jkr::UNIT.restitution(ratio * adhesive)])
         .to_vec();

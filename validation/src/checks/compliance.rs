@@ -2,15 +2,16 @@
 
 use std::f64::consts::PI;
 
-use nearwall::effect::{KINDS, Term};
 use nearwall::normal::Contact;
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{Glance, Rebound, critical_angle};
 
-use super::{DIAMETER, FRICTION, Outcome, steps, wax_on_pyrex};
+use super::{DIAMETER, FRICTION, Outcome, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::compliant_sphere::{CompliantSphere, Left};
-use crate::study::{Extent, Part};
+use crate::steps::{even, even_in_logarithm};
+use crate::study::{self, Extent, Part};
+use crate::terms::term;
 
 pub const HEADING: &str = "Tangential compliance: elastic theory beside an assumed power law";
 
@@ -53,8 +54,7 @@ impl Theory {
 
 /// `e_t` of the library's effect for an elastic impact without spin.
 fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Outcome<f64> {
-    let kind = KINDS.into_iter().find(|kind| kind.id == "tangential-compliance");
-    let term = Term::new(kind.ok_or("no effect tangential-compliance")?, &[FRICTION, near_normal, exponent]);
+    let term = term("tangential-compliance", &[FRICTION, near_normal, exponent])?;
     let (normal_speed, tangential_speed) = degrees.to_radians().sin_cos();
     let glance = Glance {
         normal_speed,
@@ -79,7 +79,7 @@ impl Fit {
     /// bounds (0.05 to 20).
     fn new(k: f64, points: &[[f64; 2]]) -> Outcome<Self> {
         let mut best: Option<Self> = None;
-        for exponent in steps(0.05f64.ln(), 20f64.ln(), 300).map(f64::exp) {
+        for exponent in even_in_logarithm([0.05, 20.0], 300) {
             // e_t = a + near_normal b at each angle.
             let (mut up, mut down) = (0.0, 0.0);
             for [degrees, e_t] in points {
@@ -114,7 +114,7 @@ pub fn part(extent: Extent) -> Outcome<Part> {
     let theory = Theory::new(k, extent);
     let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
     let over = |low: f64, high: f64, count: usize| -> Vec<[f64; 2]> {
-        steps(low, high, count).map(|degrees| [degrees, theory.e_t(degrees)]).collect()
+        even([low, high], count).map(|degrees| [degrees, theory.e_t(degrees)]).collect()
     };
     let past = over(critical + 0.01, 89.9, extent.count(400));
     let glancing = over(2.0, critical, extent.count(200));
@@ -248,7 +248,7 @@ fn table(extent: Extent) -> Table {
     let row = |[k, nu]: [f64; 2]| {
         let theory = Theory::new(k, extent);
         let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
-        let angles = steps(critical, 89.9, extent.count(100).max(30));
+        let angles = even([critical, 89.9], extent.count(100).max(30));
         let lowest = angles
             .map(|degrees| [degrees, theory.e_t(degrees)])
             .fold([0.0, 1.0], |low, p| if p[1] < low[1] { p } else { low });
@@ -262,11 +262,10 @@ fn table(extent: Extent) -> Table {
             format!("{:.3}", theory.e_t(89.99)),
         ]
     };
-    Table {
-        caption: format!(
-            "Elastic theory over k, f = {FRICTION}, without spin; Poisson's ratio of two equal solids"
-        ),
-        header: [
+    study::table(
+        &format!("Elastic theory over k, f = {FRICTION}, without spin; Poisson's ratio of two equal solids"),
+        0,
+        &[
             "k [1]",
             "Poisson's ratio [1]",
             "critical [°]",
@@ -274,21 +273,16 @@ fn table(extent: Extent) -> Table {
             "lowest e_t",
             "e_t at 80°",
             "e_t head-on",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-        rows: [[2.0 / 3.0, 0.5], [0.75, 0.4], [0.7 / 0.85, 0.3], [0.8 / 0.9, 0.2], [1.0, 0.0]]
-            .map(row)
-            .to_vec(),
-        text_columns: 0,
-    }
+        ],
+        [[2.0 / 3.0, 0.5], [0.75, 0.4], [0.7 / 0.85, 0.3], [0.8 / 0.9, 0.2], [1.0, 0.0]].map(row).to_vec(),
+    )
 }
 
 fn chart(theory: &Theory, k: f64, fit: &Fit, critical: f64) -> Outcome<Figure> {
     let curve = |parameters: [f64; 2]| -> Outcome<Vec<[f64; 2]>> {
-        steps(3.0, 89.9, 300).map(|degrees| Ok([degrees, effect(k, parameters, degrees)?])).collect()
+        even([3.0, 89.9], 300).map(|degrees| Ok([degrees, effect(k, parameters, degrees)?])).collect()
     };
-    let points: Vec<[f64; 2]> = steps(3.0, 89.9, 60).map(|degrees| [degrees, theory.e_t(degrees)]).collect();
+    let points: Vec<[f64; 2]> = even([3.0, 89.9], 60).map(|degrees| [degrees, theory.e_t(degrees)]).collect();
     Ok(Chart::new("e_t of an elastic sphere, k of wax on Pyrex", "angle from the surface [°]", "e_t [1]")
         .line("effect, nearest to the theory", &curve(fit.parameters)?)
         .line("effect, near_normal 1, exponent 2.2", &curve([1.0, 2.2])?)

@@ -30,7 +30,7 @@ const DIAMETER: f64 = 75e-6;
 pub fn study(extent: Extent) -> Outcome<Study> {
     let parts = vec![
         adhesion::part()?,
-        normal_contact::part(extent),
+        normal_contact::part(extent)?,
         spin::part(extent)?,
         compliance::part(extent)?,
         viscosity::part()?,
@@ -41,11 +41,9 @@ pub fn study(extent: Extent) -> Outcome<Study> {
         source: "No paper: the same quantities computed another way (validation/src/oracle, which uses nothing of the library), \
                  measured viscosities of 1161 melts, and properties that hold for every model."
             .to_owned(),
-        lead: "The elastic–adhesive law is the energy of JKR's cycle to rounding, and the law with raised pull-off is the contact \
-               followed through time; the closed form under-predicts sticking once adhesion rivals yield. Sliding and rolling are those of a rigid sphere \
-               with any spin, but for a window of angles below the paper's transition. The assumed power law of \
-               tangential-compliance is not what elastic theory gives: that dips deeper past the transition and, for wax on \
-               Pyrex, never rises above rolling. The viscosity laws meet their stated errors."
+        lead: "The laws of adhesion, yielding, sliding and rolling are those of the integrated contact, and the viscosity laws \
+               meet their stated errors. Known differences: the default law under-predicts sticking once adhesion rivals \
+               yield, and tangential-compliance is not elastic theory's curve."
             .to_owned(),
         parts,
     })
@@ -53,17 +51,17 @@ pub fn study(extent: Extent) -> Outcome<Study> {
 
 /// Wax on Pyrex at room temperature, with Troiano's yield ratio.
 fn wax_on_pyrex() -> Outcome<Contact> {
+    wax_on("pyrex")
+}
+
+/// The same on another material.
+fn wax_on(target: &str) -> Outcome<Contact> {
     let library = Library::built_in()?;
     let solid = |name: &str| -> Outcome<_> {
         let material = library.get(name).ok_or_else(|| format!("no material {name}"))?;
         Ok(material.mechanical(293.15)?)
     };
-    Ok(Contact::new(&solid("montan-wax")?, &solid("pyrex")?, 0.7, None))
-}
-
-/// `count` numbers from `low` to `high`, even.
-fn steps(low: f64, high: f64, count: usize) -> impl Iterator<Item = f64> + Clone {
-    (0..count).map(move |i| low + (high - low) * i as f64 / (count - 1).max(1) as f64)
+    Ok(Contact::new(&solid("montan-wax")?, &solid(target)?, 0.7, None))
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! Which properties are tested for random models and impacts, and how to run the tests.
 
-use nearwall::report::Table;
-
-use crate::study::Part;
+use crate::study::{Part, table};
 
 /// Group of tests (a file of tests/properties) and what it says.
 const PROPERTIES: [[&str; 2]; 13] = [
@@ -41,12 +39,7 @@ pub fn part() -> Part {
              oblique-angle, which is counted; polynomials and the viscosity fits of slags, which are relations between numbers."
                 .to_owned(),
         ],
-        tables: vec![Table {
-            caption: String::new(),
-            header: ["group", "property"].map(str::to_owned).to_vec(),
-            rows: PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec(),
-            text_columns: 2,
-        }],
+        tables: vec![table("", 2, &["group", "property"], PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec())],
         ..Part::default()
     }
 }

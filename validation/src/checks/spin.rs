@@ -1,13 +1,14 @@
 //! Sliding and rolling beside a rigid sphere with spin, integrated over the impulse.
 
-use nearwall::effect::{KINDS, Term};
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{Glance, Rebound, TangentialLaw, critical_angle};
 
-use super::{DIAMETER, FRICTION, Outcome, steps, wax_on_pyrex};
+use super::{DIAMETER, FRICTION, Outcome, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::rigid_sphere::{Left, RigidSphere};
-use crate::study::{Extent, Part};
+use crate::steps::even;
+use crate::study::{Extent, Part, table};
+use crate::terms::term;
 
 const PLACE: &str = "Routh's integration";
 
@@ -57,7 +58,7 @@ impl Case {
 
 /// All angles, spins both ways, frictions and normal restitutions.
 fn cases(k: f64, extent: Extent) -> Vec<Case> {
-    let angles = steps(0.5, 89.5, extent.count(1780));
+    let angles = even([0.5, 89.5], extent.count(1780));
     let mut cases = Vec::new();
     for rim in [-5.0, -1.0, -0.2, 0.0, 0.2, 1.0, 5.0] {
         for friction in [0.02, FRICTION, 1.0] {
@@ -74,13 +75,9 @@ pub fn part(extent: Extent) -> Outcome<Part> {
     let cases = cases(k, extent);
     let (window, plain): (Vec<&Case>, Vec<&Case>) =
         cases.iter().partition(|case| (0.5 * (7.0 - 1.0 / k)..=3.5).contains(&case.slip()));
-    let term = |friction: f64| {
-        let kind = KINDS.into_iter().find(|kind| kind.id == "sliding-to-rolling");
-        kind.map(|kind| Term::new(kind, &[friction])).ok_or("no effect sliding-to-rolling")
-    };
     let by_effect = |case: &Case| -> Outcome<Rebound> {
         let before = Rebound { restitution: 0.1, spin: 7.0 };
-        Ok(term(case.friction)?.effect().tangential(&case.glance, before))
+        Ok(term("sliding-to-rolling", &[case.friction])?.effect().tangential(&case.glance, before))
     };
     let mut effect = 0.0f64;
     for case in &plain {
@@ -191,7 +188,7 @@ fn gain(case: &Case, rebound: Rebound) -> f64 {
 }
 
 fn window_without_spin(k: f64) -> Vec<Case> {
-    let angles = steps(1.0, 89.0, 8801).map(|angle| Case::new(angle, 0.0, FRICTION, E_N, k));
+    let angles = even([1.0, 89.0], 8801).map(|angle| Case::new(angle, 0.0, FRICTION, E_N, k));
     angles.filter(|case| (0.5 * (7.0 - 1.0 / k)..=3.5).contains(&case.slip())).collect()
 }
 
@@ -219,21 +216,19 @@ fn windows() -> Table {
         ]
         .to_vec()
     };
-    Table {
-        caption: format!(
+    table(
+        &format!(
             "The window for f = {FRICTION}, e_n = {E_N}, over Mindlin's k (Poisson's ratio 1/2, 0.3 and 0)"
         ),
-        header: ["k [1]", "rigid [°]", "library [°]", "window [°]", "largest difference in e_t [1]"]
-            .map(str::to_owned)
-            .to_vec(),
-        rows: [2.0 / 3.0, 0.7 / 0.85, 1.0].map(row).to_vec(),
-        text_columns: 0,
-    }
+        0,
+        &["k [1]", "rigid [°]", "library [°]", "window [°]", "largest difference in e_t [1]"],
+        [2.0 / 3.0, 0.7 / 0.85, 1.0].map(row).to_vec(),
+    )
 }
 
 fn over_angle(k: f64, [rigid_angle, paper_angle]: [f64; 2]) -> Figure {
     let of = |e_t: &dyn Fn(&Case) -> f64| -> Vec<[f64; 2]> {
-        let cases = steps(5.0, 88.0, 831).map(|angle| (angle, Case::new(angle, 0.0, FRICTION, E_N, k)));
+        let cases = even([5.0, 88.0], 831).map(|angle| (angle, Case::new(angle, 0.0, FRICTION, E_N, k)));
         cases.map(|(angle, case)| [angle, e_t(&case)]).collect()
     };
     let law = |law: TangentialLaw| of(&|case| law.rebound(&case.glance).restitution);
@@ -252,7 +247,7 @@ fn over_angle(k: f64, [rigid_angle, paper_angle]: [f64; 2]) -> Figure {
 }
 
 fn over_spin(k: f64) -> Figure {
-    let rims = || steps(-4.0, 4.0, 401);
+    let rims = || even([-4.0, 4.0], 401);
     let library: Vec<[f64; 2]> = rims()
         .map(|rim| {
             let case = Case::new(45.0, rim, FRICTION, E_N, k);

@@ -1,11 +1,11 @@
 //! The viscosity laws of slags beside measured melts.
 
-use nearwall::report::{Chart, Figure, Table, number};
+use nearwall::report::{Chart, Figure, number};
 use nearwall::slag::{SlagViscosity, ViscosityLaw};
 
 use super::Outcome;
 use crate::claim::{Basis, Claim, Published};
-use crate::study::Part;
+use crate::study::{Part, table};
 
 /// The table and its reader are those of the library's own tests: one copy of the data.
 #[path = "../../../tests/common/measured_slags.rs"]
@@ -42,7 +42,7 @@ pub fn part() -> Outcome<Part> {
     let rows: Vec<&Measured> = all.iter().filter(|row| row.in_ash_window).collect();
     let iron_free: Vec<&Measured> = rows.iter().copied().filter(|row| row.iron() == 0.0).collect();
     let mut claims = Vec::new();
-    let mut table = Vec::new();
+    let mut errors = Vec::new();
     let mut figures = Vec::new();
     for (law, stated, tolerance) in STATED {
         let found = pairs(law, &rows)?;
@@ -60,7 +60,7 @@ pub fn part() -> Outcome<Part> {
                 "the rows behind the stated figure are not listed in full; the band is the one it came with",
             ),
         );
-        table.push(vec![law.name().to_owned(), number(stated), number(rms), number(bias), number(without)]);
+        errors.push(vec![law.name().to_owned(), number(stated), number(rms), number(bias), number(without)]);
         figures.push(figure(law, &found));
     }
     Ok(Part {
@@ -72,14 +72,12 @@ pub fn part() -> Outcome<Part> {
             rows.len(),
             rows.len() - iron_free.len()
         )],
-        tables: vec![Table {
-            caption: "Error in log10".to_owned(),
-            header: ["law", "stated rms", "rms", "mean", "rms of rows without iron"]
-                .map(str::to_owned)
-                .to_vec(),
-            rows: table,
-            text_columns: 1,
-        }],
+        tables: vec![table(
+            "Error in log10",
+            1,
+            &["law", "stated rms", "rms", "mean", "rms of rows without iron"],
+            errors,
+        )],
         figures,
         claims,
     })

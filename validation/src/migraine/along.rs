@@ -6,12 +6,14 @@ use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::TangentialLaw;
 use nearwall::{Draw, Impact, Model};
 
-use super::published::{E_T, SETS, Set};
+use super::curves::contact;
+use super::published::{E_T, RATIO, SETS, Set};
 use super::sample::{Sampler, Spread, angle};
 use super::statistics::{mean, quantile};
-use super::{PLAIN, even, impact, model, table, with};
+use super::{PLAIN, impact, model, with};
 use crate::claim::{Basis, Claim, Published};
-use crate::study::{Extent, Part};
+use crate::steps::even_in_logarithm;
+use crate::study::{Extent, Part, table};
 
 const SEED: u64 = 12;
 
@@ -32,10 +34,12 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
                  the motion along the wall if it goes on sliding, and leaves rolling's 5/7 = 0.714 if it does not.",
                 number(friction)
             ),
-            "Rolling would be independent of both speeds, as printed, for near-normal impacts, and 5/7 lies close to 0.74 to 0.76; but 0.83 and 0.86 lie above \
+            format!(
+                "Rolling would be independent of both speeds, as printed, for near-normal impacts, and 5/7 lies close to 0.74 to 0.76; but 0.83 and 0.86 lie above \
              it. tangential-compliance can lie above 5/7 near head-on (its `near_normal`), with a shape that is assumed. No law with friction explains minima of 0.61 and 0.56: \
-             sliding ends where 1 - 2k/(7k-1) = 0.65 is left."
-                .to_owned(),
+             sliding ends where 1 - 2k/(7k-1) = {:.2} is left.",
+                end_of_sliding(&plain)?
+            ),
         ],
         tables: vec![means_table(&plain, &drawn, friction)?],
         figures: vec![figure(&plain, friction)?],
@@ -145,7 +149,7 @@ fn figure(plain: &Model, friction: f64) -> Result<Figure, Box<dyn Error>> {
     .y_step(0.2);
     for (name, model) in laws(plain, friction)?.into_iter().skip(1) {
         let mut line = Vec::new();
-        for slope in even(0.15f64.ln(), 60f64.ln(), 150).map(f64::exp) {
+        for slope in even_in_logarithm([0.15, 60.0], 150) {
             let outcome = model.resolve_with(0, &impact(9e-6, 4.0, 4.0 / slope), |_| 0.5)?;
             line.push([slope, outcome.tangential_restitution]);
         }
@@ -179,12 +183,11 @@ fn claims(plain: &Model, drawn: &Drawn, friction: f64, bound: f64) -> Result<Vec
         off(E_T) < off(1.0),
         Basis::Fitted,
     ));
-    // W15 is set 4, W3 set 1.
     let sliding = law(plain, TangentialLaw::Sliding { friction: bound });
     let [near_normal, oblique] = [mean(&e_t(&sliding, &drawn[0])?), mean(&e_t(&sliding, &drawn[3])?)];
     claims.push(
         Claim::statement(
-            "section 2, Eq. 4; W3, W15",
+            "section 2, Eq. 4; sets 1 and 4",
             "the theory of e_t can be deemed oversimplified: no mu > 0 in Eq. 4 gives the printed order of sets 1 and 4",
             "0.86 near normal, 0.74 oblique",
             &format!(
@@ -202,7 +205,7 @@ fn claims(plain: &Model, drawn: &Drawn, friction: f64, bound: f64) -> Result<Vec
     let set_1 = mean(&e_t(&law(plain, TangentialLaw::SlidingRolling { friction }), &drawn[0])?);
     claims.push(
         Claim::number(
-            "set 1 (W3)",
+            "set 1",
             "mean e_t of set 1 by sliding or rolling, with the mu of set 4",
             Published::within(SETS[0].e_t, 0.005),
             set_1,
@@ -210,12 +213,12 @@ fn claims(plain: &Model, drawn: &Drawn, friction: f64, bound: f64) -> Result<Vec
         )
         .because("A rigid sphere rolls (5/7) where set 1 keeps 0.86."),
     );
-    let floor = 1.0 - 2.0 / (7.0 - 1.0 / super::curves::contact(plain, 4.0, None)?.stiffness_ratio);
-    for (set, row) in [(&SETS[0], "W3"), (&SETS[3], "W15")] {
+    let floor = end_of_sliding(plain)?;
+    for set in [&SETS[0], &SETS[3]] {
         claims.push(
             Claim::number(
-                &format!("{} ({row})", set.name()),
-                "least e_t, against the least that sliding, rolling or compliance leave above the critical angle",
+                &set.name(),
+                "least e_t (\"always exceeded\", taken as the least), against the least that sliding, rolling or compliance leave above the critical angle",
                 Published::within(set.least_e_t.unwrap_or(f64::NAN), 0.005),
                 floor,
                 Basis::Derived,
@@ -225,6 +228,12 @@ fn claims(plain: &Model, drawn: &Drawn, friction: f64, bound: f64) -> Result<Vec
     }
     claims.extend(dissipation(plain, drawn)?);
     Ok(claims)
+}
+
+/// `e_t` at the critical angle, where an elastic contact ceases to slide all through the impact.
+fn end_of_sliding(plain: &Model) -> Result<f64, Box<dyn Error>> {
+    let k = contact(plain, RATIO[0], None)?.stiffness_ratio;
+    Ok(1.0 - 2.0 * k / (7.0 * k - 1.0))
 }
 
 /// Energy lost along the wall over energy lost towards it, with the printed mean e_t. What a sphere gains as spin is not lost:
@@ -252,7 +261,7 @@ fn dissipation(plain: &Model, drawn: &Drawn) -> Result<Vec<Claim>, Box<dyn Error
                 Basis::Predicted,
             )
             .because(if set.number == 4 {
-                "\"Much less\" is taken as below a third. By its own e_t the oblique set 4 loses about as much along the wall as towards it, what friction can put into spin left out."
+                "\"Much less\" is taken as below a third. The oblique set 4 has most of its speed along the wall; what friction can put into spin is left out."
             } else {
                 "\"Much less\" is taken as below a third. Little speed lies along the wall, so little can be lost there."
             }),

@@ -8,8 +8,9 @@ use super::published::{
     E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_LEAST, E_T_STEEP, FIT_E_N, FIT_E_T, FRICTION,
     SLIDING_END, SLIDING_END_ANGLE, STEEP,
 };
-use super::{Answer, arriving, contact, decide, even, model, passes, thornton_ning};
+use super::{Answer, arriving, contact, decide, model, passes, thornton_ning};
 use crate::oracle::carried::{Air, terminal_speed};
+use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
 /// Where e_n was 0.41.
@@ -51,14 +52,13 @@ fn restitutions() -> Answer<Part> {
     let at_13 = lifted(13.0, four)?;
     let with_tube_13 =
         0.28 * (1.0 + gain / cosine / tube_air(GLANCING) * tube_air(13.0) * 13f64.to_radians().cos());
-    let angles = even([5.0, 89.5], 340);
+    let angles: Vec<f64> = even([5.0, 89.5], 340).collect();
     let curve = |of: &dyn Fn(f64) -> Answer<f64>| -> Answer<Vec<[f64; 2]>> {
         angles.iter().map(|angle| Ok([*angle, of(*angle)?])).collect()
     };
-    let least = |model: &Model| -> Answer<f64> {
-        let line = curve(&|angle| Ok(at(model, angle, 0.0)?.tangential_restitution))?;
-        Ok(line.iter().min_by(|a, b| a[1].total_cmp(&b[1])).map_or(f64::NAN, |point| point[0]))
-    };
+    let slid = curve(&|angle| Ok(at(&plain, angle, 0.0)?.tangential_restitution))?;
+    let [end_of_sliding, lowest_e_t] =
+        slid.iter().copied().min_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or([f64::NAN; 2]);
     let sliding_at_13 = at(&plain, 13.0, 0.0)?;
     let intercept = 0.8 + FRICTION.value * 1.41 * 13f64.to_radians().tan();
     let e_n_figure = Chart::new("Normal restitution over the angle", "angle from the surface [°]", "e_n [1]")
@@ -78,10 +78,7 @@ fn restitutions() -> Answer<Part> {
         Chart::new("Tangential restitution over the angle", "angle from the surface [°]", "e_t [1]")
             .x_range(0.0, 90.0)
             .y_range(0.4, 1.0)
-            .line(
-                "sliding, then rolling",
-                &curve(&|angle| Ok(at(&plain, angle, 0.0)?.tangential_restitution))?,
-            )
+            .line("sliding, then rolling", &slid)
             .line(
                 "with tangential compliance",
                 &curve(&|angle| Ok(lifted(angle, four)?.tangential_restitution))?,
@@ -92,7 +89,7 @@ fn restitutions() -> Answer<Part> {
         text: vec![
             format!(
                 "Plain laws: e_n depends on v_n alone, which Fig. 6 keeps at 1 m/s, so it is {base:.3} at \
-                 every angle; e_t slides down to 0.63 and jumps to 5/7. The paper names what is missing: air \
+                 every angle; e_t slides down to {lowest_e_t:.2} and jumps to 5/7. The paper names what is missing: air \
                  that lifts particles at glancing angles, and tangential compliance. Both are effects here. \
                  Each has one number set to one of the paper's (e_n at 35°, e_t at 80°), and c is lowered so \
                  that e_n is 0.28 near the normal at 1 m/s ({ratio:.2} without lift).",
@@ -135,7 +132,7 @@ fn restitutions() -> Answer<Part> {
             &refined,
             four,
             [ratio, with_tube_13, at_13.normal_restitution],
-            least(&plain)?,
+            end_of_sliding,
         )?,
         ..Part::default()
     })
@@ -151,6 +148,7 @@ fn angle_claims(
     let end = at(plain, 41.0, 0.0)?;
     let slope =
         (1.0 - end.tangential_restitution) / ((1.0 + end.normal_restitution) * 41f64.to_radians().tan());
+    let steep = at(refined, STEEP, four / 4.0)?.normal_restitution;
     let implied = 1.31 / 45f64.to_radians().tan() - 1.0;
     Ok(vec![
         E_N_NEAR_NORMAL.beside(at(plain, STEEP, 0.0)?.normal_restitution, Basis::Predicted).because(
@@ -159,9 +157,10 @@ fn angle_claims(
              deviation is within what sigma_y = 9.5 ± 2.5 MPa leaves open (part on speed)."
             ),
         ),
-        E_N_NEAR_NORMAL
-            .beside(at(refined, STEEP, four / 4.0)?.normal_restitution, Basis::Fitted)
-            .because("c set to it, 0.58; lift adds 1.5 % at 84°."),
+        E_N_NEAR_NORMAL.beside(steep, Basis::Fitted).because(&format!(
+            "c set to it; lift adds {:.1} % at 84°.",
+            100.0 * (steep / at(refined, STEEP, 0.0)?.normal_restitution - 1.0)
+        )),
         E_N_GLANCING
             .beside(at(plain, GLANCING, 0.0)?.normal_restitution, Basis::Predicted)
             .because("The plain law knows no angle."),
@@ -193,8 +192,8 @@ fn angle_claims(
             Basis::Derived,
         )
         .because(
-            "Follows from v_i = 1/sin(alpha) less terminal velocity; 4 is right near 16°, not at 35°, where \
-         e_n was 0.41.",
+            "Follows from v_i = 1/sin(alpha) less terminal velocity; 4 is right between the two, not at 35°, \
+             where e_n was 0.41.",
         ),
         FRICTION
             .beside(slope, Basis::Fitted)
@@ -209,8 +208,8 @@ fn angle_claims(
         SLIDING_END
             .beside((1.0 + end.normal_restitution) * least.to_radians().tan(), Basis::Predicted)
             .because(
-                "For finite k the law ends at 2/(7 - 1/k)/f = 1.29 at any e_n; 1.31 is 43.3° for e_n = \
-             0.39.",
+                "For finite k the law ends at 2/(7 - 1/k)/f at any e_n; 1.31 is 43.3° for e_n = \
+                 0.39.",
             ),
         Claim::statement(
             "Fig 7",
@@ -224,9 +223,10 @@ fn angle_claims(
             "It is the best-fit mean of all angles, not a value between 0.41 at 35° and 0.28 (some 0.38 at \
              45°), for which 1.31 lies at 43.5°. Within the scatter the two cannot be told apart.",
         ),
-        SLIDING_END_ANGLE
-            .beside(least, Basis::Predicted)
-            .because("e_n of the plain law, 0.32; 42.9° with e_n = 0.39, see Eq. 11."),
+        SLIDING_END_ANGLE.beside(least, Basis::Predicted).because(&format!(
+            "With e_n of the plain law, {:.2}; a larger e_n ends sliding earlier, see Eq. 11.",
+            end.normal_restitution
+        )),
         E_T_STEEP
             .beside(at(plain, 80.0, 0.0)?.tangential_restitution, Basis::Predicted)
             .because("Rigid rolling gives 5/7, as the paper says; compliance is what it leaves out."),
@@ -275,18 +275,17 @@ fn best_fit() -> Answer<Part> {
     let e_g = |angle: f64, e_t: f64| global_restitution(e_n(angle), e_t, angle.to_radians());
     let fits = |of: &dyn Fn(f64) -> f64, count: usize| {
         let points: Vec<[f64; 2]> =
-            even([10.0, 90.0], count).into_iter().map(|angle| [angle, e_g(angle, of(angle))]).collect();
+            even([10.0, 90.0], count).map(|angle| [angle, e_g(angle, of(angle))]).collect();
         fit(&points)
     };
     let points = fits(&|angle| through(&stated, angle), 17);
     let coarse = fits(&|angle| through(&stated, angle), 9);
     let slid = fits(&line, 17);
     let curve = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
-        even([5.0, 90.0], 171).into_iter().map(|angle| [angle, of(angle)]).collect()
+        even([5.0, 90.0], 171).map(|angle| [angle, of(angle)]).collect()
     };
     let paper = |angle: f64| global_restitution(FIT_E_N.value, FIT_E_T.value, angle.to_radians());
     let offset = even([10.0, 90.0], 161)
-        .into_iter()
         .map(|angle| (paper(angle) - e_g(angle, through(&stated, angle))).abs())
         .fold(0.0, f64::max);
     Ok(Part {
@@ -315,10 +314,10 @@ fn best_fit() -> Answer<Part> {
                 "From stated values at five angles in place of the figure's points; where those lie, and how \
                  they are weighted, moves the result by 0.01 to 0.02.",
             ),
-            FIT_E_T.beside(points[1], Basis::Predicted).because(
-                "As above. With the line f = 0.28 it would be 0.82: the fit confirms 0.8 at 13° against Fig. \
-                 7's line.",
-            ),
+            FIT_E_T.beside(points[1], Basis::Predicted).because(&format!(
+"As above. With the line f = 0.28 it would be {:.2}: the paper's fit goes with 0.8 at 13°, not with Fig. 7's line.",
+slid[1]
+)),
         ],
         ..Part::default()
     })

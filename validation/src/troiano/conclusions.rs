@@ -50,8 +50,8 @@ pub(super) fn part() -> Answer<Part> {
     Ok(Part {
         heading: "What the abstract concludes".to_owned(),
         text: vec![
-            "Four sentences carry the paper. Two stand. The first stands for stiff targets near the normal, \
-             which is where its parameter was fitted; the one on gasifiers cannot be posed."
+            "Four sentences carry the paper. The first holds for stiff targets near the normal, which is where \
+             its parameter was fitted; the one on gasifiers cannot be tested with the paper's data."
                 .to_owned(),
         ],
         claims: vec![

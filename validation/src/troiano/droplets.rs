@@ -5,7 +5,9 @@ use nearwall::material::Molten;
 use nearwall::report::{Chart, number};
 use nearwall::{Impact, Model};
 
-use super::{Answer, decide, even, model, table};
+use super::{Answer, decide, model};
+use crate::steps::even;
+use crate::study::table;
 use crate::{Basis, Claim, Part, Published};
 
 const HOT: f64 = 393.15;
@@ -61,8 +63,7 @@ pub(super) fn part() -> Answer<Part> {
     let droplet = model!("droplet.toml")?;
     let melt = droplet.particle().molten(HOT)?;
     let impacts: Vec<Impact> = even(SPEEDS, 12)
-        .into_iter()
-        .flat_map(|speed| even(ANGLES, 6).into_iter().map(move |angle| (speed, angle)))
+        .flat_map(|speed| even(ANGLES, 6).map(move |angle| (speed, angle)))
         .flat_map(|(speed, angle)| SIZES.map(|diameter| molten(speed, angle, diameter)))
         .collect();
     let captured = |model: &Model| -> Answer<[f64; 2]> {
@@ -88,7 +89,6 @@ pub(super) fn part() -> Answer<Part> {
     let show = |[low, high]: [f64; 2]| format!("{} to {}", number(low), number(high));
     let splash_at = |angle: f64| -> Vec<[f64; 2]> {
         even(SPEEDS, 44)
-            .into_iter()
             .map(|speed| {
                 let normal = speed * angle.to_radians().sin();
                 [speed, DropletNumbers::new(&melt, normal, SIZES[1]).splash]
@@ -154,9 +154,9 @@ pub(super) fn part() -> Answer<Part> {
                 Basis::Predicted,
             )
             .because(
-                "For 120 µm. Particles of 100 µm at 0.7 m/s and 15° are below the solid's sticking velocity \
-                 and held for certain: 0.9 points, of the stated sign but by the wrong cause. Sliding of a \
-                 molten particle along the wall, the paper's cause, is not modelled.",
+                "For 120 µm. Smaller particles at 0.7 m/s and 15° lie below the solid's sticking velocity and are held \
+                 for certain, which has the stated sign but not the stated cause. Sliding of a molten particle \
+                 along the wall, the paper's cause, is not modelled.",
             ),
             Claim::statement(
                 "Fig 14",
@@ -257,10 +257,7 @@ impl Wall {
 
     /// Speed [m/s] at which the first corner is entrapped.
     fn entrapping_speed(&self, degrees: f64, drag: bool) -> f64 {
-        even([0.0, 200.0], 2001)
-            .into_iter()
-            .find(|v| self.entrapped(degrees, *v, drag))
-            .unwrap_or(f64::INFINITY)
+        even([0.0, 200.0], 2001).find(|v| self.entrapped(degrees, *v, drag)).unwrap_or(f64::INFINITY)
     }
 }
 
@@ -315,6 +312,7 @@ pub(super) fn regimes() -> Answer<Part> {
         ],
         tables: vec![table(
             "at 2 m/s; the last column is the flux of slag that would bury",
+            1,
             &[
                 "wall",
                 "contact angle [°]",
@@ -325,7 +323,6 @@ pub(super) fn regimes() -> Answer<Part> {
                 "burying flux in 5 s [kg/(m² s)]",
             ],
             rows,
-            1,
         )],
         claims: vec![
             Claim::number(
@@ -346,10 +343,10 @@ pub(super) fn regimes() -> Answer<Part> {
                 burial(slag),
                 Basis::Predicted,
             )
-            .because(
-                "By 20 % only, and by the assumed flux and burn-off: a gasifier with 0.0125 kg/(m² s) would \
-             bury the smallest.",
-            ),
+            .because(&format!(
+                "Hangs on the assumed flux and burn-off: a gasifier with {} kg/(m² s) would bury the smallest.",
+                number(SLAG_FLUX / burial(slag))
+            )),
             Claim::number(
                 "Sec 3.1",
                 "wax: kinetic energy over the work of going under, 90° to 160° [1]",

@@ -10,7 +10,8 @@ use nearwall::tangential::critical_angle;
 use nearwall::{Draw, global_restitution};
 
 use super::published::{CRITICAL_ANGLE, DIAMETER, FIT_E_N, FIT_E_T, FRICTION, ROLLING, TARGETS};
-use super::{Answer, arriving, contact, decide, even, model};
+use super::{Answer, arriving, contact, decide, model};
+use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
 /// Eq. 1 [m/s] with `factor` under the root (printed: 4/3); `K` is the paper's composite modulus [Pa].
@@ -44,7 +45,6 @@ pub(super) fn normal() -> Answer<Part> {
     };
     let equation_5 = (1.0 - (adhesive_velocity(&teflon, DIAMETER) / elastic).powi(2)).sqrt();
     let largest_gap = even([0.001, 1.0], 1000)
-        .into_iter()
         .map(|w| (equation_6(w, 1.2 - w * w / 5.0) - plastic_term(w)).abs())
         .fold(0.0, f64::max);
     let (plus, lost) = (equation_6(1.0, 1.4), equation_6(1.0, 0.24));
@@ -96,11 +96,13 @@ pub(super) fn normal() -> Answer<Part> {
                 (speeds.sticking / adhesive - 1.0).abs() < 0.05,
                 Basis::Derived,
             )
-            .because(
-                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is seventeen times less \
-                 than v_s, so the loss by yielding adds to adhesion and the sticking velocity doubles. No \
-                 test of the paper was so slow.",
-            ),
+            .because(&format!(
+                "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than \
+                 v_s, so the loss by yielding adds to adhesion and the sticking velocity grows {:.1} times. No test \
+                 of the paper was so slow.",
+                adhesive * ratio(4.0 / 3.0) / yield_velocity(&pyrex),
+                speeds.sticking / (adhesive * ratio(4.0 / 3.0))
+            )),
             Claim::number(
                 "Eq 5",
                 "e_n between v_s and v_y (Teflon, its only elastic window), formula over library [1]",

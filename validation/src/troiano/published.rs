@@ -43,7 +43,7 @@ pub const MODULUS_SPREAD: f64 = 66e6;
 pub const E_N_GLANCING: Stated = stated("Fig 6", "e_n at 35° and v_n = 1 m/s, \"around\"", 0.41, 0.01);
 pub const E_N_NEAR_NORMAL: Stated =
     stated("Fig 6", "e_n near the normal at v_n = 1 m/s, \"around\"", 0.28, 0.01);
-pub const E_T_GLANCING: Stated = stated("Fig 6", "e_t at 13°, \"around\"", 0.8, 0.05);
+pub const E_T_GLANCING: Stated = stated("Fig 6", "e_t at 13°, \"around\"", 0.8, 0.1);
 pub const E_T_STEEP: Stated = stated("Fig 6", "e_t at about 80°", 0.85, 0.005);
 pub const E_T_LEAST: Stated = stated("Fig 6", "angle of the least e_t, \"≈\" [°]", 40.0, 5.0);
 pub const FIT_E_N: Stated = stated("Fig 6", "e_n of the best fit of Eq. 9", 0.31, 0.005);
@@ -121,17 +121,20 @@ pub const TARGETS: [Target; 4] = [
         yielding: [6.8e-3, 0.05e-3],
         sticking: [1.04e-2, 0.005e-2],
     },
-    Target {
-        name: "Pyrex",
-        wall: "pyrex",
-        material: "pyrex",
-        surface_energy: 1.0,
-        modulus: 64e9,
-        poisson: 0.20,
-        yielding: [6.8e-3, 0.05e-3],
-        sticking: [1.15e-2, 0.005e-2],
-    },
+    PYREX,
 ];
+
+/// The target of most tests.
+pub const PYREX: Target = Target {
+    name: "Pyrex",
+    wall: "pyrex",
+    material: "pyrex",
+    surface_energy: 1.0,
+    modulus: 64e9,
+    poisson: 0.20,
+    yielding: [6.8e-3, 0.05e-3],
+    sticking: [1.15e-2, 0.005e-2],
+};
 
 /// A row of Table 1: name there, material of the library, modulus and its deviation, strength and its deviation [Pa].
 pub type Solid = (&'static str, &'static str, [f64; 2], [f64; 2]);

@@ -1,0 +1,26 @@
+//! Numbers from one end to the other, for curves and tables.
+
+/// `count` numbers from `low` to `high`, both among them, evenly.
+pub fn even([low, high]: [f64; 2], count: usize) -> impl Iterator<Item = f64> + Clone {
+    (0..count).map(move |place| low + (high - low) * place as f64 / (count - 1).max(1) as f64)
+}
+
+/// The same evenly in the logarithm; both ends above zero.
+pub fn even_in_logarithm(ends: [f64; 2], count: usize) -> impl Iterator<Item = f64> + Clone {
+    even(ends.map(f64::ln), count).map(f64::exp)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_ends_are_among_them() {
+        assert_eq!(even([1.0, 3.0], 3).collect::<Vec<f64>>(), [1.0, 2.0, 3.0]);
+        let decades: Vec<f64> = even_in_logarithm([0.1, 10.0], 3).collect();
+        assert!(
+            decades.iter().zip([0.1, 1.0, 10.0]).all(|(a, b)| (a / b - 1.0).abs() < 1e-14),
+            "{decades:?}"
+        );
+    }
+}
