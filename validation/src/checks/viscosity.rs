@@ -13,7 +13,7 @@ mod measured_slags;
 
 use measured_slags::{Measured, measured};
 
-const PLACE: &str = "stated beforehand";
+const PLACE: &str = "this project's first reading of the data";
 
 /// Law, the rms error in log10 that was stated for it on the ash window, and the largest difference from it.
 const STATED: [(ViscosityLaw, f64, f64); 3] = [
