@@ -271,15 +271,22 @@ template<class CloudType>
 Foam::nearWall::event Foam::nearWallInteraction<CloudType>::eventOf
 (
     const parcelType& p,
+    const polyPatch& pp,
     const approach& a
 ) const
 {
     nearWall::event e;
+    e.patch = pp.index();
+    e.face = pp.whichFace(p.face());
+    e.injector = p.typeId();
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(a.vn) + sqr(a.vt));
-    e.normalSpeed = a.vn;
-    e.conversion = conversionOf(p);
+    e.arrived.v_n = a.vn;
+    e.arrived.v_t = a.vt;
+    e.arrived.d = p.d();
+    e.arrived.T_p = nearWall::temperature(p, isothermal_, 0);
+    e.arrived.conversion = conversionOf(p);
     return e;
 }
 
@@ -322,31 +329,23 @@ std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
 
 
 template<class CloudType>
-nw_impact Foam::nearWallInteraction<CloudType>::impactOf
+void Foam::nearWallInteraction<CloudType>::completeImpact
 (
+    nw_impact& impact,
     const parcelType& p,
     const polyPatch& pp,
     const nearWall::patchRule& rule,
-    const approach& a,
-    const nearWall::event& e
+    const approach& a
 ) const
 {
     const vector gas(this->owner().U()[p.cell()] - a.wall);
 
-    nw_impact impact;
-    nw_impact_init(&impact);
     impact.wall = rule.wall;
-    impact.v_n = a.vn;
-    impact.v_t = a.vt;
-    impact.d = p.d();
-    impact.T_p = nearWall::temperature(p, isothermal_, 0);
     impact.T_w = wallTemperature(p, pp, rule);
-    impact.conversion = e.conversion;
     impact.v_gas = mag(gas - (gas & a.normal)*a.normal);
     impact.omega = nearWall::forwardSpin(p, a.tangent, a.normal, 0);
     impact.seed = seed_;
     impact.key = keyOf(p, a);
-    return impact;
 }
 
 
@@ -364,15 +363,15 @@ void Foam::nearWallInteraction<CloudType>::interact
     // Leaving the wall already, as on a wall that moves away: no impact
     if (a.vn <= 0) return;
 
-    nearWall::event e(eventOf(p, a));
-    const nw_impact impact(impactOf(p, pp, rule, a, e));
+    nearWall::event e(eventOf(p, pp, a));
+    completeImpact(e.arrived, p, pp, rule, a);
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
-    const nw_status status = law_->resolve(impact, outcome);
+    const nw_status status = law_->resolve(e.arrived, outcome);
     if (status != NW_OK)
     {
-        refuse(p, pp, a, e, status, keepParticle);
+        refuse(p, a, e, status, keepParticle);
         return;
     }
 
@@ -380,14 +379,14 @@ void Foam::nearWallInteraction<CloudType>::interact
     e.outsideRange = outcome.flags & NW_OUTSIDE_VALID_RANGE;
     if (outcome.stuck)
     {
-        stick(p, pp, e, keepParticle);
+        stick(p, e, keepParticle);
     }
     else
     {
-        rebound(p, pp, a, e, outcome.e_n, outcome.e_t);
+        rebound(p, a, e, outcome.e_n, outcome.e_t);
         nearWall::addForwardSpin
         (
-            p, outcome.omega - impact.omega, a.tangent, a.normal, 0
+            p, outcome.omega - e.arrived.omega, a.tangent, a.normal, 0
         );
     }
 }
@@ -396,16 +395,20 @@ void Foam::nearWallInteraction<CloudType>::interact
 // * * * * * * * * * * * * What becomes of the parcel  * * * * * * * * * * * //
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::noteHit
-(
-    const parcelType& p,
-    const polyPatch& pp,
-    const nearWall::event& e
-)
+void Foam::nearWallInteraction<CloudType>::note(const nearWall::event& e)
 {
+    if (e.stuck)
+    {
+        record_->tally.addStick(e);
+    }
+    else
+    {
+        record_->tally.addRebound(e);
+    }
     if (record_->fields)
     {
-        record_->fields->addHit(pp.index(), pp.whichFace(p.face()), e.speed);
+        record_->fields->addHit(e.patch, e.face, e.speed);
+        if (e.stuck) record_->fields->addDeposit(e.patch, e.face, e.mass);
     }
 }
 
@@ -432,8 +435,8 @@ void Foam::nearWallInteraction<CloudType>::escape
     bool& keepParticle
 )
 {
-    const nearWall::event e(eventOf(p, approachOf(p, pp)));
-    record_->tally.addEscape(pp.index(), e);
+    const nearWall::event e(eventOf(p, pp, approachOf(p, pp)));
+    record_->tally.addEscape(e);
     record_->balance->add(nearWall::balance::escaped, e.mass);
     keepParticle = false;
     nearWall::setMoving(p, false, 0);
@@ -444,20 +447,12 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::stick
 (
     parcelType& p,
-    const polyPatch& pp,
-    const nearWall::event& e,
+    nearWall::event& e,
     bool& keepParticle
 )
 {
-    noteHit(p, pp, e);
-    record_->tally.addStick(pp.index(), e);
-    if (record_->fields)
-    {
-        record_->fields->addDeposit
-        (
-            pp.index(), pp.whichFace(p.face()), e.mass
-        );
-    }
+    e.stuck = true;
+    note(e);
     nearWall::setMoving(p, false, 0);
     p.U() = Zero;
     keepParticle = keepStuck_;
@@ -472,20 +467,16 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::rebound
 (
     parcelType& p,
-    const polyPatch& pp,
     const approach& a,
-    const nearWall::event& e,
+    nearWall::event& e,
     const scalar en,
     const scalar et
 )
 {
-    noteHit(p, pp, e);
-
-    nearWall::event left(e);
-    left.en = en;
-    left.eg = sqrt(sqr(en*a.vn) + sqr(et*a.vt))/e.speed;
-    record_->tally.addRebound(pp.index(), left);
-
+    e.en = en;
+    e.et = et;
+    e.eg = sqrt(sqr(en*a.vn) + sqr(et*a.vt))/e.speed;
+    note(e);
     bounce(p, a, en, et);
 }
 
@@ -494,9 +485,8 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::refuse
 (
     parcelType& p,
-    const polyPatch& pp,
     const approach& a,
-    const nearWall::event& e,
+    nearWall::event& e,
     const nw_status why,
     bool& keepParticle
 )
@@ -507,19 +497,18 @@ void Foam::nearWallInteraction<CloudType>::refuse
     // Bounce without loss as long as that makes sense: the mass stays airborne
     if (std::isfinite(e.speed) && std::isfinite(e.mass))
     {
-        record_->tally.addUnusable(pp.index(), e);
+        record_->tally.addUnusable(e);
         bounce(p, a, 1, 1);
         keepParticle = true;
         return;
     }
 
     // A speed or mass that is no number cannot be tracked or summed
-    nearWall::event counted(e);
-    counted.speed = 0;
-    counted.normalSpeed = 0;
-    if (!std::isfinite(e.mass)) counted.mass = 0;
-    record_->tally.addUnusable(pp.index(), counted);
-    record_->balance->add(nearWall::balance::unusableRemoved, counted.mass);
+    e.speed = 0;
+    e.arrived.v_n = 0;
+    if (!std::isfinite(e.mass)) e.mass = 0;
+    record_->tally.addUnusable(e);
+    record_->balance->add(nearWall::balance::unusableRemoved, e.mass);
     nearWall::setMoving(p, false, 0);
     keepParticle = false;
 }
@@ -548,15 +537,19 @@ bool Foam::nearWallInteraction<CloudType>::correct
             break;
 
         case nearWall::fate::stick:
-            stick(p, pp, eventOf(p, approachOf(p, pp)), keepParticle);
+        {
+            nearWall::event e(eventOf(p, pp, approachOf(p, pp)));
+            stick(p, e, keepParticle);
             break;
+        }
 
         case nearWall::fate::rebound:
         {
             const approach a(approachOf(p, pp));
             if (a.vn > 0)
             {
-                rebound(p, pp, a, eventOf(p, a), rule.e, 1 - rule.mu);
+                nearWall::event e(eventOf(p, pp, a));
+                rebound(p, a, e, rule.e, 1 - rule.mu);
             }
             break;
         }
