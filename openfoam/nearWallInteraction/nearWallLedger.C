@@ -101,6 +101,17 @@ void Foam::nearWall::table::row(const scalarList& values)
 {
     if (!Pstream::master()) return;
 
+    std::vector<std::string> cells;
+    cells.reserve(values.size());
+    forAll(values, i) cells.push_back(exactText(values[i]));
+    row(cells);
+}
+
+
+void Foam::nearWall::table::row(const std::vector<std::string>& cells)
+{
+    if (!Pstream::master()) return;
+
     if (!file_)
     {
         mkDir(path_.path());
@@ -110,9 +121,9 @@ void Foam::nearWall::table::row(const scalarList& values)
         *file_ << nl;
     }
 
-    forAll(values, i)
+    for (std::size_t i = 0; i < cells.size(); ++i)
     {
-        *file_ << (i ? " " : "") << exactText(values[i]).c_str();
+        *file_ << (i ? " " : "") << cells[i].c_str();
     }
     *file_ << endl;
 }
