@@ -15,12 +15,24 @@
 #include "nearWallCompat.H"
 #include "OSspecific.H"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 std::string Foam::nearWall::exactText(const scalar x)
 {
     char text[40];
+
+    // Counts, and much else: no need to try. isless() is quiet about NaN.
+    if
+    (
+        std::isless(std::fabs(x), 1e9)
+     && x == std::floor(x)
+     && !std::signbit(x)
+    )
+    {
+        return std::to_string(static_cast<long>(x));
+    }
     for (int digits = 15; digits <= 17; ++digits)
     {
         std::snprintf(text, sizeof(text), "%.*g", digits, x);

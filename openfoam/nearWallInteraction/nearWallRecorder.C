@@ -280,46 +280,40 @@ std::string Foam::nearWall::recorder::text(const row& r) const
 }
 
 
-std::vector<std::string> Foam::nearWall::recorder::gathered() const
+std::vector<Foam::nearWall::recorder::line>
+Foam::nearWall::recorder::gathered() const
 {
-    List<List<string>> lines(Pstream::nProcs());
-    List<string>& own = lines[Pstream::myProcNo()];
+    List<List<string>> texts(Pstream::nProcs());
+    List<string>& own = texts[Pstream::myProcNo()];
     own.setSize(label(rows_.size()));
     forAll(own, i) own[i] = text(rows_[i]);
-    Pstream::gatherList(lines);
+    Pstream::gatherList(texts);
 
-    // In an order that does not depend on who had them
-    struct keyed
-    {
-        scalar time;
-        std::uint64_t hash;
-        std::string line;
-    };
-    std::vector<keyed> all;
+    std::vector<line> lines;
     if (Pstream::master())
     {
-        for (const List<string>& list : lines)
+        for (const List<string>& list : texts)
         {
-            for (const string& line : list)
+            for (const string& text : list)
             {
                 scalar known[nKnownBy];
-                readKnown(line, known);
-                all.push_back(keyed{known[0], hashOf(known), line});
+                readKnown(text, known);
+                lines.push_back(line{known[0], hashOf(known), text});
             }
         }
     }
+
+    // In an order that does not depend on who had them
     std::sort
     (
-        all.begin(), all.end(),
-        [](const keyed& a, const keyed& b)
+        lines.begin(), lines.end(),
+        [](const line& a, const line& b)
         {
             if (a.time != b.time) return a.time < b.time;
-            return a.hash != b.hash ? a.hash < b.hash : a.line < b.line;
+            return a.hash != b.hash ? a.hash < b.hash : a.text < b.text;
         }
     );
-    std::vector<std::string> sorted;
-    for (keyed& k : all) sorted.push_back(std::move(k.line));
-    return sorted;
+    return lines;
 }
 
 
@@ -375,15 +369,13 @@ void Foam::nearWall::recorder::open()
 }
 
 
-void Foam::nearWall::recorder::append(const std::vector<std::string>& lines)
+void Foam::nearWall::recorder::append(const std::vector<line>& lines)
 {
     std::ofstream to(file_.c_str(), std::ios::app);
-    for (const std::string& line : lines)
+    for (const line& one : lines)
     {
-        to << line << '\n';
-        scalar known[nKnownBy];
-        readKnown(line, known);
-        inFile_[staysFor(hashOf(known))] += 1;
+        to << one.text << '\n';
+        inFile_[staysFor(one.hash)] += 1;
     }
     to.close();
     if (!to)
@@ -420,7 +412,7 @@ Foam::dictionary Foam::nearWall::recorder::write(Ostream& os)
         rewrite(file_, std::numeric_limits<scalar>::infinity());
     }
 
-    const std::vector<std::string> lines(gathered());
+    const std::vector<line> lines(gathered());
     rows_.clear();
     if (Pstream::master()) append(lines);
 
