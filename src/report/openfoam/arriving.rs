@@ -31,7 +31,8 @@ impl<'a> Arriving<'a> {
             ];
             page.add(Block::Figures(figures.into_iter().flatten().collect()));
         }
-        page.add(Block::Figures(vec![self.energy()]));
+        let walls: Vec<String> = walls.iter().map(|(_, wall)| (*wall).clone()).collect();
+        page.add(Block::Figures(vec![self.energy(&walls)]));
         page.add(Block::Table(self.table()));
     }
 
@@ -103,16 +104,16 @@ impl<'a> Arriving<'a> {
         any.then(|| chart.log_x().y_range(0.0, 100.0).figure(&format!("capture-{index}"), caption))
     }
 
-    fn energy(&self) -> Figure {
-        let mut bars =
-            Bars::new("Kinetic energy that leaves again", "of the arriving kinetic energy [%]", self.walls);
+    fn energy(&self, walls: &[String]) -> Figure {
+        let title = "Kinetic energy that leaves again";
+        let mut bars = Bars::new(title, "of the arriving kinetic energy [%]", walls);
         for (label, result) in self.labels.iter().zip(self.results) {
             let share = |wall: &String| {
                 let patch = result.distributions.iter().find(|patch| patch.patch == *wall);
                 let sums = total(patch.map_or(&[], |patch| patch.at(self.time)), None);
                 100.0 * sums.energy_out / sums.energy_in
             };
-            bars = bars.series(label, &self.walls.iter().map(share).collect::<Vec<f64>>());
+            bars = bars.series(label, &walls.iter().map(share).collect::<Vec<f64>>());
         }
         let caption =
             "Against the wall's own motion; the rest goes into the wall, the particle and the deposit.";

@@ -138,7 +138,7 @@ pub(super) fn is_other_table(stem: &str) -> bool {
 /// All patches of a cloud that have distributions.
 pub(super) fn read_all(case: &Path, cloud: &str) -> Vec<Distributions> {
     let mut patches: Vec<Distributions> = Vec::new();
-    for (_, start) in time_folders(&case.join("postProcessing/nearWallInteraction").join(cloud)) {
+    for (begin, start) in time_folders(&case.join("postProcessing/nearWallInteraction").join(cloud)) {
         let mut paths: Vec<_> =
             std::fs::read_dir(&start).into_iter().flatten().flatten().map(|entry| entry.path()).collect();
         paths.sort();
@@ -146,13 +146,15 @@ pub(super) fn read_all(case: &Path, cloud: &str) -> Vec<Distributions> {
             let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
             let Some(patch) = stem.strip_suffix(SUFFIX) else { continue };
             let tables = tables(&std::fs::read_to_string(path).unwrap_or_default());
-            let Some((first, _)) = tables.first() else { continue };
+            if tables.is_empty() {
+                continue;
+            }
             let index = patches.iter().position(|known| known.patch == patch).unwrap_or_else(|| {
                 patches.push(Distributions { patch: patch.to_owned(), tables: Vec::new() });
                 patches.len() - 1
             });
             let known = &mut patches[index].tables;
-            known.retain(|(time, _)| time < first);
+            known.retain(|(time, _)| *time <= begin * (1.0 + 1e-9));
             known.extend(tables);
         }
     }
