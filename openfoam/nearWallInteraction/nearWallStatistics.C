@@ -457,21 +457,24 @@ Foam::dictionary Foam::nearWall::statistics::write()
     const scalarList area(areas());
     const scalar time = mesh_.time().value();
 
-    std::set<label> changed;
-    forAll(ledgers_, i)
+    // A cloud may move several times a time step; its tables grow once
+    if (time > lastTime_)
     {
-        if (totals[i] != written_[i]) changed.insert(patchOf_[i]);
-    }
-    forAll(ledgers_, i)
-    {
-        if (changed.count(patchOf_[i])) writeDistributions(i, time, totals[i]);
-        if (time > lastTime_ && area[i] > 0)
+        std::set<label> changed;
+        forAll(ledgers_, i)
         {
-            writeFlux(i, time, area[i], totals[i]);
+            if (totals[i] != written_[i]) changed.insert(patchOf_[i]);
         }
+        forAll(ledgers_, i)
+        {
+            if (changed.count(patchOf_[i]))
+            {
+                writeDistributions(i, time, totals[i]);
+            }
+            if (area[i] > 0) writeFlux(i, time, area[i], totals[i]);
+        }
+        written_ = totals;
+        lastTime_ = time;
     }
-
-    written_ = totals;
-    lastTime_ = time;
     return saved(totals);
 }
