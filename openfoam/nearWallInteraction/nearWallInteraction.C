@@ -306,13 +306,12 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::wallTemperature
 template<class CloudType>
 std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
 (
-    const parcelType& p,
-    const approach& a
+    const parcelType& p
 ) const
 {
     const fvMesh& mesh = this->owner().mesh();
     nearWall::impactKey key;
-    key << mesh.time().value() << a.vn << p.d();
+    key.exactly(mesh.time().timeIndex()) << p.d();
     key.add(p.position(), mesh.bounds().mag());
     key.add(p.U(), mag(p.U()) + VSMALL);
     return key.value();
@@ -336,7 +335,7 @@ void Foam::nearWallInteraction<CloudType>::completeImpact
     impact.v_gas = mag(gas - (gas & a.normal)*a.normal);
     impact.omega = nearWall::forwardSpin(p, a.tangent, a.normal, 0);
     impact.seed = seed_;
-    impact.key = keyOf(p, a);
+    impact.key = keyOf(p);
 }
 
 
