@@ -128,4 +128,28 @@ mod tests {
         assert_eq!(list(&format!("{head}0()\n")).unwrap(), Vec::<String>::new());
         assert_eq!(list("no list"), None);
     }
+
+    #[test]
+    fn what_lies_in_the_deposit_is_stuck_also_when_the_cloud_is_empty() {
+        let case = std::env::temp_dir().join(format!("nearwall-parcels-{}", std::process::id()));
+        let write = |path: &str, body: &str| {
+            let path = case.join(path);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, format!("FoamFile\n{{\n}}\n// * * * //\n\n{body}\n")).unwrap();
+        };
+        for (file, body) in
+            [("positions", "1\n(\n(1 2 3) 0\n)"), ("active", "1{1}"), ("d", "1{2e-3}"), ("rho", "1{1000}")]
+        {
+            write(&format!("0.1/lagrangian/coal/{file}"), body);
+        }
+        for (file, body) in
+            [("positions", "2\n(\n(0 0 1) 7\n(0 0 2) 8\n)"), ("d", "2{1e-4}"), ("mass", "2(3e-6 4e-6)")]
+        {
+            write(&format!("0.2/lagrangian/coalDeposit/{file}"), body);
+        }
+        let parcels = read_last(&case, "coal");
+        std::fs::remove_dir_all(&case).unwrap();
+        let lying = |z, mass| Parcel { position: [0.0, 0.0, z], active: false, mass, diameter: 1e-4 };
+        assert_eq!(parcels.unwrap(), [lying(1.0, 3e-6), lying(2.0, 4e-6)]);
+    }
 }
