@@ -273,6 +273,24 @@ state_of_ranks() {  # time start-folder
     done | awk '{ for (i = 1; i <= NF; i++) if ($i*$i < 1e-24) $i = 0 } 1' | sort -g | sed 's/^/deposit-/'
 }
 
+# All lies on one of two ranks when they start again, in files of either kind
+case_one-rank() {
+    local kind
+    for kind in uncollated collated; do
+        build kinematic "$work/one-rank-$kind" || return
+        one_parcel
+        sed -i 's/floor .*/floor { type stick; }/' constant/interaction
+        quiet decompose decomposePar -fileHandler "$kind"
+        settings 0.1 0.1
+        solve "one-rank/$kind" run mpirun -np 2 "$solver" -parallel -fileHandler "$kind" || return
+        settings 0.2 0.1 latestTime
+        solve "one-rank/$kind" again mpirun -np 2 "$solver" -parallel -fileHandler "$kind" || return
+        if [ "$(last "$(folder kinematicCloud 0.1)/balance.dat" stuck_in_cloud_kg)" = 1e-06 ]
+        then ok "one-rank/$kind/kept"; else bad "one-rank/$kind/kept" "not 1e-06 kg after the restart"; fi
+        check_balance "one-rank/$kind/balance" kinematicCloud 0.1
+    done
+}
+
 # From two to four ranks on the way, by redistributePar. Its -reconstruct drops
 # most files of every cloud in v1912, the solver's too: the ranks' own are read.
 redistribute() {
