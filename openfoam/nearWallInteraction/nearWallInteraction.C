@@ -38,21 +38,6 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
 
 
 template<class CloudType>
-bool Foam::nearWallInteraction<CloudType>::readStuck() const
-{
-    const dictionary& coeffs = nearWall::coefficients(*this, 0);
-    const word stuck(nearWall::readOr<word>(coeffs, "stuck", word("keep")));
-    if (stuck != "keep" && stuck != "remove")
-    {
-        FatalIOErrorInFunction(coeffs)
-            << "key 'stuck' is '" << stuck << "', must be keep or remove"
-            << exit(FatalIOError);
-    }
-    return stuck == "keep";
-}
-
-
-template<class CloudType>
 Foam::label
 Foam::nearWallInteraction<CloudType>::readStatisticsInterval() const
 {
@@ -147,7 +132,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
             *law_
         )
     ),
-    keepStuck_(readStuck()),
+    stuck_(nearWall::readStuckFate(nearWall::coefficients(*this, 0))),
     seed_
     (
         nearWall::readOr<label>(nearWall::coefficients(*this, 0), "seed", 1)
@@ -205,15 +190,21 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     (
         saved("balance"), tableFolder(), injectedMass()
     );
+    record_->deposit =
+        nearWall::deposit::read(owner.mesh(), owner.name());
     owner.functions().append
     (
-        new nearWallStart<CloudType>(owner, record_->balance, coeffs)
+        new nearWallStart<CloudType>
+        (
+            owner, record_->balance, record_->deposit, coeffs
+        )
     );
 
     warnAboutRounding();
     Info<< "    nearWallInteraction, model: "
         << nearWall::lawOrigin(coeffs, owner.mesh().time()).c_str() << nl;
     nearWall::reportPatchRules(rules_, owner.mesh());
+    nearWall::reportStuckFate(stuck_, record_->deposit->name());
     if (!nearWall::hasTemperature<parcelType>(0))
     {
         Info<< "    nearWallInteraction: parcels have no temperature, "
@@ -231,7 +222,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     PatchInteractionModel<CloudType>(model),
     law_(model.law_),
     rules_(model.rules_),
-    keepStuck_(model.keepStuck_),
+    stuck_(model.stuck_),
     seed_(model.seed_),
     statisticsInterval_(model.statisticsInterval_),
     isothermal_(model.isothermal_),
@@ -333,13 +324,12 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::wallTemperature
 template<class CloudType>
 std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
 (
-    const parcelType& p,
-    const approach& a
+    const parcelType& p
 ) const
 {
     const fvMesh& mesh = this->owner().mesh();
     nearWall::impactKey key;
-    key << mesh.time().value() << a.vn << p.d();
+    key.exactly(mesh.time().timeIndex()) << p.d();
     key.add(p.position(), mesh.bounds().mag());
     key.add(p.U(), mag(p.U()) + VSMALL);
     return key.value();
@@ -363,7 +353,7 @@ void Foam::nearWallInteraction<CloudType>::completeImpact
     impact.v_gas = mag(gas - (gas & a.normal)*a.normal);
     impact.omega = nearWall::forwardSpin(p, a.tangent, a.normal, 0);
     impact.seed = seed_;
-    impact.key = keyOf(p, a);
+    impact.key = keyOf(p);
 }
 
 
@@ -475,11 +465,40 @@ void Foam::nearWallInteraction<CloudType>::stick
     note(e);
     nearWall::setMoving(p, false, 0);
     p.U() = Zero;
-    keepParticle = keepStuck_;
-    if (!keepStuck_)
+    keepParticle = stuck_ == nearWall::stuckFate::react;
+    switch (stuck_)
     {
-        record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+        case nearWall::stuckFate::keep:
+            deposit(p, e.regime);
+            break;
+
+        case nearWall::stuckFate::react:
+            break;
+
+        case nearWall::stuckFate::remove:
+            record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+            break;
     }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::deposit
+(
+    const parcelType& p,
+    const label regime
+)
+{
+    nearWall::captured what;
+    what.d = p.d();
+    what.nParticle = p.nParticle();
+    what.mass = p.nParticle()*p.mass();
+    what.T = nearWall::temperature(p, isothermal_, 0);
+    what.conversion = conversionOf(p);
+    what.captureTime = this->owner().mesh().time().value();
+    what.regime = regime;
+    what.typeId = p.typeId();
+    record_->deposit->take(p, what);
 }
 
 
@@ -579,13 +598,18 @@ bool Foam::nearWallInteraction<CloudType>::correct
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::stopStuckParcels()
+void Foam::nearWallInteraction<CloudType>::settleStuckParcels()
 {
-    for (parcelType& p : this->owner())
+    CloudType& cloud = this->owner();
+    for (parcelType& p : cloud)
     {
-        if (!nearWall::isMoving(p, 0))
+        if (nearWall::isMoving(p, 0)) continue;
+
+        p.U() = Zero;
+        if (stuck_ == nearWall::stuckFate::keep)
         {
-            p.U() = Zero;
+            deposit(p, -1);
+            cloud.deleteParticle(p);
         }
     }
 }
@@ -601,6 +625,7 @@ Foam::nearWallInteraction<CloudType>::content() const
         const scalar mass = p.nParticle()*p.mass();
         (nearWall::isMoving(p, 0) ? now.airborne : now.stuck) += mass;
     }
+    now.stuck += record_->deposit->mass();
     return now;
 }
 
@@ -663,7 +688,8 @@ void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
 template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
-    stopStuckParcels();
+    settleStuckParcels();
+    record_->deposit->endStep();
 
     const Time& time = this->owner().mesh().time();
     const bool writeRow =
