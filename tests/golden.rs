@@ -3,7 +3,7 @@
 mod common;
 
 use common::golden::{Golden, golden_cases};
-use nearwall::normal::{Contact, Speeds, reduced_modulus, restitution};
+use nearwall::normal::{Contact, NormalLaw, reduced_modulus, restitution};
 use nearwall::{Draw, Impact, Model};
 
 /// Relative error 1e-11 (the restitution near its zero: 1e-9 absolute).
@@ -17,7 +17,7 @@ fn the_laws_agree() {
     for (row, case) in golden_cases().iter().enumerate() {
         let contact = case.contact();
         agree("E*", row, contact.reduced_modulus, case.reduced_modulus, 0.0);
-        let speeds = Speeds::of(&contact, case.d);
+        let speeds = NormalLaw::ThorntonNing.speeds(&contact, case.d);
         agree("v_adh", row, speeds.adhesive, case.v_adh, 0.0);
         agree("v_y", row, speeds.yielding, case.v_yield, 0.0);
         agree("v_s", row, speeds.sticking, case.v_stick, 0.0);

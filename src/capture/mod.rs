@@ -1,10 +1,16 @@
 //! Capture: whether a particle stays on the wall. One criterion a file.
 //!
 //! A particle is held in one of two ways, each able to do it alone: adhesion holds it because it is too slow to
-//! leave (the normal law says so), or particle and wall are sticky (melting, conversion, viscosity).
+//! leave (the normal law says so), or particle and wall are sticky (melting, conversion, viscosity, a droplet that does not splash).
 
+mod char_on_slag;
+mod criterion;
+mod droplet;
 mod viscosity;
 
+pub use char_on_slag::{CharOnSlag, Fate, Judgement, char_coverage, holding_force, submerging_work};
+pub use criterion::{Criterion, ParticleStickiness, Unsuitable};
+pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
 pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};
 
 /// How sticky the two are, each 0 to 1.

@@ -15,7 +15,7 @@ pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
     (reference / viscosity).min(1.0)
 }
 
-/// The criterion of a `[capture]` table.
+/// The viscosity criterion of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscosityCriterion {
     law: ViscosityLaw,
@@ -23,15 +23,7 @@ pub struct ViscosityCriterion {
 }
 
 impl ViscosityCriterion {
-    /// Reads a `[capture]` table; `None` when its model is `none`.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] for an unknown model or law, or a missing reference viscosity.
-    pub fn read(section: &Section<'_>) -> Result<Option<Self>, InputError> {
-        let model = section.choice("model", &["none", "viscosity"])?;
-        if model.as_deref() != Some("viscosity") {
-            return Ok(None);
-        }
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let names: Vec<&str> = ViscosityLaw::ALL.iter().map(|law| law.name()).collect();
         let name = section.choice("law", &names)?;
         let law = match name.and_then(|name| ViscosityLaw::from_name(&name)) {
@@ -44,11 +36,10 @@ impl ViscosityCriterion {
                 let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
                 section.missing("reference_viscosity", what)
             })?;
-        Ok(Some(Self { law, reference }))
+        Ok(Self { law, reference })
     }
 
-    /// The criterion in words.
-    pub fn describe(self) -> String {
+    pub(super) fn describe(self) -> String {
         let range = self.law.stated_for().map_or_else(String::new, |range| format!(", stated for {range}"));
         format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name(), self.reference)
     }

@@ -2,8 +2,8 @@
 //!
 //! `e_n -> e_n exp(-a s^q (v_n / 1 m/s)^p)` with `s = sin²(theta) = v_t²/(v_n²+v_t²)`, `theta` counted from the normal, `a`
 //! the `strength` [1] (positive lowers `e_n`, negative raises it), `p` the `speed_exponent` [1] and `q` the
-//! `sharpness` [1], 2 unless given. Where it raises `e_n`,
-//! the particle leaves the wall no faster than it came: `e_n <= v/v_n`.
+//! `sharpness` [1], 2 unless given. Where it raises `e_n`, the speed away from the wall stays below that of arrival,
+//! `e_n <= v/v_n`. What it adds there is not taken from the speed along the wall: with an `e_t` near 1 a strong gain makes energy.
 //!
 //! The form is assumed; the observations are these. Theories let `e_n` depend on `v_n` alone up to about 45° and on the
 //! angle beyond (with `q = 2` at most a quarter of `a` acts up to 45°). Tungsten dust on tungsten at a mean `theta` of 60.6°
@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn no_particle_leaves_the_wall_faster_than_it_came() {
+    fn the_speed_away_from_the_wall_stays_below_that_of_arrival() {
         assert_relative_eq!(e_n([-20.0, 3.0], 60.0, 100.0), 2.0, max_relative = 1e-12);
     }
 }

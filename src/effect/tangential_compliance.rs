@@ -9,10 +9,12 @@
 //! `(1 - e_t(x)) slip` from the speed along it (for 2/7 that is rolling), and the spin keeps the angular momentum about the
 //! contact point, `omega2 = omega1 + 5 (u1 - u2)/d`. `u` [m/s], `d` [m], `omega` [rad/s].
 //!
-//! That compliance does this is known (Maw, Barber & Fawcett 1976 for elastic spheres); the power of `x` is assumed and
-//! stands in for their numerical solution. Seen with wax on Pyrex (Troiano et al., Fig 6): 0.85 at 80°, which `f = 0.28`,
-//! `e_1 = 1`, `q = 2.2` give. Valid for one friction and one pair of materials. It replaces what the tangential law and the
-//! effects before it said.
+//! The power of `x` is assumed, drawn through what was seen with wax on Pyrex (Troiano et al., Fig 6): 0.85 at 80°, which
+//! `f = 0.28`, `e_1 = 1`, `q = 2.2` give. It is not the solution for elastic spheres (Maw, Barber & Fawcett 1976): integrated for
+//! that pair, elastic compliance falls from 0.64 at the transition to 0.55 and comes back to 0.69 head-on (`validation/run`,
+//! "Independent checks"), so what lifts wax to 0.85 is something else, and the paper's name for it is kept. `e_1` above 1, or
+//! below 3/7, may make energy with spin. Valid for one friction and one pair of materials. It replaces what the tangential law
+//! and the effects before it said.
 
 use std::f64::consts::FRAC_PI_2;
 

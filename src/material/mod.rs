@@ -36,6 +36,8 @@ const FIELDS: [Field; 8] = [
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`].
 const MECHANICAL: usize = 5;
 const VISCOSITY: usize = 5;
+const SURFACE_TENSION: usize = 6;
+const MELTING_POINT: usize = 7;
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -59,6 +61,17 @@ pub struct Mechanical {
     pub yield_strength: f64,
     /// Surface energy `gamma` [J/m²].
     pub surface_energy: f64,
+}
+
+/// The properties of a melt at one temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Molten {
+    /// Density `rho` [kg/m³].
+    pub density: f64,
+    /// Viscosity `mu` [Pa s].
+    pub viscosity: f64,
+    /// Surface tension `sigma` [N/m].
+    pub surface_tension: f64,
 }
 
 impl Material {
@@ -140,6 +153,40 @@ impl Material {
             yield_strength: self.value(3, temperature)?,
             surface_energy: self.value(4, temperature)?,
         })
+    }
+
+    /// The properties of its melt at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside what is known; a material without one of them knows it nowhere.
+    pub fn molten(&self, temperature: f64) -> Result<Molten, ImpactError> {
+        Ok(Molten {
+            density: self.value(0, temperature)?,
+            viscosity: self.viscosity(temperature)?,
+            surface_tension: self.value(SURFACE_TENSION, temperature)?,
+        })
+    }
+
+    /// Whether it is hotter than its melting point at a temperature [K].
+    ///
+    /// # Errors
+    /// As [`Material::molten`].
+    pub fn is_molten(&self, temperature: f64) -> Result<bool, ImpactError> {
+        Ok(temperature > self.value(MELTING_POINT, temperature)?)
+    }
+
+    /// Temperatures [K] at which every property of the melt is known.
+    pub fn molten_range(&self) -> [f64; 2] {
+        overlap(self.molten_properties().filter_map(Property::known_range))
+    }
+
+    /// Whether every property of the melt is stated to hold at a temperature [K].
+    pub fn melt_holds_at(&self, temperature: f64) -> bool {
+        self.molten_properties().all(|p| p.holds_at(temperature))
+    }
+
+    fn molten_properties(&self) -> impl Iterator<Item = &Property> {
+        [0, VISCOSITY, SURFACE_TENSION].into_iter().filter_map(|field| self.properties[field].as_ref())
     }
 
     /// Temperatures [K] at which every mechanical property is known.

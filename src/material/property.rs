@@ -22,6 +22,8 @@ pub struct Property {
     valid: Option<[f64; 2]>,
     uncertainty: Option<f64>,
     source: Option<String>,
+    /// What takes over above the upper end, where the solid has melted.
+    melt: Option<Box<Property>>,
 }
 
 /// A temperature at which a property is not known.
@@ -36,11 +38,12 @@ pub struct OutOfRange {
 impl Property {
     /// The same number at every temperature.
     pub fn constant(value: f64) -> Self {
-        Self { form: Form::Constant(value), valid: None, uncertainty: None, source: None }
+        Self { form: Form::Constant(value), valid: None, uncertainty: None, source: None, melt: None }
     }
 
     /// Reads `key`: a number, `{ value }`, `{ T, value }`, `{ polynomial, T0 }` or `{ arrhenius }`, each with
-    /// optional `valid`, `uncertainty`, `unit` and `source`. `unit` has to be the SI unit of the key.
+    /// optional `valid`, `uncertainty`, `unit`, `source` and `melt`. `unit` has to be the SI unit of the key; `melt` is written
+    /// like the property itself and takes over above its upper end.
     ///
     /// # Errors
     /// [`InputError::Fault`] for anything else, and for values outside `low..=high`.
@@ -54,22 +57,31 @@ impl Property {
         if !section.is_section(key) {
             return Ok(section.number_within(key, low, high)?.map(Self::constant));
         }
-        let table = section.required_section(key)?;
-        let form = Form::read(&table)?;
+        let property = Self::read_table(&section.required_section(key)?, unit)?;
+        property.check_values(section, key, low, high)?;
+        Ok(Some(property))
+    }
+
+    fn read_table(table: &Section<'_>, unit: &str) -> Result<Self, InputError> {
+        let form = Form::read(table)?;
         if let Some(given) = table.text("unit")?
             && given != unit
         {
             return Err(table.fault("unit", format!("`{given}`: this key is in {unit}")));
         }
+        let melt = table.section("melt")?.map(|melt| Self::read_table(&melt, unit)).transpose()?;
         let property = Self {
             form,
             valid: table.range("valid")?,
             uncertainty: table.number("uncertainty")?,
             source: table.text("source")?,
+            melt: melt.map(Box::new),
         };
         table.finish()?;
-        property.check_values(section, key, low, high)?;
-        Ok(Some(property))
+        if property.melt.is_some() && property.solid_end() == f64::INFINITY {
+            return Err(table.missing("valid", "a range [K]; `melt` takes over above its end"));
+        }
+        Ok(property)
     }
 
     /// The value at a temperature [K].
@@ -82,6 +94,9 @@ impl Property {
             && !(low..=high).contains(&temperature)
         {
             return Err(OutOfRange { low, high });
+        }
+        if let Some(melt) = self.melt_at(temperature) {
+            return melt.at(temperature);
         }
         Ok(match &self.form {
             Form::Constant(value) => *value,
@@ -96,12 +111,19 @@ impl Property {
 
     /// Whether the number is stated to hold at this temperature [K].
     pub fn holds_at(&self, temperature: f64) -> bool {
+        if let Some(melt) = self.melt_at(temperature) {
+            return melt.holds_at(temperature);
+        }
         self.valid.is_none_or(|[low, high]| (low..=high).contains(&temperature))
     }
 
     /// Range of temperature that the source states [K].
     pub fn valid(&self) -> Option<[f64; 2]> {
-        self.valid.or(self.known_range())
+        let solid = self.valid.or(self.solid_range());
+        match self.melt.as_deref().and_then(Self::valid) {
+            Some([_, high]) => solid.map(|[low, _]| [low, high]),
+            None => solid,
+        }
     }
 
     /// Stated uncertainty, in the property's own unit.
@@ -116,11 +138,29 @@ impl Property {
 
     /// Whether the value is the same at every temperature.
     pub fn is_constant(&self) -> bool {
-        matches!(self.form, Form::Constant(_))
+        matches!(self.form, Form::Constant(_)) && self.melt.is_none()
     }
 
     /// Temperatures [K] at which [`Property::at`] answers; `None` for all of them.
     pub fn known_range(&self) -> Option<[f64; 2]> {
+        let solid = self.solid_range();
+        let Some(melt) = &self.melt else { return solid };
+        let low = solid.map_or(0.0, |[low, _]| low);
+        Some([low, melt.known_range().map_or(f64::INFINITY, |[_, high]| high)])
+    }
+
+    /// The melt's property, if the material is molten at a temperature [K].
+    fn melt_at(&self, temperature: f64) -> Option<&Self> {
+        self.melt.as_deref().filter(|_| temperature > self.solid_end())
+    }
+
+    /// Temperature [K] at which the form ends; infinite where nothing says so.
+    fn solid_end(&self) -> f64 {
+        self.solid_range().or(self.valid).map_or(f64::INFINITY, |[_, high]| high)
+    }
+
+    /// As [`Property::known_range`], without the melt.
+    fn solid_range(&self) -> Option<[f64; 2]> {
         match &self.form {
             Form::Constant(_) => None,
             Form::Table { temperatures, .. } => Some([*temperatures.first()?, *temperatures.last()?]),
@@ -138,6 +178,9 @@ impl Property {
                 ends.iter().filter_map(|t| self.at(*t).ok()).collect()
             }
         };
+        if let Some(melt) = &self.melt {
+            melt.check_values(section, key, low, high)?;
+        }
         match values.iter().find(|value| !(low..=high).contains(*value)) {
             Some(value) => {
                 Err(section.fault(key, format!("{value} is outside the allowed range {low} to {high}")))
@@ -198,6 +241,25 @@ mod tests {
         assert_relative_eq!(table.at(300.0).unwrap(), 10.0);
         assert_relative_eq!(table.at(600.0).unwrap(), 0.0);
         assert_eq!(table.at(601.0), Err(OutOfRange { low: 300.0, high: 600.0 }));
+    }
+
+    #[test]
+    fn the_melt_takes_over_where_the_solid_ends() {
+        let text = "p = { polynomial = [1, 2], T0 = 300, valid = [300, 400], \
+                    melt = { polynomial = [50, 1], T0 = 400, valid = [400, 500] } }";
+        let both = property(text).unwrap();
+        assert_relative_eq!(both.at(400.0).unwrap(), 201.0);
+        assert_relative_eq!(both.at(410.0).unwrap(), 60.0);
+        assert_eq!(both.at(501.0), Err(OutOfRange { low: 300.0, high: 500.0 }));
+        assert_eq!((both.valid(), both.is_constant()), (Some([300.0, 500.0]), false));
+        let held =
+            property("p = { value = 3, valid = [290, 400], melt = { value = 4, valid = [400, 400] } }");
+        let held = held.unwrap();
+        assert_eq!((held.at(400.0), held.at(900.0)), (Ok(3.0), Ok(4.0)));
+        assert!(held.holds_at(400.0) && !held.holds_at(401.0) && !held.is_constant());
+        let endless = property("p = { value = 3, melt = { value = 4 } }").unwrap_err().to_string();
+        assert!(endless.contains("p.valid: missing"), "{endless}");
+        assert!(property("p = { value = 3, valid = [290, 400], melt = { value = -4 } }").is_err());
     }
 
     #[test]

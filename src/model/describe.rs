@@ -57,6 +57,6 @@ impl Model {
             Some(work) => format!("{work} J/m2"),
             None => "2 sqrt(gamma_p gamma_w)".to_owned(),
         };
-        format!("thornton-ning, yield_ratio {ratio}, work of adhesion {work}")
+        format!("{}, yield_ratio {ratio}, work of adhesion {work}", self.normal.name())
     }
 }

@@ -12,7 +12,7 @@ mod wall;
 
 use std::path::Path;
 
-use crate::capture::{MeltStickiness, Stickiness, ViscosityCriterion};
+use crate::capture::{Criterion, MeltStickiness, ParticleStickiness, Stickiness};
 use crate::draw::Draw;
 use crate::effect::{Term, stream};
 use crate::impact::{Impact, ImpactError, Outcome, Regime};
@@ -28,8 +28,9 @@ pub use wall::Wall;
 #[derive(Debug, Clone)]
 pub struct Model {
     particle: Material,
-    particle_melt: Option<MeltStickiness>,
-    criterion: Option<ViscosityCriterion>,
+    criterion: Option<Criterion>,
+    /// The criterion for the particle's material, where it has something to say of it.
+    stickiness: Option<ParticleStickiness>,
     walls: Vec<Wall>,
     normal: NormalLaw,
     tangential: TangentialLaw,
@@ -123,13 +124,12 @@ impl Model {
     /// [`ImpactError::NoSuchWall`].
     pub fn temperature_ranges(&self, wall: usize) -> Result<TemperatureRanges, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let range = |material: &Material, melt: &Option<MeltStickiness>| {
-            let melt = melt.as_ref().map(MeltStickiness::known_range);
-            overlap([material.known_range()].into_iter().chain(melt))
+        let range = |material: &Material, stickiness: Option<[f64; 2]>| {
+            overlap([material.known_range()].into_iter().chain(stickiness))
         };
         Ok(TemperatureRanges {
-            particle: range(&self.particle, &self.particle_melt),
-            wall: range(wall.material(), &wall.melt),
+            particle: range(&self.particle, self.stickiness.as_ref().map(ParticleStickiness::known_range)),
+            wall: range(wall.material(), wall.melt.as_ref().map(MeltStickiness::known_range)),
         })
     }
 
@@ -191,7 +191,7 @@ impl Model {
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        Ok(Speeds::of(&self.contact(wall, &impact, &|_| 0.5)?, impact.diameter))
+        Ok(self.normal.speeds(&self.contact(wall, &impact, &|_| 0.5)?, impact.diameter))
     }
 
     /// The wall with this index, and the impact as it sees it.
@@ -220,9 +220,9 @@ impl Model {
         note: &mut impl FnMut(&'static str, &'static str, f64),
     ) -> Result<f64, ImpactError> {
         let mut product = None;
-        if let Some(melt) = &self.particle_melt {
-            let share = melt.at(impact.particle_temperature)?;
-            note("viscosity", "particle stickiness", share);
+        if let Some(stickiness) = &self.stickiness {
+            let share = stickiness.at(impact)?;
+            note(stickiness.name(), "particle stickiness", share);
             product = Some(share);
         }
         for term in &self.terms {
@@ -234,10 +234,10 @@ impl Model {
         Ok(product.unwrap_or(0.0))
     }
 
-    /// Share of `e_n` that full stickiness of the particle takes [1]: all of it for a melt known by its viscosity.
+    /// Share of `e_n` that full stickiness of the particle takes [1]: all of it by a capture criterion.
     fn rebound_loss(&self) -> f64 {
-        let melt = if self.particle_melt.is_some() { 1.0 } else { 0.0 };
-        self.terms.iter().map(|term| term.effect().rebound_loss()).fold(melt, f64::max)
+        let criterion = if self.stickiness.is_some() { 1.0 } else { 0.0 };
+        self.terms.iter().map(|term| term.effect().rebound_loss()).fold(criterion, f64::max)
     }
 
     fn walk(
@@ -307,13 +307,10 @@ impl Model {
         })
     }
 
-    /// Whether a property, a viscosity law or a fitted term is used outside the range it is stated for.
+    /// Whether a property, a capture criterion or a fitted term is used outside the range it is stated for.
     fn outside_range(&self, wall: &Wall, impact: &Impact) -> bool {
-        let holds = |melt: &Option<MeltStickiness>, temperature| {
-            melt.as_ref().is_none_or(|melt| melt.holds_at(temperature))
-        };
-        !(holds(&self.particle_melt, impact.particle_temperature)
-            && holds(&wall.melt, impact.wall_temperature)
+        !(self.stickiness.as_ref().is_none_or(|criterion| criterion.holds_at(impact.particle_temperature))
+            && wall.melt.as_ref().is_none_or(|melt| melt.holds_at(impact.wall_temperature))
             && self.particle.holds_at(impact.particle_temperature)
             && wall.material().holds_at(impact.wall_temperature)
             && self.terms.iter().all(|term| term.holds_for(impact)))

@@ -4,7 +4,7 @@ use regex_lite::Regex;
 
 use super::Model;
 use super::wall::{Adhesion, Wall};
-use crate::capture::ViscosityCriterion;
+use crate::capture::{Criterion, ViscosityCriterion};
 use crate::effect::Term;
 use crate::input::{Document, InputError, Section};
 use crate::material::{Library, Material};
@@ -32,27 +32,27 @@ impl Model {
             own.finish()?;
         }
         let criterion = match top.section("capture")? {
-            Some(section) => finished(section, ViscosityCriterion::read)?,
+            Some(section) => finished(section, Criterion::read)?,
             None => None,
         };
-        let particle = finished(top.required_section("particle")?, |section| {
-            library.named_by(section, "material")?.ok_or_else(|| missing_material(section))
+        let (particle, stickiness) = finished(top.required_section("particle")?, |section| {
+            let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
+            let stickiness = criterion.map(|criterion| criterion.of_particle(&material)).transpose();
+            let stickiness = stickiness.map_err(|error| section.fault("material", error))?.flatten();
+            Ok((material, stickiness))
         })?;
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
-        let reader = WallReader { library: &library, criterion, particle: &particle, adhesion };
+        let of_slag = criterion.and_then(Criterion::of_slag);
+        let reader = WallReader { library: &library, of_slag, particle: &particle, adhesion };
         let walls = reader.read_all(top)?;
         let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
-        let particle_melt = match criterion {
-            Some(criterion) => criterion.prepare(&particle).map_err(|error| top.fault("particle", error))?,
-            None => None,
-        };
-        if criterion.is_some() && particle_melt.is_none() && walls.iter().all(|w| w.melt.is_none()) {
+        if criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
             let problem = "neither the particle nor the slag of a wall has a composition or a viscosity; \
                            give one to a material";
             return Err(top.fault("capture", problem));
         }
-        Ok(Self { particle, particle_melt, criterion, walls, normal, tangential, terms })
+        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms })
     }
 }
 
@@ -77,7 +77,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
         (None, NormalLaw::Constant { .. }) => 1.0,
-        (None, NormalLaw::ThorntonNing) => {
+        (None, NormalLaw::ThorntonNing | NormalLaw::RaisedPullOff) => {
             let what = "p_y / sigma_y (1.6 to 4 for hard, 0.7 for soft particles)";
             return Err(section.missing("yield_ratio", what));
         }
@@ -88,7 +88,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
 /// What the walls of a model share.
 struct WallReader<'a> {
     library: &'a Library,
-    criterion: Option<ViscosityCriterion>,
+    of_slag: Option<ViscosityCriterion>,
     particle: &'a Material,
     adhesion: Adhesion,
 }
@@ -111,7 +111,7 @@ impl WallReader<'_> {
         let material = material.ok_or_else(|| missing_material(section))?;
         let slag = self.library.named_by(section, "slag")?;
         let slag_name = slag.as_ref().map(|slag| slag.name().to_owned());
-        let melt = match (slag, self.criterion) {
+        let melt = match (slag, self.of_slag) {
             (None, _) => None,
             (Some(_), None) => {
                 let problem =
@@ -190,6 +190,23 @@ e_t = 0.76
         assert_eq!(outcome.regime, Regime::NspNsw);
         let slow = Impact { normal_speed: 0.05, ..impact };
         assert!(model.resolve(0, &slow, Draw::default()).unwrap().stuck);
+    }
+
+    #[test]
+    fn the_raised_pull_off_is_read_named_and_needs_its_ratio() {
+        let text = SMALLEST.replace("thornton-ning", "thornton-ning-raised-pull-off");
+        let model = Model::from_toml("m.toml", &text).unwrap();
+        assert_eq!(model.normal_law().name(), "thornton-ning-raised-pull-off");
+        let normal = model.describe().into_iter().find(|line| line.0 == "normal").unwrap().1;
+        assert!(normal.starts_with("thornton-ning-raised-pull-off, yield_ratio 0.7"), "{normal}");
+        let impact = Impact { normal_speed: 1.0, diameter: 75e-6, ..Impact::default() };
+        let sticking = model.speeds(0, &impact).unwrap().sticking;
+        for (share, stuck) in [(0.999, true), (1.001, false)] {
+            let near = Impact { normal_speed: share * sticking, ..impact };
+            assert_eq!(model.resolve(0, &near, Draw::default()).unwrap().stuck, stuck);
+        }
+        let no_ratio = error(&text.replace("yield_ratio = 0.7", ""));
+        assert!(no_ratio.contains("normal.yield_ratio: missing"), "{no_ratio}");
     }
 
     #[test]

@@ -2,20 +2,33 @@
 
 mod constant;
 mod contact;
+pub mod doublet;
+mod raised_pull_off;
 mod thornton_ning;
 
 pub use contact::{Contact, reduced_modulus, stiffness_ratio};
-pub use thornton_ning::{
-    Speeds, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
-};
+pub use thornton_ning::{adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity};
 
 use crate::input::{InputError, Section};
+
+/// The speeds that divide sticking, elastic and plastic impacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Speeds {
+    /// Adhesive velocity `v_adh` [m/s].
+    pub adhesive: f64,
+    /// Yield velocity `v_y` [m/s].
+    pub yielding: f64,
+    /// Sticking velocity `v_s` [m/s]: slower impacts do not rebound.
+    pub sticking: f64,
+}
 
 /// The law that gives the normal restitution of a dry impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NormalLaw {
     /// Elastic–perfectly plastic with adhesion.
     ThorntonNing,
+    /// The same contact with the pull-off that its yielding raises.
+    RaisedPullOff,
     /// The same number for every impact that does not stick.
     Constant {
         /// Normal restitution `e_n` [1].
@@ -29,8 +42,10 @@ impl NormalLaw {
     /// # Errors
     /// [`InputError::Fault`] for an unknown law or a value out of bounds.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let word = section.choice("model", &["thornton-ning", "constant"])?;
+        let word =
+            section.choice("model", &["thornton-ning", "thornton-ning-raised-pull-off", "constant"])?;
         match word.as_deref() {
+            Some("thornton-ning-raised-pull-off") => Ok(Self::RaisedPullOff),
             Some("constant") => Ok(Self::Constant { restitution: constant::read(section)? }),
             _ => Ok(Self::ThorntonNing),
         }
@@ -40,6 +55,7 @@ impl NormalLaw {
     pub fn name(self) -> &'static str {
         match self {
             Self::ThorntonNing => "thornton-ning",
+            Self::RaisedPullOff => "thornton-ning-raised-pull-off",
             Self::Constant { .. } => "constant",
         }
     }
@@ -47,13 +63,25 @@ impl NormalLaw {
     /// Normal restitution [1] of a particle of `diameter` [m] that hits at `normal_speed` [m/s]; `None` when
     /// adhesion holds it.
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
+        let law = match self {
+            Self::ThorntonNing => restitution,
+            Self::RaisedPullOff => raised_pull_off::restitution,
+            Self::Constant { restitution } => return Some(restitution),
+        };
+        let e_n = law(normal_speed, adhesive_velocity(contact, diameter), yield_velocity(contact));
+        (e_n > 0.0).then_some(e_n)
+    }
+
+    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m]. The law of constant restitution has none
+    /// of its own: it gives those of Thornton–Ning.
+    pub fn speeds(self, contact: &Contact, diameter: f64) -> Speeds {
+        let plain = thornton_ning::speeds(contact, diameter);
         match self {
-            Self::ThorntonNing => {
-                let adhesive = adhesive_velocity(contact, diameter);
-                let e_n = restitution(normal_speed, adhesive, yield_velocity(contact));
-                (e_n > 0.0).then_some(e_n)
+            Self::ThorntonNing | Self::Constant { .. } => plain,
+            Self::RaisedPullOff => {
+                let [yielding, sticking] = raised_pull_off::speeds(plain.adhesive, plain.yielding);
+                Speeds { yielding, sticking, ..plain }
             }
-            Self::Constant { restitution } => Some(restitution),
         }
     }
 }

@@ -12,36 +12,24 @@
 //! Symbols: `W` work of adhesion [J/m²], `rho` particle density [kg/m³], `E*` reduced modulus [Pa], `R = d/2` [m],
 //! `p_y` limiting contact pressure [Pa], `v` normal impact speed [m/s]. Valid for one sphere on a smooth, thick,
 //! dry plane, for contacts small against `R` and impacts slow against the speed of sound. The closed form adds the
-//! losses of adhesion and of plasticity; it leaves out that yielding flattens the contact and so raises pull-off.
+//! losses of adhesion and of plasticity; it leaves out that yielding flattens the contact and so raises pull-off, which
+//! `raised_pull_off.rs` has.
 //!
 //! Slips in print: Troiano et al., Eq. 1, has 4/3 where 16/9 belongs (their `K` is `4E*/3`), which makes `v_s`
 //! 0.953 of the above; Eq. 6 lost a minus sign under its inner root. Tests below state both.
 
-use super::Contact;
+use super::{Contact, Speeds};
 
 /// `C1 = (sqrt3/2) π^(1/3) sqrt((1 + 6·2^(2/3))/5)`.
-const ADHESIVE_FACTOR: f64 = 1.840_183_180_799_056_5;
+pub(super) const ADHESIVE_FACTOR: f64 = 1.840_183_180_799_056_5;
 /// `C2 = π²/(2 sqrt10)`.
-const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
+pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
 
-/// The speeds that divide sticking, elastic and plastic impacts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Speeds {
-    /// Adhesive velocity `v_adh` [m/s].
-    pub adhesive: f64,
-    /// Yield velocity `v_y` [m/s].
-    pub yielding: f64,
-    /// Sticking velocity `v_s` [m/s]: slower impacts do not rebound.
-    pub sticking: f64,
-}
-
-impl Speeds {
-    /// The three speeds of a particle of `diameter` [m].
-    pub fn of(contact: &Contact, diameter: f64) -> Self {
-        let adhesive = adhesive_velocity(contact, diameter);
-        let yielding = yield_velocity(contact);
-        Self { adhesive, yielding, sticking: sticking_velocity(adhesive, yielding) }
-    }
+/// The three speeds of a particle of `diameter` [m].
+pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
+    let adhesive = adhesive_velocity(contact, diameter);
+    let yielding = yield_velocity(contact);
+    Speeds { adhesive, yielding, sticking: sticking_velocity(adhesive, yielding) }
 }
 
 /// Adhesive velocity `v_adh` [m/s] of a particle of `diameter` [m].

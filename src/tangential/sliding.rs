@@ -5,19 +5,23 @@
 //! `u2 = u1 - f (1+e_n) v_n`, `omega2 = omega1 + 5 f (1+e_n) v_n / d`, hence `e_t = 1 - f (1+e_n) tan(alpha)`.
 //!
 //! `u` tangential speed [m/s], `omega` spin [rad/s], `d` diameter [m]. Friction follows the slip of the contact
-//! point, `u1 - omega1 d/2`, so fast forward spin drives the particle on. Friction can stop the particle but not
-//! throw it back: `u2 >= 0` unless the spin does that. Valid below the critical angle of `sliding_rolling`.
+//! point, `s = u1 - omega1 d/2`, so fast forward spin drives the particle on and backspin may throw it back. Valid below
+//! the critical angle of `sliding_rolling`, while the contact slips.
+//!
+//! Beyond that the law is used as printed, within two bounds. Friction without spin can stop the particle but not throw it
+//! back. And an impulse `J` per mass changes the energy of motion and spin by `-|s| J + 7/4 J²`, so friction that exceeds
+//! `J = 4|s|/7` would make energy: it turns the sphere no further than that, and with spin it drives it no further.
 
 use super::{Glance, Rebound};
 
 /// Tangential restitution and spin after gross sliding.
 pub(super) fn rebound(friction: f64, glance: &Glance) -> Rebound {
     let slip = glance.tangential_speed - 0.5 * glance.diameter * glance.spin;
-    let mut change = impulse(friction, glance).copysign(slip);
-    if slip >= 0.0 {
-        change = change.min(glance.tangential_speed);
-    }
-    let spin = glance.spin + 5.0 * change / glance.diameter;
+    let keeps_energy = 4.0 / 7.0 * slip.abs();
+    let most = glance.tangential_speed.min(slip).max(keeps_energy);
+    let change = impulse(friction, glance).min(most).copysign(slip);
+    let turning = change.clamp(-keeps_energy, keeps_energy);
+    let spin = glance.spin + 5.0 * turning / glance.diameter;
     let restitution =
         if glance.tangential_speed > 0.0 { 1.0 - change / glance.tangential_speed } else { 0.0 };
     Rebound { restitution, spin }

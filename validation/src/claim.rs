@@ -44,7 +44,7 @@ impl Published {
                 if (below - above).abs() <= 1e-9 * value.abs().max(1e-30) {
                     format!("{} ± {}", number(value), number(above))
                 } else {
-                    format!("{} ({} to {})", number(value), number(low), number(high))
+                    format!("{} ({} to {})", short(value), short(low), short(high))
                 }
             }
             Self::Below(limit) => format!("< {}", number(limit)),
@@ -52,6 +52,11 @@ impl Published {
             Self::Between(low, high) => format!("{} to {}", number(low), number(high)),
         }
     }
+}
+
+/// A number that a source does not print but whose counts imply: three digits say enough.
+fn short(value: f64) -> String {
+    number(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
 /// Where our number comes from.

@@ -71,7 +71,7 @@ fn keep(path: &Path, text: &str) -> Result<bool, Box<dyn Error>> {
     }
     let kept = fs::read_to_string(path).map_err(fault)?;
     let mut pairs = kept.lines().zip(text.lines());
-    if let Some((old, new)) = pairs.find(|(old, new)| old != new) {
+    if let Some((old, new)) = pairs.find(|(old, new)| !summary::alike(old, new)) {
         eprintln!(
             "{} is not what this run says; look at the difference, then NEARWALL_BLESS=1 validation/run",
             path.display()

@@ -9,6 +9,17 @@ use crate::study::{Part, Study};
 const VERDICTS: [(Verdict, Mark); 3] =
     [(Verdict::Agrees, Mark::Good), (Verdict::Differs, Mark::Watch), (Verdict::Unchecked, Mark::Open)];
 
+/// What the studies come to, for someone who decides whether to use it.
+const TRUST: &str = "Trust it for: the normal rebound of solid, dry particles from a harder wall once p_y is known (Thornton–Ning to \
+    rounding, wax on Pyrex within the scatter of its measured strength); sliding and rolling with any spin; silicate viscosities \
+    within their stated errors; deposit or splash of the drops that both papers saw.";
+const CALIBRATE: &str = "Calibrate before use: yield strength of hot dust, char and ash (a factor of 3 and more is open, and only p_y is \
+    seen in a rebound); work of adhesion; the reference viscosity; melting and conversion thresholds; agglomerates, powder layers and \
+    gas lift, which describe what was seen and do not explain it.";
+const DOUBT: &str = "Do not expect: who sticks in Pilot-PSI (no adhesion explains all sets); equal rebound from soft and hard walls, as \
+    measured with wax (the law says 1.5 times more from soft ones); small, soft, adhesive particles by the default law (it lets go what \
+    the flattened contact holds; thornton-ning-raised-pull-off does not); trends of droplet capture with speed and angle.";
+
 /// The page of all studies.
 pub fn page(studies: &[Study]) -> Page {
     let mut page = Page::new("nearwall: where it agrees with its sources, and where it does not");
@@ -38,6 +49,9 @@ fn summary(page: &mut Page, studies: &[Study]) {
          proves little; \"predicted\" and \"derived\" ones were not used."
             .to_owned(),
     ]));
+    page.add(Block::Text(TRUST.to_owned()));
+    page.add(Block::Text(CALIBRATE.to_owned()));
+    page.add(Block::Text(DOUBT.to_owned()));
     let mut header = vec!["study".to_owned()];
     header.extend(VERDICTS.map(|(verdict, _)| verdict.name().to_owned()));
     header.push("in short".to_owned());

@@ -72,4 +72,9 @@ impl Study {
 pub type Maker = (&'static str, fn(Extent) -> Result<Study, Box<dyn std::error::Error>>);
 
 /// Every study, in the order of the page.
-pub const STUDIES: [Maker; 1] = [("materials", crate::materials::study)];
+pub const STUDIES: [Maker; 4] = [
+    ("migraine", crate::migraine::study),
+    ("troiano", crate::troiano::study),
+    ("checks", crate::checks::study),
+    ("materials", crate::materials::study),
+];

@@ -34,6 +34,21 @@ pub fn summary(studies: &[Study]) -> String {
     text
 }
 
+/// Whether two lines say the same: numbers may differ by the last digits, as another machine's mathematical functions do, and by all
+/// digits where they are rounding errors.
+pub fn alike(one: &str, other: &str) -> bool {
+    const ROUNDING: f64 = 1e-6;
+    let words = |line: &str| {
+        line.split([' ', '[', ']', '(', ')', ',', ';', '%']).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (one, other) = (words(one), words(other));
+    let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= 0.005 * a.abs().max(b.abs()) || a.abs().max(b.abs()) < ROUNDING,
+        _ => a == b,
+    };
+    one.len() == other.len() && one.iter().zip(&other).all(same)
+}
+
 fn row(claim: &Claim) -> String {
     let cells = [
         claim.verdict.name(),
@@ -45,4 +60,17 @@ fn row(claim: &Claim) -> String {
         &claim.why,
     ];
     format!("| {} |\n", cells.map(|cell| cell.replace('|', "\\|")).join(" | "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::alike;
+
+    #[test]
+    fn lines_are_alike_up_to_rounding() {
+        assert!(alike("| agrees | 0.2913 [1] | 4e-11 |", "| agrees | 0.2914 [1] | 9e-12 |"));
+        assert!(!alike("| agrees | 0.2913 |", "| differs | 0.2913 |"));
+        assert!(!alike("| agrees | 0.2913 |", "| agrees | 0.30 |"));
+        assert!(!alike("one", "one more"));
+    }
 }

@@ -1,0 +1,128 @@
+//! The `[capture]` table: which criterion says how sticky the particle is.
+//!
+//! `viscosity` also judges the slag on a wall. `droplet` judges the particle alone: what lies on a wall has no speed.
+
+use super::droplet::{Droplet, DropletCriterion};
+use super::viscosity::{MeltStickiness, ViscosityCriterion};
+use crate::impact::{Impact, ImpactError};
+use crate::input::{InputError, Section};
+use crate::material::Material;
+use crate::slag::UnsuitableComposition;
+
+/// The criterion of a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Criterion {
+    /// A melt thin enough sticks.
+    Viscosity(ViscosityCriterion),
+    /// A droplet that does not splash stays.
+    Droplet(DropletCriterion),
+}
+
+/// Why a criterion cannot judge a material.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Unsuitable {
+    /// The viscosity law does not know its composition.
+    #[error(transparent)]
+    Composition(#[from] UnsuitableComposition),
+    /// A droplet needs more of it.
+    #[error(
+        "`{material}` has no {}, which [capture] model = \"droplet\" needs; give it to the material in [materials.{material}]",
+        .lacking.join(", no ")
+    )]
+    Lacking {
+        /// The material's name.
+        material: String,
+        /// The keys that it lacks.
+        lacking: Vec<&'static str>,
+    },
+}
+
+impl Criterion {
+    /// Reads a `[capture]` table; `None` when its model is `none`.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown model or law, or a missing or impossible number.
+    pub fn read(section: &Section<'_>) -> Result<Option<Self>, InputError> {
+        match section.choice("model", &["none", "viscosity", "droplet"])?.as_deref() {
+            Some("viscosity") => Ok(Some(Self::Viscosity(ViscosityCriterion::read(section)?))),
+            Some("droplet") => Ok(Some(Self::Droplet(DropletCriterion::read(section)?))),
+            _ => Ok(None),
+        }
+    }
+
+    /// The criterion in words.
+    pub fn describe(self) -> String {
+        match self {
+            Self::Viscosity(criterion) => criterion.describe(),
+            Self::Droplet(criterion) => criterion.describe(),
+        }
+    }
+
+    /// The criterion that judges slag on a wall, if this one does.
+    pub fn of_slag(self) -> Option<ViscosityCriterion> {
+        match self {
+            Self::Viscosity(criterion) => Some(criterion),
+            Self::Droplet(_) => None,
+        }
+    }
+
+    /// How sticky particles of a material are; `None` when the criterion has nothing to say of it.
+    ///
+    /// # Errors
+    /// [`Unsuitable`] when the criterion needs something that the material does not have.
+    pub fn of_particle(self, material: &Material) -> Result<Option<ParticleStickiness>, Unsuitable> {
+        match self {
+            Self::Viscosity(criterion) => Ok(criterion.prepare(material)?.map(ParticleStickiness::Melt)),
+            Self::Droplet(criterion) => {
+                let lacking = |lacking| Unsuitable::Lacking { material: material.name().to_owned(), lacking };
+                Ok(Some(ParticleStickiness::Droplet(criterion.prepare(material).map_err(lacking)?)))
+            }
+        }
+    }
+}
+
+/// The criterion for the particle's material.
+#[derive(Debug, Clone)]
+pub enum ParticleStickiness {
+    /// By viscosity.
+    Melt(MeltStickiness),
+    /// By splashing.
+    Droplet(Droplet),
+}
+
+impl ParticleStickiness {
+    /// The model's name in the `[capture]` table.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Melt(_) => "viscosity",
+            Self::Droplet(_) => "droplet",
+        }
+    }
+
+    /// How sticky the particle is [1].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] where a property that counts is not known.
+    pub fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        match self {
+            Self::Melt(melt) => melt.at(impact.particle_temperature),
+            Self::Droplet(droplet) => droplet.at(impact),
+        }
+    }
+
+    /// Temperatures [K] at which a particle can be judged.
+    pub fn known_range(&self) -> [f64; 2] {
+        match self {
+            Self::Melt(melt) => melt.known_range(),
+            Self::Droplet(droplet) => droplet.known_range(),
+        }
+    }
+
+    /// Whether the criterion is stated for this material at a temperature [K].
+    pub fn holds_at(&self, temperature: f64) -> bool {
+        match self {
+            Self::Melt(melt) => melt.holds_at(temperature),
+            Self::Droplet(droplet) => droplet.holds_at(temperature),
+        }
+    }
+}

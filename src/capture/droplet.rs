@@ -1,0 +1,201 @@
+//! Droplet criterion: a molten particle is deposited where it does not splash (Mundo, Sommerfeld & Tropea 1995).
+//!
+//! `We = rho v_n² d/sigma`, `Re = rho v_n d/mu`, `K = We^½ Re^¼ = Oh Re^1.25` with `Oh = We^½/Re`. Up to `K_cr` all of the
+//! droplet stays, above it a share of its mass splashes. `rho` density [kg/m³], `sigma` surface tension [N/m] and `mu` viscosity
+//! [Pa s] of the melt at the particle's own temperature, `v_n` speed towards the wall [m/s], `d` diameter [m]. A particle is a
+//! droplet when it is hotter than the `melting_point` of its material; a solid one is not sticky.
+//!
+//! `K_cr = 57.7` and the normal speed in `K`: Mundo et al., Int. J. Multiphase Flow 21 (1995) 151 (not re-read), drops of 60 to
+//! 150 µm at 12 to 18 m/s.
+//!
+//! Splashed share of the mass: `min(0.75, 1.8e-4 (K² - K_cr²))`, after O'Rourke & Amsden, SAE 2000-01-0271 (not re-read). They
+//! write `E² = We/(h/d + Re^-½)` with the film's thickness `h`, which is `K²` on a dry wall, and `E_cr = 57.7`; the share meets
+//! its bound at their `E² = 7500`. The codes that are served cannot split a parcel, so the deposited share is taken as the
+//! probability that all of it stays (assumed).
+//!
+//! Valid for dry walls. `K_cr` is no constant of nature: water drops of 12 to 100 µm at up to 100 m/s did not splash at all (Visser
+//! et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the highest speed): there `splash_K` has to be larger.
+//! Roughness promotes prompt splashing: there it has to be smaller. Left out: freezing on a cold wall (it flattens and pins the
+//! drop, towards capture); a liquid film; the gas, without which drops splash less (arXiv 1203.2718, abstract, as for roughness).
+//! A droplet that does not splash can bounce off whole where it does not wet the wall: aqueous drops of 30 to 50 µm did so on
+//! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion calls them deposited, for
+//! the contact angle is not among the inputs.
+
+use crate::impact::{Impact, ImpactError};
+use crate::input::{InputError, Section};
+use crate::material::{Material, Molten};
+
+/// `K_cr` of Mundo et al. [1]: above it a droplet splashes.
+pub const SPLASH_K: f64 = 57.7;
+/// `1.8e-4` of O'Rourke & Amsden [1]: splashed share for each unit of `K² - K_cr²`.
+const SPLASHED_PER_K_SQUARED: f64 = 1.8e-4;
+/// Largest splashed share of O'Rourke & Amsden [1].
+const MOST_SPLASHED: f64 = 0.75;
+
+/// The dimensionless numbers of a droplet that hits a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DropletNumbers {
+    /// Weber number `We = rho v_n² d/sigma` [1].
+    pub weber: f64,
+    /// Reynolds number `Re = rho v_n d/mu` [1].
+    pub reynolds: f64,
+    /// `K = We^½ Re^¼` [1].
+    pub splash: f64,
+}
+
+impl DropletNumbers {
+    /// From the melt, the speed towards the wall `v_n` [m/s] and the diameter `d` [m].
+    pub fn new(melt: &Molten, normal_speed: f64, diameter: f64) -> Self {
+        let Molten { density, viscosity, surface_tension } = *melt;
+        let weber = density * normal_speed * normal_speed * diameter / surface_tension;
+        let reynolds = density * normal_speed * diameter / viscosity;
+        Self { weber, reynolds, splash: weber.sqrt() * reynolds.sqrt().sqrt() }
+    }
+}
+
+/// Share of a droplet's mass that stays on the wall [1], from `K` and `K_cr` [both 1].
+pub fn deposited_share(splash: f64, splash_limit: f64) -> f64 {
+    if splash <= splash_limit {
+        return 1.0;
+    }
+    let excess = (splash - splash_limit) * (splash + splash_limit);
+    1.0 - (SPLASHED_PER_K_SQUARED * excess).min(MOST_SPLASHED)
+}
+
+/// The droplet criterion of a `[capture]` table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DropletCriterion {
+    splash_limit: f64,
+}
+
+impl DropletCriterion {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let given = section.number_within("splash_K", f64::MIN_POSITIVE, f64::INFINITY)?;
+        Ok(Self { splash_limit: given.unwrap_or(SPLASH_K) })
+    }
+
+    pub(super) fn describe(self) -> String {
+        format!("droplet, splash_K {}", self.splash_limit)
+    }
+
+    /// The criterion for the particle's material, or the keys that the material lacks.
+    pub(super) fn prepare(self, material: &Material) -> Result<Droplet, Vec<&'static str>> {
+        let mut lacking = vec!["melting_point", "viscosity", "surface_tension"];
+        lacking.retain(|key| material.property(key).is_none());
+        if !lacking.is_empty() {
+            return Err(lacking);
+        }
+        Ok(Droplet { material: Box::new(material.clone()), splash_limit: self.splash_limit })
+    }
+}
+
+/// The criterion for one material.
+#[derive(Debug, Clone)]
+pub struct Droplet {
+    material: Box<Material>,
+    splash_limit: f64,
+}
+
+impl Droplet {
+    /// Probability that the particle stays [1]: 0 for a solid, the deposited share for a droplet.
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] for a droplet where a property of the melt is not known.
+    pub fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        let temperature = impact.particle_temperature;
+        if !self.material.is_molten(temperature)? {
+            return Ok(0.0);
+        }
+        let melt = self.material.molten(temperature)?;
+        let numbers = DropletNumbers::new(&melt, impact.normal_speed, impact.diameter);
+        Ok(deposited_share(numbers.splash, self.splash_limit))
+    }
+
+    /// Temperatures [K] at which a particle can be judged.
+    pub fn known_range(&self) -> [f64; 2] {
+        let [low, high] = self.material.molten_range();
+        // A solid needs no property of the melt.
+        let melts_known = self.material.is_molten(low).is_ok_and(|molten| !molten);
+        [if melts_known { 0.0 } else { low }, high]
+    }
+
+    /// Whether the properties are stated to hold at a temperature [K]; a solid needs none.
+    pub fn holds_at(&self, temperature: f64) -> bool {
+        self.material.is_molten(temperature) == Ok(false) || self.material.melt_holds_at(temperature)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Library;
+    use approx::assert_relative_eq;
+
+    fn droplet(material: &str) -> Droplet {
+        let library = Library::built_in().unwrap();
+        DropletCriterion { splash_limit: SPLASH_K }.prepare(library.get(material).unwrap()).unwrap()
+    }
+
+    fn numbers(material: &str, diameter: f64, speed: f64, temperature: f64) -> DropletNumbers {
+        let melt = droplet(material).material.molten(temperature).unwrap();
+        DropletNumbers::new(&melt, speed, diameter)
+    }
+
+    /// By hand from Troiano 3.1: 1000 kg/m³, 0.03 N/m and, between 0.1 Pa s at 90 °C and 0.02 at 130 °C, linear in 1/T,
+    /// 0.0290 Pa s at 120 °C. We = 1000·25·120e-6/0.03 = 100; Re = 0.6/0.0290 = 20.7; K = 10·20.7^¼ = 21.3.
+    #[test]
+    fn wax_of_120_micrometres_at_5_metres_a_second() {
+        let wax = numbers("montan-wax", 120e-6, 5.0, 393.15);
+        assert_relative_eq!(wax.weber, 100.0, max_relative = 1e-12);
+        assert_relative_eq!(wax.reynolds, 20.7, max_relative = 2e-3);
+        assert_relative_eq!(wax.splash, 21.3, max_relative = 2e-3);
+    }
+
+    /// By hand from 9330 kg/m³, 2.29 N/m and 5.6 mPa s at the melting point: We = 1.426, Re = 116.6, K = 3.92.
+    #[test]
+    fn molybdenum_of_14_micrometres_at_5_metres_a_second() {
+        let molybdenum = numbers("molybdenum", 14e-6, 5.0, 2896.1);
+        assert_relative_eq!(molybdenum.weber, 1.426, max_relative = 2e-3);
+        assert_relative_eq!(molybdenum.reynolds, 116.6, max_relative = 5e-3);
+        assert_relative_eq!(molybdenum.splash, 3.92, max_relative = 3e-3);
+    }
+
+    /// Mundo et al.: K = Oh Re^1.25 with Oh = mu/sqrt(rho sigma d), which does not know the speed.
+    #[test]
+    fn k_is_ohnesorge_times_a_power_of_reynolds() {
+        for (density, viscosity, surface_tension, diameter, speed) in [
+            (1000.0, 0.029, 0.03, 120e-6, 5.0),
+            (9330.0, 5.6e-3, 2.29, 14e-6, 1.0),
+            (998.0, 1e-3, 0.072, 1e-3, 18.0),
+        ] {
+            let k = DropletNumbers::new(&Molten { density, viscosity, surface_tension }, speed, diameter);
+            let ohnesorge = viscosity / f64::sqrt(density * surface_tension * diameter);
+            assert_relative_eq!(k.splash, ohnesorge * k.reynolds.powf(1.25), max_relative = 1e-12);
+        }
+    }
+
+    /// O'Rourke & Amsden's bound of 0.75 belongs to E² = 7500: their three numbers agree with one another.
+    #[test]
+    fn the_deposited_share_is_continuous_falls_and_ends() {
+        assert_eq!(deposited_share(0.0, SPLASH_K), 1.0);
+        assert_eq!(deposited_share(SPLASH_K, SPLASH_K), 1.0);
+        assert!((deposited_share(SPLASH_K * (1.0 + 1e-9), SPLASH_K) - 1.0).abs() < 1e-8);
+        let shares: Vec<f64> = (0..200_u8).map(|k| deposited_share(f64::from(k), SPLASH_K)).collect();
+        assert!(shares.windows(2).all(|pair| pair[1] <= pair[0]));
+        assert_relative_eq!(deposited_share(7500_f64.sqrt(), SPLASH_K), 0.25, max_relative = 4e-3);
+        assert_eq!(deposited_share(1e200, SPLASH_K), 0.25);
+        assert_eq!(deposited_share(f64::INFINITY, 1e200), 0.25);
+    }
+
+    #[test]
+    fn solids_are_not_sticky_and_melts_have_an_end() {
+        let wax = droplet("montan-wax");
+        let at = |particle_temperature| {
+            wax.at(&Impact { normal_speed: 1.0, particle_temperature, ..Impact::default() })
+        };
+        assert_eq!((at(293.15), at(353.15), at(353.2)), (Ok(0.0), Ok(0.0), Ok(1.0)));
+        assert!(matches!(at(404.0), Err(ImpactError::OutOfRange { property: "viscosity", .. })));
+        assert_eq!(wax.known_range(), [0.0, 403.15]);
+        assert!(wax.holds_at(293.15) && !wax.holds_at(354.0) && wax.holds_at(380.0));
+    }
+}

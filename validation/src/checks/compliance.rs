@@ -1,0 +1,318 @@
+//! The effect `tangential-compliance` beside elastic theory: Hertz along the normal, Mindlin along the wall, partial slip.
+
+use std::f64::consts::PI;
+
+use nearwall::effect::{KINDS, Term};
+use nearwall::normal::Contact;
+use nearwall::report::{Chart, Figure, Table, number};
+use nearwall::tangential::{Glance, Rebound, critical_angle};
+
+use super::{DIAMETER, FRICTION, Outcome, steps, wax_on_pyrex};
+use crate::claim::{Basis, Claim, Published};
+use crate::oracle::compliant_sphere::{CompliantSphere, Left};
+use crate::study::{Extent, Part};
+
+pub const HEADING: &str = "Tangential compliance: elastic theory beside an assumed power law";
+
+const THEORY: &str = "Maw, Barber & Fawcett 1976 (integrated here)";
+
+/// Troiano Fig 6: `e_t` of wax at 80°, read to half a unit of the last digit.
+const TROIANO_AT_80: f64 = 0.85;
+
+/// Rolling [1].
+const ROLLING: f64 = 5.0 / 7.0;
+
+/// Up to here [1] a law of `e_t` counts as meeting the theory: assumed, about what a measured `e_t` is good for.
+const GOOD: f64 = 0.02;
+
+/// Of the integration at its coarsest [1], by doubling springs and steps; tested below.
+const ACCURACY: f64 = 1e-3;
+
+struct Theory {
+    sphere: CompliantSphere,
+}
+
+impl Theory {
+    fn new(k: f64, extent: Extent) -> Self {
+        let (springs, steps) = match extent {
+            Extent::Full => (400, 4000),
+            Extent::Short => (100, 1000),
+        };
+        Self { sphere: CompliantSphere { stiffness_ratio: k, springs, steps } }
+    }
+
+    /// What an elastic impact `degrees` from the surface leaves.
+    fn at(&self, degrees: f64) -> Left {
+        self.sphere.impact(FRICTION, 1.0 / degrees.to_radians().tan())
+    }
+
+    fn e_t(&self, degrees: f64) -> f64 {
+        self.at(degrees).tangential_restitution()
+    }
+}
+
+/// `e_t` of the library's effect for an elastic impact without spin.
+fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Outcome<f64> {
+    let kind = KINDS.into_iter().find(|kind| kind.id == "tangential-compliance");
+    let term = Term::new(kind.ok_or("no effect tangential-compliance")?, &[FRICTION, near_normal, exponent]);
+    let (normal_speed, tangential_speed) = degrees.to_radians().sin_cos();
+    let glance = Glance {
+        normal_speed,
+        tangential_speed,
+        diameter: DIAMETER,
+        spin: 0.0,
+        normal_restitution: 1.0,
+        stiffness_ratio: k,
+    };
+    Ok(term.effect().tangential(&glance, Rebound { restitution: 0.0, spin: 0.0 }).restitution)
+}
+
+/// The parameters of the effect that come nearest to the theory past the critical angle, and how near.
+struct Fit {
+    parameters: [f64; 2],
+    rms: f64,
+    largest: f64,
+}
+
+impl Fit {
+    /// Least squares over evenly spaced angles: `near_normal` enters linearly, the exponent is looked for on a fine ladder within its
+    /// bounds (0.05 to 20).
+    fn new(k: f64, points: &[[f64; 2]]) -> Outcome<Self> {
+        let mut best: Option<Self> = None;
+        for exponent in steps(0.05f64.ln(), 20f64.ln(), 300).map(f64::exp) {
+            // e_t = a + near_normal b at each angle.
+            let (mut up, mut down) = (0.0, 0.0);
+            for [degrees, e_t] in points {
+                let zero = effect(k, [0.0, exponent], *degrees)?;
+                let slope = effect(k, [1.0, exponent], *degrees)? - zero;
+                up += slope * (e_t - zero);
+                down += slope * slope;
+            }
+            let fit = Self::of(k, [(up / down).clamp(0.0, 1.5), exponent], points)?;
+            if best.as_ref().is_none_or(|best| fit.rms < best.rms) {
+                best = Some(fit);
+            }
+        }
+        best.ok_or_else(|| "no fit".into())
+    }
+
+    /// How far these parameters are from the theory.
+    fn of(k: f64, parameters: [f64; 2], points: &[[f64; 2]]) -> Outcome<Self> {
+        let (mut sum, mut largest) = (0.0, 0.0f64);
+        for [degrees, e_t] in points {
+            let off = effect(k, parameters, *degrees)? - e_t;
+            sum += off * off;
+            largest = largest.max(off.abs());
+        }
+        Ok(Self { parameters, rms: (sum / points.len() as f64).sqrt(), largest })
+    }
+}
+
+pub fn part(extent: Extent) -> Outcome<Part> {
+    let wax = wax_on_pyrex()?;
+    let k = wax.stiffness_ratio;
+    let theory = Theory::new(k, extent);
+    let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
+    let over = |low: f64, high: f64, count: usize| -> Vec<[f64; 2]> {
+        steps(low, high, count).map(|degrees| [degrees, theory.e_t(degrees)]).collect()
+    };
+    let past = over(critical + 0.01, 89.9, extent.count(400));
+    let glancing = over(2.0, critical, extent.count(200));
+    let fit = Fit::new(k, &past)?;
+    let troiano = Fit::of(k, [1.0, 2.2], &past)?;
+    let sliding = Fit::of(k, fit.parameters, &glancing)?.largest;
+    let highest = past.iter().map(|p| p[1]).fold(0.0, f64::max);
+    let lowest = past.iter().copied().fold([0.0, 1.0], |low, p| if p[1] < low[1] { p } else { low });
+    let head_on = theory.e_t(89.99);
+    let at_80 = theory.e_t(80.0);
+    let just_past = critical + 2.0;
+    let by_effect = effect(k, fit.parameters, just_past)?;
+    let [near_normal, exponent] = fit.parameters;
+    let claims = vec![
+        Claim::number(
+            THEORY,
+            "the effect up to the critical angle (gross slip): largest difference in e_t",
+            Published::within(0.0, ACCURACY),
+            sliding,
+            Basis::Derived,
+        ),
+        Claim::number(
+            THEORY,
+            "share of the friction that acts at the critical angle of Eq. 11, e_n = 1 (below it all acts)",
+            Published::within(1.0, ACCURACY),
+            theory.at(critical).impulse / (critical.to_radians().tan() * 2.0 * FRICTION),
+            Basis::Derived,
+        ),
+        Claim::statement(
+            THEORY,
+            "e_t lies below rolling (5/7) just past the transition",
+            &format!("{} at {just_past:.0}°", number(theory.e_t(just_past))),
+            &number(by_effect),
+            by_effect < ROLLING && theory.e_t(just_past) < ROLLING,
+            Basis::Derived,
+        ),
+        Claim::number(
+            THEORY,
+            &format!(
+                "the effect past the critical angle with the parameters nearest to the theory (near_normal {}, exponent {}): \
+                 largest difference in e_t",
+                number(near_normal),
+                number(exponent)
+            ),
+            Published::within(0.0, GOOD),
+            fit.largest,
+            Basis::Fitted,
+        )
+        .because(&format!(
+            "elastic theory falls on from {} at the transition to {} at {:.0}° before it rises; a power of the angle can only \
+             rise or fall. rms {}. The band of {GOOD} is assumed",
+            number(past[0][1]),
+            number(lowest[1]),
+            lowest[0],
+            number(fit.rms)
+        )),
+        Claim::number(
+            THEORY,
+            "the effect past the critical angle with the parameters that meet Troiano's 0.85 (near_normal 1, exponent 2.2): largest \
+             difference in e_t",
+            Published::within(0.0, GOOD),
+            troiano.largest,
+            Basis::Fitted,
+        )
+        .because(
+            "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung through about three \
+             quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do not change), so that little of the \
+             slip is given back",
+        ),
+        Claim::number(
+            "Troiano Fig 6",
+            "e_t of wax on Pyrex at 80°: here elastic theory, not the library",
+            Published::within(TROIANO_AT_80, 0.005),
+            at_80,
+            Basis::Predicted,
+        )
+        .because(&format!(
+            "elastic compliance of a sphere that comes without spin cannot give it: the theory stays below {} past the \
+             transition. Open: wax yields (e_n near 0.3 to 0.4); incoming spin (a rigid sphere leaves with 0.85 when its \
+             rim runs forward at {} v_t); the scatter of the reading",
+            number(highest + 0.0005),
+            number((TROIANO_AT_80 * 7.0 - 5.0) / 2.0)
+        )),
+    ];
+    Ok(Part {
+        heading: HEADING.to_owned(),
+        text: vec![
+            "A sphere on Hertz's contact with Mindlin's tangential stiffness and Coulomb friction at each point, so that a ring \
+             slips while the middle sticks (Cattaneo and Mindlin, any history of loads); integrated over time. Tests of the oracle: \
+             shear at rest is Mindlin's; gross slip begins at psi = k s/(f v_n) = 7k-1; no friction, no stiffness and infinite \
+             stiffness (rolling) come out; energy is never made; only k and psi count."
+                .to_owned(),
+            format!(
+                "For k = {} (wax on Pyrex), f = {FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° with {}, falls to {} at \
+                 {:.0}° and comes back to {} head-on. It rises above rolling only for stiffer tangential contacts: to the values \
+                 in the table.",
+                number(k),
+                number(past[0][1]),
+                number(lowest[1]),
+                lowest[0],
+                number(head_on)
+            ),
+            format!(
+                "The theory is elastic; wax yields. Fully plastic loading (F = 2 pi R p_y delta, a² = 2 R delta) is soft along the normal \
+                 while the contact along the wall stays elastic, so the tangential swing is fast: Omega²/omega² = 7 k E* a/(2 pi R p_y), {} \
+                 for wax at 1 m/s when it is deepest, against 7k/2 = {} for a linear elastic contact. An estimate, not an integration: it \
+                 points to the stiff limit, rolling (5/7), not to 0.85. How a flattened contact gives up its stretch on the way out, \
+                 and whether friction stays Coulomb's there, is left open.",
+                number(plastic_swing(&wax)),
+                number(3.5 * k)
+            ),
+        ],
+        tables: vec![table(extent)],
+        figures: vec![chart(&theory, k, &fit, critical)?],
+        claims,
+    })
+}
+
+/// Frequency along the wall over frequency along the normal, squared [1], at the deepest point of a fully plastic impact of 1 m/s:
+/// `m v²/2 = pi R p_y delta²`.
+fn plastic_swing(contact: &Contact) -> f64 {
+    let radius = 0.5 * DIAMETER;
+    let mass = 4.0 / 3.0 * PI * radius.powi(3) * contact.density;
+    let normal = 2.0 * PI * radius * contact.limiting_pressure();
+    let deepest = (mass / normal).sqrt();
+    let contact_radius = (2.0 * radius * deepest).sqrt();
+    7.0 * contact.stiffness_ratio * contact.reduced_modulus * contact_radius / normal
+}
+
+fn table(extent: Extent) -> Table {
+    let row = |[k, nu]: [f64; 2]| {
+        let theory = Theory::new(k, extent);
+        let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
+        let angles = steps(critical, 89.9, extent.count(100).max(30));
+        let lowest = angles
+            .map(|degrees| [degrees, theory.e_t(degrees)])
+            .fold([0.0, 1.0], |low, p| if p[1] < low[1] { p } else { low });
+        vec![
+            number(k),
+            number(nu),
+            format!("{critical:.1}"),
+            format!("{:.3}", theory.e_t(critical)),
+            format!("{:.3} at {:.0}°", lowest[1], lowest[0]),
+            format!("{:.3}", theory.e_t(80.0)),
+            format!("{:.3}", theory.e_t(89.99)),
+        ]
+    };
+    Table {
+        caption: format!(
+            "Elastic theory over k, f = {FRICTION}, without spin; Poisson's ratio of two equal solids"
+        ),
+        header: [
+            "k [1]",
+            "Poisson's ratio [1]",
+            "critical [°]",
+            "e_t there",
+            "lowest e_t",
+            "e_t at 80°",
+            "e_t head-on",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+        rows: [[2.0 / 3.0, 0.5], [0.75, 0.4], [0.7 / 0.85, 0.3], [0.8 / 0.9, 0.2], [1.0, 0.0]]
+            .map(row)
+            .to_vec(),
+        text_columns: 0,
+    }
+}
+
+fn chart(theory: &Theory, k: f64, fit: &Fit, critical: f64) -> Outcome<Figure> {
+    let curve = |parameters: [f64; 2]| -> Outcome<Vec<[f64; 2]>> {
+        steps(3.0, 89.9, 300).map(|degrees| Ok([degrees, effect(k, parameters, degrees)?])).collect()
+    };
+    let points: Vec<[f64; 2]> = steps(3.0, 89.9, 60).map(|degrees| [degrees, theory.e_t(degrees)]).collect();
+    Ok(Chart::new("e_t of an elastic sphere, k of wax on Pyrex", "angle from the surface [°]", "e_t [1]")
+        .line("effect, nearest to the theory", &curve(fit.parameters)?)
+        .line("effect, near_normal 1, exponent 2.2", &curve([1.0, 2.2])?)
+        .points("elastic theory", &points)
+        .mark_y(ROLLING, "5/7")
+        .mark_x(critical, "")
+        .x_range(0.0, 90.0)
+        .y_range(0.4, 1.0)
+        .figure("checks-compliance", "The thin vertical line is the critical angle. Elastic theory falls on past it and does not rise above rolling."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_integration_is_as_accurate_as_stated() {
+        for k in [0.676, 1.0] {
+            let coarse = Theory::new(k, Extent::Short);
+            let fine = Theory::new(k, Extent::Full);
+            for degrees in [10.0, 25.0, 26.6, 40.0, 60.0, 80.0, 89.99] {
+                let off = coarse.e_t(degrees) - fine.e_t(degrees);
+                assert!(off.abs() < ACCURACY, "{degrees}° k = {k}: {off}");
+            }
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Set 4: impacts at 43 to 77 degrees from the normal, and what the paper's words fix of `oblique-angle`.
+
+use std::error::Error;
+
+use nearwall::report::{Chart, Figure, Table, number};
+use nearwall::{Draw, Model};
+use statrs::distribution::{Discrete, Hypergeometric};
+
+use super::published::{PARTING, SETS, Set};
+use super::sample::{Sampler, Spread};
+use super::statistics::{binomial, mean};
+use super::{MEASURED_ADHESION, PLAIN, even, impact, model, table, with};
+use crate::claim::{Basis, Claim, Published};
+use crate::study::{Extent, Part};
+
+const SEED: u64 = 14;
+const EXPONENTS: [f64; 3] = [0.0, 0.5, 1.0];
+const STRENGTHS: [f64; 7] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5];
+/// Strength and exponent of `validation/migraine/calibrated.toml`.
+const CHOSEN: [f64; 2] = [1.0, 0.5];
+
+pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
+    let plain = with(&model(PLAIN)?, &[("adhesion-energy", &[MEASURED_ADHESION])])?;
+    Ok(Part {
+        heading: "Oblique impacts (set 4, Fig 5)".to_owned(),
+        text: vec![
+            "The paper fixes three things: T&N overestimates e_n at 43 to 77°; more so as v_n grows; below about 45° e_n depends on v_n alone (other works). It prints no e_n but \"all below 0.6\". The \
+             form of oblique-angle, exp(-a sin⁴(theta) (v_n/1 m/s)^p), is assumed; of its parameters the words fix the signs of a and p and nothing else."
+                .to_owned(),
+            "\"All below 0.6\" is no evidence against T&N by itself: its curve for 4 sigma_y lies below 0.6 there. What it does say is that the quarter of weak dissipation is missing: 0 of 41, where \
+             the near-normal sets have 108 of 391. Either obliquity lowers those impacts, too, or there were no agglomerates in that run."
+                .to_owned(),
+        ],
+        tables: vec![strengths(&plain, extent)?],
+        figures: vec![figure(&plain)?],
+        claims: claims(&plain)?,
+    })
+}
+
+/// `e_n` at an angle from the normal [degrees].
+fn at(model: &Model, speed: f64, angle: f64) -> Result<f64, Box<dyn Error>> {
+    let arriving = impact(9e-6, speed, speed * angle.to_radians().tan());
+    Ok(model.resolve_with(0, &arriving, |_| 0.5)?.normal_restitution)
+}
+
+fn figure(plain: &Model) -> Result<Figure, Box<dyn Error>> {
+    let mut chart = Chart::new("Head-on over oblique e_n", "normal speed v_n [m/s]", "e_n(0)/e_n(60.6°) [1]")
+        .y_range(0.8, 4.0);
+    for exponent in EXPONENTS {
+        let oblique = with(plain, &[("oblique-angle", &[CHOSEN[0], exponent, 2.0])])?;
+        let mut line = Vec::new();
+        for speed in even(SETS[3].normal[0], SETS[3].normal[1], 60) {
+            line.push([speed, at(&oblique, speed, 0.0)? / at(&oblique, speed, SETS[3].angle[1])?]);
+        }
+        chart = chart.line(&format!("a = {}, p = {exponent}", CHOSEN[0]), &line);
+    }
+    Ok(chart.mark_y(1.0, "T&N").figure(
+        "migraine-oblique",
+        "The ratio must exceed 1 and grow with v_n: so a > 0 and p > 0. Size and curvature are free, as no e_n of set 4 is printed.",
+    ))
+}
+
+/// For each strength: the fraction of agglomerates with which set 1 has its published share below 0.6, and the share of campaigns like
+/// set 4 in which all 41 rebounds lie below.
+fn strengths(plain: &Model, extent: Extent) -> Result<Table, Box<dyn Error>> {
+    let replicates = extent.count(1000) as u64;
+    let needed = 1.0 - SETS[0].below as f64 / SETS[0].rebounds() as f64;
+    let mut rows = Vec::new();
+    for strength in STRENGTHS {
+        let population = |fraction: f64| {
+            let effects: [(&str, &[f64]); 2] =
+                [("agglomerates", &[fraction, 0.8, 0.1]), ("oblique-angle", &[strength, CHOSEN[1], 2.0])];
+            with(plain, &effects)
+        };
+        let mut row = vec![number(strength)];
+        for (spread, _) in Spread::ALL {
+            // Grains alone never pass 0.6, so the share goes with the fraction.
+            let still_above = mean(
+                &e_n(&population(1.0)?, SETS[0], spread, 20 * replicates)?
+                    .map(|e| f64::from(u8::from(e > PARTING)))
+                    .collect::<Vec<f64>>(),
+            );
+            let fraction = needed / still_above;
+            if fraction > 1.0 {
+                row.extend(["more than all", "–", "–"].map(str::to_owned));
+                continue;
+            }
+            let count = SETS[3].impacts;
+            let found: Vec<f64> =
+                e_n(&population(fraction)?, SETS[3], spread, count as u64 * replicates)?.collect();
+            let all = found.chunks(count).filter(|campaign| campaign.iter().all(|e| *e < PARTING)).count();
+            let share = all as f64 / replicates as f64;
+            row.extend([format!("{fraction:.2}"), format!("{share:.2}"), format!("{:.2}", mean(&found))]);
+        }
+        rows.push(row);
+    }
+    let caption = "Both numbers at once: fraction of agglomerates (restitution 0.8, spread 0.1, assumed) with which set 1 has 71 % below 0.6 although obliquity lowers agglomerates, too, and with it the share of campaigns \
+                   like set 4 that have all 41 below 0.6, and their mean e_n, against the strength a (p = 0.5, assumed; seed 14). The calibrated model takes the weakest a, in quarters, that keeps most campaigns below.";
+    let header = [
+        "strength a [1]",
+        "v_n even: fraction",
+        "all below",
+        "mean e_n of set 4",
+        "v_n log-even: fraction",
+        "all below",
+        "mean e_n of set 4",
+    ];
+    Ok(table(caption, 0, &header, rows))
+}
+
+/// Normal restitutions of `count` impacts of a set.
+fn e_n(
+    model: &Model,
+    set: Set,
+    spread: Spread,
+    count: u64,
+) -> Result<impl Iterator<Item = f64>, Box<dyn Error>> {
+    let sampler = Sampler::new(set, spread)?;
+    let mut found = Vec::new();
+    for key in 0..count {
+        let draw = Draw::new(SEED, key);
+        found.push(model.resolve(0, &sampler.impact(draw), draw)?.normal_restitution);
+    }
+    Ok(found.into_iter())
+}
+
+fn claims(plain: &Model) -> Result<Vec<Claim>, Box<dyn Error>> {
+    let near_normal = || SETS.iter().filter(|set| set.number != 4);
+    let rebounds: usize = near_normal().map(Set::rebounds).sum();
+    let above: usize = rebounds - near_normal().map(|set| set.below).sum::<usize>();
+    let oblique = SETS[3].rebounds();
+    let chance = Hypergeometric::new((rebounds + oblique) as u64, above as u64, oblique as u64)?.pmf(0);
+    let at_most = binomial(0, oblique, 0.05)?[1];
+    let model = with(plain, &[("oblique-angle", &[CHOSEN[0], CHOSEN[1], 2.0])])?;
+    let ratio = |speed, angle| -> Result<f64, Box<dyn Error>> {
+        Ok(at(&model, speed, 0.0)? / at(&model, speed, angle)?)
+    };
+    let [slow, fast] = [ratio(SETS[3].normal[0], 60.6)?, ratio(SETS[3].normal[1], 60.6)?];
+    Ok(vec![
+        Claim::statement(
+            "set 4 (W14) against W2, W6, W10, W18",
+            "oblique impacts differ from near-normal ones: chance of 0 of 41 above 0.6 where the others have 108 of 391",
+            "e_n depends on the angle, too",
+            &format!("{chance:.1e} (exact test); at most {:.1} % above 0.6 in set 4 (95 %)", 100.0 * at_most),
+            chance < 0.01,
+            Basis::Derived,
+        )
+        .because("The test says that the sets differ, not that the angle is why: set 4 also had weaker plasma and another target."),
+        Claim::statement(
+            "section 4, near-tangential",
+            "T&N overestimates e_n, the more the higher v_n: e_n(0)/e_n(60.6°) at 0.88 and 4.5 m/s",
+            "> 1 and rising",
+            &format!("{slow:.2} and {fast:.2}"),
+            slow > 1.0 && fast > slow,
+            Basis::Fitted,
+        )
+        .because("By the signs of a and p, which were chosen for it."),
+        Claim::number(
+            "section 4, near-tangential",
+            "up to about 45° e_n depends on v_n alone: e_n(0)/e_n(30°) at 3 m/s",
+            Published::Between(0.95, 1.25),
+            ratio(3.0, 30.0)?,
+            Basis::Predicted,
+        )
+        .because("\"Alone\" is taken as within 25 % of e_n, far inside the scatter; sin⁴ leaves 1/16 of a at 30° but a quarter at 45°, where the effect is no longer small."),
+        Claim::unchecked(
+            "Fig 5",
+            "size of the overestimate",
+            "\"significantly\"",
+            "No e_n of set 4 is printed, so a and p cannot be fitted, only bounded by 0.6.",
+        ),
+    ])
+}
