@@ -36,6 +36,7 @@ pub mod c_api;
 pub mod capture;
 #[cfg(feature = "command")]
 pub mod dataset;
+pub mod deposit;
 #[cfg(feature = "command")]
 pub mod diagnose;
 pub mod draw;

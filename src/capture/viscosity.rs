@@ -104,11 +104,18 @@ impl MeltStickiness {
     /// # Errors
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
     pub fn at(&self, temperature: f64) -> Result<f64, ImpactError> {
-        let viscosity = match &self.melt {
-            Melt::Oxides(law) => law.at(temperature),
-            Melt::Given(material) => material.viscosity(temperature)?,
-        };
-        Ok(sticking_probability(viscosity, self.reference))
+        Ok(sticking_probability(self.viscosity(temperature)?, self.reference))
+    }
+
+    /// Viscosity of the melt [Pa s] at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
+    pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
+        match &self.melt {
+            Melt::Oxides(law) => Ok(law.at(temperature)),
+            Melt::Given(material) => material.viscosity(temperature),
+        }
     }
 }
 

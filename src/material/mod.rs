@@ -36,6 +36,7 @@ const FIELDS: [Field; 8] = [
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`].
 const MECHANICAL: usize = 5;
 const VISCOSITY: usize = 5;
+const DENSITY: usize = 0;
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -116,6 +117,19 @@ impl Material {
         self.value(VISCOSITY, temperature)
     }
 
+    /// Density [kg/m³] at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside a table.
+    pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
+        self.value(DENSITY, temperature)
+    }
+
+    /// Temperatures [K] at which the density is known.
+    pub fn density_range(&self) -> [f64; 2] {
+        overlap(self.properties[DENSITY].iter().filter_map(Property::known_range))
+    }
+
     fn value(&self, field: usize, temperature: f64) -> Result<f64, ImpactError> {
         let nowhere = OutOfRange { low: f64::NAN, high: f64::NAN };
         let found = self.properties[field].as_ref().map_or(Err(nowhere), |p| p.at(temperature));
@@ -134,7 +148,7 @@ impl Material {
     /// [`ImpactError::OutOfRange`] outside a table.
     pub fn mechanical(&self, temperature: f64) -> Result<Mechanical, ImpactError> {
         Ok(Mechanical {
-            density: self.value(0, temperature)?,
+            density: self.value(DENSITY, temperature)?,
             youngs_modulus: self.value(1, temperature)?,
             poisson_ratio: self.value(2, temperature)?,
             yield_strength: self.value(3, temperature)?,

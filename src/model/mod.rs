@@ -5,6 +5,7 @@
 //! stickiness of particle and wall, normal law, effects on `e_n`, what stickiness takes of it, tangential law, effects on
 //! `e_t`, back to the mean wall, capture. [`Model::explain`] walks the same way and notes what each term did.
 
+mod deposit;
 mod describe;
 mod facet;
 mod read;
@@ -21,6 +22,7 @@ use crate::material::{Material, overlap};
 use crate::normal::{Contact, NormalLaw, Speeds};
 use crate::tangential::{Glance, TangentialLaw};
 
+pub use deposit::Melt;
 use facet::Facet;
 pub use wall::Wall;
 
@@ -141,7 +143,7 @@ impl Model {
         let (wall, impact) = self.at_wall(wall, impact)?;
         self.contact(wall, &impact, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
-        wall.stickiness(&impact)?;
+        self.wall_stickiness(wall, &impact)?;
         Ok(())
     }
 
@@ -254,7 +256,7 @@ impl Model {
         let contact = self.contact(wall, impact, &uniform)?;
 
         let particle = self.particle_stickiness(impact, &mut note)?;
-        let sticky = Stickiness { particle, wall: wall.stickiness(impact)? };
+        let sticky = Stickiness { particle, wall: self.wall_stickiness(wall, impact)? };
         note("wall", "wall stickiness", sticky.wall);
 
         let mut rebound = self.normal.restitution(&contact, impact.diameter, impact.normal_speed);
@@ -314,6 +316,7 @@ impl Model {
         };
         !(holds(&self.particle_melt, impact.particle_temperature)
             && holds(&wall.melt, impact.wall_temperature)
+            && self.melt_holds(impact)
             && self.particle.holds_at(impact.particle_temperature)
             && wall.material().holds_at(impact.wall_temperature)
             && self.terms.iter().all(|term| term.holds_for(impact)))

@@ -110,7 +110,7 @@ impl WallReader<'_> {
         let material = self.library.named_by(section, "material")?;
         let material = material.ok_or_else(|| missing_material(section))?;
         let slag = self.library.named_by(section, "slag")?;
-        let slag_name = slag.as_ref().map(|slag| slag.name().to_owned());
+        let lying = slag.clone();
         let melt = match (slag, self.criterion) {
             (None, _) => None,
             (Some(_), None) => {
@@ -136,7 +136,7 @@ impl WallReader<'_> {
             name: name.to_owned(),
             pattern: read_pattern(name, section)?,
             material,
-            slag: slag_name,
+            slag: lying,
             melt,
             layer_thickness: section.number_within("layer_thickness", 0.0, f64::INFINITY)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
