@@ -29,7 +29,7 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
         wordList
         ({
             "model", "patches", "stuck", "writeFields", "seed",
-            "statisticsInterval", "particleTemperature", "carbon"
+            "statisticsInterval", "particleTemperature", "carbon", "memory"
         }),
         "nearWallInteraction"
     );
@@ -123,6 +123,43 @@ void Foam::nearWallInteraction<CloudType>::warnAboutRounding() const
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::makeMemory()
+{
+    const dictionary& coeffs = nearWall::coefficients(*this, 0);
+    if (!coeffs.found("memory")) return;
+
+    if (!coeffs.isDict("memory"))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'memory' must be a dictionary, as in" << nl
+            << "    memory { film yes; }" << nl
+            << "Without the key the walls remember nothing"
+            << exit(FatalIOError);
+    }
+    if (this->owner().solution().steadyState())
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'memory': a steady cloud has no time in which a deposit"
+            << " could grow; remove the key" << exit(FatalIOError);
+    }
+    record_->memory.reset
+    (
+        new nearWall::wallMemory
+        (
+            coeffs.subDict("memory"),
+            this->owner().mesh(),
+            this->owner().name(),
+            rules_,
+            law_,
+            this->owner().g().value(),
+            saved("memory"),
+            tableFolder()
+        )
+    );
+}
+
+
+template<class CloudType>
 Foam::nearWallInteraction<CloudType>::nearWallInteraction
 (
     const dictionary& dict,
@@ -194,6 +231,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     );
 
     warnAboutRounding();
+    makeMemory();
     Info<< "    nearWallInteraction, model: "
         << nearWall::lawOrigin(coeffs, owner.mesh().time()).c_str() << nl;
     nearWall::reportPatchRules(rules_, owner.mesh());
@@ -346,6 +384,10 @@ void Foam::nearWallInteraction<CloudType>::completeImpact
     impact.omega = nearWall::forwardSpin(p, a.tangent, a.normal, 0);
     impact.seed = seed_;
     impact.key = keyOf(p, a);
+    if (record_->memory)
+    {
+        record_->memory->dress(pp.index(), pp.whichFace(p.face()), impact);
+    }
 }
 
 
@@ -409,6 +451,12 @@ void Foam::nearWallInteraction<CloudType>::note(const nearWall::event& e)
     {
         record_->fields->addHit(e.patch, e.face, e.speed);
         if (e.stuck) record_->fields->addDeposit(e.patch, e.face, e.mass);
+    }
+
+    // A patch that always captures has no regime, and no memory
+    if (record_->memory && e.stuck && e.regime >= 0)
+    {
+        record_->memory->add(e);
     }
 }
 
@@ -641,6 +689,28 @@ void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportMemory
+(
+    Ostream& os,
+    const bool writeRow
+)
+{
+    if (!record_->memory) return;
+
+    const Time& time = this->owner().mesh().time();
+    nearWall::wallMemory& memory = *record_->memory;
+    memory.finishStep(time.deltaTValue());
+
+    const List<scalarList> totals(memory.totals());
+    memory.report(os, totals, time.value(), writeRow);
+    if (time.writeTime())
+    {
+        this->setModelProperty("memory", memory.saved(totals));
+    }
+}
+
+
+template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
     stopStuckParcels();
@@ -653,6 +723,7 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     const List<scalarList> totals(record_->tally.totals());
     record_->tally.report(NEARWALL_INFO_STREAM, totals);
     reportUnusable(NEARWALL_INFO_STREAM);
+    reportMemory(NEARWALL_INFO_STREAM, writeRow);
     reportBalance(NEARWALL_INFO_STREAM, writeRow);
 
     if (writeRow)

@@ -14,10 +14,6 @@
 pub mod cover;
 pub mod wetting;
 
-/// Voidage of a powder layer [1] where it is not known: Troiano et al. state none for their wax powder; *assumed*, between
-/// 0.4 of random close packing and what loose cohesive powder shows.
-pub const VOIDAGE: f64 = 0.5;
-
 /// What lies on a piece of wall, per area of that wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deposit {
@@ -114,7 +110,8 @@ impl Deposit {
         cover::share(self.cover)
     }
 
-    /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it.
+    /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it: 0.5 is a usual assumption, between
+    /// 0.4 of a dense random packing and what loose cohesive powder shows.
     pub fn layer_thickness(&self, voidage: f64) -> f64 {
         self.solid / (1.0 - voidage)
     }
