@@ -1,12 +1,13 @@
 //! Finished OpenFOAM cases: what the solvers left behind, and a page that sets cases side by side.
 //!
-//! Read are, where they are there: the tables of `nearWallInteraction` ([`tables`]), the fates of parcels in the logs of
+//! Read are, where they are there: the tables of `nearWallInteraction` ([`tables`], [`memory`]), the fates of parcels in the logs of
 //! the stock models ([`log`]), the arrivals that the stock cloud function `patchPostProcessing` recorded
 //! ([`arrivals`]), and the parcels of the last written time ([`parcels`]). What is missing is noted and said on the page.
 
 pub mod arrivals;
 mod compare;
 pub mod log;
+pub mod memory;
 pub mod parcels;
 pub mod tables;
 
@@ -16,6 +17,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use arrivals::Arrival;
+use memory::WallHistory;
 use parcels::Parcel;
 use tables::PatchHistory;
 
@@ -59,6 +61,8 @@ pub struct CloudResult {
     pub arrivals: Vec<Arrival>,
     /// Parcels at the last written time.
     pub parcels: Vec<Parcel>,
+    /// What the walls remember; empty where they do not.
+    pub memory: Vec<WallHistory>,
     /// The mesh's patches of type `wall`; empty where the mesh is not there.
     pub wall_patches: Vec<String>,
     /// Whether the cloud's properties name solid carbon.
@@ -182,6 +186,7 @@ fn finish(folder: &Path, case: &str, cloud: String, mut result: CloudResult) -> 
     case.clone_into(&mut result.case);
     result.model = interaction_model(folder, &cloud);
     result.wall_patches = wall_patches(folder);
+    result.memory = memory::read_all(folder, &cloud);
     let carbon = arrivals::Carbon::of(folder, &cloud);
     result.has_carbon = carbon.is_some();
     result.arrivals = arrivals::read_all(folder, &cloud, carbon.as_ref());

@@ -105,6 +105,10 @@ fn read_cloud(folder: &Path) -> (Vec<PatchHistory>, Vec<Balance>) {
         tables.sort();
         for path in tables.iter().filter(|path| path.extension().is_some_and(|e| e == "dat")) {
             let Some(name) = path.file_stem().and_then(|stem| stem.to_str()) else { continue };
+            // What the walls remember, see `memory`.
+            if name.ends_with(".wall") {
+                continue;
+            }
             let Ok(text) = std::fs::read_to_string(path) else { continue };
             let rows = rows(&text);
             let Some(first) = rows.first().and_then(|row| value(row, "time_s")) else { continue };
@@ -126,7 +130,7 @@ fn read_cloud(folder: &Path) -> (Vec<PatchHistory>, Vec<Balance>) {
 }
 
 /// Rows of a table with a header line; a line that was cut off is left out.
-fn rows(text: &str) -> Vec<Balance> {
+pub(super) fn rows(text: &str) -> Vec<Balance> {
     let mut header: Vec<&str> = Vec::new();
     let mut rows = Vec::new();
     for line in text.lines() {
