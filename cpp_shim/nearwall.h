@@ -351,6 +351,15 @@ nw_status nw_resolve_batch(const struct nw_model *model,
 // `deposit` can be written.
 nw_status nw_deposit_init(struct nw_deposit *deposit);
 
+// Sets a deposit to what the model file says lies on its `wall`, with a share `voidage` of voids in the powder: where a
+// memory begins.
+//
+// # Safety
+// `model` is a loaded model; `deposit` begins with its `struct_size`.
+nw_status nw_deposit_start(const struct nw_model *model,
+                           double voidage,
+                           struct nw_deposit *deposit);
+
 // Fills arrivals with their size and zeros.
 //
 // # Safety

@@ -229,6 +229,13 @@ public:
         return nw_resolve(raw_, &impact, &outcome);
     }
 
+    // What the model file says lies on a wall, where a memory begins; throws for a wall that is not there.
+    nw_deposit start_deposit(std::uint32_t wall, double voidage) const {
+        nw_deposit deposit = make_deposit(wall);
+        detail::check(nw_deposit_start(raw_, voidage, &deposit), std::string("nw_deposit_start"));
+        return deposit;
+    }
+
     // Tells an impact of the deposit that it meets, powder with a share `voidage` of voids; no exceptions.
     nw_status dress(const nw_deposit& deposit, double voidage, nw_impact& impact) const noexcept {
         return nw_deposit_dress(raw_, &deposit, voidage, &impact);

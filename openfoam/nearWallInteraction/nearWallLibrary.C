@@ -36,6 +36,7 @@ void* handle = nullptr;
     APPLY(nw_outcome_init)                                                     \
     APPLY(nw_temperature_ranges)                                               \
     APPLY(nw_deposit_init)                                                     \
+    APPLY(nw_deposit_start)                                                    \
     APPLY(nw_arrivals_init)                                                    \
     APPLY(nw_arrivals_add)                                                     \
     APPLY(nw_deposit_add)                                                      \
@@ -180,6 +181,14 @@ HIDDEN nw_status nw_temperature_ranges
 HIDDEN nw_status nw_deposit_init(nw_deposit* deposit)
 {
     return real_nw_deposit_init(deposit);
+}
+
+HIDDEN nw_status nw_deposit_start
+(
+    const nw_model* model, double voidage, nw_deposit* deposit
+)
+{
+    return real_nw_deposit_start(model, voidage, deposit);
 }
 
 HIDDEN nw_status nw_arrivals_init(nw_arrivals* arrivals)

@@ -172,6 +172,7 @@ Foam::nearWall::wallMemory::wallMemory
         if (rules[patchi].what == fate::interact) ours.append(patchi);
     }
     patches_ = ours;
+    if (isNew()) start();
     check();
 
     ledgers_.setSize(patches_.size());
@@ -232,6 +233,36 @@ void Foam::nearWall::wallMemory::setDeposit
     layer_.boundaryFieldRef()[patchi][facei] = d.solid/(1 - voidage_);
     cover_.boundaryFieldRef()[patchi][facei] = d.cover;
     conversion_.boundaryFieldRef()[patchi][facei] = d.conversion;
+}
+
+
+bool Foam::nearWall::wallMemory::isNew()
+{
+    volScalarField* const fields[] =
+        {&molten_, &powder_, &layer_, &cover_, &conversion_};
+    bool given = false;
+    for (volScalarField* const field : fields)
+    {
+        given = field->headerOk() || given;
+    }
+    return !returnReduce(given, orOp<bool>());
+}
+
+
+void Foam::nearWall::wallMemory::start()
+{
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        const nw_deposit d
+        (
+            law_->start_deposit(rules_[patchi].wall, voidage_)
+        );
+        forAll(mesh_.boundaryMesh()[patchi], facei)
+        {
+            setDeposit(patchi, facei, d);
+        }
+    }
 }
 
 
@@ -401,6 +432,12 @@ void Foam::nearWall::wallMemory::flow(const scalar duration)
 
 void Foam::nearWall::wallMemory::finishStep(const scalar duration)
 {
+    if (mesh_.changing())
+    {
+        FatalErrorInFunction
+            << "the mesh moves or changes: walls cannot remember what lies on"
+            << " their faces; remove the key 'memory'" << exit(FatalError);
+    }
     forAll(patches_, i) setTemperature(patches_[i]);
 
     // What comes now runs in the next step: an explicit step of arrival and

@@ -127,6 +127,28 @@ pub unsafe extern "C" fn nw_deposit_init(deposit: *mut nw_deposit) -> nw_status 
     NW_OK
 }
 
+/// Sets a deposit to what the model file says lies on its `wall`, with a share `voidage` of voids in the powder: where a
+/// memory begins.
+///
+/// # Safety
+/// `model` is a loaded model; `deposit` begins with its `struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_deposit_start(
+    model: *const nw_model,
+    voidage: f64,
+    deposit: *mut nw_deposit,
+) -> nw_status {
+    let start = || {
+        // SAFETY: the caller's promises.
+        let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
+        let found = model.inner().lying(before.wall as usize, voidage)?;
+        // SAFETY: checked just above.
+        unsafe { deposit.write_unaligned(before.with(&found)) };
+        Ok(())
+    };
+    guarded(start).map_or_else(|fault| fault.status, |()| NW_OK)
+}
+
 /// Fills arrivals with their size and zeros.
 ///
 /// # Safety

@@ -23,7 +23,7 @@ pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
 use boundary::{Fault, guarded, reader, report};
 pub use deposit::{
     nw_arrivals, nw_arrivals_add, nw_arrivals_init, nw_deposit, nw_deposit_add, nw_deposit_dress,
-    nw_deposit_init, nw_film_velocity,
+    nw_deposit_init, nw_deposit_start, nw_film_velocity,
 };
 use types::status_text;
 pub use types::*;

@@ -44,6 +44,22 @@ impl Model {
         Ok(arrivals.with(&Arrival { mass, density, diameter, conversion, molten }))
     }
 
+    /// What the model file says lies on a wall, with a share `voidage` of voids in the powder [1]: where a memory begins. A
+    /// `coverage` alone has no mass, as the file does not tell it; a `layer_thickness` is powder of the particles' density and
+    /// covers as grains of 100 µm do (*assumed*).
+    ///
+    /// # Errors
+    /// [`ImpactError`] for a voidage without physical meaning, a wall that is not there, or a density that is not known.
+    pub fn lying(&self, wall: usize, voidage: f64) -> Result<Deposit, ImpactError> {
+        check_voidage(voidage)?;
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let solid = wall.layer_thickness * (1.0 - voidage);
+        let powder = solid * density_near(&self.particle, Impact::default().wall_temperature)?;
+        let covered = -(1.0 - wall.coverage).max(f64::MIN_POSITIVE).ln();
+        let cover = covered.max(1.5 * solid / Impact::default().diameter);
+        Ok(Deposit { powder, solid, cover, ..Deposit::default() })
+    }
+
     /// The impact on a wall with a deposit: its layer of powder with a `voidage` [1], the share that this covers, and the
     /// thickness of its melt stand in the impact.
     ///
@@ -61,10 +77,7 @@ impl Model {
         {
             at_least_zero(quantity, value)?;
         }
-        if !(0.0..1.0).contains(&voidage) {
-            let reason = "must be at least 0 and below 1";
-            return Err(ImpactError::Unusable { quantity: "voidage", value: voidage, reason });
-        }
+        check_voidage(voidage)?;
         let melt = self.melt(wall, impact.wall_temperature)?;
         Ok(Impact {
             layer_thickness: deposit.layer_thickness(voidage),
@@ -133,6 +146,14 @@ impl Model {
         };
         self.particle_melt.is_some() || self.terms.iter().any(looks)
     }
+}
+
+fn check_voidage(voidage: f64) -> Result<(), ImpactError> {
+    if (0.0..1.0).contains(&voidage) {
+        return Ok(());
+    }
+    let reason = "must be at least 0 and below 1";
+    Err(ImpactError::Unusable { quantity: "voidage", value: voidage, reason })
 }
 
 fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> {
@@ -259,6 +280,26 @@ width = 0.01
         assert_relative_eq!(elsewhere.melt_thickness, 0.055 / 2300.0);
         let none = model().dress(0, &Deposit::default(), 0.5, &at(1700.0)).unwrap();
         assert_eq!(none, at(1700.0));
+    }
+
+    /// 1 - exp(-A) = 0.4 for A = ln(1/0.6); 0.2 mm of powder with half voids, of the ash's 2300 kg/m³, covers like a hundred
+    /// micrometre grains, 1.5 * 1e-4/1e-4.
+    #[test]
+    fn a_memory_begins_with_what_the_file_says() {
+        let given = |text: &str| {
+            let text = ASH.replace("slag = \"coal-slag\"", &format!("slag = \"coal-slag\"\n{text}"));
+            Model::from_toml("m", &text).unwrap().lying(1, 0.5).unwrap()
+        };
+        assert_eq!(given(""), Deposit::default());
+        let char = given("coverage = 0.4");
+        assert_relative_eq!(char.cover, (1.0_f64 / 0.6).ln(), max_relative = 1e-15);
+        assert_eq!(char.mass(), 0.0);
+        let powder = given("layer_thickness = 2e-4");
+        assert_relative_eq!(powder.layer_thickness(0.5), 2e-4);
+        assert_relative_eq!(powder.powder, 0.23);
+        assert_relative_eq!(powder.cover, 1.5);
+        assert!(given("coverage = 1").cover.is_finite());
+        assert!(model().lying(9, 0.5).is_err() && model().lying(0, 1.0).is_err());
     }
 
     #[test]

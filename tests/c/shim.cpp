@@ -109,6 +109,8 @@ int deposit(const nearwall::model& model) {
     double velocity = -1;
     REQUIRE(model.film_velocity(deposit, 1600, 9.81, velocity) == NW_OK && velocity == 0);
     REQUIRE(model.dress(deposit, 1, impact) == NW_BAD_STATE);
+    REQUIRE(model.start_deposit(impact.wall, 0.5).cover == 0);
+    REQUIRE(thrown([&] { model.start_deposit(99, 0.5); }) == NW_UNKNOWN_WALL);
     return 0;
 }
 

@@ -57,6 +57,7 @@ calls! {
     nw_resolve_batch:
         unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
     nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
+    nw_deposit_start: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
     nw_arrivals_init: unsafe extern "C" fn(*mut nw_arrivals) -> i32,
     nw_arrivals_add:
         unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, f64, *mut nw_arrivals) -> i32,

@@ -101,6 +101,17 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         assert_eq!((calls.nw_deposit_init)(null_mut()), NW_NULL_POINTER);
         assert_eq!((calls.nw_arrivals_init)(null_mut()), NW_NULL_POINTER);
 
+        let mut start = nw_deposit { wall: 2, molten: 9.0, ..nw_deposit::default() };
+        assert_eq!((calls.nw_deposit_start)(model, 0.4, &raw mut start), NW_OK);
+        // 10 um of powder with 0.4 voids, of the fly ash's 2300 kg/m3.
+        assert!((start.powder / (6e-6 * 2300.0) - 1.0).abs() < 1e-14, "{start:?}");
+        assert_eq!((start.molten, start.solid, start.wall), (0.0, 6e-6, 2));
+        let kept = format!("{start:?}");
+        assert_eq!((calls.nw_deposit_start)(model, 1.0, &raw mut start), NW_BAD_STATE);
+        assert_eq!((calls.nw_deposit_start)(null(), 0.4, &raw mut start), NW_NULL_POINTER);
+        assert_eq!((calls.nw_deposit_start)(model, 0.4, null_mut()), NW_NULL_POINTER);
+        assert_eq!(format!("{start:?}"), kept);
+
         let mut add = |model, impact: *const nw_impact, mass, density| {
             let before = format!("{arrivals:?}");
             let status = (calls.nw_arrivals_add)(model, impact, mass, density, &raw mut arrivals);
