@@ -99,9 +99,7 @@ fn deposit(index: usize, label: &str, history: &WallHistory) -> Figure {
     let title = format!("What lies on {}, {label}", history.patch);
     let mut chart = Chart::new(&title, "time [s]", "mass [kg]");
     for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg"), ("drained", "drained_kg")] {
-        if history.last(column) > 0.0 {
-            chart = chart.line(name, &history.line(column));
-        }
+        chart = chart.line(name, &history.line(column));
     }
     let caption = "Molten mass and powder on the patch as the wall remembers them, with their mass at capture, and what ran off \
                    it as a film.";
