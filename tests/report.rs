@@ -305,6 +305,40 @@ fn escapes_that_no_log_counts_are_those_recorded_or_unknown() {
     assert!((mass - 10.0 * 1000.0 * std::f64::consts::PI / 6.0 * 1e-12).abs() < 1e-20, "{mass}");
 }
 
+/// What a wall remembers has its figures; a case without has none, and its tables are no patches.
+#[test]
+fn walls_that_remember_show_their_history() {
+    let folder = two_cases();
+    let root = folder.path().join("ours");
+    let tables = "postProcessing/nearWallInteraction/coalCloud1";
+    let header = "# time_s initial_kg arrived_kg drained_kg from_other_patches_kg molten_kg powder_kg residual \
+                  layer_thickness_mean_m layer_thickness_max_m coverage_mean coverage_max\n";
+    let row = |time: f64, powder: f64| format!("{time} 0 2e-6 5e-7 0 1.25e-6 {powder} 0 1e-6 4e-6 0.1 0.4\n");
+    write(
+        &root,
+        &format!("{tables}/0/slagWall.wall.dat"),
+        &(header.to_owned() + &row(0.2, 1e-7) + &row(0.8, 9e-7)),
+    );
+    write(&root, &format!("{tables}/0.5/slagWall.wall.dat"), &(header.to_owned() + &row(0.6, 2e-7)));
+    let nothing = "0.6 0 0 0 0 0 0 0 0 0 0 0\n";
+    write(&root, &format!("{tables}/0.5/quenchWall.wall.dat"), &(header.to_owned() + nothing));
+    let result = openfoam::read(&root).unwrap().remove(0);
+    let names: Vec<&str> = result.patches.iter().map(|patch| patch.name.as_str()).collect();
+    assert_eq!(names, ["quenchWall", "slagWall"]);
+    let slag = result.memory.iter().find(|history| history.patch == "slagWall").unwrap();
+    let powder = |row: &Vec<(String, f64)>| openfoam::tables::value(row, "powder_kg").unwrap();
+    assert_eq!(slag.rows.iter().map(powder).collect::<Vec<_>>(), [1e-7, 2e-7]);
+    let page = openfoam::page(&[result]).unwrap();
+    for part in
+        ["What the walls remember", "What lies on slagWall", "<figure id=\"wall-coverage\"", "drained"]
+    {
+        assert!(page.contains(part), "`{part}` is not on the page");
+    }
+    assert!(!page.contains("What lies on quenchWall"));
+    let stock = openfoam::page(&openfoam::read(&folder.path().join("stock")).unwrap()).unwrap();
+    assert!(!stock.contains("What the walls remember"));
+}
+
 #[test]
 fn two_clouds_of_a_case_are_told_apart() {
     let folder = tempfile::tempdir().unwrap();

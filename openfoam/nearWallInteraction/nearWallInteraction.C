@@ -29,7 +29,8 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
         wordList
         ({
             "model", "patches", "stuck", "writeFields", "seed",
-            "statisticsInterval", "particleTemperature", "carbon", "record"
+            "statisticsInterval", "particleTemperature", "carbon", "record",
+            "memory"
         }),
         "nearWallInteraction"
     );
@@ -104,6 +105,43 @@ void Foam::nearWallInteraction<CloudType>::warnAboutRounding() const
             << " as 'read back'" << nl
             << "        (writeFormat binary; in controlDict avoids it)" << endl;
     }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::makeMemory()
+{
+    const dictionary& coeffs = nearWall::coefficients(*this, 0);
+    if (!coeffs.found("memory")) return;
+
+    if (!coeffs.isDict("memory"))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'memory' must be a dictionary, as in" << nl
+            << "    memory { film yes; }" << nl
+            << "Without the key the walls remember nothing"
+            << exit(FatalIOError);
+    }
+    if (this->owner().solution().steadyState())
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'memory': a steady cloud has no time in which a deposit"
+            << " could grow; remove the key" << exit(FatalIOError);
+    }
+    record_->memory.reset
+    (
+        new nearWall::wallMemory
+        (
+            coeffs.subDict("memory"),
+            this->owner().mesh(),
+            this->owner().name(),
+            rules_,
+            law_,
+            this->owner().g().value(),
+            saved("memory"),
+            tableFolder()
+        )
+    );
 }
 
 
@@ -190,21 +228,22 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     (
         saved("balance"), tableFolder(), injectedMass()
     );
-    record_->deposit =
-        nearWall::deposit::read(owner.mesh(), owner.name());
+    record_->depositCloud =
+        nearWall::depositCloud::read(owner.mesh(), owner.name());
     owner.functions().append
     (
         new nearWallStart<CloudType>
         (
-            owner, record_->balance, record_->deposit, coeffs
+            owner, record_->balance, record_->depositCloud, coeffs
         )
     );
 
     warnAboutRounding();
+    makeMemory();
     Info<< "    nearWallInteraction, model: "
         << nearWall::lawOrigin(coeffs, owner.mesh().time()).c_str() << nl;
     nearWall::reportPatchRules(rules_, owner.mesh());
-    nearWall::reportStuckFate(stuck_, record_->deposit->name());
+    nearWall::reportStuckFate(stuck_, record_->depositCloud->name());
     if (!nearWall::hasTemperature<parcelType>(0))
     {
         Info<< "    nearWallInteraction: parcels have no temperature, "
@@ -354,6 +393,10 @@ void Foam::nearWallInteraction<CloudType>::completeImpact
     impact.omega = nearWall::forwardSpin(p, a.tangent, a.normal, 0);
     impact.seed = seed_;
     impact.key = keyOf(p);
+    if (record_->memory)
+    {
+        record_->memory->dress(pp.index(), pp.whichFace(p.face()), impact);
+    }
 }
 
 
@@ -420,6 +463,12 @@ void Foam::nearWallInteraction<CloudType>::note(const nearWall::event& e)
         record_->fields->addHit(e.patch, e.face, e.speed);
         if (e.stuck) record_->fields->addDeposit(e.patch, e.face, e.mass);
     }
+
+    // A patch that always captures has no regime, and no memory
+    if (record_->memory && e.stuck && e.regime >= 0)
+    {
+        record_->memory->add(e);
+    }
 }
 
 
@@ -469,7 +518,7 @@ void Foam::nearWallInteraction<CloudType>::stick
     switch (stuck_)
     {
         case nearWall::stuckFate::keep:
-            deposit(p, e.regime);
+            layDown(p, e.regime);
             break;
 
         case nearWall::stuckFate::react:
@@ -483,7 +532,7 @@ void Foam::nearWallInteraction<CloudType>::stick
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::deposit
+void Foam::nearWallInteraction<CloudType>::layDown
 (
     const parcelType& p,
     const label regime
@@ -498,7 +547,7 @@ void Foam::nearWallInteraction<CloudType>::deposit
     what.captureTime = this->owner().mesh().time().value();
     what.regime = regime;
     what.typeId = p.typeId();
-    record_->deposit->take(p, what);
+    record_->depositCloud->take(p, what);
 }
 
 
@@ -608,7 +657,7 @@ void Foam::nearWallInteraction<CloudType>::settleStuckParcels()
         p.U() = Zero;
         if (stuck_ == nearWall::stuckFate::keep)
         {
-            deposit(p, -1);
+            layDown(p, -1);
             cloud.deleteParticle(p);
         }
     }
@@ -625,7 +674,7 @@ Foam::nearWallInteraction<CloudType>::content() const
         const scalar mass = p.nParticle()*p.mass();
         (nearWall::isMoving(p, 0) ? now.airborne : now.stuck) += mass;
     }
-    now.stuck += record_->deposit->mass();
+    now.stuck += record_->depositCloud->mass();
     return now;
 }
 
@@ -686,10 +735,32 @@ void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportMemory
+(
+    Ostream& os,
+    const bool writeRow
+)
+{
+    if (!record_->memory) return;
+
+    const Time& time = this->owner().mesh().time();
+    nearWall::wallMemory& memory = *record_->memory;
+    memory.finishStep(time.deltaTValue());
+
+    const List<scalarList> totals(memory.totals());
+    memory.report(os, totals, time.value(), writeRow);
+    if (time.writeTime())
+    {
+        this->setModelProperty("memory", memory.saved(totals));
+    }
+}
+
+
+template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
     settleStuckParcels();
-    record_->deposit->endStep();
+    record_->depositCloud->endStep();
 
     const Time& time = this->owner().mesh().time();
     const bool writeRow =
@@ -699,6 +770,7 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     const List<scalarList> totals(record_->tally.totals());
     record_->tally.report(NEARWALL_INFO_STREAM, totals);
     reportUnusable(NEARWALL_INFO_STREAM);
+    reportMemory(NEARWALL_INFO_STREAM, writeRow);
     reportBalance(NEARWALL_INFO_STREAM, writeRow);
 
     if (writeRow)

@@ -35,7 +35,7 @@ const label defaultRows = 100000;
 const std::string header =
     "time,x,y,z,v_n,v_t,d,"
     "T_p,T_w,conversion,layer_thickness,film_thickness,v_gas,roughness,omega,"
-    "coverage,patch,wall,injector,mass,regime,outcome,e_n,e_t";
+    "coverage,melt_thickness,patch,wall,injector,mass,regime,outcome,e_n,e_t";
 
 const label nKnownBy = 7;
 
@@ -265,7 +265,8 @@ std::string Foam::nearWall::recorder::text(const row& r) const
     {
         r.time, e.position.x(), e.position.y(), e.position.z(),
         a.v_n, a.v_t, a.d, a.T_p, a.T_w, a.conversion, a.layer_thickness,
-        a.film_thickness, a.v_gas, a.roughness, a.omega, a.coverage
+        a.film_thickness, a.v_gas, a.roughness, a.omega, a.coverage,
+        a.melt_thickness
     };
     std::string line;
     for (const scalar x : numbers) line += exactText(x) + ",";

@@ -1,8 +1,8 @@
 //! The page of finished cases: one alone, or several side by side.
 
-use super::CloudResult;
 use super::arriving::Arriving;
 use super::tables::{PatchRow, value};
+use super::{CloudResult, memory};
 use crate::impact::Regime;
 use crate::report::{Bars, Block, Chart, Figure, Page, Table, number, percent, round_edges};
 
@@ -37,6 +37,11 @@ pub fn page(results: &[CloudResult]) -> Result<String, String> {
     if !places.is_empty() {
         page.add(Block::Heading("Where captured parcels lie".into()));
         page.add(Block::Figures(places));
+    }
+    let remembered = memory::figures(view.each());
+    if !remembered.is_empty() {
+        page.add(Block::Heading("What the walls remember".into()));
+        page.add(Block::Figures(remembered));
     }
     page.add(Block::Heading("Balance".into()));
     page.add(Block::Table(view.balance()));

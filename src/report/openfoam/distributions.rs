@@ -130,9 +130,9 @@ pub fn together(classes: &[Class], quantity: Quantity) -> Vec<Class> {
     merged
 }
 
-/// Whether a table of this stem is no table of a patch's totals.
+/// Whether a table of this stem is no table of a patch's totals: distributions, flux, or what a wall remembers.
 pub(super) fn is_other_table(stem: &str) -> bool {
-    stem.ends_with(SUFFIX) || stem.ends_with(".flux")
+    [SUFFIX, ".flux", ".wall"].iter().any(|suffix| stem.ends_with(suffix))
 }
 
 /// All patches of a cloud that have distributions.

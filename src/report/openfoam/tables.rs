@@ -130,7 +130,7 @@ fn read_cloud(folder: &Path) -> (Vec<PatchHistory>, Vec<Balance>) {
 }
 
 /// Rows of a table with a header line; a line that was cut off is left out.
-fn rows(text: &str) -> Vec<Balance> {
+pub(super) fn rows(text: &str) -> Vec<Balance> {
     let mut header: Vec<&str> = Vec::new();
     let mut rows = Vec::new();
     for line in text.lines() {

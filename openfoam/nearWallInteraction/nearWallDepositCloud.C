@@ -8,10 +8,10 @@
     any later version. It comes WITHOUT ANY WARRANTY. See LICENSE.
 
     Description
-        See nearWallDeposit.H.
+        See nearWallDepositCloud.H.
 \*---------------------------------------------------------------------------*/
 
-#include "nearWallDeposit.H"
+#include "nearWallDepositCloud.H"
 #include "mapPolyMesh.H"
 #include "nearWallCompat.H"
 
@@ -20,7 +20,7 @@ namespace Foam
     defineTemplateTypeNameAndDebug(Cloud<nearWallDepositParticle>, 0);
 }
 
-Foam::nearWall::deposit::deposit(const fvMesh& mesh, const word& cloudName)
+Foam::nearWall::depositCloud::depositCloud(const fvMesh& mesh, const word& cloudName)
 :
     Cloud<nearWallDepositParticle>(mesh, nameFor(cloudName), false),
     topologyMayChange_(nearWall::topologyMayChange(mesh))
@@ -29,7 +29,7 @@ Foam::nearWall::deposit::deposit(const fvMesh& mesh, const word& cloudName)
 }
 
 
-std::shared_ptr<Foam::nearWall::deposit> Foam::nearWall::deposit::read
+std::shared_ptr<Foam::nearWall::depositCloud> Foam::nearWall::depositCloud::read
 (
     const fvMesh& mesh,
     const word& cloudName
@@ -38,19 +38,19 @@ std::shared_ptr<Foam::nearWall::deposit> Foam::nearWall::deposit::read
     // OpenFOAM numbers the particles of all clouds with one counter, and each
     // cloud that is read sets it: the solver's cloud must find its own again
     const label count = particle::particleCount_;
-    std::shared_ptr<deposit> cloud(new deposit(mesh, cloudName));
+    std::shared_ptr<depositCloud> cloud(new depositCloud(mesh, cloudName));
     particle::particleCount_ = count;
     return cloud;
 }
 
 
-bool Foam::nearWall::deposit::anywhere() const
+bool Foam::nearWall::depositCloud::anywhere() const
 {
     return returnReduce(size(), sumOp<label>()) > 0;
 }
 
 
-Foam::scalar Foam::nearWall::deposit::mass() const
+Foam::scalar Foam::nearWall::depositCloud::mass() const
 {
     scalar sum = 0;
     for (const nearWallDepositParticle& p : *this)
@@ -61,7 +61,7 @@ Foam::scalar Foam::nearWall::deposit::mass() const
 }
 
 
-void Foam::nearWall::deposit::rememberPlaces()
+void Foam::nearWall::depositCloud::rememberPlaces()
 {
     // Assumed: OpenFOAM stops the run when rounding puts a particle outside
     // the mesh, so a place on the wall is taken that much inside of it
@@ -78,7 +78,7 @@ void Foam::nearWall::deposit::rememberPlaces()
 }
 
 
-void Foam::nearWall::deposit::endStep()
+void Foam::nearWall::depositCloud::endStep()
 {
     if (pMesh().time().writeTime())
     {
@@ -92,7 +92,7 @@ void Foam::nearWall::deposit::endStep()
 }
 
 
-void Foam::nearWall::deposit::autoMap(const mapPolyMesh& mapper)
+void Foam::nearWall::depositCloud::autoMap(const mapPolyMesh& mapper)
 {
     pMesh().tetBasePtIs();
 
@@ -104,7 +104,7 @@ void Foam::nearWall::deposit::autoMap(const mapPolyMesh& mapper)
 }
 
 
-void Foam::nearWall::deposit::writeObjects(objectRegistry& registry) const
+void Foam::nearWall::depositCloud::writeObjects(objectRegistry& registry) const
 {
     nearWallDepositParticle::writeObjects(*this, registry);
 }
