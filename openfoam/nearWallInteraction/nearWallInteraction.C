@@ -527,6 +527,17 @@ void Foam::nearWallInteraction<CloudType>::stick
         case nearWall::stuckFate::remove:
             record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
             break;
+
+        case nearWall::stuckFate::slide:
+            if (record_->memory->joinsFilm(e))
+            {
+                record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+            }
+            else
+            {
+                layDown(p, e.regime);
+            }
+            break;
     }
 }
 
@@ -655,7 +666,11 @@ void Foam::nearWallInteraction<CloudType>::settleStuckParcels()
         if (nearWall::isMoving(p, 0)) continue;
 
         p.U() = Zero;
-        if (stuck_ == nearWall::stuckFate::keep)
+        if
+        (
+            stuck_ == nearWall::stuckFate::keep
+         || stuck_ == nearWall::stuckFate::slide
+        )
         {
             layDown(p, -1);
             cloud.deleteParticle(p);

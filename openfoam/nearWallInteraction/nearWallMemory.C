@@ -105,7 +105,8 @@ void requireViscosity
     FatalIOErrorInFunction(dict)
         << "film yes: the model knows no viscosity of what melts on the walls"
         << nl << "    Give the model [capture] model = \"viscosity\" and the"
-        << " particle, or the slag of a wall, a composition or a viscosity"
+        << " particle, or the slag of a wall, a composition or a viscosity;"
+        << " or model = \"droplet\""
         << exit(FatalIOError);
 }
 
@@ -314,17 +315,34 @@ void Foam::nearWall::wallMemory::dress
 }
 
 
+nw_status Foam::nearWall::wallMemory::arrive
+(
+    const event& e,
+    nw_arrivals& sum
+) const
+{
+    const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
+    const scalar volume =
+        e.particles*constant::mathematical::pi/6*pow3(e.arrived.d);
+    return law_->arrive(e.arrived, e.mass/area, e.mass/volume, sum);
+}
+
+
+bool Foam::nearWall::wallMemory::joinsFilm(const event& e) const
+{
+    // A patch that always captures has no regime, and no memory
+    if (!film_ || e.regime < 0 || e.mass <= 0) return false;
+
+    nw_arrivals alone(nearwall::make_arrivals());
+    return arrive(e, alone) == NW_OK && alone.molten > 0;
+}
+
+
 void Foam::nearWall::wallMemory::add(const event& e)
 {
     if (e.mass <= 0) return;
 
-    const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
-    const scalar volume =
-        e.particles*constant::mathematical::pi/6*pow3(e.arrived.d);
-    const nw_status status = law_->arrive
-    (
-        e.arrived, e.mass/area, e.mass/volume, arrived_[e.patch][e.face]
-    );
+    const nw_status status = arrive(e, arrived_[e.patch][e.face]);
     if (status != NW_OK)
     {
         FatalErrorInFunction

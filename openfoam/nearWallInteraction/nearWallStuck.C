@@ -14,6 +14,25 @@
 #include "nearWallStuck.H"
 #include "nearWallCompat.H"
 
+namespace
+{
+
+using namespace Foam;
+
+//- Does a film run on the walls?
+bool filmWanted(const dictionary& coeffs)
+{
+    return
+        coeffs.found("memory") && coeffs.isDict("memory")
+     && nearWall::readOr<Switch>
+        (
+            coeffs.subDict("memory"), "film", Switch(false)
+        );
+}
+
+} // End anonymous namespace
+
+
 Foam::nearWall::stuckFate Foam::nearWall::readStuckFate
 (
     const dictionary& coeffs
@@ -23,10 +42,18 @@ Foam::nearWall::stuckFate Foam::nearWall::readStuckFate
     if (what == "keep") return stuckFate::keep;
     if (what == "react") return stuckFate::react;
     if (what == "remove") return stuckFate::remove;
+    if (what == "slide" && filmWanted(coeffs)) return stuckFate::slide;
 
+    if (what == "slide")
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'stuck' is 'slide', but no film runs on the walls" << nl
+            << "    Add  memory { film yes; }  or say keep, react or remove"
+            << exit(FatalIOError);
+    }
     FatalIOErrorInFunction(coeffs)
-        << "key 'stuck' is '" << what << "', must be keep, react or remove"
-        << exit(FatalIOError);
+        << "key 'stuck' is '" << what
+        << "', must be keep, react, remove or slide" << exit(FatalIOError);
     return stuckFate::keep;
 }
 
@@ -50,6 +77,11 @@ void Foam::nearWall::reportStuckFate
 
         case stuckFate::remove:
             Info<< "removed";
+            break;
+
+        case stuckFate::slide:
+            Info<< "molten ones join the film on the wall, others are kept in"
+                << " the cloud " << depositName << ", inert";
             break;
     }
     Info<< nl;
