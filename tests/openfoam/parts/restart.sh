@@ -131,7 +131,7 @@ equal_decisions() {
 # Serial, two and four ranks on the same 10^5 impacts and more
 case_ranks() {
     local dir="$work/ranks" n total equal percent
-    bouncing_box "$dir" 40000 || return
+    bouncing_box "$dir" 21000 || return
     settings 0.3 0.3 startTime ascii
     for n in 2 4; do rm -rf "$dir-$n"; cp -r "$dir" "$dir-$n"; done
     solve ranks serial "$solver" || return
