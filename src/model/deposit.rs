@@ -20,8 +20,9 @@ impl Model {
     /// What a particle of this impact adds to the wall when it stays: `mass` of it per area of wall [kg/m²] with the
     /// particle's `density` [kg/m³].
     ///
-    /// It is molten when it is as sticky at the temperature of the wall as counts for sticky. A model without a term that
-    /// looks at the particle's temperature says what it said at the impact.
+    /// It is molten when it is as sticky at the temperature of the wall as counts for sticky; by the droplet criterion, when the
+    /// wall is hotter than its melting point. A model without a term that looks at the particle's temperature says what it
+    /// said at the impact.
     ///
     /// # Errors
     /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or a wall that is not there.
