@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 // Number of the binary interface; it changes when a struct, a function or a constant does.
-#define NW_ABI_VERSION 1
+#define NW_ABI_VERSION 2
 
 // Bit of `flags`: a property or a fitted term was used outside the range it is stated for.
 #define NW_OUTSIDE_VALID_RANGE 1
@@ -65,6 +65,8 @@ typedef struct nw_impact {
   uint64_t seed;
   // What tells this impact from all others: the draws depend on `seed` and `key` only.
   uint64_t key;
+  // Thickness of the melt that earlier particles left on the wall [m].
+  double melt_thickness;
 } nw_impact;
 
 // What leaves the wall.
@@ -126,6 +128,8 @@ typedef struct nw_impacts {
   const double *coverage;
   // Key of each impact's draws.
   const uint64_t *key;
+  // Thickness of the melt that earlier particles left on the wall [m].
+  const double *melt_thickness;
 } nw_impacts;
 
 // Arrays for the outcomes, each with room for as many entries as there are impacts; null where not wanted. They must
@@ -148,6 +152,44 @@ typedef struct nw_outcomes {
   // Bits as in `nw_outcome`.
   uint32_t *flags;
 } nw_outcomes;
+
+// What lies on a piece of wall, per area of it. A bare wall is what `nw_deposit_init` gives.
+typedef struct nw_deposit {
+  // `sizeof(nw_deposit)`.
+  uint32_t struct_size;
+  // Index of the wall, from `nw_model_find_wall`.
+  uint32_t wall;
+  // Molten mass [kg/m2].
+  double molten;
+  // Mass of powder [kg/m2].
+  double powder;
+  // Volume of the powder's particles without the voids between them [m3/m2].
+  double solid;
+  // Projected area of the powder's particles [1], overlaps counted.
+  double cover;
+  // Carbon conversion of all that lies there, its mean by mass.
+  double conversion;
+} nw_deposit;
+
+// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_arrivals_init` gives.
+typedef struct nw_arrivals {
+  // `sizeof(nw_arrivals)`.
+  uint32_t struct_size;
+  // How many were added.
+  uint32_t count;
+  // Molten mass [kg/m2].
+  double molten;
+  // Mass of powder [kg/m2].
+  double powder;
+  // Volume of the powder's particles [m3/m2].
+  double solid;
+  // Projected area of the powder's particles [1].
+  double cover;
+  // Projected area of the molten particles [1].
+  double buried;
+  // Mass times carbon conversion [kg/m2].
+  double converted;
+} nw_arrivals;
 
 // Done.
 #define NW_OK 0
@@ -302,6 +344,66 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            const struct nw_impacts *impacts,
                            const struct nw_outcomes *outcomes,
                            size_t *first_bad);
+
+// Fills a deposit with its size and a bare wall: wall 0, all else 0.
+//
+// # Safety
+// `deposit` can be written.
+nw_status nw_deposit_init(struct nw_deposit *deposit);
+
+// Sets a deposit to what the model file says lies on its `wall`, with a share `voidage` of voids in the powder: where a
+// memory begins.
+//
+// # Safety
+// `model` is a loaded model; `deposit` begins with its `struct_size`.
+nw_status nw_deposit_start(const struct nw_model *model,
+                           double voidage,
+                           struct nw_deposit *deposit);
+
+// Fills arrivals with their size and zeros.
+//
+// # Safety
+// `arrivals` can be written.
+nw_status nw_arrivals_init(struct nw_arrivals *arrivals);
+
+// Adds a particle that stayed: `mass` of it per area of wall [kg/m2], with the particle's `density` [kg/m3]. It counts as
+// molten when it is sticky at the temperature of the wall, as powder otherwise. Sums do not depend on the order.
+//
+// # Safety
+// `model` is a loaded model; `impact` and `arrivals` begin with their `struct_size`.
+nw_status nw_arrivals_add(const struct nw_model *model,
+                          const struct nw_impact *impact,
+                          double mass,
+                          double density,
+                          struct nw_arrivals *arrivals);
+
+// Adds the arrivals of a step to a deposit. Powder that melt buries becomes part of the melt; mass is kept.
+//
+// # Safety
+// `arrivals` and `deposit` begin with their `struct_size`.
+nw_status nw_deposit_add(const struct nw_arrivals *arrivals, struct nw_deposit *deposit);
+
+// Tells an impact of the deposit that it meets: sets its `layer_thickness` (powder with a share `voidage` of voids),
+// `coverage` and `melt_thickness`. The wall is that of the impact.
+//
+// # Safety
+// `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
+nw_status nw_deposit_dress(const struct nw_model *model,
+                           const struct nw_deposit *deposit,
+                           double voidage,
+                           struct nw_impact *impact);
+
+// Mean speed [m/s] of the melt of a deposit that runs down its wall as a laminar film: at a temperature of the wall `T_w`
+// [K], with `gravity_along` the part of gravity along the wall [m/s2]. 0 where the model knows no viscosity of the melt, or
+// it is colder than a measured one.
+//
+// # Safety
+// `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.
+nw_status nw_film_velocity(const struct nw_model *model,
+                           const struct nw_deposit *deposit,
+                           double T_w,
+                           double gravity_along,
+                           double *velocity);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -145,6 +145,26 @@ inline nw_outcomes make_outcomes() noexcept {
     return outcomes;
 }
 
+// The deposit on a piece of a wall that is bare yet.
+inline nw_deposit make_deposit(std::uint32_t wall) {
+    nw_deposit deposit;
+    detail::check(nw_deposit_init(&deposit), std::string("nw_deposit_init"));
+    deposit.wall = wall;
+    return deposit;
+}
+
+// What arrived on a piece of wall: nothing yet.
+inline nw_arrivals make_arrivals() {
+    nw_arrivals arrivals;
+    detail::check(nw_arrivals_init(&arrivals), std::string("nw_arrivals_init"));
+    return arrivals;
+}
+
+// Adds the arrivals of a step to a deposit; it is untouched on failure.
+inline nw_status add(const nw_arrivals& arrivals, nw_deposit& deposit) noexcept {
+    return nw_deposit_add(&arrivals, &deposit);
+}
+
 // A loaded model. Moves, does not copy; share it by reference or smart pointer.
 class model {
 public:
@@ -207,6 +227,30 @@ public:
     // The same without exceptions; `outcome` (from make_outcome) is untouched on failure.
     nw_status resolve(const nw_impact& impact, nw_outcome& outcome) const noexcept {
         return nw_resolve(raw_, &impact, &outcome);
+    }
+
+    // What the model file says lies on a wall, where a memory begins; throws for a wall that is not there.
+    nw_deposit start_deposit(std::uint32_t wall, double voidage) const {
+        nw_deposit deposit = make_deposit(wall);
+        detail::check(nw_deposit_start(raw_, voidage, &deposit), std::string("nw_deposit_start"));
+        return deposit;
+    }
+
+    // Tells an impact of the deposit that it meets, powder with a share `voidage` of voids; no exceptions.
+    nw_status dress(const nw_deposit& deposit, double voidage, nw_impact& impact) const noexcept {
+        return nw_deposit_dress(raw_, &deposit, voidage, &impact);
+    }
+
+    // Adds a particle that stayed, `mass` of it per area [kg/m2] and its `density` [kg/m3]; no exceptions.
+    nw_status arrive(const nw_impact& impact, double mass, double density,
+                     nw_arrivals& arrivals) const noexcept {
+        return nw_arrivals_add(raw_, &impact, mass, density, &arrivals);
+    }
+
+    // Mean speed [m/s] of a deposit's melt that runs down a wall of `T_w` [K]; no exceptions.
+    nw_status film_velocity(const nw_deposit& deposit, double T_w, double gravity_along,
+                            double& velocity) const noexcept {
+        return nw_film_velocity(raw_, &deposit, T_w, gravity_along, &velocity);
     }
 
     // Many impacts from arrays to arrays; throws batch_error for the first that is unusable, with no outcome written.

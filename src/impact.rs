@@ -29,6 +29,8 @@ pub struct Impact {
     pub spin: f64,
     /// Share of the wall that non-sticky char covers [1], 0 to 1.
     pub coverage: f64,
+    /// Thickness of the melt that earlier particles left on the wall [m].
+    pub melt_thickness: f64,
 }
 
 impl Default for Impact {
@@ -46,6 +48,7 @@ impl Default for Impact {
             roughness: 0.0,
             spin: 0.0,
             coverage: 0.0,
+            melt_thickness: 0.0,
         }
     }
 }
@@ -75,7 +78,7 @@ macro_rules! input {
 }
 
 /// Every input of an impact, in the order of the data file.
-pub const INPUTS: [Input; 12] = [
+pub const INPUTS: [Input; 13] = [
     input!("v_n", "m/s", normal_speed),
     input!("v_t", "m/s", tangential_speed),
     input!("d", "m", diameter),
@@ -88,6 +91,7 @@ pub const INPUTS: [Input; 12] = [
     input!("roughness", "m", roughness),
     input!("omega", "rad/s", spin),
     input!("coverage", "1", coverage),
+    input!("melt_thickness", "m", melt_thickness),
 ];
 
 /// Why an impact cannot be resolved.
@@ -144,6 +148,7 @@ impl Impact {
             ("roughness", self.roughness, self.roughness >= 0.0, not_negative),
             ("omega", self.spin, true, "must be finite"),
             ("coverage", self.coverage, (0.0..=1.0).contains(&self.coverage), share),
+            ("melt_thickness", self.melt_thickness, self.melt_thickness >= 0.0, not_negative),
         ];
         match checks.iter().find(|(_, value, allowed, _)| !(value.is_finite() && *allowed)) {
             Some(&(quantity, value, _, reason)) => Err(ImpactError::Unusable { quantity, value, reason }),

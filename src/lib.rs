@@ -25,6 +25,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! What earlier particles left on a wall is a [`deposit`]; a code may keep it and tell the next impacts of it.
+//!
 //! The walk of an impact: [`Impact`] → [`material`] at temperature → [`normal`] law → [`tangential`] law →
 //! [`effect`]s → [`capture`] → [`Outcome`]. The one door is [`Model::resolve`]; OpenFOAM, the C library and the command
 //! all enter there.
@@ -36,6 +38,7 @@ pub mod c_api;
 pub mod capture;
 #[cfg(feature = "command")]
 pub mod dataset;
+pub mod deposit;
 #[cfg(feature = "command")]
 pub mod diagnose;
 pub mod draw;

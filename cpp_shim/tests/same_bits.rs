@@ -30,6 +30,7 @@ fn cpp_impact(&(wall, impact, draw): &Case) -> Impact {
         coverage: impact.coverage,
         seed: draw.seed,
         key: draw.key,
+        melt_thickness: impact.melt_thickness,
         ..nw_impact::default()
     })
 }
@@ -156,6 +157,7 @@ fn arrays(cpp: &ffi::Model, cases: &[Case]) -> Result<Vec<f64>, String> {
         roughness: null,
         omega: null,
         coverage: null,
+        melt_thickness: null,
         key: std::ptr::null(),
     });
     let none = std::ptr::null_mut();

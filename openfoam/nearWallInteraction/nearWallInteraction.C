@@ -29,26 +29,12 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
         wordList
         ({
             "model", "patches", "stuck", "writeFields", "seed",
-            "statisticsInterval", "particleTemperature", "carbon"
+            "statisticsInterval", "particleTemperature", "carbon", "record",
+            "memory"
         }),
         "nearWallInteraction"
     );
     return coeffs;
-}
-
-
-template<class CloudType>
-bool Foam::nearWallInteraction<CloudType>::readStuck() const
-{
-    const dictionary& coeffs = nearWall::coefficients(*this, 0);
-    const word stuck(nearWall::readOr<word>(coeffs, "stuck", word("keep")));
-    if (stuck != "keep" && stuck != "remove")
-    {
-        FatalIOErrorInFunction(coeffs)
-            << "key 'stuck' is '" << stuck << "', must be keep or remove"
-            << exit(FatalIOError);
-    }
-    return stuck == "keep";
 }
 
 
@@ -123,6 +109,43 @@ void Foam::nearWallInteraction<CloudType>::warnAboutRounding() const
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::makeMemory()
+{
+    const dictionary& coeffs = nearWall::coefficients(*this, 0);
+    if (!coeffs.found("memory")) return;
+
+    if (!coeffs.isDict("memory"))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'memory' must be a dictionary, as in" << nl
+            << "    memory { film yes; }" << nl
+            << "Without the key the walls remember nothing"
+            << exit(FatalIOError);
+    }
+    if (this->owner().solution().steadyState())
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "key 'memory': a steady cloud has no time in which a deposit"
+            << " could grow; remove the key" << exit(FatalIOError);
+    }
+    record_->memory.reset
+    (
+        new nearWall::wallMemory
+        (
+            coeffs.subDict("memory"),
+            this->owner().mesh(),
+            this->owner().name(),
+            rules_,
+            law_,
+            this->owner().g().value(),
+            saved("memory"),
+            tableFolder()
+        )
+    );
+}
+
+
+template<class CloudType>
 Foam::nearWallInteraction<CloudType>::nearWallInteraction
 (
     const dictionary& dict,
@@ -147,7 +170,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
             *law_
         )
     ),
-    keepStuck_(readStuck()),
+    stuck_(nearWall::readStuckFate(nearWall::coefficients(*this, 0))),
     seed_
     (
         nearWall::readOr<label>(nearWall::coefficients(*this, 0), "seed", 1)
@@ -184,19 +207,43 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
         );
     }
 
+    const nearWall::injectorNames injectors(owner.injectors());
+    record_->statistics.reset
+    (
+        new nearWall::statistics
+        (
+            owner.mesh(), injectors, saved("statistics"), tableFolder()
+        )
+    );
+    record_->recorder.reset
+    (
+        new nearWall::recorder
+        (
+            coeffs, owner.mesh(), rules_, injectors, saved("record"),
+            tableFolder()
+        )
+    );
+
     record_->balance = std::make_shared<nearWall::balance>
     (
         saved("balance"), tableFolder(), injectedMass()
     );
+    record_->depositCloud =
+        nearWall::depositCloud::read(owner.mesh(), owner.name());
     owner.functions().append
     (
-        new nearWallStart<CloudType>(owner, record_->balance, coeffs)
+        new nearWallStart<CloudType>
+        (
+            owner, record_->balance, record_->depositCloud, coeffs
+        )
     );
 
     warnAboutRounding();
+    makeMemory();
     Info<< "    nearWallInteraction, model: "
         << nearWall::lawOrigin(coeffs, owner.mesh().time()).c_str() << nl;
     nearWall::reportPatchRules(rules_, owner.mesh());
+    nearWall::reportStuckFate(stuck_, record_->depositCloud->name());
     if (!nearWall::hasTemperature<parcelType>(0))
     {
         Info<< "    nearWallInteraction: parcels have no temperature, "
@@ -214,7 +261,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     PatchInteractionModel<CloudType>(model),
     law_(model.law_),
     rules_(model.rules_),
-    keepStuck_(model.keepStuck_),
+    stuck_(model.stuck_),
     seed_(model.seed_),
     statisticsInterval_(model.statisticsInterval_),
     isothermal_(model.isothermal_),
@@ -271,15 +318,23 @@ template<class CloudType>
 Foam::nearWall::event Foam::nearWallInteraction<CloudType>::eventOf
 (
     const parcelType& p,
+    const polyPatch& pp,
     const approach& a
 ) const
 {
     nearWall::event e;
+    e.patch = pp.index();
+    e.face = pp.whichFace(p.face());
+    e.injector = p.typeId();
+    e.position = p.position();
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(a.vn) + sqr(a.vt));
-    e.normalSpeed = a.vn;
-    e.conversion = conversionOf(p);
+    e.arrived.v_n = a.vn;
+    e.arrived.v_t = a.vt;
+    e.arrived.d = p.d();
+    e.arrived.T_p = nearWall::temperature(p, isothermal_, 0);
+    e.arrived.conversion = conversionOf(p);
     return e;
 }
 
@@ -308,13 +363,12 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::wallTemperature
 template<class CloudType>
 std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
 (
-    const parcelType& p,
-    const approach& a
+    const parcelType& p
 ) const
 {
     const fvMesh& mesh = this->owner().mesh();
     nearWall::impactKey key;
-    key << mesh.time().value() << a.vn << p.d();
+    key.exactly(mesh.time().timeIndex()) << p.d();
     key.add(p.position(), mesh.bounds().mag());
     key.add(p.U(), mag(p.U()) + VSMALL);
     return key.value();
@@ -322,31 +376,27 @@ std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
 
 
 template<class CloudType>
-nw_impact Foam::nearWallInteraction<CloudType>::impactOf
+void Foam::nearWallInteraction<CloudType>::completeImpact
 (
+    nw_impact& impact,
     const parcelType& p,
     const polyPatch& pp,
     const nearWall::patchRule& rule,
-    const approach& a,
-    const nearWall::event& e
+    const approach& a
 ) const
 {
     const vector gas(this->owner().U()[p.cell()] - a.wall);
 
-    nw_impact impact;
-    nw_impact_init(&impact);
     impact.wall = rule.wall;
-    impact.v_n = a.vn;
-    impact.v_t = a.vt;
-    impact.d = p.d();
-    impact.T_p = nearWall::temperature(p, isothermal_, 0);
     impact.T_w = wallTemperature(p, pp, rule);
-    impact.conversion = e.conversion;
     impact.v_gas = mag(gas - (gas & a.normal)*a.normal);
     impact.omega = nearWall::forwardSpin(p, a.tangent, a.normal, 0);
     impact.seed = seed_;
-    impact.key = keyOf(p, a);
-    return impact;
+    impact.key = keyOf(p);
+    if (record_->memory)
+    {
+        record_->memory->dress(pp.index(), pp.whichFace(p.face()), impact);
+    }
 }
 
 
@@ -364,15 +414,15 @@ void Foam::nearWallInteraction<CloudType>::interact
     // Leaving the wall already, as on a wall that moves away: no impact
     if (a.vn <= 0) return;
 
-    nearWall::event e(eventOf(p, a));
-    const nw_impact impact(impactOf(p, pp, rule, a, e));
+    nearWall::event e(eventOf(p, pp, a));
+    completeImpact(e.arrived, p, pp, rule, a);
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
-    const nw_status status = law_->resolve(impact, outcome);
+    const nw_status status = law_->resolve(e.arrived, outcome);
     if (status != NW_OK)
     {
-        refuse(p, pp, a, e, status, keepParticle);
+        refuse(p, a, e, status, keepParticle);
         return;
     }
 
@@ -380,14 +430,14 @@ void Foam::nearWallInteraction<CloudType>::interact
     e.outsideRange = outcome.flags & NW_OUTSIDE_VALID_RANGE;
     if (outcome.stuck)
     {
-        stick(p, pp, e, keepParticle);
+        stick(p, e, keepParticle);
     }
     else
     {
-        rebound(p, pp, a, e, outcome.e_n, outcome.e_t);
+        rebound(p, a, e, outcome.e_n, outcome.e_t);
         nearWall::addForwardSpin
         (
-            p, outcome.omega - impact.omega, a.tangent, a.normal, 0
+            p, outcome.omega - e.arrived.omega, a.tangent, a.normal, 0
         );
     }
 }
@@ -396,16 +446,28 @@ void Foam::nearWallInteraction<CloudType>::interact
 // * * * * * * * * * * * * What becomes of the parcel  * * * * * * * * * * * //
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::noteHit
-(
-    const parcelType& p,
-    const polyPatch& pp,
-    const nearWall::event& e
-)
+void Foam::nearWallInteraction<CloudType>::note(const nearWall::event& e)
 {
+    if (e.stuck)
+    {
+        record_->tally.addStick(e);
+    }
+    else
+    {
+        record_->tally.addRebound(e);
+    }
+    record_->statistics->add(e);
+    record_->recorder->add(e);
     if (record_->fields)
     {
-        record_->fields->addHit(pp.index(), pp.whichFace(p.face()), e.speed);
+        record_->fields->addHit(e.patch, e.face, e.speed);
+        if (e.stuck) record_->fields->addDeposit(e.patch, e.face, e.mass);
+    }
+
+    // A patch that always captures has no regime, and no memory
+    if (record_->memory && e.stuck && e.regime >= 0)
+    {
+        record_->memory->add(e);
     }
 }
 
@@ -432,8 +494,8 @@ void Foam::nearWallInteraction<CloudType>::escape
     bool& keepParticle
 )
 {
-    const nearWall::event e(eventOf(p, approachOf(p, pp)));
-    record_->tally.addEscape(pp.index(), e);
+    const nearWall::event e(eventOf(p, pp, approachOf(p, pp)));
+    record_->tally.addEscape(e);
     record_->balance->add(nearWall::balance::escaped, e.mass);
     keepParticle = false;
     nearWall::setMoving(p, false, 0);
@@ -444,27 +506,59 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::stick
 (
     parcelType& p,
-    const polyPatch& pp,
-    const nearWall::event& e,
+    nearWall::event& e,
     bool& keepParticle
 )
 {
-    noteHit(p, pp, e);
-    record_->tally.addStick(pp.index(), e);
-    if (record_->fields)
-    {
-        record_->fields->addDeposit
-        (
-            pp.index(), pp.whichFace(p.face()), e.mass
-        );
-    }
+    e.stuck = true;
+    note(e);
     nearWall::setMoving(p, false, 0);
     p.U() = Zero;
-    keepParticle = keepStuck_;
-    if (!keepStuck_)
+    keepParticle = stuck_ == nearWall::stuckFate::react;
+    switch (stuck_)
     {
-        record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+        case nearWall::stuckFate::keep:
+            layDown(p, e.regime);
+            break;
+
+        case nearWall::stuckFate::react:
+            break;
+
+        case nearWall::stuckFate::remove:
+            record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+            break;
+
+        case nearWall::stuckFate::slide:
+            if (record_->memory->joinsFilm(e))
+            {
+                record_->balance->add(nearWall::balance::stuckRemoved, e.mass);
+            }
+            else
+            {
+                layDown(p, e.regime);
+            }
+            break;
     }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::layDown
+(
+    const parcelType& p,
+    const label regime
+)
+{
+    nearWall::captured what;
+    what.d = p.d();
+    what.nParticle = p.nParticle();
+    what.mass = p.nParticle()*p.mass();
+    what.T = nearWall::temperature(p, isothermal_, 0);
+    what.conversion = conversionOf(p);
+    what.captureTime = this->owner().mesh().time().value();
+    what.regime = regime;
+    what.typeId = p.typeId();
+    record_->depositCloud->take(p, what);
 }
 
 
@@ -472,20 +566,16 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::rebound
 (
     parcelType& p,
-    const polyPatch& pp,
     const approach& a,
-    const nearWall::event& e,
+    nearWall::event& e,
     const scalar en,
     const scalar et
 )
 {
-    noteHit(p, pp, e);
-
-    nearWall::event left(e);
-    left.en = en;
-    left.eg = sqrt(sqr(en*a.vn) + sqr(et*a.vt))/e.speed;
-    record_->tally.addRebound(pp.index(), left);
-
+    e.en = en;
+    e.et = et;
+    e.eg = sqrt(sqr(en*a.vn) + sqr(et*a.vt))/e.speed;
+    note(e);
     bounce(p, a, en, et);
 }
 
@@ -494,9 +584,8 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::refuse
 (
     parcelType& p,
-    const polyPatch& pp,
     const approach& a,
-    const nearWall::event& e,
+    nearWall::event& e,
     const nw_status why,
     bool& keepParticle
 )
@@ -507,19 +596,18 @@ void Foam::nearWallInteraction<CloudType>::refuse
     // Bounce without loss as long as that makes sense: the mass stays airborne
     if (std::isfinite(e.speed) && std::isfinite(e.mass))
     {
-        record_->tally.addUnusable(pp.index(), e);
+        record_->tally.addUnusable(e);
         bounce(p, a, 1, 1);
         keepParticle = true;
         return;
     }
 
     // A speed or mass that is no number cannot be tracked or summed
-    nearWall::event counted(e);
-    counted.speed = 0;
-    counted.normalSpeed = 0;
-    if (!std::isfinite(e.mass)) counted.mass = 0;
-    record_->tally.addUnusable(pp.index(), counted);
-    record_->balance->add(nearWall::balance::unusableRemoved, counted.mass);
+    e.speed = 0;
+    e.arrived.v_n = 0;
+    if (!std::isfinite(e.mass)) e.mass = 0;
+    record_->tally.addUnusable(e);
+    record_->balance->add(nearWall::balance::unusableRemoved, e.mass);
     nearWall::setMoving(p, false, 0);
     keepParticle = false;
 }
@@ -548,15 +636,19 @@ bool Foam::nearWallInteraction<CloudType>::correct
             break;
 
         case nearWall::fate::stick:
-            stick(p, pp, eventOf(p, approachOf(p, pp)), keepParticle);
+        {
+            nearWall::event e(eventOf(p, pp, approachOf(p, pp)));
+            stick(p, e, keepParticle);
             break;
+        }
 
         case nearWall::fate::rebound:
         {
             const approach a(approachOf(p, pp));
             if (a.vn > 0)
             {
-                rebound(p, pp, a, eventOf(p, a), rule.e, 1 - rule.mu);
+                nearWall::event e(eventOf(p, pp, a));
+                rebound(p, a, e, rule.e, 1 - rule.mu);
             }
             break;
         }
@@ -566,13 +658,22 @@ bool Foam::nearWallInteraction<CloudType>::correct
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::stopStuckParcels()
+void Foam::nearWallInteraction<CloudType>::settleStuckParcels()
 {
-    for (parcelType& p : this->owner())
+    CloudType& cloud = this->owner();
+    for (parcelType& p : cloud)
     {
-        if (!nearWall::isMoving(p, 0))
+        if (nearWall::isMoving(p, 0)) continue;
+
+        p.U() = Zero;
+        if
+        (
+            stuck_ == nearWall::stuckFate::keep
+         || stuck_ == nearWall::stuckFate::slide
+        )
         {
-            p.U() = Zero;
+            layDown(p, -1);
+            cloud.deleteParticle(p);
         }
     }
 }
@@ -588,6 +689,7 @@ Foam::nearWallInteraction<CloudType>::content() const
         const scalar mass = p.nParticle()*p.mass();
         (nearWall::isMoving(p, 0) ? now.airborne : now.stuck) += mass;
     }
+    now.stuck += record_->depositCloud->mass();
     return now;
 }
 
@@ -648,9 +750,32 @@ void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportMemory
+(
+    Ostream& os,
+    const bool writeRow
+)
+{
+    if (!record_->memory) return;
+
+    const Time& time = this->owner().mesh().time();
+    nearWall::wallMemory& memory = *record_->memory;
+    memory.finishStep(time.deltaTValue());
+
+    const List<scalarList> totals(memory.totals());
+    memory.report(os, totals, time.value(), writeRow);
+    if (time.writeTime())
+    {
+        this->setModelProperty("memory", memory.saved(totals));
+    }
+}
+
+
+template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
-    stopStuckParcels();
+    settleStuckParcels();
+    record_->depositCloud->endStep();
 
     const Time& time = this->owner().mesh().time();
     const bool writeRow =
@@ -660,6 +785,7 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     const List<scalarList> totals(record_->tally.totals());
     record_->tally.report(NEARWALL_INFO_STREAM, totals);
     reportUnusable(NEARWALL_INFO_STREAM);
+    reportMemory(NEARWALL_INFO_STREAM, writeRow);
     reportBalance(NEARWALL_INFO_STREAM, writeRow);
 
     if (writeRow)
@@ -669,5 +795,14 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     if (time.writeTime())
     {
         this->setModelProperty("patches", record_->tally.saved(totals));
+        this->setModelProperty("statistics", record_->statistics->write());
+        if (record_->recorder->on())
+        {
+            this->setModelProperty
+            (
+                "record",
+                record_->recorder->write(NEARWALL_INFO_STREAM)
+            );
+        }
     }
 }

@@ -35,6 +35,13 @@ void* handle = nullptr;
     APPLY(nw_impact_init)                                                      \
     APPLY(nw_outcome_init)                                                     \
     APPLY(nw_temperature_ranges)                                               \
+    APPLY(nw_deposit_init)                                                     \
+    APPLY(nw_deposit_start)                                                    \
+    APPLY(nw_arrivals_init)                                                    \
+    APPLY(nw_arrivals_add)                                                     \
+    APPLY(nw_deposit_add)                                                      \
+    APPLY(nw_deposit_dress)                                                    \
+    APPLY(nw_film_velocity)                                                    \
     APPLY(nw_resolve)
 
 #define DECLARE(name) decltype(&::name) real_##name = nullptr;
@@ -169,6 +176,59 @@ HIDDEN nw_status nw_temperature_ranges
     (
         model, wall, particleLow, particleHigh, wallLow, wallHigh
     );
+}
+
+HIDDEN nw_status nw_deposit_init(nw_deposit* deposit)
+{
+    return real_nw_deposit_init(deposit);
+}
+
+HIDDEN nw_status nw_deposit_start
+(
+    const nw_model* model, double voidage, nw_deposit* deposit
+)
+{
+    return real_nw_deposit_start(model, voidage, deposit);
+}
+
+HIDDEN nw_status nw_arrivals_init(nw_arrivals* arrivals)
+{
+    return real_nw_arrivals_init(arrivals);
+}
+
+HIDDEN nw_status nw_arrivals_add
+(
+    const nw_model* model, const nw_impact* impact,
+    double mass, double density, nw_arrivals* arrivals
+)
+{
+    return real_nw_arrivals_add(model, impact, mass, density, arrivals);
+}
+
+HIDDEN nw_status nw_deposit_add
+(
+    const nw_arrivals* arrivals, nw_deposit* deposit
+)
+{
+    return real_nw_deposit_add(arrivals, deposit);
+}
+
+HIDDEN nw_status nw_deposit_dress
+(
+    const nw_model* model, const nw_deposit* deposit,
+    double voidage, nw_impact* impact
+)
+{
+    return real_nw_deposit_dress(model, deposit, voidage, impact);
+}
+
+HIDDEN nw_status nw_film_velocity
+(
+    const nw_model* model, const nw_deposit* deposit,
+    double T_w, double gravity, double* velocity
+)
+{
+    return real_nw_film_velocity(model, deposit, T_w, gravity, velocity);
 }
 
 HIDDEN nw_status nw_resolve

@@ -12,7 +12,6 @@
 \*---------------------------------------------------------------------------*/
 
 #include "nearWallTally.H"
-#include "nearwall.h"
 
 namespace
 {
@@ -163,56 +162,56 @@ Foam::nearWall::tally::tally
 }
 
 
-void Foam::nearWall::tally::hit(const label patchi, const event& e)
+void Foam::nearWall::tally::hit(const event& e)
 {
-    add(patchi, hits, 1);
-    add(patchi, hitParticles, e.particles);
-    add(patchi, hitMass, e.mass);
-    add(patchi, speedSum, e.speed);
-    add(patchi, normalSpeedSum, e.normalSpeed);
-    if (e.outsideRange) add(patchi, outsideRange, 1);
+    add(e.patch, hits, 1);
+    add(e.patch, hitParticles, e.particles);
+    add(e.patch, hitMass, e.mass);
+    add(e.patch, speedSum, e.speed);
+    add(e.patch, normalSpeedSum, e.arrived.v_n);
+    if (e.outsideRange) add(e.patch, outsideRange, 1);
 }
 
 
-void Foam::nearWall::tally::addRebound(const label patchi, const event& e)
+void Foam::nearWall::tally::addRebound(const event& e)
 {
-    hit(patchi, e);
-    add(patchi, rebounds, 1);
-    add(patchi, reboundMass, e.mass);
-    add(patchi, enSum, e.en);
-    add(patchi, enSquareSum, sqr(e.en));
-    add(patchi, egSum, e.eg);
+    hit(e);
+    add(e.patch, rebounds, 1);
+    add(e.patch, reboundMass, e.mass);
+    add(e.patch, enSum, e.en);
+    add(e.patch, enSquareSum, sqr(e.en));
+    add(e.patch, egSum, e.eg);
 }
 
 
-void Foam::nearWall::tally::addStick(const label patchi, const event& e)
+void Foam::nearWall::tally::addStick(const event& e)
 {
-    hit(patchi, e);
-    add(patchi, sticks, 1);
-    add(patchi, stickParticles, e.particles);
-    add(patchi, stickMass, e.mass);
+    hit(e);
+    add(e.patch, sticks, 1);
+    add(e.patch, stickParticles, e.particles);
+    add(e.patch, stickMass, e.mass);
     if (e.regime >= 0)
     {
-        add(patchi, regimeSticks + e.regime, 1);
-        add(patchi, regimeMass + e.regime, e.mass);
+        add(e.patch, regimeSticks + e.regime, 1);
+        add(e.patch, regimeMass + e.regime, e.mass);
     }
-    add(patchi, conversionMass + conversionBin(e.conversion), e.mass);
+    add(e.patch, conversionMass + conversionBin(e.arrived.conversion), e.mass);
 }
 
 
-void Foam::nearWall::tally::addEscape(const label patchi, const event& e)
+void Foam::nearWall::tally::addEscape(const event& e)
 {
-    hit(patchi, e);
-    add(patchi, escapes, 1);
-    add(patchi, escapeMass, e.mass);
+    hit(e);
+    add(e.patch, escapes, 1);
+    add(e.patch, escapeMass, e.mass);
 }
 
 
-void Foam::nearWall::tally::addUnusable(const label patchi, const event& e)
+void Foam::nearWall::tally::addUnusable(const event& e)
 {
-    hit(patchi, e);
-    add(patchi, unusable, 1);
-    add(patchi, unusableMass, e.mass);
+    hit(e);
+    add(e.patch, unusable, 1);
+    add(e.patch, unusableMass, e.mass);
 }
 
 

@@ -51,6 +51,8 @@ pub struct nw_impacts {
     pub coverage: *const f64,
     /// Key of each impact's draws.
     pub key: *const u64,
+    /// Thickness of the melt that earlier particles left on the wall [m].
+    pub melt_thickness: *const f64,
 }
 
 /// Arrays for the outcomes, each with room for as many entries as there are impacts; null where not wanted. They must
@@ -153,6 +155,7 @@ impl nw_impacts {
                 roughness: get(self.roughness, index, default.roughness),
                 omega: get(self.omega, index, default.omega),
                 coverage: get(self.coverage, index, default.coverage),
+                melt_thickness: get(self.melt_thickness, index, default.melt_thickness),
                 ..default
             };
             let wall = get(self.walls, index, self.wall) as usize;

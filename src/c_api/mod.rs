@@ -9,6 +9,7 @@
 
 mod batch;
 mod boundary;
+mod deposit;
 mod types;
 
 use std::ffi::{CStr, c_char};
@@ -20,11 +21,15 @@ use crate::model::Model;
 
 pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
 use boundary::{Fault, guarded, reader, report};
+pub use deposit::{
+    nw_arrivals, nw_arrivals_add, nw_arrivals_init, nw_deposit, nw_deposit_add, nw_deposit_dress,
+    nw_deposit_init, nw_deposit_start, nw_film_velocity,
+};
 use types::status_text;
 pub use types::*;
 
 /// Number of the binary interface; it changes when a struct, a function or a constant does.
-pub const NW_ABI_VERSION: u32 = 1;
+pub const NW_ABI_VERSION: u32 = 2;
 
 /// The interface version of the library that is loaded; compare with `NW_ABI_VERSION` of the header.
 #[unsafe(no_mangle)]

@@ -118,6 +118,8 @@ pub struct nw_impact {
     pub seed: u64,
     /// What tells this impact from all others: the draws depend on `seed` and `key` only.
     pub key: u64,
+    /// Thickness of the melt that earlier particles left on the wall [m].
+    pub melt_thickness: f64,
 }
 
 impl Default for nw_impact {
@@ -146,6 +148,7 @@ impl From<&Impact> for nw_impact {
             coverage: impact.coverage,
             seed: 0,
             key: 0,
+            melt_thickness: impact.melt_thickness,
         }
     }
 }
@@ -165,6 +168,7 @@ impl nw_impact {
             roughness: self.roughness,
             spin: self.omega,
             coverage: self.coverage,
+            melt_thickness: self.melt_thickness,
         }
     }
 }

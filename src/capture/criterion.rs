@@ -1,6 +1,7 @@
 //! The `[capture]` table: which criterion says how sticky the particle is.
 //!
-//! `viscosity` also judges the slag on a wall. `droplet` judges the particle alone: what lies on a wall has no speed.
+//! `viscosity` also judges the slag on a wall. `droplet` judges the particle alone: what lies on a wall has no speed, and is
+//! sticky when it is molten.
 
 use super::droplet::{Droplet, DropletCriterion};
 use super::viscosity::{MeltStickiness, ViscosityCriterion};
@@ -107,6 +108,31 @@ impl ParticleStickiness {
         match self {
             Self::Melt(melt) => melt.at(impact.particle_temperature),
             Self::Droplet(droplet) => droplet.at(impact),
+        }
+    }
+
+    /// How sticky the material is when it lies on a wall of a temperature [K], [1]. By the droplet criterion what is hotter
+    /// than its melting point is sticky, and nothing else.
+    pub fn lying(&self, temperature: f64) -> f64 {
+        match self {
+            Self::Melt(melt) => melt.lying(temperature),
+            Self::Droplet(droplet) => f64::from(droplet.is_molten(temperature)),
+        }
+    }
+
+    /// Viscosity [Pa s] of the material as it lies on a wall of a temperature [K]; infinite where it is frozen.
+    pub fn film_viscosity(&self, temperature: f64) -> f64 {
+        match self {
+            Self::Melt(melt) => melt.film_viscosity(temperature),
+            Self::Droplet(droplet) => droplet.film_viscosity(temperature),
+        }
+    }
+
+    /// Whether a particle of a temperature [K] is a droplet, which splashes or stays whatever wets the wall.
+    pub fn is_droplet(&self, temperature: f64) -> bool {
+        match self {
+            Self::Melt(_) => false,
+            Self::Droplet(droplet) => droplet.is_molten(temperature),
         }
     }
 

@@ -111,6 +111,20 @@ impl Droplet {
         Ok(deposited_share(numbers.splash, self.splash_limit))
     }
 
+    /// Whether the material is molten at a temperature [K]; no where its melting point is not known.
+    pub fn is_molten(&self, temperature: f64) -> bool {
+        self.material.is_molten(temperature).unwrap_or(false)
+    }
+
+    /// Viscosity [Pa s] of what lies on a wall of a temperature [K]: infinite for a solid and where it is colder than a measured
+    /// one, and as at the end of its table where it is hotter.
+    pub fn film_viscosity(&self, temperature: f64) -> f64 {
+        let [low, high] = self.material.viscosity_range();
+        let liquid = self.is_molten(temperature) && temperature >= low;
+        let known = liquid.then(|| self.material.viscosity(temperature.min(high)).ok());
+        known.flatten().unwrap_or(f64::INFINITY)
+    }
+
     /// Temperatures [K] at which a particle can be judged.
     pub fn known_range(&self) -> [f64; 2] {
         let [low, high] = self.material.molten_range();

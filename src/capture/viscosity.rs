@@ -95,11 +95,32 @@ impl MeltStickiness {
     /// # Errors
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
     pub fn at(&self, temperature: f64) -> Result<f64, ImpactError> {
-        let viscosity = match &self.melt {
-            Melt::Oxides(law) => law.at(temperature),
-            Melt::Given(material) => material.viscosity(temperature)?,
-        };
-        Ok(sticking_probability(viscosity, self.reference))
+        Ok(sticking_probability(self.viscosity(temperature)?, self.reference))
+    }
+
+    /// Probability of sticking [1] of melt that lies on a wall of a temperature [K]: frozen where it is colder than a
+    /// measured viscosity, and as at the end of its table where it is hotter.
+    pub fn lying(&self, temperature: f64) -> f64 {
+        sticking_probability(self.film_viscosity(temperature), self.reference)
+    }
+
+    /// Viscosity [Pa s] of melt that lies on a wall of a temperature [K]: infinite where it is colder than a measured one,
+    /// and as at the end of its table where it is hotter.
+    pub fn film_viscosity(&self, temperature: f64) -> f64 {
+        let [low, high] = self.known_range();
+        let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
+        known.flatten().unwrap_or(f64::INFINITY)
+    }
+
+    /// Viscosity of the melt [Pa s] at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
+    pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
+        match &self.melt {
+            Melt::Oxides(law) => Ok(law.at(temperature)),
+            Melt::Given(material) => material.viscosity(temperature),
+        }
     }
 }
 

@@ -35,6 +35,7 @@ const FIELDS: [Field; 8] = [
 
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`].
 const MECHANICAL: usize = 5;
+const DENSITY: usize = 0;
 const VISCOSITY: usize = 5;
 const SURFACE_TENSION: usize = 6;
 const MELTING_POINT: usize = 7;
@@ -129,6 +130,19 @@ impl Material {
         self.value(VISCOSITY, temperature)
     }
 
+    /// Density [kg/m³] at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside a table.
+    pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
+        self.value(DENSITY, temperature)
+    }
+
+    /// Temperatures [K] at which the density is known.
+    pub fn density_range(&self) -> [f64; 2] {
+        overlap(self.properties[DENSITY].iter().filter_map(Property::known_range))
+    }
+
     fn value(&self, field: usize, temperature: f64) -> Result<f64, ImpactError> {
         let nowhere = OutOfRange { low: f64::NAN, high: f64::NAN };
         let found = self.properties[field].as_ref().map_or(Err(nowhere), |p| p.at(temperature));
@@ -147,7 +161,7 @@ impl Material {
     /// [`ImpactError::OutOfRange`] outside a table.
     pub fn mechanical(&self, temperature: f64) -> Result<Mechanical, ImpactError> {
         Ok(Mechanical {
-            density: self.value(0, temperature)?,
+            density: self.density(temperature)?,
             youngs_modulus: self.value(1, temperature)?,
             poisson_ratio: self.value(2, temperature)?,
             yield_strength: self.value(3, temperature)?,
@@ -161,7 +175,7 @@ impl Material {
     /// [`ImpactError::OutOfRange`] outside what is known; a material without one of them knows it nowhere.
     pub fn molten(&self, temperature: f64) -> Result<Molten, ImpactError> {
         Ok(Molten {
-            density: self.value(0, temperature)?,
+            density: self.density(temperature)?,
             viscosity: self.viscosity(temperature)?,
             surface_tension: self.value(SURFACE_TENSION, temperature)?,
         })
@@ -186,7 +200,7 @@ impl Material {
     }
 
     fn molten_properties(&self) -> impl Iterator<Item = &Property> {
-        [0, VISCOSITY, SURFACE_TENSION].into_iter().filter_map(|field| self.properties[field].as_ref())
+        [DENSITY, VISCOSITY, SURFACE_TENSION].into_iter().filter_map(|field| self.properties[field].as_ref())
     }
 
     /// Temperatures [K] at which every mechanical property is known.

@@ -11,7 +11,7 @@ impl Model {
         for wall in &self.walls {
             let mut text = format!("{} of {}", wall.name(), wall.material().name());
             if let Some(slag) = &wall.slag {
-                text += &format!(", under {slag}");
+                text += &format!(", under {}", slag.name());
             }
             if wall.coverage > 0.0 {
                 text += &format!(", coverage {}", wall.coverage);

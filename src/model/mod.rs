@@ -5,6 +5,7 @@
 //! stickiness of particle and wall, normal law, effects on `e_n`, what stickiness takes of it, tangential law, effects on
 //! `e_t`, back to the mean wall, capture. [`Model::explain`] walks the same way and notes what each term did.
 
+mod deposit;
 mod describe;
 mod facet;
 mod read;
@@ -21,6 +22,7 @@ use crate::material::{Material, overlap};
 use crate::normal::{Contact, NormalLaw, Speeds};
 use crate::tangential::{Glance, TangentialLaw};
 
+pub use deposit::Melt;
 use facet::Facet;
 pub use wall::Wall;
 
@@ -141,7 +143,7 @@ impl Model {
         let (wall, impact) = self.at_wall(wall, impact)?;
         self.contact(wall, &impact, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
-        wall.stickiness(&impact)?;
+        self.wall_stickiness(wall, &impact)?;
         Ok(())
     }
 
@@ -254,7 +256,7 @@ impl Model {
         let contact = self.contact(wall, impact, &uniform)?;
 
         let particle = self.particle_stickiness(impact, &mut note)?;
-        let sticky = Stickiness { particle, wall: wall.stickiness(impact)? };
+        let sticky = Stickiness { particle, wall: self.wall_stickiness(wall, impact)? };
         note("wall", "wall stickiness", sticky.wall);
 
         let mut rebound = self.normal.restitution(&contact, impact.diameter, impact.normal_speed);
@@ -290,8 +292,13 @@ impl Model {
         let [e_n, e_t] = facet.turn_back(&arriving, impact, [e_n, along.restitution]);
         let spin = facet.spin_back(&arriving, along.spin);
 
-        // Adhesion holds the particle for certain; otherwise stickiness decides.
-        let probability = if rebound.is_none() { 1.0 } else { sticky.probability() };
+        // Adhesion holds the particle for certain; otherwise stickiness decides, of a droplet its own alone.
+        let splashes = |criterion: &ParticleStickiness| criterion.is_droplet(impact.particle_temperature);
+        let probability = match rebound {
+            None => 1.0,
+            Some(_) if self.stickiness.as_ref().is_some_and(splashes) => sticky.particle,
+            Some(_) => sticky.probability(),
+        };
         note("capture", "p_stick", probability);
         Ok(Outcome {
             normal_restitution: e_n,
@@ -311,6 +318,7 @@ impl Model {
     fn outside_range(&self, wall: &Wall, impact: &Impact) -> bool {
         !(self.stickiness.as_ref().is_none_or(|criterion| criterion.holds_at(impact.particle_temperature))
             && wall.melt.as_ref().is_none_or(|melt| melt.holds_at(impact.wall_temperature))
+            && self.melt_holds(impact)
             && self.particle.holds_at(impact.particle_temperature)
             && wall.material().holds_at(impact.wall_temperature)
             && self.terms.iter().all(|term| term.holds_for(impact)))

@@ -110,8 +110,7 @@ impl WallReader<'_> {
         let material = self.library.named_by(section, "material")?;
         let material = material.ok_or_else(|| missing_material(section))?;
         let slag = self.library.named_by(section, "slag")?;
-        let slag_name = slag.as_ref().map(|slag| slag.name().to_owned());
-        let melt = match (slag, self.of_slag) {
+        let melt = match (&slag, self.of_slag) {
             (None, _) => None,
             (Some(_), None) => {
                 let problem =
@@ -119,7 +118,7 @@ impl WallReader<'_> {
                 return Err(section.fault("slag", problem));
             }
             (Some(slag), Some(criterion)) => {
-                let melt = criterion.prepare(&slag).map_err(|error| section.fault("slag", error))?;
+                let melt = criterion.prepare(slag).map_err(|error| section.fault("slag", error))?;
                 let lacking = || format!("`{}` has neither composition nor viscosity", slag.name());
                 Some(melt.ok_or_else(|| section.fault("slag", lacking()))?)
             }
@@ -136,7 +135,7 @@ impl WallReader<'_> {
             name: name.to_owned(),
             pattern: read_pattern(name, section)?,
             material,
-            slag: slag_name,
+            slag,
             melt,
             layer_thickness: section.number_within("layer_thickness", 0.0, f64::INFINITY)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),

@@ -13,8 +13,8 @@ pub struct Wall {
     pub(super) name: String,
     pub(super) pattern: Option<Regex>,
     pub(super) material: Material,
-    /// Name of the slag that lies on it.
-    pub(super) slag: Option<String>,
+    /// The slag that lies on it.
+    pub(super) slag: Option<Material>,
     pub(super) melt: Option<MeltStickiness>,
     pub(super) layer_thickness: f64,
     pub(super) coverage: f64,

@@ -14,7 +14,7 @@ use crate::impact::{INPUTS, Regime};
 const BEFORE: [&str; 4] = ["time", "wall", "particle", "hit"];
 const AFTER: [&str; 7] = ["x", "y", "z", "e_n", "e_t", "outcome", "regime"];
 /// Inputs that this program does not set are left out of the file.
-const LEFT_OUT: [&str; 4] = ["layer_thickness", "film_thickness", "roughness", "coverage"];
+const LEFT_OUT: [&str; 5] = ["layer_thickness", "film_thickness", "roughness", "coverage", "melt_thickness"];
 
 /// Writes impacts as a data file that `nearwall predict` and `nearwall diagnose` read, up to a number of rows.
 ///

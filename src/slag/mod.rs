@@ -1,9 +1,11 @@
-//! Slag: what an ash is made of and how thick its melt is. One viscosity law a file.
+//! Slag: what an ash is made of and how thick its melt is. One viscosity law a file; [`film`] is how
+//! it runs down a wall.
 //!
 //! A [`ViscosityLaw`] is chosen by name; [`SlagViscosity`] is a law with a composition worked in, ready to be asked at
 //! many temperatures. How well each law meets measurements is shown in `tests/slag_viscosity.rs`.
 
 mod composition;
+pub mod film;
 pub mod silica_corrected;
 pub mod urbain;
 pub mod watt_fereday;

@@ -5,6 +5,7 @@
 // FOLDER has 0.toml and the raw nw_impact structs 0.bin; the outcomes go to outcomes.bin.
 #include "nearwall.hpp"
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iostream>
@@ -90,6 +91,29 @@ int arrays(const nearwall::model& model) {
     return 0;
 }
 
+// One char of 60 um and 1000 kg/m3 on each square millimetre: its projected area, and twice its volume as a layer.
+int deposit(const nearwall::model& model) {
+    nw_impact impact = nearwall::make_impact();
+    impact.wall = model.find_wall("slag");
+    impact.v_n = 1;
+    impact.d = 60e-6;
+    impact.T_p = impact.T_w = 1000;
+    const double volume = 3.14159265358979 / 6 * 60e-6 * 60e-6 * 60e-6 * 1e6;
+    nw_arrivals arrivals = nearwall::make_arrivals();
+    REQUIRE(model.arrive(impact, 1000 * volume, 1000, arrivals) == NW_OK);
+    nw_deposit deposit = nearwall::make_deposit(impact.wall);
+    REQUIRE(nearwall::add(arrivals, deposit) == NW_OK);
+    REQUIRE(model.dress(deposit, 0.5, impact) == NW_OK);
+    REQUIRE(std::fabs(deposit.cover / (3.14159265358979 / 4 * 60e-6 * 60e-6 * 1e6) - 1) < 1e-13);
+    REQUIRE(std::fabs(impact.layer_thickness / (2 * volume) - 1) < 1e-13);
+    double velocity = -1;
+    REQUIRE(model.film_velocity(deposit, 1600, 9.81, velocity) == NW_OK && velocity == 0);
+    REQUIRE(model.dress(deposit, 1, impact) == NW_BAD_STATE);
+    REQUIRE(model.start_deposit(impact.wall, 0.5).cover == 0);
+    REQUIRE(thrown([&] { model.start_deposit(99, 0.5); }) == NW_UNKNOWN_WALL);
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -114,6 +138,7 @@ int main(int argc, char** argv) try {
     }
     REQUIRE(faults(*model, impacts) == 0);
     REQUIRE(arrays(*model) == 0);
+    REQUIRE(deposit(*model) == 0);
 
     std::ofstream file((folder + "/outcomes.bin").c_str(), std::ios::binary);
     file.write(reinterpret_cast<const char*>(outcomes.data()),

@@ -46,6 +46,7 @@ impl Columns {
             roughness: f64s(|i| i.roughness),
             omega: f64s(|i| i.omega),
             coverage: f64s(|i| i.coverage),
+            melt_thickness: f64s(|i| i.melt_thickness),
             walls: self.put(cases.iter().map(|i| i.wall), u32::to_ne_bytes),
             key: self.put(cases.iter().map(|i| i.key), u64::to_ne_bytes),
             seed: cases.first().map_or(0, |case| case.seed),
@@ -75,6 +76,7 @@ fn only(count: usize, v_n: *const f64) -> nw_impacts {
         omega: null(),
         coverage: null(),
         key: null(),
+        melt_thickness: null(),
     }
 }
 

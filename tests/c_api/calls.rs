@@ -3,7 +3,9 @@
 use std::ffi::{CStr, c_char};
 
 use libloading::Library;
-use nearwall::c_api::{NW_OK, nw_impact, nw_impacts, nw_model, nw_outcome, nw_outcomes};
+use nearwall::c_api::{
+    NW_OK, nw_arrivals, nw_deposit, nw_impact, nw_impacts, nw_model, nw_outcome, nw_outcomes,
+};
 use nearwall::{Draw, Impact, Outcome};
 
 use crate::common::library_path;
@@ -54,6 +56,16 @@ calls! {
         unsafe extern "C" fn(*const nw_model, u32, *mut f64, *mut f64, *mut f64, *mut f64) -> i32,
     nw_resolve_batch:
         unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
+    nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
+    nw_deposit_start: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
+    nw_arrivals_init: unsafe extern "C" fn(*mut nw_arrivals) -> i32,
+    nw_arrivals_add:
+        unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, f64, *mut nw_arrivals) -> i32,
+    nw_deposit_add: unsafe extern "C" fn(*const nw_arrivals, *mut nw_deposit) -> i32,
+    nw_deposit_dress:
+        unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *mut nw_impact) -> i32,
+    nw_film_velocity:
+        unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, *mut f64) -> i32,
 }
 
 impl Calls {

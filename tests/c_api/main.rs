@@ -12,6 +12,7 @@ mod common;
 
 mod batch;
 mod calls;
+mod deposit;
 mod impacts;
 mod library_file;
 mod loading;

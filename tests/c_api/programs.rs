@@ -113,13 +113,15 @@ fn c_and_rust_agree_on_layout_and_numbers() {
     let same = layout! {
         nw_impact {
             struct_size wall v_n v_t d T_p T_w conversion layer_thickness film_thickness v_gas roughness omega coverage
-            seed key
+            seed key melt_thickness
         }
         nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
         nw_impacts {
             struct_size wall count seed walls v_n v_t d T_p T_w conversion layer_thickness film_thickness v_gas
-            roughness omega coverage key
+            roughness omega coverage key melt_thickness
         }
+        nw_deposit { struct_size wall molten powder solid cover conversion }
+        nw_arrivals { struct_size count molten powder solid cover buried converted }
         nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
     } + &constants! {
         NW_ABI_VERSION NW_OK NW_NULL_POINTER NW_STRUCT_SIZE NW_NOT_UTF8 NW_FILE NW_MODEL NW_UNKNOWN_WALL NW_BAD_STATE

@@ -77,6 +77,7 @@ fn random_case(seed: u64, index: u64) -> Case {
         roughness: uniform(-1e-6, 1e-6).max(0.0),
         spin: uniform(-1e4, 1e4),
         coverage: uniform(-2.0, 1.0).max(0.0),
+        melt_thickness: uniform(-1e-4, 1e-4).max(0.0),
     };
     ((uniform(0.0, 1.0) * WALLS as f64) as usize, impact, draw)
 }

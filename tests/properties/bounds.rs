@@ -47,8 +47,8 @@ proptest! {
     fn far_away_inputs_give_numbers(
         tangential in tangential_laws(),
         effects in effects_but(&[]),
-        exponents in proptest::array::uniform8(-300.0..300.0),
-        zeros in proptest::array::uniform8(0u8..4),
+        exponents in proptest::array::uniform9(-300.0..300.0),
+        zeros in proptest::array::uniform9(0u8..4),
         spin in prop_oneof![Just(0.0), (-300.0..300.0).prop_map(|power| 10f64.powf(power)), (-300.0..300.0).prop_map(|power| -(10f64.powf(power)))],
         key in any::<u64>(),
     ) {
@@ -63,6 +63,7 @@ proptest! {
             film_thickness: or_zero(5),
             gas_speed: or_zero(6),
             roughness: or_zero(7),
+            melt_thickness: or_zero(8),
             spin,
             ..Impact::default()
         };

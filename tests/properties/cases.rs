@@ -67,7 +67,7 @@ fn sometimes(low: f64, high: f64) -> impl Strategy<Value = f64> {
 pub fn impacts() -> impl Strategy<Value = Impact> {
     let speeds = (decades(1e-4, 1e3), sometimes(1e-4, 1e3), decades(1e-7, 1e-2));
     let state = (250.0..2500.0, 250.0..2500.0, 0.0..=1.0, 0.0..=1.0);
-    let wall = (sometimes(1e-7, 1e-2), sometimes(1e-8, 1e-3), sometimes(1e-1, 1e2));
+    let wall = (sometimes(1e-7, 1e-2), sometimes(1e-8, 1e-3), sometimes(1e-1, 1e2), sometimes(1e-9, 1e-2));
     (speeds, state, wall).prop_map(|(speeds, state, wall)| Impact {
         normal_speed: speeds.0,
         tangential_speed: speeds.1,
@@ -79,6 +79,7 @@ pub fn impacts() -> impl Strategy<Value = Impact> {
         layer_thickness: wall.0,
         film_thickness: wall.1,
         gas_speed: wall.2,
+        melt_thickness: wall.3,
         ..Impact::default()
     })
 }

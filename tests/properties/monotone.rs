@@ -112,6 +112,8 @@ proptest! {
         let at = |particle_temperature: f64| resolve(&model, &Impact { particle_temperature, ..impact });
         rise(&over(&temperatures, |t| at(t).sticking_probability))?;
         fall(&over(&temperatures, |t| at(t).normal_restitution))?;
+        let melt = ladder(1e-9, 1e-2, 20);
+        rise(&over(&melt, |melt_thickness| resolve(&model, &Impact { melt_thickness, ..impact }).sticking_probability))?;
         let effect = table("conversion-transition", &[0.8, width * 1e-3, 0.0, asymmetry]);
         let model = wax(&constant_normal(0.5), FREE, &effect);
         let at = |conversion: f64| resolve(&model, &Impact { conversion, ..impact }).sticking_probability;
@@ -128,6 +130,7 @@ proptest! {
         rise(&over(&temperatures, |particle_temperature| p(Impact { particle_temperature, ..impact })))?;
         rise(&over(&temperatures, |wall_temperature| p(Impact { wall_temperature, ..impact })))?;
         fall(&over(&ladder(1e-3, 1.0, 10), |coverage| p(Impact { coverage, ..impact })))?;
+        rise(&over(&ladder(1e-9, 1e-2, 10), |melt_thickness| p(Impact { melt_thickness, ..impact })))?;
         let thickness = ladder(0.01 * impact.diameter, 10.0 * impact.diameter, 10);
         fall(&over(&thickness, |layer_thickness| p(Impact { layer_thickness, ..impact })))?;
         let references = over(&ladder(1.0, 1e7, 10), |r| resolve(&melt(r), &impact).sticking_probability);

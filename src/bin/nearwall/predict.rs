@@ -13,7 +13,7 @@ use crate::{CommandResult, progress};
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n\n\
     impacts.csv needs a column v_n [m/s]; v_t [m/s], d [m], T_p [K], T_w [K], conversion, layer_thickness [m],\n\
-    film_thickness [m], v_gas [m/s], roughness [m], omega [rad/s], coverage and wall are used where they are there.\n\
+    film_thickness [m], v_gas [m/s], roughness [m], omega [rad/s], coverage, melt_thickness [m] and wall are used where they are there.\n\
     Every other column is kept. A row that cannot be used is named on standard error and left out; that is no failure as\n\
     long as one row can be used.")]
 pub struct Arguments {

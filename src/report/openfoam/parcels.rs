@@ -1,7 +1,8 @@
 //! The parcels of a cloud at the last written time: where they are and which of them are stuck.
 //!
-//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, written as ASCII. Binary and compressed
-//! files are not read; the page then says so.
+//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and what `nearWallInteraction` deposited,
+//! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, written as ASCII. Binary and compressed files are not
+//! read; the page then says so.
 
 use std::f64::consts::PI;
 use std::path::Path;
@@ -21,45 +22,71 @@ pub struct Parcel {
     pub diameter: f64,
 }
 
-/// Reads the parcels of the last time that has them.
+/// Reads the parcels of the last time that has them, in the cloud or in its deposit.
 ///
 /// # Errors
 /// Why there are none, in words for the page.
 pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Parcel>, String> {
-    let folder = time_folders(case)
-        .into_iter()
-        .rev()
-        .map(|(_, time)| time.join("lagrangian").join(cloud))
-        .find(|folder| folder.is_dir());
-    let Some(folder) = folder else {
+    let folders = time_folders(case).into_iter().rev().map(|(_, time)| {
+        let lagrangian = time.join("lagrangian");
+        (lagrangian.join(cloud), lagrangian.join(format!("{cloud}Deposit")))
+    });
+    let Some((own, deposit)) = folders.into_iter().find(|(own, deposit)| own.is_dir() || deposit.is_dir())
+    else {
         let hint = if case.join("processor0").is_dir() { " (run reconstructPar)" } else { "" };
         return Err(format!("no parcels of {cloud} at a written time{hint}, so their places are not shown"));
     };
-    let read = |name: &str| {
-        let path = folder.join(name);
-        let unreadable =
-            || format!("{} is not there or not ASCII, so places of parcels are not shown", path.display());
-        std::fs::read_to_string(&path).ok().and_then(|text| list(&text)).ok_or_else(unreadable)
-    };
-    let positions = read("positions")?;
-    let number = |name: &str| -> Result<Vec<f64>, String> {
-        let entries = read(name)?;
-        Ok(entries.iter().filter_map(|entry| entry.parse().ok()).collect())
-    };
-    let (active, diameters, densities) = (number("active")?, number("d")?, number("rho")?);
-    let particles = number("nParticle").unwrap_or_default();
-    let parcels = positions.iter().enumerate().filter_map(|(index, place)| {
-        let mut words = place.trim_start_matches('(').split([' ', ')']).filter_map(|word| word.parse().ok());
+    // OpenFOAM writes no folder for a cloud that is empty
+    let mut parcels = if own.is_dir() { read_cloud(&own)? } else { Vec::new() };
+    if deposit.is_dir() {
+        parcels.extend(read_deposit(&deposit)?);
+    }
+    Ok(parcels)
+}
+
+fn read_cloud(folder: &Path) -> Result<Vec<Parcel>, String> {
+    let positions = positions(folder)?;
+    let (active, diameters) = (numbers(folder, "active")?, numbers(folder, "d")?);
+    let densities = numbers(folder, "rho")?;
+    let particles = numbers(folder, "nParticle").unwrap_or_default();
+    let parcels = positions.into_iter().enumerate().filter_map(|(index, position)| {
         let diameter = *diameters.get(index)?;
         let count = particles.get(index).copied().unwrap_or(1.0);
         Some(Parcel {
-            position: [words.next()?, words.next()?, words.next()?],
+            position,
             active: *active.get(index)? != 0.0,
             mass: count * PI / 6.0 * diameter.powi(3) * densities.get(index)?,
             diameter,
         })
     });
     Ok(parcels.collect())
+}
+
+fn read_deposit(folder: &Path) -> Result<Vec<Parcel>, String> {
+    let (diameters, masses) = (numbers(folder, "d")?, numbers(folder, "mass")?);
+    let parcels = positions(folder)?.into_iter().zip(diameters).zip(masses);
+    Ok(parcels
+        .map(|((position, diameter), mass)| Parcel { position, active: false, mass, diameter })
+        .collect())
+}
+
+fn positions(folder: &Path) -> Result<Vec<[f64; 3]>, String> {
+    let place = |entry: &String| {
+        let mut words = entry.trim_start_matches('(').split([' ', ')']).filter_map(|word| word.parse().ok());
+        Some([words.next()?, words.next()?, words.next()?])
+    };
+    Ok(entries(folder, "positions")?.iter().filter_map(place).collect())
+}
+
+fn numbers(folder: &Path, name: &str) -> Result<Vec<f64>, String> {
+    Ok(entries(folder, name)?.iter().filter_map(|entry| entry.parse().ok()).collect())
+}
+
+fn entries(folder: &Path, name: &str) -> Result<Vec<String>, String> {
+    let path = folder.join(name);
+    let unreadable =
+        || format!("{} is not there or not ASCII, so places of parcels are not shown", path.display());
+    std::fs::read_to_string(&path).ok().and_then(|text| list(&text)).ok_or_else(unreadable)
 }
 
 /// The entries of an OpenFOAM list file: what stands between the brackets, an entry a line, or `n{value}`.
@@ -100,5 +127,29 @@ mod tests {
         assert_eq!(list(&format!("{head}2(0 1)\n")).unwrap(), ["0", "1"]);
         assert_eq!(list(&format!("{head}0()\n")).unwrap(), Vec::<String>::new());
         assert_eq!(list("no list"), None);
+    }
+
+    #[test]
+    fn what_lies_in_the_deposit_is_stuck_also_when_the_cloud_is_empty() {
+        let case = std::env::temp_dir().join(format!("nearwall-parcels-{}", std::process::id()));
+        let write = |path: &str, body: &str| {
+            let path = case.join(path);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(path, format!("FoamFile\n{{\n}}\n// * * * //\n\n{body}\n")).unwrap();
+        };
+        for (file, body) in
+            [("positions", "1\n(\n(1 2 3) 0\n)"), ("active", "1{1}"), ("d", "1{2e-3}"), ("rho", "1{1000}")]
+        {
+            write(&format!("0.1/lagrangian/coal/{file}"), body);
+        }
+        for (file, body) in
+            [("positions", "2\n(\n(0 0 1) 7\n(0 0 2) 8\n)"), ("d", "2{1e-4}"), ("mass", "2(3e-6 4e-6)")]
+        {
+            write(&format!("0.2/lagrangian/coalDeposit/{file}"), body);
+        }
+        let parcels = read_last(&case, "coal");
+        std::fs::remove_dir_all(&case).unwrap();
+        let lying = |z, mass| Parcel { position: [0.0, 0.0, z], active: false, mass, diameter: 1e-4 };
+        assert_eq!(parcels.unwrap(), [lying(1.0, 3e-6), lying(2.0, 4e-6)]);
     }
 }

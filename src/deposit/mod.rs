@@ -1,0 +1,177 @@
+//! The deposit: what earlier particles left on a piece of wall, and how it grows.
+//!
+//! A code that follows many particles keeps one [`Deposit`] for each piece of wall. Within a step it sums what stays
+//! there in [`Arrivals`] ([`Model::arrive`]), and adds them at the step's end ([`Deposit::with`]); sums do not depend on the
+//! order of the particles. Each impact is told of the deposit before it is decided ([`Model::dress`]).
+//!
+//! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
+//! droplet, or char whose ash does not show. Powder does not melt again and does not burn here; melt that meets a cold wall
+//! later is stiff, by its viscosity.
+//!
+//! [`Model::arrive`]: crate::Model::arrive
+//! [`Model::dress`]: crate::Model::dress
+
+pub mod cover;
+pub mod wetting;
+
+/// What lies on a piece of wall, per area of that wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Deposit {
+    /// Molten mass [kg/m²].
+    pub molten: f64,
+    /// Mass of powder [kg/m²].
+    pub powder: f64,
+    /// Volume of the powder's particles without the voids between them [m³/m²].
+    pub solid: f64,
+    /// Projected area of the powder's particles [1], overlaps counted.
+    pub cover: f64,
+    /// Carbon conversion of all that lies there, its mean by mass [1].
+    pub conversion: f64,
+}
+
+/// What arrived on a piece of wall and stayed, summed, per area of that wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Arrivals {
+    /// Molten mass [kg/m²].
+    pub molten: f64,
+    /// Mass of powder [kg/m²].
+    pub powder: f64,
+    /// Volume of the powder's particles [m³/m²].
+    pub solid: f64,
+    /// Projected area of the powder's particles [1].
+    pub cover: f64,
+    /// Projected area of the molten particles [1].
+    pub buried: f64,
+    /// Mass times carbon conversion [kg/m²].
+    pub converted: f64,
+}
+
+/// One kind of particle that stays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Arrival {
+    /// Its mass on an area of wall [kg/m²].
+    pub mass: f64,
+    /// Density of the particles [kg/m³].
+    pub density: f64,
+    /// Their diameter [m].
+    pub diameter: f64,
+    /// Their carbon conversion [1].
+    pub conversion: f64,
+    /// Whether they are molten at the wall's temperature.
+    pub molten: bool,
+}
+
+impl Arrivals {
+    /// With one more arrival. Spheres of diameter `d`, density `rho` and mass `m` on an area have a projected area of
+    /// `3 m/(2 rho d)` on it.
+    #[must_use]
+    pub fn with(self, arrival: &Arrival) -> Self {
+        let Arrival { mass, density, diameter, conversion, molten } = *arrival;
+        let area = 1.5 * mass / (density * diameter);
+        let converted = self.converted + mass * conversion;
+        if molten {
+            Self { molten: self.molten + mass, buried: self.buried + area, converted, ..self }
+        } else {
+            let solid = self.solid + mass / density;
+            Self { powder: self.powder + mass, solid, cover: self.cover + area, converted, ..self }
+        }
+    }
+}
+
+impl Deposit {
+    /// Total mass [kg/m²].
+    pub fn mass(&self) -> f64 {
+        self.molten + self.powder
+    }
+
+    /// The deposit after arrivals, in whatever order they came. Powder that melt buries becomes part of the melt.
+    #[must_use]
+    pub fn with(self, arrivals: &Arrivals) -> Self {
+        let mass = self.mass() + arrivals.molten + arrivals.powder;
+        if mass <= 0.0 {
+            return self;
+        }
+        let all = self.cover + arrivals.cover;
+        let cover = cover::after(self.cover, arrivals.cover, arrivals.buried).min(all);
+        let left = if all > 0.0 { cover / all } else { 1.0 };
+        let powder = self.powder + arrivals.powder;
+        let conversion = (self.mass() * self.conversion + arrivals.converted) / mass;
+        Self {
+            molten: self.molten + arrivals.molten + powder * (1.0 - left),
+            powder: powder * left,
+            solid: (self.solid + arrivals.solid) * left,
+            cover,
+            conversion: conversion.clamp(0.0, 1.0),
+        }
+    }
+
+    /// Share of the wall that the powder covers [1].
+    pub fn coverage(&self) -> f64 {
+        cover::share(self.cover)
+    }
+
+    /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it: 0.5 is a usual assumption, between
+    /// 0.4 of a dense random packing and what loose cohesive powder shows.
+    pub fn layer_thickness(&self, voidage: f64) -> f64 {
+        self.solid / (1.0 - voidage)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    const CHAR: Arrival =
+        Arrival { mass: 2e-3, density: 800.0, diameter: 60e-6, conversion: 0.3, molten: false };
+    const MELT: Arrival =
+        Arrival { mass: 5e-3, density: 2500.0, diameter: 40e-6, conversion: 0.98, molten: true };
+
+    /// The projected area and the volume of spheres, counted: N pi d²/4 and N pi d³/6.
+    #[test]
+    fn spheres_bring_their_projected_area_and_volume() {
+        let number = CHAR.mass / (CHAR.density * std::f64::consts::PI / 6.0 * CHAR.diameter.powi(3));
+        let arrivals = Arrivals::default().with(&CHAR);
+        assert_relative_eq!(
+            arrivals.cover,
+            number * std::f64::consts::PI / 4.0 * CHAR.diameter.powi(2),
+            max_relative = 1e-14
+        );
+        let deposit = Deposit::default().with(&arrivals);
+        let volume = number * std::f64::consts::PI / 6.0 * CHAR.diameter.powi(3);
+        assert_relative_eq!(deposit.layer_thickness(0.5), 2.0 * volume, max_relative = 1e-14);
+        assert_relative_eq!(deposit.coverage(), 1.0 - (-arrivals.cover).exp(), max_relative = 1e-12);
+    }
+
+    #[test]
+    fn mass_and_converted_mass_are_kept_and_the_order_within_a_step_does_not_count() {
+        let mut deposit = Deposit { molten: 0.1, powder: 0.02, solid: 3e-5, cover: 0.7, conversion: 0.5 };
+        let before = deposit;
+        let (mut mass, mut converted) = (before.mass(), before.mass() * before.conversion);
+        for step in 0..40 {
+            let [one, other] = if step % 3 == 0 { [CHAR, MELT] } else { [CHAR, CHAR] };
+            let forth = Arrivals::default().with(&one).with(&other);
+            let back = Arrivals::default().with(&other).with(&one);
+            assert_eq!(deposit.with(&forth), deposit.with(&back));
+            deposit = deposit.with(&forth);
+            mass += one.mass + other.mass;
+            converted += one.mass * one.conversion + other.mass * other.conversion;
+            assert_relative_eq!(deposit.mass(), mass, max_relative = 1e-13);
+            assert_relative_eq!(deposit.mass() * deposit.conversion, converted, max_relative = 1e-12);
+        }
+        assert!(deposit.cover > before.cover && deposit.solid > before.solid);
+    }
+
+    #[test]
+    fn melt_takes_powder_up_in_proportion_to_the_cover_it_buries() {
+        let dusty = Deposit::default().with(&Arrivals::default().with(&CHAR));
+        let after = dusty.with(&Arrivals::default().with(&MELT));
+        let left = after.cover / dusty.cover;
+        assert!(left < 1.0);
+        assert_relative_eq!(after.powder, dusty.powder * left, max_relative = 1e-14);
+        assert_relative_eq!(after.solid, dusty.solid * left, max_relative = 1e-14);
+        assert_relative_eq!(after.molten, MELT.mass + dusty.powder * (1.0 - left), max_relative = 1e-14);
+        // A bare wall stays as it is when nothing arrives.
+        assert_eq!(Deposit::default().with(&Arrivals::default()), Deposit::default());
+    }
+}

@@ -1,0 +1,362 @@
+//! What a model says of a deposit: who is molten on a wall, what an impact meets there, how the melt flows.
+
+use super::Model;
+use super::wall::Wall;
+use crate::capture::{MeltStickiness, ParticleStickiness, Stickiness};
+use crate::deposit::{Arrival, Arrivals, Deposit, wetting};
+use crate::impact::{Impact, ImpactError};
+use crate::material::Material;
+
+/// The melt on a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Melt {
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Viscosity [Pa s]; infinite where the model knows none, and below the temperatures of a measured one.
+    pub viscosity: f64,
+}
+
+impl Model {
+    /// What a particle of this impact adds to the wall when it stays: `mass` of it per area of wall [kg/m²] with the
+    /// particle's `density` [kg/m³].
+    ///
+    /// It is molten when it is as sticky at the temperature of the wall as counts for sticky; by the droplet criterion, when the
+    /// wall is hotter than its melting point. A model without a term that looks at the particle's temperature says what it
+    /// said at the impact.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or a wall that is not there.
+    pub fn arrive(
+        &self,
+        wall: usize,
+        impact: &Impact,
+        mass: f64,
+        density: f64,
+        arrivals: Arrivals,
+    ) -> Result<Arrivals, ImpactError> {
+        self.at_wall(wall, impact)?;
+        at_least_zero("mass", mass)?;
+        if !(density.is_finite() && density > 0.0) {
+            let reason = "must be positive and finite";
+            return Err(ImpactError::Unusable { quantity: "density", value: density, reason });
+        }
+        let molten = self.stickiness_as_melt(impact, impact.conversion) >= Stickiness::THRESHOLD;
+        let Impact { diameter, conversion, .. } = *impact;
+        Ok(arrivals.with(&Arrival { mass, density, diameter, conversion, molten }))
+    }
+
+    /// What the model file says lies on a wall, with a share `voidage` of voids in the powder [1]: where a memory begins. A
+    /// `coverage` alone has no mass, as the file does not tell it; a `layer_thickness` is powder of the particles' density and
+    /// covers as grains of 100 µm do (*assumed*).
+    ///
+    /// # Errors
+    /// [`ImpactError`] for a voidage without physical meaning, a wall that is not there, or a density that is not known.
+    pub fn lying(&self, wall: usize, voidage: f64) -> Result<Deposit, ImpactError> {
+        check_voidage(voidage)?;
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let solid = wall.layer_thickness * (1.0 - voidage);
+        let powder = solid * density_near(&self.particle, Impact::default().wall_temperature)?;
+        let covered = -(1.0 - wall.coverage).max(f64::MIN_POSITIVE).ln();
+        let cover = covered.max(1.5 * solid / Impact::default().diameter);
+        Ok(Deposit { powder, solid, cover, ..Deposit::default() })
+    }
+
+    /// The impact on a wall with a deposit: its layer of powder with a `voidage` [1], the share that this covers, and the
+    /// thickness of its melt stand in the impact.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for a deposit or a voidage without physical meaning, or a wall that is not there.
+    pub fn dress(
+        &self,
+        wall: usize,
+        deposit: &Deposit,
+        voidage: f64,
+        impact: &Impact,
+    ) -> Result<Impact, ImpactError> {
+        let Deposit { molten, powder, solid, cover, .. } = *deposit;
+        for (quantity, value) in [("molten", molten), ("powder", powder), ("solid", solid), ("cover", cover)]
+        {
+            at_least_zero(quantity, value)?;
+        }
+        check_voidage(voidage)?;
+        let melt = self.melt(wall, impact.wall_temperature)?;
+        Ok(Impact {
+            layer_thickness: deposit.layer_thickness(voidage),
+            coverage: deposit.coverage(),
+            melt_thickness: molten / melt.density,
+            ..*impact
+        })
+    }
+
+    /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the particles. Properties beyond the
+    /// temperatures of their table are those at its end.
+    ///
+    /// # Errors
+    /// [`ImpactError::NoSuchWall`], or a density that is not known.
+    pub fn melt(&self, wall: usize, temperature: f64) -> Result<Melt, ImpactError> {
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let (material, viscosity) = match &wall.slag {
+            Some(slag) => {
+                (slag, wall.melt.as_ref().map(|melt: &MeltStickiness| melt.film_viscosity(temperature)))
+            }
+            None => (
+                &self.particle,
+                self.stickiness.as_ref().map(|s: &ParticleStickiness| s.film_viscosity(temperature)),
+            ),
+        };
+        Ok(Melt {
+            density: density_near(material, temperature)?,
+            viscosity: viscosity.unwrap_or(f64::INFINITY),
+        })
+    }
+
+    /// How sticky the wall is [1]: the larger of what the wall says, and the melt that earlier particles left where it wets
+    /// the wall and nothing covers it.
+    pub(super) fn wall_stickiness(&self, wall: &Wall, impact: &Impact) -> Result<f64, ImpactError> {
+        let own = wall.stickiness(impact)?;
+        if impact.melt_thickness == 0.0 || !self.knows_melting() {
+            return Ok(own);
+        }
+        let wet = wetting::share(impact.melt_thickness, impact.diameter) * (1.0 - impact.coverage);
+        Ok(own.max(wet * self.stickiness_as_melt(impact, 1.0)))
+    }
+
+    /// Whether the melt that lies on the wall is used within the range that the capture criterion is stated for.
+    pub(super) fn melt_holds(&self, impact: &Impact) -> bool {
+        let holds = |criterion: &ParticleStickiness| criterion.holds_at(impact.wall_temperature);
+        impact.melt_thickness == 0.0 || self.stickiness.as_ref().is_none_or(holds)
+    }
+
+    /// How sticky the particle would be with a conversion [1] where it lies on the wall, at the temperature of that: the
+    /// product of what the terms say, 0 when none speaks of it.
+    fn stickiness_as_melt(&self, impact: &Impact, conversion: f64) -> f64 {
+        let there = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
+        let criterion = self.stickiness.as_ref().map(|criterion| criterion.lying(impact.wall_temperature));
+        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&there));
+        criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
+    }
+
+    /// Whether the model says at which temperature its particles melt.
+    fn knows_melting(&self) -> bool {
+        let looks = |term: &crate::effect::Term| {
+            let sticky = term.effect().particle_stickiness(&Impact::default()).is_some();
+            sticky && term.kind().inputs.contains(&"T_p")
+        };
+        self.stickiness.is_some() || self.terms.iter().any(looks)
+    }
+}
+
+fn check_voidage(voidage: f64) -> Result<(), ImpactError> {
+    if (0.0..1.0).contains(&voidage) {
+        return Ok(());
+    }
+    let reason = "must be at least 0 and below 1";
+    Err(ImpactError::Unusable { quantity: "voidage", value: voidage, reason })
+}
+
+fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> {
+    if value.is_finite() && value >= 0.0 {
+        return Ok(());
+    }
+    Err(ImpactError::Unusable { quantity, value, reason: "must be finite and not negative" })
+}
+
+/// Density [kg/m³] at a temperature [K], or at the nearest at which it is known.
+fn density_near(material: &Material, temperature: f64) -> Result<f64, ImpactError> {
+    let [low, high] = material.density_range();
+    material.density(temperature.clamp(low, high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::draw::Draw;
+    use crate::impact::Regime;
+    use approx::assert_relative_eq;
+
+    const ASH: &str = r#"
+[particle]
+material = "fly-ash"
+[walls.default]
+material = "refractory"
+[walls.slag]
+material = "refractory"
+slag = "coal-slag"
+[normal]
+model = "constant"
+e_n = 0.4
+[tangential]
+model = "constant"
+e_t = 0.7
+[capture]
+model = "viscosity"
+law = "kalmanovitch-frank"
+reference_viscosity = 25
+[[effects]]
+kind = "conversion-transition"
+threshold = 0.9
+width = 0.01
+"#;
+
+    fn model() -> Model {
+        Model::from_toml("m", ASH).unwrap()
+    }
+
+    fn at(wall_temperature: f64) -> Impact {
+        Impact {
+            normal_speed: 1.0,
+            diameter: 60e-6,
+            particle_temperature: 1900.0,
+            wall_temperature,
+            conversion: 1.0,
+            ..Impact::default()
+        }
+    }
+
+    fn captured(impact: &Impact) -> f64 {
+        // A dry particle: what is captured is captured by the wall.
+        let dry = Impact { conversion: 0.2, ..*impact };
+        model().resolve(0, &dry, Draw::default()).unwrap().sticking_probability
+    }
+
+    #[test]
+    fn what_freezes_on_the_wall_or_still_has_its_carbon_is_powder() {
+        let arrive = |impact: &Impact| model().arrive(0, impact, 1.0, 2000.0, Arrivals::default()).unwrap();
+        assert_eq!(arrive(&at(1900.0)).molten, 1.0);
+        assert_eq!(arrive(&at(1100.0)).powder, 1.0);
+        assert_eq!(arrive(&Impact { conversion: 0.5, ..at(1900.0) }).powder, 1.0);
+        let area = 1.5 / (2000.0 * 60e-6);
+        assert_relative_eq!(arrive(&at(1100.0)).cover, area);
+        assert_relative_eq!(arrive(&at(1900.0)).buried, area);
+    }
+
+    #[test]
+    fn melt_on_a_hot_wall_makes_it_sticky_and_on_a_cold_one_never() {
+        let melt = |wall_temperature, melt_thickness| Impact { melt_thickness, ..at(wall_temperature) };
+        let dry = captured(&melt(1900.0, 0.0));
+        assert!(dry < 1e-6, "{dry}");
+        let shares = [1e-7, 1e-6, 1e-5, 1e-3].map(|thickness| captured(&melt(1900.0, thickness)));
+        assert!(shares.is_sorted() && shares[3] > 0.999, "{shares:?}");
+        // p_stick of a dry particle is the root of the wall's stickiness: here what is wet, 1 - exp(-6/60), times what the
+        // conversion-transition leaves of a burnt-out particle's, 1/(1 + exp(-10)).
+        let wall: f64 = (1.0 - (-0.1_f64).exp()) / (1.0 + (-10.0_f64).exp());
+        assert_relative_eq!(shares[1], wall.sqrt(), max_relative = 1e-12);
+        for thickness in [1e-6, 1e-3, 1.0] {
+            assert!(captured(&melt(1000.0, thickness)) < 1e-3, "{thickness}");
+        }
+        let hot = Impact { conversion: 0.2, ..melt(1900.0, 1e-3) };
+        assert_eq!(model().resolve(0, &hot, Draw::default()).unwrap().regime, Regime::NspSw);
+        let covered = Impact { coverage: 1.0, ..hot };
+        assert_eq!(model().resolve(0, &covered, Draw::default()).unwrap().regime, Regime::NspNsw);
+    }
+
+    #[test]
+    fn a_model_that_knows_no_melting_makes_no_wall_sticky() {
+        let text = ASH
+            .replace(
+                "[capture]",
+                "[[effects]]\nkind = \"powder-layer\"\nthickness = 1e-4\nresidual = 0.25\n#",
+            )
+            .replace("model = \"viscosity\"\nlaw", "#law")
+            .replace("reference_viscosity", "#reference_viscosity")
+            .replace("slag = \"coal-slag\"", "");
+        let model = Model::from_toml("m", &text).unwrap();
+        let wet = Impact { conversion: 0.2, melt_thickness: 1.0, ..at(1900.0) };
+        assert!(model.resolve(0, &wet, Draw::default()).unwrap().sticking_probability < 1e-6);
+        assert_eq!(model.melt(0, 1900.0).unwrap().viscosity, f64::INFINITY);
+    }
+
+    const WAX: &str = r#"
+[particle]
+material = "montan-wax"
+[walls.default]
+material = "pyrex"
+[normal]
+model = "constant"
+e_n = 0.4
+[tangential]
+model = "constant"
+e_t = 0.7
+[capture]
+model = "droplet"
+"#;
+
+    /// The wax melts at 80 °C, and its viscosity there is given from 80 to 130 °C.
+    #[test]
+    fn by_the_droplet_criterion_what_lies_is_molten_above_the_melting_point() {
+        let wax = Model::from_toml("m", WAX).unwrap();
+        // Fast enough to splash: it stayed all the same.
+        let at = |wall_temperature, particle_temperature| Impact {
+            normal_speed: 30.0,
+            diameter: 120e-6,
+            particle_temperature,
+            wall_temperature,
+            ..Impact::default()
+        };
+        let arrive = |impact: &Impact| wax.arrive(0, impact, 1.0, 960.0, Arrivals::default()).unwrap();
+        assert_eq!(arrive(&at(370.0, 300.0)).molten, 1.0);
+        assert_eq!(arrive(&at(350.0, 370.0)).powder, 1.0);
+        assert_eq!(wax.melt(0, 350.0).unwrap().viscosity, f64::INFINITY);
+        let known = wax.particle().viscosity(370.0).unwrap();
+        assert_eq!(wax.melt(0, 370.0).unwrap().viscosity, known);
+        assert_eq!(wax.melt(0, 500.0).unwrap().viscosity, wax.particle().viscosity(403.15).unwrap());
+
+        let resolve = |melt_thickness, impact| {
+            wax.resolve(0, &Impact { melt_thickness, ..impact }, Draw::default()).unwrap()
+        };
+        let wet: f64 = 1.0 - (-6.0_f64 * 10.0 / 120.0).exp();
+        let solid = resolve(10e-6, at(370.0, 300.0));
+        assert_relative_eq!(solid.sticking_probability, wet.sqrt(), max_relative = 1e-12);
+        assert_eq!(resolve(10e-6, at(350.0, 300.0)).sticking_probability, 0.0);
+        let [dry, drowned] = [0.0, 1.0].map(|thickness| resolve(thickness, at(370.0, 370.0)));
+        assert!(dry.sticking_probability < 1.0, "{dry:?}");
+        assert_eq!(drowned.sticking_probability, dry.sticking_probability);
+        assert_eq!((dry.regime, drowned.regime), (Regime::NspNsw, Regime::NspSw));
+    }
+
+    #[test]
+    fn an_impact_is_dressed_with_what_lies_there() {
+        let deposit = Deposit { molten: 0.055, powder: 0.1, solid: 1e-4, cover: 2.0, conversion: 0.5 };
+        let dressed = model().dress(1, &deposit, 0.5, &at(1700.0)).unwrap();
+        assert_eq!(dressed.layer_thickness, 2e-4);
+        assert_relative_eq!(dressed.coverage, 1.0 - (-2.0_f64).exp(), max_relative = 1e-15);
+        // The slag's 2750 kg/m³ on its wall, the ash's own 2300 elsewhere.
+        assert_relative_eq!(dressed.melt_thickness, 2e-5);
+        let elsewhere = model().dress(0, &deposit, 0.5, &at(1700.0)).unwrap();
+        assert_relative_eq!(elsewhere.melt_thickness, 0.055 / 2300.0);
+        let none = model().dress(0, &Deposit::default(), 0.5, &at(1700.0)).unwrap();
+        assert_eq!(none, at(1700.0));
+    }
+
+    /// 1 - exp(-A) = 0.4 for A = ln(1/0.6); 0.2 mm of powder with half voids, of the ash's 2300 kg/m³, covers like a hundred
+    /// micrometre grains, 1.5 * 1e-4/1e-4.
+    #[test]
+    fn a_memory_begins_with_what_the_file_says() {
+        let given = |text: &str| {
+            let text = ASH.replace("slag = \"coal-slag\"", &format!("slag = \"coal-slag\"\n{text}"));
+            Model::from_toml("m", &text).unwrap().lying(1, 0.5).unwrap()
+        };
+        assert_eq!(given(""), Deposit::default());
+        let char = given("coverage = 0.4");
+        assert_relative_eq!(char.cover, (1.0_f64 / 0.6).ln(), max_relative = 1e-15);
+        assert_eq!(char.mass(), 0.0);
+        let powder = given("layer_thickness = 2e-4");
+        assert_relative_eq!(powder.layer_thickness(0.5), 2e-4);
+        assert_relative_eq!(powder.powder, 0.23);
+        assert_relative_eq!(powder.cover, 1.5);
+        assert!(given("coverage = 1").cover.is_finite());
+        assert!(model().lying(9, 0.5).is_err() && model().lying(0, 1.0).is_err());
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let model = model();
+        let bad = Deposit { cover: f64::NAN, ..Deposit::default() };
+        assert!(model.dress(0, &bad, 0.5, &at(1700.0)).is_err());
+        assert!(model.dress(0, &Deposit::default(), 1.0, &at(1700.0)).is_err());
+        assert!(model.dress(9, &Deposit::default(), 0.5, &at(1700.0)).is_err());
+        let arrive = |mass, density| model.arrive(0, &at(1700.0), mass, density, Arrivals::default());
+        assert!(arrive(-1.0, 1000.0).is_err() && arrive(1.0, 0.0).is_err() && arrive(1.0, f64::NAN).is_err());
+        assert!(arrive(0.0, 1000.0).is_ok());
+    }
+}
