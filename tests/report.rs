@@ -67,6 +67,35 @@ fn table(rows: &[[f64; 5]]) -> String {
     text
 }
 
+/// Distributions as nearWallInteraction writes them: two injectors, of 100 parcels 60 stick, all of one speed; the energy
+/// that leaves is 0.09 of what came. The numbers are `scale` times that.
+fn distributions(time: f64, scale: f64) -> String {
+    let mut text = "# time_s injector quantity low high hits particles particles_squared mass_kg sticks stick_particles \
+                    stick_mass_kg energy_in_J energy_out_J\n"
+        .to_owned();
+    let classes = [("speed_m_s", 1.778, 2.371), ("angle_deg", 60.0, 65.0), ("diameter_m", 1e-4, 1.334e-4)];
+    for (injector, share) in [("nozzle", 0.75), ("lance", 0.25)] {
+        for (quantity, low, high) in classes {
+            let part = share * scale;
+            writeln!(
+                text,
+                "{time} {injector} {quantity} {low} {high} {} {} {} {} {} {} {} {} {}",
+                100.0 * part,
+                1000.0 * part,
+                10_000.0 * part,
+                1e-5 * part,
+                60.0 * part,
+                600.0 * part,
+                6e-6 * part,
+                2e-5 * part,
+                1.8e-6 * part
+            )
+            .unwrap();
+        }
+    }
+    text
+}
+
 /// A case with our wall model, restarted at 0.5 s, with stuck parcels at its last time.
 fn ours(root: &Path) {
     skeleton(root, "nearWallInteraction");
@@ -87,6 +116,13 @@ fn ours(root: &Path) {
         &format!("{tables}/0/balance.dat"),
         "# time_s injected_kg read_back_kg airborne_kg stuck_in_cloud_kg stuck_removed_kg escaped_kg reacted_kg \
          unusable_removed_kg residual\n1.0 1e-4 0 2e-5 7e-6 0 3e-5 4.3e-5 0 1e-14\n",
+    );
+    write(root, &format!("{tables}/0/slagWall.distributions.dat"), &distributions(0.6, 9.0));
+    write(root, &format!("{tables}/0.5/slagWall.distributions.dat"), &distributions(1.0, 1.0));
+    write(
+        root,
+        &format!("{tables}/0.5/slagWall.flux.dat"),
+        "# time_s since_s injector area_m2 mass_flux_kg_m2_s stick_mass_flux_kg_m2_s\n1.0 0.5 0 1 1e-5 6e-6\n",
     );
     let foam =
         |body: &str| format!("FoamFile\n{{\n    format ascii;\n}}\n// * * * * //\n\n{body}\n\n// ***** //\n");
@@ -160,6 +196,25 @@ fn tables_of_a_restarted_run_are_joined() {
 }
 
 #[test]
+fn distributions_of_a_restarted_run_are_joined() {
+    let folder = two_cases();
+    let result = &openfoam::read(&folder.path().join("ours")).unwrap()[0];
+    // The tables of classes and of flux are not taken for patches.
+    assert_eq!(
+        result.patches.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(),
+        ["quenchWall", "slagWall"]
+    );
+    let [slag] = &result.distributions[..] else { panic!("one patch") };
+    // What was written at 0.6 s belongs to a run that was taken up again at 0.5 s.
+    assert_eq!(slag.tables.iter().map(|(time, _)| *time).collect::<Vec<_>>(), [1.0]);
+    let classes = openfoam::distributions::together(slag.at(1.0), openfoam::distributions::Quantity::Angle);
+    assert_eq!((classes.len(), classes[0].low, classes[0].sums.hits), (1, 60.0, 100.0));
+    let [share, low, high] = classes[0].sums.captured().unwrap();
+    // Wilson's interval for 60 of 100.
+    assert!((share - 0.6).abs() < 1e-12 && (low - 0.502).abs() < 5e-4 && (high - 0.6906).abs() < 5e-4);
+}
+
+#[test]
 fn logs_and_arrivals_of_a_stock_model_are_read() {
     let folder = two_cases();
     let results = openfoam::read(&folder.path().join("stock")).unwrap();
@@ -195,10 +250,25 @@ fn the_page_compares_and_says_what_constants_get_wrong() {
         "caught as NSP-SW",
         "Regime of capture, ours",
         "no parcels of coalCloud1",
+        ">lance<",
+        ">9.0 %<",
     ] {
         assert!(page.contains(part), "`{part}` is not on the page");
     }
-    for figure in ["by-wall", "regimes", "along", "history", "conversion", "arriving", "places-0"] {
+    for figure in [
+        "by-wall",
+        "regimes",
+        "along",
+        "history",
+        "conversion",
+        "arriving",
+        "places-0",
+        "speed-1",
+        "angle-1",
+        "size-1",
+        "capture-1",
+        "energy",
+    ] {
         assert!(page.contains(&format!("<figure id=\"{figure}\"")), "no figure {figure}");
     }
     assert!(!page.contains(">outlet<"), "an outlet is no wall");
@@ -297,7 +367,7 @@ fn a_browser_shows_every_figure() {
     std::fs::write(folder.path().join("probe.html"), page.replace("</body>", probe)).unwrap();
     let Some(Seen { dom, complaints }) = browse(&folder.path().join("probe.html")) else { return };
     let figures = page.matches("<figure id=").count();
-    assert!(figures >= 7);
+    assert!(figures >= 12);
     let start: String = dom.chars().take(600).collect();
     assert!(dom.contains(&format!("<title>PROBE {figures}</title>")), "{start}");
     assert!(complaints.is_empty(), "{complaints:?}");

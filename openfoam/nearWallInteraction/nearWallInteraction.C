@@ -29,7 +29,7 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
         wordList
         ({
             "model", "patches", "stuck", "writeFields", "seed",
-            "statisticsInterval", "particleTemperature", "carbon"
+            "statisticsInterval", "particleTemperature", "carbon", "record"
         }),
         "nearWallInteraction"
     );
@@ -184,6 +184,23 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
         );
     }
 
+    const nearWall::injectorNames injectors(owner.injectors());
+    record_->statistics.reset
+    (
+        new nearWall::statistics
+        (
+            owner.mesh(), injectors, saved("statistics"), tableFolder()
+        )
+    );
+    record_->recorder.reset
+    (
+        new nearWall::recorder
+        (
+            coeffs, owner.mesh(), rules_, injectors, saved("record"),
+            tableFolder()
+        )
+    );
+
     record_->balance = std::make_shared<nearWall::balance>
     (
         saved("balance"), tableFolder(), injectedMass()
@@ -279,6 +296,7 @@ Foam::nearWall::event Foam::nearWallInteraction<CloudType>::eventOf
     e.patch = pp.index();
     e.face = pp.whichFace(p.face());
     e.injector = p.typeId();
+    e.position = p.position();
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(a.vn) + sqr(a.vt));
@@ -405,6 +423,8 @@ void Foam::nearWallInteraction<CloudType>::note(const nearWall::event& e)
     {
         record_->tally.addRebound(e);
     }
+    record_->statistics->add(e);
+    record_->recorder->add(e);
     if (record_->fields)
     {
         record_->fields->addHit(e.patch, e.face, e.speed);
@@ -662,5 +682,14 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     if (time.writeTime())
     {
         this->setModelProperty("patches", record_->tally.saved(totals));
+        this->setModelProperty("statistics", record_->statistics->write());
+        if (record_->recorder->on())
+        {
+            this->setModelProperty
+            (
+                "record",
+                record_->recorder->write(NEARWALL_INFO_STREAM)
+            );
+        }
     }
 }

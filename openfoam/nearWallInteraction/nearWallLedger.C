@@ -15,12 +15,24 @@
 #include "nearWallCompat.H"
 #include "OSspecific.H"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 std::string Foam::nearWall::exactText(const scalar x)
 {
     char text[40];
+
+    // Counts, and much else: no need to try. isless() is quiet about NaN.
+    if
+    (
+        std::isless(std::fabs(x), 1e9)
+     && x == std::floor(x)
+     && !std::signbit(x)
+    )
+    {
+        return std::to_string(static_cast<long>(x));
+    }
     for (int digits = 15; digits <= 17; ++digits)
     {
         std::snprintf(text, sizeof(text), "%.*g", digits, x);
@@ -101,6 +113,17 @@ void Foam::nearWall::table::row(const scalarList& values)
 {
     if (!Pstream::master()) return;
 
+    std::vector<std::string> cells;
+    cells.reserve(values.size());
+    forAll(values, i) cells.push_back(exactText(values[i]));
+    row(cells);
+}
+
+
+void Foam::nearWall::table::row(const std::vector<std::string>& cells)
+{
+    if (!Pstream::master()) return;
+
     if (!file_)
     {
         mkDir(path_.path());
@@ -110,9 +133,9 @@ void Foam::nearWall::table::row(const scalarList& values)
         *file_ << nl;
     }
 
-    forAll(values, i)
+    for (std::size_t i = 0; i < cells.size(); ++i)
     {
-        *file_ << (i ? " " : "") << exactText(values[i]).c_str();
+        *file_ << (i ? " " : "") << cells[i].c_str();
     }
     *file_ << endl;
 }

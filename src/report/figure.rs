@@ -338,6 +338,12 @@ impl Chart {
         self
     }
 
+    /// A histogram as an outline, which several series and a logarithmic axis take.
+    #[must_use]
+    pub fn stairs(self, name: &str, edges: &[f64], heights: &[f64]) -> Self {
+        self.line(name, &stairs(edges, heights))
+    }
+
     /// A thin vertical line with a label.
     #[must_use]
     pub fn mark_x(mut self, x: f64, label: &str) -> Self {

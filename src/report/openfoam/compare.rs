@@ -1,6 +1,7 @@
 //! The page of finished cases: one alone, or several side by side.
 
 use super::CloudResult;
+use super::arriving::Arriving;
 use super::tables::{PatchRow, value};
 use crate::impact::Regime;
 use crate::report::{Bars, Block, Chart, Figure, Page, Table, number, percent, round_edges};
@@ -25,8 +26,13 @@ pub fn page(results: &[CloudResult]) -> Result<String, String> {
     capture.extend(drawn(vec![view.along(), view.history()]));
     page.add(Block::Figures(capture));
     page.add(Block::Table(view.wall_table()));
-    page.add(Block::Heading("At which carbon conversion".into()));
-    page.add(Block::Figures(drawn(vec![view.conversion(), view.arriving()])));
+    let conversion = drawn(vec![view.conversion(), view.arriving()]);
+    if !conversion.is_empty() {
+        page.add(Block::Heading("At which carbon conversion".into()));
+        page.add(Block::Figures(conversion));
+    }
+    let View { labels, results, walls, time, .. } = &view;
+    Arriving { labels, results, walls, time: *time }.add(&mut page);
     let places = view.places();
     if !places.is_empty() {
         page.add(Block::Heading("Where captured parcels lie".into()));

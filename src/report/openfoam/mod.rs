@@ -1,11 +1,13 @@
 //! Finished OpenFOAM cases: what the solvers left behind, and a page that sets cases side by side.
 //!
-//! Read are, where they are there: the tables of `nearWallInteraction` ([`tables`]), the fates of parcels in the logs of
-//! the stock models ([`log`]), the arrivals that the stock cloud function `patchPostProcessing` recorded
+//! Read are, where they are there: the tables of `nearWallInteraction` ([`tables`], [`distributions`]), the fates of parcels
+//! in the logs of the stock models ([`log`]), the arrivals that the stock cloud function `patchPostProcessing` recorded
 //! ([`arrivals`]), and the parcels of the last written time ([`parcels`]). What is missing is noted and said on the page.
 
 pub mod arrivals;
+mod arriving;
 mod compare;
+pub mod distributions;
 pub mod log;
 pub mod parcels;
 pub mod tables;
@@ -16,6 +18,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use arrivals::Arrival;
+use distributions::Distributions;
 use parcels::Parcel;
 use tables::PatchHistory;
 
@@ -49,6 +52,8 @@ pub struct CloudResult {
     pub model: Option<String>,
     /// What happened at each patch.
     pub patches: Vec<PatchHistory>,
+    /// What arrived at each patch by speed, angle and size; empty for other models.
+    pub distributions: Vec<Distributions>,
     /// Time [s] and injected mass [kg].
     pub injected: Vec<[f64; 2]>,
     /// Time [s] and mass [kg] that left through any patch, where a log says so.
@@ -182,6 +187,7 @@ fn finish(folder: &Path, case: &str, cloud: String, mut result: CloudResult) -> 
     case.clone_into(&mut result.case);
     result.model = interaction_model(folder, &cloud);
     result.wall_patches = wall_patches(folder);
+    result.distributions = distributions::read_all(folder, &cloud);
     let carbon = arrivals::Carbon::of(folder, &cloud);
     result.has_carbon = carbon.is_some();
     result.arrivals = arrivals::read_all(folder, &cloud, carbon.as_ref());

@@ -7,6 +7,7 @@ use std::path::Path;
 
 use regex_lite::Regex;
 
+use super::distributions::is_other_table;
 use super::{folders, time_folders};
 use crate::impact::Regime;
 
@@ -105,6 +106,9 @@ fn read_cloud(folder: &Path) -> (Vec<PatchHistory>, Vec<Balance>) {
         tables.sort();
         for path in tables.iter().filter(|path| path.extension().is_some_and(|e| e == "dat")) {
             let Some(name) = path.file_stem().and_then(|stem| stem.to_str()) else { continue };
+            if is_other_table(name) {
+                continue;
+            }
             let Ok(text) = std::fs::read_to_string(path) else { continue };
             let rows = rows(&text);
             let Some(first) = rows.first().and_then(|row| value(row, "time_s")) else { continue };
