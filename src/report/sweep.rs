@@ -2,7 +2,8 @@
 //!
 //! The CSV's first column names the run and the second is the variable. A quantity `Q` is drawn when there is a column
 //! `Q_paper` beside it: its values with error bars from `Q_low95` and `Q_high95`, or 1.96 `Q_standard_error`, and the
-//! published ones; `>0.85` is a lower bound, `-` or a blank is nothing.
+//! published ones; `>0.85` is a lower bound, `-` or a blank is nothing. A column `Q_reference` is drawn, too: what another
+//! calculation of the same gives.
 
 use std::path::Path;
 
@@ -144,22 +145,38 @@ pub fn page(path: &Path) -> Result<String, SweepError> {
 fn figure(runs: &Runs, quantity: &str, x: &[f64], label: &str, index: usize) -> Figure {
     let values = runs.numbers(quantity).unwrap_or_default();
     let published = runs.numbers(&format!("{quantity}_paper")).unwrap_or_default();
-    let published: Vec<[f64; 2]> = x.iter().zip(published).map(|(x, y)| [*x, y]).collect();
+    let reference = runs.numbers(&format!("{quantity}_reference"));
+    let over_x = |values: Vec<f64>| -> Vec<[f64; 2]> { x.iter().zip(values).map(|(x, y)| [*x, y]).collect() };
     let drawn: Vec<usize> =
         (0..values.len()).filter(|i| x[*i].is_finite() && values[*i].is_finite()).collect();
     let errors = runs.errors(quantity, &values);
     let points: Vec<[f64; 2]> = drawn.iter().map(|i| [x[*i], values[*i]]).collect();
     let bars: Errors = drawn.iter().map(|i| errors[*i]).collect();
-    Chart::new(&readable(quantity), label, &format!("{} [1]", readable(quantity)))
+    let mut chart = Chart::new(&readable(quantity), label, &format!("{} [1]", readable(quantity)))
         .points_with_errors("simulated", &points, &bars)
-        .points("published", &published)
-        .figure(&format!("sweep-{index}"), runs.caption(quantity))
+        .points("published", &over_x(published));
+    if over_decades(x) {
+        chart = chart.log_x();
+    }
+    if let Some(reference) = reference {
+        chart = chart.line("calculated otherwise", &over_x(reference));
+    }
+    chart.figure(&format!("sweep-{index}"), runs.caption(quantity))
+}
+
+/// Whether a variable is positive and spans more than a decade and a half: a logarithmic axis shows it better.
+fn over_decades(x: &[f64]) -> bool {
+    let (low, high) = x.iter().fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(*x), high.max(*x)));
+    low > 0.0 && high > 30.0 * low
 }
 
 /// Names as a reader likes them: `T_C` is a temperature, underscores are spaces.
 fn readable(name: &str) -> String {
     if let Some(quantity) = name.strip_suffix("_paper") {
         return format!("{}, published", readable(quantity));
+    }
+    if let Some(quantity) = name.strip_suffix("_reference") {
+        return format!("{}, calculated otherwise", readable(quantity));
     }
     match name {
         "T_C" => "temperature [°C]".to_owned(),
@@ -170,7 +187,12 @@ fn readable(name: &str) -> String {
 
 fn table(runs: &Runs, variable: &str) -> Table {
     let columns: Vec<String> = std::iter::once(variable.to_owned())
-        .chain(runs.quantities().into_iter().flat_map(|q| [q.to_owned(), format!("{q}_paper")]))
+        .chain(
+            runs.quantities()
+                .into_iter()
+                .flat_map(|q| [q.to_owned(), format!("{q}_reference"), format!("{q}_paper")])
+                .filter(|name| runs.header.contains(name)),
+        )
         .collect();
     let shown = |cell: &str| cell.parse().map_or_else(|_| cell.to_owned(), number);
     let cells: Vec<Vec<&str>> = columns.iter().filter_map(|name| runs.cells(name)).collect();
@@ -198,6 +220,10 @@ mod tests {
         let html = page(&path).unwrap();
         assert_eq!(html.matches("<svg").count(), 2);
         assert!(html.contains("temperature [°C]") && html.contains("published"));
+        let text = "run,Stk,hit,hit_reference,hit_paper\na,0.1,0,0,-\nb,10,0.8,0.81,0.82\n";
+        std::fs::write(&path, text).unwrap();
+        let html = page(&path).unwrap();
+        assert!(html.contains("calculated otherwise") && html.contains("0.81"));
         std::fs::write(&path, "run,T_C\na,20\n").unwrap();
         assert!(page(&path).unwrap_err().to_string().contains("Q_paper"));
         std::fs::write(&path, "run,T_C\na,20\nb,20,3\n").unwrap();
