@@ -1,0 +1,72 @@
+# What the model costs beside OpenFOAM's localInteraction. Run by hand, not with "all": figures for openfoam/README.md.
+#
+#     tests/openfoam/run ratio     the slagging gasifier, runs of both models in turn (some 5 minutes)
+#     tests/openfoam/run growth    time and memory over a hundredfold of faces and of parcels
+
+# file command...: writes "user-seconds largest-resident-MB" of the command into the file
+measured() {
+    local to="$1"; shift
+    python3 - "$to" "$@" > log.measured 2>&1 <<'PY'
+import resource, subprocess, sys
+code = subprocess.call(sys.argv[2:], stdin=subprocess.DEVNULL)
+use = resource.getrusage(resource.RUSAGE_CHILDREN)
+open(sys.argv[1], "w").write(f"{use.ru_utime:.3f} {use.ru_maxrss/1024:.1f}\n")
+sys.exit(code)
+PY
+}
+
+# The gasifier from 0.4 to 0.5 s, from one state, five times in turn
+case_ratio() {
+    local base="$here/../../tutorials/slaggingGasifier" state="$work/ratio-state" how i case
+    command -v python3 >/dev/null || { bad ratio "python3 is missing"; return; }
+    mkdir -p "$state"; cp -r "$base/constant" "$base/system" "$state"; cp -r "$base/0.orig" "$state/0"
+    cp "$base/wallModels/nearWall" "$state/constant/wallInteraction"
+    cd "$state" || return
+    sed -i 's/^endTime .*/endTime 0.4;/; s/^writeInterval .*/writeInterval 0.4;/' system/controlDict
+    quiet blockMesh blockMesh
+    limit=900 solve ratio/state state coalChemistryFoam || return
+    sed -i 's/^endTime .*/endTime 0.5;/; s/^writeInterval .*/writeInterval 0.1;/; s/^startFrom .*/startFrom latestTime;/' system/controlDict
+    for i in 1 2 3 4 5; do
+        for how in localInteraction nearWallNoMemory nearWall everything; do
+            case="$work/ratio-$how"; rm -rf "$case"; cp -r "$state" "$case"; cd "$case" || return
+            cp "$base/wallModels/${how/everything/nearWall}" constant/wallInteraction
+            [ "$how" != everything ] || sed -i 's/^    stuck .*/    stuck react; record { maxRows 100000; }/' constant/wallInteraction
+            measured spent coalChemistryFoam || { bad "ratio/$how" "the solver failed, see $case"; return; }
+            cut -d' ' -f1 spent >> "$work/ratio-$how.times"
+            rm -rf "$case"
+        done
+    done
+    cd "$work" || return
+    for how in localInteraction nearWallNoMemory nearWall everything; do
+        ok "ratio/$how ($(paste -d ' ' "ratio-$how.times" ratio-localInteraction.times \
+            | awk '{ print $1/$2, $1 }' | sort -g | awk '{ r[NR] = $1; t[NR] = $2 } END { printf "user time over localInteraction: median %.3f, from %.3f to %.3f; %.1f s", r[int((NR + 1)/2)], r[1], r[NR], t[int((NR + 1)/2)] }'))"
+    done
+}
+
+# faces-a-side parcels model: user time and memory of one run
+grown() {
+    local side="$1" parcels="$2" how="$3"
+    build kinematic "$work/growth-$side-$parcels-$how" || return
+    sed -i "s/(4 4 4)/($side $side 4)/" system/blockMeshDict
+    quiet blockMesh blockMesh
+    { header vectorField parcels; echo "("
+      awk -v n="$parcels" 'BEGIN { srand(3); for (i = 0; i < n; i++) printf "(%.6f %.6f %.6f)\n", 0.002 + 0.09*rand(), 0.002 + 0.096*rand(), 0.0005 + 0.05*rand() }'
+      echo ")"; } > constant/parcels
+    # OpenFOAM drops parcels of less than one particle; these stay between floor and lid
+    echo "subModels { injectionModels { model1 { massTotal $(awk -v n="$parcels" 'BEGIN { print 6e-10*n }'); U0 (0 0 -2); } } }" >> constant/kinematicCloudProperties
+    [ "$how" != everything ] || sed -i '1i memory { }\nrecord { maxRows 100000; }' constant/interaction
+    settings 1 1
+    measured spent "$solver" || { bad "growth/$how" "the solver failed: $(tail -n 3 log.measured | tr '\n' ' ')"; return 1; }
+}
+
+case_growth() {
+    local side parcels how row
+    echo "# faces of the floor, parcels, model: user s, largest MB"
+    for row in "4 1000" "40 1000" "4 10000" "4 100000" "40 100000"; do
+        read -r side parcels <<< "$row"
+        for how in plain everything; do
+            grown "$side" "$parcels" "$how" || return
+            ok "growth ($((side*side)) faces, $parcels parcels, $how: $(cat spent))"
+        done
+    done
+}
