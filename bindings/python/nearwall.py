@@ -1,0 +1,181 @@
+"""What happens when a particle hits a wall: libnearwall for Python, with NumPy arrays that are not copied.
+
+    import nearwall
+    model = nearwall.Model.from_file("nearWall.toml")
+    out = model.resolve(v_n=v_n, d=d, T_p=T_p)      # arrays of float64, SI units; numbers stand for all impacts
+    out.e_n, out.e_t, out.p_stick, out.stuck        # arrays
+
+The library is the one that NEARWALL_LIBRARY names, else the installed one beside this file, else whatever the loader
+finds as libnearwall.so.2. A model never changes and may be used by many threads; calls release the interpreter lock.
+Licence: MIT OR Apache-2.0.
+"""
+
+import ctypes
+import os
+from collections import namedtuple
+from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+
+import numpy
+
+ABI_VERSION = 2
+OK = 0
+REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")  # what the numbers in `Outcomes.regime` stand for
+OUTSIDE_VALID_RANGE = 1  # bit of `Outcomes.flags`
+
+# The inputs of an impact, as in nw_impact: speeds [m/s], lengths [m], temperatures [K], omega [rad/s], shares 0 to 1.
+INPUTS = ("v_n", "v_t", "d", "T_p", "T_w", "conversion", "layer_thickness", "film_thickness", "v_gas", "roughness",
+          "omega", "coverage")
+
+Outcomes = namedtuple("Outcomes", "e_n e_t p_stick omega regime stuck flags")
+Speeds = namedtuple("Speeds", "adhesive yielding sticking")
+TemperatureRanges = namedtuple("TemperatureRanges", "particle_low particle_high wall_low wall_high")
+
+
+class Error(Exception):
+    """The library refused; `status` is its number, `index` the impact at fault or None."""
+
+    def __init__(self, status, text, index=None):
+        super().__init__(text if index is None else f"impact {index}: {text}")
+        self.status, self.index = status, index
+
+
+class _Impact(ctypes.Structure):
+    _fields_ = ([("struct_size", c_uint32), ("wall", c_uint32)] + [(name, c_double) for name in INPUTS]
+                + [("seed", c_uint64), ("key", c_uint64), ("melt_thickness", c_double)])
+
+
+class _Impacts(ctypes.Structure):
+    _fields_ = ([("struct_size", c_uint32), ("wall", c_uint32), ("count", c_size_t), ("seed", c_uint64),
+                 ("walls", c_void_p)] + [(name, c_void_p) for name in INPUTS]
+                + [("key", c_void_p), ("melt_thickness", c_void_p)])
+
+
+class _Outcomes(ctypes.Structure):
+    _fields_ = [("struct_size", c_uint32)] + [(name, c_void_p) for name in Outcomes._fields]
+
+
+# The structs of nearwall.h that this module knows.
+STRUCTS = {"nw_impact": _Impact, "nw_impacts": _Impacts, "nw_outcomes": _Outcomes}
+
+
+def _load():
+    here = os.path.dirname(os.path.abspath(__file__))
+    name = f"libnearwall.so.{ABI_VERSION}"
+    beside = os.path.join(here, "..", "..", "..", "lib", name)
+    library = ctypes.CDLL(os.environ.get("NEARWALL_LIBRARY") or (beside if os.path.exists(beside) else name))
+    found = library.nw_abi_version()
+    if found != ABI_VERSION:
+        raise ImportError(f"libnearwall has interface version {found}, this module is for {ABI_VERSION}")
+    message = [c_char_p, c_size_t]
+    doubles = [POINTER(c_double)]
+    for name, arguments in {
+        "nw_model_load": [c_char_p, POINTER(c_void_p)] + message,
+        "nw_model_parse": [c_char_p, c_size_t, c_char_p, POINTER(c_void_p)] + message,
+        "nw_model_find_wall": [c_void_p, c_char_p, POINTER(c_uint32)],
+        "nw_impact_init": [POINTER(_Impact)],
+        "nw_speeds": [c_void_p, POINTER(_Impact)] + 3 * doubles,
+        "nw_temperature_ranges": [c_void_p, c_uint32] + 4 * doubles,
+        "nw_resolve_batch": [c_void_p, POINTER(_Impacts), POINTER(_Outcomes), POINTER(c_size_t)],
+    }.items():
+        function = getattr(library, name)
+        function.argtypes, function.restype = arguments, c_int32
+    library.nw_model_free.argtypes, library.nw_model_free.restype = [c_void_p], None
+    library.nw_status_text.argtypes, library.nw_status_text.restype = [c_int32], c_char_p
+    library.nw_version.argtypes, library.nw_version.restype = [], c_char_p
+    return library
+
+
+_library = _load()
+VERSION = _library.nw_version().decode()
+
+
+def _check(status, message="", index=None):
+    if status != OK:
+        raise Error(status, message or _library.nw_status_text(status).decode(), index)
+
+
+def _column(name, value, count, kind):
+    """An array for C: as it is, or a number repeated."""
+    if numpy.ndim(value) == 0:
+        return numpy.full(count, value, kind)
+    if not isinstance(value, numpy.ndarray) or value.dtype != kind or not value.flags.c_contiguous:
+        raise TypeError(f"{name} has to be a contiguous array of {numpy.dtype(kind).name}")
+    if value.shape != (count,):
+        raise ValueError(f"{name} has shape {value.shape}, there are {count} impacts")
+    return value
+
+
+class Model:
+    """A model file, read; freed with the object."""
+
+    def __init__(self, handle):
+        self._handle = handle
+
+    @classmethod
+    def from_file(cls, path):
+        return cls._read(_library.nw_model_load, os.fsencode(path))
+
+    @classmethod
+    def from_toml(cls, text, name="model"):
+        toml = text.encode()
+        return cls._read(_library.nw_model_parse, toml, len(toml), name.encode())
+
+    @classmethod
+    def _read(cls, function, *arguments):
+        handle, message = c_void_p(), ctypes.create_string_buffer(2048)
+        status = function(*arguments, byref(handle), message, len(message))
+        _check(status, message.value.decode(errors="replace"))
+        return cls(handle)
+
+    def __del__(self):
+        if getattr(self, "_handle", None):
+            _library.nw_model_free(self._handle)
+            self._handle = None
+
+    def find_wall(self, name):
+        """The index of the wall that a patch name belongs to."""
+        wall = c_uint32()
+        _check(_library.nw_model_find_wall(self._handle, name.encode(), byref(wall)))
+        return wall.value
+
+    def resolve(self, v_n, wall=0, seed=0, key=None, **inputs):
+        """Decides len(v_n) impacts. `inputs` are those of INPUTS and melt_thickness, arrays of float64 or numbers; `wall` an
+        index or an array of uint32; `key` an array of uint64, the impact's own index if not given."""
+        unknown = set(inputs) - set(INPUTS) - {"melt_thickness"}
+        if unknown:
+            raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
+        count = 1 if numpy.ndim(v_n) == 0 else len(v_n)
+        columns = {name: _column(name, value, count, numpy.float64) for name, value in inputs.items()}
+        columns["v_n"] = _column("v_n", v_n, count, numpy.float64)
+        if key is not None:
+            columns["key"] = _column("key", key, count, numpy.uint64)
+        if numpy.ndim(wall) > 0:
+            columns["walls"], wall = _column("wall", wall, count, numpy.uint32), 0
+        impacts = _Impacts(struct_size=ctypes.sizeof(_Impacts), wall=wall, count=count, seed=seed,
+                           **{name: column.ctypes.data for name, column in columns.items()})
+        found = Outcomes(*(numpy.empty(count, numpy.float64 if i < 4 else numpy.uint32) for i in range(7)))
+        outcomes = _Outcomes(ctypes.sizeof(_Outcomes), *(column.ctypes.data for column in found))
+        none = ctypes.c_size_t(-1).value
+        first_bad = c_size_t(none)
+        status = _library.nw_resolve_batch(self._handle, byref(impacts), byref(outcomes), byref(first_bad))
+        _check(status, index=None if first_bad.value == none else first_bad.value)
+        return found
+
+    def speeds(self, wall=0, **inputs):
+        """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers as in `resolve`."""
+        impact = _Impact()
+        _check(_library.nw_impact_init(byref(impact)))
+        impact.wall = wall
+        for name, value in inputs.items():
+            if name not in INPUTS + ("melt_thickness",):
+                raise TypeError(f"no such input: {name}")
+            setattr(impact, name, value)
+        found = [c_double() for _ in range(3)]
+        _check(_library.nw_speeds(self._handle, byref(impact), *map(byref, found)))
+        return Speeds(*(number.value for number in found))
+
+    def temperature_ranges(self, wall=0):
+        """Temperatures [K] between which impacts on a wall can be decided."""
+        found = [c_double() for _ in range(4)]
+        _check(_library.nw_temperature_ranges(self._handle, wall, *map(byref, found)))
+        return TemperatureRanges(*(number.value for number in found))

@@ -1,0 +1,200 @@
+//! The binary interface of the C library, as `cpp_shim/abi.txt` keeps it: symbols, sizes and places of struct fields, numbers,
+//! prototypes. Any change needs another `NW_ABI_VERSION`, because programs that were built before would go wrong.
+#![allow(clippy::unwrap_used, reason = "clippy.toml's leave for tests does not reach their helpers")]
+#![allow(clippy::panic, reason = "clippy.toml's leave for tests does not reach their helpers")]
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use common::compile::run;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// `nearwall.h` without comments.
+fn header() -> String {
+    let text = std::fs::read_to_string(root().join("cpp_shim/nearwall.h")).unwrap();
+    let code = text.lines().map(|line| line.split("//").next().unwrap());
+    code.collect::<Vec<_>>().join("\n")
+}
+
+/// What the C compiler makes of every struct and number of the header.
+fn layout(header: &str) -> String {
+    let mut program = String::from(
+        "#include \"nearwall.h\"\n#include <stdio.h>\n#define SIZE(x) (unsigned)sizeof(x)\nint main(void) {\n",
+    );
+    let mut line = |format: &str, values: &str| {
+        writeln!(program, "printf(\"{format}\\n\", {values});").unwrap();
+    };
+    for words in header.lines().map(|line| line.split_whitespace().collect::<Vec<_>>()) {
+        if let ["#define", name, _] = words[..] {
+            line(&format!("number {name} %lld"), &format!("(long long){name}"));
+        }
+    }
+    for (name, fields) in structs(header) {
+        line(
+            &format!("struct {name} size %u align %u"),
+            &format!("SIZE({name}), (unsigned)_Alignof({name})"),
+        );
+        for field in fields {
+            line(
+                &format!("field {name}.{field} at %u size %u"),
+                &format!("(unsigned)offsetof({name}, {field}), SIZE((({name} *)0)->{field})"),
+            );
+        }
+    }
+    program.push_str("return 0; }\n");
+    let folder = tempfile::tempdir().unwrap();
+    let [source, built] = ["abi.c", "abi"].map(|name| folder.path().join(name));
+    std::fs::write(&source, program).unwrap();
+    let compiler = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
+    let mut compiler = Command::new(compiler);
+    compiler.args(["-std=c11", "-Wall", "-Werror", "-I"]).arg(root().join("cpp_shim"));
+    run(compiler.arg(source).arg("-o").arg(&built));
+    run(&mut Command::new(built))
+}
+
+/// Every struct of the header and the names of its fields.
+fn structs(header: &str) -> Vec<(&str, Vec<&str>)> {
+    let bodies = header.split("typedef struct ").skip(1).filter_map(|part| {
+        let (name, rest) = part.split_once(" {")?;
+        if name.contains(';') { None } else { Some((name, rest.split_once('}')?.0)) }
+    });
+    let fields = |body| -> Vec<&str> {
+        let statements = str::split(body, ';').map(str::trim).filter(|field| !field.is_empty());
+        statements.map(|field| field.rsplit([' ', '*']).next().unwrap()).collect()
+    };
+    bodies.map(|(name, body)| (name, fields(body))).collect()
+}
+
+/// Every type and function of the header, without the names of arguments: those may change.
+fn prototypes(header: &str) -> String {
+    let mut found = String::new();
+    for statement in header.split(';') {
+        // What stands before a function or type on lines of its own: the end of a struct, `extern "C" {`, numbers.
+        let code =
+            statement.lines().filter(|line| !line.starts_with(['#', '}']) && !line.contains("extern \"C\""));
+        let words = code.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ");
+        if words.starts_with("typedef") && !words.contains('{') {
+            writeln!(found, "type {}", &words["typedef ".len()..]).unwrap();
+        } else if let Some((name, arguments)) =
+            words.strip_suffix(')').and_then(|words| words.split_once('('))
+        {
+            let types = arguments.split(", ").map(|argument| match argument.rfind([' ', '*']) {
+                Some(end) => argument[..=end].trim(),
+                None => argument,
+            });
+            writeln!(found, "function {name}({})", types.collect::<Vec<_>>().join(", ")).unwrap();
+        }
+    }
+    found
+}
+
+/// What the shared library of this build exports, and its soname.
+fn symbols() -> String {
+    let library = common::library_path();
+    let printed = run(Command::new("nm").args(["--dynamic", "--defined-only"]).arg(&library));
+    let names: BTreeSet<&str> = printed.lines().map(|line| line.rsplit(' ').next().unwrap()).collect();
+    let dynamic = run(Command::new("readelf").args(["--dynamic", "--wide"]).arg(&library).env("LC_ALL", "C"));
+    let soname = dynamic.lines().find(|line| line.contains("(SONAME)")).unwrap();
+    let soname = soname.split(['[', ']']).nth(1).unwrap();
+    names.iter().fold(format!("soname {soname}\n"), |text, name| format!("{text}symbol {name}\n"))
+}
+
+fn fresh() -> String {
+    let header = header();
+    symbols() + &layout(&header) + &prototypes(&header)
+}
+
+/// Whether the interface that is kept may become this one, and why not.
+fn may_follow(kept: &str, fresh: &str) -> Result<(), String> {
+    let version = |text: &str| -> Option<u32> {
+        text.lines().find_map(|line| line.strip_prefix("number NW_ABI_VERSION "))?.parse().ok()
+    };
+    let set = |text: &str| text.lines().map(str::to_owned).collect::<BTreeSet<_>>();
+    let (old, new) = (set(kept), set(fresh));
+    if old == new {
+        return Ok(());
+    }
+    match (version(kept), version(fresh)) {
+        (Some(before), Some(now)) if now > before => return Ok(()),
+        (Some(_), Some(_)) => {}
+        (before, now) => return Err(format!("no NW_ABI_VERSION: {before:?}, {now:?}")),
+    }
+    let gone = old.difference(&new).map(|line| format!("  - {line}\n"));
+    let come = new.difference(&old).map(|line| format!("  + {line}\n"));
+    Err(format!(
+        "the binary interface changed, but NW_ABI_VERSION did not rise:\n{}raise it in src/c_api and the soname in build.rs; \
+         then `NEARWALL_BLESS=1 cargo test --test abi`",
+        gone.chain(come).collect::<String>()
+    ))
+}
+
+fn path() -> PathBuf {
+    root().join("cpp_shim/abi.txt")
+}
+
+#[test]
+fn no_change_without_another_version() {
+    let fresh = fresh();
+    let kept = std::fs::read_to_string(path()).unwrap_or_default();
+    let bless = std::env::var_os("NEARWALL_BLESS").is_some();
+    if !kept.is_empty() {
+        may_follow(&kept, &fresh).unwrap_or_else(|fault| panic!("{fault}"));
+    }
+    if bless {
+        std::fs::write(path(), fresh).unwrap();
+        return;
+    }
+    assert!(
+        kept == fresh,
+        "cpp_shim/abi.txt is of another version; `NEARWALL_BLESS=1 cargo test --test abi` writes it"
+    );
+}
+
+/// Every kind of change is seen; with a risen version it passes, with a fallen one it does not.
+#[test]
+fn every_kind_of_change_is_refused() {
+    let kept = fresh();
+    // The first line that begins so, altered: its last word replaced, or the line dropped or followed by another.
+    let changed = |start: &str, change: &dyn Fn(&str) -> String| {
+        let line = kept.lines().find(|line| line.starts_with(start));
+        let line = line.unwrap_or_else(|| panic!("no line '{start}'"));
+        kept.replacen(&format!("{line}\n"), &change(line), 1)
+    };
+    let last_word = |word: &'static str| {
+        move |line: &str| format!("{} {word}\n", line.rsplit_once(' ').map_or("", |(before, _)| before))
+    };
+    let with_version = |text: &str, step: i64| {
+        let version = "number NW_ABI_VERSION ";
+        let line = text.lines().find(|line| line.starts_with(version)).unwrap();
+        let number: i64 = line[version.len()..].parse().unwrap();
+        text.replace(line, &format!("{version}{}", number + step))
+    };
+    let changes = [
+        ("a symbol goes", changed("symbol nw_resolve", &|_| String::new())),
+        ("a symbol comes", changed("symbol nw_resolve", &|line| format!("{line}\n{line}_twice\n"))),
+        ("a struct's size", changed("struct nw_impact size", &|line| line.replace("size ", "size 1") + "\n")),
+        ("a struct's alignment", changed("struct nw_impact size", &last_word("16"))),
+        ("a field moves", changed("field nw_outcome.e_n at", &|line| line.replace("at ", "at 1") + "\n")),
+        ("a field's size", changed("field nw_outcome.e_n at", &last_word("4"))),
+        ("a field's name", changed("field nw_impact.v_n ", &|line| line.replace("v_n", "v_normal") + "\n")),
+        ("a number", changed("number NW_BAD_STATE", &last_word("77"))),
+        ("an argument", changed("function nw_status nw_speeds(", &last_word("float *)"))),
+        ("a type", changed("type uint32_t nw_regime", &|_| "type uint8_t nw_regime\n".to_owned())),
+        ("the soname", changed("soname", &last_word("libnearwall.so.77"))),
+    ];
+    for (what, text) in &changes {
+        let fault = may_follow(&kept, text).expect_err(what);
+        assert!(fault.contains("NW_ABI_VERSION did not rise"), "{what}: {fault}");
+        assert_eq!(may_follow(&kept, &with_version(text, 1)), Ok(()), "{what}, with another version");
+        assert!(may_follow(&kept, &with_version(text, -1)).is_err(), "{what}, with an older version");
+    }
+    assert_eq!(may_follow(&kept, &kept), Ok(()));
+    assert!(may_follow(&kept, "").is_err() && may_follow("", &kept).is_err());
+}

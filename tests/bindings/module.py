@@ -1,0 +1,58 @@
+"""nearwall.py: its faults have the library's words, its arrays are the caller's own, its numbers agree with each other."""
+
+import sys
+
+import numpy
+
+import nearwall
+
+model = nearwall.Model.from_file(sys.argv[1])
+checks = 0
+
+
+def refused(kind, call, words):
+    global checks
+    checks += 1
+    try:
+        call()
+    except kind as fault:
+        assert words in str(fault), str(fault)
+        return fault
+    raise AssertionError(f"no {kind.__name__} with '{words}'")
+
+
+v_n = numpy.geomspace(0.01, 20, 1000)
+d = numpy.full(1000, 5e-5)
+many = model.resolve(v_n, d=d, T_p=1300.0, T_w=1100.0, seed=7)
+assert 0 < many.stuck.sum() < 1000 and many.e_n.max() > 0.05
+
+# One by one with the key of its index: the same bits as all at once.
+for index in range(0, 1000, 37):
+    one = model.resolve(float(v_n[index]), d=5e-5, T_p=1300.0, T_w=1100.0, seed=7, key=numpy.array([index], numpy.uint64))
+    for name in nearwall.Outcomes._fields:
+        assert getattr(one, name)[0] == getattr(many, name)[index], (index, name)
+
+# Another wall array, and a slice that is contiguous: read in place.
+walls = numpy.zeros(10, numpy.uint32)
+part = model.resolve(v_n[900:910], wall=walls, d=d[900:910], T_p=1300.0, T_w=1100.0)
+assert (part.e_n == many.e_n[900:910]).all() and len(set(part.e_n)) == 10
+
+speeds = model.speeds(d=5e-5, T_p=900.0, T_w=900.0)
+dry = model.resolve(numpy.array([speeds.sticking * 0.999, speeds.sticking * 1.001]), d=5e-5, T_p=900.0, T_w=900.0)
+assert list(dry.stuck) == [1, 0], (speeds, dry)
+ranges = model.temperature_ranges()
+assert 0 <= ranges.particle_low < ranges.particle_high and 0 <= ranges.wall_low < ranges.wall_high, ranges
+assert model.find_wall("default") == 0 and len(nearwall.VERSION.split(".")) == 3
+
+bad = d.copy()
+bad[17] = 0.0
+fault = refused(nearwall.Error, lambda: model.resolve(v_n, d=bad), "impact 17: the impact has no physical meaning")
+assert (fault.status, fault.index) == (7, 17)
+refused(nearwall.Error, lambda: model.find_wall("roof"), "the model has no such wall")
+refused(nearwall.Error, lambda: nearwall.Model.from_file("/nowhere/nearWall.toml"), "/nowhere/nearWall.toml")
+refused(nearwall.Error, lambda: nearwall.Model.from_toml("x = = 1", "mine.toml"), "mine.toml:1:")
+refused(TypeError, lambda: model.resolve(v_n, diameter=d), "no such input: diameter")
+refused(TypeError, lambda: model.resolve(v_n.astype(numpy.float32)), "v_n has to be a contiguous array of float64")
+refused(TypeError, lambda: model.resolve(v_n, d=numpy.full(2000, 5e-5)[::2]), "d has to be a contiguous array of float64")
+refused(ValueError, lambda: model.resolve(v_n, d=d[:10]), "d has shape (10,), there are 1000 impacts")
+print(f"{checks} faults, {len(v_n)} impacts")
