@@ -241,7 +241,7 @@ impl<'a> View<'a> {
         let most =
             Regime::ALL.iter().max_by(|a, b| regimes[**a as usize].total_cmp(&regimes[**b as usize]))?;
         let share = percent(ratio(regimes[*most as usize], all));
-        (all > 0.0).then(|| format!("In {label} {share} of the captured mass is caught as {}", most.name()))
+        (all > 0.0).then(|| format!("{share} of the captured mass of {label} is caught as {}", most.name()))
     }
 
     /// What stock models of the same cloud do at walls where our model holds a part of what arrives.
