@@ -349,7 +349,7 @@ fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
         wall: bytes.below(3) as u32,
         count: claimed,
         seed: bytes.word(),
-        walls: if bytes.byte() % 2 == 0 { null() } else { walls.as_ptr() },
+        walls: if bytes.below(2) == 0 { null() } else { walls.as_ptr() },
         v_n,
         v_t,
         d,
