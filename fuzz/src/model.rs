@@ -2,13 +2,25 @@
 
 use nearwall::{Draw, Impact, Model};
 
+use super::bytes::file;
 use super::place;
 
 const FILE: &str = "m.toml";
 
+/// Models that are accepted, with all laws and effects.
+const WHOLE: [&str; 6] = [
+    include_str!("../../tutorials/slaggingGasifier/constant/nearWall.toml"),
+    include_str!("../../tutorials/standalone/waxRig.model.toml"),
+    include_str!("../../tutorials/standalone/tungstenDust.model.toml"),
+    include_str!("models/own-materials.toml"),
+    include_str!("models/effects.toml"),
+    include_str!("models/droplet.toml"),
+];
+
 /// Any text is refused with its place, or is a model that decides every impact or says why not.
 pub fn model(bytes: &[u8]) {
-    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Some(text) = file(&WHOLE, bytes) else { return };
+    let text = text.as_ref();
     match Model::from_toml(FILE, text) {
         Err(error) => place(&error.to_string(), FILE, text),
         Ok(model) => {
