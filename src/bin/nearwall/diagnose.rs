@@ -58,7 +58,6 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     for note in &data.notes {
         eprintln!("nearwall: {note}");
     }
-    let results = open(arguments)?;
     let bar = progress::spinner("candidates tried");
     let options = Options { seed: arguments.seed, level: arguments.level };
     let (diagnosis, extended) =
@@ -67,14 +66,14 @@ pub fn run(arguments: &Arguments) -> CommandResult {
             DiagnosisError::Unextendable(_) => format!("{}: {error}", arguments.model.display()),
         })?;
     bar.finish_and_clear();
-    write(results, arguments, &diagnosis, &extended)?;
+    write(open(arguments)?, arguments, &diagnosis, &extended)?;
     crate::print(&summary(&diagnosis, &arguments.out))
 }
 
 /// What is written, in this order.
 const RESULTS: [&str; 3] = ["extended.toml", "diagnosis.json", "report.html"];
 
-/// Opens all results before the work: what cannot be written is said now.
+/// Opens all results before any is written.
 fn open(arguments: &Arguments) -> Result<[Aside; 3], String> {
     let folder = &arguments.out;
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
