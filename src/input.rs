@@ -76,6 +76,11 @@ impl Document {
         &self.name
     }
 
+    /// The text as it was read.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Parses the text and hands its top table to `read`, then refuses the keys that `read` did not ask for.
     ///
     /// # Errors

@@ -34,6 +34,8 @@
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
+#[cfg(feature = "command")]
+pub mod aside;
 pub mod c_api;
 pub mod capture;
 #[cfg(feature = "command")]

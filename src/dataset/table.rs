@@ -100,24 +100,26 @@ impl<R: Read> Table<R> {
         &mut self,
         cells: &mut csv::StringRecord,
     ) -> Result<Option<Result<u64, BadRow>>, DatasetError> {
-        let read = self.reader.read_record(cells);
+        // As bytes: a row that is not UTF-8 has its lines counted, too.
+        let mut record = std::mem::take(cells).into_byte_record();
+        if !self.reader.read_byte_record(&mut record).map_err(|error| self.unreadable(&error))? {
+            return Ok(None);
+        }
         let end = self.reader.position();
         // Every record ends with its line feed, but for one in quotation marks that nobody closed.
         let open = self.reader.get_ref().ends_at(end.byte());
         let last = self.skipped + end.line() - u64::from(!open);
-        match read {
-            Ok(false) => Ok(None),
-            Ok(true) => {
-                // The reader takes the first of the comments before a record for its line; the end is certain.
-                let inside = cells.as_slice().bytes().filter(|byte| *byte == b'\n').count();
+        // The reader takes the first of the comments before a record for its line; the end is certain.
+        let inside = record.as_slice().iter().filter(|byte| **byte == b'\n').count();
+        let line = last.saturating_sub(inside as u64);
+        Ok(Some(match csv::StringRecord::from_byte_record(record) {
+            Ok(read) => {
+                *cells = read;
                 cells.trim();
-                Ok(Some(self.check_width(cells, last.saturating_sub(inside as u64))))
+                self.check_width(cells, line)
             }
-            Err(error) if matches!(error.kind(), csv::ErrorKind::Utf8 { .. }) => {
-                Ok(Some(Err(BadRow { line: last, reason: "not UTF-8".to_owned() })))
-            }
-            Err(error) => Err(self.unreadable(&error)),
-        }
+            Err(_) => Err(BadRow { line, reason: "not UTF-8".to_owned() }),
+        }))
     }
 
     fn check_width(&self, cells: &csv::StringRecord, line: u64) -> Result<u64, BadRow> {
@@ -182,5 +184,13 @@ mod tests {
         let bad = table.next_into(&mut cells).unwrap().unwrap().unwrap_err();
         assert_eq!((bad.line, bad.reason.as_str()), (2, "not UTF-8"));
         assert_eq!(table.next_into(&mut cells).unwrap(), Some(Ok(3)));
+        let mut lines = |text: &[u8]| {
+            let mut table = Table::open("t.csv", text, Layout::default(), |_| false).unwrap();
+            let mut next =
+                || table.next_into(&mut cells).unwrap().map(|row| row.unwrap_or_else(|bad| bad.line));
+            [next(), next(), next()]
+        };
+        assert_eq!(lines(b"a\n\"\xff"), [Some(2), None, None], "in quotation marks that nobody closes");
+        assert_eq!(lines(b"a\n\"x\n\n\xff\n\"\n1\n"), [Some(2), Some(6), None], "over several lines");
     }
 }

@@ -51,13 +51,17 @@ pub fn restitution(speed: f64, adhesive: f64, yielding: f64) -> f64 {
 
 /// Yield and sticking velocity `[v_y, v_s]` [m/s] of the law, from `v_adh` and `v_y` [m/s] of Thornton–Ning.
 pub fn speeds(adhesive: f64, yielding: f64) -> [f64; 2] {
+    if !adhesive.is_finite() {
+        return [0.0, adhesive];
+    }
     let impact = YieldingContact::new(adhesive, yielding);
-    let own_yield = yielding * impact.yield_energy.max(0.0).sqrt();
+    // The last `max` of each is for contacts so small that the polynomials leave the numbers.
+    let own_yield = (yielding * impact.yield_energy.max(0.0).sqrt()).max(0.0);
     if adhesive <= own_yield {
         return [own_yield, adhesive];
     }
     let y = crossing(impact.start, |y| impact.recovered(y));
-    [own_yield, yielding * impact.work(y).max(0.0).sqrt()]
+    [own_yield, (yielding * impact.work(y).max(0.0).sqrt()).max(adhesive)]
 }
 
 /// A contact in the units of its Hertz yield.
@@ -163,6 +167,21 @@ mod tests {
     use super::super::thornton_ning::{plastic_term, sticking_velocity};
     use super::*;
     use approx::assert_relative_eq;
+
+    /// The fuzzer's: the polynomials of a contact far below an atom leave the numbers, and it has to stick all the same.
+    #[test]
+    fn adhesion_beyond_all_numbers_holds() {
+        for adhesive in [1e30, 1e100, 1e200, 1e300, f64::MAX, f64::INFINITY] {
+            for yielding in [5e-324, 1e-100, 1e-3, 1.0] {
+                let [own_yield, sticking] = speeds(adhesive, yielding);
+                assert!(
+                    own_yield == 0.0 && sticking >= adhesive,
+                    "{adhesive:e} {yielding:e}: {own_yield} {sticking:e}"
+                );
+                assert_eq!(restitution(0.5 * adhesive.min(f64::MAX), adhesive, yielding), 0.0);
+            }
+        }
+    }
 
     #[test]
     fn without_adhesion_it_is_the_plastic_term() {

@@ -35,7 +35,8 @@ pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
 /// Adhesive velocity `v_adh` [m/s] of a particle of `diameter` [m].
 pub fn adhesive_velocity(contact: &Contact, diameter: f64) -> f64 {
     let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
-    let group = work_of_adhesion / (0.5 * diameter);
+    // Half of the smallest number would be 0, and 0/0 without adhesion.
+    let group = 2.0 * work_of_adhesion / diameter;
     // (group⁵ / (rho³ E*²))^(1/6), with the powers split so that nothing overflows.
     ADHESIVE_FACTOR * (group.powi(5) / (reduced_modulus * reduced_modulus)).cbrt().sqrt() / density.sqrt()
 }
@@ -105,6 +106,22 @@ mod tests {
     use crate::material::Mechanical;
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
+
+    /// The fuzzer's: half of this diameter is 0.
+    #[test]
+    fn without_adhesion_nothing_adheres_at_any_diameter() {
+        let solid = Mechanical {
+            density: 1000.0,
+            youngs_modulus: 1e9,
+            poisson_ratio: 0.3,
+            yield_strength: 1e7,
+            surface_energy: 0.03,
+        };
+        let contact = Contact::new(&solid, &solid, 1.0, Some(0.0));
+        for diameter in [5e-324, 1e-300, 1e-4, f64::MAX] {
+            assert_eq!(adhesive_velocity(&contact, diameter), 0.0);
+        }
+    }
 
     #[test]
     fn factors_are_the_closed_forms() {

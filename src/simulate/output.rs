@@ -8,6 +8,7 @@ use super::case::{Case, sweep_unit};
 use super::life::{Hit, Life};
 use super::tally::{Share, Tally, WallTally, ratio};
 use super::{Run, page};
+use crate::aside::{Aside, of_csv, refused};
 use crate::impact::{INPUTS, Regime};
 
 /// Columns before and after the inputs of the data file.
@@ -307,36 +308,20 @@ pub fn write(
     folder: &std::path::Path,
     mut progress: impl FnMut(),
 ) -> Result<Vec<Run>, String> {
-    let named =
-        |name: &str, error: &dyn std::fmt::Display| format!("{}: {error}", folder.join(name).display());
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    // Written beside their places and moved there when whole, so a failing run spoils nothing.
-    let aside = |name: &str| folder.join(format!("{name}.part"));
-    let impacts = std::fs::File::create(aside("impacts.csv")).map_err(|e| named("impacts.csv", &e))?;
-    let mut recorder =
-        ImpactRecorder::new(std::io::BufWriter::new(impacts), case).map_err(|e| named("impacts.csv", &e))?;
-    let runs = run_recorded(case, &mut recorder, &mut progress)?;
-    let left_out = recorder.left_out;
-    let mut impacts = recorder.finish().map_err(|e| named("impacts.csv", &e))?;
-    impacts.flush().map_err(|e| named("impacts.csv", &e))?;
-    let json = serde_json::to_string_pretty(&summary(case, &runs)).map_err(|e| named("summary.json", &e))?;
-    let html = page::page(case, &runs, left_out).map_err(|e| named("report.html", &e))?;
-    for (name, text) in [("summary.json", json + "\n"), ("report.html", html)] {
-        std::fs::write(aside(name), text).map_err(|e| named(name, &e))?;
-    }
-    for name in ["impacts.csv", "summary.json", "report.html"] {
-        std::fs::rename(aside(name), folder.join(name)).map_err(|e| named(name, &e))?;
-    }
-    Ok(runs)
-}
-
-fn run_recorded<W: Write>(
-    case: &mut Case,
-    recorder: &mut ImpactRecorder<W>,
-    progress: &mut impl FnMut(),
-) -> Result<Vec<Run>, String> {
-    super::run(case, |case, value, number, life| {
+    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    let open = |name: &str| Aside::new(&folder.join(name), &[]);
+    let (impacts, mut json, mut html) = (open("impacts.csv")?, open("summary.json")?, open("report.html")?);
+    let at_impacts = |error: csv::Error| refused(&folder.join("impacts.csv"), &of_csv(error));
+    let mut recorder = ImpactRecorder::new(impacts, case).map_err(at_impacts)?;
+    let runs = super::run(case, |case, value, number, life| {
         progress();
-        recorder.record(case, value, number, life).map_err(|error| format!("impacts.csv: {error}"))
-    })
+        recorder.record(case, value, number, life).map_err(at_impacts)
+    })?;
+    let left_out = recorder.left_out;
+    let impacts = recorder.finish().map_err(|error| at_impacts(error.into()))?;
+    let summary = serde_json::to_string_pretty(&summary(case, &runs));
+    json.put(&(summary.map_err(|error| format!("summary.json: {error}"))? + "\n"))?;
+    html.put(&page::page(case, &runs, left_out)?)?;
+    Aside::into_place(vec![impacts, json, html])?;
+    Ok(runs)
 }

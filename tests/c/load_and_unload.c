@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ROUNDS 100
+#define ROUNDS 1000
 
 static const char *library, *model_file;
 

@@ -6,7 +6,7 @@ use nearwall::c_api::nw_impact;
 use nearwall::{Draw, Impact, Model};
 
 use crate::calls::{c_case, c_outcome};
-use crate::common::compile::{Build, Language, Program, compiles, shared_library};
+use crate::common::compile::{Build, Language, Program, compiles, next_version, shared_library};
 use crate::common::golden::{Golden, golden_cases};
 use crate::common::random::{Case, EVERY_REGIME, hostile_cases, random_cases, seed};
 
@@ -65,13 +65,22 @@ fn any_floating_point_state_is_survived_and_kept() {
 }
 
 #[test]
-fn the_library_is_loaded_and_unloaded_a_hundred_times() {
+fn the_library_is_loaded_and_unloaded_a_thousand_times() {
     for build in BUILDS {
         let program = Program::build(Language::C("c99"), "load_and_unload.c", build);
         write(program.folder(), 0, EVERY_REGIME, &[]);
         let printed = program.run(&[&shared_library(build), &program.folder().join("0.toml")]);
-        assert_eq!(printed, "100 rounds\n");
+        assert_eq!(printed, "1000 rounds\n");
     }
+}
+
+/// A solver with two plugins, each of which brought its own: both answer for themselves, with the same bits.
+#[test]
+fn two_versions_live_in_one_process() {
+    let program = Program::build(Language::C("c99"), "two_versions.c", Build::Lean);
+    write(program.folder(), 0, EVERY_REGIME, &random_cases(seed(), 300));
+    let printed = program.run(&[&next_version(), program.folder()]);
+    assert_eq!(printed, format!("1 {} and 99 99.0.0, 300 impacts\n", env!("CARGO_PKG_VERSION")));
 }
 
 /// Writes a model and its impacts, as the programs read them.

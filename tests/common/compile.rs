@@ -69,8 +69,17 @@ pub enum Build {
     Lean,
 }
 
-/// The shared library of a build.
+/// Words that `tests/hard` adds: options of the compiler, and what runs the program.
+fn words(variable: &str) -> Vec<String> {
+    let text = std::env::var(variable).unwrap_or_default();
+    text.split_whitespace().map(str::to_owned).collect()
+}
+
+/// The shared library of a build; `tests/hard` may put another in its place.
 pub fn shared_library(build: Build) -> PathBuf {
+    if let Some(other) = std::env::var_os("NEARWALL_LIBRARY") {
+        return other.into();
+    }
     match build {
         Build::Tested => super::library_path(),
         Build::Lean => lean_library().to_owned(),
@@ -90,6 +99,53 @@ fn lean_library() -> &'static Path {
     })
 }
 
+/// The next version of the library, from a copy of the source with another version, ABI number and soname.
+pub fn next_version() -> PathBuf {
+    let folder = root().join("target/next-version");
+    copy(&root().join("src"), &folder.join("src"));
+    let edited = |file: &str, pairs: &[(&str, &str)]| {
+        let mut text = std::fs::read_to_string(root().join(file)).unwrap();
+        for (from, to) in pairs {
+            assert!(text.contains(from), "{file} no longer has {from}");
+            text = text.replace(from, to);
+        }
+        write_if_other(&folder.join(file), text.as_bytes());
+    };
+    let version = format!("version = \"{}\"\nedition", env!("CARGO_PKG_VERSION"));
+    let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
+    let members = manifest.lines().find(|line| line.starts_with("members = ")).unwrap();
+    let abi = nearwall::c_api::NW_ABI_VERSION;
+    edited("Cargo.toml", &[(&version, "version = \"99.0.0\"\nedition"), (members, "members = []")]);
+    edited("build.rs", &[(&format!("libnearwall.so.{abi}"), "libnearwall.so.99")]);
+    edited("src/c_api/mod.rs", &[(&format!("NW_ABI_VERSION: u32 = {abi};"), "NW_ABI_VERSION: u32 = 99;")]);
+    write_if_other(&folder.join("Cargo.lock"), &std::fs::read(root().join("Cargo.lock")).unwrap());
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--quiet"]);
+    run(cargo.arg("--target-dir").arg(folder.join("target")).current_dir(&folder));
+    folder.join("target/release/libnearwall.so")
+}
+
+fn copy(from: &Path, to: &Path) {
+    for entry in std::fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let place = to.join(path.file_name().unwrap());
+        if path.is_dir() {
+            copy(&path, &place);
+        } else if !place.ends_with("src/c_api/mod.rs") {
+            write_if_other(&place, &std::fs::read(path).unwrap());
+        }
+    }
+}
+
+/// A file that stays as it is keeps its time, so that cargo builds nothing twice.
+fn write_if_other(place: &Path, bytes: &[u8]) {
+    if std::fs::read(place).is_ok_and(|there| there == bytes) {
+        return;
+    }
+    std::fs::create_dir_all(place.parent().unwrap()).unwrap();
+    std::fs::write(place, bytes).unwrap();
+}
+
 /// A program of `tests/c`, compiled, linked to the library and ready to run where it finds it by its soname.
 pub struct Program {
     folder: TempDir,
@@ -102,7 +158,7 @@ impl Program {
         std::fs::copy(shared_library(build), folder.path().join("libnearwall.so.2")).unwrap();
         std::os::unix::fs::symlink("libnearwall.so.2", folder.path().join("libnearwall.so")).unwrap();
         let mut compiler = language.compiler();
-        compiler.arg("-O2").arg(root().join("tests/c").join(source));
+        compiler.arg("-O2").args(words("NEARWALL_CFLAGS")).arg(root().join("tests/c").join(source));
         compiler.arg("-o").arg(folder.path().join("program")).arg("-L").arg(folder.path());
         run(compiler.args(["-Wl,-rpath,$ORIGIN", "-lnearwall", "-lm", "-ldl", "-lpthread"]));
         Self { folder }
@@ -115,6 +171,12 @@ impl Program {
 
     /// Runs it; it has to succeed. Gives what it printed.
     pub fn run(&self, arguments: &[&Path]) -> String {
-        run(Command::new(self.folder().join("program")).args(arguments))
+        let program = self.folder().join("program");
+        let mut runner = words("NEARWALL_RUNNER").into_iter();
+        let mut command = runner.next().map_or_else(|| Command::new(&program), Command::new);
+        if command.get_program() != program {
+            command.args(runner).arg(program);
+        }
+        run(command.args(arguments))
     }
 }

@@ -4,8 +4,10 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use nearwall::Model;
+use nearwall::aside::{Aside, refused};
 use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
 use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose};
+use nearwall::input::Document;
 use nearwall::report::diagnosis_page;
 
 use crate::{CommandResult, progress};
@@ -45,9 +47,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if !(arguments.level > 0.0 && arguments.level < 0.5) {
         return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
     }
-    let model = Model::from_file(&arguments.model)?;
-    let text = std::fs::read_to_string(&arguments.model)
-        .map_err(|error| format!("{}: {error}", arguments.model.display()))?;
+    // Once: the file may be replaced while this runs.
+    let document = Document::from_file(&arguments.model)?;
+    let model = Model::from_toml(document.name(), document.text())?;
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
@@ -59,27 +61,42 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let bar = progress::spinner("candidates tried");
     let options = Options { seed: arguments.seed, level: arguments.level };
     let (diagnosis, extended) =
-        diagnose(&model, &text, &data, options, &|| bar.inc(1)).map_err(|error| match error {
+        diagnose(&model, document.text(), &data, options, &|| bar.inc(1)).map_err(|error| match error {
             DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
             DiagnosisError::Unextendable(_) => format!("{}: {error}", arguments.model.display()),
         })?;
     bar.finish_and_clear();
-    write(&arguments.out, arguments, &diagnosis, &extended)?;
+    write(open(arguments)?, arguments, &diagnosis, &extended)?;
     crate::print(&summary(&diagnosis, &arguments.out))
 }
 
-fn write(folder: &Path, arguments: &Arguments, diagnosis: &Diagnosis, extended: &str) -> CommandResult {
-    std::fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+/// What is written, in this order.
+const RESULTS: [&str; 3] = ["extended.toml", "diagnosis.json", "report.html"];
+
+/// Opens all results before any is written.
+fn open(arguments: &Arguments) -> Result<[Aside; 3], String> {
+    let folder = &arguments.out;
+    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    let columns = arguments.columns.as_deref();
+    let inputs: Vec<&Path> =
+        [arguments.data.as_path(), &arguments.model].into_iter().chain(columns).collect();
+    let [model, json, page] = RESULTS.map(|name| Aside::new(&folder.join(name), &inputs));
+    Ok([model?, json?, page?])
+}
+
+fn write(
+    mut results: [Aside; 3],
+    arguments: &Arguments,
+    diagnosis: &Diagnosis,
+    extended: &str,
+) -> CommandResult {
     let names = [arguments.data.display().to_string(), arguments.model.display().to_string()];
     let page = diagnosis_page(diagnosis, &names, extended)?;
     let json = serde_json::to_string_pretty(diagnosis)? + "\n";
-    for (name, content) in
-        [("extended.toml", extended), ("diagnosis.json", json.as_str()), ("report.html", page.as_str())]
-    {
-        let path = folder.join(name);
-        std::fs::write(&path, content).map_err(|error| format!("{}: {error}", path.display()))?;
+    for (result, text) in results.iter_mut().zip([extended, &json, &page]) {
+        result.put(text)?;
     }
-    Ok(())
+    Ok(Aside::into_place(results.into())?)
 }
 
 fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {

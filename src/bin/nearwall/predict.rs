@@ -1,9 +1,10 @@
 //! `nearwall predict`: what the model says of each impact in a CSV file.
 
 use std::fs::File;
-use std::io::{BufWriter, Write};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
+use nearwall::aside::{Aside, of_csv, refused};
 use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
 use nearwall::{Draw, Model};
 
@@ -48,18 +49,14 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     }
     note_assumptions(&file, &reader);
     match &arguments.output {
-        None => predict(&model, &walls, &mut reader, &mut std::io::stdout().lock()),
-        // A device or pipe is written to; a file is replaced.
-        Some(path) if path.exists() && !path.is_file() => {
-            let device = File::options().write(true).open(path);
-            predict(&model, &walls, &mut reader, &mut device.map_err(|error| at(path, &error))?)
+        None => {
+            let done = predict(&model, &walls, &mut reader, &mut std::io::stdout().lock());
+            done.map_err(|error| at(Path::new("standard output"), error))
         }
         Some(path) => {
-            let mut writer = BufWriter::new(scratch_beside(path).map_err(|error| at(path, &error))?);
-            predict(&model, &walls, &mut reader, &mut writer)?;
-            let scratch = writer.into_inner().map_err(|error| at(path, error.error()))?;
-            scratch.persist(path).map_err(|error| at(path, &error.error))?;
-            Ok(())
+            let mut aside = Aside::new(path, &[&arguments.impacts, &arguments.model])?;
+            predict(&model, &walls, &mut reader, &mut aside).map_err(|error| at(path, error))?;
+            Ok(Aside::into_place(vec![aside])?)
         }
     }
 }
@@ -76,18 +73,13 @@ fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
     }
 }
 
-fn at(path: &Path, error: &std::io::Error) -> String {
-    format!("{}: {error}", path.display())
-}
-
-/// A file beside the result's place, to be moved there when it is whole: a failing run spoils nothing.
-fn scratch_beside(path: &Path) -> std::io::Result<tempfile::NamedTempFile> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    // As for any new file: what the user's umask leaves of it.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder)
+/// Names the place in an error of writing; a reader that goes away is left as it is.
+fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Error> {
+    match error.downcast::<csv::Error>().map(|error| of_csv(*error)) {
+        Ok(error) if error.kind() == ErrorKind::BrokenPipe => error.into(),
+        Ok(error) => refused(place, &error).into(),
+        Err(other) => other,
+    }
 }
 
 fn predict(
@@ -123,7 +115,7 @@ fn predict(
             }
         }
     }
-    writer.flush()?;
+    writer.flush().map_err(csv::Error::from)?;
     if let Some(note) = strange {
         eprintln!("nearwall: {note}");
     }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use nearwall::aside::Aside;
 use nearwall::report::{openfoam, sweep};
 
 use crate::CommandResult;
@@ -27,7 +28,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         && table.extension().is_some_and(|ending| ending == "csv")
     {
         let output = arguments.output.clone().unwrap_or_else(|| table.with_extension("html"));
-        return write(&output, &sweep::page(table)?);
+        return write(&output, &[table], &sweep::page(table)?);
     }
     let mut results = Vec::new();
     for case in &arguments.cases {
@@ -38,7 +39,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         (None, [case]) => case.join("report.html"),
         (None, _) => PathBuf::from("report.html"),
     };
-    write(&output, &openfoam::page(&results)?)
+    write(&output, &[], &openfoam::page(&results)?)
 }
 
 /// The path from the root, as a browser wants it.
@@ -46,7 +47,9 @@ pub fn whole(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
-fn write(output: &Path, page: &str) -> CommandResult {
-    std::fs::write(output, page).map_err(|error| format!("{}: {error}", output.display()))?;
+fn write(output: &Path, inputs: &[&Path], page: &str) -> CommandResult {
+    let mut aside = Aside::new(output, inputs)?;
+    aside.put(page)?;
+    Aside::into_place(vec![aside])?;
     crate::print(&format!("open {}\n", whole(output).display()))
 }
