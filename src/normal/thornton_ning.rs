@@ -35,10 +35,15 @@ pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
 /// Adhesive velocity `v_adh` [m/s] of a particle of `diameter` [m].
 pub fn adhesive_velocity(contact: &Contact, diameter: f64) -> f64 {
     let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
-    // Half of the smallest number would be 0, and 0/0 without adhesion.
-    let group = 2.0 * work_of_adhesion / diameter;
+    if work_of_adhesion == 0.0 {
+        return 0.0;
+    }
+    let group = work_of_adhesion / (0.5 * diameter);
     // (group⁵ / (rho³ E*²))^(1/6), with the powers split so that nothing overflows.
-    ADHESIVE_FACTOR * (group.powi(5) / (reduced_modulus * reduced_modulus)).cbrt().sqrt() / density.sqrt()
+    let ratio = group.powi(5) / (reduced_modulus * reduced_modulus);
+    // Where both are beyond all numbers, it holds.
+    let ratio = if ratio.is_nan() { f64::INFINITY } else { ratio };
+    ADHESIVE_FACTOR * ratio.cbrt().sqrt() / density.sqrt()
 }
 
 /// Yield velocity `v_y` [m/s].
@@ -121,6 +126,8 @@ mod tests {
         for diameter in [5e-324, 1e-300, 1e-4, f64::MAX] {
             assert_eq!(adhesive_velocity(&contact, diameter), 0.0);
         }
+        let beyond = Contact { reduced_modulus: 1e300, work_of_adhesion: 1e308, ..contact };
+        assert_eq!(adhesive_velocity(&beyond, 1e-4), f64::INFINITY);
     }
 
     #[test]
