@@ -80,7 +80,8 @@ fn two_versions_live_in_one_process() {
     let program = Program::build(Language::C("c99"), "two_versions.c", Build::Lean);
     write(program.folder(), 0, EVERY_REGIME, &random_cases(seed(), 300));
     let printed = program.run(&[&next_version(), program.folder()]);
-    assert_eq!(printed, format!("1 {} and 99 99.0.0, 300 impacts\n", env!("CARGO_PKG_VERSION")));
+    let (abi, version) = (nearwall::c_api::NW_ABI_VERSION, env!("CARGO_PKG_VERSION"));
+    assert_eq!(printed, format!("{abi} {version} and 99 99.0.0, 300 impacts\n"));
 }
 
 /// Writes a model and its impacts, as the programs read them.
