@@ -1,7 +1,8 @@
-# Rows of results/probe.csv from a run, one for each size: the lines of reference.awk, then the cloud's last `d` and `active`,
-# then the list of arrivals at the tube (tube.post).
+# Rows of results/probe.csv from a run, one for each size: the lines of reference.awk, then the list of arrivals at the tube
+# (tube.post).
 #
 #   -v rows=500     particles of a size on one tube radius
+#   -v deposit=FILE diameters of the parcels that lie on the tube at the end; not there when none does
 #   -v header=1     print the names of the columns
 #
 # impaction: particles that arrive (once, however often they come back) over those released within one radius, known to half a
@@ -18,13 +19,13 @@ BEGIN {
             "stuck,capture,stuck_of_arrived,v_n_mean_m_s,angle_mean_deg,T_mean_K"
         exit
     }
+    # A list of the cloud: a line each, between the brackets
+    while ((getline line < deposit) > 0) {
+        if (line ~ /^\(/) inside = 1; else if (line ~ /^\)/) inside = 0; else if (inside) stuck[size(line)]++
+    }
 }
 
 file() == 1 { kinds++; name_of[kinds] = $1; stk[$1] = $2; eff[$1] = $3; re[$1] = $4; paths[$1] = $5; fit[$1] = $6; next }
-
-# A list of the cloud: a line each, between the brackets
-files == 2 { if (/^\(/) inside = 1; else if (/^\)/) inside = 0; else if (inside) d[parcels++] = size($1); next }
-files == 3 { if (/^\(/) inside = 1; else if (/^\)/) inside = 0; else if (inside) { if ($1 == 0) stuck[d[parcel]]++; parcel++ } next }
 
 /^#/ { next }
 
@@ -40,7 +41,6 @@ files == 3 { if (/^\(/) inside = 1; else if (/^\)/) inside = 0; else if (inside)
 
 END {
     if (header) exit
-    if (parcel != parcels) { print name ": " parcels " sizes of parcels, " parcel " states" > "/dev/stderr"; exit 1 }
     for (i = 1; i <= kinds; i++) {
         k = name_of[i]
         printf "%s,%s,%s,%s,%s,%s,%d,%.4f,%s,%s,%d,%.4f,", name, stk[k], k, eff[k], re[k], T, n[k], \
