@@ -40,6 +40,7 @@ pub mod dataset;
 pub mod diagnose;
 pub mod draw;
 pub mod effect;
+mod elementary;
 pub mod impact;
 pub mod input;
 pub mod material;

@@ -23,6 +23,7 @@ mod yield_ratio;
 
 use std::sync::Arc;
 
+use crate::elementary::exponential;
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
 use crate::normal::Contact;
@@ -248,9 +249,15 @@ fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputErro
 /// odds change by e where `asymmetry` is 1.
 fn rise(value: f64, middle: f64, width: f64, asymmetry: f64) -> f64 {
     if asymmetry == 1.0 {
-        return 1.0 / (1.0 + ((middle - value) / width).exp());
+        return logistic(value, middle, width.recip());
     }
     (1.0 + (asymmetry.recip().exp2() - 1.0) * ((middle - value) / width).exp()).powf(-asymmetry)
+}
+
+/// `1 / (1 + exp((middle - value) sharpness))`.
+#[inline(always)]
+fn logistic(value: f64, middle: f64, sharpness: f64) -> f64 {
+    1.0 / (1.0 + exponential((middle - value) * sharpness))
 }
 
 /// A factor on a strength, kept within twelve decades either way: beyond, a solid is none, and numbers would overflow.
