@@ -5,8 +5,10 @@
 //! stickiness of particle and wall, normal law, effects on `e_n`, what stickiness takes of it, tangential law, effects on
 //! `e_t`, back to the mean wall, capture. [`Model::explain`] walks the same way and notes what each term did.
 
+pub mod block;
 mod describe;
 mod facet;
+mod plan;
 mod read;
 mod wall;
 
@@ -22,6 +24,7 @@ use crate::normal::{Contact, NormalLaw, Speeds};
 use crate::tangential::{Glance, TangentialLaw};
 
 use facet::Facet;
+use plan::Plan;
 pub use wall::Wall;
 
 /// Everything that decides what happens when a particle hits a wall. Immutable once read.
@@ -35,6 +38,8 @@ pub struct Model {
     normal: NormalLaw,
     tangential: TangentialLaw,
     terms: Vec<Term>,
+    /// For each wall its prepared numbers, where that is all its impacts need.
+    plans: Vec<Option<Plan>>,
 }
 
 /// What one term did to one impact.
@@ -102,13 +107,19 @@ impl Model {
     /// The same model with other terms.
     #[must_use]
     pub fn with_terms(&self, terms: Vec<Term>) -> Self {
-        Self { terms, ..self.clone() }
+        Self { terms, ..self.clone() }.prepared()
     }
 
     /// The same model with other laws.
     #[must_use]
     pub fn with_laws(&self, normal: NormalLaw, tangential: TangentialLaw) -> Self {
-        Self { normal, tangential, ..self.clone() }
+        Self { normal, tangential, ..self.clone() }.prepared()
+    }
+
+    /// The model with the plans that belong to it.
+    fn prepared(mut self) -> Self {
+        self.plans = self.walls.iter().map(|wall| Plan::new(&self, wall)).collect();
+        self
     }
 
     /// The index of the wall that a patch name belongs to: the wall of that name, else the last one whose name is a
@@ -150,6 +161,10 @@ impl Model {
     /// # Errors
     /// [`ImpactError`] for an impact without physical meaning, or a temperature outside a property table.
     pub fn resolve(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
+        if let Some(Some(plan)) = self.plans.get(wall) {
+            impact.check()?;
+            return Ok(plan.one(impact, draw));
+        }
         self.walk(wall, impact, |stream| draw.uniform(stream), |_, _, _| {})
     }
 
@@ -297,7 +312,7 @@ impl Model {
             normal_restitution: e_n,
             tangential_restitution: e_t,
             sticking_probability: probability,
-            stuck: uniform(stream::CAPTURE) < probability,
+            stuck: captured(probability, uniform(stream::CAPTURE)),
             spin,
             regime: Regime::of(
                 sticky.particle >= Stickiness::THRESHOLD,
@@ -315,4 +330,10 @@ impl Model {
             && wall.material().holds_at(impact.wall_temperature)
             && self.terms.iter().all(|term| term.holds_for(impact)))
     }
+}
+
+/// Whether a particle is captured: for certain, or by a number in (0, 1) that was drawn for it.
+#[inline(always)]
+fn captured(probability: f64, drawn: f64) -> bool {
+    (probability >= 1.0) | (drawn < probability)
 }

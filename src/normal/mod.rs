@@ -7,7 +7,9 @@ mod raised_pull_off;
 mod thornton_ning;
 
 pub use contact::{Contact, reduced_modulus, stiffness_ratio};
-pub use thornton_ning::{Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity};
+pub use thornton_ning::{
+    Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
+};
 
 use crate::input::{InputError, Section};
 
