@@ -154,11 +154,21 @@ impl Plan {
     #[inline(always)]
     fn choose<T: Task>(&self, task: T, seed: u64) -> T::Result {
         match self.normal {
-            Normal::ThorntonNing(law) => self.choose_tangential(task, seed, move |diameter, speed| {
-                let e_n = law.restitution(diameter, speed);
-                (e_n, e_n <= 0.0)
-            }),
-            Normal::Constant(e_n) => self.choose_tangential(task, seed, move |_, _| (e_n, false)),
+            Normal::ThorntonNing(law) => self.choose_tangential(
+                task,
+                seed,
+                #[inline(always)]
+                move |diameter, speed| {
+                    let e_n = law.restitution(diameter, speed);
+                    (e_n, e_n <= 0.0)
+                },
+            ),
+            Normal::Constant(e_n) => self.choose_tangential(
+                task,
+                seed,
+                #[inline(always)]
+                move |_, _| (e_n, false),
+            ),
         }
     }
 
@@ -193,17 +203,26 @@ impl Plan {
     ) -> T::Result {
         let loss = self.rebound_loss;
         let k = self.stiffness_ratio;
-        let draw = move |key| Draw::new(seed, key).uniform(stream::CAPTURE);
         match self.transitions {
-            Transitions::None => task.run(|row| decide(row, normal, tangential, k, loss, 0.0, |_| 0.5)),
-            Transitions::One(one) => task.run(|row| {
-                let sticky = one.at(row.particle_temperature, row.conversion);
-                decide(row, normal, tangential, k, loss, sticky, draw)
-            }),
-            Transitions::Two(one, other) => task.run(|row| {
-                let [t, x] = [row.particle_temperature, row.conversion];
-                decide(row, normal, tangential, k, loss, one.at(t, x) * other.at(t, x), draw)
-            }),
+            Transitions::None => task.run(
+                #[inline(always)]
+                |row| decide(row, normal, tangential, k, loss, 0.0, 0.5),
+            ),
+            Transitions::One(one) => task.run(
+                #[inline(always)]
+                |row| {
+                    let sticky = one.at(row.particle_temperature, row.conversion);
+                    decide(row, normal, tangential, k, loss, sticky, drawn(seed, row.key))
+                },
+            ),
+            Transitions::Two(one, other) => task.run(
+                #[inline(always)]
+                |row| {
+                    let [t, x] = [row.particle_temperature, row.conversion];
+                    let sticky = one.at(t, x) * other.at(t, x);
+                    decide(row, normal, tangential, k, loss, sticky, drawn(seed, row.key))
+                },
+            ),
         }
     }
 }
@@ -218,6 +237,11 @@ impl Transitions {
     }
 }
 
+#[inline(always)]
+fn drawn(seed: u64, key: u64) -> f64 {
+    Draw::new(seed, key).uniform(stream::CAPTURE)
+}
+
 /// The walk of an impact, as far as a plan has to go.
 #[inline(always)]
 fn decide(
@@ -227,7 +251,7 @@ fn decide(
     stiffness_ratio: f64,
     rebound_loss: f64,
     sticky: f64,
-    draw: impl Fn(u64) -> f64,
+    drawn: f64,
 ) -> Decision {
     let (plain, held) = normal(row.diameter, row.normal_speed);
     let e_n = plain * (1.0 - rebound_loss * sticky);
@@ -245,7 +269,7 @@ fn decide(
         normal_restitution: e_n,
         tangential_restitution: along.restitution,
         probability,
-        stuck: captured(probability, draw(row.key)),
+        stuck: captured(probability, drawn),
         spin: along.spin,
         sticky: sticky >= Stickiness::THRESHOLD,
     }
