@@ -45,33 +45,6 @@ enum Transitions {
     Two(Transition, Transition),
 }
 
-/// One impact's numbers as far as a plan looks at them.
-struct Row {
-    normal_speed: f64,
-    tangential_speed: f64,
-    diameter: f64,
-    spin: f64,
-    particle_temperature: f64,
-    conversion: f64,
-    key: u64,
-}
-
-/// What becomes of it.
-struct Decision {
-    normal_restitution: f64,
-    tangential_restitution: f64,
-    probability: f64,
-    stuck: bool,
-    spin: f64,
-    sticky: bool,
-}
-
-/// What is done with the formula, once the model has chosen it: one impact, or a block of them.
-trait Task {
-    type Result;
-    fn run(self, decide: impl Fn(&Row) -> Decision) -> Self::Result;
-}
-
 impl Plan {
     /// The plan of a wall; `None` where the walk needs more than a plan has.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
@@ -114,19 +87,43 @@ impl Plan {
     /// Decides one impact that has been checked.
     #[inline]
     pub fn one(&self, impact: &Impact, draw: Draw) -> Outcome {
-        let decision = self.choose(One { impact, key: draw.key }, draw.seed);
-        let inside = |&(input, [low, high]): &(usize, [f64; 2])| {
-            let value = (INPUTS[input].value)(impact);
-            (low..=high).contains(&value)
+        let plain = match self.normal {
+            Normal::ThorntonNing(law) => law.restitution(impact.diameter, impact.normal_speed),
+            Normal::Constant(restitution) => restitution,
         };
+        let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
+        let sticky = match self.transitions {
+            Transitions::None => 0.0,
+            Transitions::One(one) => one.at(temperature, conversion),
+            Transitions::Two(one, other) => {
+                one.at(temperature, conversion) * other.at(temperature, conversion)
+            }
+        };
+        let chance = match self.transitions {
+            Transitions::None => 0.5,
+            _ => draw.uniform(stream::CAPTURE),
+        };
+        let e_n = self.softened(plain, sticky);
+        let along = self.tangential.rebound(&Glance {
+            normal_speed: impact.normal_speed,
+            tangential_speed: impact.tangential_speed,
+            diameter: impact.diameter,
+            spin: impact.spin,
+            normal_restitution: e_n,
+            stiffness_ratio: self.stiffness_ratio,
+        });
+        let (probability, stuck) = self.capture(plain, sticky, chance);
         Outcome {
-            normal_restitution: decision.normal_restitution,
-            tangential_restitution: decision.tangential_restitution,
-            sticking_probability: decision.probability,
-            stuck: decision.stuck,
-            spin: decision.spin,
-            regime: Regime::of(decision.sticky, false),
-            outside_range: !self.valid.iter().all(inside),
+            normal_restitution: e_n,
+            tangential_restitution: along.restitution,
+            sticking_probability: probability,
+            stuck,
+            spin: along.spin,
+            regime: Regime::of(sticky >= Stickiness::THRESHOLD, false),
+            outside_range: !self
+                .valid
+                .iter()
+                .all(|(input, range)| within((INPUTS[*input].value)(impact), *range)),
         }
     }
 
@@ -135,96 +132,107 @@ impl Plan {
         dispatch!(level, _simd => self.fill(block, seed, outcomes));
     }
 
+    /// The steps of [`Plan::one`], each for the whole block: short loops keep a processor's divider busy, while in a long one
+    /// every impact waits for its own chain of results.
     #[inline(always)]
     fn fill(&self, block: &Block, seed: u64, outcomes: &mut Outcomes) {
         let length = block.length.min(BLOCK);
-        self.choose(Many { block, length, outcomes: &mut *outcomes }, seed);
-        for flag in &mut outcomes.outside_range[..length] {
-            *flag = 0;
+        let [speed, diameter] = [Impact::NORMAL_SPEED, Impact::DIAMETER].map(|input| &block.inputs[input]);
+        let [mut plain, mut sticky, mut chance] = [[0.0; BLOCK], [0.0; BLOCK], [0.5; BLOCK]];
+        match self.normal {
+            Normal::ThorntonNing(law) => {
+                for i in 0..length {
+                    plain[i] = law.adhesive_squared(diameter[i]);
+                }
+                for i in 0..length {
+                    plain[i] = law.rebound(speed[i], plain[i]);
+                }
+            }
+            Normal::Constant(restitution) => plain = [restitution; BLOCK],
         }
-        for &(input, [low, high]) in &self.valid {
-            let column = &block.inputs[input];
-            for i in 0..length {
-                let inside = (column[i] >= low) & (column[i] <= high);
-                outcomes.outside_range[i] |= u32::from(!inside);
+        let [temperature, conversion] =
+            [Impact::PARTICLE_TEMPERATURE, Impact::CONVERSION].map(|input| &block.inputs[input]);
+        match self.transitions {
+            Transitions::None => {}
+            Transitions::One(one) => {
+                for i in 0..length {
+                    sticky[i] = one.at(temperature[i], conversion[i]);
+                }
+            }
+            Transitions::Two(one, other) => {
+                for i in 0..length {
+                    sticky[i] =
+                        one.at(temperature[i], conversion[i]) * other.at(temperature[i], conversion[i]);
+                }
             }
         }
-    }
-
-    #[inline(always)]
-    fn choose<T: Task>(&self, task: T, seed: u64) -> T::Result {
-        match self.normal {
-            Normal::ThorntonNing(law) => self.choose_tangential(
-                task,
-                seed,
-                #[inline(always)]
-                move |diameter, speed| {
-                    let e_n = law.restitution(diameter, speed);
-                    (e_n, e_n <= 0.0)
-                },
-            ),
-            Normal::Constant(e_n) => self.choose_tangential(
-                task,
-                seed,
-                #[inline(always)]
-                move |_, _| (e_n, false),
-            ),
+        if !matches!(self.transitions, Transitions::None) {
+            for i in 0..length {
+                chance[i] = Draw::new(seed, block.keys[i]).uniform(stream::CAPTURE);
+            }
         }
-    }
-
-    #[inline(always)]
-    fn choose_tangential<T: Task>(
-        &self,
-        task: T,
-        seed: u64,
-        normal: impl Fn(f64, f64) -> (f64, bool) + Copy,
-    ) -> T::Result {
+        for i in 0..length {
+            let (probability, stuck) = self.capture(plain[i], sticky[i], chance[i]);
+            outcomes.sticking_probability[i] = probability;
+            outcomes.stuck[i] = u32::from(stuck);
+            outcomes.regime[i] = Regime::of(sticky[i] >= Stickiness::THRESHOLD, false) as u32;
+            outcomes.normal_restitution[i] = self.softened(plain[i], sticky[i]);
+            outcomes.outside_range[i] = 0;
+        }
         match self.tangential {
-            TangentialLaw::SlidingRolling { friction } => {
-                let law = TangentialLaw::SlidingRolling { friction };
-                self.choose_stickiness(task, seed, normal, law)
+            TangentialLaw::Constant { restitution } => {
+                self.slide(block, TangentialLaw::Constant { restitution }, outcomes);
             }
             TangentialLaw::Sliding { friction } => {
-                self.choose_stickiness(task, seed, normal, TangentialLaw::Sliding { friction })
+                self.slide(block, TangentialLaw::Sliding { friction }, outcomes);
             }
-            TangentialLaw::Constant { restitution } => {
-                self.choose_stickiness(task, seed, normal, TangentialLaw::Constant { restitution })
+            TangentialLaw::SlidingRolling { friction } => {
+                self.slide(block, TangentialLaw::SlidingRolling { friction }, outcomes);
+            }
+        }
+        for &(input, range) in &self.valid {
+            for i in 0..length {
+                outcomes.outside_range[i] |= u32::from(!within(block.inputs[input][i], range));
             }
         }
     }
 
     #[inline(always)]
-    fn choose_stickiness<T: Task>(
-        &self,
-        task: T,
-        seed: u64,
-        normal: impl Fn(f64, f64) -> (f64, bool) + Copy,
-        tangential: TangentialLaw,
-    ) -> T::Result {
-        let loss = self.rebound_loss;
-        let k = self.stiffness_ratio;
-        match self.transitions {
-            Transitions::None => task.run(
-                #[inline(always)]
-                |row| decide(row, normal, tangential, k, loss, 0.0, 0.5),
-            ),
-            Transitions::One(one) => task.run(
-                #[inline(always)]
-                |row| {
-                    let sticky = one.at(row.particle_temperature, row.conversion);
-                    decide(row, normal, tangential, k, loss, sticky, drawn(seed, row.key))
-                },
-            ),
-            Transitions::Two(one, other) => task.run(
-                #[inline(always)]
-                |row| {
-                    let [t, x] = [row.particle_temperature, row.conversion];
-                    let sticky = one.at(t, x) * other.at(t, x);
-                    decide(row, normal, tangential, k, loss, sticky, drawn(seed, row.key))
-                },
-            ),
+    fn slide(&self, block: &Block, law: TangentialLaw, outcomes: &mut Outcomes) {
+        for i in 0..block.length.min(BLOCK) {
+            let along = law.rebound(&Glance {
+                normal_speed: block.inputs[Impact::NORMAL_SPEED][i],
+                tangential_speed: block.inputs[Impact::TANGENTIAL_SPEED][i],
+                diameter: block.inputs[Impact::DIAMETER][i],
+                spin: block.inputs[Impact::SPIN][i],
+                normal_restitution: outcomes.normal_restitution[i],
+                stiffness_ratio: self.stiffness_ratio,
+            });
+            outcomes.tangential_restitution[i] = along.restitution;
+            outcomes.spin[i] = along.spin;
         }
     }
+
+    /// `e_n` [1] less what stickiness takes of it.
+    #[inline(always)]
+    fn softened(&self, plain: f64, sticky: f64) -> f64 {
+        plain * (1.0 - self.rebound_loss * sticky)
+    }
+
+    /// Probability of capture, and whether it comes to that.
+    #[inline(always)]
+    fn capture(&self, plain: f64, sticky: f64, chance: f64) -> (f64, bool) {
+        // Adhesion holds the particle for certain; otherwise stickiness decides.
+        let held = matches!(self.normal, Normal::ThorntonNing(_)) & (plain <= 0.0);
+        let free = Stickiness { particle: sticky, wall: 0.0 }.probability();
+        let probability = if held { 1.0 } else { free };
+        (probability, captured(probability, chance))
+    }
+}
+
+#[inline(always)]
+fn within(value: f64, [low, high]: [f64; 2]) -> bool {
+    (value >= low) & (value <= high)
 }
 
 impl Transitions {
@@ -233,99 +241,6 @@ impl Transitions {
             Self::None => Some(Self::One(transition)),
             Self::One(first) => Some(Self::Two(first, transition)),
             Self::Two(..) => None,
-        }
-    }
-}
-
-#[inline(always)]
-fn drawn(seed: u64, key: u64) -> f64 {
-    Draw::new(seed, key).uniform(stream::CAPTURE)
-}
-
-/// The walk of an impact, as far as a plan has to go.
-#[inline(always)]
-fn decide(
-    row: &Row,
-    normal: impl Fn(f64, f64) -> (f64, bool),
-    tangential: TangentialLaw,
-    stiffness_ratio: f64,
-    rebound_loss: f64,
-    sticky: f64,
-    drawn: f64,
-) -> Decision {
-    let (plain, held) = normal(row.diameter, row.normal_speed);
-    let e_n = plain * (1.0 - rebound_loss * sticky);
-    let along = tangential.rebound(&Glance {
-        normal_speed: row.normal_speed,
-        tangential_speed: row.tangential_speed,
-        diameter: row.diameter,
-        spin: row.spin,
-        normal_restitution: e_n,
-        stiffness_ratio,
-    });
-    let free = Stickiness { particle: sticky, wall: 0.0 }.probability();
-    let probability = if held { 1.0 } else { free };
-    Decision {
-        normal_restitution: e_n,
-        tangential_restitution: along.restitution,
-        probability,
-        stuck: captured(probability, drawn),
-        spin: along.spin,
-        sticky: sticky >= Stickiness::THRESHOLD,
-    }
-}
-
-struct One<'a> {
-    impact: &'a Impact,
-    key: u64,
-}
-
-impl Task for One<'_> {
-    type Result = Decision;
-
-    #[inline(always)]
-    fn run(self, decide: impl Fn(&Row) -> Decision) -> Decision {
-        let impact = self.impact;
-        decide(&Row {
-            normal_speed: impact.normal_speed,
-            tangential_speed: impact.tangential_speed,
-            diameter: impact.diameter,
-            spin: impact.spin,
-            particle_temperature: impact.particle_temperature,
-            conversion: impact.conversion,
-            key: self.key,
-        })
-    }
-}
-
-struct Many<'a> {
-    block: &'a Block,
-    length: usize,
-    outcomes: &'a mut Outcomes,
-}
-
-impl Task for Many<'_> {
-    type Result = ();
-
-    #[inline(always)]
-    fn run(self, decide: impl Fn(&Row) -> Decision) {
-        let Self { block: Block { inputs, keys, .. }, length, outcomes } = self;
-        for i in 0..length {
-            let decision = decide(&Row {
-                normal_speed: inputs[Impact::NORMAL_SPEED][i],
-                tangential_speed: inputs[Impact::TANGENTIAL_SPEED][i],
-                diameter: inputs[Impact::DIAMETER][i],
-                spin: inputs[Impact::SPIN][i],
-                particle_temperature: inputs[Impact::PARTICLE_TEMPERATURE][i],
-                conversion: inputs[Impact::CONVERSION][i],
-                key: keys[i],
-            });
-            outcomes.normal_restitution[i] = decision.normal_restitution;
-            outcomes.tangential_restitution[i] = decision.tangential_restitution;
-            outcomes.sticking_probability[i] = decision.probability;
-            outcomes.spin[i] = decision.spin;
-            outcomes.regime[i] = 2 * u32::from(decision.sticky);
-            outcomes.stuck[i] = u32::from(decision.stuck);
         }
     }
 }

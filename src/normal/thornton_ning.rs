@@ -53,7 +53,7 @@ impl Prepared {
 
     /// `v_adh²` [m²/s²] of a particle of `diameter` [m].
     #[inline(always)]
-    fn adhesive_squared(&self, diameter: f64) -> f64 {
+    pub fn adhesive_squared(&self, diameter: f64) -> f64 {
         let root = inverse_cube_root(diameter * self.size);
         let square = root * root;
         self.adhesive * (square * square * root)
@@ -62,7 +62,13 @@ impl Prepared {
     /// Normal restitution `e_n` [1] of a particle of `diameter` [m] at `normal_speed` [m/s]; 0 when adhesion holds it.
     #[inline(always)]
     pub fn restitution(&self, diameter: f64, normal_speed: f64) -> f64 {
-        rebound(normal_speed, self.adhesive_squared(diameter), self.yielding)
+        self.rebound(normal_speed, self.adhesive_squared(diameter))
+    }
+
+    /// As [`Self::restitution`], from `v_adh²` [m²/s²].
+    #[inline(always)]
+    pub fn rebound(&self, normal_speed: f64, adhesive_squared: f64) -> f64 {
+        rebound(normal_speed, adhesive_squared, self.yielding)
     }
 }
 
