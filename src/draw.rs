@@ -27,10 +27,18 @@ impl Draw {
             [low(self.key), high(self.key), low(stream), high(stream)],
             [low(self.seed), high(self.seed)],
         );
-        let bits = (a << 32 | b) >> 11;
-        (bits as f64 + 0.5) * (1.0 / (1u64 << 53) as f64)
+        // The upper 53 bits `n` of both words as `(n + 1/2) / 2^53`. Numbers of 52 bits in the last bits of 2^84 and 2^52 are
+        // how a vector makes doubles of integers.
+        let upper = f64::from_bits(TWO_84.to_bits() | a >> 11) - (TWO_84 + TWO_52);
+        let lower = f64::from_bits(TWO_52.to_bits() | (a << 21 & 0xFFFF_FFFF) | b >> 11);
+        ((upper + lower) + 0.5) * (1.0 / (1u64 << 53) as f64)
     }
 }
+
+/// `2^52`.
+const TWO_52: f64 = 4_503_599_627_370_496.0;
+/// `2^84`.
+const TWO_84: f64 = TWO_52 * 4_294_967_296.0;
 
 #[inline(always)]
 fn low(word: u64) -> u64 {
@@ -69,6 +77,16 @@ mod tests {
             philox([u64::from(u32::MAX); 4], [u64::from(u32::MAX); 2]),
             [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]
         );
+    }
+
+    /// As `(n + 1/2) / 2^53` with the conversion that the processor has for one number.
+    #[test]
+    fn numbers_are_the_upper_bits_of_the_words() {
+        for key in 0..100_000 {
+            let [a, b, ..] = philox([key, 0, 3, 0], [9, 0]);
+            let n = (a << 32 | b) >> 11;
+            assert_eq!(Draw::new(9, key).uniform(3), (n as f64 + 0.5) / (1u64 << 53) as f64);
+        }
     }
 
     #[test]

@@ -27,7 +27,9 @@ pub(super) struct Plan {
     transitions: Transitions,
     /// Share of `e_n` that full stickiness takes [1].
     rebound_loss: f64,
-    /// Which of [`INPUTS`] has to lie where, for the outcome to be inside its range.
+    /// Temperatures [K] at which the properties of particle and wall are stated to hold.
+    materials: [[f64; 2]; 2],
+    /// Which of [`INPUTS`] has to lie where as well, for the outcome to be inside its range.
     valid: Vec<(usize, [f64; 2])>,
 }
 
@@ -70,17 +72,14 @@ impl Plan {
         if valid.iter().any(|(input, _)| dressed(INPUTS[*input].name)) {
             return None;
         }
-        let of_materials = [
-            (Impact::PARTICLE_TEMPERATURE, model.particle.valid_range()),
-            (Impact::WALL_TEMPERATURE, wall.material().valid_range()),
-        ];
         Some(Self {
             normal,
             tangential: model.tangential,
             stiffness_ratio: contact.stiffness_ratio,
             transitions,
             rebound_loss: model.rebound_loss(),
-            valid: valid.into_iter().chain(of_materials).collect(),
+            materials: [model.particle.valid_range(), wall.material().valid_range()],
+            valid,
         })
     }
 
@@ -120,10 +119,8 @@ impl Plan {
             stuck,
             spin: along.spin,
             regime: Regime::of(sticky >= Stickiness::THRESHOLD, false),
-            outside_range: !self
-                .valid
-                .iter()
-                .all(|(input, range)| within((INPUTS[*input].value)(impact), *range)),
+            outside_range: !(self.holds_at(impact.particle_temperature, impact.wall_temperature)
+                && self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(impact), range))),
         }
     }
 
@@ -133,27 +130,17 @@ impl Plan {
     }
 
     /// The steps of [`Plan::one`], each for the whole block: short loops keep a processor's divider busy, while in a long one
-    /// every impact waits for its own chain of results.
+    /// every impact waits for its own chain of results. What needs the divider goes with what does not.
     #[inline(always)]
     fn fill(&self, block: &Block, seed: u64, outcomes: &mut Outcomes) {
+        // Where a step leaves what the next one needs, until the outcome itself takes the place.
+        let Outcomes { normal_restitution: plain, sticking_probability: sticky, spin: chance, .. } = outcomes;
         let length = block.length.min(BLOCK);
-        let [speed, diameter] = [Impact::NORMAL_SPEED, Impact::DIAMETER].map(|input| &block.inputs[input]);
-        let [mut plain, mut sticky, mut chance] = [[0.0; BLOCK], [0.0; BLOCK], [0.5; BLOCK]];
-        match self.normal {
-            Normal::ThorntonNing(law) => {
-                for i in 0..length {
-                    plain[i] = law.adhesive_squared(diameter[i]);
-                }
-                for i in 0..length {
-                    plain[i] = law.rebound(speed[i], plain[i]);
-                }
-            }
-            Normal::Constant(restitution) => plain = [restitution; BLOCK],
-        }
-        let [temperature, conversion] =
-            [Impact::PARTICLE_TEMPERATURE, Impact::CONVERSION].map(|input| &block.inputs[input]);
+        let column = |input: usize| &block.inputs[input];
+        let (speed, diameter) = (column(Impact::NORMAL_SPEED), column(Impact::DIAMETER));
+        let (temperature, conversion) = (column(Impact::PARTICLE_TEMPERATURE), column(Impact::CONVERSION));
         match self.transitions {
-            Transitions::None => {}
+            Transitions::None => sticky.fill(0.0),
             Transitions::One(one) => {
                 for i in 0..length {
                     sticky[i] = one.at(temperature[i], conversion[i]);
@@ -166,28 +153,46 @@ impl Plan {
                 }
             }
         }
-        if !matches!(self.transitions, Transitions::None) {
-            for i in 0..length {
-                chance[i] = Draw::new(seed, block.keys[i]).uniform(stream::CAPTURE);
+        match self.normal {
+            Normal::Constant(restitution) => plain.fill(restitution),
+            Normal::ThorntonNing(law) => {
+                for i in 0..length {
+                    plain[i] = law.adhesive_squared(diameter[i]);
+                }
             }
         }
-        for i in 0..length {
-            let (probability, stuck) = self.capture(plain[i], sticky[i], chance[i]);
-            outcomes.sticking_probability[i] = probability;
-            outcomes.stuck[i] = u32::from(stuck);
-            outcomes.regime[i] = Regime::of(sticky[i] >= Stickiness::THRESHOLD, false) as u32;
-            outcomes.normal_restitution[i] = self.softened(plain[i], sticky[i]);
-            outcomes.outside_range[i] = 0;
+        let draws = !matches!(self.transitions, Transitions::None);
+        match (self.normal, draws) {
+            (Normal::ThorntonNing(law), true) => {
+                for i in 0..length {
+                    plain[i] = law.rebound(speed[i], plain[i]);
+                    chance[i] = Draw::new(seed, block.keys[i]).uniform(stream::CAPTURE);
+                }
+            }
+            (Normal::ThorntonNing(law), false) => {
+                for i in 0..length {
+                    plain[i] = law.rebound(speed[i], plain[i]);
+                }
+            }
+            (Normal::Constant(_), true) => {
+                for i in 0..length {
+                    chance[i] = Draw::new(seed, block.keys[i]).uniform(stream::CAPTURE);
+                }
+            }
+            (Normal::Constant(_), false) => {}
+        }
+        if !draws {
+            chance.fill(0.5);
         }
         match self.tangential {
             TangentialLaw::Constant { restitution } => {
-                self.slide(block, TangentialLaw::Constant { restitution }, outcomes);
+                self.finish(block, TangentialLaw::Constant { restitution }, outcomes);
             }
             TangentialLaw::Sliding { friction } => {
-                self.slide(block, TangentialLaw::Sliding { friction }, outcomes);
+                self.finish(block, TangentialLaw::Sliding { friction }, outcomes);
             }
             TangentialLaw::SlidingRolling { friction } => {
-                self.slide(block, TangentialLaw::SlidingRolling { friction }, outcomes);
+                self.finish(block, TangentialLaw::SlidingRolling { friction }, outcomes);
             }
         }
         for &(input, range) in &self.valid {
@@ -197,20 +202,38 @@ impl Plan {
         }
     }
 
+    /// The last step of a block.
     #[inline(always)]
-    fn slide(&self, block: &Block, law: TangentialLaw, outcomes: &mut Outcomes) {
+    fn finish(&self, block: &Block, law: TangentialLaw, outcomes: &mut Outcomes) {
         for i in 0..block.length.min(BLOCK) {
+            let (plain, sticky) = (outcomes.normal_restitution[i], outcomes.sticking_probability[i]);
+            let (probability, stuck) = self.capture(plain, sticky, outcomes.spin[i]);
+            let e_n = self.softened(plain, sticky);
             let along = law.rebound(&Glance {
                 normal_speed: block.inputs[Impact::NORMAL_SPEED][i],
                 tangential_speed: block.inputs[Impact::TANGENTIAL_SPEED][i],
                 diameter: block.inputs[Impact::DIAMETER][i],
                 spin: block.inputs[Impact::SPIN][i],
-                normal_restitution: outcomes.normal_restitution[i],
+                normal_restitution: e_n,
                 stiffness_ratio: self.stiffness_ratio,
             });
+            outcomes.normal_restitution[i] = e_n;
             outcomes.tangential_restitution[i] = along.restitution;
+            outcomes.sticking_probability[i] = probability;
             outcomes.spin[i] = along.spin;
+            outcomes.stuck[i] = u32::from(stuck);
+            outcomes.regime[i] = 2 * u32::from(sticky >= Stickiness::THRESHOLD);
+            outcomes.outside_range[i] = u32::from(!self.holds_at(
+                block.inputs[Impact::PARTICLE_TEMPERATURE][i],
+                block.inputs[Impact::WALL_TEMPERATURE][i],
+            ));
         }
+    }
+
+    /// Whether the materials are stated for these temperatures [K].
+    #[inline(always)]
+    fn holds_at(&self, particle: f64, wall: f64) -> bool {
+        within(particle, self.materials[0]) & within(wall, self.materials[1])
     }
 
     /// `e_n` [1] less what stickiness takes of it.
