@@ -7,6 +7,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod bits;
 mod bounds;
 mod cases;
 mod continuous;
