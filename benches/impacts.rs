@@ -12,7 +12,8 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, Throughput};
 use nearwall::c_api::{nw_impact, nw_model, nw_outcome, nw_resolve, nw_resolve_batch, nw_status};
 use nearwall::model::block::{BLOCK, Outcomes};
-use nearwall::{Draw, Impact};
+use nearwall::normal::Contact;
+use nearwall::{Draw, Impact, Model};
 use nearwall_benches::*;
 use validation::oracle::normal_contact;
 
@@ -142,11 +143,9 @@ fn threads(criterion: &mut Criterion) {
 
 /// The closed form against the same contact followed through time.
 fn contact(criterion: &mut Criterion) {
-    let model = model();
-    let (contact, impact) = followed();
-    let plain = Impact { normal_speed: contact.speed, diameter: 2.0 * contact.radius, ..impact };
+    let (contact, [model, _], impact) = followed();
     let mut group = criterion.benchmark_group("contact");
-    group.bench_function("closed form", |b| b.iter(|| model.resolve(0, black_box(&plain), Draw::new(1, 2))));
+    group.bench_function("closed form", |b| b.iter(|| model.resolve(0, black_box(&impact), Draw::new(1, 2))));
     for tolerance in [1e-4, 1e-6, 1e-9] {
         group.bench_function(BenchmarkId::new("followed", format!("{tolerance:e}")), |b| {
             b.iter(|| normal_contact::follow(black_box(&contact), tolerance));
@@ -155,11 +154,12 @@ fn contact(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Wax of 75 µm on Pyrex at 1 m/s, for the integration and for the model.
-fn followed() -> (normal_contact::Impact, Impact) {
+/// Wax of 75 µm on Pyrex at 1 m/s with little adhesion (0.01 J/m², so that both rebound): for the integration, and for models
+/// with the plain law and with the one whose pull-off yielding raises.
+fn followed() -> (normal_contact::Impact, [Model; 2], Impact) {
     let library = nearwall::material::Library::built_in().unwrap();
     let solid = |name: &str| library.get(name).unwrap().mechanical(293.15).unwrap();
-    let contact = nearwall::normal::Contact::new(&solid("montan-wax"), &solid("pyrex"), 0.7, None);
+    let contact = Contact::new(&solid("montan-wax"), &solid("pyrex"), 0.7, Some(0.01));
     let followed = normal_contact::Impact {
         radius: 37.5e-6,
         density: contact.density,
@@ -168,7 +168,11 @@ fn followed() -> (normal_contact::Impact, Impact) {
         limiting_pressure: contact.limiting_pressure(),
         speed: 1.0,
     };
-    (followed, Impact { particle_temperature: 293.15, ..Impact::default() })
+    let impact = Impact { normal_speed: 1.0, diameter: 75e-6, ..Impact::default() };
+    let plain = MODEL.replace("yield_ratio = 0.7", "yield_ratio = 0.7\nwork_of_adhesion = 0.01");
+    let plain = plain.split("[[effects]]").next().unwrap();
+    let raised = plain.replace("thornton-ning", "thornton-ning-raised-pull-off");
+    (followed, [plain, &raised].map(|text| Model::from_toml("wax", text).unwrap()), impact)
 }
 
 /// Prints `ratio;<name>;<value>` from the medians that criterion has written.
@@ -218,17 +222,19 @@ fn ratios() {
     errors();
 }
 
-/// How far the integration is from its own limit, and the closed form from it.
+/// How far the integration is from its own limit, and the closed forms from it.
 fn errors() {
-    let (contact, impact) = followed();
-    let limit = normal_contact::follow(&contact, 1e-12).rebound_speed / contact.speed;
+    let (contact, models, impact) = followed();
+    let limit = normal_contact::follow(&contact, 1e-12).rebound_speed;
+    println!("ratio;contact followed: e_n;{limit:.5}");
     for tolerance in [1e-4, 1e-6, 1e-9] {
-        let error = normal_contact::follow(&contact, tolerance).rebound_speed / contact.speed - limit;
-        println!("ratio;contact followed to {tolerance:e}: error of e_n;{error:.1e}");
+        let error = normal_contact::follow(&contact, tolerance).rebound_speed / limit - 1.0;
+        println!("ratio;contact followed to {tolerance:e}: relative error of e_n;{error:.1e}");
     }
-    let plain = Impact { normal_speed: contact.speed, diameter: 2.0 * contact.radius, ..impact };
-    let e_n = model().resolve(0, &plain, Draw::new(1, 2)).unwrap().normal_restitution;
-    println!("ratio;closed form: e_n less that of the contact followed;{:.1e}", e_n - limit);
+    for model in models {
+        let e_n = model.resolve(0, &impact, Draw::new(1, 2)).unwrap().normal_restitution;
+        println!("ratio;{}: relative error of e_n;{:.4}", model.normal_law().name(), e_n / limit - 1.0);
+    }
 }
 
 /// Where cargo builds to: two folders above this program's own.

@@ -7,25 +7,27 @@
 use std::hint::black_box;
 
 use fearless_simd::Level;
-use gungraun::{library_benchmark, library_benchmark_group, main};
+use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 use nearwall::Model;
 use nearwall::c_api::{nw_impact, nw_model, nw_outcome, nw_resolve};
 use nearwall::model::block::{Block, Outcomes};
 use nearwall_benches::*;
 
-type Blocks = (Model, Block, Level, Outcomes);
+/// On the heap, so that what is counted does not move it about.
+type Blocks = Box<(Model, Block, Level, Outcomes)>;
 
 fn at(name: &str) -> Blocks {
     let level = levels().into_iter().find(|level| level.0 == name).unwrap().1;
-    (model(), block(), level, Outcomes::default())
+    Box::new((model(), block(), level, Outcomes::default()))
 }
 
 #[library_benchmark]
 #[bench::sse2(args = ("SSE2"), setup = at)]
 #[bench::avx2(args = ("AVX2"), setup = at)]
-fn block_of_128((model, block, level, mut outcomes): Blocks) -> Blocks {
-    model.resolve_block_at(level, 0, black_box(&block), SEED, &mut outcomes).unwrap();
-    (model, block, level, outcomes)
+fn block_of_128(mut blocks: Blocks) -> Blocks {
+    let (model, block, level, outcomes) = &mut *blocks;
+    model.resolve_block_at(*level, 0, black_box(block), SEED, outcomes).unwrap();
+    blocks
 }
 
 fn c_interface() -> (*const nw_model, nw_impact) {
@@ -59,4 +61,8 @@ fn one_call_by_hand((by_hand, constants, impact): (ByHand, Constants, HandImpact
 }
 
 library_benchmark_group!(name = counts, benchmarks = [block_of_128, one_call, one_call_by_hand]);
-main!(library_benchmark_groups = counts);
+main!(
+    // The compiler of the C++ is found by it.
+    config = LibraryBenchmarkConfig::default().pass_through_env("PATH"),
+    library_benchmark_groups = counts
+);

@@ -132,6 +132,7 @@ impl Plan {
     /// The steps of [`Plan::one`], each for the whole block: short loops keep a processor's divider busy, while in a long one
     /// every impact waits for its own chain of results. What needs the divider goes with what does not.
     #[inline(always)]
+    #[allow(clippy::needless_range_loop, reason = "one index over many columns")]
     fn fill(&self, block: &Block, seed: u64, outcomes: &mut Outcomes) {
         // Where a step leaves what the next one needs, until the outcome itself takes the place.
         let Outcomes { normal_restitution: plain, sticking_probability: sticky, spin: chance, .. } = outcomes;

@@ -97,7 +97,7 @@ pub fn yield_velocity(contact: &Contact) -> f64 {
 #[inline(always)]
 pub fn plastic_term(w: f64) -> f64 {
     /// `6 sqrt3 / 5`.
-    const FACTOR: f64 = 2.078_460_969_082_652_8;
+    const FACTOR: f64 = 2.078_460_969_082_653;
     let square = w * w;
     FACTOR * (1.0 - square * (1.0 / 6.0)) * (w / (w + 2.0 * (1.2 - 0.2 * square).sqrt())).sqrt()
 }
