@@ -21,33 +21,46 @@ impl Draw {
     }
 
     /// A number in the open interval (0, 1), uniformly distributed; each `stream` is independent.
+    #[inline(always)]
     pub fn uniform(self, stream: u64) -> f64 {
         let [a, b, ..] = philox(
             [low(self.key), high(self.key), low(stream), high(stream)],
             [low(self.seed), high(self.seed)],
         );
-        let bits = (u64::from(a) << 32 | u64::from(b)) >> 11;
-        (bits as f64 + 0.5) * (1.0 / (1u64 << 53) as f64)
+        // The upper 53 bits `n` of both words as `(n + 1/2) / 2^53`. Numbers of 52 bits in the last bits of 2^84 and 2^52 are
+        // how a vector makes doubles of integers.
+        let upper = f64::from_bits(TWO_84.to_bits() | a >> 11) - (TWO_84 + TWO_52);
+        let lower = f64::from_bits(TWO_52.to_bits() | (a << 21 & 0xFFFF_FFFF) | b >> 11);
+        ((upper + lower) + 0.5) * (1.0 / (1u64 << 53) as f64)
     }
 }
 
-fn low(word: u64) -> u32 {
-    word as u32
+/// `2^52`.
+const TWO_52: f64 = 4_503_599_627_370_496.0;
+/// `2^84`.
+const TWO_84: f64 = TWO_52 * 4_294_967_296.0;
+
+#[inline(always)]
+fn low(word: u64) -> u64 {
+    word & 0xFFFF_FFFF
 }
 
-fn high(word: u64) -> u32 {
-    (word >> 32) as u32
+#[inline(always)]
+fn high(word: u64) -> u64 {
+    word >> 32
 }
 
-fn philox(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
+/// Words of 32 bits in 64, so that a vector of keys needs no change of width on the way.
+#[inline(always)]
+fn philox(mut counter: [u64; 4], mut key: [u64; 2]) -> [u64; 4] {
     const MULTIPLIERS: [u64; 2] = [0xD251_1F53, 0xCD9E_8D57];
-    const STEPS: [u32; 2] = [0x9E37_79B9, 0xBB67_AE85];
+    const STEPS: [u64; 2] = [0x9E37_79B9, 0xBB67_AE85];
     for _ in 0..10 {
-        let first = MULTIPLIERS[0] * u64::from(counter[0]);
-        let second = MULTIPLIERS[1] * u64::from(counter[2]);
+        let first = MULTIPLIERS[0] * counter[0];
+        let second = MULTIPLIERS[1] * counter[2];
         counter =
             [high(second) ^ counter[1] ^ key[0], low(second), high(first) ^ counter[3] ^ key[1], low(first)];
-        key = [key[0].wrapping_add(STEPS[0]), key[1].wrapping_add(STEPS[1])];
+        key = [low(key[0] + STEPS[0]), low(key[1] + STEPS[1])];
     }
     counter
 }
@@ -61,9 +74,19 @@ mod tests {
     fn philox_gives_the_published_answers() {
         assert_eq!(philox([0; 4], [0; 2]), [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]);
         assert_eq!(
-            philox([u32::MAX; 4], [u32::MAX; 2]),
+            philox([u64::from(u32::MAX); 4], [u64::from(u32::MAX); 2]),
             [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]
         );
+    }
+
+    /// As `(n + 1/2) / 2^53` with the conversion that the processor has for one number.
+    #[test]
+    fn numbers_are_the_upper_bits_of_the_words() {
+        for key in 0..100_000 {
+            let [a, b, ..] = philox([key, 0, 3, 0], [9, 0]);
+            let n = (a << 32 | b) >> 11;
+            assert_eq!(Draw::new(9, key).uniform(3), (n as f64 + 0.5) / (1u64 << 53) as f64);
+        }
     }
 
     #[test]

@@ -94,6 +94,46 @@ pub const INPUTS: [Input; 13] = [
     input!("melt_thickness", "m", melt_thickness),
 ];
 
+/// What a number may be.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds {
+    low: f64,
+    high: f64,
+    reason: &'static str,
+}
+
+impl Bounds {
+    const ANY: Self = Self { low: f64::MIN, high: f64::MAX, reason: "must be finite" };
+    const NOT_NEGATIVE: Self = Self { low: 0.0, high: f64::MAX, reason: "must be finite and not negative" };
+    /// From the least number above 0.
+    const POSITIVE: Self =
+        Self { low: f64::from_bits(1), high: f64::MAX, reason: "must be positive and finite" };
+    const SHARE: Self = Self { low: 0.0, high: 1.0, reason: "must be between 0 and 1" };
+
+    /// Whether a number is within them.
+    #[inline(always)]
+    pub fn allow(&self, value: f64) -> bool {
+        (value >= self.low) & (value <= self.high)
+    }
+}
+
+/// What each of [`INPUTS`] may be, in their order.
+pub const BOUNDS: [Bounds; INPUTS.len()] = [
+    Bounds::NOT_NEGATIVE,
+    Bounds::NOT_NEGATIVE,
+    Bounds::POSITIVE,
+    Bounds::POSITIVE,
+    Bounds::POSITIVE,
+    Bounds::SHARE,
+    Bounds::NOT_NEGATIVE,
+    Bounds::NOT_NEGATIVE,
+    Bounds::NOT_NEGATIVE,
+    Bounds::NOT_NEGATIVE,
+    Bounds::ANY,
+    Bounds::SHARE,
+    Bounds::NOT_NEGATIVE,
+];
+
 /// Why an impact cannot be resolved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ImpactError {
@@ -127,33 +167,59 @@ pub enum ImpactError {
 }
 
 impl Impact {
+    // Places in `INPUTS` of what the laws look at.
+    pub(crate) const NORMAL_SPEED: usize = 0;
+    pub(crate) const TANGENTIAL_SPEED: usize = 1;
+    pub(crate) const DIAMETER: usize = 2;
+    pub(crate) const PARTICLE_TEMPERATURE: usize = 3;
+    pub(crate) const WALL_TEMPERATURE: usize = 4;
+    pub(crate) const CONVERSION: usize = 5;
+    pub(crate) const SPIN: usize = 10;
+    pub(crate) const MELT_THICKNESS: usize = 12;
+
     /// Checks that every number is finite and has a physical meaning.
     ///
     /// # Errors
     /// [`ImpactError::Unusable`] naming the first number at fault.
     pub fn check(&self) -> Result<(), ImpactError> {
-        let positive = "must be positive and finite";
-        let not_negative = "must be finite and not negative";
-        let share = "must be between 0 and 1";
-        let checks = [
-            ("v_n", self.normal_speed, self.normal_speed >= 0.0, not_negative),
-            ("v_t", self.tangential_speed, self.tangential_speed >= 0.0, not_negative),
-            ("d", self.diameter, self.diameter > 0.0, positive),
-            ("T_p", self.particle_temperature, self.particle_temperature > 0.0, positive),
-            ("T_w", self.wall_temperature, self.wall_temperature > 0.0, positive),
-            ("conversion", self.conversion, (0.0..=1.0).contains(&self.conversion), share),
-            ("layer_thickness", self.layer_thickness, self.layer_thickness >= 0.0, not_negative),
-            ("film_thickness", self.film_thickness, self.film_thickness >= 0.0, not_negative),
-            ("v_gas", self.gas_speed, self.gas_speed >= 0.0, not_negative),
-            ("roughness", self.roughness, self.roughness >= 0.0, not_negative),
-            ("omega", self.spin, true, "must be finite"),
-            ("coverage", self.coverage, (0.0..=1.0).contains(&self.coverage), share),
-            ("melt_thickness", self.melt_thickness, self.melt_thickness >= 0.0, not_negative),
-        ];
-        match checks.iter().find(|(_, value, allowed, _)| !(value.is_finite() && *allowed)) {
-            Some(&(quantity, value, _, reason)) => Err(ImpactError::Unusable { quantity, value, reason }),
+        // Without branches: this is asked of every impact.
+        let values = self.values();
+        let allowed =
+            values.iter().zip(&BOUNDS).fold(true, |all, (value, bounds)| all & bounds.allow(*value));
+        if allowed { Ok(()) } else { self.fault() }
+    }
+
+    /// The first input at fault.
+    #[cold]
+    fn fault(&self) -> Result<(), ImpactError> {
+        let fault =
+            self.values().into_iter().zip(&BOUNDS).zip(&INPUTS).find(|((v, bounds), _)| !bounds.allow(*v));
+        match fault {
+            Some(((value, bounds), Input { name: quantity, .. })) => {
+                Err(ImpactError::Unusable { quantity, value, reason: bounds.reason })
+            }
             None => Ok(()),
         }
+    }
+
+    /// The values of [`INPUTS`].
+    #[inline(always)]
+    fn values(&self) -> [f64; INPUTS.len()] {
+        [
+            self.normal_speed,
+            self.tangential_speed,
+            self.diameter,
+            self.particle_temperature,
+            self.wall_temperature,
+            self.conversion,
+            self.layer_thickness,
+            self.film_thickness,
+            self.gas_speed,
+            self.roughness,
+            self.spin,
+            self.coverage,
+            self.melt_thickness,
+        ]
     }
 
     /// Impact speed `v` [m/s].
@@ -261,6 +327,23 @@ mod tests {
         assert!(bad.check().unwrap_err().to_string().starts_with("T_p = NaN"));
         let bad = Impact { spin: f64::INFINITY, ..good };
         assert!(bad.check().is_err());
+    }
+
+    #[test]
+    fn inputs_are_in_their_places() {
+        for (place, input) in INPUTS.iter().enumerate() {
+            let mut impact = Impact::default();
+            (input.set)(&mut impact, 0.123);
+            assert_eq!(impact.values()[place], 0.123, "{}", input.name);
+        }
+        let named = |place: usize| INPUTS[place].name;
+        let [t_p, t_w] = [Impact::PARTICLE_TEMPERATURE, Impact::WALL_TEMPERATURE].map(named);
+        assert_eq!(
+            [t_p, t_w, named(Impact::CONVERSION), named(Impact::SPIN), named(Impact::MELT_THICKNESS)],
+            ["T_p", "T_w", "conversion", "omega", "melt_thickness"]
+        );
+        let speeds = [Impact::NORMAL_SPEED, Impact::TANGENTIAL_SPEED, Impact::DIAMETER].map(named);
+        assert_eq!(speeds, ["v_n", "v_t", "d"]);
     }
 
     #[test]

@@ -45,6 +45,7 @@ pub mod deposit;
 pub mod diagnose;
 pub mod draw;
 pub mod effect;
+mod elementary;
 pub mod impact;
 pub mod input;
 pub mod material;

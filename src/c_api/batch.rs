@@ -7,7 +7,9 @@ use super::types::{
     NW_NULL_POINTER, NW_OK, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, nw_impact, nw_model, nw_status,
 };
 use crate::draw::Draw;
-use crate::impact::Impact;
+use crate::impact::{BOUNDS, Bounds, Impact, Outcome};
+use crate::model::Model;
+use crate::model::block::{BLOCK, Block, Outcomes};
 
 /// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array stands for the value that
 /// `nw_impact_init` gives, and for `key` the entry's own index.
@@ -103,30 +105,15 @@ pub unsafe extern "C" fn nw_resolve_batch(
             return Err(Fault::plain(NW_NULL_POINTER));
         }
         let model = model.inner();
-        for index in 0..impacts.count {
-            // SAFETY: `index < count`.
-            let (wall, impact, _) = unsafe { impacts.entry(index) };
-            model.check(wall, &impact).inspect_err(|_| {
+        // SAFETY: the caller's promises.
+        unsafe {
+            impacts.check(model).map_err(|(index, fault)| {
                 if !first_bad.is_null() {
-                    // SAFETY: not null, and writable by the caller's promise.
-                    unsafe { first_bad.write_unaligned(index) };
+                    first_bad.write_unaligned(index);
                 }
+                fault
             })?;
-        }
-        for index in 0..impacts.count {
-            // SAFETY: `index < count`, for the inputs and for the outputs.
-            let (wall, impact, draw) = unsafe { impacts.entry(index) };
-            let outcome = model.resolve(wall, &impact, draw)?;
-            let flags = if outcome.outside_range { NW_OUTSIDE_VALID_RANGE } else { 0 };
-            unsafe {
-                put(outcomes.e_n, index, outcome.normal_restitution);
-                put(outcomes.e_t, index, outcome.tangential_restitution);
-                put(outcomes.p_stick, index, outcome.sticking_probability);
-                put(outcomes.omega, index, outcome.spin);
-                put(outcomes.regime, index, outcome.regime as u32);
-                put(outcomes.stuck, index, u32::from(outcome.stuck));
-                put(outcomes.flags, index, flags);
-            }
+            impacts.resolve(model, &outcomes)?;
         }
         Ok(())
     };
@@ -134,6 +121,98 @@ pub unsafe extern "C" fn nw_resolve_batch(
 }
 
 impl nw_impacts {
+    /// Checks all impacts; the index of the first at fault.
+    ///
+    /// # Safety
+    /// Every array that is not null has `count` entries.
+    unsafe fn check(&self, model: &Model) -> Result<(), (usize, Fault)> {
+        // SAFETY: the caller's promise.
+        let prepared = unsafe {
+            let wall = |index| get(self.walls, index, self.wall) as usize;
+            let differing = if self.walls.is_null() { self.count.min(1) } else { self.count };
+            (0..differing).all(|index| model.is_prepared(wall(index)))
+        };
+        let allowed = |(column, bounds): (*const f64, &Bounds)| {
+            let in_bounds = |all, index| all & bounds.allow(unsafe { get(column, index, f64::NAN) });
+            // SAFETY: as above. Without branches, so that it runs as fast as memory gives it.
+            column.is_null() || (0..self.count).fold(true, in_bounds)
+        };
+        if prepared && self.columns().into_iter().zip(&BOUNDS).all(allowed) {
+            return Ok(());
+        }
+        (0..self.count).try_for_each(|index| {
+            // SAFETY: `index < count`.
+            let (wall, impact, _) = unsafe { self.entry(index) };
+            model.check(wall, &impact).map_err(|error| (index, error.into()))
+        })
+    }
+
+    /// Decides all impacts, block by block.
+    ///
+    /// # Safety
+    /// Every array that is not null has `count` entries.
+    unsafe fn resolve(&self, model: &Model, outcomes: &nw_outcomes) -> Result<(), Fault> {
+        let (mut block, mut results) = (Block::default(), Outcomes::default());
+        for start in (0..self.count).step_by(BLOCK) {
+            block.length = (self.count - start).min(BLOCK);
+            // SAFETY: `start + length <= count`.
+            unsafe {
+                let wall = get(self.walls, start, self.wall);
+                let walls = start..start + block.length;
+                if walls.clone().all(|index| get(self.walls, index, wall) == wall) {
+                    self.load(start, &mut block);
+                    model.resolve_block(wall as usize, &block, self.seed, &mut results)?;
+                    outcomes.store(start, block.length, &results);
+                } else {
+                    for index in walls {
+                        let (wall, impact, draw) = self.entry(index);
+                        outcomes.put(index, &model.resolve(wall, &impact, draw)?);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Fills a block with the impacts from `start` on. What has no array stays as it is.
+    ///
+    /// # Safety
+    /// `start + block.length <= count`, and every array that is not null has `count` entries.
+    unsafe fn load(&self, start: usize, block: &mut Block) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            for (column, array) in block.inputs.iter_mut().zip(self.columns()) {
+                if !array.is_null() {
+                    copy(array.add(start), column.as_mut_ptr(), block.length);
+                }
+            }
+            if self.key.is_null() {
+                block.keys.iter_mut().zip(start as u64..).for_each(|(key, index)| *key = index);
+            } else {
+                copy(self.key.add(start), block.keys.as_mut_ptr(), block.length);
+            }
+        }
+    }
+
+    /// The arrays of the inputs, in the order of [`INPUTS`](crate::impact::INPUTS).
+    fn columns(&self) -> [*const f64; BOUNDS.len()] {
+        [
+            self.v_n,
+            self.v_t,
+            self.d,
+            self.T_p,
+            self.T_w,
+            self.conversion,
+            self.layer_thickness,
+            self.film_thickness,
+            self.v_gas,
+            self.roughness,
+            self.omega,
+            self.coverage,
+            self.melt_thickness,
+        ]
+    }
+
     /// One impact with its wall and its draws.
     ///
     /// # Safety
@@ -162,6 +241,63 @@ impl nw_impacts {
             let key = get(self.key, index, index as u64);
             (wall, impact.to_impact(), Draw::new(self.seed, key))
         }
+    }
+}
+
+impl nw_outcomes {
+    /// Writes one outcome.
+    ///
+    /// # Safety
+    /// Every array that is not null has room for more than `index` entries.
+    unsafe fn put(&self, index: usize, outcome: &Outcome) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            put(self.e_n, index, outcome.normal_restitution);
+            put(self.e_t, index, outcome.tangential_restitution);
+            put(self.p_stick, index, outcome.sticking_probability);
+            put(self.omega, index, outcome.spin);
+            put(self.regime, index, outcome.regime as u32);
+            put(self.stuck, index, u32::from(outcome.stuck));
+            put(self.flags, index, if outcome.outside_range { NW_OUTSIDE_VALID_RANGE } else { 0 });
+        }
+    }
+
+    /// Writes a block of outcomes.
+    ///
+    /// # Safety
+    /// Every array that is not null has room for `start + length` entries.
+    unsafe fn store(&self, start: usize, length: usize, outcomes: &Outcomes) {
+        const { assert!(NW_OUTSIDE_VALID_RANGE == 1, "what a block calls outside is the flag") };
+        // SAFETY: the caller's promise.
+        unsafe {
+            put_all(self.e_n, start, &outcomes.normal_restitution[..length]);
+            put_all(self.e_t, start, &outcomes.tangential_restitution[..length]);
+            put_all(self.p_stick, start, &outcomes.sticking_probability[..length]);
+            put_all(self.omega, start, &outcomes.spin[..length]);
+            put_all(self.regime, start, &outcomes.regime[..length]);
+            put_all(self.stuck, start, &outcomes.stuck[..length]);
+            put_all(self.flags, start, &outcomes.outside_range[..length]);
+        }
+    }
+}
+
+/// Copies `count` entries, of which the caller's need not be aligned.
+///
+/// # Safety
+/// `from` can be read and `to` written for `count` entries; they do not overlap.
+unsafe fn copy<T>(from: *const T, to: *mut T, count: usize) {
+    // SAFETY: the caller's promise; bytes need no alignment.
+    unsafe { std::ptr::copy_nonoverlapping(from.cast::<u8>(), to.cast::<u8>(), count * size_of::<T>()) };
+}
+
+/// Writes entries of an array that may be null.
+///
+/// # Safety
+/// The array is null or has room for `start + values.len()` entries, none of them in `values`.
+unsafe fn put_all<T>(array: *mut T, start: usize, values: &[T]) {
+    if !array.is_null() {
+        // SAFETY: not null, and long enough by the caller's promise.
+        unsafe { copy(values.as_ptr(), array.add(start), values.len()) };
     }
 }
 

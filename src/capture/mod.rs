@@ -32,6 +32,9 @@ impl Stickiness {
     /// One sticky partner is enough: `P = 1` for `P_p = 1` or `P_s = 1`; a wall that is not sticky leaves `P = P_p`.
     pub fn probability(self) -> f64 {
         let Self { particle, wall } = self;
+        if wall == 0.0 {
+            return particle;
+        }
         0.5 * (particle + (particle * particle + 4.0 * (1.0 - particle) * wall).sqrt())
     }
 }

@@ -7,7 +7,7 @@
 //! between. Valid with `thornton-ning`, whose adhesion is that of JKR: for contacts soft and wide against the range of the
 //! surface forces. Slow impacts determine it; fast ones do not.
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search, Simple};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -35,6 +35,10 @@ struct AdhesionEnergy {
 impl Effect for AdhesionEnergy {
     fn contact(&self, _: &Impact, contact: Contact, _: f64) -> Contact {
         Contact { work_of_adhesion: self.work_of_adhesion, ..contact }
+    }
+
+    fn simple(&self) -> Option<Simple> {
+        Some(Simple::Contact)
     }
 }
 

@@ -9,7 +9,7 @@
 //! Seen with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise lies at a conversion of
 //! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
 
-use super::{Effect, Kind, Parameter, Search, rise};
+use super::{Effect, Kind, Parameter, Search, Simple, Transition, rise};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
@@ -76,6 +76,10 @@ impl Effect for ConversionTransition {
 
     fn rebound_loss(&self) -> f64 {
         self.softening
+    }
+
+    fn simple(&self) -> Option<Simple> {
+        Transition::simple(true, self.threshold, self.width, self.asymmetry)
     }
 }
 

@@ -10,7 +10,7 @@
 //! 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce. The flow test of the same wax (1, 50 and 70 %
 //! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
 
-use super::{Effect, Kind, Parameter, Search, rise};
+use super::{Effect, Kind, Parameter, Search, Simple, Transition, rise};
 use crate::impact::Impact;
 
 pub(super) const KIND: Kind = Kind {
@@ -77,6 +77,10 @@ impl Effect for MeltingTransition {
 
     fn rebound_loss(&self) -> f64 {
         self.softening
+    }
+
+    fn simple(&self) -> Option<Simple> {
+        Transition::simple(false, self.temperature, self.width, self.asymmetry)
     }
 }
 

@@ -23,6 +23,7 @@ mod yield_ratio;
 
 use std::sync::Arc;
 
+use crate::elementary::exponential;
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
 use crate::normal::Contact;
@@ -98,9 +99,48 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         Some(restitution)
     }
 
+    /// What the effect comes down to where it needs no walk; `None` for one that does.
+    fn simple(&self) -> Option<Simple> {
+        None
+    }
+
     /// Changes what the tangential law says.
     fn tangential(&self, _glance: &Glance, rebound: Rebound) -> Rebound {
         rebound
+    }
+}
+
+/// An effect that can be prepared before an impact is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Simple {
+    /// It changes the contact, all impacts alike, and nothing else.
+    Contact,
+    /// It makes the particle sticky by one input, and takes up its rebound.
+    Transition(Transition),
+}
+
+/// A symmetric rise of stickiness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transition {
+    /// By the carbon conversion [1]; otherwise by the particle's temperature [K].
+    by_conversion: bool,
+    middle: f64,
+    /// One over the width.
+    sharpness: f64,
+}
+
+impl Transition {
+    /// The transition of an effect; `None` for an asymmetric one, whose power has no plain arithmetic.
+    fn simple(by_conversion: bool, middle: f64, width: f64, asymmetry: f64) -> Option<Simple> {
+        let transition = Self { by_conversion, middle, sharpness: width.recip() };
+        (asymmetry == 1.0).then_some(Simple::Transition(transition))
+    }
+
+    /// Stickiness [1] at a particle temperature [K] and carbon conversion [1].
+    #[inline(always)]
+    pub(crate) fn at(&self, particle_temperature: f64, conversion: f64) -> f64 {
+        let value = if self.by_conversion { conversion } else { particle_temperature };
+        logistic(value, self.middle, self.sharpness)
     }
 }
 
@@ -197,6 +237,11 @@ impl Term {
         &self.values
     }
 
+    /// The range of each of [`INPUTS`] that the term was fitted on.
+    pub fn valid(&self) -> &[(usize, [f64; 2])] {
+        &self.valid
+    }
+
     /// The effect itself.
     pub fn effect(&self) -> &dyn Effect {
         self.effect.as_ref()
@@ -248,9 +293,15 @@ fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputErro
 /// odds change by e where `asymmetry` is 1.
 fn rise(value: f64, middle: f64, width: f64, asymmetry: f64) -> f64 {
     if asymmetry == 1.0 {
-        return 1.0 / (1.0 + ((middle - value) / width).exp());
+        return logistic(value, middle, width.recip());
     }
     (1.0 + (asymmetry.recip().exp2() - 1.0) * ((middle - value) / width).exp()).powf(-asymmetry)
+}
+
+/// `1 / (1 + exp((middle - value) sharpness))`.
+#[inline(always)]
+fn logistic(value: f64, middle: f64, sharpness: f64) -> f64 {
+    1.0 / (1.0 + exponential((middle - value) * sharpness))
 }
 
 /// A factor on a strength, kept within twelve decades either way: beyond, a solid is none, and numbers would overflow.

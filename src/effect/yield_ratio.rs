@@ -7,7 +7,7 @@
 //! with wax spheres, soft against a hard target: 0.7 (Troiano et al.). Valid with `thornton-ning`, whose limits it shares.
 //! A rebound shows `c` and `sigma_y` only as their product: a ratio far from 1.6 to 4 may well mean a strength.
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, Kind, Parameter, Search, Simple};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -35,6 +35,10 @@ struct YieldRatio {
 impl Effect for YieldRatio {
     fn contact(&self, _: &Impact, contact: Contact, _: f64) -> Contact {
         Contact { yield_ratio: self.ratio, ..contact }
+    }
+
+    fn simple(&self) -> Option<Simple> {
+        Some(Simple::Contact)
     }
 }
 

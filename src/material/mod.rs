@@ -218,6 +218,11 @@ impl Material {
         self.properties[..MECHANICAL].iter().flatten().all(|p| p.holds_at(temperature))
     }
 
+    /// Temperatures [K] at which every mechanical property is stated to hold, where they are [constant](Self::is_constant).
+    pub fn valid_range(&self) -> [f64; 2] {
+        overlap(self.properties[..MECHANICAL].iter().flatten().filter_map(Property::valid))
+    }
+
     /// Whether the mechanical properties are the same at every temperature.
     pub fn is_constant(&self) -> bool {
         self.properties[..MECHANICAL].iter().flatten().all(Property::is_constant)

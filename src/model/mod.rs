@@ -5,9 +5,11 @@
 //! stickiness of particle and wall, normal law, effects on `e_n`, what stickiness takes of it, tangential law, effects on
 //! `e_t`, back to the mean wall, capture. [`Model::explain`] walks the same way and notes what each term did.
 
+pub mod block;
 mod deposit;
 mod describe;
 mod facet;
+mod plan;
 mod read;
 mod wall;
 
@@ -24,6 +26,7 @@ use crate::tangential::{Glance, TangentialLaw};
 
 pub use deposit::Melt;
 use facet::Facet;
+use plan::Plan;
 pub use wall::Wall;
 
 /// Everything that decides what happens when a particle hits a wall. Immutable once read.
@@ -37,6 +40,8 @@ pub struct Model {
     normal: NormalLaw,
     tangential: TangentialLaw,
     terms: Vec<Term>,
+    /// For each wall its prepared numbers, where that is all its impacts need.
+    plans: Vec<Option<Plan>>,
 }
 
 /// What one term did to one impact.
@@ -104,13 +109,19 @@ impl Model {
     /// The same model with other terms.
     #[must_use]
     pub fn with_terms(&self, terms: Vec<Term>) -> Self {
-        Self { terms, ..self.clone() }
+        Self { terms, ..self.clone() }.prepared()
     }
 
     /// The same model with other laws.
     #[must_use]
     pub fn with_laws(&self, normal: NormalLaw, tangential: TangentialLaw) -> Self {
-        Self { normal, tangential, ..self.clone() }
+        Self { normal, tangential, ..self.clone() }.prepared()
+    }
+
+    /// The model with the plans that belong to it.
+    fn prepared(mut self) -> Self {
+        self.plans = self.walls.iter().map(|wall| Plan::new(&self, wall)).collect();
+        self
     }
 
     /// The index of the wall that a patch name belongs to: the wall of that name, else the last one whose name is a
@@ -152,6 +163,11 @@ impl Model {
     /// # Errors
     /// [`ImpactError`] for an impact without physical meaning, or a temperature outside a property table.
     pub fn resolve(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
+        // A plan knows no melt on the wall.
+        if let (Some(Some(plan)), 0.0) = (self.plans.get(wall), impact.melt_thickness) {
+            impact.check()?;
+            return Ok(plan.one(impact, draw));
+        }
         self.walk(wall, impact, |stream| draw.uniform(stream), |_, _, _| {})
     }
 
@@ -304,7 +320,7 @@ impl Model {
             normal_restitution: e_n,
             tangential_restitution: e_t,
             sticking_probability: probability,
-            stuck: uniform(stream::CAPTURE) < probability,
+            stuck: captured(probability, uniform(stream::CAPTURE)),
             spin,
             regime: Regime::of(
                 sticky.particle >= Stickiness::THRESHOLD,
@@ -323,4 +339,10 @@ impl Model {
             && wall.material().holds_at(impact.wall_temperature)
             && self.terms.iter().all(|term| term.holds_for(impact)))
     }
+}
+
+/// Whether a particle is captured: for certain, or by a number in (0, 1) that was drawn for it.
+#[inline(always)]
+fn captured(probability: f64, drawn: f64) -> bool {
+    (probability >= 1.0) | (drawn < probability)
 }

@@ -52,7 +52,8 @@ impl Model {
                            give one to a material";
             return Err(top.fault("capture", problem));
         }
-        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms })
+        let plans = Vec::new();
+        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms, plans }.prepared())
     }
 }
 

@@ -7,7 +7,9 @@ mod raised_pull_off;
 mod thornton_ning;
 
 pub use contact::{Contact, reduced_modulus, stiffness_ratio};
-pub use thornton_ning::{adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity};
+pub use thornton_ning::{
+    Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
+};
 
 use crate::input::{InputError, Section};
 
@@ -63,12 +65,15 @@ impl NormalLaw {
     /// Normal restitution [1] of a particle of `diameter` [m] that hits at `normal_speed` [m/s]; `None` when
     /// adhesion holds it.
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
-        let law = match self {
-            Self::ThorntonNing => restitution,
-            Self::RaisedPullOff => raised_pull_off::restitution,
+        let e_n = match self {
+            Self::ThorntonNing => Prepared::new(contact).restitution(diameter, normal_speed),
+            Self::RaisedPullOff => raised_pull_off::restitution(
+                normal_speed,
+                adhesive_velocity(contact, diameter),
+                yield_velocity(contact),
+            ),
             Self::Constant { restitution } => return Some(restitution),
         };
-        let e_n = law(normal_speed, adhesive_velocity(contact, diameter), yield_velocity(contact));
         (e_n > 0.0).then_some(e_n)
     }
 

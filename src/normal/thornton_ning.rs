@@ -19,11 +19,58 @@
 //! 0.953 of the above; Eq. 6 lost a minus sign under its inner root. Tests below state both.
 
 use super::{Contact, Speeds};
+use crate::elementary::inverse_cube_root;
 
 /// `C1 = (sqrt3/2) π^(1/3) sqrt((1 + 6·2^(2/3))/5)`.
 pub(super) const ADHESIVE_FACTOR: f64 = 1.840_183_180_799_056_5;
 /// `C2 = π²/(2 sqrt10)`.
 pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
+
+/// What the law needs of a contact, worked out once.
+///
+/// `v_adh² = C1² (E*/rho) u^(-5/3)` with the size `u = d E*/2W` [1]: the formula above in other letters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prepared {
+    /// `E*/2W` [1/m], infinite without adhesion.
+    size: f64,
+    /// `C1² E*/rho` [m²/s²].
+    adhesive: f64,
+    /// `v_y` [m/s].
+    yielding: f64,
+}
+
+impl Prepared {
+    /// The contact's numbers.
+    #[inline(always)]
+    pub fn new(contact: &Contact) -> Self {
+        let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
+        Self {
+            size: reduced_modulus / (2.0 * work_of_adhesion),
+            adhesive: ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density),
+            yielding: yield_velocity(contact),
+        }
+    }
+
+    /// `v_adh²` [m²/s²] of a particle of `diameter` [m].
+    #[inline(always)]
+    pub fn adhesive_squared(&self, diameter: f64) -> f64 {
+        let root = inverse_cube_root(diameter * self.size);
+        let square = root * root;
+        self.adhesive * (square * square * root)
+    }
+
+    /// Normal restitution `e_n` [1] of a particle of `diameter` [m] at `normal_speed` [m/s]; 0 when adhesion holds it.
+    #[inline(always)]
+    pub fn restitution(&self, diameter: f64, normal_speed: f64) -> f64 {
+        self.rebound(normal_speed, self.adhesive_squared(diameter))
+    }
+
+    /// As [`Self::restitution`], from `v_adh²` [m²/s²].
+    #[inline(always)]
+    pub fn rebound(&self, normal_speed: f64, adhesive_squared: f64) -> f64 {
+        rebound(normal_speed, adhesive_squared, self.yielding)
+    }
+}
 
 /// The three speeds of a particle of `diameter` [m].
 pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
@@ -34,19 +81,11 @@ pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
 
 /// Adhesive velocity `v_adh` [m/s] of a particle of `diameter` [m].
 pub fn adhesive_velocity(contact: &Contact, diameter: f64) -> f64 {
-    let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
-    if work_of_adhesion == 0.0 {
-        return 0.0;
-    }
-    let group = work_of_adhesion / (0.5 * diameter);
-    // (group⁵ / (rho³ E*²))^(1/6), with the powers split so that nothing overflows.
-    let ratio = group.powi(5) / (reduced_modulus * reduced_modulus);
-    // Where both are beyond all numbers, it holds.
-    let ratio = if ratio.is_nan() { f64::INFINITY } else { ratio };
-    ADHESIVE_FACTOR * ratio.cbrt().sqrt() / density.sqrt()
+    Prepared::new(contact).adhesive_squared(diameter).sqrt()
 }
 
 /// Yield velocity `v_y` [m/s].
+#[inline]
 pub fn yield_velocity(contact: &Contact) -> f64 {
     let Contact { density, reduced_modulus, .. } = *contact;
     let limiting_pressure = contact.limiting_pressure();
@@ -55,20 +94,31 @@ pub fn yield_velocity(contact: &Contact) -> f64 {
 }
 
 /// Plastic term `P(w)` [1] for `w = v_y / v` in 0 to 1.
+#[inline(always)]
 pub fn plastic_term(w: f64) -> f64 {
-    let factor = 1.2 * 3f64.sqrt();
-    factor * (1.0 - w * w / 6.0) * (w / (w + 2.0 * ((6.0 - w * w) / 5.0).sqrt())).sqrt()
+    /// `6 sqrt3 / 5`.
+    const FACTOR: f64 = 2.078_460_969_082_653;
+    let square = w * w;
+    FACTOR * (1.0 - square * (1.0 / 6.0)) * (w / (w + 2.0 * (1.2 - 0.2 * square).sqrt())).sqrt()
 }
 
 /// Normal restitution `e_n` [1] at the normal speed `v`, with `v_adh` and `v_y` in the same unit.
 pub fn restitution(speed: f64, adhesive: f64, yielding: f64) -> f64 {
-    if speed <= adhesive {
-        return 0.0;
-    }
-    let adhesion = (adhesive / speed).powi(2);
-    let elastic = if speed <= yielding { 1.0 } else { plastic_term(yielding / speed) };
+    rebound(speed, adhesive * adhesive, yielding)
+}
+
+/// As [`restitution`], from `v_adh²`. Without branches, for vectors: what a branch would skip is worked out and dropped.
+#[inline(always)]
+fn rebound(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
+    let slowness = 1.0 / speed;
+    let adhesion = (adhesive_squared * slowness) * slowness;
+    let w = yielding * slowness;
+    let plastic = plastic_term(w);
+    let elastic = if w < 1.0 { plastic } else { 1.0 };
     // Negative exactly where speed < v_s: the sticking velocity is the root of this expression.
-    (elastic - adhesion).max(0.0).sqrt()
+    let left = elastic - adhesion;
+    let left = if (adhesion < 1.0) & (left > 0.0) { left } else { 0.0 };
+    left.sqrt()
 }
 
 /// Sticking velocity `v_s` [m/s], from `v_adh` and `v_y` [m/s].

@@ -25,6 +25,24 @@ pub struct Glance {
     pub stiffness_ratio: f64,
 }
 
+impl Glance {
+    /// Speed of the contact point along the wall [m/s].
+    #[inline(always)]
+    fn slip(&self) -> f64 {
+        self.tangential_speed - 0.5 * self.diameter * self.spin
+    }
+
+    /// The rebound at a speed [m/s] with the spin `omega_0 + x/d`; `at_rest` is `e_t` of an impact straight down.
+    #[inline(always)]
+    fn rebound(&self, [speed, omega_0, x]: [f64; 3], at_rest: f64) -> Rebound {
+        let ratio = speed / self.tangential_speed;
+        Rebound {
+            restitution: if self.tangential_speed > 0.0 { ratio } else { at_rest },
+            spin: omega_0 + x / self.diameter,
+        }
+    }
+}
+
 /// Tangential restitution and spin after the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rebound {
@@ -84,6 +102,7 @@ impl TangentialLaw {
 
     /// Tangential restitution and spin after the impact. Without tangential speed the restitution is that of
     /// the smallest one.
+    #[inline(always)]
     pub fn rebound(self, glance: &Glance) -> Rebound {
         match self {
             Self::Constant { restitution } => Rebound { restitution, spin: glance.spin },

@@ -18,20 +18,21 @@ pub fn critical_angle(friction: f64, normal_restitution: f64, stiffness_ratio: f
     std::f64::consts::FRAC_PI_2 - cotangent.atan()
 }
 
+#[inline(always)]
 fn critical_cotangent(friction: f64, normal_restitution: f64, stiffness_ratio: f64) -> f64 {
     (7.0 - 1.0 / stiffness_ratio) * 0.5 * friction * (1.0 + normal_restitution)
 }
 
-/// Tangential restitution and spin after sliding or rolling.
+/// Tangential restitution and spin after sliding or rolling. Without branches, for vectors.
+#[inline(always)]
 pub(super) fn rebound(friction: f64, glance: &Glance) -> Rebound {
     let cotangent = critical_cotangent(friction, glance.normal_restitution, glance.stiffness_ratio);
-    let slip = glance.tangential_speed - 0.5 * glance.diameter * glance.spin;
-    if slip.abs() > cotangent * glance.normal_speed {
-        return sliding::rebound(friction, glance);
-    }
-    let speed = (5.0 * glance.tangential_speed + glance.diameter * glance.spin) / 7.0;
-    let restitution = if glance.tangential_speed > 0.0 { speed / glance.tangential_speed } else { 5.0 / 7.0 };
-    Rebound { restitution, spin: 2.0 * speed / glance.diameter }
+    let slides = glance.slip().abs() > cotangent * glance.normal_speed;
+    let sliding = sliding::motion(friction, glance);
+    let speed = (5.0 * glance.tangential_speed + glance.diameter * glance.spin) * (1.0 / 7.0);
+    let rolling = [speed, 0.0, 2.0 * speed];
+    let pick = |place: usize| if slides { sliding[place] } else { rolling[place] };
+    glance.rebound([pick(0), pick(1), pick(2)], if slides { 0.0 } else { 5.0 / 7.0 })
 }
 
 #[cfg(test)]

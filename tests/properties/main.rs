@@ -8,6 +8,7 @@
 mod common;
 
 mod bits;
+mod blocks;
 mod bounds;
 mod cases;
 mod continuous;

@@ -1,0 +1,132 @@
+//! Many impacts at a time, as columns: [`Model::resolve_block`].
+
+pub use fearless_simd::Level;
+
+use super::Model;
+use crate::draw::Draw;
+use crate::impact::{INPUTS, Impact, ImpactError};
+
+/// Impacts of a block: their columns stay in the first-level cache.
+pub const BLOCK: usize = 128;
+
+/// Up to [`BLOCK`] impacts on one wall, as columns.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// A column for each of [`INPUTS`], in their order and units.
+    pub inputs: [[f64; BLOCK]; INPUTS.len()],
+    /// What tells each impact's draws from all others.
+    pub keys: [u64; BLOCK],
+    /// Number of impacts, at most [`BLOCK`].
+    pub length: usize,
+}
+
+/// What became of a [`Block`], as columns: the fields of [`Outcome`](crate::Outcome).
+#[derive(Debug, Clone)]
+pub struct Outcomes {
+    /// Normal restitution `e_n` [1].
+    pub normal_restitution: [f64; BLOCK],
+    /// Tangential restitution `e_t` [1].
+    pub tangential_restitution: [f64; BLOCK],
+    /// Probability of capture [1].
+    pub sticking_probability: [f64; BLOCK],
+    /// Spin after a rebound [rad/s].
+    pub spin: [f64; BLOCK],
+    /// [`Regime`](crate::Regime) as a number.
+    pub regime: [u32; BLOCK],
+    /// 1 captured, 0 rebounds.
+    pub stuck: [u32; BLOCK],
+    /// 1 outside the range that a term or a property is stated for.
+    pub outside_range: [u32; BLOCK],
+}
+
+impl Default for Block {
+    fn default() -> Self {
+        let impact = Impact::default();
+        let inputs = std::array::from_fn(|input| [(INPUTS[input].value)(&impact); BLOCK]);
+        Self { inputs, keys: [0; BLOCK], length: 0 }
+    }
+}
+
+impl Default for Outcomes {
+    fn default() -> Self {
+        Self {
+            normal_restitution: [0.0; BLOCK],
+            tangential_restitution: [0.0; BLOCK],
+            sticking_probability: [0.0; BLOCK],
+            spin: [0.0; BLOCK],
+            regime: [0; BLOCK],
+            stuck: [0; BLOCK],
+            outside_range: [0; BLOCK],
+        }
+    }
+}
+
+impl Block {
+    /// One of the impacts.
+    fn impact(&self, index: usize) -> Impact {
+        let mut impact = Impact::default();
+        for (input, column) in INPUTS.iter().zip(&self.inputs) {
+            (input.set)(&mut impact, column[index]);
+        }
+        impact
+    }
+}
+
+impl Model {
+    /// Decides a block of impacts on the wall with index `wall`: the bits of [`Model::resolve`] one by one, with the widest
+    /// vectors that this machine has.
+    ///
+    /// Where the wall is [prepared](Model::is_prepared) the caller has checked the impacts
+    /// ([`Impact::check`]); numbers without meaning give outcomes without meaning.
+    ///
+    /// # Errors
+    /// As [`Model::resolve`], for a wall that is not prepared. The outcomes are then in part those of the block before.
+    pub fn resolve_block(
+        &self,
+        wall: usize,
+        block: &Block,
+        seed: u64,
+        outcomes: &mut Outcomes,
+    ) -> Result<(), ImpactError> {
+        self.resolve_block_at(Level::new(), wall, block, seed, outcomes)
+    }
+
+    /// As [`Model::resolve_block`] with the vectors of `level`: for tests, which show that all give the same bits, and
+    /// for benchmarks.
+    ///
+    /// # Errors
+    /// As [`Model::resolve_block`].
+    pub fn resolve_block_at(
+        &self,
+        level: Level,
+        wall: usize,
+        block: &Block,
+        seed: u64,
+        outcomes: &mut Outcomes,
+    ) -> Result<(), ImpactError> {
+        if let Some(plan) = self.plans.get(wall).ok_or(ImpactError::NoSuchWall(wall))? {
+            // A plan knows no melt on the wall.
+            let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
+            if melt.iter().all(|thickness| *thickness == 0.0) {
+                plan.many(block, seed, outcomes, level);
+                return Ok(());
+            }
+        }
+        for index in 0..block.length.min(BLOCK) {
+            let outcome = self.resolve(wall, &block.impact(index), Draw::new(seed, block.keys[index]))?;
+            outcomes.normal_restitution[index] = outcome.normal_restitution;
+            outcomes.tangential_restitution[index] = outcome.tangential_restitution;
+            outcomes.sticking_probability[index] = outcome.sticking_probability;
+            outcomes.spin[index] = outcome.spin;
+            outcomes.regime[index] = outcome.regime as u32;
+            outcomes.stuck[index] = u32::from(outcome.stuck);
+            outcomes.outside_range[index] = u32::from(outcome.outside_range);
+        }
+        Ok(())
+    }
+
+    /// Whether every impact on this wall is decided from prepared numbers: then only [`Impact::check`] can refuse it.
+    pub fn is_prepared(&self, wall: usize) -> bool {
+        self.plans.get(wall).is_some_and(Option::is_some)
+    }
+}
