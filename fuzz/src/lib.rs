@@ -5,18 +5,29 @@ mod bytes;
 mod c_api;
 mod case;
 mod dataset;
+mod diagnose;
 mod model;
+mod openfoam;
 
 pub use c_api::c_api;
 pub use case::case;
 pub use dataset::dataset;
+pub use diagnose::diagnose;
 pub use model::model;
+pub use openfoam::openfoam;
 
 /// A door: what it is called, and what is fed.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every door, by the name of its folder in `fuzz/corpus`.
-pub const TARGETS: [Target; 4] = [("model", model), ("case", case), ("dataset", dataset), ("c_api", c_api)];
+pub const TARGETS: [Target; 6] = [
+    ("model", model),
+    ("case", case),
+    ("dataset", dataset),
+    ("diagnose", diagnose),
+    ("openfoam", openfoam),
+    ("c_api", c_api),
+];
 
 /// An error names the file and a place that is in it.
 fn place(error: &str, file: &str, text: &str) {
