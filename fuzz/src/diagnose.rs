@@ -15,7 +15,7 @@ use super::bytes::{Bytes, WRITTEN};
 const FILE: &str = "d.csv";
 
 /// Rows and columns of the file's own that a diagnosis gets at most; an average stands for few impacts or is not unfolded.
-const ROWS: usize = 14;
+const ROWS: usize = 24;
 const COLUMNS: usize = 2;
 const UNFOLDED: f64 = 3.0;
 
