@@ -42,3 +42,17 @@ fn place(error: &str, file: &str, text: &str) {
     assert!((1..=width + 1).contains(&column), "column {column} of {width}: {error}");
     assert!(!error.contains("panicked"), "{error}");
 }
+
+/// A page that is whole, and whose figures have a number wherever a browser needs one.
+fn whole(page: &str) {
+    assert!(page.contains("</html>") && page.len() > 1000);
+    for bare in ["=\"NaN\"", "=\"inf\"", "=\"-inf\""] {
+        assert!(!page.contains(bare), "{bare}");
+    }
+    for path in [" d=\"", " points=\"", " transform=\""] {
+        let ends = page.split(path).skip(1).filter_map(|rest| rest.split('"').next());
+        for drawn in ends {
+            assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+        }
+    }
+}
