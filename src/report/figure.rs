@@ -655,6 +655,21 @@ mod tests {
         assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
     }
 
+    /// The plotting crate would look for a tick at each power of ten up to infinity.
+    #[test]
+    fn numbers_beyond_any_axis_are_left_out() {
+        let far = [[1.7e308, 1.0], [1.0, -1.7e308], [5e-324, 2.0], [3.0, 4.0]];
+        let chart = Chart::new("t", "x", "y").points_with_errors("p", &far, &vec![(1e300, 0.0); 4]);
+        let chart = chart.line("l", &far).band(&[1.0, 1e200], &[0.0; 2], &[1.0; 2]).mark_x(f64::NAN, "n");
+        let chart = chart.histogram("h", &[0.0, 1e300], &[1.0]).x_range(2.0, 2.0).y_range(-1e300, 1e300);
+        for svg in [
+            chart.log_x().figure("f", "").svg,
+            Bars::new("t", "y", &["a".into()]).series("s", &[1e300]).figure("b", "").svg,
+        ] {
+            assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+    }
+
     #[test]
     fn words_stand_along_the_axis() {
         let words = ["Ann".to_owned(), "Bob".to_owned()];
