@@ -73,7 +73,7 @@ fn cell(bytes: &mut Bytes<'_>, pattern: u8, usual: f64, row: usize) -> String {
         0 => format!("{usual}"),
         1 => format!("{:e}", usual * along),
         2 => format!("{:e}", usual * (0.5 + f64::from(bytes.byte()) / 255.0)),
-        3 => format!("{:e}", if row % 2 == 0 { usual } else { 2.0 * usual }),
+        3 => format!("{:e}", if row.is_multiple_of(2) { usual } else { 2.0 * usual }),
         4 => WRITTEN[bytes.below(WRITTEN.len())].replace(", ", " "),
         5 => format!("{:e}", bytes.number()),
         6 => String::new(),
