@@ -6,10 +6,17 @@ use super::Model;
 use super::wall::{Adhesion, Wall};
 use crate::capture::{Criterion, ViscosityCriterion};
 use crate::effect::Term;
-use crate::input::{Document, InputError, Section};
+use crate::input::{Document, InputError, Limits, Section};
 use crate::material::{Library, Material};
 use crate::normal::{Contact, NormalLaw};
 use crate::tangential::TangentialLaw;
+
+/// As the effect `adhesion-energy` has it.
+const WORK_OF_ADHESION: Limits =
+    Limits { unit: "J/m2", low: 0.0, high: 1e3, known: "diamond on diamond some 12" };
+
+const LAYER_THICKNESS: Limits =
+    Limits { unit: "m", low: 0.0, high: 100.0, known: "no furnace is that large" };
 
 impl Model {
     pub(super) fn read(document: &Document) -> Result<Self, InputError> {
@@ -74,7 +81,7 @@ fn missing_material(section: &Section<'_>) -> InputError {
 fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputError> {
     let law = NormalLaw::read(section)?;
     let yield_ratio = section.number_within("yield_ratio", 1e-6, 1e6)?;
-    let work = section.number_within("work_of_adhesion", 0.0, f64::INFINITY)?;
+    let work = section.quantity("work_of_adhesion", &WORK_OF_ADHESION)?;
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
         (None, NormalLaw::Constant { .. }) => 1.0,
@@ -138,7 +145,7 @@ impl WallReader<'_> {
             material,
             slag,
             melt,
-            layer_thickness: section.number_within("layer_thickness", 0.0, f64::INFINITY)?.unwrap_or(0.0),
+            layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
             adhesion: self.adhesion,
             prepared,
