@@ -213,8 +213,10 @@ impl<'a> Section<'a> {
         let range = range_text(low, high);
         let at = temperature.map_or_else(String::new, |t| format!(" at {} K", Short(t)));
         let known = if known.is_empty() { String::new() } else { format!(" ({known})") };
-        let valid = if temperature.is_some() { ", and `valid`" } else { "" };
-        let remedy = format!("check the exponent and the unit, {unit}{valid}");
+        let remedy = match temperature {
+            None => format!("check the exponent and the unit, {unit}"),
+            Some(_) => format!("check the exponent, the temperatures and the unit, {unit}"),
+        };
         self.fault(key, format!("{}{at} is outside {range}{known}; {remedy}", Short(value)))
     }
 
@@ -408,7 +410,8 @@ impl<'a> Section<'a> {
             other => return Err(self.wrong_type(key, "a number in SI units", other)),
         };
         match parsed {
-            Some(number) if number.is_finite() => Ok(number),
+            // A negative zero is a zero: one over it is not to be the wrong infinity.
+            Some(number) if number.is_finite() => Ok(number + 0.0),
             _ => Err(self.fault(key, "the number is not finite")),
         }
     }
@@ -513,6 +516,13 @@ mod tests {
         assert_eq!(text, "m.toml:1:1: a: expected a number in SI units, found string");
         let text = error("a = nan", |top| top.number("a").map(|_| ()));
         assert!(text.contains("not finite"), "{text}");
+    }
+
+    #[test]
+    fn a_negative_zero_is_a_zero() {
+        let read = |top: &Section<'_>| Ok((top.number("a")?, top.numbers("b")?));
+        let (one, list) = Document::new("m", "a = -0.0\nb = [-0e3]").read(read).unwrap();
+        assert!([one.unwrap(), list.unwrap()[0]].iter().all(|zero| *zero == 0.0 && zero.is_sign_positive()));
     }
 
     #[test]

@@ -329,6 +329,41 @@ mod tests {
         }
     }
 
+    /// Both ends of every property's limits, just within and just beyond.
+    #[test]
+    fn a_number_that_no_material_has_is_refused() {
+        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600"];
+        let read = |place: usize, value: f64| {
+            let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
+                let value = if at == place { format!("{value:e}") } else { usual.to_owned() };
+                format!("{} = {value}\n", field.key)
+            });
+            let document = Document::new("m.toml", format!("[p]\n{}", lines.collect::<String>()));
+            document.read(|top| Library::default().with(top)).map_err(|error| error.to_string())
+        };
+        for (place, field) in FIELDS.iter().enumerate() {
+            let Limits { low, high, .. } = field.limits;
+            for inside in [low, high].into_iter().filter(|end| end.is_finite()) {
+                assert!(read(place, inside).is_ok(), "{} {inside}", field.key);
+            }
+            let beyond_high = if high > 0.0 { 1.001 * high } else { 0.999 * high };
+            let beyond_low = if low > 0.0 { 0.999 * low } else { 1.001 * low - 1e-300 };
+            for outside in [beyond_low, beyond_high].into_iter().filter(|number| number.is_finite()) {
+                let message = read(place, outside).unwrap_err();
+                let start = format!("m.toml:{}:1: p.{}: ", place + 2, field.key);
+                let remedy = format!("check the exponent and the unit, {}", field.limits.unit);
+                assert!(message.starts_with(&start) && message.ends_with(&remedy), "{message}");
+                assert!(message.contains(field.limits.known), "{message}");
+            }
+        }
+        assert_eq!(
+            read(1, 70e90).unwrap_err(),
+            "m.toml:3:1: p.youngs_modulus: 7e91 is outside the allowed range 1 to 1e13 (soft gels some 10, diamond 1.1e12); \
+             check the exponent and the unit, Pa"
+        );
+        assert!(read(0, 1e-320).unwrap_err().contains("p.density: 1e-320 is outside"));
+    }
+
     #[test]
     fn wax_has_the_papers_numbers() {
         let library = Library::built_in().unwrap();

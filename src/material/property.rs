@@ -80,7 +80,7 @@ impl Property {
         if matches!(property.form, Form::Polynomial { .. } | Form::Arrhenius { .. })
             && property.valid.is_none()
         {
-            return Err(table.missing("valid", "a range [K]; a formula has no meaning beyond it,"));
+            return Err(table.missing("valid", "[low, high], the temperatures [K] that the formula is for,"));
         }
         if property.melt.is_some() && property.solid_end() == f64::INFINITY {
             return Err(table.missing("valid", "a range [K]; `melt` takes over above its end"));
@@ -303,7 +303,10 @@ mod tests {
         );
         for form in ["polynomial = [1, 2]", "arrhenius = [1, 300]"] {
             let endless = property(&format!("p = {{ {form} }}")).unwrap_err().to_string();
-            assert!(endless.starts_with("m.toml:1:5: p.valid: missing; add a range [K]"), "{endless}");
+            assert!(
+                endless.starts_with("m.toml:1:5: p.valid: missing; add [low, high], the temperatures"),
+                "{endless}"
+            );
         }
     }
 }

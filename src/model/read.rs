@@ -237,6 +237,35 @@ e_t = 0.76
     }
 
     #[test]
+    fn numbers_that_cannot_be_are_refused() {
+        let work =
+            error(&SMALLEST.replace("yield_ratio = 0.7", "yield_ratio = 0.7\nwork_of_adhesion = 1e200"));
+        assert_eq!(
+            work,
+            "m.toml:9:1: normal.work_of_adhesion: 1e200 is outside the allowed range 0 to 1000 \
+             (diamond on diamond some 12); check the exponent and the unit, J/m2"
+        );
+        let layer = error(&SMALLEST.replace("\"pyrex\"", "\"pyrex\"\nlayer_thickness = 250"));
+        assert_eq!(
+            layer,
+            "m.toml:6:1: walls.default.layer_thickness: 250 is outside the allowed range 0 to 100 \
+             (no furnace is that large); check the exponent and the unit, m"
+        );
+        let capture = format!(
+            "{SMALLEST}[capture]\nmodel = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 70e90\n"
+        );
+        assert_eq!(
+            error(&capture),
+            "m.toml:15:1: capture.reference_viscosity: 7e91 is outside the allowed range 1e-7 to 1e20 \
+             (literature 8 to 1e7; glass is solid above 1e12); check the exponent and the unit, Pa s"
+        );
+        // No adhesion, however it is written: it used to be an endless one.
+        let none = SMALLEST.replace("yield_ratio = 0.7", "yield_ratio = 0.7\nwork_of_adhesion = -0.0");
+        let speeds = Model::from_toml("m", &none).unwrap().speeds(0, &Impact::default()).unwrap();
+        assert_eq!(speeds.adhesive, 0.0);
+    }
+
+    #[test]
     fn walls_are_found_by_name_then_by_the_last_pattern() {
         let text = format!(
             "{SMALLEST}[walls.\"slag.*\"]\nmaterial = \"teflon\"\n[walls.\"sl.*\"]\nmaterial = \"pyrex\"\n\
