@@ -456,7 +456,7 @@ struct Short(f64);
 impl std::fmt::Display for Short {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let Self(value) = *self;
-        match value == 0.0 || !value.is_finite() || (1e-3..1e7).contains(&value.abs()) {
+        match value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
             true => write!(f, "{value}"),
             false => write!(f, "{value:e}"),
         }
