@@ -39,12 +39,15 @@ pub fn model() -> Model {
     Model::from_toml("wax", MODEL).unwrap()
 }
 
-/// The model behind the C interface. It is never freed.
-pub fn handle() -> *const nw_model {
+/// The model of the slagging gasifier: coal char on slag, a wall of properties that depend on temperature.
+pub const GASIFIER: &str = include_str!("../tutorials/slaggingGasifier/constant/nearWall.toml");
+
+/// A model behind the C interface. It is never freed.
+pub fn handle(toml: &str) -> *const nw_model {
     let mut model = null_mut();
     // SAFETY: text and length belong together, and `model` can be written.
     let status =
-        unsafe { nw_model_parse(MODEL.as_ptr().cast(), MODEL.len(), null(), &raw mut model, null_mut(), 0) };
+        unsafe { nw_model_parse(toml.as_ptr().cast(), toml.len(), null(), &raw mut model, null_mut(), 0) };
     assert_eq!(status, 0);
     model
 }
@@ -128,12 +131,12 @@ pub struct HandOutcome {
 /// The function in C++.
 pub type ByHand = unsafe extern "C" fn(*const Constants, *const HandImpact, *mut HandOutcome);
 
-/// Compiles `handwritten.cpp` with `c++ -O3` and loads it for good.
-pub fn by_hand() -> ByHand {
+/// Compiles `handwritten.cpp` with `c++ -O3` and these further `options`, and loads it for good.
+pub fn by_hand(options: &[&str]) -> ByHand {
     let folder = tempfile::tempdir().unwrap();
     let library = folder.path().join("handwritten.so");
     let mut compiler = Command::new(std::env::var_os("CXX").unwrap_or_else(|| "c++".into()));
-    compiler.args(["-O3", "-shared", "-fPIC", "-o"]).arg(&library);
+    compiler.args(["-O3", "-shared", "-fPIC"]).args(options).arg("-o").arg(&library);
     assert!(
         compiler.arg(concat!(env!("CARGO_MANIFEST_DIR"), "/handwritten.cpp")).status().unwrap().success()
     );

@@ -10,7 +10,9 @@ use std::ptr::null_mut;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use nearwall::c_api::{nw_impact, nw_model, nw_outcome, nw_resolve, nw_resolve_batch, nw_status};
+use nearwall::c_api::{
+    NW_OK, nw_impact, nw_model, nw_model_find_wall, nw_outcome, nw_resolve, nw_resolve_batch, nw_status,
+};
 use nearwall::model::block::{BLOCK, Outcomes};
 use nearwall::normal::Contact;
 use nearwall::{Draw, Impact, Model};
@@ -55,45 +57,63 @@ fn blocks(criterion: &mut Criterion) {
 
 type Resolve = unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> nw_status;
 
-/// One call through the C interface, its floating-point guard and its checks included, against C++ that has neither.
+/// One call through the C interface, its floating-point guard and its checks included, against C++ that has neither: with
+/// the C library's exponential and cube root, and with ours.
 fn calls(criterion: &mut Criterion) {
-    let (by_hand, constants, model) = (by_hand(), constants(), handle());
+    let (constants, model) = (constants(), handle(MODEL));
     let numbers = impact(1);
-    let [v_n, v_t, d, t_p, omega] = numbers;
     let mut theirs = HandImpact { numbers, key: 0 };
-    let mut ours = nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() };
+    let ours = called(numbers);
     let (mut hand, mut outcome) = (HandOutcome::default(), nw_outcome::default());
     // A pointer, as a solver has it: nothing is inlined.
     let resolve = black_box(nw_resolve as Resolve);
-    // SAFETY: live structs of the right types, here and below.
-    unsafe {
-        by_hand(&constants, &theirs, &mut hand);
-        resolve(model, &ours, &mut outcome);
-    }
-    for (hand, our) in hand.numbers.iter().zip([outcome.e_n, outcome.e_t, outcome.p_stick, outcome.omega]) {
-        assert!((hand - our).abs() <= 1e-9 * our.abs(), "{hand:?}, {outcome:?}");
-    }
     let mut group = criterion.benchmark_group("call");
-    group.bench_function("by hand", |b| {
-        b.iter(|| {
-            theirs.key += 1;
-            unsafe { by_hand(black_box(&raw const constants), black_box(&raw const theirs), &mut hand) };
-            black_box(&mut hand);
+    for (name, options) in [("by hand", &[][..]), ("by hand, own exp", &["-DOWN_ELEMENTARY"])] {
+        let by_hand = by_hand(options);
+        // SAFETY: live structs of the right types, here and below.
+        unsafe {
+            by_hand(&constants, &theirs, &mut hand);
+            resolve(model, &ours, &mut outcome);
+        }
+        let same = hand.numbers.iter().zip([outcome.e_n, outcome.e_t, outcome.p_stick, outcome.omega]);
+        for (hand, our) in same {
+            assert!((hand - our).abs() <= 1e-9 * our.abs(), "{hand:?}, {outcome:?}");
+        }
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                theirs.key += 1;
+                unsafe { by_hand(black_box(&raw const constants), black_box(&raw const theirs), &mut hand) };
+                black_box(&mut hand);
+            });
         });
-    });
-    group.bench_function("nw_resolve", |b| {
-        b.iter(|| {
-            ours.key += 1;
-            unsafe { resolve(model, black_box(&raw const ours), &raw mut outcome) };
-            black_box(&mut outcome);
+    }
+    let slag = handle(GASIFIER);
+    let mut wall = 0;
+    // SAFETY: as above.
+    unsafe { nw_model_find_wall(slag, c"slagWall".as_ptr(), &raw mut wall) };
+    let on_slag = nw_impact { wall, T_p: 1600.0, T_w: 1600.0, conversion: 0.9, ..ours };
+    for (name, model, mut impact) in [("nw_resolve", model, ours), ("nw_resolve, slag", slag, on_slag)] {
+        group.bench_function(name, |b| {
+            b.iter(|| {
+                impact.key += 1;
+                // SAFETY: as above.
+                let status = unsafe { resolve(model, black_box(&raw const impact), &raw mut outcome) };
+                assert_eq!(status, NW_OK);
+                black_box(&mut outcome);
+            });
         });
-    });
+    }
     group.finish();
+}
+
+/// An impact for the C interface.
+fn called([v_n, v_t, d, t_p, omega]: [f64; 5]) -> nw_impact {
+    nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() }
 }
 
 /// Batches through the C interface, from the cache to far beyond it.
 fn batches(criterion: &mut Criterion) {
-    let model = handle();
+    let model = handle(MODEL);
     let mut group = criterion.benchmark_group("batch");
     group.sample_size(10);
     for count in [1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000] {
@@ -117,7 +137,7 @@ fn threads(criterion: &mut Criterion) {
     let counts = (0..).map(|power| 1 << power).take_while(|count| *count <= cores);
     for count in counts {
         let mut all: Vec<Columns> = (0..count).map(|_| Columns::new(100_000)).collect();
-        let model = handle() as usize;
+        let model = handle(MODEL) as usize;
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter_custom(|rounds| {
                 let work = |columns: &mut Columns| {
@@ -204,9 +224,13 @@ fn ratios() {
         );
         say(&format!("block, {level}: million impacts a second"), resolve.map(|r| 1e3 * BLOCK as f64 / r));
     }
-    let (call, hand) = (median("call/nw_resolve"), median("call/by hand"));
-    say("one call: time over C++ -O3 by hand", call.zip(hand).map(|(c, h)| c / h));
+    let call = median("call/nw_resolve");
+    for hand in ["by hand", "by hand, own exp"] {
+        let ratio = call.zip(median(&format!("call/{hand}"))).map(|(c, h)| c / h);
+        say(&format!("one call: time over C++ -O3 {hand}"), ratio);
+    }
     say("one call [ns]", call);
+    say("one call, coal char on slag [ns]", median("call/nw_resolve, slag"));
     for count in [1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000_u32] {
         let time = median(&format!("batch/{count}")).map(|time| time / f64::from(count));
         say(&format!("batch of {count}: ns an impact"), time);

@@ -32,7 +32,7 @@ fn block_of_128(mut blocks: Blocks) -> Blocks {
 
 fn c_interface() -> (*const nw_model, nw_impact) {
     let [v_n, v_t, d, t_p, omega] = impact(1);
-    (handle(), nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() })
+    (handle(MODEL), nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() })
 }
 
 #[library_benchmark]
@@ -44,15 +44,16 @@ fn one_call((model, impact): (*const nw_model, nw_impact)) -> nw_outcome {
     outcome
 }
 
-fn by_hand_ready() -> (ByHand, Constants, HandImpact) {
-    let ready = (by_hand(), constants(), HandImpact { numbers: impact(1), key: 0 });
+fn by_hand_ready(options: &[&str]) -> (ByHand, Constants, HandImpact) {
+    let ready = (by_hand(options), constants(), HandImpact { numbers: impact(1), key: 0 });
     // Once, so that the loader has found `cbrt` and `exp`.
     unsafe { ready.0(&ready.1, &ready.2, &mut HandOutcome::default()) };
     ready
 }
 
 #[library_benchmark]
-#[bench::once(setup = by_hand_ready)]
+#[bench::c_library(args = (&[]), setup = by_hand_ready)]
+#[bench::own_elementary(args = (&["-DOWN_ELEMENTARY"]), setup = by_hand_ready)]
 fn one_call_by_hand((by_hand, constants, impact): (ByHand, Constants, HandImpact)) -> HandOutcome {
     let mut outcome = HandOutcome::default();
     // SAFETY: as above.

@@ -181,6 +181,7 @@ impl Impact {
     ///
     /// # Errors
     /// [`ImpactError::Unusable`] naming the first number at fault.
+    #[inline(always)]
     pub fn check(&self) -> Result<(), ImpactError> {
         // Without branches: this is asked of every impact.
         let values = self.values();

@@ -36,6 +36,31 @@ pub enum InputError {
     },
 }
 
+/// What a quantity can be: a number beyond it is a slip of the pen, a wrong exponent or unit.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// SI unit.
+    pub unit: &'static str,
+    /// Smallest allowed number.
+    pub low: f64,
+    /// Largest allowed number; infinite where nothing is too large.
+    pub high: f64,
+    /// What is known near the ends, for the message; may be empty.
+    pub known: &'static str,
+}
+
+impl Limits {
+    /// Whatever is positive.
+    pub const fn positive(unit: &'static str) -> Self {
+        Self { unit, low: f64::MIN_POSITIVE, high: f64::INFINITY, known: "" }
+    }
+
+    /// Whether a number lies within.
+    pub fn allow(&self, value: f64) -> bool {
+        (self.low..=self.high).contains(&value)
+    }
+}
+
 /// Nothing larger is read [bytes]: a wrong path must not fill the memory.
 const LARGEST_FILE: u64 = 16 << 20;
 
@@ -165,10 +190,34 @@ impl<'a> Section<'a> {
     pub fn number_within(&self, key: &str, low: f64, high: f64) -> Result<Option<f64>, InputError> {
         match self.number(key)? {
             Some(value) if value < low || value > high => {
-                Err(self.fault(key, format!("{value} is outside {}", range_text(low, high))))
+                Err(self.fault(key, format!("{} is outside {}", Short(value), range_text(low, high))))
             }
             other => Ok(other),
         }
+    }
+
+    /// A quantity within its limits, or `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when it is not a number or outside the limits.
+    pub fn quantity(&self, key: &str, limits: &Limits) -> Result<Option<f64>, InputError> {
+        match self.number(key)? {
+            Some(value) if !limits.allow(value) => Err(self.outside(key, value, None, limits)),
+            other => Ok(other),
+        }
+    }
+
+    /// The error for a quantity beyond its limits, at a temperature [K] where it depends on that.
+    pub fn outside(&self, key: &str, value: f64, temperature: Option<f64>, limits: &Limits) -> InputError {
+        let Limits { unit, low, high, known } = *limits;
+        let range = range_text(low, high);
+        let at = temperature.map_or_else(String::new, |t| format!(" at {} K", Short(t)));
+        let known = if known.is_empty() { String::new() } else { format!(" ({known})") };
+        let remedy = match temperature {
+            None => format!("check the exponent and the unit, {unit}"),
+            Some(_) => format!("check the exponent, the temperatures and the unit, {unit}"),
+        };
+        self.fault(key, format!("{}{at} is outside {range}{known}; {remedy}", Short(value)))
     }
 
     /// A text, or `None` when the key is absent.
@@ -361,7 +410,8 @@ impl<'a> Section<'a> {
             other => return Err(self.wrong_type(key, "a number in SI units", other)),
         };
         match parsed {
-            Some(number) if number.is_finite() => Ok(number),
+            // A negative zero is a zero: one over it is not to be the wrong infinity.
+            Some(number) if number.is_finite() => Ok(number + 0.0),
             _ => Err(self.fault(key, "the number is not finite")),
         }
     }
@@ -390,12 +440,26 @@ pub fn unknown(word: &str, what: &str, known: &[&str]) -> String {
 }
 
 fn range_text(low: f64, high: f64) -> String {
+    let (least, most) = (Short(low), Short(high));
     match (low == f64::NEG_INFINITY, high == f64::INFINITY) {
-        (true, _) => format!("the allowed range (at most {high})"),
+        (true, _) => format!("the allowed range (at most {most})"),
         (_, true) if low == f64::MIN_POSITIVE => "the allowed range (above 0)".to_owned(),
-        (_, true) => format!("the allowed range (at least {low})"),
-        _ if low == f64::MIN_POSITIVE => format!("the allowed range (above 0, at most {high})"),
-        _ => format!("the allowed range {low} to {high}"),
+        (_, true) => format!("the allowed range (at least {least})"),
+        _ if low == f64::MIN_POSITIVE => format!("the allowed range (above 0, at most {most})"),
+        _ => format!("the allowed range {least} to {most}"),
+    }
+}
+
+/// A number as one would write it: with an exponent where it would be long.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self(value) = *self;
+        match value == 0.0 || !value.is_finite() || (1e-4..1e7).contains(&value.abs()) {
+            true => write!(f, "{value}"),
+            false => write!(f, "{value:e}"),
+        }
     }
 }
 
@@ -412,6 +476,24 @@ mod tests {
         assert_eq!(range_text(f64::MIN_POSITIVE, f64::INFINITY), "the allowed range (above 0)");
         assert_eq!(range_text(f64::MIN_POSITIVE, 1.0), "the allowed range (above 0, at most 1)");
         assert_eq!(range_text(0.0, 1.0), "the allowed range 0 to 1");
+    }
+
+    #[test]
+    fn quantities_beyond_their_limits_name_range_and_remedy() {
+        let limits = Limits { unit: "Pa", low: 1.0, high: 1e13, known: "diamond has 1.1e12" };
+        let read = |text: &str| error(text, |top| top.quantity("E", &limits).map(|_| ()));
+        let text = read("\nE = 70e90");
+        assert_eq!(
+            text,
+            "m.toml:2:1: E: 7e91 is outside the allowed range 1 to 1e13 (diamond has 1.1e12); \
+             check the exponent and the unit, Pa"
+        );
+        assert!(read("E = 1e-320").contains("E: 1e-320 is outside"), "denormal");
+        let text = error("d = 0", |top| top.quantity("d", &Limits::positive("m")).map(|_| ()));
+        assert_eq!(
+            text,
+            "m.toml:1:1: d: 0 is outside the allowed range (above 0); check the exponent and the unit, m"
+        );
     }
 
     #[test]
@@ -434,6 +516,13 @@ mod tests {
         assert_eq!(text, "m.toml:1:1: a: expected a number in SI units, found string");
         let text = error("a = nan", |top| top.number("a").map(|_| ()));
         assert!(text.contains("not finite"), "{text}");
+    }
+
+    #[test]
+    fn a_negative_zero_is_a_zero() {
+        let read = |top: &Section<'_>| Ok((top.number("a")?, top.numbers("b")?));
+        let (one, list) = Document::new("m", "a = -0.0\nb = [-0e3]").read(read).unwrap();
+        assert!([one.unwrap(), list.unwrap()[0]].iter().all(|zero| *zero == 0.0 && zero.is_sign_positive()));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::compile::run;
+use common::compile::{Build, run, shared_library};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -197,4 +197,49 @@ fn every_kind_of_change_is_refused() {
     }
     assert_eq!(may_follow(&kept, &kept), Ok(()));
     assert!(may_follow(&kept, "").is_err() && may_follow("", &kept).is_err());
+}
+
+/// The numbers and names of `docs/other-codes.md`, and the soname in the bindings that ask the loader for it.
+#[test]
+fn the_page_for_other_codes_is_true() {
+    let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
+    let (page, fresh) = (read("docs/other-codes.md"), fresh());
+    let soname = fresh.lines().next().unwrap().strip_prefix("soname ").unwrap();
+    for path in
+        ["docs/other-codes.md", "build.rs", "bindings/python/nearwall.py", "bindings/rust/src/main.rs"]
+    {
+        let text = read(path);
+        let named: Vec<&str> = text.match_indices("libnearwall.so.").map(|(at, _)| &text[at..]).collect();
+        assert!(!named.is_empty(), "{path} does not name the library");
+        for words in named.into_iter().filter(|words| !words.starts_with("libnearwall.so.{")) {
+            let whole = words.split(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).next().unwrap();
+            assert_eq!(whole.trim_end_matches('.'), soname, "{path}");
+        }
+    }
+    // Every name that begins as the library's do is one of its functions, structs or numbers.
+    let words = |text: &str| -> BTreeSet<String> {
+        text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).map(str::to_owned).collect()
+    };
+    let (there, asked) = (words(&fresh), words(&page));
+    let named: Vec<_> =
+        asked.iter().filter(|word| word.starts_with("nw_") || word.starts_with("NW_")).collect();
+    assert!(named.len() > 5, "{named:?}");
+    for name in named {
+        assert!(there.contains(name), "the page names {name}, which is not there");
+    }
+    let version = env!("CARGO_PKG_VERSION").rsplit_once('.').unwrap().0;
+    let megabytes = std::fs::metadata(shared_library(Build::Lean)).unwrap().len() as f64 / 1e6;
+    let cases = read("tests/data/thornton_ning.csv").lines().count() - 1;
+    let compared = read("tests/bindings/compare.py");
+    let grid = compared.split(&format!("len(other) == {cases} + ")).nth(1).unwrap();
+    let grid: usize = grid.split(',').next().unwrap().parse().unwrap();
+    for stated in [
+        format!("needs Rust {}", env!("CARGO_PKG_RUST_VERSION")),
+        format!("find_package(nearwall {version} REQUIRED)"),
+        format!("shared library, {megabytes:.0} MB"),
+        format!("{cases} cases computed with 40 digits"),
+        format!("{} impacts between languages", cases + grid),
+    ] {
+        assert!(page.contains(&stated), "the page does not say '{stated}'");
+    }
 }

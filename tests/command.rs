@@ -142,11 +142,18 @@ fn bad_input_is_refused_with_its_place() {
         ("m.toml", WAX),
         ("misspelt.toml", &misspelt),
         ("hot.toml", &hot),
+        ("stiff.toml", &hot.replace("1e9", "70e90")),
         ("i.csv", "v_n,T_p\n1,500\n"),
         ("no_speed.csv", "speed\n1\n"),
     ]);
     let at = folder.path();
     refused(at, &["check", "misspelt.toml"], &["misspelt.toml:8:1", "did you mean `yield_ratio`"]);
+    let stiff = [
+        "stiff.toml:14:1: materials.own.youngs_modulus: 7e91 at 300 K",
+        "1 to 1e13",
+        "check the exponent, the temperatures and the unit, Pa",
+    ];
+    refused(at, &["check", "stiff.toml"], &stiff);
     refused(at, &["check", "absent.toml"], &["absent.toml", "No such file"]);
     refused(at, &["predict", "--model", "m.toml", "absent.csv"], &["absent.csv"]);
     refused(at, &["predict", "--model", "m.toml", "no_speed.csv"], &["no_speed.csv:1", "v_n", "speed"]);

@@ -54,8 +54,35 @@ class _Outcomes(ctypes.Structure):
     _fields_ = [("struct_size", c_uint32)] + [(name, c_void_p) for name in Outcomes._fields]
 
 
+class Deposit(ctypes.Structure):
+    """What lies on a piece of wall, per area of it, bare at first: masses molten and powder [kg/m2], volume solid [m3/m2] and
+    projected area cover [1] of the powder's particles, carbon conversion of all [1]."""
+    _fields_ = ([("struct_size", c_uint32), ("wall", c_uint32)]
+                + [(name, c_double) for name in ("molten", "powder", "solid", "cover", "conversion")])
+
+    def __init__(self, wall=0):
+        super().__init__()
+        _check(_library.nw_deposit_init(byref(self)))
+        self.wall = wall
+
+    def add(self, arrivals):
+        """What arrived in a step; powder that melt buries becomes part of the melt, mass is kept."""
+        _check(_library.nw_deposit_add(byref(arrivals), byref(self)))
+
+
+class Arrivals(ctypes.Structure):
+    """What arrived on a piece of wall in a step and stayed, summed, per area of it; nothing at first (`Model.arrive` adds)."""
+    _fields_ = ([("struct_size", c_uint32), ("count", c_uint32)]
+                + [(name, c_double) for name in ("molten", "powder", "solid", "cover", "buried", "converted")])
+
+    def __init__(self):
+        super().__init__()
+        _check(_library.nw_arrivals_init(byref(self)))
+
+
 # The structs of nearwall.h that this module knows.
-STRUCTS = {"nw_impact": _Impact, "nw_impacts": _Impacts, "nw_outcomes": _Outcomes}
+STRUCTS = {"nw_impact": _Impact, "nw_impacts": _Impacts, "nw_outcomes": _Outcomes, "nw_deposit": Deposit,
+           "nw_arrivals": Arrivals}
 
 
 def _load():
@@ -76,6 +103,13 @@ def _load():
         "nw_speeds": [c_void_p, POINTER(_Impact)] + 3 * doubles,
         "nw_temperature_ranges": [c_void_p, c_uint32] + 4 * doubles,
         "nw_resolve_batch": [c_void_p, POINTER(_Impacts), POINTER(_Outcomes), POINTER(c_size_t)],
+        "nw_deposit_init": [POINTER(Deposit)],
+        "nw_deposit_start": [c_void_p, c_double, POINTER(Deposit)],
+        "nw_arrivals_init": [POINTER(Arrivals)],
+        "nw_arrivals_add": [c_void_p, POINTER(_Impact), c_double, c_double, POINTER(Arrivals)],
+        "nw_deposit_add": [POINTER(Arrivals), POINTER(Deposit)],
+        "nw_deposit_dress": [c_void_p, POINTER(Deposit), c_double, POINTER(_Impact)],
+        "nw_film_velocity": [c_void_p, POINTER(Deposit), c_double, c_double] + doubles,
     }.items():
         function = getattr(library, name)
         function.argtypes, function.restype = arguments, c_int32
@@ -103,6 +137,18 @@ def _column(name, value, count, kind):
     if value.shape != (count,):
         raise ValueError(f"{name} has shape {value.shape}, there are {count} impacts")
     return value
+
+
+def _impact(wall, inputs):
+    """One impact for C, from numbers."""
+    impact = _Impact()
+    _check(_library.nw_impact_init(byref(impact)))
+    impact.wall = wall
+    for name, value in inputs.items():
+        if name not in INPUTS + ("melt_thickness",):
+            raise TypeError(f"no such input: {name}")
+        setattr(impact, name, value)
+    return impact
 
 
 class Model:
@@ -163,13 +209,7 @@ class Model:
 
     def speeds(self, wall=0, **inputs):
         """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers as in `resolve`."""
-        impact = _Impact()
-        _check(_library.nw_impact_init(byref(impact)))
-        impact.wall = wall
-        for name, value in inputs.items():
-            if name not in INPUTS + ("melt_thickness",):
-                raise TypeError(f"no such input: {name}")
-            setattr(impact, name, value)
+        impact = _impact(wall, inputs)
         found = [c_double() for _ in range(3)]
         _check(_library.nw_speeds(self._handle, byref(impact), *map(byref, found)))
         return Speeds(*(number.value for number in found))
@@ -179,3 +219,26 @@ class Model:
         found = [c_double() for _ in range(4)]
         _check(_library.nw_temperature_ranges(self._handle, wall, *map(byref, found)))
         return TemperatureRanges(*(number.value for number in found))
+
+    def start_deposit(self, wall, voidage):
+        """What the model file says lies on a wall, with a share `voidage` of voids in the powder: where a memory begins."""
+        deposit = Deposit(wall)
+        _check(_library.nw_deposit_start(self._handle, voidage, byref(deposit)))
+        return deposit
+
+    def dress(self, deposit, voidage, T_w):
+        """The inputs of `resolve` that tell impacts of the deposit on a wall of T_w [K]: resolve(..., **dress(...))."""
+        impact = _impact(deposit.wall, {"T_w": T_w})
+        _check(_library.nw_deposit_dress(self._handle, byref(deposit), voidage, byref(impact)))
+        return {name: getattr(impact, name) for name in ("layer_thickness", "coverage", "melt_thickness")}
+
+    def arrive(self, arrivals, mass, density, wall=0, **inputs):
+        """Adds a particle that stayed: `mass` of it per area [kg/m2], `density` [kg/m3]; inputs are numbers as in `resolve`."""
+        impact = _impact(wall, inputs)
+        _check(_library.nw_arrivals_add(self._handle, byref(impact), mass, density, byref(arrivals)))
+
+    def film_velocity(self, deposit, T_w, gravity_along):
+        """Mean speed [m/s] of a deposit's melt that runs down a wall of T_w [K]; gravity along the wall in m/s2."""
+        found = c_double()
+        _check(_library.nw_film_velocity(self._handle, byref(deposit), T_w, gravity_along, byref(found)))
+        return found.value

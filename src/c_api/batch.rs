@@ -1,11 +1,9 @@
 //! Many impacts in one call: arrays in, arrays out.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{Fault, guarded, reader};
+use super::boundary::{guarded_status, reader};
 use super::sized;
-use super::types::{
-    NW_NULL_POINTER, NW_OK, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, nw_impact, nw_model, nw_status,
-};
+use super::types::{NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, nw_impact, nw_model, nw_status};
 use crate::draw::Draw;
 use crate::impact::{BOUNDS, Bounds, Impact, Outcome};
 use crate::model::Model;
@@ -99,10 +97,10 @@ pub unsafe extern "C" fn nw_resolve_batch(
         // SAFETY: the caller's promises.
         let (model, impacts, outcomes) = unsafe { (reader(model)?, sized(impacts)?, sized(outcomes)?) };
         if impacts.count > isize::MAX as usize / size_of::<f64>() {
-            return Err(Fault::plain(NW_STRUCT_SIZE));
+            return Err(NW_STRUCT_SIZE);
         }
         if impacts.v_n.is_null() && impacts.count > 0 {
-            return Err(Fault::plain(NW_NULL_POINTER));
+            return Err(NW_NULL_POINTER);
         }
         let model = model.inner();
         // SAFETY: the caller's promises.
@@ -117,7 +115,7 @@ pub unsafe extern "C" fn nw_resolve_batch(
         }
         Ok(())
     };
-    guarded(resolve).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(resolve)
 }
 
 impl nw_impacts {
@@ -125,7 +123,7 @@ impl nw_impacts {
     ///
     /// # Safety
     /// Every array that is not null has `count` entries.
-    unsafe fn check(&self, model: &Model) -> Result<(), (usize, Fault)> {
+    unsafe fn check(&self, model: &Model) -> Result<(), (usize, nw_status)> {
         // SAFETY: the caller's promise.
         let prepared = unsafe {
             let wall = |index| get(self.walls, index, self.wall) as usize;
@@ -151,7 +149,7 @@ impl nw_impacts {
     ///
     /// # Safety
     /// Every array that is not null has `count` entries.
-    unsafe fn resolve(&self, model: &Model, outcomes: &nw_outcomes) -> Result<(), Fault> {
+    unsafe fn resolve(&self, model: &Model, outcomes: &nw_outcomes) -> Result<(), nw_status> {
         let (mut block, mut results) = (Block::default(), Outcomes::default());
         for start in (0..self.count).step_by(BLOCK) {
             block.length = (self.count - start).min(BLOCK);

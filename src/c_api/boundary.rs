@@ -3,20 +3,18 @@
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::types::{NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, nw_status, status_of, status_text};
-use crate::impact::ImpactError;
+use super::types::{NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, nw_status, status_text};
 use crate::input::InputError;
 
-/// A status with the words for the caller's message buffer.
+/// A status with the words for the caller's message buffer, where those of the status are not enough.
 #[derive(Debug)]
 pub(super) struct Fault {
-    pub status: nw_status,
+    status: nw_status,
     message: Option<String>,
 }
 
-impl Fault {
-    /// A fault that needs no more words than those of its status.
-    pub(super) fn plain(status: nw_status) -> Self {
+impl From<nw_status> for Fault {
+    fn from(status: nw_status) -> Self {
         Self { status, message: None }
     }
 }
@@ -32,20 +30,19 @@ impl From<InputError> for Fault {
     }
 }
 
-impl From<ImpactError> for Fault {
-    fn from(error: ImpactError) -> Self {
-        Self::plain(status_of(&error))
-    }
-}
-
 /// Runs `body` with the default floating-point control (round to nearest, nothing trapped), stops panics, and gives the
 /// caller's control and flags back.
 ///
 /// Optimised code may compute both sides of a branch, and one of them may divide by zero harmlessly: a caller that traps
 /// division by zero, as OpenFOAM does, would be killed by it.
-pub(super) fn guarded<T>(body: impl FnOnce() -> Result<T, Fault>) -> Result<T, Fault> {
+pub(super) fn guarded<E: From<nw_status>>(body: impl FnOnce() -> Result<(), E>) -> Result<(), E> {
     let _state = FloatingPointState::set_aside();
-    out_of_line(|| catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|_| Err(Fault::plain(NW_PANIC))))
+    out_of_line(|| catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|_| Err(NW_PANIC.into())))
+}
+
+/// As [`guarded`], for calls whose status says all.
+pub(super) fn guarded_status(body: impl FnOnce() -> Result<(), nw_status>) -> nw_status {
+    guarded(body).err().unwrap_or(NW_OK)
 }
 
 /// A call that the compiler cannot dissolve, so that no arithmetic moves out of the guarded stretch.
@@ -100,9 +97,9 @@ impl Drop for FloatingPointState {
 ///
 /// # Safety
 /// The pointer is null or points to a live, initialised `T`.
-pub(super) unsafe fn reader<'a, T>(pointer: *const T) -> Result<&'a T, Fault> {
+pub(super) unsafe fn reader<'a, T>(pointer: *const T) -> Result<&'a T, nw_status> {
     // SAFETY: the caller's promise.
-    unsafe { pointer.as_ref() }.ok_or(Fault::plain(NW_NULL_POINTER))
+    unsafe { pointer.as_ref() }.ok_or(NW_NULL_POINTER)
 }
 
 /// Turns the result into a status and copies the words of a fault to the caller's buffer.
@@ -133,7 +130,7 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_a_status() {
-        let fault = guarded::<()>(|| panic!("this panic belongs to the test")).unwrap_err();
+        let fault = guarded::<Fault>(|| panic!("this panic belongs to the test")).unwrap_err();
         assert_eq!(fault.status, NW_PANIC);
         let mut message = [0; 16];
         let status = unsafe { report(Err(fault), message.as_mut_ptr(), message.len()) };
@@ -158,7 +155,7 @@ mod tests {
         let odd = 0xDFA5;
         set(odd);
         let mut inside = 0;
-        let result = guarded::<()>(|| {
+        let result = guarded::<Fault>(|| {
             inside = control();
             panic!("this panic belongs to the test")
         });

@@ -1,7 +1,7 @@
 //! What lies on a wall, for codes that remember it.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{Fault, guarded, reader};
+use super::boundary::{guarded_status, reader};
 use super::types::{NW_NULL_POINTER, NW_OK, nw_impact, nw_model, nw_status};
 use super::{sized, types::NW_BAD_STATE};
 use crate::deposit::{Arrivals, Deposit};
@@ -95,8 +95,8 @@ impl nw_deposit {
     }
 
     /// Itself, unless a sum has overflowed: what is written can be given to every other call.
-    fn sound(self) -> Result<Self, Fault> {
-        if self.is_sound() { Ok(self) } else { Err(Fault::plain(NW_BAD_STATE)) }
+    fn sound(self) -> Result<Self, nw_status> {
+        if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
@@ -118,8 +118,8 @@ impl nw_arrivals {
     }
 
     /// As that of a deposit.
-    fn sound(self) -> Result<Self, Fault> {
-        if self.is_sound() { Ok(self) } else { Err(Fault::plain(NW_BAD_STATE)) }
+    fn sound(self) -> Result<Self, nw_status> {
+        if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
@@ -156,7 +156,7 @@ pub unsafe extern "C" fn nw_deposit_start(
         unsafe { deposit.write_unaligned(found) };
         Ok(())
     };
-    guarded(start).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(start)
 }
 
 /// Fills arrivals with their size and zeros.
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn nw_arrivals_add(
         unsafe { arrivals.write_unaligned(found) };
         Ok(())
     };
-    guarded(add).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(add)
 }
 
 /// Adds the arrivals of a step to a deposit. Powder that melt buries becomes part of the melt; mass is kept.
@@ -214,7 +214,7 @@ pub unsafe extern "C" fn nw_deposit_add(arrivals: *const nw_arrivals, deposit: *
         unsafe { deposit.write_unaligned(after) };
         Ok(())
     };
-    guarded(add).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(add)
 }
 
 /// Tells an impact of the deposit that it meets: sets its `layer_thickness` (powder with a share `voidage` of voids),
@@ -236,7 +236,7 @@ pub unsafe extern "C" fn nw_deposit_dress(
         let wall = bare.wall as usize;
         let found = model.inner().dress(wall, &deposit.sound()?.to_deposit(), voidage, &bare.to_impact())?;
         if !(found.layer_thickness.is_finite() && found.melt_thickness.is_finite()) {
-            return Err(Fault::plain(NW_BAD_STATE));
+            return Err(NW_BAD_STATE);
         }
         let dressed = nw_impact {
             layer_thickness: found.layer_thickness,
@@ -248,7 +248,7 @@ pub unsafe extern "C" fn nw_deposit_dress(
         unsafe { impact.write_unaligned(dressed) };
         Ok(())
     };
-    guarded(dress).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(dress)
 }
 
 /// Mean speed [m/s] of the melt of a deposit that runs down its wall as a laminar film: at a temperature of the wall `T_w`
@@ -270,21 +270,21 @@ pub unsafe extern "C" fn nw_film_velocity(
         // SAFETY: the caller's promises.
         let (model, deposit) = unsafe { (reader(model)?, sized(deposit)?) };
         if velocity.is_null() {
-            return Err(Fault::plain(NW_NULL_POINTER));
+            return Err(NW_NULL_POINTER);
         }
         let possible = T_w.is_finite() && T_w > 0.0 && gravity_along.is_finite() && gravity_along >= 0.0;
         if !(possible && deposit.is_sound()) {
-            return Err(Fault::plain(NW_BAD_STATE));
+            return Err(NW_BAD_STATE);
         }
         let melt = model.inner().melt(deposit.wall as usize, T_w)?;
         let thickness = deposit.molten / melt.density;
         let found = film::mean_velocity(thickness, melt.density, melt.viscosity, gravity_along);
         if !found.is_finite() {
-            return Err(Fault::plain(NW_BAD_STATE));
+            return Err(NW_BAD_STATE);
         }
         // SAFETY: not null, and writable by the caller's promise.
         unsafe { velocity.write_unaligned(found) };
         Ok(())
     };
-    guarded(flow).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(flow)
 }

@@ -20,7 +20,7 @@ use crate::impact::Regime;
 use crate::model::Model;
 
 pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
-use boundary::{Fault, guarded, reader, report};
+use boundary::{Fault, guarded, guarded_status, reader, report};
 pub use deposit::{
     nw_arrivals, nw_arrivals_add, nw_arrivals_init, nw_deposit, nw_deposit_add, nw_deposit_dress,
     nw_deposit_init, nw_deposit_start, nw_film_velocity,
@@ -76,13 +76,13 @@ pub unsafe extern "C" fn nw_model_load(
     message: *mut c_char,
     message_size: usize,
 ) -> nw_status {
-    let load = || {
+    let load = || -> Result<(), Fault> {
         if path.is_null() || model.is_null() {
-            return Err(Fault::plain(NW_NULL_POINTER));
+            return Err(NW_NULL_POINTER.into());
         }
         // SAFETY: not null, and zero-terminated by the caller's promise.
         let path = unsafe { CStr::from_ptr(path) };
-        let path = path.to_str().map_err(|_| Fault::plain(NW_NOT_UTF8))?;
+        let path = path.to_str().map_err(|_| NW_NOT_UTF8)?;
         let loaded = Model::from_file(Path::new(path))?;
         // SAFETY: not null, and writable by the caller's promise.
         unsafe { model.write_unaligned(nw_model::into_handle(loaded)) };
@@ -106,16 +106,16 @@ pub unsafe extern "C" fn nw_model_parse(
     message: *mut c_char,
     message_size: usize,
 ) -> nw_status {
-    let parse = || {
+    let parse = || -> Result<(), Fault> {
         if toml.is_null() || model.is_null() {
-            return Err(Fault::plain(NW_NULL_POINTER));
+            return Err(NW_NULL_POINTER.into());
         }
         if toml_size > isize::MAX as usize {
-            return Err(Fault::plain(NW_STRUCT_SIZE));
+            return Err(NW_STRUCT_SIZE.into());
         }
         // SAFETY: not null, of a size that a slice may have, and readable by the caller's promise.
         let bytes = unsafe { std::slice::from_raw_parts(toml.cast::<u8>(), toml_size) };
-        let text = std::str::from_utf8(bytes).map_err(|_| Fault::plain(NW_NOT_UTF8))?;
+        let text = std::str::from_utf8(bytes).map_err(|_| NW_NOT_UTF8)?;
         let name = if name.is_null() {
             c"model"
         } else {
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn nw_model_free(model: *mut nw_model) {
         Ok(())
     };
     // Freeing has no failure to report.
-    let _ = guarded(free);
+    guarded_status(free);
 }
 
 /// The index of the wall that a patch name belongs to: the wall of that name, else the last whose name is a regular
@@ -161,18 +161,18 @@ pub unsafe extern "C" fn nw_model_find_wall(
 ) -> nw_status {
     let find = || {
         if model.is_null() || name.is_null() || wall.is_null() {
-            return Err(Fault::plain(NW_NULL_POINTER));
+            return Err(NW_NULL_POINTER);
         }
         // SAFETY: not null; a live model, a zero-terminated text and a writable number by the caller's promise.
         let (model, name) = unsafe { (&*model, CStr::from_ptr(name)) };
-        let name = name.to_str().map_err(|_| Fault::plain(NW_NOT_UTF8))?;
+        let name = name.to_str().map_err(|_| NW_NOT_UTF8)?;
         let index = model.inner().find_wall(name).and_then(|index| u32::try_from(index).ok());
-        let index = index.ok_or(Fault::plain(NW_UNKNOWN_WALL))?;
+        let index = index.ok_or(NW_UNKNOWN_WALL)?;
         // SAFETY: as above.
         unsafe { wall.write_unaligned(index) };
         Ok(())
     };
-    guarded(find).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(find)
 }
 
 /// Fills an impact with its size and the values assumed for unknown inputs: wall 0, 1e-4 m, 293.15 K, conversion 1, all
@@ -225,7 +225,7 @@ pub unsafe extern "C" fn nw_resolve(
         unsafe { outcome.write_unaligned(nw_outcome::from_outcome(&result)) };
         Ok(())
     };
-    guarded(resolve).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(resolve)
 }
 
 /// Adhesive, yield and sticking velocity [m/s] of an impact's particle and wall: size and temperatures count,
@@ -252,7 +252,7 @@ pub unsafe extern "C" fn nw_speeds(
         }
         Ok(())
     };
-    guarded(speeds).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(speeds)
 }
 
 /// Temperatures [K] between which impacts on a wall can be decided, from the tables of all properties: lowest and
@@ -281,7 +281,7 @@ pub unsafe extern "C" fn nw_temperature_ranges(
         }
         Ok(())
     };
-    guarded(ranges).map_or_else(|fault| fault.status, |()| NW_OK)
+    guarded_status(ranges)
 }
 
 /// A copy of a struct that begins with its own size. Foreign languages do not always align what they pass: nothing here
@@ -289,14 +289,14 @@ pub unsafe extern "C" fn nw_temperature_ranges(
 ///
 /// # Safety
 /// The pointer is null or points to at least a `u32`, and to a whole `T` if that `u32` is the size of `T`.
-unsafe fn sized<T: Copy>(pointer: *const T) -> Result<T, Fault> {
+unsafe fn sized<T: Copy>(pointer: *const T) -> Result<T, nw_status> {
     if pointer.is_null() {
-        return Err(Fault::plain(NW_NULL_POINTER));
+        return Err(NW_NULL_POINTER);
     }
     // SAFETY: not null, so a `u32` can be read by the caller's promise.
     let size = unsafe { pointer.cast::<u32>().read_unaligned() };
     if size as usize != size_of::<T>() {
-        return Err(Fault::plain(NW_STRUCT_SIZE));
+        return Err(NW_STRUCT_SIZE);
     }
     // SAFETY: the size says that it is a whole `T`.
     Ok(unsafe { pointer.read_unaligned() })

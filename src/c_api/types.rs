@@ -226,10 +226,12 @@ impl nw_outcome {
 }
 
 /// The status of an impact that cannot be resolved.
-pub(super) fn status_of(error: &ImpactError) -> nw_status {
-    match error {
-        ImpactError::Unusable { .. } => NW_BAD_STATE,
-        ImpactError::OutOfRange { .. } => NW_OUT_OF_RANGE,
-        ImpactError::NoSuchWall(_) => NW_UNKNOWN_WALL,
+impl From<ImpactError> for nw_status {
+    fn from(error: ImpactError) -> Self {
+        match error {
+            ImpactError::Unusable { .. } => NW_BAD_STATE,
+            ImpactError::OutOfRange { .. } => NW_OUT_OF_RANGE,
+            ImpactError::NoSuchWall(_) => NW_UNKNOWN_WALL,
+        }
     }
 }

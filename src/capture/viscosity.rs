@@ -6,7 +6,7 @@
 //! (that is what `conversion-transition` adds).
 
 use crate::impact::ImpactError;
-use crate::input::{InputError, Section};
+use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
 use crate::slag::{SlagViscosity, UnsuitableComposition, ViscosityLaw};
 
@@ -14,6 +14,10 @@ use crate::slag::{SlagViscosity, UnsuitableComposition, ViscosityLaw};
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
     (reference / viscosity).min(1.0)
 }
+
+/// From a tenth of the thinnest liquid up to far beyond where a melt counts as a solid glass.
+const REFERENCE: Limits =
+    Limits { unit: "Pa s", low: 1e-7, high: 1e20, known: "literature 8 to 1e7; glass is solid above 1e12" };
 
 /// The viscosity criterion of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,12 +34,10 @@ impl ViscosityCriterion {
             Some(law) => law,
             None => return Err(section.missing("law", &format!("one of {}", names.join(", ")))),
         };
-        let reference = section
-            .number_within("reference_viscosity", f64::MIN_POSITIVE, f64::INFINITY)?
-            .ok_or_else(|| {
-                let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
-                section.missing("reference_viscosity", what)
-            })?;
+        let reference = section.quantity("reference_viscosity", &REFERENCE)?.ok_or_else(|| {
+            let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
+            section.missing("reference_viscosity", what)
+        })?;
         Ok(Self { law, reference })
     }
 

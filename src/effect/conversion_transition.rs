@@ -9,8 +9,8 @@
 //! Seen with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise lies at a conversion of
 //! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
 
-use super::{Effect, Kind, Parameter, Search, Simple, Transition, rise};
-use crate::impact::Impact;
+use super::transition::{ASYMMETRY, Over, rise};
+use super::{Kind, Parameter, Search};
 
 pub(super) const KIND: Kind = Kind {
     id: "conversion-transition",
@@ -42,50 +42,15 @@ pub(super) const KIND: Kind = Kind {
             search: Search::Linear(0.0, 1.0),
             about: "share of e_n that a sticky particle loses where it still rebounds",
         },
-        Parameter {
-            name: "asymmetry",
-            unit: "1",
-            bounds: (0.01, 100.0),
-            default: Some(1.0),
-            search: Search::Log(0.2, 10.0),
-            about: "above 1 the rise begins steeply and ends slowly, below 1 the other way round",
-        },
+        ASYMMETRY,
     ],
-    build: |values| {
-        Box::new(ConversionTransition {
-            threshold: values[0],
-            width: values[1],
-            softening: values[2],
-            asymmetry: values[3],
-        })
-    },
+    build: |values| rise(Over::Conversion, values),
 };
-
-#[derive(Debug)]
-struct ConversionTransition {
-    threshold: f64,
-    width: f64,
-    softening: f64,
-    asymmetry: f64,
-}
-
-impl Effect for ConversionTransition {
-    fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
-        Some(rise(impact.conversion, self.threshold, self.width, self.asymmetry))
-    }
-
-    fn rebound_loss(&self) -> f64 {
-        self.softening
-    }
-
-    fn simple(&self) -> Option<Simple> {
-        Transition::simple(true, self.threshold, self.width, self.asymmetry)
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::Impact;
 
     #[test]
     fn capture_rises_past_the_threshold() {

@@ -10,8 +10,8 @@
 //! 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce. The flow test of the same wax (1, 50 and 70 %
 //! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
 
-use super::{Effect, Kind, Parameter, Search, Simple, Transition, rise};
-use crate::impact::Impact;
+use super::transition::{ASYMMETRY, Over, rise};
+use super::{Kind, Parameter, Search};
 
 pub(super) const KIND: Kind = Kind {
     id: "melting-transition",
@@ -43,50 +43,15 @@ pub(super) const KIND: Kind = Kind {
             search: Search::Linear(0.0, 1.0),
             about: "share of e_n that a molten particle loses where it still rebounds",
         },
-        Parameter {
-            name: "asymmetry",
-            unit: "1",
-            bounds: (0.01, 100.0),
-            default: Some(1.0),
-            search: Search::Log(0.2, 10.0),
-            about: "above 1 the rise begins steeply and ends slowly, below 1 the other way round",
-        },
+        ASYMMETRY,
     ],
-    build: |values| {
-        Box::new(MeltingTransition {
-            temperature: values[0],
-            width: values[1],
-            softening: values[2],
-            asymmetry: values[3],
-        })
-    },
+    build: |values| rise(Over::Temperature, values),
 };
-
-#[derive(Debug)]
-struct MeltingTransition {
-    temperature: f64,
-    width: f64,
-    softening: f64,
-    asymmetry: f64,
-}
-
-impl Effect for MeltingTransition {
-    fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
-        Some(rise(impact.particle_temperature, self.temperature, self.width, self.asymmetry))
-    }
-
-    fn rebound_loss(&self) -> f64 {
-        self.softening
-    }
-
-    fn simple(&self) -> Option<Simple> {
-        Transition::simple(false, self.temperature, self.width, self.asymmetry)
-    }
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::Impact;
 
     #[test]
     fn troiano_capture_against_temperature() {

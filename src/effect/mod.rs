@@ -18,16 +18,17 @@ mod sliding_to_rolling;
 mod strain_rate_hardening;
 mod tangential_compliance;
 mod thermal_softening;
+mod transition;
 mod viscoelastic_loss;
 mod yield_ratio;
 
 use std::sync::Arc;
 
-use crate::elementary::exponential;
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
 use crate::normal::Contact;
 use crate::tangential::{Glance, Rebound};
+pub use transition::Transition;
 
 /// Every effect there is.
 pub const KINDS: [&Kind; 17] = [
@@ -117,31 +118,6 @@ pub enum Simple {
     Contact,
     /// It makes the particle sticky by one input, and takes up its rebound.
     Transition(Transition),
-}
-
-/// A symmetric rise of stickiness.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Transition {
-    /// By the carbon conversion [1]; otherwise by the particle's temperature [K].
-    by_conversion: bool,
-    middle: f64,
-    /// One over the width.
-    sharpness: f64,
-}
-
-impl Transition {
-    /// The transition of an effect; `None` for an asymmetric one, whose power has no plain arithmetic.
-    fn simple(by_conversion: bool, middle: f64, width: f64, asymmetry: f64) -> Option<Simple> {
-        let transition = Self { by_conversion, middle, sharpness: width.recip() };
-        (asymmetry == 1.0).then_some(Simple::Transition(transition))
-    }
-
-    /// Stickiness [1] at a particle temperature [K] and carbon conversion [1].
-    #[inline(always)]
-    pub(crate) fn at(&self, particle_temperature: f64, conversion: f64) -> f64 {
-        let value = if self.by_conversion { conversion } else { particle_temperature };
-        logistic(value, self.middle, self.sharpness)
-    }
 }
 
 /// One parameter of an effect.
@@ -287,21 +263,6 @@ fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputErro
     }
     section.finish()?;
     Ok(valid)
-}
-
-/// A smooth rise from 0 to 1 that passes one half at `middle` (Richards' curve); `width` is the distance over which the
-/// odds change by e where `asymmetry` is 1.
-fn rise(value: f64, middle: f64, width: f64, asymmetry: f64) -> f64 {
-    if asymmetry == 1.0 {
-        return logistic(value, middle, width.recip());
-    }
-    (1.0 + (asymmetry.recip().exp2() - 1.0) * ((middle - value) / width).exp()).powf(-asymmetry)
-}
-
-/// `1 / (1 + exp((middle - value) sharpness))`.
-#[inline(always)]
-fn logistic(value: f64, middle: f64, sharpness: f64) -> f64 {
-    1.0 / (1.0 + exponential((middle - value) * sharpness))
 }
 
 /// A factor on a strength, kept within twelve decades either way: beyond, a solid is none, and numbers would overflow.

@@ -6,31 +6,39 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use crate::impact::ImpactError;
-use crate::input::{Document, InputError, Section, unknown};
+use crate::input::{Document, InputError, Limits, Section, unknown};
 use crate::slag::Composition;
 
 pub use property::{OutOfRange, Property};
 
-/// A property's key in files, its SI unit, its bounds and whether every material needs it.
+/// A property's key in files, what it can be and whether every material needs it.
 struct Field {
     key: &'static str,
-    unit: &'static str,
-    bounds: (f64, f64),
+    limits: Limits,
     required: bool,
 }
 
-const POSITIVE: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
+const fn field(key: &'static str, required: bool, limits: Limits) -> Field {
+    Field { key, limits, required }
+}
 
-/// Every property a material may have, in the order in which it is shown.
+const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) -> Limits {
+    Limits { unit, low, high, known }
+}
+
+/// Every property a material may have, in the order in which it is shown. The limits lie about a factor of ten beyond the most
+/// extreme materials known, which their texts name (round numbers as commonly tabulated, not re-read); a rigid wall, or one that never
+/// yields, has room within them. Viscosity has no upper one: a formula that is continued into the cold rises without end, and means a
+/// solid.
 const FIELDS: [Field; 8] = [
-    Field { key: "density", unit: "kg/m3", bounds: POSITIVE, required: true },
-    Field { key: "youngs_modulus", unit: "Pa", bounds: POSITIVE, required: true },
-    Field { key: "poisson_ratio", unit: "1", bounds: (-0.999, 0.5), required: true },
-    Field { key: "yield_strength", unit: "Pa", bounds: POSITIVE, required: true },
-    Field { key: "surface_energy", unit: "J/m2", bounds: (0.0, f64::INFINITY), required: true },
-    Field { key: "viscosity", unit: "Pa s", bounds: POSITIVE, required: false },
-    Field { key: "surface_tension", unit: "N/m", bounds: POSITIVE, required: false },
-    Field { key: "melting_point", unit: "K", bounds: POSITIVE, required: false },
+    field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
+    field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
+    field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
+    field("yield_strength", true, limits("Pa", 0.01, 1e12, "weak gels some 0.1, diamond 1e11")),
+    field("surface_energy", true, limits("J/m2", 0.0, 100.0, "clean tungsten 3.3, diamond some 6")),
+    field("viscosity", false, limits("Pa s", 1e-7, f64::INFINITY, "liquid helium 3e-6")),
+    field("surface_tension", false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten 2.5")),
+    field("melting_point", false, limits("K", 0.1, 5e4, "helium some 1, carbides 4200")),
 ];
 
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`].
@@ -83,10 +91,9 @@ impl Material {
     pub fn read(name: &str, section: &Section<'_>) -> Result<Self, InputError> {
         let mut properties = [const { None }; FIELDS.len()];
         for (field, property) in FIELDS.iter().zip(&mut properties) {
-            let (low, high) = field.bounds;
-            *property = Property::read(section, field.key, field.unit, low, high)?;
+            *property = Property::read(section, field.key, &field.limits)?;
             if property.is_none() && field.required {
-                return Err(section.missing(field.key, &format!("a value in {}", field.unit)));
+                return Err(section.missing(field.key, &format!("a value in {}", field.limits.unit)));
             }
         }
         let composition = section.section("composition")?.map(|s| read_composition(&s)).transpose()?;
@@ -119,7 +126,7 @@ impl Material {
     /// Its properties with key and unit, in a fixed order.
     pub fn properties(&self) -> impl Iterator<Item = (&'static str, &'static str, &Property)> {
         let fields = FIELDS.iter().zip(&self.properties);
-        fields.filter_map(|(field, p)| Some((field.key, field.unit, p.as_ref()?)))
+        fields.filter_map(|(field, p)| Some((field.key, field.limits.unit, p.as_ref()?)))
     }
 
     /// Viscosity [Pa s] of the melt at a temperature [K].
@@ -320,6 +327,50 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Both ends of every property's limits, just within and just beyond.
+    #[test]
+    fn a_number_that_no_material_has_is_refused() {
+        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600"];
+        let read = |place: usize, value: f64| {
+            let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
+                let value = if at == place { format!("{value:e}") } else { usual.to_owned() };
+                format!("{} = {value}\n", field.key)
+            });
+            let document = Document::new("m.toml", format!("[p]\n{}", lines.collect::<String>()));
+            document.read(|top| Library::default().with(top)).map_err(|error| error.to_string())
+        };
+        let page = include_str!("../../docs/model-file.md");
+        let written = |x: f64| if (0.01..1e3).contains(&x) { x.to_string() } else { format!("{x:e}") };
+        for (place, field) in FIELDS.iter().enumerate() {
+            let Limits { low, high, .. } = field.limits;
+            if low > 0.0 && high.is_finite() {
+                let stated = format!("{} to {} ", written(low), written(high));
+                assert!(
+                    page.replace('\n', " ").contains(&stated),
+                    "docs/model-file.md does not say {stated}"
+                );
+            }
+            for inside in [low, high].into_iter().filter(|end| end.is_finite()) {
+                assert!(read(place, inside).is_ok(), "{} {inside}", field.key);
+            }
+            let beyond_high = if high > 0.0 { 1.001 * high } else { 0.999 * high };
+            let beyond_low = if low > 0.0 { 0.999 * low } else { 1.001 * low - 1e-300 };
+            for outside in [beyond_low, beyond_high].into_iter().filter(|number| number.is_finite()) {
+                let message = read(place, outside).unwrap_err();
+                let start = format!("m.toml:{}:1: p.{}: ", place + 2, field.key);
+                let remedy = format!("check the exponent and the unit, {}", field.limits.unit);
+                assert!(message.starts_with(&start) && message.ends_with(&remedy), "{message}");
+                assert!(message.contains(field.limits.known), "{message}");
+            }
+        }
+        assert_eq!(
+            read(1, 70e90).unwrap_err(),
+            "m.toml:3:1: p.youngs_modulus: 7e91 is outside the allowed range 1 to 1e13 (soft gels some 10, diamond 1.1e12); \
+             check the exponent and the unit, Pa"
+        );
+        assert!(read(0, 1e-320).unwrap_err().contains("p.density: 1e-320 is outside"));
     }
 
     #[test]

@@ -1,6 +1,9 @@
 //! One material property and how it depends on temperature.
 
-use crate::input::{InputError, Section};
+use crate::input::{InputError, Limits, Section};
+
+/// Between the ends of its `valid` range a formula is looked at in so many steps.
+const STEPS: u32 = 200;
 
 /// How a property follows temperature.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,24 +45,20 @@ impl Property {
     }
 
     /// Reads `key`: a number, `{ value }`, `{ T, value }`, `{ polynomial, T0 }` or `{ arrhenius }`, each with
-    /// optional `valid`, `uncertainty`, `unit`, `source` and `melt`. `unit` has to be the SI unit of the key; `melt` is written
-    /// like the property itself and takes over above its upper end.
+    /// `valid` (the last two need it), and optional `uncertainty`, `unit`, `source` and `melt`. `unit` has to be the SI unit of the
+    /// key; `melt` is written like the property itself and takes over above its upper end.
     ///
     /// # Errors
-    /// [`InputError::Fault`] for anything else, and for values outside `low..=high`.
-    pub fn read(
-        section: &Section<'_>,
-        key: &str,
-        unit: &str,
-        low: f64,
-        high: f64,
-    ) -> Result<Option<Self>, InputError> {
+    /// [`InputError::Fault`] for anything else, and for values outside the limits.
+    pub fn read(section: &Section<'_>, key: &str, limits: &Limits) -> Result<Option<Self>, InputError> {
         if !section.is_section(key) {
-            return Ok(section.number_within(key, low, high)?.map(Self::constant));
+            return Ok(section.quantity(key, limits)?.map(Self::constant));
         }
-        let property = Self::read_table(&section.required_section(key)?, unit)?;
-        property.check_values(section, key, low, high)?;
-        Ok(Some(property))
+        let property = Self::read_table(&section.required_section(key)?, limits.unit)?;
+        match property.first_outside(limits) {
+            Some((temperature, value)) => Err(section.outside(key, value, temperature, limits)),
+            None => Ok(Some(property)),
+        }
     }
 
     fn read_table(table: &Section<'_>, unit: &str) -> Result<Self, InputError> {
@@ -78,6 +77,11 @@ impl Property {
             melt: melt.map(Box::new),
         };
         table.finish()?;
+        if matches!(property.form, Form::Polynomial { .. } | Form::Arrhenius { .. })
+            && property.valid.is_none()
+        {
+            return Err(table.missing("valid", "[low, high], the temperatures [K] that the formula is for,"));
+        }
         if property.melt.is_some() && property.solid_end() == f64::INFINITY {
             return Err(table.missing("valid", "a range [K]; `melt` takes over above its end"));
         }
@@ -168,25 +172,22 @@ impl Property {
         }
     }
 
-    /// Refuses values outside `low..=high` at the points that describe the form.
-    fn check_values(&self, section: &Section<'_>, key: &str, low: f64, high: f64) -> Result<(), InputError> {
-        let values = match &self.form {
-            Form::Constant(value) => vec![*value],
-            Form::Table { values, .. } => values.clone(),
-            Form::Polynomial { .. } | Form::Arrhenius { .. } => {
-                let ends = self.valid.unwrap_or([293.15, 293.15]);
-                ends.iter().filter_map(|t| self.at(*t).ok()).collect()
+    /// The first value outside the limits, with its temperature [K] where it depends on that.
+    fn first_outside(&self, limits: &Limits) -> Option<(Option<f64>, f64)> {
+        let at = |temperature: f64| self.at(temperature).ok().map(|value| (Some(temperature), value));
+        let values: Vec<_> = match (&self.form, self.valid) {
+            (Form::Constant(value), _) => vec![(None, *value)],
+            (Form::Table { temperatures, values }, _) => {
+                temperatures.iter().map(|t| Some(*t)).zip(values.iter().copied()).collect()
             }
+            (Form::Polynomial { .. } | Form::Arrhenius { .. }, Some([low, high])) => {
+                let along = (0..STEPS).map(|step| low + (high - low) * (f64::from(step) / f64::from(STEPS)));
+                along.chain([high]).filter_map(at).collect()
+            }
+            (_, None) => Vec::new(),
         };
-        if let Some(melt) = &self.melt {
-            melt.check_values(section, key, low, high)?;
-        }
-        match values.iter().find(|value| !(low..=high).contains(*value)) {
-            Some(value) => {
-                Err(section.fault(key, format!("{value} is outside the allowed range {low} to {high}")))
-            }
-            None => Ok(()),
-        }
+        let outside = values.into_iter().find(|(_, value)| !limits.allow(*value));
+        outside.or_else(|| self.melt.as_ref()?.first_outside(limits))
     }
 }
 
@@ -227,10 +228,10 @@ mod tests {
     use crate::input::Document;
     use approx::assert_relative_eq;
 
+    const LIMITS: Limits = Limits { unit: "Pa", low: 0.0, high: 1e3, known: "" };
+
     fn property(text: &str) -> Result<Property, InputError> {
-        Document::new("m.toml", text)
-            .read(|top| Property::read(top, "p", "Pa", 0.0, f64::INFINITY))
-            .map(Option::unwrap)
+        Document::new("m.toml", text).read(|top| Property::read(top, "p", &LIMITS)).map(Option::unwrap)
     }
 
     #[test]
@@ -278,5 +279,34 @@ mod tests {
         let message = property("p = { value = 1, unit = \"MPa\" }").unwrap_err().to_string();
         assert!(message.contains("this key is in Pa"), "{message}");
         assert!(property("p = -1").is_err());
+    }
+
+    #[test]
+    fn a_value_beyond_the_limits_is_found_wherever_it_is() {
+        let outside = |text: &str| {
+            let message = property(text).unwrap_err().to_string();
+            let end = message.find(" is outside the allowed range 0 to 1000; check").unwrap();
+            message["m.toml:1:1: p: ".len()..end].to_owned()
+        };
+        assert_eq!(outside("p = 70e90"), "7e91");
+        assert_eq!(outside("p = { value = 1e4 }"), "10000");
+        assert_eq!(outside("p = { T = [300, 400], value = [1, 1e300] }"), "1e300 at 400 K");
+        // (T - 350)²/20 - 0.04 is positive at both ends, and from 349.1 to 350.9 K it is not.
+        let parabola = "p = { polynomial = [-0.04, 0, 0.05], T0 = 350, valid = [250, 450] }";
+        assert_eq!(outside(parabola), "-0.04 at 350 K");
+        assert_eq!(outside("p = { arrhenius = [1, 1e6], valid = [1, 300] }"), "inf at 1 K");
+        assert_eq!(
+            outside(
+                "p = { value = 1, valid = [300, 400], melt = { polynomial = [-1], valid = [400, 500] } }"
+            ),
+            "-1 at 400 K"
+        );
+        for form in ["polynomial = [1, 2]", "arrhenius = [1, 300]"] {
+            let endless = property(&format!("p = {{ {form} }}")).unwrap_err().to_string();
+            assert!(
+                endless.starts_with("m.toml:1:5: p.valid: missing; add [low, high], the temperatures"),
+                "{endless}"
+            );
+        }
     }
 }

@@ -162,12 +162,19 @@ impl Model {
     ///
     /// # Errors
     /// [`ImpactError`] for an impact without physical meaning, or a temperature outside a property table.
+    #[inline(always)]
     pub fn resolve(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
         // A plan knows no melt on the wall.
         if let (Some(Some(plan)), 0.0) = (self.plans.get(wall), impact.melt_thickness) {
             impact.check()?;
             return Ok(plan.one(impact, draw));
         }
+        self.walk_drawn(wall, impact, draw)
+    }
+
+    /// Apart, so that the short way above stays short and its numbers in registers.
+    #[inline(never)]
+    fn walk_drawn(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
         self.walk(wall, impact, |stream| draw.uniform(stream), |_, _, _| {})
     }
 

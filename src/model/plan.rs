@@ -84,8 +84,11 @@ impl Plan {
     }
 
     /// Decides one impact that has been checked.
-    #[inline]
+    #[inline(always)]
     pub fn one(&self, impact: &Impact, draw: Draw) -> Outcome {
+        // First, while nothing has to be kept over a call.
+        let holds = self.holds_at(impact.particle_temperature, impact.wall_temperature)
+            && (self.valid.is_empty() || self.terms_hold_for(impact));
         let plain = match self.normal {
             Normal::ThorntonNing(law) => law.restitution(impact.diameter, impact.normal_speed),
             Normal::Constant(restitution) => restitution,
@@ -119,8 +122,7 @@ impl Plan {
             stuck,
             spin: along.spin,
             regime: Regime::of(sticky >= Stickiness::THRESHOLD, false),
-            outside_range: !(self.holds_at(impact.particle_temperature, impact.wall_temperature)
-                && self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(impact), range))),
+            outside_range: !holds,
         }
     }
 
@@ -235,6 +237,12 @@ impl Plan {
     #[inline(always)]
     fn holds_at(&self, particle: f64, wall: f64) -> bool {
         within(particle, self.materials[0]) & within(wall, self.materials[1])
+    }
+
+    /// Whether the terms are stated for such an impact. Apart, so that the usual impact keeps its numbers in registers.
+    #[inline(never)]
+    fn terms_hold_for(&self, impact: &Impact) -> bool {
+        self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(impact), range))
     }
 
     /// `e_n` [1] less what stickiness takes of it.

@@ -6,10 +6,17 @@ use super::Model;
 use super::wall::{Adhesion, Wall};
 use crate::capture::{Criterion, ViscosityCriterion};
 use crate::effect::Term;
-use crate::input::{Document, InputError, Section};
+use crate::input::{Document, InputError, Limits, Section};
 use crate::material::{Library, Material};
 use crate::normal::{Contact, NormalLaw};
 use crate::tangential::TangentialLaw;
+
+/// As the effect `adhesion-energy` has it.
+const WORK_OF_ADHESION: Limits =
+    Limits { unit: "J/m2", low: 0.0, high: 1e3, known: "diamond on diamond some 12" };
+
+const LAYER_THICKNESS: Limits =
+    Limits { unit: "m", low: 0.0, high: 100.0, known: "no furnace is that large" };
 
 impl Model {
     pub(super) fn read(document: &Document) -> Result<Self, InputError> {
@@ -74,7 +81,7 @@ fn missing_material(section: &Section<'_>) -> InputError {
 fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputError> {
     let law = NormalLaw::read(section)?;
     let yield_ratio = section.number_within("yield_ratio", 1e-6, 1e6)?;
-    let work = section.number_within("work_of_adhesion", 0.0, f64::INFINITY)?;
+    let work = section.quantity("work_of_adhesion", &WORK_OF_ADHESION)?;
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
         (None, NormalLaw::Constant { .. }) => 1.0,
@@ -138,7 +145,7 @@ impl WallReader<'_> {
             material,
             slag,
             melt,
-            layer_thickness: section.number_within("layer_thickness", 0.0, f64::INFINITY)?.unwrap_or(0.0),
+            layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
             adhesion: self.adhesion,
             prepared,
@@ -227,6 +234,35 @@ e_t = 0.76
         assert!(bad_effect.contains("did you mean `melting-transition`?"), "{bad_effect}");
         let no_parameter = error(&format!("{SMALLEST}[[effects]]\nkind = \"melting-transition\"\n"));
         assert!(no_parameter.contains("effects[1].temperature: missing"), "{no_parameter}");
+    }
+
+    #[test]
+    fn numbers_that_cannot_be_are_refused() {
+        let work =
+            error(&SMALLEST.replace("yield_ratio = 0.7", "yield_ratio = 0.7\nwork_of_adhesion = 1e200"));
+        assert_eq!(
+            work,
+            "m.toml:9:1: normal.work_of_adhesion: 1e200 is outside the allowed range 0 to 1000 \
+             (diamond on diamond some 12); check the exponent and the unit, J/m2"
+        );
+        let layer = error(&SMALLEST.replace("\"pyrex\"", "\"pyrex\"\nlayer_thickness = 250"));
+        assert_eq!(
+            layer,
+            "m.toml:6:1: walls.default.layer_thickness: 250 is outside the allowed range 0 to 100 \
+             (no furnace is that large); check the exponent and the unit, m"
+        );
+        let capture = format!(
+            "{SMALLEST}[capture]\nmodel = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 70e90\n"
+        );
+        assert_eq!(
+            error(&capture),
+            "m.toml:15:1: capture.reference_viscosity: 7e91 is outside the allowed range 1e-7 to 1e20 \
+             (literature 8 to 1e7; glass is solid above 1e12); check the exponent and the unit, Pa s"
+        );
+        // No adhesion, however it is written: it used to be an endless one.
+        let none = SMALLEST.replace("yield_ratio = 0.7", "yield_ratio = 0.7\nwork_of_adhesion = -0.0");
+        let speeds = Model::from_toml("m", &none).unwrap().speeds(0, &Impact::default()).unwrap();
+        assert_eq!(speeds.adhesive, 0.0);
     }
 
     #[test]

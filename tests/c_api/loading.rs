@@ -114,6 +114,14 @@ fn texts_that_are_no_model() {
     assert_eq!(status, NW_MODEL);
     assert!(message.contains("did you mean `fly-ash`?"), "{message}");
 
+    let stiff = format!("{EVERY_REGIME}[materials.p]\ndensity = 1\nyoungs_modulus = 70e90\n");
+    let (status, message) = parse_fault(&calls, stiff.as_bytes(), name);
+    assert_eq!(status, NW_MODEL);
+    assert!(
+        message.contains("materials.p.youngs_modulus: 7e91 is outside the allowed range 1 to 1e13"),
+        "{message}"
+    );
+
     assert_eq!(parse_fault(&calls, b"x = \"\xC3\"", name), (NW_NOT_UTF8, "a text is not UTF-8".to_owned()));
     assert_eq!(parse_fault(&calls, b"x = 1\0y = 2", name).0, NW_MODEL);
     assert_eq!(parse_fault(&calls, &[0; 100], name).0, NW_MODEL);

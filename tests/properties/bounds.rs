@@ -1,7 +1,7 @@
 //! Restitutions between 0 and 1, and numbers that stay numbers.
 
 use nearwall::effect::KINDS;
-use nearwall::{Draw, Impact};
+use nearwall::{Draw, Impact, Model};
 use proptest::prelude::*;
 
 use crate::cases::{
@@ -16,6 +16,24 @@ const BEYOND_ONE: [&str; 5] = [
     "oblique-angle", // a negative strength turns speed along the wall into speed away from it, e_n <= v/v_n
     "tangential-compliance", // near_normal may be given as up to 1.5; below with 0 to 1
 ];
+
+/// Either end, or even in the logarithm.
+fn ends(low: f64, high: f64) -> impl Strategy<Value = f64> + Clone {
+    prop_oneof![Just(low), Just(high), decades(low, high)]
+}
+
+/// The five mechanical properties of a material, as in `src/material`.
+fn material() -> impl Strategy<Value = String> {
+    let (density, modulus, strength) = (ends(0.01, 2.5e5), ends(1.0, 1e13), ends(0.01, 1e12));
+    let poisson = prop_oneof![Just(-0.999), Just(0.5), -0.999..0.5];
+    let energy = prop_oneof![Just(0.0), ends(1e-12, 100.0)];
+    (density, modulus, poisson, strength, energy).prop_map(|(density, modulus, poisson, strength, energy)| {
+        format!(
+            "density = {density:e}\nyoungs_modulus = {modulus:e}\npoisson_ratio = {poisson:e}\n\
+             yield_strength = {strength:e}\nsurface_energy = {energy:e}\n"
+        )
+    })
+}
 
 proptest! {
     #![proptest_config(config(300))]
@@ -77,6 +95,34 @@ proptest! {
         }
         let speeds = model.speeds(0, &impact).unwrap();
         prop_assert!(!speeds.sticking.is_nan() && speeds.sticking >= 0.0, "{speeds:?}");
+    }
+
+    /// Materials at the ends of what a model file may say, and anywhere between: numbers, and shares that are shares.
+    #[test]
+    fn the_most_extreme_materials_give_numbers(
+        particle in material(),
+        wall in material(),
+        raised in any::<bool>(),
+        ratio in ends(1e-6, 1e6),
+        work in prop_oneof![Just(None), Just(Some(0.0)), ends(1e-12, 1e3).prop_map(Some)],
+        impact in impacts(),
+    ) {
+        let law = if raised { "thornton-ning-raised-pull-off" } else { "thornton-ning" };
+        let work = work.map_or_else(String::new, |work| format!("work_of_adhesion = {work:e}\n"));
+        let text = format!(
+            "[particle]\nmaterial = \"p\"\n[walls.default]\nmaterial = \"w\"\n[normal]\nmodel = \"{law}\"\n\
+             yield_ratio = {ratio:e}\n{work}[tangential]\nmodel = \"constant\"\ne_t = 1\n\
+             [materials.p]\n{particle}[materials.w]\n{wall}"
+        );
+        let model = Model::from_toml("extreme", &text).unwrap();
+        let outcome = resolve(&model, &impact);
+        for share in [outcome.normal_restitution, outcome.sticking_probability] {
+            prop_assert!((0.0..=1.0).contains(&share), "{outcome:?}\n{text}");
+        }
+        let speeds = model.speeds(0, &impact).unwrap();
+        for speed in [speeds.adhesive, speeds.yielding, speeds.sticking] {
+            prop_assert!(speed.is_finite() && speed >= 0.0, "{speeds:?}\n{text}");
+        }
     }
 
     /// The bound of `oblique-angle` where it raises `e_n`.

@@ -14,7 +14,7 @@ pub use uniform::Uniform;
 use nalgebra::Vector3;
 
 use super::profile::Profile;
-use crate::input::{InputError, Section};
+use crate::input::{InputError, Limits, Section};
 use crate::material::Property;
 
 /// A steady velocity field.
@@ -73,8 +73,8 @@ impl Gas {
         };
         let temperature = Profile::read(section, "temperature", 1.0, 1e5)?
             .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
-        let property = |key: &str, unit: &str| {
-            let read = Property::read(section, key, unit, f64::MIN_POSITIVE, f64::INFINITY)?;
+        let property = |key: &str, unit: &'static str| {
+            let read = Property::read(section, key, &Limits::positive(unit))?;
             read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
         };
         let gas = Self {

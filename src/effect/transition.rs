@@ -1,0 +1,93 @@
+//! What `melting-transition` and `conversion-transition` share: stickiness that rises over one input (Richards' curve).
+//!
+//! `S = (1 + (2^(1/a) - 1) exp((x_50 - x) / width))^-a`, one half at `x_50`; with the asymmetry `a` = 1 the logistic
+//! `1 / (1 + exp((x_50 - x) / width))`. A particle that still rebounds leaves with `e_n (1 - softening S)`.
+//! `x`, `x_50` and `width` are temperatures [K] or carbon conversions [1]; `softening` and `a` are pure numbers.
+
+use super::{Effect, Parameter, Search, Simple};
+use crate::elementary::exponential;
+use crate::impact::Impact;
+
+/// The last parameter of both effects.
+pub(super) const ASYMMETRY: Parameter = Parameter {
+    name: "asymmetry",
+    unit: "1",
+    bounds: (0.01, 100.0),
+    default: Some(1.0),
+    search: Search::Log(0.2, 10.0),
+    about: "above 1 the rise begins steeply and ends slowly, below 1 the other way round",
+};
+
+/// The input that stickiness rises over.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Over {
+    /// The particle's temperature [K].
+    Temperature,
+    /// The carbon conversion [1].
+    Conversion,
+}
+
+impl Over {
+    #[inline(always)]
+    fn value(self, particle_temperature: f64, conversion: f64) -> f64 {
+        match self {
+            Self::Temperature => particle_temperature,
+            Self::Conversion => conversion,
+        }
+    }
+}
+
+/// A symmetric rise, ready for many impacts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transition {
+    over: Over,
+    middle: f64,
+    /// One over the width.
+    sharpness: f64,
+}
+
+impl Transition {
+    /// Stickiness [1] at a particle temperature [K] and carbon conversion [1].
+    #[inline(always)]
+    pub(crate) fn at(&self, particle_temperature: f64, conversion: f64) -> f64 {
+        let value = self.over.value(particle_temperature, conversion);
+        1.0 / (1.0 + exponential((self.middle - value) * self.sharpness))
+    }
+}
+
+/// The effect that both kinds build.
+#[derive(Debug)]
+struct Rise {
+    symmetric: Transition,
+    width: f64,
+    softening: f64,
+    asymmetry: f64,
+}
+
+/// The effect with the parameters `x_50`, `width`, `softening` and `a`.
+pub(super) fn rise(over: Over, values: &[f64]) -> Box<dyn Effect> {
+    let symmetric = Transition { over, middle: values[0], sharpness: values[1].recip() };
+    Box::new(Rise { symmetric, width: values[1], softening: values[2], asymmetry: values[3] })
+}
+
+impl Effect for Rise {
+    fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
+        let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
+        if self.asymmetry == 1.0 {
+            return Some(self.symmetric.at(temperature, conversion));
+        }
+        let distance =
+            (self.symmetric.middle - self.symmetric.over.value(temperature, conversion)) / self.width;
+        let lead = self.asymmetry.recip().exp2() - 1.0;
+        Some((1.0 + lead * distance.exp()).powf(-self.asymmetry))
+    }
+
+    fn rebound_loss(&self) -> f64 {
+        self.softening
+    }
+
+    /// The power of an asymmetric rise has no plain arithmetic.
+    fn simple(&self) -> Option<Simple> {
+        (self.asymmetry == 1.0).then_some(Simple::Transition(self.symmetric))
+    }
+}
