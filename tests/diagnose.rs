@@ -272,3 +272,27 @@ fn what_cannot_be_diagnosed_is_refused_with_the_remedy() {
     }
     assert!(!folder.join("out").exists(), "a refused diagnosis leaves nothing behind");
 }
+
+/// Files as they come: nothing varies, a column's name has line breaks in it, a digit too many, a gas faster than light.
+#[test]
+fn odd_files_end_in_an_extended_model_that_can_be_read() {
+    let constant = "v_n,v_t,e_n,e_t\n".to_owned() + &"0.5,0.5,0.5,0.5\n".repeat(12);
+    let rows = |of: &dyn Fn(u32) -> String| (0..24).map(of).collect::<String>();
+    let broken = "v_n,\"a\nb = [1]\r\n[walls.x]\",e_n\n".to_owned()
+        + &rows(&|i| format!("1.{i},{},{}\n", i % 12, 0.1 + 0.02 * f64::from(i % 12)));
+    let hot = "v_n,T_p,outcome\n".to_owned()
+        + &rows(&|i| format!("1.{i},{},{}\n", 28_292 + i, if i > 12 { "stick" } else { "rebound" }));
+    let fast = "v_n,v_gas,e_n\n".to_owned()
+        + &rows(&|i| format!("1.{i},{},0.2{i}\n", if i == 7 { "1e308" } else { "3" }));
+    for (data, rejected) in [(constant, 0), (broken, 0), (hot, 0), (fast, 1)] {
+        let folder = folder(&data);
+        done(folder.path(), &DIAGNOSE);
+        let text = std::fs::read_to_string(folder.path().join("out/extended.toml")).unwrap();
+        Model::from_toml("extended.toml", &text).unwrap();
+        let found = json(folder.path());
+        assert_eq!(found["rows"]["rejected"].as_array().unwrap().len(), rejected, "{data}");
+        for finding in found["findings"].as_array().unwrap() {
+            assert!(finding["gain"].is_number(), "{finding}");
+        }
+    }
+}

@@ -64,7 +64,7 @@ impl<'a> Bytes<'a> {
 }
 
 /// Numbers as they may stand in a file.
-const WRITTEN: [&str; 28] = [
+pub const WRITTEN: [&str; 28] = [
     "0",
     "-0.0",
     "1",

@@ -5,7 +5,7 @@ use std::path::Path;
 use nearwall::simulate::{Case, Run, page, run, summary};
 
 use super::bytes::file;
-use super::place;
+use super::{place, whole};
 
 const FILE: &str = "c.toml";
 
@@ -37,9 +37,9 @@ fn in_one_file(case: &str, model: &str) -> String {
 
 /// Any text is refused with its place, or is a case that runs to a page. What only makes a run long is cut short.
 pub fn case(bytes: &[u8]) {
-    let whole: Vec<String> = WHOLE.iter().map(|(case, model)| in_one_file(case, model)).collect();
-    let whole: Vec<&str> = whole.iter().map(String::as_str).collect();
-    let Some(text) = file(&whole, bytes) else { return };
+    let texts: Vec<String> = WHOLE.iter().map(|(case, model)| in_one_file(case, model)).collect();
+    let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+    let Some(text) = file(&texts, bytes) else { return };
     let text = text.as_ref();
     let mut case = match Case::from_toml(FILE, text, Path::new("/nowhere")) {
         Err(error) => return place(&error.to_string(), FILE, text),
@@ -61,6 +61,5 @@ pub fn case(bytes: &[u8]) {
         assert_eq!(ends.iter().map(|end| end.count).sum::<u64>(), tally.injected.count);
     }
     let _ = summary(&case, &runs);
-    let html = page(&case, &runs, 0).expect("a page");
-    assert!(html.contains("</html>"));
+    whole(&page(&case, &runs, 0).expect("a page"));
 }

@@ -5,18 +5,29 @@ mod bytes;
 mod c_api;
 mod case;
 mod dataset;
+mod diagnose;
 mod model;
+mod openfoam;
 
 pub use c_api::c_api;
 pub use case::case;
 pub use dataset::dataset;
+pub use diagnose::diagnose;
 pub use model::model;
+pub use openfoam::openfoam;
 
 /// A door: what it is called, and what is fed.
 pub type Target = (&'static str, fn(&[u8]));
 
 /// Every door, by the name of its folder in `fuzz/corpus`.
-pub const TARGETS: [Target; 4] = [("model", model), ("case", case), ("dataset", dataset), ("c_api", c_api)];
+pub const TARGETS: [Target; 6] = [
+    ("model", model),
+    ("case", case),
+    ("dataset", dataset),
+    ("diagnose", diagnose),
+    ("openfoam", openfoam),
+    ("c_api", c_api),
+];
 
 /// An error names the file and a place that is in it.
 fn place(error: &str, file: &str, text: &str) {
@@ -30,4 +41,18 @@ fn place(error: &str, file: &str, text: &str) {
     let width = text.split('\n').nth(line - 1).unwrap_or("").chars().count();
     assert!((1..=width + 1).contains(&column), "column {column} of {width}: {error}");
     assert!(!error.contains("panicked"), "{error}");
+}
+
+/// A page that is whole, and whose figures have a number wherever a browser needs one.
+fn whole(page: &str) {
+    assert!(page.contains("</html>") && page.len() > 1000);
+    for bare in ["=\"NaN\"", "=\"inf\"", "=\"-inf\""] {
+        assert!(!page.contains(bare), "{bare}");
+    }
+    for path in [" d=\"", " points=\"", " transform=\""] {
+        let ends = page.split(path).skip(1).filter_map(|rest| rest.split('"').next());
+        for drawn in ends {
+            assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+        }
+    }
 }

@@ -93,6 +93,11 @@ impl nw_deposit {
         let sizes = [self.molten, self.powder, self.solid, self.cover];
         sizes.iter().all(|size| size.is_finite() && *size >= 0.0) && (0.0..=1.0).contains(&self.conversion)
     }
+
+    /// Itself, unless a sum has overflowed: what is written can be given to every other call.
+    fn sound(self) -> Result<Self, nw_status> {
+        if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
+    }
 }
 
 impl nw_arrivals {
@@ -110,6 +115,11 @@ impl nw_arrivals {
     fn is_sound(&self) -> bool {
         let sizes = [self.molten, self.powder, self.solid, self.cover, self.buried, self.converted];
         sizes.iter().all(|size| size.is_finite() && *size >= 0.0)
+    }
+
+    /// As that of a deposit.
+    fn sound(self) -> Result<Self, nw_status> {
+        if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
@@ -141,9 +151,9 @@ pub unsafe extern "C" fn nw_deposit_start(
     let start = || {
         // SAFETY: the caller's promises.
         let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
-        let found = model.inner().lying(before.wall as usize, voidage)?;
+        let found = before.with(&model.inner().lying(before.wall as usize, voidage)?).sound()?;
         // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(before.with(&found)) };
+        unsafe { deposit.write_unaligned(found) };
         Ok(())
     };
     guarded_status(start)
@@ -179,10 +189,11 @@ pub unsafe extern "C" fn nw_arrivals_add(
     let add = || {
         // SAFETY: the caller's promises.
         let (model, impact, sum) = unsafe { (reader(model)?, sized(impact)?, sized(arrivals.cast_const())?) };
-        let wall = impact.wall as usize;
-        let found = model.inner().arrive(wall, &impact.to_impact(), mass, density, sum.to_arrivals())?;
+        let (wall, before) = (impact.wall as usize, sum.sound()?.to_arrivals());
+        let found = model.inner().arrive(wall, &impact.to_impact(), mass, density, before)?;
+        let found = sum.with(&found).sound()?;
         // SAFETY: checked just above.
-        unsafe { arrivals.write_unaligned(sum.with(&found)) };
+        unsafe { arrivals.write_unaligned(found) };
         Ok(())
     };
     guarded_status(add)
@@ -197,12 +208,10 @@ pub unsafe extern "C" fn nw_deposit_add(arrivals: *const nw_arrivals, deposit: *
     let add = || {
         // SAFETY: the caller's promises.
         let (arrivals, before) = unsafe { (sized(arrivals)?, sized(deposit.cast_const())?) };
-        if !(arrivals.is_sound() && before.is_sound()) {
-            return Err(NW_BAD_STATE);
-        }
-        let after = before.to_deposit().with(&arrivals.to_arrivals());
+        let after = before.sound()?.to_deposit().with(&arrivals.sound()?.to_arrivals());
+        let after = before.with(&after).sound()?;
         // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(before.with(&after)) };
+        unsafe { deposit.write_unaligned(after) };
         Ok(())
     };
     guarded_status(add)
@@ -225,7 +234,10 @@ pub unsafe extern "C" fn nw_deposit_dress(
         let (model, deposit, bare) =
             unsafe { (reader(model)?, sized(deposit)?, sized(impact.cast_const())?) };
         let wall = bare.wall as usize;
-        let found = model.inner().dress(wall, &deposit.to_deposit(), voidage, &bare.to_impact())?;
+        let found = model.inner().dress(wall, &deposit.sound()?.to_deposit(), voidage, &bare.to_impact())?;
+        if !(found.layer_thickness.is_finite() && found.melt_thickness.is_finite()) {
+            return Err(NW_BAD_STATE);
+        }
         let dressed = nw_impact {
             layer_thickness: found.layer_thickness,
             coverage: found.coverage,
@@ -267,6 +279,9 @@ pub unsafe extern "C" fn nw_film_velocity(
         let melt = model.inner().melt(deposit.wall as usize, T_w)?;
         let thickness = deposit.molten / melt.density;
         let found = film::mean_velocity(thickness, melt.density, melt.viscosity, gravity_along);
+        if !found.is_finite() {
+            return Err(NW_BAD_STATE);
+        }
         // SAFETY: not null, and writable by the caller's promise.
         unsafe { velocity.write_unaligned(found) };
         Ok(())

@@ -36,7 +36,9 @@ pub(super) fn extended(
         text.push('\n');
     }
     for note in notes {
-        text += &format!("# {note}\n");
+        // A note names columns, and a quoted header may hold line breaks: what follows one would be read as TOML.
+        let line: String = note.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        text += &format!("# {line}\n");
     }
     Ok(text)
 }

@@ -27,6 +27,7 @@ pub use record::{
 };
 
 use crate::dataset::Measurements;
+use crate::impact::{INPUTS, Impact, Input};
 use crate::model::Model;
 use contest::{Added, Contender, Round};
 use gain::Answers;
@@ -76,6 +77,11 @@ const LEAST_ROWS: usize = 8;
 const MOST_UNFOLDED: f64 = 1000.0;
 /// Causes looked for at most.
 const MOST_CAUSES: usize = 6;
+/// No input of an impact is larger than this or, where laws divide by it, smaller [SI units]; far beyond any laboratory.
+const MOST_MEASURED: f64 = 1e12;
+const LEAST_MEASURED: f64 = 1e-15;
+/// Inputs that laws divide by.
+const DIVISORS: [&str; 5] = ["v_n", "v_t", "d", "T_p", "T_w"];
 /// A further cause has to gain this share of the first one's gain; less is put down to the shape of the laws.
 const WORTH: f64 = 0.05;
 /// Least gain of any cause [nats].
@@ -162,9 +168,24 @@ pub fn diagnose(
     Ok((diagnosis, extended))
 }
 
-/// The data without rows that the base model cannot answer (a temperature outside a property's table).
+/// The data without rows that the base model cannot answer (a temperature outside a property's table) and those that nobody
+/// has measured.
 fn within_tables(base: &Model, data: &Measurements) -> Measurements {
-    data.without(|row| base.check(row.wall, &row.impact).err().map(|error| error.to_string()))
+    data.without(|row| {
+        let refused = base.check(row.wall, &row.impact).err().map(|error| error.to_string());
+        refused.or_else(|| beyond_measure(&row.impact))
+    })
+}
+
+/// The input whose value nobody has measured; squares of what laws make of it would overflow, and one such row would spoil
+/// all that is summed over rows.
+fn beyond_measure(impact: &Impact) -> Option<String> {
+    INPUTS.iter().find_map(|Input { name, unit, value, .. }| {
+        let value = value(impact);
+        let tiny = DIVISORS.contains(name) && value != 0.0 && value.abs() < LEAST_MEASURED;
+        (tiny || value.abs() > MOST_MEASURED)
+            .then(|| format!("{name} = {value:e} {unit} cannot have been measured; look at its unit"))
+    })
 }
 
 /// The candidate to adopt, or none that stands above chance.

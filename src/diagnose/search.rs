@@ -29,14 +29,24 @@ impl Axis {
     }
 
     /// The axis of a parameter; `range` gives the least and largest value that the data have of an input. `None` where
-    /// the data do not vary in the input that sets the range.
+    /// the data do not vary in the input that sets the range, or only beyond what makes sense for the parameter: a wrong
+    /// unit, say, from which a fit would write a model that cannot be read.
     pub fn of(parameter: &Parameter, range: impl Fn(&str) -> Option<[f64; 2]>) -> Option<Self> {
+        let (least, most) = parameter.bounds;
+        let within = |low: f64, high: f64| {
+            let (low, high) = (low.max(least), high.min(most));
+            (low < high).then_some((low, high))
+        };
         match parameter.search {
             Search::Linear(low, high) => Some(Self::linear(low, high)),
             Search::Log(low, high) => Some(Self::log(low, high)),
-            Search::Over(input) => range(input).map(|[low, high]| Self::linear(low, high)),
+            Search::Over(input) => {
+                let [low, high] = range(input)?;
+                within(low, high).map(|(low, high)| Self::linear(low, high))
+            }
             Search::Across(input) => {
-                range(input).map(|[low, high]| Self::log((high - low) / 50.0, 4.0 * (high - low)))
+                let [low, high] = range(input)?;
+                within((high - low) / 50.0, 4.0 * (high - low)).map(|(low, high)| Self::log(low, high))
             }
         }
     }

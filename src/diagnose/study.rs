@@ -90,6 +90,12 @@ impl Study {
         others.flat_map(|(_, rows)| rows.iter().copied()).collect()
     }
 
+    /// The cells of a factor; none where no column varies, as a level asks for, which looks at no column.
+    pub fn values(&self, factor: usize) -> &Values {
+        static NONE: Values = Values::Numbers(Vec::new());
+        self.factors.get(factor).map_or(&NONE, |factor| &factor.values)
+    }
+
     /// The factor of this name.
     pub fn factor(&self, name: &str) -> Option<&Factor> {
         self.factors.iter().find(|factor| factor.name == name)

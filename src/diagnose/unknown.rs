@@ -52,7 +52,7 @@ impl Unknown {
         shifts: &[Shift],
         scatter: Scatter,
     ) -> Option<Self> {
-        let values = &study.factors[self.factor].values;
+        let values = study.values(self.factor);
         let Self { factor, observable, factorwise, .. } = *self;
         let new = |curve| Self { factor, observable, factorwise, curve };
         if observable != Observable::Capture {
@@ -77,7 +77,7 @@ impl Unknown {
 
     /// Adds the curve to the shifts of these rows.
     pub fn add(&self, study: &Study, forecast: &Forecast, rows: &[usize], shifts: &mut [Shift]) {
-        let values = &study.factors[self.factor].values;
+        let values = study.values(self.factor);
         for (place, &index) in rows.iter().enumerate() {
             let height = self.curve.at(values, index);
             let shift = &mut shifts[index];

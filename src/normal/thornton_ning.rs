@@ -44,9 +44,11 @@ impl Prepared {
     #[inline(always)]
     pub fn new(contact: &Contact) -> Self {
         let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
+        let adhesive = ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density);
         Self {
             size: reduced_modulus / (2.0 * work_of_adhesion),
-            adhesive: ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density),
+            // 0 or infinity times the other of them would be no number, for a solid as no solid is.
+            adhesive: adhesive.clamp(f64::MIN_POSITIVE, f64::MAX),
             yielding: yield_velocity(contact),
         }
     }
@@ -178,6 +180,11 @@ mod tests {
         }
         let beyond = Contact { reduced_modulus: 1e300, work_of_adhesion: 1e308, ..contact };
         assert_eq!(adhesive_velocity(&beyond, 1e-4), f64::INFINITY);
+        // E*/rho below and above all numbers.
+        let soft = Contact { reduced_modulus: 1e-298, density: 1.7e308, work_of_adhesion: 0.1, ..contact };
+        assert_eq!(adhesive_velocity(&soft, 1e-4), f64::INFINITY);
+        let stiff = Contact { reduced_modulus: 1e308, density: 1e-300, work_of_adhesion: 1e-300, ..contact };
+        assert_eq!(adhesive_velocity(&stiff, 1e-4), 0.0);
     }
 
     #[test]

@@ -228,14 +228,14 @@ impl Chart {
     /// Fixes the ends of the x axis.
     #[must_use]
     pub fn x_range(mut self, low: f64, high: f64) -> Self {
-        self.x_range = Some([low, high]);
+        self.x_range = ends([low, high]);
         self
     }
 
     /// Fixes the ends of the y axis.
     #[must_use]
     pub fn y_range(mut self, low: f64, high: f64) -> Self {
-        self.y_range = Some([low, high]);
+        self.y_range = ends([low, high]);
         self
     }
 
@@ -292,7 +292,13 @@ impl Chart {
     /// Points with error bars.
     #[must_use]
     pub fn points_with_errors(mut self, name: &str, points: &[[f64; 2]], errors: &Errors) -> Self {
-        let plot = self.scatter(name, points).with_y_err_asymmetric(errors.clone());
+        let both = points.iter().zip(errors);
+        let drawn = both.filter_map(|(point, (below, above))| {
+            all_drawable([point[0], point[1], point[1] - below, point[1] + above])?;
+            Some((*point, (*below, *above)))
+        });
+        let (points, errors): (Vec<[f64; 2]>, Errors) = drawn.unzip();
+        let plot = self.scatter(name, &points).with_y_err_asymmetric(errors);
         self.plots.push(plot.into());
         self
     }
@@ -317,7 +323,11 @@ impl Chart {
     #[must_use]
     pub fn band(mut self, x: &[f64], low: &[f64], high: &[f64]) -> Self {
         let colour = COLOURS[self.colours % COLOURS.len()];
-        let band = BandPlot::new(x.to_vec(), low.to_vec(), high.to_vec());
+        let edges =
+            x.iter().zip(low).zip(high).filter_map(|((x, low), high)| all_drawable([*x, *low, *high]));
+        let edges: Vec<[f64; 3]> = edges.collect();
+        let [x, low, high] = [0, 1, 2].map(|side| edges.iter().map(|edge| edge[side]).collect::<Vec<f64>>());
+        let band = BandPlot::new(x, low, high);
         self.plots.push(band.with_color(colour).with_opacity(0.2).into());
         self
     }
@@ -328,12 +338,16 @@ impl Chart {
         if self.colours > 0 {
             return self.line(name, &stairs(edges, heights));
         }
+        if edges.iter().any(|edge| drawable(*edge).is_none()) {
+            return self;
+        }
         let (colour, _) = self.next();
         self.keys.push(Key { name: name.to_owned(), colour, sign: Sign::Area });
         if let (None, [low, .., high]) = (self.x_range, edges) {
-            self.x_range = Some([*low, *high]);
+            self.x_range = ends([*low, *high]);
         }
-        let plot = Histogram::from_bins(edges.to_vec(), heights.to_vec()).with_color(colour);
+        let heights = heights.iter().map(|height| drawable(*height).unwrap_or(0.0)).collect();
+        let plot = Histogram::from_bins(edges.to_vec(), heights).with_color(colour);
         self.plots.push(plot.into());
         self
     }
@@ -347,14 +361,14 @@ impl Chart {
     /// A thin vertical line with a label.
     #[must_use]
     pub fn mark_x(mut self, x: f64, label: &str) -> Self {
-        self.lines.push(reference(Orientation::Vertical, x, label));
+        self.lines.extend(drawable(x).map(|x| reference(Orientation::Vertical, x, label)));
         self
     }
 
     /// A thin horizontal line with a label.
     #[must_use]
     pub fn mark_y(mut self, y: f64, label: &str) -> Self {
-        self.lines.push(reference(Orientation::Horizontal, y, label));
+        self.lines.extend(drawable(y).map(|y| reference(Orientation::Horizontal, y, label)));
         self
     }
 
@@ -420,9 +434,33 @@ impl Chart {
     }
 }
 
-/// What is no number cannot be drawn.
+/// Numbers beyond the first cannot be drawn, and those within the second are zero on any axis: steps, ranges and powers of
+/// the plotting crate's axes would overflow, and a tick for each power up to infinity fill the memory.
+const FARTHEST: f64 = 1e100;
+const NEAREST: f64 = 1e-100;
+
+/// The number as it can be drawn.
+fn drawable(value: f64) -> Option<f64> {
+    match value.abs() {
+        size if size < NEAREST => Some(0.0),
+        size => (size <= FARTHEST).then_some(value),
+    }
+}
+
+/// What can be drawn of some numbers that belong together: all or nothing.
+fn all_drawable<const N: usize>(values: [f64; N]) -> Option<[f64; N]> {
+    let drawn = values.map(drawable);
+    drawn.iter().all(Option::is_some).then(|| drawn.map(Option::unwrap_or_default))
+}
+
+/// The points that can be drawn.
 fn finite(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    points.iter().copied().filter(|point| point.iter().all(|value| value.is_finite())).collect()
+    points.iter().copied().filter_map(all_drawable).collect()
+}
+
+/// The ends of an axis, where they can be.
+fn ends([low, high]: [f64; 2]) -> Option<[f64; 2]> {
+    all_drawable([low, high]).filter(|[low, high]| low < high)
 }
 
 /// Short numbers on the axes.
@@ -505,8 +543,7 @@ impl Bars {
     pub fn figure(self, id: &str, caption: &str) -> Figure {
         let mut plot = BarPlot::new();
         for (index, category) in self.categories.iter().enumerate() {
-            let value =
-                |values: &Vec<f64>| values.get(index).copied().filter(|v| v.is_finite()).unwrap_or(0.0);
+            let value = |values: &Vec<f64>| values.get(index).copied().and_then(drawable).unwrap_or(0.0);
             let bars = self.series.iter().zip(COLOURS.iter().cycle());
             let bars: Vec<(f64, &str)> = bars.map(|((_, values), colour)| (value(values), *colour)).collect();
             plot = plot.with_group(category.clone(), bars);
@@ -616,6 +653,21 @@ mod tests {
         );
         assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
         assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
+    }
+
+    /// The plotting crate would look for a tick at each power of ten up to infinity.
+    #[test]
+    fn numbers_beyond_any_axis_are_left_out() {
+        let far = [[1.7e308, 1.0], [1.0, -1.7e308], [5e-324, 2.0], [3.0, 4.0]];
+        let chart = Chart::new("t", "x", "y").points_with_errors("p", &far, &vec![(1e300, 0.0); 4]);
+        let chart = chart.line("l", &far).band(&[1.0, 1e200], &[0.0; 2], &[1.0; 2]).mark_x(f64::NAN, "n");
+        let chart = chart.histogram("h", &[0.0, 1e300], &[1.0]).x_range(2.0, 2.0).y_range(-1e300, 1e300);
+        for svg in [
+            chart.log_x().figure("f", "").svg,
+            Bars::new("t", "y", &["a".into()]).series("s", &[1e300]).figure("b", "").svg,
+        ] {
+            assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
     }
 
     #[test]

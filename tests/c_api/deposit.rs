@@ -152,3 +152,30 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         (calls.nw_model_free)(model);
     }
 }
+
+/// What is written can be given to every other call: sums, heights and speeds that overflow are refused.
+#[test]
+fn what_overflows_is_refused_and_nothing_written() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let impact = nw_impact { v_n: 1.0, T_p: 1600.0, T_w: 1600.0, ..nw_impact::default() };
+    let huge = nw_deposit { wall: 1, molten: f64::MAX, solid: f64::MAX, ..nw_deposit::default() };
+    let many = nw_arrivals { molten: f64::MAX, powder: 1e300, ..nw_arrivals::default() };
+    unsafe {
+        let (mut deposit, mut arrivals, mut dressed, mut velocity) = (huge, many, impact, -1.0);
+        let found = [
+            (calls.nw_deposit_add)(&raw const many, &raw mut deposit),
+            (calls.nw_arrivals_add)(model, &raw const impact, f64::MAX, 1e-300, &raw mut arrivals),
+            (calls.nw_deposit_dress)(model, &raw const huge, 0.5, &raw mut dressed),
+            (calls.nw_film_velocity)(model, &raw const huge, 1600.0, 9.81, &raw mut velocity),
+        ];
+        assert_eq!(found, [NW_BAD_STATE; 4]);
+        assert_eq!(format!("{deposit:?}{arrivals:?}{dressed:?}"), format!("{huge:?}{many:?}{impact:?}"));
+        assert_eq!(velocity, -1.0);
+        let no_number = nw_arrivals { converted: f64::NAN, ..nw_arrivals::default() };
+        arrivals = no_number;
+        let status = (calls.nw_arrivals_add)(model, &raw const impact, 1.0, 1e3, &raw mut arrivals);
+        assert_eq!((status, arrivals.count), (NW_BAD_STATE, 0));
+        (calls.nw_model_free)(model);
+    }
+}

@@ -46,14 +46,14 @@ pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Parcel>, String> {
 
 fn read_cloud(folder: &Path) -> Result<Vec<Parcel>, String> {
     let positions = positions(folder)?;
-    let (active, diameters) = (numbers(folder, "active")?, numbers(folder, "d")?);
-    let densities = numbers(folder, "rho")?;
-    let particles = numbers(folder, "nParticle").unwrap_or_default();
-    let parcels = positions.into_iter().enumerate().filter_map(|(index, position)| {
+    let numbers = |name: &str| numbers(folder, name, positions.len());
+    let (active, diameters, densities) = (numbers("active")?, numbers("d")?, numbers("rho")?);
+    let particles = numbers("nParticle").unwrap_or_default();
+    let parcels = positions.iter().enumerate().filter_map(|(index, position)| {
         let diameter = *diameters.get(index)?;
         let count = particles.get(index).copied().unwrap_or(1.0);
         Some(Parcel {
-            position,
+            position: *position,
             active: *active.get(index)? != 0.0,
             mass: count * PI / 6.0 * diameter.powi(3) * densities.get(index)?,
             diameter,
@@ -63,8 +63,10 @@ fn read_cloud(folder: &Path) -> Result<Vec<Parcel>, String> {
 }
 
 fn read_deposit(folder: &Path) -> Result<Vec<Parcel>, String> {
-    let (diameters, masses) = (numbers(folder, "d")?, numbers(folder, "mass")?);
-    let parcels = positions(folder)?.into_iter().zip(diameters).zip(masses);
+    let positions = positions(folder)?;
+    let numbers = |name: &str| numbers(folder, name, positions.len());
+    let (diameters, masses) = (numbers("d")?, numbers("mass")?);
+    let parcels = positions.iter().copied().zip(diameters).zip(masses);
     Ok(parcels
         .map(|((position, diameter), mass)| Parcel { position, active: false, mass, diameter })
         .collect())
@@ -75,22 +77,24 @@ fn positions(folder: &Path) -> Result<Vec<[f64; 3]>, String> {
         let mut words = entry.trim_start_matches('(').split([' ', ')']).filter_map(|word| word.parse().ok());
         Some([words.next()?, words.next()?, words.next()?])
     };
-    Ok(entries(folder, "positions")?.iter().filter_map(place).collect())
+    Ok(entries(folder, "positions", None)?.iter().filter_map(place).collect())
 }
 
-fn numbers(folder: &Path, name: &str) -> Result<Vec<f64>, String> {
-    Ok(entries(folder, name)?.iter().filter_map(|entry| entry.parse().ok()).collect())
+fn numbers(folder: &Path, name: &str, parcels: usize) -> Result<Vec<f64>, String> {
+    Ok(entries(folder, name, Some(parcels))?.iter().filter_map(|entry| entry.parse().ok()).collect())
 }
 
-fn entries(folder: &Path, name: &str) -> Result<Vec<String>, String> {
+fn entries(folder: &Path, name: &str, parcels: Option<usize>) -> Result<Vec<String>, String> {
     let path = folder.join(name);
     let unreadable =
         || format!("{} is not there or not ASCII, so places of parcels are not shown", path.display());
-    std::fs::read_to_string(&path).ok().and_then(|text| list(&text)).ok_or_else(unreadable)
+    std::fs::read_to_string(&path).ok().and_then(|text| list(&text, parcels)).ok_or_else(unreadable)
 }
 
-/// The entries of an OpenFOAM list file: what stands between the brackets, an entry a line, or `n{value}`.
-fn list(text: &str) -> Option<Vec<String>> {
+/// The entries of an OpenFOAM list file: what stands between the brackets, an entry a line, or `n{value}`, which
+/// stands for as many entries as there are parcels at most, and for none where their number is not known: a few letters
+/// must not fill the memory.
+fn list(text: &str, parcels: Option<usize>) -> Option<Vec<String>> {
     let body = text.split_once("// * *").map_or(text, |(_, rest)| rest);
     let body: Vec<&str> = body
         .lines()
@@ -100,7 +104,7 @@ fn list(text: &str) -> Option<Vec<String>> {
     let first = body.first()?;
     if let Some((count, value)) = first.split_once('{') {
         let count: usize = count.trim().parse().ok()?;
-        return (count < 1 << 28).then(|| vec![value.trim_end_matches('}').to_owned(); count]);
+        return Some(vec![value.trim_end_matches('}').to_owned(); count.min(parcels?)]);
     }
     if let Some((count, rest)) = first.split_once('(') {
         count.trim().parse::<usize>().ok()?;
@@ -120,13 +124,15 @@ mod tests {
     fn every_form_of_a_list_is_read() {
         let head = "FoamFile\n{\n format ascii;\n}\n// * * * * //\n\n";
         assert_eq!(
-            list(&format!("{head}2\n(\n(0 1 2) 7\n(3 4 5) 8\n)\n\n// ***\n")).unwrap(),
+            list(&format!("{head}2\n(\n(0 1 2) 7\n(3 4 5) 8\n)\n\n// ***\n"), None).unwrap(),
             ["(0 1 2) 7", "(3 4 5) 8"]
         );
-        assert_eq!(list(&format!("{head}3{{1e-3}}\n")).unwrap(), ["1e-3"; 3]);
-        assert_eq!(list(&format!("{head}2(0 1)\n")).unwrap(), ["0", "1"]);
-        assert_eq!(list(&format!("{head}0()\n")).unwrap(), Vec::<String>::new());
-        assert_eq!(list("no list"), None);
+        assert_eq!(list(&format!("{head}3{{1e-3}}\n"), Some(3)).unwrap(), ["1e-3"; 3]);
+        assert_eq!(list(&format!("{head}268435455{{1e-3}}\n"), Some(2)).unwrap(), ["1e-3"; 2]);
+        assert_eq!(list(&format!("{head}268435455{{(0 0 0)}}\n"), None), None);
+        assert_eq!(list(&format!("{head}2(0 1)\n"), Some(2)).unwrap(), ["0", "1"]);
+        assert_eq!(list(&format!("{head}0()\n"), Some(0)).unwrap(), Vec::<String>::new());
+        assert_eq!(list("no list", Some(2)), None);
     }
 
     #[test]

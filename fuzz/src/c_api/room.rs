@@ -1,0 +1,64 @@
+//! Room for what a call writes, on any address and with poison around.
+
+use std::ptr::null_mut;
+
+use nearwall::c_api::*;
+
+use super::super::bytes::Bytes;
+
+/// What no call may write over.
+const POISON: u8 = 0xA5;
+
+/// Room on any address, with poison around.
+pub struct Room {
+    pub bytes: Vec<u8>,
+    offset: usize,
+    size: usize,
+}
+
+impl Room {
+    pub fn new(bytes: &mut Bytes<'_>, size: usize) -> Self {
+        let offset = bytes.below(16);
+        Self { bytes: vec![POISON; offset + size + 16], offset, size }
+    }
+
+    pub fn holding<T: Copy>(bytes: &mut Bytes<'_>, value: T) -> Self {
+        let mut room = Self::new(bytes, size_of::<T>());
+        // SAFETY: as large as a `T`.
+        unsafe { room.start::<T>().write_unaligned(value) };
+        room
+    }
+
+    pub fn start<T>(&mut self) -> *mut T {
+        self.bytes[self.offset..].as_mut_ptr().cast()
+    }
+
+    /// The room, or no room at all.
+    pub fn perhaps<T>(&mut self, bytes: &mut Bytes<'_>) -> *mut T {
+        if bytes.byte() == 0 { null_mut() } else { self.start() }
+    }
+
+    pub fn inside(&self) -> &[u8] {
+        &self.bytes[self.offset..self.offset + self.size]
+    }
+
+    /// Nothing around was written.
+    pub fn kept(&self) {
+        let end = self.offset + self.size;
+        let around = self.bytes[..self.offset].iter().chain(&self.bytes[end..]);
+        assert!(around.copied().all(|byte| byte == POISON), "written beside");
+    }
+
+    pub fn untouched(&self) {
+        assert!(self.bytes.iter().all(|byte| *byte == POISON), "written on failure");
+    }
+
+    pub fn f64(&mut self) -> f64 {
+        // SAFETY: as large as a number.
+        unsafe { self.start::<f64>().read_unaligned() }
+    }
+}
+
+pub fn known(status: nw_status) {
+    assert!((NW_OK..NW_PANIC).contains(&status), "status {status}");
+}
