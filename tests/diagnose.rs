@@ -296,3 +296,21 @@ fn odd_files_end_in_an_extended_model_that_can_be_read() {
         }
     }
 }
+
+/// Of a size that the file does not have nothing can be said, though the laws work with one.
+#[test]
+fn an_effect_of_a_size_that_does_not_vary_is_not_examined() {
+    let mut data = "v_n,v_t,captured\n".to_owned();
+    for row in 0..12 {
+        writeln!(data, "{},{},1", 1.0 + 0.2 * f64::from(row), 0.3 * f64::from(row % 4)).unwrap();
+    }
+    let folder = folder(&data);
+    done(folder.path(), &DIAGNOSE);
+    let json = json(folder.path());
+    let named = json["findings"].as_array().unwrap();
+    assert!(named.iter().all(|finding| finding["cause"] != "size-dependent-yield"), "{named:?}");
+    let unexamined = json["not_examined"].as_array().unwrap();
+    let reason = |cause: &str| unexamined.iter().find(|one| one["cause"] == cause).map(|one| &one["reason"]);
+    assert_eq!(reason("size-dependent-yield").unwrap(), "d does not vary in the data");
+    assert_eq!(reason("strain-rate-hardening"), None);
+}

@@ -97,9 +97,12 @@ impl Part {
         match self {
             Self::Number(_) => Some(vec![Axis::linear(0.02, 1.1)]),
             Self::Effect(kind) => {
-                // Laws work with speed and size as they are; whatever else an effect turns on has to vary.
-                let needed = kind.inputs.iter().filter(|input| !["v_n", "d"].contains(*input));
-                needed.map(|input| study.range(input)).collect::<Option<Vec<_>>>()?;
+                // What an effect turns on has to vary. Beside another input, speed and size need not: laws work with them as
+                // they are.
+                let (known, needed): (Vec<&str>, Vec<&str>) =
+                    kind.inputs.iter().partition(|input| ["v_n", "d"].contains(*input));
+                let needed = if needed.is_empty() { known } else { needed };
+                needed.iter().map(|input| study.range(input)).collect::<Option<Vec<_>>>()?;
                 let free = kind.parameters.iter().filter(|p| refined || p.default.is_none());
                 free.map(|p| Axis::of(p, |input| study.range(input))).collect()
             }
