@@ -154,14 +154,14 @@ mod tests {
         // Round up, flush to zero, some flags raised, nothing trapped.
         let odd = 0xDFA5;
         set(odd);
-        let mut inside = 0;
+        let inside = std::cell::Cell::new(0);
         let result = guarded::<Fault>(|| {
-            inside = control();
+            inside.set(control());
             panic!("this panic belongs to the test")
         });
         let after = control();
         set(before);
         assert!(result.is_err());
-        assert_eq!((inside, after), (0x1F80, odd));
+        assert_eq!((inside.get(), after), (0x1F80, odd));
     }
 }

@@ -3,7 +3,7 @@
 
 use super::boundary::{guarded_status, reader};
 use super::types::{NW_NULL_POINTER, NW_OK, nw_impact, nw_model, nw_status};
-use super::{sized, types::NW_BAD_STATE};
+use super::{check_size, sized, types::NW_BAD_STATE};
 use crate::deposit::{Arrivals, Deposit};
 use crate::slag::film;
 
@@ -149,11 +149,16 @@ pub unsafe extern "C" fn nw_deposit_start(
     deposit: *mut nw_deposit,
 ) -> nw_status {
     let start = || {
-        // SAFETY: the caller's promises.
-        let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
-        let found = before.with(&model.inner().lying(before.wall as usize, voidage)?).sound()?;
+        // SAFETY: the caller's promises. All but size and wall may be unset, so it is not read.
+        let (model, wall) = unsafe {
+            let model = reader(model)?;
+            check_size(deposit.cast_const())?;
+            (model, (&raw const (*deposit).wall).read_unaligned())
+        };
+        let found = model.inner().lying(wall as usize, voidage)?;
+        let begun = nw_deposit { wall, ..nw_deposit::default() }.with(&found).sound()?;
         // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(found) };
+        unsafe { deposit.write_unaligned(begun) };
         Ok(())
     };
     guarded_status(start)

@@ -217,8 +217,8 @@ pub unsafe extern "C" fn nw_resolve(
     let resolve = || {
         // SAFETY: the caller's promises.
         let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
-        // SAFETY: the caller's promise; checks null and the size before anything is written.
-        unsafe { sized(outcome.cast_const())? };
+        // SAFETY: the caller's promise. The rest of an outcome may be unset, so it is not read.
+        unsafe { check_size(outcome.cast_const())? };
         let draw = Draw::new(impact.seed, impact.key);
         let result = model.inner().resolve(impact.wall as usize, &impact.to_impact(), draw)?;
         // SAFETY: checked just above.
@@ -290,16 +290,24 @@ pub unsafe extern "C" fn nw_temperature_ranges(
 /// # Safety
 /// The pointer is null or points to at least a `u32`, and to a whole `T` if that `u32` is the size of `T`.
 unsafe fn sized<T: Copy>(pointer: *const T) -> Result<T, nw_status> {
+    // SAFETY: the caller's promise, and then the size says that it is a whole `T`.
+    unsafe {
+        check_size(pointer)?;
+        Ok(pointer.read_unaligned())
+    }
+}
+
+/// Refuses null and a struct of another size. Reads nothing but the size.
+///
+/// # Safety
+/// The pointer is null or points to at least a `u32`.
+unsafe fn check_size<T>(pointer: *const T) -> Result<(), nw_status> {
     if pointer.is_null() {
         return Err(NW_NULL_POINTER);
     }
     // SAFETY: not null, so a `u32` can be read by the caller's promise.
     let size = unsafe { pointer.cast::<u32>().read_unaligned() };
-    if size as usize != size_of::<T>() {
-        return Err(NW_STRUCT_SIZE);
-    }
-    // SAFETY: the size says that it is a whole `T`.
-    Ok(unsafe { pointer.read_unaligned() })
+    if size as usize == size_of::<T>() { Ok(()) } else { Err(NW_STRUCT_SIZE) }
 }
 
 const _: () = assert!(Regime::SpSw as u32 == NW_SP_SW);

@@ -1,6 +1,6 @@
 /* Callers that break their promises, so that tests/hard knows that each of its tools sees it.
  *
- *     broken leak|beyond|freed|undefined|race MODEL */
+ *     broken leak|beyond|unset|freed|misaligned|undefined|race MODEL */
 #include "nearwall.h"
 
 #include <limits.h>
@@ -21,6 +21,18 @@ static void *resolve(void *unused) {
     return unused;
 }
 
+static int batch(const double *speeds, size_t count) {
+    nw_impacts impacts;
+    nw_outcomes outcomes;
+    memset(&impacts, 0, sizeof impacts);
+    memset(&outcomes, 0, sizeof outcomes);
+    impacts.struct_size = sizeof impacts;
+    outcomes.struct_size = sizeof outcomes;
+    impacts.count = count;
+    impacts.v_n = speeds;
+    return (int)nw_resolve_batch(model, &impacts, &outcomes, NULL);
+}
+
 int main(int argc, char **argv) {
     double *speeds = malloc(COUNT * sizeof *speeds);
     int i, wrong = argc;
@@ -32,20 +44,18 @@ int main(int argc, char **argv) {
     if (!strcmp(argv[1], "leak")) {
         nw_model_load(argv[2], &model, NULL, 0);
     } else if (!strcmp(argv[1], "beyond")) {
-        nw_impacts impacts;
-        nw_outcomes outcomes;
-        memset(&impacts, 0, sizeof impacts);
-        memset(&outcomes, 0, sizeof outcomes);
-        impacts.struct_size = sizeof impacts;
-        outcomes.struct_size = sizeof outcomes;
-        impacts.count = COUNT + 1;
-        impacts.v_n = speeds;
-        wrong += (int)nw_resolve_batch(model, &impacts, &outcomes, NULL);
+        wrong += batch(speeds, COUNT + 1);
+    } else if (!strcmp(argv[1], "unset")) {
+        double *unset = malloc(COUNT * sizeof *unset);
+        wrong += batch(unset, COUNT);
+        free(unset);
     } else if (!strcmp(argv[1], "freed")) {
         double *volatile gone = speeds;
         free(speeds);
         wrong += (int)gone[3];
         speeds = NULL;
+    } else if (!strcmp(argv[1], "misaligned")) {
+        wrong += (int)nw_resolve((const nw_model *)((const char *)model + 1), &impact, &outcome);
     } else if (!strcmp(argv[1], "undefined")) {
         wrong += INT_MAX;
     } else if (!strcmp(argv[1], "race")) {

@@ -1,5 +1,6 @@
 //! A wall's deposit through the C library: the numbers of the Rust library, and every way to be refused.
 
+use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
@@ -42,6 +43,25 @@ fn a_wall_grows_as_in_the_rust_library() {
     }
     unsafe { (calls.nw_model_free)(model) };
     assert!(both.iter().all(|count| *count > 20), "{both:?}");
+}
+
+/// A deposit that starts may lie anywhere and be unset but for its size and its wall.
+#[test]
+fn a_deposit_starts_from_its_wall() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let mut expected = nw_deposit { wall: 1, ..nw_deposit::default() };
+    let mut bytes = [MaybeUninit::<u8>::uninit(); size_of::<nw_deposit>() + 1];
+    let found = unsafe {
+        assert_eq!((calls.nw_deposit_start)(model, 0.4, &raw mut expected), NW_OK);
+        let deposit = bytes.as_mut_ptr().add(1).cast::<nw_deposit>();
+        (&raw mut (*deposit).struct_size).write_unaligned(size_of::<nw_deposit>() as u32);
+        (&raw mut (*deposit).wall).write_unaligned(1);
+        assert_eq!((calls.nw_deposit_start)(model, 0.4, deposit), NW_OK);
+        (calls.nw_model_free)(model);
+        deposit.read_unaligned()
+    };
+    assert_eq!(format!("{found:?}"), format!("{expected:?}"));
 }
 
 /// Nusselt's film of 1 mm of slag, by hand: 2750 * 9.81 * 1e-6/(3 mu).

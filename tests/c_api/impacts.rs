@@ -1,5 +1,6 @@
 //! One impact: the bits of the Rust library, and every way to be refused.
 
+use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
@@ -98,6 +99,23 @@ fn null_pointers_and_other_sizes_are_refused() {
         assert_eq!((calls.nw_resolve)(model, &raw const impact, null_mut()), NW_NULL_POINTER);
         (calls.nw_model_free)(model);
     }
+}
+
+/// The header asks for no more. What is unset must have no influence; `tests/hard full` runs this under the memory sanitizer.
+#[test]
+fn an_outcome_needs_no_more_than_its_size() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let impact = nw_impact { v_n: 1.0, ..nw_impact::default() };
+    let expected = calls.resolve(model, &impact).unwrap();
+    let mut outcome = MaybeUninit::<nw_outcome>::uninit();
+    let found = unsafe {
+        (&raw mut (*outcome.as_mut_ptr()).struct_size).write(size_of::<nw_outcome>() as u32);
+        assert_eq!((calls.nw_resolve)(model, &raw const impact, outcome.as_mut_ptr()), NW_OK);
+        (calls.nw_model_free)(model);
+        outcome.assume_init()
+    };
+    assert_eq!(bytes(&found), bytes(&expected));
 }
 
 #[test]
