@@ -5,6 +5,7 @@
 mod angle;
 mod conclusions;
 mod droplets;
+mod entrapment;
 mod equations;
 mod layers;
 mod published;
@@ -43,7 +44,7 @@ pub fn study(extent: Extent) -> Answer<Study> {
         temperature::melting()?,
         temperature::conversion()?,
         droplets::part()?,
-        droplets::regimes()?,
+        entrapment::part(),
     ]);
     parts.extend([tube::part(extent)?, tube::plate(extent)?, conclusions::part()?]);
     Ok(Study {
@@ -115,6 +116,11 @@ fn contact(
 /// `e_n` of Thornton and Ning [1] for a diameter [m] and a normal speed [m/s]; what sticks has 0.
 fn thornton_ning(contact: &Contact, diameter: f64, speed: f64) -> f64 {
     NormalLaw::ThorntonNing.restitution(contact, diameter, speed).unwrap_or(0.0)
+}
+
+/// Smallest and largest of some numbers.
+fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], next| [low.min(next), high.max(next)])
 }
 
 /// Mean of a quantity over the speeds of Figs 8 and 10, evenly spaced.
