@@ -3,6 +3,7 @@
 //! [`published`] holds the paper's numbers, `validation/troiano/*.toml` the models and cases that answer them.
 
 mod angle;
+mod best_fit;
 mod conclusions;
 mod droplets;
 mod entrapment;
@@ -38,7 +39,7 @@ pub fn study(extent: Extent) -> Answer<Study> {
         tables::operation()?,
         tables::speeds()?,
     ];
-    parts.extend(angle::parts()?);
+    parts.extend([angle::part()?, best_fit::part()]);
     parts.extend([speed::part()?, targets::part()?, layers::part()?]);
     parts.extend([
         temperature::melting()?,

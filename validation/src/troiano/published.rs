@@ -58,6 +58,8 @@ pub const SLIDING_END_ANGLE: Stated = stated("Fig 7", "the same as an angle [°]
 pub const CRITICAL_ANGLE: Stated = stated("Eq 11", "critical angle of wax on Pyrex [°]", 43.0, 0.5);
 pub const ROLLING: Stated = stated("Sec 4.1", "e_t of a rolling rigid sphere", 0.714, 0.0005);
 pub const YIELD_RATIO: Stated = stated("Fig 8", "c = p_y/sigma_y that fits best", 0.7, 0.05);
+/// The same of a hard sphere, which does not fit.
+pub const HARD_SPHERE: [f64; 2] = [2.6, 3.0];
 pub const E_N_FIG_8: Stated = stated("Fig 8", "e_n from 0.5 to 3 m/s, \"~\"; the mean", 0.3, 0.05);
 pub const E_N_MEAN: Stated = stated("Fig 10", "mean e_n on Pyrex, 0.5 to 3 m/s", 0.28, 0.005);
 pub const E_N_MEAN_WAX: Stated = stated("Fig 10", "mean e_n on smooth wax, 0.5 to 3 m/s", 0.28, 0.005);
