@@ -356,10 +356,7 @@ fn steep_claims(models: &Models, lift: &Lift) -> Answer<Vec<Claim>> {
             .beside(models.plain(NEARLY_STEEP)?.tangential_restitution, Basis::Predicted)
             .because("Rigid rolling gives 5/7, as the paper says; compliance is what it leaves out."),
         E_T_STEEP
-            .beside(
-                models.refined(NEARLY_STEEP, lift.four / FASTER)?.tangential_restitution,
-                Basis::Fitted,
-            )
+            .beside(models.refined(NEARLY_STEEP, lift.four / FASTER)?.tangential_restitution, Basis::Fitted)
             .because("The exponent of tangential-compliance is set to it, with e_t = 1 assumed head-on."),
     ])
 }

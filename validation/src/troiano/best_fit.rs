@@ -36,7 +36,6 @@ fn fit(points: &[[f64; 2]]) -> [f64; 2] {
     [e_n, e_t]
 }
 
-
 /// `e_t` where the stated sliding line ends.
 fn end_of_sliding() -> f64 {
     1.0 - FRICTION.value * SLIDING_END.value
@@ -99,7 +98,8 @@ pub(super) fn part() -> Part {
 /// From the fits through the stated points and with the sliding line.
 fn text(points: [f64; 2], slid: [f64; 2]) -> String {
     let coarse = fitted(stated_e_t, 10.0);
-    let offset = even(ANGLES, 161).map(|angle| (paper(angle) - e_g(stated_e_t, angle)).abs()).fold(0.0, f64::max);
+    let offset =
+        even(ANGLES, 161).map(|angle| (paper(angle) - e_g(stated_e_t, angle)).abs()).fold(0.0, f64::max);
     let [low, high] = ANGLES;
     format!(
         "The paper fits e_g over all angles with two constants. Its points are in a figure only; here \

@@ -177,12 +177,15 @@ fn slag(slag: &Wall) -> Vec<Claim> {
 
 fn wax(wax: &Wall) -> Vec<Claim> {
     vec![
-        below_one("wax: kinetic energy over the work of going under, 90° to 160° [1]", wax.most_inertia(true))
-            .because(&format!(
-                "Drag alone: without it {} at 90°, and the statement fails. Drag in full is generous for a \
+        below_one(
+            "wax: kinetic energy over the work of going under, 90° to 160° [1]",
+            wax.most_inertia(true),
+        )
+        .because(&format!(
+            "Drag alone: without it {} at 90°, and the statement fails. Drag in full is generous for a \
                  particle that is only half immersed.",
-                number(wax.inertia(90.0, false))
-            )),
+            number(wax.inertia(90.0, false))
+        )),
         Claim::unchecked(
             "Sec 3.1",
             "wax: entrapment by wetting",

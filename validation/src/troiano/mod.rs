@@ -9,12 +9,15 @@ mod droplets;
 mod entrapment;
 mod equations;
 mod layers;
+mod materials;
+mod oblique;
+mod operation;
 mod published;
 mod speed;
-mod tables;
 mod targets;
 mod temperature;
 mod tube;
+mod velocities;
 
 use std::error::Error;
 
@@ -33,11 +36,11 @@ type Answer<T> = Result<T, Box<dyn Error>>;
 /// A model or case file that cannot be read, an impact that cannot be decided.
 pub fn study(extent: Extent) -> Answer<Study> {
     let mut parts = vec![
-        equations::normal()?,
-        equations::oblique()?,
-        tables::materials()?,
-        tables::operation()?,
-        tables::speeds()?,
+        equations::part()?,
+        oblique::part()?,
+        materials::part()?,
+        operation::part(),
+        velocities::part()?,
     ];
     parts.extend([angle::part()?, best_fit::part()]);
     parts.extend([speed::part()?, targets::part()?, layers::part()?]);

@@ -37,6 +37,8 @@ pub const STEEP: f64 = 84.0;
 pub const GLANCING: f64 = 35.0;
 pub const SHALLOW: f64 = 13.0;
 pub const NEARLY_STEEP: f64 = 80.0;
+/// Smallest angle of Figs 6 and 7 [degrees].
+pub const LEAST_ANGLE: f64 = 10.0;
 /// Normal speeds [m/s] of Figs 8 and 10 (Table 3).
 pub const SPEEDS: [f64; 2] = [0.5, 3.0];
 /// Standard deviation of the wax's strength [Pa] and modulus [Pa] (Table 1).

@@ -141,7 +141,15 @@ fn overview(four: &Four) -> Table {
     table(
         "v_i = 1.25 m/s at 84°, 75 µm",
         1,
-        &["target", "E* [GPa]", "v_y [m/s]", "e_n", "e_g", "e_n with Table 4 as printed", "mean e_n, 0.5–3 m/s"],
+        &[
+            "target",
+            "E* [GPa]",
+            "v_y [m/s]",
+            "e_n",
+            "e_g",
+            "e_n with Table 4 as printed",
+            "mean e_n, 0.5–3 m/s",
+        ],
         four.all().map(Found::row).to_vec(),
     )
 }
@@ -215,9 +223,6 @@ fn same_speeds(four: &Four) -> Vec<Claim> {
             without < 1.06,
             Basis::Predicted,
         )
-        .because(&format!(
-            "Within {:.0} % at this speed; not at 0.5 m/s (Fig. 8).",
-            100.0 * (without - 1.0)
-        )),
+        .because(&format!("Within {:.0} % at this speed; not at 0.5 m/s (Fig. 8).", 100.0 * (without - 1.0))),
     ]
 }
