@@ -12,6 +12,7 @@ mod layers;
 mod materials;
 mod oblique;
 mod operation;
+mod plate;
 mod published;
 mod speed;
 mod targets;
@@ -50,7 +51,7 @@ pub fn study(extent: Extent) -> Answer<Study> {
         droplets::part()?,
         entrapment::part(),
     ]);
-    parts.extend([tube::part(extent)?, tube::plate(extent)?, conclusions::part()?]);
+    parts.extend([tube::part(extent)?, plate::part(extent)?, conclusions::part()?]);
     Ok(Study {
         title: "Wax on targets (Troiano et al.)".to_owned(),
         source: "M. Troiano, R. Solimene, P. Salatino, F. Montagnaro: Multiphase flow patterns in \

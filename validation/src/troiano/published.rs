@@ -83,6 +83,8 @@ pub const CAPTURE_120: f64 = 85.0;
 pub const MELTING: [f64; 2] = [75.0, 85.0];
 /// Flow of the wax [1] at a temperature [°C] (Craig et al., in section 4.2).
 pub const FLOW_TEST: [[f64; 2]; 3] = [[65.0, 0.01], [71.1, 0.50], [74.6, 0.70]];
+/// Conversion [1] over which the capture of coal rises (Fig. 12).
+pub const CONVERSION: [f64; 2] = [0.88, 0.90];
 pub const TUBE_LENGTH: Stated = stated("Eq 13", "length of the tube [m]", 0.65, 0.005);
 pub const FUSION_TIME: f64 = 0.11;
 pub const RESIDENCE: Stated =
