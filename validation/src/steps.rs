@@ -1,4 +1,4 @@
-//! Numbers from one end to the other, for curves and tables.
+//! Numbers from one end to the other, for curves and tables; ends and lines of numbers that are there.
 
 /// `count` numbers from `low` to `high`, both among them, evenly.
 pub fn even([low, high]: [f64; 2], count: usize) -> impl Iterator<Item = f64> + Clone {
@@ -8,6 +8,11 @@ pub fn even([low, high]: [f64; 2], count: usize) -> impl Iterator<Item = f64> + 
 /// The same evenly in the logarithm; both ends above zero.
 pub fn even_in_logarithm(ends: [f64; 2], count: usize) -> impl Iterator<Item = f64> + Clone {
     even(ends.map(f64::ln), count).map(f64::exp)
+}
+
+/// Smallest and largest of some numbers.
+pub fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
+    numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], next| [low.min(next), high.max(next)])
 }
 
 /// The straight line from point to point at `x`; level beyond the first and the last of them.

@@ -6,8 +6,8 @@ use nearwall::report::{Chart, Figure, number};
 use nearwall::{Impact, Model};
 
 use super::published::CAPTURE_120;
-use super::{Answer, decide, model, range};
-use crate::steps::even;
+use super::{Answer, decide, model};
+use crate::steps::{even, range};
 use crate::{Basis, Claim, Part, Published};
 
 const HOT: f64 = 393.15;

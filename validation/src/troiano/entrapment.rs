@@ -5,8 +5,7 @@ use nearwall::material::Molten;
 use nearwall::report::{Table, number};
 
 use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, Melt, TUBE_SPEED};
-use super::range;
-use crate::steps::even;
+use crate::steps::{even, range};
 use crate::study::table;
 use crate::{Basis, Claim, Part, Published};
 

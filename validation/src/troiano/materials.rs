@@ -3,11 +3,12 @@
 use nearwall::material::Library;
 use nearwall::report::{Table, number};
 
+use super::Answer;
 use super::published::{
     CAMERA, COAL_SLAG, DENSITY, MELTING, MOLTEN_WAX, Melt, SLAG, SOLIDS, Solid, TARGETS, TUBE_SPEED,
     VISCOSITY_AT,
 };
-use super::{Answer, range};
+use crate::steps::range;
 use crate::study::table;
 use crate::{Basis, Claim, Part, Published};
 

@@ -123,11 +123,6 @@ fn thornton_ning(contact: &Contact, diameter: f64, speed: f64) -> f64 {
     NormalLaw::ThorntonNing.restitution(contact, diameter, speed).unwrap_or(0.0)
 }
 
-/// Smallest and largest of some numbers.
-fn range(numbers: impl Iterator<Item = f64>) -> [f64; 2] {
-    numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], next| [low.min(next), high.max(next)])
-}
-
 /// Mean of a quantity over the speeds of Figs 8 and 10, evenly spaced.
 fn mean_over_speeds(quantity: impl Fn(f64) -> f64) -> f64 {
     const COUNT: usize = 251;

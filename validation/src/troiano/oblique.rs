@@ -9,7 +9,8 @@ use super::published::{
     CRITICAL_ANGLE, E_N_GLANCING, E_N_NEAR_NORMAL, FIT_E_N, FIT_E_T, FRICTION, GLANCING, ROLLING,
     SLIDING_END, SLIDING_END_ANGLE, STEEP, TARGETS, YIELD_RATIO,
 };
-use super::{Answer, arriving, contact, decide, model, passes, range};
+use super::{Answer, arriving, contact, decide, model, passes};
+use crate::steps::range;
 use crate::{Basis, Claim, Part, Published};
 
 /// Angle [degrees] at which Eq. 11 ends sliding, for the paper's friction.

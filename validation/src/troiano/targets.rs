@@ -5,7 +5,8 @@ use nearwall::report::{Bars, Figure, Table};
 use nearwall::{Model, global_restitution};
 
 use super::published::{DIAMETER, E_N_MEAN, E_N_MEAN_WAX, STEEP, TARGETS, Target, YIELD_RATIO};
-use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, range, thornton_ning};
+use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
+use crate::steps::range;
 use crate::study::table;
 use crate::{Basis, Claim, Part};
 
