@@ -276,8 +276,8 @@ fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
     )
 }
 
-fn claims(fixed: &[Sample], travelled: &Sample, single: f64) -> Vec<Claim> {
-    let [still, .., spinning, fast, _] = fixed else { return Vec::new() };
+fn claims(fixed: &[Sample; SPINS.len()], travelled: &Sample, single: f64) -> Vec<Claim> {
+    let [still, .., spinning, fast, _] = fixed;
     vec![
         off_the_curve(travelled, single),
         without_spin(still),
