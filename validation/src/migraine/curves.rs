@@ -208,10 +208,16 @@ fn window_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Error>
             giga(largest_pressure(&clean, set)),
         ]
     };
-    Ok(table(
+    let ours = contact(plain, RATIO[0], None)?.limiting_pressure();
+    let caption = format!(
         "Limiting pressures at which Thornton & Ning keep every rebound of a set below 0.6 (upper ends; without adhesion set by \
          the slowest impact), and at which the slowest impact rebounds at all against the adhesion of clean metal (lower end). The library's \
-         4 sigma_y is 1.2 GPa.",
+         {} sigma_y is {} GPa.",
+        RATIO[0],
+        giga(ours)
+    );
+    Ok(table(
+        &caption,
         1,
         &[
             "set",
@@ -245,9 +251,14 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Erro
             ]);
         }
     }
-    Ok(table(
+    let caption = format!(
         "What the range of the yield strength does, 9 µm, clean-metal adhesion. Last column: the sigma_y with which each c would give the \
-         curve of 4 x 300 MPa.",
+         curve of {} x {} MPa.",
+        RATIO[0],
+        ASSUMED_STRENGTH / 1e6
+    );
+    Ok(table(
+        &caption,
         0,
         &[
             "sigma_y [MPa]",
