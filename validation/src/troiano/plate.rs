@@ -36,12 +36,12 @@ fn seen(speed: f64, e_n: f64, air: f64) -> f64 {
 }
 
 /// `e_n` as the frames show it over what it is [1] at each of [`SPEEDS`], with air as fast as the particle, and in still air.
-struct Camera {
+struct Frames {
     moving: [f64; 4],
     still: [f64; 4],
 }
 
-impl Camera {
+impl Frames {
     fn new() -> Self {
         let e_n = E_N_MEAN.value;
         Self {
@@ -79,13 +79,13 @@ pub(super) fn part(extent: Extent) -> Answer<Part> {
     case.injection.count = extent.count(case.injection.count as usize) as u64;
     let hits = hits(&mut case)?;
     let speed = speed_at_plate(&hits);
-    let camera = Camera::new();
+    let frames = Frames::new();
     Ok(Part {
         heading: "Fig 3: the plate below the tube".to_owned(),
-        text: vec![plate_text(speed), frames_text(&camera)?],
-        tables: vec![frames(&camera)],
+        text: vec![plate_text(speed), frames_text(&frames)?],
+        tables: vec![frames_table(&frames)],
         figures: vec![chart(&hits)],
-        claims: claims(speed[0], &camera),
+        claims: claims(speed[0], &frames),
     })
 }
 
@@ -102,7 +102,7 @@ fn plate_text([speed, deviation]: [f64; 2]) -> String {
     )
 }
 
-fn frames_text(camera: &Camera) -> Answer<String> {
+fn frames_text(frames: &Frames) -> Answer<String> {
     let e_n = E_N_MEAN.value;
     Ok(format!(
         "Those frames are {} ms apart, and the relaxation time of {:.0} µm is {:.0} ms. The pair of frames \
@@ -114,17 +114,17 @@ fn frames_text(camera: &Camera) -> Answer<String> {
         1e3 * CAMERA.frame,
         1e6 * DIAMETER,
         1e3 * relaxation_time(&wax(DIAMETER), &ROOM),
-        camera.moving[0],
+        frames.moving[0],
         SPEEDS[0],
-        camera.moving[3],
+        frames.moving[3],
         SPEEDS[3],
-        e_n / camera.share(),
-        yield_ratio(camera.share())?,
+        e_n / frames.share(),
+        yield_ratio(frames.share())?,
         yield_ratio(1.0)?
     ))
 }
 
-fn frames(camera: &Camera) -> Table {
+fn frames_table(frames: &Frames) -> Table {
     let row = |(speed, (moving, still)): (&f64, (&f64, &f64))| {
         vec![format!("{speed}"), format!("{moving:.3}"), format!("{still:.3}")]
     };
@@ -132,7 +132,7 @@ fn frames(camera: &Camera) -> Table {
         "e_n = 0.28 as two frames 1 ms apart show it, air as fast as the particle (assumed)",
         0,
         &["v_n at the wall [m/s]", "seen over true", "the same in still air"],
-        SPEEDS.iter().zip(camera.moving.iter().zip(&camera.still)).map(row).collect(),
+        SPEEDS.iter().zip(frames.moving.iter().zip(&frames.still)).map(row).collect(),
     )
 }
 
@@ -149,7 +149,7 @@ fn chart(hits: &[Hit]) -> Figure {
         .figure("troiano-plate", "The air in front of the target brakes small particles most. Seed 1.")
 }
 
-fn claims(speed: f64, camera: &Camera) -> Vec<Claim> {
+fn claims(speed: f64, frames: &Frames) -> Vec<Claim> {
     vec![
         TUBE_SPEED.beside(speed, Basis::Predicted).because(
             "At the plate, for 2 m/s at the tube's end. The plate's size and the flow around it are not \
@@ -163,7 +163,7 @@ fn claims(speed: f64, camera: &Camera) -> Vec<Claim> {
             &format!(
                 "How many frames were used, and whether drag was corrected, is not said. Uncorrected, \
                  e_n reads {:.0} % low at 1 m/s.",
-                100.0 * (1.0 - camera.share())
+                100.0 * (1.0 - frames.share())
             ),
         ),
     ]
