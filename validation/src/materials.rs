@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use nearwall::material::{Library, Material, Property};
-use nearwall::report::{Bars, Table, number};
+use nearwall::report::{Bars, Figure, Table, number};
 
 use crate::claim::{Basis, Claim};
 use crate::study::{self, Extent, Part, Study};
@@ -50,56 +50,67 @@ impl Origin {
 pub fn study(_: Extent) -> Result<Study, Box<dyn Error>> {
     let library = Library::built_in()?;
     let materials: Vec<&Material> = library.names().iter().filter_map(|name| library.get(name)).collect();
-    let origins = |origin: Origin| -> Vec<f64> {
-        let count = |material: &&Material| {
-            material.properties().filter(|(_, _, p)| Origin::of(p.source().unwrap_or("")) == origin).count()
-        };
-        materials.iter().map(|material| count(material) as f64).collect()
-    };
-    let total = |origin| origins(origin).iter().sum::<f64>();
-    let all: f64 = Origin::ALL.map(total).iter().sum();
-    let lead = format!(
-        "Of {all} property values {} are published, in part or from sources not read again here, and {} are assumed. The assumed ones \
-         that matter most are the yield strength of hot tungsten and every mechanical number of char, ash and slag above 1000 K.",
-        all - total(Origin::Assumed),
-        total(Origin::Assumed)
-    );
-    let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
-    let bars = Origin::ALL.iter().fold(
-        Bars::new("Where the numbers come from", "property values", &names).stacked(),
-        |bars, origin| bars.series(origin.name(), &origins(*origin)),
-    );
-    let figure = bars.figure(
-        "materials-origin",
-        "One bar a material. A calculation stands on firm ground where the bars are published, and is a study of assumptions where \
-         they are not.",
-    );
-    let nameless = materials
-        .iter()
-        .flat_map(|material| material.properties())
-        .filter(|(_, unit, p)| unit.is_empty() || p.valid().is_none() || p.source().is_none_or(str::is_empty))
-        .count();
-    let claim = Claim::statement(
-        "library",
-        "every number names unit, range of temperature and source, or says \"assumed\"",
-        "all",
-        &format!("{} of {all}", all - nameless as f64),
-        nameless == 0,
-        Basis::Derived,
-    );
     let part = Part {
         text: vec!["The same as nearwall materials NAME prints.".to_owned()],
-        figures: vec![figure],
-        claims: vec![claim],
+        figures: vec![origins(&materials)],
+        claims: vec![named(&materials)],
         tables: vec![table(&materials)],
         ..Part::default()
     };
     Ok(Study {
         title: "Materials".to_owned(),
         source: "src/material/materials.toml".to_owned(),
-        lead,
+        lead: lead(&materials),
         parts: vec![part],
     })
+}
+
+/// How many values of a material come from there.
+fn count(material: &Material, origin: Origin) -> usize {
+    let of = |property: &Property| Origin::of(property.source().unwrap_or(""));
+    material.properties().filter(|(_, _, property)| of(property) == origin).count()
+}
+
+fn lead(materials: &[&Material]) -> String {
+    let total = |origin| materials.iter().map(|material| count(material, origin)).sum::<usize>();
+    let all: usize = Origin::ALL.map(total).iter().sum();
+    let assumed = total(Origin::Assumed);
+    format!(
+        "Of {all} property values {} are published, in part or from sources not read again here, and {assumed} are assumed. The assumed ones \
+         that matter most are the yield strength of hot tungsten and every mechanical number of char, ash and slag above 1000 K.",
+        all - assumed
+    )
+}
+
+fn origins(materials: &[&Material]) -> Figure {
+    let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
+    let mut bars = Bars::new("Where the numbers come from", "property values", &names).stacked();
+    for origin in Origin::ALL {
+        let counts: Vec<f64> = materials.iter().map(|material| count(material, origin) as f64).collect();
+        bars = bars.series(origin.name(), &counts);
+    }
+    bars.figure(
+        "materials-origin",
+        "One bar a material. A calculation stands on firm ground where the bars are published, and is a study of assumptions where \
+         they are not.",
+    )
+}
+
+/// Whether every value says what it is.
+fn named(materials: &[&Material]) -> Claim {
+    let properties = || materials.iter().flat_map(|material| material.properties());
+    let all = properties().count();
+    let nameless = properties()
+        .filter(|(_, unit, p)| unit.is_empty() || p.valid().is_none() || p.source().is_none_or(str::is_empty))
+        .count();
+    Claim::statement(
+        "library",
+        "every number names unit, range of temperature and source, or says \"assumed\"",
+        "all",
+        &format!("{} of {all}", all - nameless),
+        nameless == 0,
+        Basis::Derived,
+    )
 }
 
 fn table(materials: &[&Material]) -> Table {

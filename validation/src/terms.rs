@@ -1,5 +1,6 @@
 //! Effects by their names.
 
+use nearwall::Model;
 use nearwall::effect::{KINDS, Term};
 
 /// The effect of this name with its parameters in the order of its file.
@@ -9,4 +10,13 @@ use nearwall::effect::{KINDS, Term};
 pub fn term(id: &str, values: &[f64]) -> Result<Term, String> {
     let kind = KINDS.into_iter().find(|kind| kind.id == id).ok_or_else(|| format!("no effect {id}"))?;
     Ok(Term::new(kind, values))
+}
+
+/// The first parameter of a model's effect of this name.
+///
+/// # Errors
+/// When the model has no such effect.
+pub fn first_value(model: &Model, id: &str) -> Result<f64, String> {
+    let term = model.terms().iter().find(|term| term.kind().id == id);
+    term.and_then(|term| term.values().first().copied()).ok_or_else(|| format!("the model has no {id}"))
 }

@@ -20,6 +20,12 @@ const THEORY: &str = "Maw, Barber & Fawcett 1976 (integrated here)";
 /// Troiano Fig 6: `e_t` of wax at 80°, read to half a unit of the last digit.
 const TROIANO_AT_80: f64 = 0.85;
 
+/// Parameters of the effect that meet it: `near_normal` (assumed) and exponent.
+const MEETING_TROIANO: [f64; 2] = [1.0, 2.2];
+
+/// As good as head-on [degrees].
+const HEAD_ON: f64 = 89.99;
+
 /// Rolling [1].
 const ROLLING: f64 = 5.0 / 7.0;
 
@@ -50,6 +56,16 @@ impl Theory {
     fn e_t(&self, degrees: f64) -> f64 {
         self.at(degrees).tangential_restitution()
     }
+
+    /// `e_t` between two angles [degrees].
+    fn over(&self, ends: [f64; 2], count: usize) -> Vec<[f64; 2]> {
+        even(ends, count).map(|degrees| [degrees, self.e_t(degrees)]).collect()
+    }
+}
+
+/// Where `e_t` is least: angle [degrees] and `e_t`.
+fn lowest(points: &[[f64; 2]]) -> [f64; 2] {
+    points.iter().copied().fold([0.0, 1.0], |low, point| if point[1] < low[1] { point } else { low })
 }
 
 /// `e_t` of the library's effect for an elastic impact without spin.
@@ -108,129 +124,179 @@ impl Fit {
     }
 }
 
+/// The theory for wax on Pyrex, and the effect beside it.
+struct Compared {
+    wax: Contact,
+    k: f64,
+    theory: Theory,
+    /// Angle at which sliding ends [degrees].
+    critical: f64,
+    /// The theory over the angle [degrees]: past the end of sliding, and before it.
+    past: Vec<[f64; 2]>,
+    glancing: Vec<[f64; 2]>,
+    fit: Fit,
+}
+
+impl Compared {
+    fn new(extent: Extent) -> Outcome<Self> {
+        let wax = wax_on_pyrex()?;
+        let k = wax.stiffness_ratio;
+        let theory = Theory::new(k, extent);
+        let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
+        let past = theory.over([critical + 0.01, 89.9], extent.count(400));
+        let glancing = theory.over([2.0, critical], extent.count(200));
+        let fit = Fit::new(k, &past)?;
+        Ok(Self { wax, k, theory, critical, past, glancing, fit })
+    }
+
+    /// `e_t` just past the end of sliding.
+    fn first(&self) -> f64 {
+        self.past[0][1]
+    }
+}
+
 pub fn part(extent: Extent) -> Outcome<Part> {
-    let wax = wax_on_pyrex()?;
-    let k = wax.stiffness_ratio;
-    let theory = Theory::new(k, extent);
-    let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
-    let over = |low: f64, high: f64, count: usize| -> Vec<[f64; 2]> {
-        even([low, high], count).map(|degrees| [degrees, theory.e_t(degrees)]).collect()
-    };
-    let past = over(critical + 0.01, 89.9, extent.count(400));
-    let glancing = over(2.0, critical, extent.count(200));
-    let fit = Fit::new(k, &past)?;
-    let troiano = Fit::of(k, [1.0, 2.2], &past)?;
-    let sliding = Fit::of(k, fit.parameters, &glancing)?.largest;
-    let highest = past.iter().map(|p| p[1]).fold(0.0, f64::max);
-    let lowest = past.iter().copied().fold([0.0, 1.0], |low, p| if p[1] < low[1] { p } else { low });
-    let head_on = theory.e_t(89.99);
-    let at_80 = theory.e_t(80.0);
-    let just_past = critical + 2.0;
-    let by_effect = effect(k, fit.parameters, just_past)?;
-    let [near_normal, exponent] = fit.parameters;
-    let claims = vec![
-        Claim::number(
-            THEORY,
-            "the effect up to the critical angle (gross slip): largest difference in e_t",
-            Published::within(0.0, ACCURACY),
-            sliding,
-            Basis::Derived,
-        ),
-        Claim::number(
-            THEORY,
-            "share of the friction that acts at the critical angle of Eq. 11, e_n = 1 (below it all acts)",
-            Published::within(1.0, ACCURACY),
-            theory.at(critical).impulse / (critical.to_radians().tan() * 2.0 * FRICTION),
-            Basis::Derived,
-        ),
-        Claim::statement(
-            THEORY,
-            "e_t lies below rolling (5/7) just past the transition",
-            &format!("{} at {just_past:.0}°", number(theory.e_t(just_past))),
-            &number(by_effect),
-            by_effect < ROLLING && theory.e_t(just_past) < ROLLING,
-            Basis::Derived,
-        ),
-        Claim::number(
-            THEORY,
-            &format!(
-                "the effect past the critical angle with the parameters nearest to the theory (near_normal {}, exponent {}): \
-                 largest difference in e_t",
-                number(near_normal),
-                number(exponent)
-            ),
-            Published::within(0.0, GOOD),
-            fit.largest,
-            Basis::Fitted,
-        )
-        .because(&format!(
-            "elastic theory falls on from {} at the transition to {} at {:.0}° before it rises; a power of the angle can only \
-             rise or fall. rms {}. The band of {GOOD} is assumed",
-            number(past[0][1]),
-            number(lowest[1]),
-            lowest[0],
-            number(fit.rms)
-        )),
-        Claim::number(
-            THEORY,
-            "the effect past the critical angle with the parameters that meet Troiano's 0.85 (near_normal 1, exponent 2.2): largest \
-             difference in e_t",
-            Published::within(0.0, GOOD),
-            troiano.largest,
-            Basis::Fitted,
-        )
-        .because(
-            "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung through about three \
-             quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do not change), so that little of the \
-             slip is given back",
-        ),
-        Claim::number(
-            "Troiano Fig 6",
-            "e_t of wax on Pyrex at 80°: here elastic theory, not the library",
-            Published::within(TROIANO_AT_80, 0.005),
-            at_80,
-            Basis::Predicted,
-        )
-        .because(&format!(
-            "elastic compliance of a sphere that comes without spin cannot give it: the theory stays below {} past the \
-             transition. Open: wax yields (e_n near 0.3 to 0.4); incoming spin (a rigid sphere leaves with 0.85 when its \
-             rim runs forward at {} v_t); the scatter of the reading",
-            number(highest + 0.0005),
-            number((TROIANO_AT_80 * 7.0 - 5.0) / 2.0)
-        )),
-    ];
+    let compared = Compared::new(extent)?;
     Ok(Part {
         heading: HEADING.to_owned(),
-        text: vec![
-            "A sphere on Hertz's contact with Mindlin's tangential stiffness and Coulomb friction at each point, so that a ring \
-             slips while the middle sticks (Cattaneo and Mindlin, any history of loads); integrated over time. Tests of the oracle: \
-             shear at rest is Mindlin's; gross slip begins at psi = k s/(f v_n) = 7k-1; no friction, no stiffness and infinite \
-             stiffness (rolling) come out; energy is never made; only k and psi count."
-                .to_owned(),
-            format!(
-                "For k = {} (wax on Pyrex), f = {FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° with {}, falls to {} at \
-                 {:.0}° and comes back to {} head-on. It rises above rolling only for stiffer tangential contacts: to the values \
-                 in the table.",
-                number(k),
-                number(past[0][1]),
-                number(lowest[1]),
-                lowest[0],
-                number(head_on)
-            ),
-            format!(
-                "The theory is elastic; wax yields. Fully plastic loading (F = 2 pi R p_y delta, a² = 2 R delta) is soft along the normal \
-                 while the contact along the wall stays elastic, so the tangential swing is fast: Omega²/omega² = 7 k E* a/(2 pi R p_y), {} \
-                 for wax at 1 m/s when it is deepest, against 7k/2 = {} for a linear elastic contact. An estimate, not an integration: it \
-                 points to the stiff limit, rolling (5/7), not to 0.85. How a flattened contact gives up its stretch on the way out, \
-                 and whether friction stays Coulomb's there, is left open.",
-                number(plastic_swing(&wax)),
-                number(3.5 * k)
-            ),
-        ],
+        text: text(&compared),
         tables: vec![table(extent)],
-        figures: vec![chart(&theory, k, &fit, critical)?],
-        claims,
+        figures: vec![chart(&compared)?],
+        claims: vec![
+            gross_slip(&compared)?,
+            all_friction(&compared),
+            below_rolling(&compared)?,
+            nearest(&compared),
+            with_the_papers_number(&compared)?,
+            the_papers_number(&compared),
+        ],
     })
+}
+
+fn text(compared: &Compared) -> Vec<String> {
+    let Compared { wax, k, theory, critical, .. } = compared;
+    let [lowest_at, lowest] = lowest(&compared.past);
+    vec![
+        "A sphere on Hertz's contact with Mindlin's tangential stiffness and Coulomb friction at each point, so that a ring \
+         slips while the middle sticks (Cattaneo and Mindlin, any history of loads); integrated over time. Tests of the oracle: \
+         shear at rest is Mindlin's; gross slip begins at psi = k s/(f v_n) = 7k-1; no friction, no stiffness and infinite \
+         stiffness (rolling) come out; energy is never made; only k and psi count."
+            .to_owned(),
+        format!(
+            "For k = {} (wax on Pyrex), f = {FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° with {}, falls to {} at \
+             {lowest_at:.0}° and comes back to {} head-on. It rises above rolling only for stiffer tangential contacts: to the values \
+             in the table.",
+            number(*k),
+            number(compared.first()),
+            number(lowest),
+            number(theory.e_t(HEAD_ON))
+        ),
+        format!(
+            "The theory is elastic; wax yields. Fully plastic loading (F = 2 pi R p_y delta, a² = 2 R delta) is soft along the normal \
+             while the contact along the wall stays elastic, so the tangential swing is fast: Omega²/omega² = 7 k E* a/(2 pi R p_y), {} \
+             for wax at 1 m/s when it is deepest, against 7k/2 = {} for a linear elastic contact. An estimate, not an integration: it \
+             points to the stiff limit, rolling (5/7), not to {TROIANO_AT_80}. How a flattened contact gives up its stretch on the way out, \
+             and whether friction stays Coulomb's there, is left open.",
+            number(plastic_swing(wax)),
+            number(3.5 * k)
+        ),
+    ]
+}
+
+fn gross_slip(compared: &Compared) -> Outcome<Claim> {
+    Ok(Claim::number(
+        THEORY,
+        "the effect up to the critical angle (gross slip): largest difference in e_t",
+        Published::within(0.0, ACCURACY),
+        Fit::of(compared.k, compared.fit.parameters, &compared.glancing)?.largest,
+        Basis::Derived,
+    ))
+}
+
+fn all_friction(compared: &Compared) -> Claim {
+    let critical = compared.critical;
+    Claim::number(
+        THEORY,
+        "share of the friction that acts at the critical angle of Eq. 11, e_n = 1 (below it all acts)",
+        Published::within(1.0, ACCURACY),
+        compared.theory.at(critical).impulse / (critical.to_radians().tan() * 2.0 * FRICTION),
+        Basis::Derived,
+    )
+}
+
+fn below_rolling(compared: &Compared) -> Outcome<Claim> {
+    let just_past = compared.critical + 2.0;
+    let by_theory = compared.theory.e_t(just_past);
+    let by_effect = effect(compared.k, compared.fit.parameters, just_past)?;
+    Ok(Claim::statement(
+        THEORY,
+        "e_t lies below rolling (5/7) just past the transition",
+        &format!("{} at {just_past:.0}°", number(by_theory)),
+        &number(by_effect),
+        by_effect < ROLLING && by_theory < ROLLING,
+        Basis::Derived,
+    ))
+}
+
+fn nearest(compared: &Compared) -> Claim {
+    let Fit { parameters: [near_normal, exponent], rms, largest } = compared.fit;
+    let [lowest_at, lowest] = lowest(&compared.past);
+    Claim::number(
+        THEORY,
+        &format!(
+            "the effect past the critical angle with the parameters nearest to the theory (near_normal {}, exponent {}): \
+             largest difference in e_t",
+            number(near_normal),
+            number(exponent)
+        ),
+        Published::within(0.0, GOOD),
+        largest,
+        Basis::Fitted,
+    )
+    .because(&format!(
+        "elastic theory falls on from {} at the transition to {} at {lowest_at:.0}° before it rises; a power of the angle can only \
+         rise or fall. rms {}. The band of {GOOD} is assumed",
+        number(compared.first()),
+        number(lowest),
+        number(rms)
+    ))
+}
+
+fn with_the_papers_number(compared: &Compared) -> Outcome<Claim> {
+    let [near_normal, exponent] = MEETING_TROIANO;
+    Ok(Claim::number(
+        THEORY,
+        &format!(
+            "the effect past the critical angle with the parameters that meet Troiano's {TROIANO_AT_80} (near_normal {near_normal}, \
+             exponent {exponent}): largest difference in e_t"
+        ),
+        Published::within(0.0, GOOD),
+        Fit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest,
+        Basis::Fitted,
+    )
+    .because(
+        "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung through about three \
+         quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do not change), so that little of the \
+         slip is given back",
+    ))
+}
+
+fn the_papers_number(compared: &Compared) -> Claim {
+    let highest = compared.past.iter().map(|point| point[1]).fold(0.0, f64::max);
+    Claim::number(
+        "Troiano Fig 6",
+        "e_t of wax on Pyrex at 80°: here elastic theory, not the library",
+        Published::within(TROIANO_AT_80, 0.005),
+        compared.theory.e_t(80.0),
+        Basis::Predicted,
+    )
+    .because(&format!(
+        "elastic compliance of a sphere that comes without spin cannot give it: the theory stays below {} past the \
+         transition. Open: wax yields (e_n near 0.3 to 0.4); incoming spin (a rigid sphere leaves with {TROIANO_AT_80} when its \
+         rim runs forward at {} v_t); the scatter of the reading",
+        number(highest + 0.0005),
+        number((TROIANO_AT_80 * 7.0 - 5.0) / 2.0)
+    ))
 }
 
 /// Frequency along the wall over frequency along the normal, squared [1], at the deepest point of a fully plastic impact of 1 m/s:
@@ -248,18 +314,15 @@ fn table(extent: Extent) -> Table {
     let row = |[k, nu]: [f64; 2]| {
         let theory = Theory::new(k, extent);
         let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
-        let angles = even([critical, 89.9], extent.count(100).max(30));
-        let lowest = angles
-            .map(|degrees| [degrees, theory.e_t(degrees)])
-            .fold([0.0, 1.0], |low, p| if p[1] < low[1] { p } else { low });
+        let [lowest_at, lowest] = lowest(&theory.over([critical, 89.9], extent.count(100).max(30)));
         vec![
             number(k),
             number(nu),
             format!("{critical:.1}"),
             format!("{:.3}", theory.e_t(critical)),
-            format!("{:.3} at {:.0}°", lowest[1], lowest[0]),
+            format!("{lowest:.3} at {lowest_at:.0}°"),
             format!("{:.3}", theory.e_t(80.0)),
-            format!("{:.3}", theory.e_t(89.99)),
+            format!("{:.3}", theory.e_t(HEAD_ON)),
         ]
     };
     study::table(
@@ -278,17 +341,18 @@ fn table(extent: Extent) -> Table {
     )
 }
 
-fn chart(theory: &Theory, k: f64, fit: &Fit, critical: f64) -> Outcome<Figure> {
+fn chart(compared: &Compared) -> Outcome<Figure> {
     let curve = |parameters: [f64; 2]| -> Outcome<Vec<[f64; 2]>> {
-        even([3.0, 89.9], 300).map(|degrees| Ok([degrees, effect(k, parameters, degrees)?])).collect()
+        even([3.0, 89.9], 300)
+            .map(|degrees| Ok([degrees, effect(compared.k, parameters, degrees)?]))
+            .collect()
     };
-    let points: Vec<[f64; 2]> = even([3.0, 89.9], 60).map(|degrees| [degrees, theory.e_t(degrees)]).collect();
     Ok(Chart::new("e_t of an elastic sphere, k of wax on Pyrex", "angle from the surface [°]", "e_t [1]")
-        .line("effect, nearest to the theory", &curve(fit.parameters)?)
-        .line("effect, near_normal 1, exponent 2.2", &curve([1.0, 2.2])?)
-        .points("elastic theory", &points)
+        .line("effect, nearest to the theory", &curve(compared.fit.parameters)?)
+        .line("effect, near_normal 1, exponent 2.2", &curve(MEETING_TROIANO)?)
+        .points("elastic theory", &compared.theory.over([3.0, 89.9], 60))
         .mark_y(ROLLING, "5/7")
-        .mark_x(critical, "")
+        .mark_x(compared.critical, "")
         .x_range(0.0, 90.0)
         .y_range(0.4, 1.0)
         .figure("checks-compliance", "The thin vertical line is the critical angle. Elastic theory falls on past it and does not rise above rolling."))

@@ -38,9 +38,11 @@ pub fn study(extent: Extent) -> Outcome<Study> {
     ];
     Ok(Study {
         title: "Independent checks".to_owned(),
-        source: "No paper: the same quantities computed another way (validation/src/oracle, which uses nothing of the library), \
-                 measured viscosities of 1161 melts, and properties that hold for every model."
-            .to_owned(),
+        source: format!(
+            "No paper: the same quantities computed another way (validation/src/oracle, which uses nothing of the library), \
+             measured viscosities of {} melts, and properties that hold for every model.",
+            viscosity::melts()
+        ),
         lead: "The laws of adhesion, yielding, sliding and rolling are those of the integrated contact, and the viscosity laws \
                meet their stated errors. Known differences: the default law under-predicts sticking once adhesion rivals \
                yield, and tangential-compliance is not elastic theory's curve."

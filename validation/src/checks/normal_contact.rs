@@ -1,7 +1,7 @@
 //! Both normal laws beside an impact that is followed through time.
 
 use nearwall::normal::{Contact, NormalLaw};
-use nearwall::report::{Chart, number};
+use nearwall::report::{Chart, Figure, number};
 
 use super::{DIAMETER as WAX, Outcome, wax_on};
 use crate::claim::{Basis, Claim, Published};
@@ -64,13 +64,19 @@ fn restitution(law: NormalLaw, contact: &Contact, diameter: f64, speed: f64) -> 
 /// Heading of the part.
 pub(super) const HEADING: &str = "Normal impact, followed through time";
 
-/// The part.
-pub fn part(extent: Extent) -> Outcome<Part> {
-    let steps = extent.count(120).max(25);
-    let mut worst = 0.0_f64;
-    let mut curves =
-        Chart::new("Where the closed form parts from the contact", "v / v_y [1]", "e_n [1]").log_x();
-    for ratio in [0.3, 3.0, 30.0] {
+/// `v_adh/v_y` [1] for which impacts are followed.
+const RATIOS: [f64; 3] = [0.3, 3.0, 30.0];
+
+/// Both laws and the followed impact over `v/v_y`.
+struct Curves {
+    ratio: f64,
+    closed: Vec<[f64; 2]>,
+    raised: Vec<[f64; 2]>,
+    followed: Vec<[f64; 2]>,
+}
+
+impl Curves {
+    fn new(ratio: f64, steps: usize) -> Self {
         let contact = contact(ratio);
         let plain = NormalLaw::ThorntonNing.speeds(&contact, DIAMETER);
         let raised = NormalLaw::RaisedPullOff.speeds(&contact, DIAMETER);
@@ -79,25 +85,24 @@ pub fn part(extent: Extent) -> Outcome<Part> {
             speeds.clone().map(|v| [v / plain.yielding, e_n(v)]).collect()
         };
         let of = |law: NormalLaw| line(&|v| restitution(law, &contact, DIAMETER, v));
-        let (closed, raised) = (of(NormalLaw::ThorntonNing), of(NormalLaw::RaisedPullOff));
-        let truth = line(&|v| followed(&contact, DIAMETER, v));
-        let gap = raised.iter().zip(&truth).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max);
-        worst = worst.max(gap);
-        // Weak adhesion: the curves lie on each other.
-        if ratio < 1.0 {
-            continue;
+        Self {
+            ratio,
+            closed: of(NormalLaw::ThorntonNing),
+            raised: of(NormalLaw::RaisedPullOff),
+            followed: line(&|v| followed(&contact, DIAMETER, v)),
         }
-        let few: Vec<[f64; 2]> = truth.iter().step_by(6).copied().collect();
-        curves = curves
-            .line(&format!("closed form, v_adh/v_y = {ratio}"), &closed)
-            .line(&format!("raised pull-off, {ratio}"), &raised)
-            .points(&format!("followed, {ratio}"), &few);
     }
-    let curves = curves.figure(
-        "checks-normal-contact",
-        "Points: an impact followed through time, JKR in, pressure cut at p_y, JKR out with the flattened radius. The closed form \
-         lets particles go that the flattened contact still holds, the more the larger v_adh/v_y.",
-    );
+
+    /// Largest difference between the raised pull-off and the followed impact.
+    fn gap(&self) -> f64 {
+        self.raised.iter().zip(&self.followed).map(|(a, b)| (a[1] - b[1]).abs()).fold(0.0, f64::max)
+    }
+}
+
+/// The part.
+pub fn part(extent: Extent) -> Outcome<Part> {
+    let steps = extent.count(120).max(25);
+    let curves = RATIOS.map(|ratio| Curves::new(ratio, steps));
     Ok(Part {
         heading: HEADING.to_owned(),
         text: vec![
@@ -107,10 +112,28 @@ pub fn part(extent: Extent) -> Outcome<Part> {
              so their agreement proves the algebra, not the physics."
                 .to_owned(),
         ],
-        figures: vec![curves, ratios(extent)?],
-        claims: claims(worst),
+        figures: vec![chart(&curves), ratios(extent)?],
+        claims: claims(curves.iter().map(Curves::gap).fold(0.0, f64::max)),
         ..Part::default()
     })
+}
+
+fn chart(curves: &[Curves]) -> Figure {
+    let mut chart =
+        Chart::new("Where the closed form parts from the contact", "v / v_y [1]", "e_n [1]").log_x();
+    // With weak adhesion the curves lie on each other.
+    for Curves { ratio, closed, raised, followed } in curves.iter().filter(|curves| curves.ratio >= 1.0) {
+        let few: Vec<[f64; 2]> = followed.iter().step_by(6).copied().collect();
+        chart = chart
+            .line(&format!("closed form, v_adh/v_y = {ratio}"), closed)
+            .line(&format!("raised pull-off, {ratio}"), raised)
+            .points(&format!("followed, {ratio}"), &few);
+    }
+    chart.figure(
+        "checks-normal-contact",
+        "Points: an impact followed through time, JKR in, pressure cut at p_y, JKR out with the flattened radius. The closed form \
+         lets particles go that the flattened contact still holds, the more the larger v_adh/v_y.",
+    )
 }
 
 /// `v_adh/v_y` [1].
@@ -119,7 +142,7 @@ fn adhesion_over_yield(contact: &Contact, diameter: f64) -> f64 {
     speeds.adhesive / speeds.yielding
 }
 
-fn ratios(extent: Extent) -> Outcome<nearwall::report::Figure> {
+fn ratios(extent: Extent) -> Outcome<Figure> {
     let ratios = even_in_logarithm([0.05, 100.0], extent.count(80).max(20));
     let line: Vec<[f64; 2]> = ratios
         .map(|ratio| {

@@ -15,6 +15,9 @@ const PLACE: &str = "Routh's integration";
 /// Normal restitution near which Troiano's 43° lies [1].
 const E_N: f64 = 0.39;
 
+/// `k` of a contact that is all but rigid [1].
+const RIGID: f64 = 1e9;
+
 /// Rounding of sums over the impulse.
 const ROUNDING: f64 = 1e-10;
 
@@ -70,113 +73,172 @@ fn cases(k: f64, extent: Extent) -> Vec<Case> {
     cases
 }
 
+/// The rigid sphere sticks up to this slip over what friction can do [1].
+const STICKS: f64 = 3.5;
+
+/// Whether the library slides where the rigid sphere rolls.
+fn in_window(case: &Case, k: f64) -> bool {
+    (0.5 * (7.0 - 1.0 / k)..=STICKS).contains(&case.slip())
+}
+
+/// Angles from the surface [degrees] at which sliding ends without spin: of the rigid sphere, and as the library has it.
+struct Ends {
+    rigid: f64,
+    library: f64,
+}
+
+impl Ends {
+    fn new(k: f64) -> Self {
+        Self { rigid: transition(k), library: critical_angle(FRICTION, E_N, k).to_degrees() }
+    }
+}
+
+/// How far `e_t` falls below rolling in the window: `2k/(7k-1) - 2/7`.
+fn jump(k: f64) -> f64 {
+    2.0 * k / (7.0 * k - 1.0) - 2.0 / 7.0
+}
+
+fn sliding(case: &Case) -> Rebound {
+    TangentialLaw::Sliding { friction: case.friction }.rebound(&case.glance)
+}
+
+fn sliding_rolling(case: &Case) -> Rebound {
+    TangentialLaw::SlidingRolling { friction: case.friction }.rebound(&case.glance)
+}
+
+/// The law for a contact that is all but rigid.
+fn stiff(case: &Case) -> Rebound {
+    let glance = Glance { stiffness_ratio: RIGID, ..case.glance };
+    TangentialLaw::SlidingRolling { friction: case.friction }.rebound(&glance)
+}
+
+/// The effect after some other rebound, which it has to replace.
+fn by_effect(case: &Case) -> Outcome<Rebound> {
+    let before = Rebound { restitution: 0.1, spin: 7.0 };
+    Ok(term("sliding-to-rolling", &[case.friction])?.effect().tangential(&case.glance, before))
+}
+
+fn largest(off: impl Iterator<Item = f64>) -> f64 {
+    off.fold(0.0, f64::max)
+}
+
 pub fn part(extent: Extent) -> Outcome<Part> {
     let k = wax_on_pyrex()?.stiffness_ratio;
     let cases = cases(k, extent);
-    let (window, plain): (Vec<&Case>, Vec<&Case>) =
-        cases.iter().partition(|case| (0.5 * (7.0 - 1.0 / k)..=3.5).contains(&case.slip()));
-    let by_effect = |case: &Case| -> Outcome<Rebound> {
-        let before = Rebound { restitution: 0.1, spin: 7.0 };
-        Ok(term("sliding-to-rolling", &[case.friction])?.effect().tangential(&case.glance, before))
-    };
-    let mut effect = 0.0f64;
-    for case in &plain {
-        effect = effect.max(case.off(by_effect(case)?));
-    }
-    let sliding_rolling =
-        |case: &Case| TangentialLaw::SlidingRolling { friction: case.friction }.rebound(&case.glance);
-    let sliding = |case: &Case| TangentialLaw::Sliding { friction: case.friction }.rebound(&case.glance);
-    let most = |off: &mut dyn Iterator<Item = f64>| off.fold(0.0, f64::max);
-    let slips = |case: &&Case| !case.rigid.sticks;
-    let stiff = |case: &Case| {
-        let glance = Glance { stiffness_ratio: 1e9, ..case.glance };
-        case.off(TangentialLaw::SlidingRolling { friction: case.friction }.rebound(&glance))
-    };
-    let away = |case: &&Case| (case.slip() - 3.5).abs() > 1e-6;
-    let rigid_angle = transition(k);
-    let paper_angle = critical_angle(FRICTION, E_N, k).to_degrees();
-    let jump = 2.0 * k / (7.0 * k - 1.0) - 2.0 / 7.0;
-    let reversals: u32 = cases.iter().map(|case| case.rigid.reversals).sum();
-    let made = most(
-        &mut cases.iter().flat_map(|case| [sliding(case), sliding_rolling(case)].map(|r| gain(case, r))),
-    );
+    let (window, plain): (Vec<&Case>, Vec<&Case>) = cases.iter().partition(|case| in_window(case, k));
+    let ends = Ends::new(k);
+    let mut claims = rigid_sphere(&cases, &plain)?;
+    claims.extend([end_of_sliding(&ends), within_the_window(k), reversals(&cases), energy(&cases)]);
+    Ok(Part {
+        heading: "Impulse with spin: a rigid sphere with Coulomb friction".to_owned(),
+        text: vec![cases_text(&cases), window_text(k, &ends, window.len())],
+        tables: vec![windows()],
+        figures: vec![over_angle(k, &ends), over_spin(k)],
+        claims,
+    })
+}
+
+fn cases_text(cases: &[Case]) -> String {
+    format!(
+        "{} impacts: angles 0.5° to 89.5°, rim speeds up to five times the speed, both ways round, friction 0.02 to 1, \
+         e_n 0 to 1. The friction follows the slip s = u - omega d/2 of the contact point as the normal impulse grows.",
+        cases.len()
+    )
+}
+
+/// `window` impacts lie in it.
+fn window_text(k: f64, ends: &Ends, window: usize) -> String {
+    format!(
+        "The rigid sphere sticks where |s| <= 7/2 f (1+e_n) v_n. The library takes (7k-1)/(2k) in place of 7/2, as the \
+         paper does, which allows for an elastic contact. Between the two the library slides on where the rigid sphere \
+         already rolls: for wax on Pyrex without spin (k = {}, f = {FRICTION}, e_n = {E_N}) from {:.1}° to \
+         {:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {window} of the impacts lie in it. That is no fault: \
+         an elastic contact (e_n = 1) slips throughout from (7k-1)/(2k) on (next part); only the rolling \
+         above it is the rigid sphere's.",
+        number(k),
+        ends.rigid,
+        ends.library,
+        ends.library - ends.rigid,
+        number(5.0 / 7.0 - jump(k))
+    )
+}
+
+/// What is the same as the rigid sphere's; `plain` are the cases outside the window.
+fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Outcome<Vec<Claim>> {
     let none =
         |what: &str, ours| Claim::number(PLACE, what, Published::within(0.0, ROUNDING), ours, Basis::Derived);
-    let claims = vec![
+    let mut effect = 0.0f64;
+    for case in plain {
+        effect = effect.max(case.off(by_effect(case)?));
+    }
+    let slips = cases.iter().filter(|case| !case.rigid.sticks);
+    let away = cases.iter().filter(|case| (case.slip() - STICKS).abs() > 1e-6);
+    Ok(vec![
         none(
             "`sliding` while the contact slips throughout: largest difference of speed and rim speed [impact speeds]",
-            most(&mut cases.iter().filter(slips).map(|case| case.off(sliding(case)))),
+            largest(slips.map(|case| case.off(sliding(case)))),
         ),
         none(
             "`sliding-rolling` outside the window: largest difference",
-            most(&mut plain.iter().map(|case| case.off(sliding_rolling(case)))),
+            largest(plain.iter().map(|case| case.off(sliding_rolling(case)))),
         ),
         none("effect `sliding-to-rolling` outside the window: largest difference", effect),
         none(
             "`sliding-rolling` with k = 10⁹ (rigid), at every angle: largest difference",
-            most(&mut cases.iter().filter(away).map(stiff)),
+            largest(away.map(|case| case.off(stiff(case)))),
         ),
-        Claim::number(
-            PLACE,
-            "angle from the surface at which sliding ends for k → ∞, acot(7/2 f (1+e_n)) [°]; here k = 10⁹ in Eq. 11",
-            Published::within(rigid_angle, 1e-6),
-            critical_angle(FRICTION, E_N, 1e9).to_degrees(),
-            Basis::Derived,
-        )
-        .because("found for the rigid sphere by bisection"),
-        Claim::number(
-            PLACE,
-            "`sliding-rolling` within the window, without spin: largest difference in e_t, 2k/(7k-1) - 2/7",
-            Published::within(jump, 1e-3),
-            most(&mut window_without_spin(k).iter().map(|case| {
-                (sliding_rolling(case).restitution - case.rigid.tangential_speed / case.glance.tangential_speed).abs()
-            })),
-            Basis::Derived,
-        ),
-        Claim::statement(
-            PLACE,
-            "the slip of a sphere never reverses: its normal and tangential motion are not coupled",
-            "0 reversals",
-            &format!("{reversals} in {} impacts", cases.len()),
-            reversals == 0,
-            Basis::Derived,
-        ),
-        Claim::number(
-            "energy",
-            "largest gain of energy of motion and spin along the wall, `sliding` and `sliding-rolling` [m²/s² per mass]",
-            Published::Below(1e-12),
-            made,
-            Basis::Derived,
-        )
-        .because(
-            "`sliding` is bounded where it is used beyond the end of slip; before that bound it made energy at steep angles and \
-             with forward spin",
-        ),
-    ];
-    Ok(Part {
-        heading: "Impulse with spin: a rigid sphere with Coulomb friction".to_owned(),
-        text: vec![
-            format!(
-                "{} impacts: angles 0.5° to 89.5°, rim speeds up to five times the speed, both ways round, friction 0.02 to 1, \
-                 e_n 0 to 1. The friction follows the slip s = u - omega d/2 of the contact point as the normal impulse grows.",
-                cases.len()
-            ),
-            format!(
-                "The rigid sphere sticks where |s| <= 7/2 f (1+e_n) v_n. The library takes (7k-1)/(2k) in place of 7/2, as the \
-                 paper does, which allows for an elastic contact. Between the two the library slides on where the rigid sphere \
-                 already rolls: for wax on Pyrex without spin (k = {}, f = {FRICTION}, e_n = {E_N}) from {rigid_angle:.1}° to \
-                 {paper_angle:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {} of the impacts lie in it. That is no fault: an elastic contact (e_n = 1) slips throughout from (7k-1)/(2k) on (next part); only the rolling \
-                 above it is the rigid sphere's.",
-                number(k),
-                paper_angle - rigid_angle,
-                number(5.0 / 7.0 - jump),
-                window.len()
-            ),
-        ],
-        tables: vec![windows()],
-        figures: vec![over_angle(k, [rigid_angle, paper_angle]), over_spin(k)],
-        claims,
-    })
+    ])
+}
+
+fn end_of_sliding(ends: &Ends) -> Claim {
+    Claim::number(
+        PLACE,
+        "angle from the surface at which sliding ends for k → ∞, acot(7/2 f (1+e_n)) [°]; here k = 10⁹ in Eq. 11",
+        Published::within(ends.rigid, 1e-6),
+        critical_angle(FRICTION, E_N, RIGID).to_degrees(),
+        Basis::Derived,
+    )
+    .because("found for the rigid sphere by bisection")
+}
+
+fn within_the_window(k: f64) -> Claim {
+    let off = |case: &Case| {
+        (sliding_rolling(case).restitution - case.rigid.tangential_speed / case.glance.tangential_speed).abs()
+    };
+    Claim::number(
+        PLACE,
+        "`sliding-rolling` within the window, without spin: largest difference in e_t, 2k/(7k-1) - 2/7",
+        Published::within(jump(k), 1e-3),
+        largest(window_without_spin(k).iter().map(off)),
+        Basis::Derived,
+    )
+}
+
+fn reversals(cases: &[Case]) -> Claim {
+    let reversals: u32 = cases.iter().map(|case| case.rigid.reversals).sum();
+    Claim::statement(
+        PLACE,
+        "the slip of a sphere never reverses: its normal and tangential motion are not coupled",
+        "0 reversals",
+        &format!("{reversals} in {} impacts", cases.len()),
+        reversals == 0,
+        Basis::Derived,
+    )
+}
+
+fn energy(cases: &[Case]) -> Claim {
+    let gains = |case: &Case| [sliding(case), sliding_rolling(case)].map(|rebound| gain(case, rebound));
+    Claim::number(
+        "energy",
+        "largest gain of energy of motion and spin along the wall, `sliding` and `sliding-rolling` [m²/s² per mass]",
+        Published::Below(1e-12),
+        largest(cases.iter().flat_map(gains)),
+        Basis::Derived,
+    )
+    .because(
+        "`sliding` is bounded where it is used beyond the end of slip; before that bound it made energy at steep angles and \
+         with forward spin",
+    )
 }
 
 /// What a rebound gains along the wall.
@@ -189,7 +251,7 @@ fn gain(case: &Case, rebound: Rebound) -> f64 {
 
 fn window_without_spin(k: f64) -> Vec<Case> {
     let angles = even([1.0, 89.0], 8801).map(|angle| Case::new(angle, 0.0, FRICTION, E_N, k));
-    angles.filter(|case| (0.5 * (7.0 - 1.0 / k)..=3.5).contains(&case.slip())).collect()
+    angles.filter(|case| in_window(case, k)).collect()
 }
 
 /// The angle [°] above which the rigid sphere sticks.
@@ -205,14 +267,13 @@ fn transition(k: f64) -> f64 {
 fn windows() -> Table {
     let row = |k: f64| {
         let angle = |k: f64| critical_angle(FRICTION, E_N, k).to_degrees();
-        let rigid = angle(1e9);
-        let jump = 2.0 * k / (7.0 * k - 1.0) - 2.0 / 7.0;
+        let rigid = angle(RIGID);
         [
             number(k),
             format!("{rigid:.2}"),
             format!("{:.2}", angle(k)),
             format!("{:.2}", angle(k) - rigid),
-            number(jump),
+            number(jump(k)),
         ]
         .to_vec()
     };
@@ -226,7 +287,7 @@ fn windows() -> Table {
     )
 }
 
-fn over_angle(k: f64, [rigid_angle, paper_angle]: [f64; 2]) -> Figure {
+fn over_angle(k: f64, ends: &Ends) -> Figure {
     let of = |e_t: &dyn Fn(&Case) -> f64| -> Vec<[f64; 2]> {
         let cases = even([5.0, 88.0], 831).map(|angle| (angle, Case::new(angle, 0.0, FRICTION, E_N, k)));
         cases.map(|(angle, case)| [angle, e_t(&case)]).collect()
@@ -236,8 +297,8 @@ fn over_angle(k: f64, [rigid_angle, paper_angle]: [f64; 2]) -> Figure {
         .line("library, sliding-rolling", &law(TangentialLaw::SlidingRolling { friction: FRICTION }))
         .line("rigid sphere", &of(&|case| case.rigid.tangential_speed / case.glance.tangential_speed))
         .line("library, sliding", &law(TangentialLaw::Sliding { friction: FRICTION }))
-        .mark_x(rigid_angle, "")
-        .mark_x(paper_angle, "")
+        .mark_x(ends.rigid, "")
+        .mark_x(ends.library, "")
         .x_range(0.0, 90.0)
         .y_range(0.0, 1.0)
         .figure(

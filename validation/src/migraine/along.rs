@@ -24,26 +24,36 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
     let plain = model(PLAIN)?;
     let drawn = drawn(extent.count(4000) as u64)?;
     let friction = friction_of_set_4(&plain, &drawn)?;
-    let bound = friction_bound(&plain, &drawn)?;
+    let mut claims = constant().to_vec();
+    claims.extend([order(&plain, &drawn)?, rolling(&plain, &drawn, friction)?]);
+    claims.extend([least(&plain, &SETS[0])?, least(&plain, &SETS[3])?]);
+    claims.extend(dissipation(&plain, &drawn)?);
     Ok(Part {
         heading: "Tangential restitution (Fig 2, Eq. 4)".to_owned(),
         text: vec![
             format!(
                 "Eq. 4, e_t = 1 - mu (v_n/v_t)(1 + e_n), takes much where v_t is small and little where it is large. The sets print the opposite: the oblique set 4, \
-                 with the largest v_t, keeps least (0.74). The mu that gives set 4 its mean is {}; over the angles of sets 1, 2, 3 and 5 the same mu stops most of \
+                 with the largest v_t, keeps least ({}). The mu that gives set 4 its mean is {}; over the angles of sets 1, 2, 3 and 5 the same mu stops most of \
                  the motion along the wall if it goes on sliding, and leaves rolling's 5/7 = 0.714 if it does not.",
+                SETS[3].e_t,
                 number(friction)
             ),
             format!(
-                "Rolling would be independent of both speeds, as printed, for near-normal impacts, and 5/7 lies close to 0.74 to 0.76; but 0.83 and 0.86 lie above \
-             it. tangential-compliance can lie above 5/7 near head-on (its `near_normal`), with a shape that is assumed. No law with friction explains minima of 0.61 and 0.56: \
+                "Rolling would be independent of both speeds, as printed, for near-normal impacts, and 5/7 lies close to {} to {}; but {} and {} lie above \
+             it. tangential-compliance can lie above 5/7 near head-on (its `near_normal`), with a shape that is assumed. No law with friction explains minima of {} and {}: \
              sliding ends where 1 - 2k/(7k-1) = {:.2} is left.",
+                SETS[3].e_t,
+                SETS[4].e_t,
+                SETS[2].e_t,
+                SETS[0].e_t,
+                SETS[0].least_e_t.unwrap_or(f64::NAN),
+                SETS[3].least_e_t.unwrap_or(f64::NAN),
                 end_of_sliding(&plain)?
             ),
         ],
         tables: vec![means_table(&plain, &drawn, friction)?],
         figures: vec![figure(&plain, friction)?],
-        claims: claims(&plain, &drawn, friction, bound)?,
+        claims,
     })
 }
 
@@ -163,71 +173,75 @@ fn figure(plain: &Model, friction: f64) -> Result<Figure, Box<dyn Error>> {
     ))
 }
 
-fn claims(plain: &Model, drawn: &Drawn, friction: f64, bound: f64) -> Result<Vec<Claim>, Box<dyn Error>> {
-    let mut claims = Vec::new();
+/// The mean over all sets.
+fn constant() -> [Claim; 2] {
     let rebounds: f64 = SETS.iter().map(|set| set.rebounds() as f64).sum();
     let all: f64 = SETS.iter().map(|set| set.e_t * set.rebounds() as f64).sum::<f64>() / rebounds;
-    claims.push(Claim::number(
-        "section 4, 5 (ii)",
-        "mean e_t of all rebounds, from the sets' means",
-        Published::within(E_T, 0.05),
-        all,
-        Basis::Derived,
-    ));
     let off = |constant: f64| mean(&SETS.map(|set| (set.e_t - constant).abs()));
-    claims.push(Claim::statement(
-        "section 4",
-        "0.8 is more accurate than 1",
-        "yes",
-        &format!("mean distance from the sets' means {:.2}, against {:.2}", off(E_T), off(1.0)),
-        off(E_T) < off(1.0),
-        Basis::Fitted,
-    ));
+    [
+        Claim::number(
+            "section 4, 5 (ii)",
+            "mean e_t of all rebounds, from the sets' means",
+            Published::within(E_T, 0.05),
+            all,
+            Basis::Derived,
+        ),
+        Claim::statement(
+            "section 4",
+            "0.8 is more accurate than 1",
+            "yes",
+            &format!("mean distance from the sets' means {:.2}, against {:.2}", off(E_T), off(1.0)),
+            off(E_T) < off(1.0),
+            Basis::Fitted,
+        ),
+    ]
+}
+
+/// Whether any friction gives the printed order of sets.
+fn order(plain: &Model, drawn: &Drawn) -> Result<Claim, Box<dyn Error>> {
+    let bound = friction_bound(plain, drawn)?;
     let sliding = law(plain, TangentialLaw::Sliding { friction: bound });
     let [near_normal, oblique] = [mean(&e_t(&sliding, &drawn[0])?), mean(&e_t(&sliding, &drawn[3])?)];
-    claims.push(
-        Claim::statement(
-            "section 2, Eq. 4; sets 1 and 4",
-            "the theory of e_t can be deemed oversimplified: no mu > 0 in Eq. 4 gives the printed order of sets 1 and 4",
-            "0.86 near normal, 0.74 oblique",
-            &format!(
-                "mu = {} (largest with which set 1 stays above 0.61): {near_normal:.3} near normal, {oblique:.3} oblique",
-                number(bound)
-            ),
-            near_normal < oblique && oblique > SETS[3].e_t + 0.1,
-            Basis::Derived,
-        )
-        .because(
-            "d e_t/d(v_t/v_n) > 0 for every mu > 0, so the oblique set must keep more. It keeps less. Independence of both speeds holds exactly for mu = 0 only, with which \
-             nothing is lost.",
+    Ok(Claim::statement(
+        "section 2, Eq. 4; sets 1 and 4",
+        "the theory of e_t can be deemed oversimplified: no mu > 0 in Eq. 4 gives the printed order of sets 1 and 4",
+        "0.86 near normal, 0.74 oblique",
+        &format!(
+            "mu = {} (largest with which set 1 stays above 0.61): {near_normal:.3} near normal, {oblique:.3} oblique",
+            number(bound)
         ),
-    );
-    let set_1 = mean(&e_t(&law(plain, TangentialLaw::SlidingRolling { friction }), &drawn[0])?);
-    claims.push(
-        Claim::number(
-            "set 1",
-            "mean e_t of set 1 by sliding or rolling, with the mu of set 4",
-            Published::within(SETS[0].e_t, 0.005),
-            set_1,
-            Basis::Predicted,
-        )
-        .because("A rigid sphere rolls (5/7) where set 1 keeps 0.86."),
-    );
-    let floor = end_of_sliding(plain)?;
-    for set in [&SETS[0], &SETS[3]] {
-        claims.push(
-            Claim::number(
-                &set.name(),
-                "least e_t (\"always exceeded\", taken as the least), against the least that sliding, rolling or compliance leave above the critical angle",
-                Published::within(set.least_e_t.unwrap_or(f64::NAN), 0.005),
-                floor,
-                Basis::Derived,
-            )
-            .because("Scatter of single impacts (spin before the impact, agglomerates, measurement) is in no law of a sphere that arrives without spin."),
-        );
-    }
-    claims.extend(dissipation(plain, drawn)?);
-    Ok(claims)
+        near_normal < oblique && oblique > SETS[3].e_t + 0.1,
+        Basis::Derived,
+    )
+    .because(
+        "d e_t/d(v_t/v_n) > 0 for every mu > 0, so the oblique set must keep more. It keeps less. Independence of both speeds holds exactly for mu = 0 only, with which \
+         nothing is lost.",
+    ))
+}
+
+/// Set 1 by the friction of set 4.
+fn rolling(plain: &Model, drawn: &Drawn, friction: f64) -> Result<Claim, Box<dyn Error>> {
+    let rolling = law(plain, TangentialLaw::SlidingRolling { friction });
+    Ok(Claim::number(
+        "set 1",
+        "mean e_t of set 1 by sliding or rolling, with the mu of set 4",
+        Published::within(SETS[0].e_t, 0.005),
+        mean(&e_t(&rolling, &drawn[0])?),
+        Basis::Predicted,
+    )
+    .because(&format!("A rigid sphere rolls (5/7) where set 1 keeps {}.", SETS[0].e_t)))
+}
+
+/// The least of a set against the least that a law leaves.
+fn least(plain: &Model, set: &Set) -> Result<Claim, Box<dyn Error>> {
+    Ok(Claim::number(
+        &set.name(),
+        "least e_t (\"always exceeded\", taken as the least), against the least that sliding, rolling or compliance leave above the critical angle",
+        Published::within(set.least_e_t.unwrap_or(f64::NAN), 0.005),
+        end_of_sliding(plain)?,
+        Basis::Derived,
+    )
+    .because("Scatter of single impacts (spin before the impact, agglomerates, measurement) is in no law of a sphere that arrives without spin."))
 }
 
 /// `e_t` at the critical angle, where an elastic contact ceases to slide all through the impact.

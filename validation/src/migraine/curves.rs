@@ -27,33 +27,45 @@ pub fn part() -> Result<Part, Box<dyn Error>> {
     }
     figures.push(strength_figure(&plain)?);
     let mut claims = counts();
-    claims.extend(ratio_claims(&plain)?);
-    claims.extend(other_claims(&plain)?);
+    for set in &SETS {
+        claims.push(largest_of_curve(&plain, set)?);
+    }
+    claims.extend([overestimate(&plain)?, agreement(), one_pressure(&plain)?, equal_curves()]);
+    claims.extend([temperature(&plain)?, duration(&plain)?]);
     Ok(Part {
         heading: "Normal restitution against speed, and what was calibrated (Figs 1, 3 to 6)".to_owned(),
-        text: vec![
+        text: text(&plain)?,
+        tables: vec![window_table(&plain)?, strength_table(&plain)?],
+        figures,
+        claims,
+    })
+}
+
+fn text(plain: &Model) -> Result<Vec<String>, Box<dyn Error>> {
+    let wall = plain.walls().first().ok_or("no wall")?.material().mechanical(TEMPERATURES[1])?;
+    Ok(vec![
             "Bands lie between the smallest and the largest dust of a set (R = 4 and 5 µm, in set 5 6 and 8 µm), as in the paper; \
              dust at 3000 K, target at 1000 K; work of adhesion of clean metal, 2 gamma, since the paper does not print the one \
              it used. Above some 2 m/s size and adhesion hardly matter and e_n goes with p_y^(5/8) v_n^(-1/4)."
                 .to_owned(),
             format!(
                 "Thornton & Ning know the yield strength only as p_y = c sigma_y. Nobody has measured sigma_y of tungsten dust of \
-                 9 µm at 3000 K; the library assumes {} MPa, a factor {} either way. So the experiment calibrates p_y, and c = 4 holds \
-                 for the sigma_y that MIGRAINE has, which the paper does not print.",
+                 9 µm at 3000 K; the library assumes {} MPa, a factor {} either way. So the experiment calibrates p_y, and c = {} holds \
+                 for the sigma_y that MIGRAINE has, which the paper does not print. (The target at {} K is assumed at {:.0} MPa \
+                 and would yield first above that.)",
                 ASSUMED_STRENGTH / 1e6,
-                STRENGTH_FACTOR
-            ) + " (The target at 1000 K is assumed at 800 MPa and would yield first above that.)",
+                STRENGTH_FACTOR,
+                RATIO[0],
+                TEMPERATURES[1],
+                wall.yield_strength / 1e6
+            ),
             format!(
                 "Colder, harder dust is no way to the quarter above 0.6 either: at 4 m/s and c = 4 dust of 1500 K has e_n {:.2} and dust of 300 K {:.2} (assumed table of sigma_y); \
                  below some 1000 K it is the target that yields.",
-                e_n_of_dust_at(&plain, 1500.0)?,
-                e_n_of_dust_at(&plain, 300.0)?
+                e_n_of_dust_at(plain, 1500.0)?,
+                e_n_of_dust_at(plain, 300.0)?
             ),
-        ],
-        tables: vec![window_table(&plain)?, strength_table(&plain)?],
-        figures,
-        claims,
-    })
+        ])
 }
 
 /// The contact of the model's solids at the paper's temperatures.
@@ -196,10 +208,16 @@ fn window_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Error>
             giga(largest_pressure(&clean, set)),
         ]
     };
-    Ok(table(
+    let ours = contact(plain, RATIO[0], None)?.limiting_pressure();
+    let caption = format!(
         "Limiting pressures at which Thornton & Ning keep every rebound of a set below 0.6 (upper ends; without adhesion set by \
          the slowest impact), and at which the slowest impact rebounds at all against the adhesion of clean metal (lower end). The library's \
-         4 sigma_y is 1.2 GPa.",
+         {} sigma_y is {} GPa.",
+        RATIO[0],
+        giga(ours)
+    );
+    Ok(table(
+        &caption,
         1,
         &[
             "set",
@@ -213,6 +231,7 @@ fn window_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Error>
 }
 
 fn strength_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Error>> {
+    let [slowest, fastest] = SETS[0].normal;
     let mut rows = Vec::new();
     for strength in [1.0 / STRENGTH_FACTOR, 1.0, STRENGTH_FACTOR] {
         for ratio in RATIOS {
@@ -225,16 +244,21 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Erro
                 number(contact.limiting_pressure() / 1e9),
                 number(speeds.yielding),
                 number(speeds.sticking),
-                e_n(1.36),
+                e_n(slowest),
                 e_n(5.0),
-                e_n(12.95),
+                e_n(fastest),
                 number(RATIO[0] * ASSUMED_STRENGTH / ratio / 1e6),
             ]);
         }
     }
-    Ok(table(
+    let caption = format!(
         "What the range of the yield strength does, 9 µm, clean-metal adhesion. Last column: the sigma_y with which each c would give the \
-         curve of 4 x 300 MPa.",
+         curve of {} x {} MPa.",
+        RATIO[0],
+        ASSUMED_STRENGTH / 1e6
+    );
+    Ok(table(
+        &caption,
         0,
         &[
             "sigma_y [MPa]",
@@ -242,9 +266,9 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table, Box<dyn Erro
             "p_y [GPa]",
             "v_y [m/s]",
             "v_s [m/s]",
-            "e_n at 1.36 m/s",
+            &format!("e_n at {slowest} m/s"),
             "at 5 m/s",
-            "at 12.95 m/s",
+            &format!("at {fastest} m/s"),
             "sigma_y for 1.2 GPa [MPa]",
         ],
         rows,
@@ -266,140 +290,154 @@ fn strength_figure(plain: &Model) -> Result<Figure, Box<dyn Error>> {
         chart = chart.band(&speeds, &curve(1.0 / STRENGTH_FACTOR)?, &curve(STRENGTH_FACTOR)?);
         chart = chart.line(&format!("c = {ratio}, sigma_y = 300 MPa"), &line);
     }
-    Ok(chart.mark_y(PARTING, "0.6").figure(
-        "migraine-strength",
-        "Bands: sigma_y from 100 to 900 MPa. They overlap nearly everywhere: an e_n does not tell 4 from 2.8 unless sigma_y is known to \
-         better than the factor 1.43 between them.",
-    ))
+    let [found, before] = RATIO;
+    let caption = format!(
+        "Bands: sigma_y from {:.0} to {:.0} MPa. They overlap nearly everywhere: an e_n does not tell {found} from {before} unless sigma_y is known to \
+         better than the factor {:.2} between them.",
+        ASSUMED_STRENGTH / STRENGTH_FACTOR / 1e6,
+        ASSUMED_STRENGTH * STRENGTH_FACTOR / 1e6,
+        found / before
+    );
+    Ok(chart.mark_y(PARTING, "0.6").figure("migraine-strength", &caption))
 }
 
-fn ratio_claims(plain: &Model) -> Result<Vec<Claim>, Box<dyn Error>> {
-    let mut claims = Vec::new();
-    for set in &SETS {
-        let mut most = 0f64;
-        for size in [set.size[0], set.size[2]] {
-            for speed in even(set.normal, 60) {
-                most = most.max(e_n(plain, size * 1e-6, speed, 0.5)?);
-            }
+/// Largest `e_n` of a set's curve.
+fn largest_of_curve(plain: &Model, set: &Set) -> Result<Claim, Box<dyn Error>> {
+    let mut most = 0f64;
+    for size in [set.size[0], set.size[2]] {
+        for speed in even(set.normal, 60) {
+            most = most.max(e_n(plain, size * 1e-6, speed, 0.5)?);
         }
-        claims.push(
-            Claim::number(
-                set.figure,
-                "largest e_n of the curve for p_y = 4 sigma_y over the set's speeds and sizes, where the paper draws the rebounds below 0.6",
-                Published::Below(PARTING),
-                most,
-                Basis::Predicted,
-            )
-            .because("A weak test: the points are not printed, and the library's 300 MPa is assumed and was looked at beside this paper."),
-        );
     }
-    let contact = |ratio| contact(plain, ratio, Some(0.0));
-    let ratio = |speed: f64| -> Result<f64, Box<dyn Error>> {
-        let e_n = |c| -> Result<f64, Box<dyn Error>> {
-            Ok(plastic_term(yield_velocity(&contact(c)?) / speed).sqrt())
-        };
-        Ok(e_n(RATIO[0])? / e_n(RATIO[1])?)
+    Ok(Claim::number(
+        set.figure,
+        "largest e_n of the curve for p_y = 4 sigma_y over the set's speeds and sizes, where the paper draws the rebounds below 0.6",
+        Published::Below(PARTING),
+        most,
+        Basis::Predicted,
+    )
+    .because(&format!(
+        "A weak test: the points are not printed, and the library's {} MPa is assumed and was looked at beside this paper.",
+        ASSUMED_STRENGTH / 1e6
+    )))
+}
+
+/// What 4 in place of 2.8 does to `e_n`.
+fn overestimate(plain: &Model) -> Result<Claim, Box<dyn Error>> {
+    const SPEED: f64 = 5.0;
+    let e_n = |c| -> Result<f64, Box<dyn Error>> {
+        Ok(plastic_term(yield_velocity(&contact(plain, c, Some(0.0))?) / SPEED).sqrt())
     };
-    claims.push(
-        Claim::statement(
-            "section 4, normal restitution",
-            "2.8 overestimates the dissipation where 4 is right: e_n(4)/e_n(2.8) at 5 m/s without adhesion",
-            "appears to overestimate",
-            &format!(
-                "{:.3}; far above v_y (4/2.8)^(5/8) = {:.3}",
-                ratio(5.0)?,
-                (RATIO[0] / RATIO[1]).powf(0.625)
-            ),
-            ratio(5.0)? > 1.0,
-            Basis::Derived,
-        )
-        .because(
-            "A quarter in e_n is what the calibration changes, far less than a factor 3 in sigma_y does.",
-        ),
-    );
-    claims.push(Claim::unchecked(
+    let [found, before] = RATIO;
+    let ratio = e_n(found)? / e_n(before)?;
+    Ok(Claim::statement(
+        "section 4, normal restitution",
+        "2.8 overestimates the dissipation where 4 is right: e_n(4)/e_n(2.8) at 5 m/s without adhesion",
+        "appears to overestimate",
+        &format!("{ratio:.3}; far above v_y ({found}/{before})^(5/8) = {:.3}", (found / before).powf(0.625)),
+        ratio > 1.0,
+        Basis::Derived,
+    )
+    .because("A quarter in e_n is what the calibration changes, far less than a factor 3 in sigma_y does."))
+}
+
+fn agreement() -> Claim {
+    Claim::unchecked(
         "section 4 and 5 (i)",
         "agreement with the T&N model is reasonable provided p_y ≈ 4 sigma_y",
         "p_y/sigma_y ≈ 4",
         "Neither the points of Figs 1, 3, 4 and 6 nor sigma_y(T, d) are printed. Only the product is seen in a rebound.",
-    ));
-    let [bare, low, high] = window(plain)?;
-    let needs = |c: f64| number(bare / c / 1e6);
-    claims.push(
-        Claim::statement(
-            "section 4, sets 1, 2, 3, 5",
-            "a p_y exists that keeps every strong rebound below 0.6 in all near-normal sets, and 4 x 300 MPa is one",
-            "rebounds below 0.6 follow T&N",
-            &format!(
-                "p_y below {} GPa without adhesion, {} to {} GPa with 2 gamma",
-                number(bare / 1e9),
-                number(low / 1e9),
-                number(high / 1e9)
-            ),
-            RATIO[0] * ASSUMED_STRENGTH < bare && low < high,
-            Basis::Predicted,
-        )
-        .because(&format!(
-            "Without adhesion this asks sigma_y below {} MPa of c = 1.6, {} of 2.8 and {} of 4: all inside 300 MPa times or by 3, so the counts \
-             choose no c.",
-            needs(1.6),
-            needs(2.8),
-            needs(4.0)
-        )),
-    );
-    let equal = RATIOS.map(|c| RATIO[0] * ASSUMED_STRENGTH / c);
-    let inside = equal
-        .iter()
-        .all(|s| (ASSUMED_STRENGTH / STRENGTH_FACTOR..=ASSUMED_STRENGTH * STRENGTH_FACTOR).contains(s));
-    claims.push(
-        Claim::statement(
-            "5 (i)",
-            "an empirical value is determined for p_y/sigma_y",
-            "4, not 2.8",
-            &format!(
-                "the same curve: c = 1.6, 2.8, 4 with sigma_y = {}",
-                equal.map(|s| number(s / 1e6)).join(", ") + " MPa"
-            ),
-            !inside,
-            Basis::Derived,
-        )
-        .because(
-            "All three lie within the range of sigma_y. What is determined is p_y; c = 4 belongs to MIGRAINE's sigma_y(T, d) and must not be \
-             carried to another.",
-        ),
-    );
-    Ok(claims)
+    )
 }
 
-/// What the paper says beside: temperature, duration.
-fn other_claims(plain: &Model) -> Result<Vec<Claim>, Box<dyn Error>> {
-    let span = e_n_of_dust_at(plain, 1500.0)? / e_n_of_dust_at(plain, 3000.0)?;
-    // Hertz: 2.87 (m²/(R E*² v))^(1/5), elastic, at 5 m/s.
+/// Whether one `p_y` suits all near-normal sets.
+fn one_pressure(plain: &Model) -> Result<Claim, Box<dyn Error>> {
+    let [bare, low, high] = window(plain)?;
+    let needs = RATIOS.map(|c| number(bare / c / 1e6));
+    let assumed = ASSUMED_STRENGTH / 1e6;
+    Ok(Claim::statement(
+        "section 4, sets 1, 2, 3, 5",
+        &format!(
+            "a p_y exists that keeps every strong rebound below 0.6 in all near-normal sets, and {} x {assumed} MPa is one",
+            RATIO[0]
+        ),
+        "rebounds below 0.6 follow T&N",
+        &format!(
+            "p_y below {} GPa without adhesion, {} to {} GPa with 2 gamma",
+            number(bare / 1e9),
+            number(low / 1e9),
+            number(high / 1e9)
+        ),
+        RATIO[0] * ASSUMED_STRENGTH < bare && low < high,
+        Basis::Predicted,
+    )
+    .because(&format!(
+        "Without adhesion this asks sigma_y below {} MPa of c = {}, {} of {} and {} of {}: all inside {assumed} MPa times or by \
+         {STRENGTH_FACTOR}, so the counts choose no c.",
+        needs[0], RATIOS[0], needs[1], RATIOS[1], needs[2], RATIOS[2]
+    )))
+}
+
+/// Which strengths give every `c` the same curve.
+fn equal_curves() -> Claim {
+    let equal = RATIOS.map(|c| RATIO[0] * ASSUMED_STRENGTH / c);
+    let range = ASSUMED_STRENGTH / STRENGTH_FACTOR..=ASSUMED_STRENGTH * STRENGTH_FACTOR;
+    Claim::statement(
+        "5 (i)",
+        "an empirical value is determined for p_y/sigma_y",
+        "4, not 2.8",
+        &format!(
+            "the same curve: c = {} with sigma_y = {} MPa",
+            RATIOS.map(|c| c.to_string()).join(", "),
+            equal.map(|strength| number(strength / 1e6)).join(", ")
+        ),
+        !equal.iter().all(|strength| range.contains(strength)),
+        Basis::Derived,
+    )
+    .because(
+        "All three lie within the range of sigma_y. What is determined is p_y; c = 4 belongs to MIGRAINE's sigma_y(T, d) and must not be \
+         carried to another.",
+    )
+}
+
+/// Normal restitution of 9 µm dust at 1500 K.
+fn temperature(plain: &Model) -> Result<Claim, Box<dyn Error>> {
+    const COLD: f64 = 1500.0;
+    let strength = |temperature: f64| -> Result<f64, Box<dyn Error>> {
+        Ok(plain.particle().mechanical(temperature)?.yield_strength / 1e6)
+    };
+    let [hot, _] = TEMPERATURES;
+    Ok(Claim::number(
+        "section 3 (iii)",
+        "above 1500 K the temperature hardly matters: e_n at 1500 K over e_n at 3000 K, 4 m/s",
+        Published::Between(0.9, 1.1),
+        e_n_of_dust_at(plain, COLD)? / e_n_of_dust_at(plain, hot)?,
+        Basis::Predicted,
+    )
+    .because(&format!(
+        "\"Very small\" is taken as 10 %. Here sigma_y falls from {:.0} to {:.0} MPa between the two (assumed table), and e_n with it; MIGRAINE's \
+         sigma_y must be flat above {COLD} K for the paper's statement to hold. One more reason why {} cannot be carried over.",
+        strength(COLD)?,
+        strength(hot)?,
+        RATIO[0]
+    )))
+}
+
+/// Duration of an elastic impact. Hertz: 2.87 (m²/(R E*² v))^(1/5), 9 µm at 5 m/s.
+fn duration(plain: &Model) -> Result<Claim, Box<dyn Error>> {
     let solid = contact(plain, RATIO[0], None)?;
     let radius = 4.5e-6f64;
     let mass = solid.density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
     let duration = 2.87 * (mass * mass / (radius * solid.reduced_modulus.powi(2) * 5.0)).powf(0.2);
-    Ok(vec![
-        Claim::number(
-            "section 3 (iii)",
-            "above 1500 K the temperature hardly matters: e_n at 1500 K over e_n at 3000 K, 4 m/s",
-            Published::Between(0.9, 1.1),
-            span,
-            Basis::Predicted,
-        )
-        .because(
-            "\"Very small\" is taken as 10 %. Here sigma_y falls from 625 to 300 MPa between the two (assumed table), and e_n with it; MIGRAINE's \
-             sigma_y must be flat above 1500 K for the paper's statement to hold. One more reason why 4 cannot be carried over.",
-        ),
-        Claim::number(
-            "section 3",
-            "duration of an impact [ns], elastic (Hertz), 9 µm at 5 m/s",
-            Published::Between(DURATION * 1e9 / 10f64.sqrt(), DURATION * 1e9 * 10f64.sqrt()),
-            duration * 1e9,
-            Basis::Derived,
-        )
-        .because("\"~10 ns\" is taken as an order of magnitude, half a decade either way."),
-    ])
+    let nanoseconds = DURATION * 1e9;
+    Ok(Claim::number(
+        "section 3",
+        "duration of an impact [ns], elastic (Hertz), 9 µm at 5 m/s",
+        Published::Between(nanoseconds / 10f64.sqrt(), nanoseconds * 10f64.sqrt()),
+        duration * 1e9,
+        Basis::Derived,
+    )
+    .because("\"~10 ns\" is taken as an order of magnitude, half a decade either way."))
 }
 
 #[cfg(test)]
@@ -407,14 +445,12 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
     use super::*;
 
-    /// Texts say 300 MPa and 1.2 GPa, 625 MPa at 1500 K, and that the target of 800 MPa yields later.
+    /// Texts say 300 MPa and 1.2 GPa.
     #[test]
     fn the_texts_quote_the_library() {
         let plain = model(PLAIN).unwrap();
         let dust = |temperature| plain.particle().mechanical(temperature).unwrap().yield_strength;
         assert_eq!(dust(TEMPERATURES[0]), ASSUMED_STRENGTH);
-        assert_eq!(dust(1500.0), 625e6);
-        assert_eq!(plain.walls()[0].material().mechanical(TEMPERATURES[1]).unwrap().yield_strength, 800e6);
         assert_eq!(contact(&plain, RATIO[0], None).unwrap().limiting_pressure(), 1.2e9);
     }
 }

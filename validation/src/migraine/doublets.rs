@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use nearwall::Draw;
 use nearwall::normal::doublet::{Motion, Rebound, contact_restitution, rebound};
 use nearwall::normal::{Contact, NormalLaw, restitution};
-use nearwall::report::{Chart, Figure, Table, round_edges};
+use nearwall::report::{Chart, Figure, Table, number, round_edges};
 
 use super::curves::contact;
 use super::published::{PARTING, RATIO, near_normal};
@@ -50,7 +50,7 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
     let single = single(&solid, SPEED);
     Ok(Part {
         heading: "Doublets: can agglomerates be the quarter above 0.6?".to_owned(),
-        text: text(&fixed, &travelled, single),
+        text: text(&solid, &fixed, &travelled, single),
         tables: vec![spin_table(&fixed, &travelled, single)],
         figures: vec![angle_figure(&solid), histogram(&fixed, &travelled[0])],
         claims: claims(&fixed, &travelled[0], single),
@@ -62,13 +62,14 @@ fn single(solid: &Contact, speed: f64) -> f64 {
     restitution(speed, speeds.adhesive, speeds.yielding)
 }
 
-fn text(fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], single: f64) -> Vec<String> {
+fn text(solid: &Contact, fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], single: f64) -> Vec<String> {
     let still = &fixed[0];
     let half = SPINS.iter().zip(fixed).find(|(_, sample)| sample.above(PARTING) >= 0.5);
     vec![
         format!(
             "A rigid doublet (nearwall::normal::doublet) arrives in a random orientation and hits with one end, then perhaps the other, until it leaves. The contact is Thornton & Ning's with p_y = \
-             1.2 GPa and 0.13 J/m², seen with the effective mass at the contact; no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed 15."
+             {} GPa and {MEASURED_ADHESION} J/m², seen with the effective mass at the contact; no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed {SEED}.",
+            number(solid.limiting_pressure() / 1e9)
         ),
         format!(
             "Without spin a doublet rebounds on average about as fast as a grain, mean {:.2}, and {:.1} % above 0.6: the first hit alone would leave it slower, the second end's hit gives some back. What the centre does not return turns the doublet. A doublet that hit the vessel before arrives \
@@ -76,13 +77,13 @@ fn text(fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], single: f64) -> Ve
              {:.1} % lie above 0.6. With earlier hits {} times as fast it is {:.2} and {:.0} %; half lie above 0.6 \
              only from R omega/v_n = {} on.",
             mean(&still.restitution),
-            100.0 * still.above(PARTING),
+            percent_above(still),
             mean(&travelled.arriving_spin),
             mean(&travelled.restitution),
-            100.0 * travelled.above(PARTING),
+            percent_above(travelled),
             EARLIER[2],
             mean(&fast.arriving_spin),
-            100.0 * fast.above(PARTING),
+            percent_above(fast),
             half.map_or("no tried".to_owned(), |(spin, _)| spin.to_string())
         ),
     ]
@@ -157,38 +158,16 @@ impl Sample {
 }
 
 fn spin_table(fixed: &[Sample], travelled: &[Sample], single: f64) -> Table {
-    let dash = "–".to_owned();
-    let mut one =
-        vec!["one grain".to_owned(), "0".to_owned(), format!("{single:.2}"), "0".to_owned(), dash.clone()];
-    one.extend(["0".to_owned(), "0".to_owned(), dash.clone(), "1".to_owned(), dash.clone(), dash.clone()]);
-    let mut rows = vec![one];
     let given = SPINS.map(|_| "doublets, one spin".to_owned());
     let kept = EARLIER.map(|earlier| format!("doublets, earlier hits at {earlier} v_n"));
-    for (name, sample) in given.into_iter().zip(fixed).chain(kept.into_iter().zip(travelled)) {
-        let above = sample.above(PARTING);
-        let needed = published() / above;
-        let fast: Vec<f64> = sample.restitution.iter().copied().filter(|e| *e > PARTING).collect();
-        rows.push(vec![
-            name,
-            format!("{:.2}", mean(&sample.arriving_spin)),
-            format!("{:.2}", mean(&sample.restitution)),
-            format!("{:.2}", spread(&sample.restitution)),
-            format!(
-                "{:.2} to {:.2}",
-                quantile(&sample.restitution, 0.05),
-                quantile(&sample.restitution, 0.95)
-            ),
-            format!("{:.1}", 100.0 * above),
-            format!("{:.1}", 100.0 * sample.above(1.0)),
-            if needed > 1.0 { "more than all".to_owned() } else { format!("{:.0} %", 100.0 * needed) },
-            format!("{:.2}", mean(&sample.hits)),
-            format!("{:.2}", mean(&sample.spin)),
-            if fast.len() < 30 { dash.clone() } else { format!("{:.2}, {:.2}", mean(&fast), spread(&fast)) },
-        ]);
-    }
+    let mut rows = vec![grain_row(single)];
+    rows.extend(given.into_iter().zip(fixed).chain(kept.into_iter().zip(travelled)).map(doublet_row));
+    let quarter = 100.0 * published();
     table(
-        "Centre-of-mass restitution over random orientations at 4 m/s, against the spin before (in units of v_n/R, its mean). \"Doublets needed\": share of the rebounds that would have to be doublets, the rest grains, for 27.6 % above 0.6. \
-         Last column: what agglomerates' restitution and spread stand for then, its fraction being the 27.6 %.",
+        &format!(
+            "Centre-of-mass restitution over random orientations at {SPEED} m/s, against the spin before (in units of v_n/R, its mean). \"Doublets needed\": share of the rebounds that would have to be doublets, the rest grains, for {quarter:.1} % above 0.6. \
+             Last column: what agglomerates' restitution and spread stand for then, its fraction being the {quarter:.1} %."
+        ),
         1,
         &[
             "population",
@@ -205,6 +184,29 @@ fn spin_table(fixed: &[Sample], travelled: &[Sample], single: f64) -> Table {
         ],
         rows,
     )
+}
+
+fn grain_row(single: f64) -> Vec<String> {
+    let single = format!("{single:.2}");
+    ["one grain", "0", &single, "0", "–", "0", "0", "–", "1", "–", "–"].map(str::to_owned).to_vec()
+}
+
+fn doublet_row((name, sample): (String, &Sample)) -> Vec<String> {
+    let restitution = &sample.restitution;
+    let fast: Vec<f64> = restitution.iter().copied().filter(|e| *e > PARTING).collect();
+    vec![
+        name,
+        format!("{:.2}", mean(&sample.arriving_spin)),
+        format!("{:.2}", mean(restitution)),
+        format!("{:.2}", spread(restitution)),
+        format!("{:.2} to {:.2}", quantile(restitution, 0.05), quantile(restitution, 0.95)),
+        format!("{:.1}", percent_above(sample)),
+        format!("{:.1}", 100.0 * sample.above(1.0)),
+        share(needed(sample)),
+        format!("{:.2}", mean(&sample.hits)),
+        format!("{:.2}", mean(&sample.spin)),
+        if fast.len() < 30 { "–".to_owned() } else { format!("{:.2}, {:.2}", mean(&fast), spread(&fast)) },
+    ]
 }
 
 /// Share of the near-normal rebounds above 0.6.
@@ -274,68 +276,99 @@ fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
     )
 }
 
-fn claims(fixed: &[Sample], travelled: &Sample, single: f64) -> Vec<Claim> {
-    let fast = &fixed[5];
-    let still = &fixed[0];
-    let spinning = &fixed[4];
-    let above = |sample: &Sample| 100.0 * sample.above(PARTING);
-    let needed = published() / travelled.above(PARTING);
+fn claims(fixed: &[Sample; SPINS.len()], travelled: &Sample, single: f64) -> Vec<Claim> {
+    let [still, .., spinning, fast, _] = fixed;
     vec![
-        Claim::statement(
-            "section 3 (i)",
-            "agglomerates do not abide by the T&N curve, by their shape and by spinning: deviation of e_n over orientations, spin kept from earlier hits",
-            "off the curve",
-            &format!(
-                "deviation {:.2} around {:.2}, where a grain has {single:.2}",
-                spread(&travelled.restitution),
-                mean(&travelled.restitution)
-            ),
-            spread(&travelled.restitution) > 0.1,
-            Basis::Predicted,
-        ),
-        Claim::statement(
-            "section 4, mechanisms",
-            &format!("doublets without spin are the {:.1} % of rebounds above 0.6", 100.0 * published()),
-            "speculation",
-            &format!("{:.1} % of them lie above 0.6; mean {:.2}, largest {:.2}", above(still), mean(&still.restitution), quantile(&still.restitution, 1.0)),
-            still.above(PARTING) > published(),
-            Basis::Predicted,
-        )
-        .because("Second hits are counted. Even if all dust were doublets the quarter would be missing."),
-        Claim::statement(
-            "section 4, mechanisms [21]",
-            "spinning transfers energy from rotation to translation: mean e_n at R omega/v_n = 1.5 above that without spin",
-            "enables",
-            &format!(
-                "{:.2} against {:.2}; {:.1} % above 0.6, {:.1} % above 1",
-                mean(&spinning.restitution),
-                mean(&still.restitution),
-                above(spinning),
-                100.0 * spinning.above(1.0)
-            ),
-            mean(&spinning.restitution) > mean(&still.restitution) + 0.05,
-            Basis::Predicted,
-        )
-        .because("It takes a rim that turns faster than the doublet flies."),
-        Claim::statement(
-            "section 5 (iv)",
-            "a major source of systematic deviations is agglomerate injection: a small share of doublets explains the rebounds above 0.6",
-            "suggested; \"a small fraction\" of the stuck were doublets",
-            &format!(
-                "{:.1} % of travelled doublets lie above 0.6, so {} of the rebounds would have to be doublets",
-                above(travelled),
-                if needed > 1.0 { "more than all".to_owned() } else { format!("{:.0} %", 100.0 * needed) }
-            ),
-            needed < 0.5,
-            Basis::Predicted,
-        )
-        .because(&format!(
-            "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such hits leave are not enough; even at R omega/v_n = {}, from elsewhere (glancing hits, plasma), {:.0} % of the \
-             rebounds would have to be doublets. The effect agglomerates describes the quarter, it does not explain it.",
-            SPINS[5],
-            100.0 * published() / fast.above(PARTING)
-        )),
+        off_the_curve(travelled, single),
+        without_spin(still),
+        by_spin(still, spinning),
+        injection(travelled, fast),
     ]
+}
+
+/// Share above 0.6 [%].
+fn percent_above(sample: &Sample) -> f64 {
+    100.0 * sample.above(PARTING)
+}
+
+/// Share of the rebounds that would have to be such doublets for the quarter above 0.6.
+fn needed(sample: &Sample) -> f64 {
+    published() / sample.above(PARTING)
+}
+
+/// Such a share in words.
+fn share(needed: f64) -> String {
+    if needed > 1.0 { "more than all".to_owned() } else { format!("{:.0} %", 100.0 * needed) }
+}
+
+fn off_the_curve(travelled: &Sample, single: f64) -> Claim {
+    let deviation = spread(&travelled.restitution);
+    Claim::statement(
+        "section 3 (i)",
+        "agglomerates do not abide by the T&N curve, by their shape and by spinning: deviation of e_n over orientations, spin kept from earlier hits",
+        "off the curve",
+        &format!(
+            "deviation {deviation:.2} around {:.2}, where a grain has {single:.2}",
+            mean(&travelled.restitution)
+        ),
+        deviation > 0.1,
+        Basis::Predicted,
+    )
+}
+
+fn without_spin(still: &Sample) -> Claim {
+    Claim::statement(
+        "section 4, mechanisms",
+        &format!("doublets without spin are the {:.1} % of rebounds above 0.6", 100.0 * published()),
+        "speculation",
+        &format!(
+            "{:.1} % of them lie above 0.6; mean {:.2}, largest {:.2}",
+            percent_above(still),
+            mean(&still.restitution),
+            quantile(&still.restitution, 1.0)
+        ),
+        still.above(PARTING) > published(),
+        Basis::Predicted,
+    )
+    .because("Second hits are counted. Even if all dust were doublets the quarter would be missing.")
+}
+
+fn by_spin(still: &Sample, spinning: &Sample) -> Claim {
+    let [spun, unspun] = [spinning, still].map(|sample| mean(&sample.restitution));
+    Claim::statement(
+        "section 4, mechanisms [21]",
+        "spinning transfers energy from rotation to translation: mean e_n at R omega/v_n = 1.5 above that without spin",
+        "enables",
+        &format!(
+            "{spun:.2} against {unspun:.2}; {:.1} % above 0.6, {:.1} % above 1",
+            percent_above(spinning),
+            100.0 * spinning.above(1.0)
+        ),
+        spun > unspun + 0.05,
+        Basis::Predicted,
+    )
+    .because("It takes a rim that turns faster than the doublet flies.")
+}
+
+fn injection(travelled: &Sample, fast: &Sample) -> Claim {
+    Claim::statement(
+        "section 5 (iv)",
+        "a major source of systematic deviations is agglomerate injection: a small share of doublets explains the rebounds above 0.6",
+        "suggested; \"a small fraction\" of the stuck were doublets",
+        &format!(
+            "{:.1} % of travelled doublets lie above 0.6, so {} of the rebounds would have to be doublets",
+            percent_above(travelled),
+            share(needed(travelled))
+        ),
+        needed(travelled) < 0.5,
+        Basis::Predicted,
+    )
+    .because(&format!(
+        "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such hits leave are not enough; even at R omega/v_n = {}, from elsewhere (glancing hits, plasma), {:.0} % of the \
+         rebounds would have to be doublets. The effect agglomerates describes the quarter, it does not explain it.",
+        SPINS[5],
+        100.0 * needed(fast)
+    ))
 }
 
 #[cfg(test)]

@@ -43,6 +43,11 @@ impl Set {
         self.impacts - self.stuck
     }
 
+    /// Impacts that stuck [%].
+    pub fn stuck_percent(&self) -> f64 {
+        100.0 * self.stuck as f64 / self.impacts as f64
+    }
+
     /// `set 1`.
     pub fn name(&self) -> String {
         format!("set {}", self.number)

@@ -1,23 +1,53 @@
 //! Figs 10 and 11: powder on the target, dry and on syrup.
 
-use nearwall::report::Chart;
-use nearwall::{Impact, Outcome, global_restitution};
+use nearwall::report::{Chart, Figure, Table};
+use nearwall::{Impact, Model, Outcome, global_restitution};
 
-use super::published::{E_N_SYRUP, E_N_THICK, E_N_THIN, SPEEDS, STEEP};
+use super::published::{
+    CAMERA, DENSITY, DIAMETER, E_N_MEAN, E_N_SYRUP, E_N_THICK, E_N_THIN, SPEEDS, STEEP, Stated, YIELD_RATIO,
+};
 use super::{Answer, arriving, decide, model};
 use crate::steps::even;
 use crate::study::table;
+use crate::terms::first_value;
 use crate::{Basis, Claim, Part};
 
-/// The walls of `layers.toml`, what lies on them, and what the paper states.
-const WALLS: [(&str, &str, f64); 4] = [
-    ("bare", "Pyrex", 0.28),
-    ("thin", "0.25 mm of powder", 0.10),
-    ("thick", "1.4 mm of powder", 0.07),
-    ("syrup", "0.2 mm of powder on syrup", 0.10),
+/// What lies on a wall of `layers.toml`, and the mean `e_n` that the paper states.
+struct Layer {
+    wall: &'static str,
+    /// Thickness of the powder [mm].
+    thickness: f64,
+    /// Below the powder.
+    below: &'static str,
+    stated: Stated,
+}
+
+/// Bare, thin, thick, on syrup.
+const LAYERS: [Layer; 4] = [
+    Layer { wall: "bare", thickness: 0.0, below: "", stated: E_N_MEAN },
+    Layer { wall: "thin", thickness: 0.25, below: "", stated: E_N_THIN },
+    Layer { wall: "thick", thickness: 1.4, below: "", stated: E_N_THICK },
+    Layer { wall: "syrup", thickness: 0.2, below: " on syrup", stated: E_N_SYRUP },
 ];
 /// Thickness of the syrup [m]: assumed, the paper gives none.
 const FILM: f64 = 0.2e-3;
+/// Speeds over which impacts on syrup are counted.
+const COUNTED: usize = 26;
+
+impl Layer {
+    fn name(&self) -> String {
+        if self.thickness == 0.0 {
+            "Pyrex".to_owned()
+        } else {
+            format!("{} mm of powder{}", self.thickness, self.below)
+        }
+    }
+
+    /// Its point in the chart.
+    fn point(&self) -> [f64; 2] {
+        [self.thickness, self.stated.value]
+    }
+}
 
 /// Mean `e_n` and `e_g` over the speeds of Fig. 10.
 fn means(outcome: &dyn Fn(f64) -> Answer<Outcome>) -> Answer<[f64; 2]> {
@@ -35,34 +65,91 @@ fn means(outcome: &dyn Fn(f64) -> Answer<Outcome>) -> Answer<[f64; 2]> {
     Ok([e_n, e_g].map(|sum| sum / speeds.len() as f64))
 }
 
+/// Means on each of [`LAYERS`].
+fn means_on_layers(model: &Model) -> Answer<Vec<[f64; 2]>> {
+    let on = |layer: &Layer| means(&|speed| decide(model, layer.wall, &arriving(speed, STEEP)));
+    LAYERS.iter().map(on).collect()
+}
+
+/// How many impacts of the speeds of Fig. 10 are held for certain.
+fn held(outcome: impl Fn(f64) -> Answer<Outcome>) -> Answer<usize> {
+    let outcomes = even(SPEEDS, COUNTED).map(outcome).collect::<Answer<Vec<_>>>()?;
+    Ok(outcomes.iter().filter(|outcome| outcome.sticking_probability == 1.0).count())
+}
+
 /// The part on layers.
 pub(super) fn part() -> Answer<Part> {
     let model = model!("layers.toml")?;
-    let mut rows = Vec::new();
-    let mut all = Vec::new();
-    for (wall, what, stated) in WALLS {
-        let [e_n, e_g] = means(&|speed| decide(&model, wall, &arriving(speed, STEEP)))?;
-        rows.push(vec![what.to_owned(), format!("{stated}"), format!("{e_n:.3}"), format!("{e_g:.3}")]);
-        all.push([e_n, e_g]);
-    }
     let syrup = model!("syrup.toml")?;
-    let wet = |speed: f64| {
-        let impact = Impact { film_thickness: FILM, ..arriving(speed, STEEP) };
-        decide(&syrup, "default", &impact)
+    let means = means_on_layers(&model)?;
+    Ok(Part {
+        heading: "Figs 10 and 11: powder on the target".to_owned(),
+        text: text(first_value(&syrup, "liquid-film")?),
+        tables: vec![layers(&means)],
+        figures: vec![chart(&model)?],
+        claims: [dry(&means), on_syrup(&model, &syrup, means[3])?, beside_the_mean(&model, &means)?].concat(),
+    })
+}
+
+/// `viscosity` is that of the syrup [Pa s].
+fn text(viscosity: f64) -> Vec<String> {
+    let stokes = DENSITY * DIAMETER * SPEEDS[1] / (9.0 * viscosity);
+    let diameter = 1e6 * DIAMETER;
+    let slow = E_N_THICK.value * SPEEDS[0];
+    let gravity = 9.81;
+    let [low, high] = SPEEDS;
+    vec![
+        "`powder-layer` has two numbers, set on the two dry layers; their e_n follows and proves \
+         nothing. Three points of a curve in two numbers do not test its form: any law that falls fast \
+         and levels off would do. The row on syrup was not used, but its thickness lies between points \
+         that were, so what it tests is that the liquid below does nothing."
+            .to_owned(),
+        format!(
+            "That is a real test against the film's own law: bare syrup of {viscosity} Pa s would hold every \
+             particle of {diameter} µm at {low} to {high} m/s (Stokes number at most {stokes:.2}, some 10 to 25 \
+             needed). The measured {} says that particles never reach it. The library does not switch \
+             `liquid-film` off under powder by itself: a wall with both has to be given no film.",
+            E_N_SYRUP.value
+        ),
+        format!(
+            "The paper explains the loss by a softer, wider contact with more adhesion. Neither the effect \
+             nor the paper's data (means of restitution) can tell that from the work of pushing powder \
+             aside. At the low end the data are at the limit of the rig: e_n = {} at {low} m/s is a rebound \
+             of {slow:.3} m/s, {:.1} pixels a frame ({:.0} µm, {} ms), that rises by {:.2} mm, less than the particle's \
+             diameter.",
+            E_N_THICK.value,
+            1e6 * slow * CAMERA.frame / CAMERA.pixel(),
+            CAMERA.pixel(),
+            1e3 * CAMERA.frame,
+            1e3 * slow * slow / (2.0 * gravity)
+        ),
+    ]
+}
+
+fn layers(means: &[[f64; 2]]) -> Table {
+    let row = |(layer, [e_n, e_g]): (&Layer, &[f64; 2])| {
+        vec![layer.name(), format!("{}", layer.stated.value), format!("{e_n:.3}"), format!("{e_g:.3}")]
     };
-    let held = even(SPEEDS, 26).map(wet).collect::<Answer<Vec<_>>>()?;
-    let held = held.iter().filter(|outcome| outcome.sticking_probability == 1.0).count();
-    let stokes = 1000.0 * super::published::DIAMETER * SPEEDS[1] / (9.0 * 0.5);
+    table(
+        "wax of 75 µm at 84°, mean over 0.5 to 3 m/s",
+        1,
+        &["target", "e_n, stated", "e_n", "e_g"],
+        LAYERS.iter().zip(means).map(row).collect(),
+    )
+}
+
+fn chart(model: &Model) -> Answer<Figure> {
     let over = |thickness: f64| -> Answer<f64> {
         let [e_n, _] = means(&|speed| {
-            decide(&model, "bare", &Impact { layer_thickness: thickness, ..arriving(speed, STEEP) })
+            decide(model, "bare", &Impact { layer_thickness: thickness, ..arriving(speed, STEEP) })
         })?;
         Ok(e_n)
     };
     let curve = even([0.0, 1.5e-3], 76)
         .map(|thickness| Ok([1e3 * thickness, over(thickness)?]))
         .collect::<Answer<Vec<_>>>()?;
-    let lines = Chart::new(
+    let [bare, thin, thick, syrup] = LAYERS.each_ref().map(Layer::point);
+    Ok(Chart::new(
         "Normal restitution over powder",
         "thickness of the powder [mm]",
         "mean e_n, 0.5 to 3 m/s [1]",
@@ -70,91 +157,93 @@ pub(super) fn part() -> Answer<Part> {
     .x_range(0.0, 1.5)
     .y_range(0.0, 0.35)
     .line("powder-layer", &curve)
-    .reference("stated, dry", &[[0.0, 0.28], [0.25, 0.10], [1.4, 0.07]])
-    .reference("stated, on syrup", &[[0.2, 0.10]]);
-    let end = |speed: f64| decide(&model, "bare", &arriving(speed, STEEP));
-    let ends = [end(SPEEDS[0])?.normal_restitution, end(SPEEDS[1])?.normal_restitution];
-    let [bare, thin, thick, on_syrup] = [all[0], all[1], all[2], all[3]];
-    Ok(Part {
-        heading: "Figs 10 and 11: powder on the target".to_owned(),
-        text: vec![
-            "`powder-layer` has two numbers, set on the two dry layers; their e_n follows and proves \
-             nothing. Three points of a curve in two numbers do not test its form: any law that falls fast \
-             and levels off would do. The row on syrup was not used, but its thickness lies between points \
-             that were, so what it tests is that the liquid below does nothing."
-                .to_owned(),
-            format!(
-                "That is a real test against the film's own law: bare syrup of 0.5 Pa s would hold every \
-                 particle of 75 µm at 0.5 to 3 m/s (Stokes number at most {stokes:.2}, some 10 to 25 \
-                 needed). The measured 0.1 says that particles never reach it. The library does not switch \
-                 `liquid-film` off under powder by itself: a wall with both has to be given no film."
+    .reference("stated, dry", &[bare, thin, thick])
+    .reference("stated, on syrup", &[syrup])
+    .figure("troiano-layers", "Set through the two dry layers; the point on syrup was not used."))
+}
+
+/// Of the two dry layers.
+fn dry(means: &[[f64; 2]]) -> Vec<Claim> {
+    let [bare, thin, thick] = [0, 1, 2].map(|layer| means[layer][0]);
+    vec![
+        E_N_THIN.beside(thin, Basis::Fitted).because(&format!(
+            "One of the effect's two numbers set to it. With c = {} the bare e_n is {bare:.3}, {:.0} % above {} (Fig. \
+             8), and so are the layers. Band: {}, as {} beside it has two decimals.",
+            YIELD_RATIO.value,
+            100.0 * (bare / E_N_MEAN.value - 1.0),
+            E_N_MEAN.value,
+            E_N_THIN.tolerance,
+            E_N_THICK.value
+        )),
+        E_N_THICK.beside(thick, Basis::Fitted).because("The other number set to it."),
+    ]
+}
+
+/// Of the powder on syrup, where e_n is `mean`.
+fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Answer<Vec<Claim>> {
+    let bare = held(|speed| {
+        let impact = Impact { film_thickness: FILM, ..arriving(speed, STEEP) };
+        decide(syrup, "default", &impact)
+    })?;
+    let under_powder = match held(|speed| decide(model, LAYERS[3].wall, &arriving(speed, STEEP)))? {
+        0 => "none".to_owned(),
+        some => some.to_string(),
+    };
+    Ok(vec![
+        E_N_SYRUP.beside(mean, Basis::Predicted).because(&format!(
+            "{} mm lies where the curve set to the other two is steep. \"The same regardless\" is not a number; \
+             within ± {:.2} the two agree.",
+            LAYERS[3].thickness,
+            (mean - E_N_SYRUP.value).abs()
+        )),
+        Claim::statement(
+            "Fig 10",
+            &format!(
+                "powder on syrup rebounds as on a dry target; syrup without powder: particles held, of {COUNTED} \
+                 speeds"
             ),
-            "The paper explains the loss by a softer, wider contact with more adhesion. Neither the effect \
-             nor the paper's data (means of restitution) can tell that from the work of pushing powder \
-             aside. At the low end the data are at the limit of the rig: e_n = 0.07 at 0.5 m/s is a rebound \
-             of 0.035 m/s, 1.3 pixels a frame (27 µm, 1 ms), that rises by 0.06 mm, less than the particle's \
-             diameter."
-                .to_owned(),
-        ],
-        tables: vec![table(
-            "wax of 75 µm at 84°, mean over 0.5 to 3 m/s",
-            1,
-            &["target", "e_n, stated", "e_n", "e_g"],
-            rows,
-        )],
-        figures: vec![
-            lines
-                .figure("troiano-layers", "Set through the two dry layers; the point on syrup was not used."),
-        ],
-        claims: vec![
-            E_N_THIN.beside(thin[0], Basis::Fitted).because(&format!(
-                "One of the effect's two numbers set to it. With c = 0.7 the bare e_n is {:.3}, {:.0} % above 0.28 (Fig. \
-             8), and so are the layers. Band: 0.01, as 0.07 beside it has two decimals.",
-                bare[0],
-                100.0 * (bare[0] / 0.28 - 1.0)
-            )),
-            E_N_THICK.beside(thick[0], Basis::Fitted).because("The other number set to it."),
-            E_N_SYRUP.beside(on_syrup[0], Basis::Predicted).because(
-                "0.2 mm lies where the curve set to the other two is steep. \"The same regardless\" is not a number; \
-                 within ± 0.02 the two agree.",
-            ),
-            Claim::statement(
-                "Fig 10",
-                "powder on syrup rebounds as on a dry target; syrup without powder: particles held, of 26 \
-                 speeds",
-                "\"the same regardless\"",
-                &format!("{held} held by bare syrup, none under powder"),
-                held == 26,
-                Basis::Predicted,
-            )
-            .because(
-                "0.2 mm of syrup and asperities of 1 µm assumed; the film's law is beyond its range (film \
+            "\"the same regardless\"",
+            &format!("{bare} held by bare syrup, {under_powder} under powder"),
+            bare == COUNTED,
+            Basis::Predicted,
+        )
+        .because(&format!(
+            "{} mm of syrup and asperities of 1 µm assumed; the film's law is beyond its range (film \
              thicker than the particle), but by orders of magnitude.",
-            ),
-            Claim::statement(
-                "Fig 11",
-                "e_g falls like e_n: e_g on bare Pyrex, thin and thick layer",
-                "\"a similar result\"; no numbers in the text",
-                &format!("{:.2}, {:.2}, {:.2}", bare[1], thin[1], thick[1]),
-                bare[1] > thin[1] && thin[1] > thick[1],
-                Basis::Predicted,
-            )
-            .because(
-                "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none over \
+            1e3 * FILM
+        )),
+    ])
+}
+
+/// Of `e_g`, and of the speed.
+fn beside_the_mean(model: &Model, means: &[[f64; 2]]) -> Answer<Vec<Claim>> {
+    let [bare, thin, thick] = [0, 1, 2].map(|layer| means[layer][1]);
+    let end = |speed: f64| decide(model, LAYERS[0].wall, &arriving(speed, STEEP));
+    let [slow, fast] = [end(SPEEDS[0])?.normal_restitution, end(SPEEDS[1])?.normal_restitution];
+    Ok(vec![
+        Claim::statement(
+            "Fig 11",
+            "e_g falls like e_n: e_g on bare Pyrex, thin and thick layer",
+            "\"a similar result\"; no numbers in the text",
+            &format!("{bare:.2}, {thin:.2}, {thick:.2}"),
+            bare > thin && thin > thick,
+            Basis::Predicted,
+        )
+        .because(
+            "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none over \
              powder.",
-            ),
-            Claim::statement(
-                "Sec 4.1",
-                "e_n and e_g on Pyrex \"about constant with the impact velocity\": e_n at 0.5 and 3 m/s",
-                "about constant",
-                &format!("{:.2}, {:.2}", ends[0], ends[1]),
-                ends[1] / ends[0] > 0.75,
-                Basis::Predicted,
-            )
-            .because(
-                "Less than a quarter over a sixfold range is taken for it; it would be more than a third \
+        ),
+        Claim::statement(
+            "Sec 4.1",
+            "e_n and e_g on Pyrex \"about constant with the impact velocity\": e_n at 0.5 and 3 m/s",
+            "about constant",
+            &format!("{slow:.2}, {fast:.2}"),
+            fast / slow > 0.75,
+            Basis::Predicted,
+        )
+        .because(
+            "Less than a quarter over a sixfold range is taken for it; it would be more than a third \
              with the printed v_s (Fig. 8).",
-            ),
-        ],
-    })
+        ),
+    ])
 }

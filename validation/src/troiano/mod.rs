@@ -3,16 +3,22 @@
 //! [`published`] holds the paper's numbers, `validation/troiano/*.toml` the models and cases that answer them.
 
 mod angle;
+mod best_fit;
 mod conclusions;
 mod droplets;
+mod entrapment;
 mod equations;
 mod layers;
+mod materials;
+mod oblique;
+mod operation;
+mod plate;
 mod published;
 mod speed;
-mod tables;
 mod targets;
 mod temperature;
 mod tube;
+mod velocities;
 
 use std::error::Error;
 
@@ -31,21 +37,21 @@ type Answer<T> = Result<T, Box<dyn Error>>;
 /// A model or case file that cannot be read, an impact that cannot be decided.
 pub fn study(extent: Extent) -> Answer<Study> {
     let mut parts = vec![
-        equations::normal()?,
-        equations::oblique()?,
-        tables::materials()?,
-        tables::operation()?,
-        tables::speeds()?,
+        equations::part()?,
+        oblique::part()?,
+        materials::part()?,
+        operation::part(),
+        velocities::part()?,
     ];
-    parts.extend(angle::parts()?);
+    parts.extend([angle::part()?, best_fit::part()]);
     parts.extend([speed::part()?, targets::part()?, layers::part()?]);
     parts.extend([
         temperature::melting()?,
         temperature::conversion()?,
         droplets::part()?,
-        droplets::regimes()?,
+        entrapment::part(),
     ]);
-    parts.extend([tube::part(extent)?, tube::plate(extent)?, conclusions::part()?]);
+    parts.extend([tube::part(extent)?, plate::part(extent)?, conclusions::part()?]);
     Ok(Study {
         title: "Wax on targets (Troiano et al.)".to_owned(),
         source: "M. Troiano, R. Solimene, P. Salatino, F. Montagnaro: Multiphase flow patterns in \

@@ -33,6 +33,12 @@ pub const DIAMETER: f64 = 75e-6;
 pub const DIAMETER_SPREAD: f64 = 10e-6;
 /// Impact angle [degrees from the surface] of Figs 8 to 13.
 pub const STEEP: f64 = 84.0;
+/// Angles [degrees] of [`E_N_GLANCING`], [`E_T_GLANCING`] and [`E_T_STEEP`].
+pub const GLANCING: f64 = 35.0;
+pub const SHALLOW: f64 = 13.0;
+pub const NEARLY_STEEP: f64 = 80.0;
+/// Smallest angle of Figs 6 and 7 [degrees].
+pub const LEAST_ANGLE: f64 = 10.0;
 /// Normal speeds [m/s] of Figs 8 and 10 (Table 3).
 pub const SPEEDS: [f64; 2] = [0.5, 3.0];
 /// Standard deviation of the wax's strength [Pa] and modulus [Pa] (Table 1).
@@ -54,6 +60,8 @@ pub const SLIDING_END_ANGLE: Stated = stated("Fig 7", "the same as an angle [°]
 pub const CRITICAL_ANGLE: Stated = stated("Eq 11", "critical angle of wax on Pyrex [°]", 43.0, 0.5);
 pub const ROLLING: Stated = stated("Sec 4.1", "e_t of a rolling rigid sphere", 0.714, 0.0005);
 pub const YIELD_RATIO: Stated = stated("Fig 8", "c = p_y/sigma_y that fits best", 0.7, 0.05);
+/// The same of a hard sphere, which does not fit.
+pub const HARD_SPHERE: [f64; 2] = [2.6, 3.0];
 pub const E_N_FIG_8: Stated = stated("Fig 8", "e_n from 0.5 to 3 m/s, \"~\"; the mean", 0.3, 0.05);
 pub const E_N_MEAN: Stated = stated("Fig 10", "mean e_n on Pyrex, 0.5 to 3 m/s", 0.28, 0.005);
 pub const E_N_MEAN_WAX: Stated = stated("Fig 10", "mean e_n on smooth wax, 0.5 to 3 m/s", 0.28, 0.005);
@@ -67,8 +75,16 @@ pub const E_N_SYRUP: Stated = stated(
 );
 pub const CAPTURE_70: Stated = stated("Fig 12", "capture at 70 °C, \"around\" [%]", 8.0, 1.0);
 pub const CAPTURE_105: Stated = stated("Fig 12", "capture at 105 °C [%]", 93.0, 0.5);
+/// Impacts a point, at the least.
+pub const IMPACTS: f64 = 50.0;
+/// Capture of molten wax [%] lies above this (Fig. 14).
+pub const CAPTURE_120: f64 = 85.0;
+/// Melting range of the wax [°C] (section 3.1).
+pub const MELTING: [f64; 2] = [75.0, 85.0];
 /// Flow of the wax [1] at a temperature [°C] (Craig et al., in section 4.2).
 pub const FLOW_TEST: [[f64; 2]; 3] = [[65.0, 0.01], [71.1, 0.50], [74.6, 0.70]];
+/// Conversion [1] over which the capture of coal rises (Fig. 12).
+pub const CONVERSION: [f64; 2] = [0.88, 0.90];
 pub const TUBE_LENGTH: Stated = stated("Eq 13", "length of the tube [m]", 0.65, 0.005);
 pub const FUSION_TIME: f64 = 0.11;
 pub const RESIDENCE: Stated =
@@ -180,3 +196,37 @@ pub const OPERATIONS: [Operation; 3] = [
 pub const TUBE: [f64; 3] = [0.03, 0.65, 0.08];
 /// Density of the wax [kg/m³] (section 3.1).
 pub const DENSITY: f64 = 1000.0;
+/// Diameters of the batches that were fed [m] (section 3.1).
+pub const FEED: [f64; 2] = [50e-6, 100e-6];
+
+/// What section 3.1 says of a melt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Melt {
+    /// Surface tension [N/m], viscosity [Pa s], density [kg/m³].
+    pub tension: [f64; 2],
+    pub viscosity: [f64; 2],
+    pub density: [f64; 2],
+}
+
+pub const COAL_SLAG: Melt = Melt { tension: [0.4, 0.7], viscosity: [0.01, 1.0], density: [2500.0, 3000.0] };
+pub const MOLTEN_WAX: Melt =
+    Melt { tension: [0.03, 0.03], viscosity: [0.02, 0.1], density: [DENSITY, DENSITY] };
+/// Temperatures [K] of the two viscosities of [`MOLTEN_WAX`].
+pub const VISCOSITY_AT: [f64; 2] = [403.15, 363.15];
+
+/// The camera (section 3.2): width of the picture [m] and its pixels, time between frames and time of exposure [s].
+pub struct Camera {
+    pub width: f64,
+    pub pixels: f64,
+    pub frame: f64,
+    pub exposure: f64,
+}
+
+pub const CAMERA: Camera = Camera { width: 0.028, pixels: 1024.0, frame: 1e-3, exposure: 42e-6 };
+
+impl Camera {
+    /// Width of a pixel [µm].
+    pub fn pixel(&self) -> f64 {
+        1e6 * self.width / self.pixels
+    }
+}
