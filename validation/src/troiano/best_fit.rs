@@ -81,10 +81,12 @@ pub(super) fn part() -> Part {
         text: vec![text(points, slid)],
         figures: vec![chart()],
         claims: vec![
-            FIT_E_N.beside(points[0], Basis::Predicted).because(
-                "From stated values at five angles in place of the figure's points; where those lie, and how \
-                 they are weighted, moves the result by 0.01 to 0.02.",
-            ),
+            FIT_E_N.beside(points[0], Basis::Predicted).because(&format!(
+                "From stated values at five angles in place of the figure's points. Other points move it: every 10° in place \
+                 of 5° by {:.3}, the sliding line by {:.3}.",
+                (fitted(stated_e_t, 10.0)[0] - points[0]).abs(),
+                (slid[0] - points[0]).abs()
+            )),
             FIT_E_T.beside(points[1], Basis::Predicted).because(&format!(
                 "As above. With the line f = {} it would be {:.2}: the paper's fit goes with {} at {SHALLOW}°, not with \
                  Fig. 7's line.",
