@@ -92,6 +92,11 @@ impl Runs {
         self.header.iter().filter_map(|name| name.strip_suffix("_paper")).collect()
     }
 
+    /// Whether any quantity has error bars.
+    fn has_errors(&self) -> bool {
+        self.header.iter().any(|name| name.ends_with("_low95") || name.ends_with("_standard_error"))
+    }
+
     /// Says so where a published number is a bound.
     fn caption(&self, quantity: &str) -> &'static str {
         let published = self.cells(&format!("{quantity}_paper")).unwrap_or_default();
@@ -129,10 +134,8 @@ pub fn page(path: &Path) -> Result<String, SweepError> {
     }
     let label = readable(&variable);
     let mut page = Page::new("Runs beside published numbers");
-    page.add(Block::Lead(format!(
-        "{} runs over {label}; bars are 95 % intervals of the sampling.",
-        runs.rows.len()
-    )));
+    let bars = if runs.has_errors() { "; bars are 95 % intervals of the sampling" } else { "" };
+    page.add(Block::Lead(format!("{} runs over {label}{bars}.", runs.rows.len())));
     let quantities = runs.quantities().into_iter().enumerate();
     let figures = quantities.map(|(index, quantity)| figure(&runs, quantity, &x, &label, index));
     page.add(Block::Figures(figures.collect()));
@@ -219,11 +222,13 @@ mod tests {
         std::fs::write(&path, text).unwrap();
         let html = page(&path).unwrap();
         assert_eq!(html.matches("<svg").count(), 2);
-        assert!(html.contains("temperature [°C]") && html.contains("published"));
+        assert!(
+            html.contains("temperature [°C]") && html.contains("published") && html.contains("bars are 95")
+        );
         let text = "run,Stk,hit,hit_reference,hit_paper\na,0.1,0,0,-\nb,10,0.8,0.81,0.82\n";
         std::fs::write(&path, text).unwrap();
         let html = page(&path).unwrap();
-        assert!(html.contains("calculated otherwise") && html.contains("0.81"));
+        assert!(html.contains("calculated otherwise") && html.contains("0.81") && !html.contains("bars are"));
         std::fs::write(&path, "run,T_C\na,20\n").unwrap();
         assert!(page(&path).unwrap_err().to_string().contains("Q_paper"));
         std::fs::write(&path, "run,T_C\na,20\nb,20,3\n").unwrap();
