@@ -281,7 +281,8 @@ public:
         return outcomes;
     }
 
-    // Velocities that mark the impacts of this particle and wall; only size and temperatures count.
+    // Velocities that mark the impacts of this particle and wall: size and temperatures count, and what effects on the
+    // contact look at; chance is at its median.
     velocities speeds(const nw_impact& impact) const {
         velocities found = velocities();
         detail::check(nw_speeds(raw_, &impact, &found.adhesive, &found.yield, &found.sticking),

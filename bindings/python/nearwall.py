@@ -133,17 +133,32 @@ def _column(name, value, count, kind):
     if numpy.ndim(value) == 0:
         return numpy.full(count, value, kind)
     if not isinstance(value, numpy.ndarray) or value.dtype != kind or not value.flags.c_contiguous:
-        raise TypeError(f"{name} has to be a contiguous array of {numpy.dtype(kind).name}")
+        raise TypeError(f"{name} has to be a contiguous array: numpy.ascontiguousarray({name}, numpy.{numpy.dtype(kind).name})")
     if value.shape != (count,):
         raise ValueError(f"{name} has shape {value.shape}, there are {count} impacts")
     return value
+
+
+def _index(name, value, bits):
+    """A whole number that C would otherwise cut to its last bits."""
+    if not 0 <= value < 2**bits:
+        raise ValueError(f"{name} has to be between 0 and 2**{bits} - 1, not {value}")
+    return value
+
+
+def _text(name, value):
+    """Bytes for C, where a zero ends a text."""
+    data = os.fsencode(value)
+    if b"\0" in data:
+        raise ValueError(f"{name} has a zero byte in it")
+    return data
 
 
 def _impact(wall, inputs):
     """One impact for C, from numbers."""
     impact = _Impact()
     _check(_library.nw_impact_init(byref(impact)))
-    impact.wall = wall
+    impact.wall = _index("wall", wall, 32)
     for name, value in inputs.items():
         if name not in INPUTS + ("melt_thickness",):
             raise TypeError(f"no such input: {name}")
@@ -159,7 +174,7 @@ class Model:
 
     @classmethod
     def from_file(cls, path):
-        return cls._read(_library.nw_model_load, os.fsencode(path))
+        return cls._read(_library.nw_model_load, _text("path", path))
 
     @classmethod
     def from_toml(cls, text, name="model"):
@@ -181,12 +196,12 @@ class Model:
     def find_wall(self, name):
         """The index of the wall that a patch name belongs to."""
         wall = c_uint32()
-        _check(_library.nw_model_find_wall(self._handle, name.encode(), byref(wall)))
+        _check(_library.nw_model_find_wall(self._handle, _text("name", name), byref(wall)))
         return wall.value
 
     def resolve(self, v_n, wall=0, seed=0, key=None, **inputs):
         """Decides len(v_n) impacts. `inputs` are those of INPUTS and melt_thickness, arrays of float64 or numbers; `wall` an
-        index or an array of uint32; `key` an array of uint64, the impact's own index if not given."""
+        index or an array of uint32; `key` an array of uint64 (a number would give all the same draw), the impact's own index if not given."""
         unknown = set(inputs) - set(INPUTS) - {"melt_thickness"}
         if unknown:
             raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
@@ -194,11 +209,13 @@ class Model:
         columns = {name: _column(name, value, count, numpy.float64) for name, value in inputs.items()}
         columns["v_n"] = _column("v_n", v_n, count, numpy.float64)
         if key is not None:
+            if numpy.ndim(key) == 0 and count > 1:
+                raise TypeError("key has to be an array: one number would give every impact the same draw")
             columns["key"] = _column("key", key, count, numpy.uint64)
         if numpy.ndim(wall) > 0:
             columns["walls"], wall = _column("wall", wall, count, numpy.uint32), 0
-        impacts = _Impacts(struct_size=ctypes.sizeof(_Impacts), wall=wall, count=count, seed=seed,
-                           **{name: column.ctypes.data for name, column in columns.items()})
+        impacts = _Impacts(struct_size=ctypes.sizeof(_Impacts), wall=_index("wall", wall, 32), count=count,
+                           seed=_index("seed", seed, 64), **{name: column.ctypes.data for name, column in columns.items()})
         found = Outcomes(*(numpy.empty(count, numpy.float64 if i < 4 else numpy.uint32) for i in range(7)))
         outcomes = _Outcomes(ctypes.sizeof(_Outcomes), *(column.ctypes.data for column in found))
         none = ctypes.c_size_t(-1).value
@@ -217,7 +234,7 @@ class Model:
     def temperature_ranges(self, wall=0):
         """Temperatures [K] between which impacts on a wall can be decided."""
         found = [c_double() for _ in range(4)]
-        _check(_library.nw_temperature_ranges(self._handle, wall, *map(byref, found)))
+        _check(_library.nw_temperature_ranges(self._handle, _index("wall", wall, 32), *map(byref, found)))
         return TemperatureRanges(*(number.value for number in found))
 
     def start_deposit(self, wall, voidage):
@@ -227,14 +244,16 @@ class Model:
         return deposit
 
     def dress(self, deposit, voidage, T_w):
-        """The inputs of `resolve` that tell impacts of the deposit on a wall of T_w [K]: resolve(..., **dress(...))."""
+        """The arguments of `resolve` that tell impacts of the deposit on its wall of T_w [K]: resolve(..., **dress(...))."""
         impact = _impact(deposit.wall, {"T_w": T_w})
         _check(_library.nw_deposit_dress(self._handle, byref(deposit), voidage, byref(impact)))
-        return {name: getattr(impact, name) for name in ("layer_thickness", "coverage", "melt_thickness")}
+        names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
+        return {name: getattr(impact, name) for name in names}
 
-    def arrive(self, arrivals, mass, density, wall=0, **inputs):
-        """Adds a particle that stayed: `mass` of it per area [kg/m2], `density` [kg/m3]; inputs are numbers as in `resolve`."""
-        impact = _impact(wall, inputs)
+    def arrive(self, arrivals, mass, density, T_w, wall=0, **inputs):
+        """Adds a particle that stayed on a wall of T_w [K], which decides whether as melt: `mass` of it per area [kg/m2],
+        `density` [kg/m3]; inputs are numbers as in `resolve`."""
+        impact = _impact(wall, {"T_w": T_w, **inputs})
         _check(_library.nw_arrivals_add(self._handle, byref(impact), mass, density, byref(arrivals)))
 
     def film_velocity(self, deposit, T_w, gravity_along):

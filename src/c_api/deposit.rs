@@ -179,7 +179,8 @@ pub unsafe extern "C" fn nw_arrivals_init(arrivals: *mut nw_arrivals) -> nw_stat
 }
 
 /// Adds a particle that stayed: `mass` of it per area of wall [kg/m2], with the particle's `density` [kg/m3]. It counts as
-/// molten when it is sticky at the temperature of the wall, as powder otherwise. Sums do not depend on the order.
+/// molten when it is sticky at the temperature of the wall, as powder otherwise. The order changes sums by rounding alone; arrivals of
+/// several threads or ranks are added field by field (`count` too) before one `nw_deposit_add`.
 ///
 /// # Safety
 /// `model` is a loaded model; `impact` and `arrivals` begin with their `struct_size`.
@@ -258,7 +259,7 @@ pub unsafe extern "C" fn nw_deposit_dress(
 
 /// Mean speed [m/s] of the melt of a deposit that runs down its wall as a laminar film: at a temperature of the wall `T_w`
 /// [K], with `gravity_along` the part of gravity along the wall [m/s2]. 0 where the model knows no viscosity of the melt, or
-/// it is colder than a measured one.
+/// it is colder than a measured one. `gravity_along` is not negative; a melt hotter than its measured range is answered.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.

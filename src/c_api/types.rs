@@ -41,7 +41,7 @@ pub const NW_FILE: nw_status = 4;
 pub const NW_MODEL: nw_status = 5;
 /// The model has no such wall.
 pub const NW_UNKNOWN_WALL: nw_status = 6;
-/// The impact has no physical meaning: a number is not finite or out of its bounds.
+/// A number has no physical meaning: it is not finite or out of its bounds.
 pub const NW_BAD_STATE: nw_status = 7;
 /// A property is not known at the temperature of the impact.
 pub const NW_OUT_OF_RANGE: nw_status = 8;
@@ -60,7 +60,7 @@ pub(super) fn status_text(status: nw_status) -> &'static CStr {
         NW_FILE => c"the model file cannot be read",
         NW_MODEL => c"the model is at fault",
         NW_UNKNOWN_WALL => c"the model has no such wall",
-        NW_BAD_STATE => c"the impact has no physical meaning (not finite, or a size or share out of bounds)",
+        NW_BAD_STATE => c"a number has no physical meaning (not finite, or out of its bounds)",
         NW_OUT_OF_RANGE => c"a property is not known at the temperature of the impact",
         NW_PANIC => c"internal fault, stopped at the boundary; please report it",
         _ => c"not a status of this library",

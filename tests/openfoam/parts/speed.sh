@@ -24,7 +24,7 @@ case_ratio() {
     cd "$state" || return
     sed -i 's/^endTime .*/endTime 0.4;/; s/^writeInterval .*/writeInterval 0.4;/' system/controlDict
     quiet blockMesh blockMesh
-    limit=900 solve ratio/state state coalChemistryFoam || return
+    solve ratio/state state coalChemistryFoam || return
     sed -i 's/^endTime .*/endTime 0.5;/; s/^writeInterval .*/writeInterval 0.1;/; s/^startFrom .*/startFrom latestTime;/' system/controlDict
     for i in 1 2 3 4 5; do
         for how in localInteraction nearWallNoMemory nearWall everything; do
