@@ -8,7 +8,7 @@ use std::ptr::{null, null_mut};
 
 use fearless_simd::{Level, Simd, dispatch};
 use libloading::Library;
-use nearwall::c_api::{nw_impacts, nw_model, nw_model_parse, nw_outcomes};
+use nearwall::c_api::{nw_impact, nw_impacts, nw_model, nw_model_parse, nw_outcomes};
 use nearwall::model::block::{BLOCK, Block};
 use nearwall::normal::{Contact, yield_velocity};
 use nearwall::{Draw, Model, material};
@@ -73,6 +73,11 @@ pub fn impact(index: usize) -> [f64; 5] {
     let even = |stream| Draw::new(SEED, index as u64).uniform(stream);
     let spin = if even(14) < 0.5 { 0.0 } else { 2e4 * (even(15) - 0.5) };
     [0.05 + 3.0 * even(10), 3.0 * even(11), 1e-5 + 1e-4 * even(12), 320.0 + 80.0 * even(13), spin]
+}
+
+/// An impact for the C interface.
+pub fn called([v_n, v_t, d, t_p, omega]: [f64; 5]) -> nw_impact {
+    nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() }
 }
 
 /// A full block of impacts.

@@ -106,11 +106,6 @@ fn calls(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// An impact for the C interface.
-fn called([v_n, v_t, d, t_p, omega]: [f64; 5]) -> nw_impact {
-    nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() }
-}
-
 /// Batches through the C interface, from the cache to far beyond it.
 fn batches(criterion: &mut Criterion) {
     let model = handle(MODEL);
@@ -128,8 +123,8 @@ fn batches(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Every thread its own ten thousand impacts, which stay in its core's cache, three hundred times: the mean of the times that they were on a core, so that whatever
-/// else the machine does is left out.
+/// Every thread its own ten thousand impacts, which stay in its core's cache, three hundred times: the mean of the times that
+/// they were on a core, so that whatever else the machine does is left out.
 fn threads(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("threads");
     group.sample_size(10);

@@ -31,8 +31,7 @@ fn block_of_128(mut blocks: Blocks) -> Blocks {
 }
 
 fn c_interface() -> (*const nw_model, nw_impact) {
-    let [v_n, v_t, d, t_p, omega] = impact(1);
-    (handle(MODEL), nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() })
+    (handle(MODEL), called(impact(1)))
 }
 
 #[library_benchmark]

@@ -63,7 +63,7 @@ class Deposit(ctypes.Structure):
     def __init__(self, wall=0):
         super().__init__()
         _check(_library.nw_deposit_init(byref(self)))
-        self.wall = wall
+        self.wall = _index("wall", wall, 32)
 
     def add(self, arrivals):
         """What arrived in a step; powder that melt buries becomes part of the melt, mass is kept."""
