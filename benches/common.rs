@@ -11,7 +11,7 @@ use libloading::Library;
 use nearwall::c_api::{nw_impact, nw_impacts, nw_model, nw_model_parse, nw_outcomes};
 use nearwall::model::block::{BLOCK, Block};
 use nearwall::normal::{Contact, yield_velocity};
-use nearwall::{Draw, Model, material};
+use nearwall::{ImpactRng, Model, material};
 
 /// Wax on Pyrex (Troiano et al.): Thornton–Ning, sliding and rolling, capture by melting.
 pub const MODEL: &str = r#"
@@ -70,7 +70,7 @@ pub fn levels() -> Vec<(&'static str, Level)> {
 
 /// `v_n`, `v_t` [m/s], `d` [m], `T_p` [K] and `omega` [rad/s] of an impact: all branches of the laws occur.
 pub fn impact(index: usize) -> [f64; 5] {
-    let even = |stream| Draw::new(SEED, index as u64).uniform(stream);
+    let even = |stream| ImpactRng::new(SEED, index as u64).uniform(stream);
     let spin = if even(14) < 0.5 { 0.0 } else { 2e4 * (even(15) - 0.5) };
     [0.05 + 3.0 * even(10), 3.0 * even(11), 1e-5 + 1e-4 * even(12), 320.0 + 80.0 * even(13), spin]
 }

@@ -15,7 +15,7 @@ use nearwall::c_api::{
 };
 use nearwall::model::block::{BLOCK, Outcomes};
 use nearwall::normal::Contact;
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 use nearwall_benches::*;
 use validation::oracle::normal_contact;
 
@@ -168,7 +168,9 @@ fn on_core() -> Duration {
 fn contact(criterion: &mut Criterion) {
     let (contact, [model, _], impact) = followed();
     let mut group = criterion.benchmark_group("contact");
-    group.bench_function("closed form", |b| b.iter(|| model.resolve(0, black_box(&impact), Draw::new(1, 2))));
+    group.bench_function("closed form", |b| {
+        b.iter(|| model.resolve(0, black_box(&impact), ImpactRng::new(1, 2)))
+    });
     for tolerance in [1e-4, 1e-6, 1e-9] {
         group.bench_function(BenchmarkId::new("followed", format!("{tolerance:e}")), |b| {
             b.iter(|| normal_contact::follow(black_box(&contact), tolerance));
@@ -259,7 +261,7 @@ fn errors() {
         println!("ratio;contact followed to {tolerance:e}: relative error of e_n;{error:.1e}");
     }
     for model in models {
-        let e_n = model.resolve(0, &impact, Draw::new(1, 2)).unwrap().normal_restitution;
+        let e_n = model.resolve(0, &impact, ImpactRng::new(1, 2)).unwrap().normal_restitution;
         println!("ratio;{}: relative error of e_n;{:.4}", model.normal_law().name(), e_n / limit - 1.0);
     }
 }

@@ -17,7 +17,7 @@
 #include <stdint.h>
 
 // Number of the binary interface; it changes when a struct, a function or a constant does.
-#define NW_ABI_VERSION 2
+#define NW_ABI_VERSION 1
 
 // Bit of `flags`: a property or a fitted term was used outside the range it is stated for.
 #define NW_OUTSIDE_VALID_RANGE 1
@@ -171,9 +171,9 @@ typedef struct nw_deposit {
   double conversion;
 } nw_deposit;
 
-// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_arrivals_init` gives.
-typedef struct nw_arrivals {
-  // `sizeof(nw_arrivals)`.
+// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_deposit_source_init` gives.
+typedef struct nw_deposit_source {
+  // `sizeof(nw_deposit_source)`.
   uint32_t struct_size;
   // How many were added.
   uint32_t count;
@@ -189,7 +189,7 @@ typedef struct nw_arrivals {
   double buried;
   // Mass times carbon conversion [kg/m2].
   double converted;
-} nw_arrivals;
+} nw_deposit_source;
 
 // Done.
 #define NW_OK 0
@@ -356,7 +356,7 @@ nw_status nw_deposit_init(struct nw_deposit *deposit);
 //
 // # Safety
 // `model` is a loaded model; `deposit` begins with its `struct_size`.
-nw_status nw_deposit_start(const struct nw_model *model,
+nw_status nw_deposit_initial(const struct nw_model *model,
                            double voidage,
                            struct nw_deposit *deposit);
 
@@ -364,7 +364,7 @@ nw_status nw_deposit_start(const struct nw_model *model,
 //
 // # Safety
 // `arrivals` can be written.
-nw_status nw_arrivals_init(struct nw_arrivals *arrivals);
+nw_status nw_deposit_source_init(struct nw_deposit_source *arrivals);
 
 // Adds a particle that stayed: `mass` of it per area of wall [kg/m2], with the particle's `density` [kg/m3]. It counts as
 // molten when it is sticky at the temperature of the wall, as powder otherwise. The order changes sums by rounding alone; arrivals of
@@ -372,24 +372,24 @@ nw_status nw_arrivals_init(struct nw_arrivals *arrivals);
 //
 // # Safety
 // `model` is a loaded model; `impact` and `arrivals` begin with their `struct_size`.
-nw_status nw_arrivals_add(const struct nw_model *model,
+nw_status nw_deposit_source_add(const struct nw_model *model,
                           const struct nw_impact *impact,
                           double mass,
                           double density,
-                          struct nw_arrivals *arrivals);
+                          struct nw_deposit_source *arrivals);
 
 // Adds the arrivals of a step to a deposit. Powder that melt buries becomes part of the melt; mass is kept.
 //
 // # Safety
 // `arrivals` and `deposit` begin with their `struct_size`.
-nw_status nw_deposit_add(const struct nw_arrivals *arrivals, struct nw_deposit *deposit);
+nw_status nw_deposit_add(const struct nw_deposit_source *arrivals, struct nw_deposit *deposit);
 
 // Tells an impact of the deposit that it meets: sets its `layer_thickness` (powder with a share `voidage` of voids),
 // `coverage` and `melt_thickness`. The wall is that of the impact.
 //
 // # Safety
 // `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
-nw_status nw_deposit_dress(const struct nw_model *model,
+nw_status nw_deposit_apply(const struct nw_model *model,
                            const struct nw_deposit *deposit,
                            double voidage,
                            struct nw_impact *impact);

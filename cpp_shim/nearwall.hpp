@@ -154,14 +154,14 @@ inline nw_deposit make_deposit(std::uint32_t wall) {
 }
 
 // What arrived on a piece of wall: nothing yet.
-inline nw_arrivals make_arrivals() {
-    nw_arrivals arrivals;
-    detail::check(nw_arrivals_init(&arrivals), std::string("nw_arrivals_init"));
+inline nw_deposit_source make_arrivals() {
+    nw_deposit_source arrivals;
+    detail::check(nw_deposit_source_init(&arrivals), std::string("nw_deposit_source_init"));
     return arrivals;
 }
 
 // Adds the arrivals of a step to a deposit; it is untouched on failure.
-inline nw_status add(const nw_arrivals& arrivals, nw_deposit& deposit) noexcept {
+inline nw_status add(const nw_deposit_source& arrivals, nw_deposit& deposit) noexcept {
     return nw_deposit_add(&arrivals, &deposit);
 }
 
@@ -230,21 +230,21 @@ public:
     }
 
     // What the model file says lies on a wall, where a memory begins; throws for a wall that is not there.
-    nw_deposit start_deposit(std::uint32_t wall, double voidage) const {
+    nw_deposit initial_deposit(std::uint32_t wall, double voidage) const {
         nw_deposit deposit = make_deposit(wall);
-        detail::check(nw_deposit_start(raw_, voidage, &deposit), std::string("nw_deposit_start"));
+        detail::check(nw_deposit_initial(raw_, voidage, &deposit), std::string("nw_deposit_initial"));
         return deposit;
     }
 
     // Tells an impact of the deposit that it meets, powder with a share `voidage` of voids; no exceptions.
-    nw_status dress(const nw_deposit& deposit, double voidage, nw_impact& impact) const noexcept {
-        return nw_deposit_dress(raw_, &deposit, voidage, &impact);
+    nw_status apply_deposit(const nw_deposit& deposit, double voidage, nw_impact& impact) const noexcept {
+        return nw_deposit_apply(raw_, &deposit, voidage, &impact);
     }
 
     // Adds a particle that stayed, `mass` of it per area [kg/m2] and its `density` [kg/m3]; no exceptions.
-    nw_status arrive(const nw_impact& impact, double mass, double density,
-                     nw_arrivals& arrivals) const noexcept {
-        return nw_arrivals_add(raw_, &impact, mass, density, &arrivals);
+    nw_status add_captured(const nw_impact& impact, double mass, double density,
+                     nw_deposit_source& arrivals) const noexcept {
+        return nw_deposit_source_add(raw_, &impact, mass, density, &arrivals);
     }
 
     // Mean speed [m/s] of a deposit's melt that runs down a wall of `T_w` [K]; no exceptions.

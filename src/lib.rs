@@ -5,7 +5,7 @@
 //! the wall. This crate decides it from physics:
 //!
 //! ```
-//! use nearwall::{Draw, Impact, Model};
+//! use nearwall::{ImpactRng, Impact, Model};
 //!
 //! let model = Model::from_toml("wax.toml", r#"
 //!     [particle]
@@ -20,7 +20,7 @@
 //!     e_t = 0.76
 //! "#)?;
 //! let impact = Impact { normal_speed: 1.0, tangential_speed: 0.5, diameter: 75e-6, ..Impact::default() };
-//! let outcome = model.resolve(0, &impact, Draw::new(1, 0))?;
+//! let outcome = model.resolve(0, &impact, ImpactRng::new(1, 0))?;
 //! assert!(!outcome.stuck && outcome.normal_restitution < 0.4);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -35,7 +35,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 #[cfg(feature = "command")]
-pub mod aside;
+pub mod atomic_file;
 pub mod c_api;
 pub mod capture;
 #[cfg(feature = "command")]
@@ -43,9 +43,7 @@ pub mod dataset;
 pub mod deposit;
 #[cfg(feature = "command")]
 pub mod diagnose;
-pub mod draw;
 pub mod effect;
-mod elementary;
 pub mod impact;
 pub mod input;
 pub mod material;
@@ -53,12 +51,14 @@ pub mod model;
 pub mod normal;
 #[cfg(feature = "command")]
 pub mod report;
+pub mod rng;
 #[cfg(feature = "command")]
 pub mod simulate;
 pub mod slag;
 pub mod tangential;
+mod vector_math;
 
-pub use draw::Draw;
 pub use impact::{Impact, ImpactError, Outcome, Regime, global_restitution};
 pub use input::InputError;
 pub use model::Model;
+pub use rng::ImpactRng;

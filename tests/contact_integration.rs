@@ -146,14 +146,14 @@ fn a_hertz_contact_has_hertz_duration_and_force() {
 /// Below yield nothing is lost but the work of parting, and both laws are JKR.
 #[test]
 fn elastic_impacts_agree() {
-    let elastic = |case: &Case| case.impact.speed < case.speeds(NormalLaw::RaisedPullOff).yielding;
+    let elastic = |case: &Case| case.impact.speed < case.speeds(NormalLaw::PlasticJkr).yielding;
     let cases: Vec<Case> = golden().into_iter().filter(elastic).collect();
     println!("{} elastic impacts", cases.len());
     assert!(cases.len() > 100);
     for case in cases {
         let followed = case.bounce();
         assert!(followed.plastic_loss.abs() < ALLOWED && followed.flattening == 1.0);
-        for law in [NormalLaw::ThorntonNing, NormalLaw::RaisedPullOff] {
+        for law in [NormalLaw::ThorntonNing, NormalLaw::PlasticJkr] {
             assert!((case.followed() - case.law(law)).abs() < ALLOWED, "{:?}", case.impact);
         }
     }
@@ -169,7 +169,7 @@ fn impacts_without_adhesion_agree() {
             let fast = dry.at(times * yielding);
             let followed = fast.followed();
             assert!((followed - plastic_term(1.0 / times).sqrt()).abs() < ALLOWED, "{times} v_y");
-            assert!((followed - fast.law(NormalLaw::RaisedPullOff)).abs() < ALLOWED, "{times} v_y");
+            assert!((followed - fast.law(NormalLaw::PlasticJkr)).abs() < ALLOWED, "{times} v_y");
         }
     }
 }
@@ -179,8 +179,8 @@ fn impacts_without_adhesion_agree() {
 fn the_raised_law_is_the_followed_contact() {
     let [mut worst, mut curvature] = [0f64; 2];
     for case in golden() {
-        worst = worst.max((case.followed() - case.law(NormalLaw::RaisedPullOff)).abs());
-        let sticking = case.speeds(NormalLaw::RaisedPullOff).sticking;
+        worst = worst.max((case.followed() - case.law(NormalLaw::PlasticJkr)).abs());
+        let sticking = case.speeds(NormalLaw::PlasticJkr).sticking;
         assert_eq!(case.at(sticking * (1.0 - 1e-6)).followed(), 0.0, "{:?}", case.impact);
         assert!(case.at(sticking * (1.0 + 1e-6)).followed() > 0.0, "{:?}", case.impact);
         curvature = curvature.max(case.bounce().flattening);
@@ -230,7 +230,7 @@ struct Row {
 
 impl Row {
     fn of(case: &Case) -> Self {
-        let laws = [NormalLaw::ThorntonNing, NormalLaw::RaisedPullOff];
+        let laws = [NormalLaw::ThorntonNing, NormalLaw::PlasticJkr];
         let [plain, raised] = laws.map(|law| case.law(law));
         Self { e_n: [plain, raised, case.followed()], sticking: laws.map(|law| case.speeds(law).sticking) }
     }
@@ -245,7 +245,7 @@ fn print_plane() {
         let factor = f64::powf(adhesiveness / base.adhesiveness(), 6.0 / 5.0);
         let work_of_adhesion = base.impact.work_of_adhesion * factor;
         let case = Case { impact: Impact { work_of_adhesion, ..base.impact } };
-        let [plain, raised] = [NormalLaw::ThorntonNing, NormalLaw::RaisedPullOff].map(|law| case.speeds(law));
+        let [plain, raised] = [NormalLaw::ThorntonNing, NormalLaw::PlasticJkr].map(|law| case.speeds(law));
         print!("v_adh/v_y {adhesiveness:6} v_s raised/plain {:6.3} ", raised.sticking / plain.sticking);
         for times in times {
             let fast = case.at(times * plain.sticking.max(plain.yielding));
@@ -261,7 +261,7 @@ fn print_plane() {
 fn ammonium_fluorescein_sticks_as_published() {
     let case = fluorescein();
     let [plain, raised] =
-        [NormalLaw::ThorntonNing, NormalLaw::RaisedPullOff].map(|law| case.speeds(law).sticking);
+        [NormalLaw::ThorntonNing, NormalLaw::PlasticJkr].map(|law| case.speeds(law).sticking);
     let (mut held, mut free) = (plain, 10.0 * plain);
     while free - held > 1e-9 * free {
         let middle = 0.5 * (held + free);
@@ -281,7 +281,7 @@ fn ammonium_fluorescein_sticks_as_published() {
 fn wax_on_pyrex_sticks_too_much_by_the_raised_law() {
     for wall in ["pyrex", "montan-wax"] {
         let case = wax_on(wall);
-        let [plain, raised] = [NormalLaw::ThorntonNing, NormalLaw::RaisedPullOff];
+        let [plain, raised] = [NormalLaw::ThorntonNing, NormalLaw::PlasticJkr];
         print!(
             "wax on {wall}: v_adh/v_y {:.1}, v_s plain {:.3}, raised {:.3} m/s; e_n plain/raised/followed",
             case.adhesiveness(),
@@ -295,7 +295,7 @@ fn wax_on_pyrex_sticks_too_much_by_the_raised_law() {
         println!();
         assert!(case.speeds(raised).sticking >= case.speeds(plain).sticking);
     }
-    assert!(wax_on("pyrex").speeds(NormalLaw::RaisedPullOff).sticking > 0.5);
+    assert!(wax_on("pyrex").speeds(NormalLaw::PlasticJkr).sticking > 0.5);
 }
 
 fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {

@@ -8,7 +8,7 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use common::browser::{Seen, browse};
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 use serde_json::Value;
 
 const WAX: &str = r#"
@@ -50,7 +50,7 @@ fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
 }
 
 /// About normal with mean 0 and deviation 1: the sum of twelve even draws.
-fn noise(draw: Draw, first: u64) -> f64 {
+fn noise(draw: ImpactRng, first: u64) -> f64 {
     (first..first + 12).map(|stream| draw.uniform(stream)).sum::<f64>() - 6.0
 }
 
@@ -59,7 +59,7 @@ fn measured(rows: u64, planted: impl Fn(f64, &str) -> f64) -> String {
     let model = Model::from_toml("wax.toml", WAX).unwrap();
     let mut text = "v_n,v_t,d,layer_thickness,plate,e_n,e_t\n".to_owned();
     for key in 0..rows {
-        let draw = Draw::new(11, key);
+        let draw = ImpactRng::new(11, key);
         let layer_thickness = if key % 5 == 0 { 0.0 } else { 8e-4 * draw.uniform(103) };
         let plate = ["dry", "old, worn", "wet"][(3.0 * draw.uniform(104)) as usize];
         let impact = Impact {

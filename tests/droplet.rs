@@ -1,7 +1,7 @@
 //! `[capture] model = "droplet"` through the one door: what two papers saw of molten particles, and the file's errors.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
-use nearwall::{Draw, Impact, ImpactError, Model, Regime};
+use nearwall::{Impact, ImpactError, ImpactRng, Model, Regime};
 
 fn text(particle: &str, wall: &str, more: &str) -> String {
     format!(
@@ -37,7 +37,7 @@ fn molten_wax_is_captured_at_every_speed_and_angle() {
                 tangential_speed: (speed * cosine).max(0.0),
                 ..wax_at(speed * sine, 120.0)
             };
-            let outcome = model.resolve(0, &impact, Draw::new(1, 0)).unwrap();
+            let outcome = model.resolve(0, &impact, ImpactRng::new(1, 0)).unwrap();
             assert!(outcome.sticking_probability > 0.85, "{outcome:?} at {speed} m/s, {angle}°");
             assert_eq!((outcome.normal_restitution, outcome.regime), (0.0, Regime::SpNsw));
         }
@@ -58,7 +58,7 @@ fn molten_molybdenum_sticks_thirteen_times_of_thirteen() {
             wall_temperature: 1000.0,
             ..Impact::default()
         };
-        assert!(model.resolve(0, &impact, Draw::new(1, u64::from(number))).unwrap().stuck, "{impact:?}");
+        assert!(model.resolve(0, &impact, ImpactRng::new(1, u64::from(number))).unwrap().stuck, "{impact:?}");
     }
 }
 
@@ -73,7 +73,7 @@ fn molten_tungsten_can_be_resolved() {
             wall_temperature: 1000.0,
             ..Impact::default()
         };
-        model.resolve(0, &impact, Draw::default()).unwrap()
+        model.resolve(0, &impact, ImpactRng::default()).unwrap()
     };
     assert_eq!((at(3695.0).regime, at(3700.0).regime), (Regime::NspNsw, Regime::SpNsw));
     assert!(!at(3695.0).outside_range && at(3700.0).outside_range, "a melt has no yield strength");
@@ -89,7 +89,7 @@ fn solid_particles_are_not_touched() {
             .unwrap();
     for (speed, celsius) in [(0.05, 20.0), (1.0, 20.0), (300.0, 20.0), (2.0, 79.9)] {
         let impact = wax_at(speed, celsius);
-        let resolve = |model: &Model| model.resolve(0, &impact, Draw::new(7, 7)).unwrap();
+        let resolve = |model: &Model| model.resolve(0, &impact, ImpactRng::new(7, 7)).unwrap();
         assert_eq!(resolve(&with), resolve(&without), "{impact:?}");
     }
 }
@@ -98,7 +98,8 @@ fn solid_particles_are_not_touched() {
 fn fast_droplets_splash_and_leave() {
     // K = 57.7 is 11.1 m/s: K goes with v^1.25.
     let captured = |more: &str, speed: f64| {
-        let outcome = model("montan-wax", "pyrex", more).resolve(0, &wax_at(speed, 120.0), Draw::default());
+        let outcome =
+            model("montan-wax", "pyrex", more).resolve(0, &wax_at(speed, 120.0), ImpactRng::default());
         outcome.unwrap().sticking_probability
     };
     assert_eq!(captured("", 11.0), 1.0);
@@ -120,7 +121,7 @@ fn fast_droplets_splash_and_leave() {
 fn the_walk_names_the_droplet() {
     let model = model("montan-wax", "pyrex", "");
     assert!(model.describe().iter().any(|(_, text)| text == "also by droplet, splash_K 57.7"));
-    let (_, shares) = model.explain(0, &wax_at(5.0, 120.0), Draw::default()).unwrap();
+    let (_, shares) = model.explain(0, &wax_at(5.0, 120.0), ImpactRng::default()).unwrap();
     assert!(shares.iter().any(|share| share.term == "droplet" && share.value == 1.0));
 }
 
@@ -128,7 +129,7 @@ fn the_walk_names_the_droplet() {
 fn a_melt_that_is_not_known_is_an_error() {
     let model = model("montan-wax", "pyrex", "");
     assert_eq!(model.temperature_ranges(0).unwrap().particle, [0.0, 403.15]);
-    let hot = model.resolve(0, &wax_at(1.0, 140.0), Draw::default());
+    let hot = model.resolve(0, &wax_at(1.0, 140.0), ImpactRng::default());
     assert!(matches!(hot, Err(ImpactError::OutOfRange { property: "viscosity", .. })), "{hot:?}");
 }
 

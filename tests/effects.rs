@@ -7,9 +7,9 @@ use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use common::random::{HOSTILE, hostile_cases, random_cases, seed};
-use nearwall::effect::{KINDS, Kind, Parameter, Search};
+use nearwall::effect::{EFFECTS, EffectInfo, Parameter, Search};
 use nearwall::impact::INPUTS;
-use nearwall::{Draw, Impact, Model, Outcome};
+use nearwall::{Impact, ImpactRng, Model, Outcome};
 
 const IDS: [&str; 17] = [
     "yield-ratio",
@@ -45,7 +45,7 @@ friction = 0.28
 "#;
 
 /// The `[[effects]]` table of a kind.
-fn table(kind: &Kind, values: &[f64]) -> String {
+fn table(kind: &EffectInfo, values: &[f64]) -> String {
     let lines = kind.parameters.iter().zip(values).map(|(p, value)| format!("{} = {value:e}\n", p.name));
     format!("[[effects]]\nkind = \"{}\"\n{}", kind.id, lines.collect::<String>())
 }
@@ -59,22 +59,22 @@ fn typical(parameter: &Parameter) -> f64 {
     match parameter.search {
         Search::Linear(low, high) => 0.5 * (low + high),
         Search::Log(low, high) => (low * high).sqrt(),
-        Search::Over("T_p") => 300.0,
-        Search::Across("T_p") => 50.0,
-        Search::Over("v_n") => 1.0,
-        Search::Over("d") | Search::Across("layer_thickness") => 1e-4,
-        Search::Over("conversion") => 0.9,
-        Search::Across("conversion") => 0.05,
+        Search::InputRange("T_p") => 300.0,
+        Search::InputWidth("T_p") => 50.0,
+        Search::InputRange("v_n") => 1.0,
+        Search::InputRange("d") | Search::InputWidth("layer_thickness") => 1e-4,
+        Search::InputRange("conversion") => 0.9,
+        Search::InputWidth("conversion") => 0.05,
         other => unreachable!("{other:?}"),
     }
 }
 
-fn typicals(kind: &Kind) -> Vec<f64> {
+fn typicals(kind: &EffectInfo) -> Vec<f64> {
     kind.parameters.iter().map(typical).collect()
 }
 
 /// Every combination of the smallest and the largest value of each parameter.
-fn corners(kind: &Kind) -> Vec<Vec<f64>> {
+fn corners(kind: &EffectInfo) -> Vec<Vec<f64>> {
     kind.parameters.iter().fold(vec![Vec::new()], |corners, parameter| {
         let (low, high) = parameter.bounds;
         let with = |corner: &Vec<f64>, value| [corner.as_slice(), &[value]].concat();
@@ -96,7 +96,7 @@ fn rows(document: &str) -> Vec<(String, String)> {
 
 #[test]
 fn the_documents_list_the_effects_in_order() {
-    assert_eq!(KINDS.map(|kind| kind.id), IDS);
+    assert_eq!(EFFECTS.map(|kind| kind.id), IDS);
     for document in ["physics.md", "model-file.md"] {
         let listed: Vec<String> = rows(document).into_iter().map(|(id, _)| id).collect();
         assert_eq!(listed, IDS, "docs/{document}");
@@ -105,7 +105,7 @@ fn the_documents_list_the_effects_in_order() {
 
 #[test]
 fn the_model_file_document_has_every_parameter_with_its_unit() {
-    for (kind, (_, row)) in KINDS.iter().zip(rows("model-file.md")) {
+    for (kind, (_, row)) in EFFECTS.iter().zip(rows("model-file.md")) {
         let cell = row.split('|').nth(1).unwrap().trim();
         let parameters = kind.parameters.iter().map(|p| format!("`{}` [{}]", p.name, p.unit));
         let parameters = parameters.collect::<Vec<_>>().join(", ");
@@ -116,7 +116,7 @@ fn the_model_file_document_has_every_parameter_with_its_unit() {
 #[test]
 fn searches_lie_in_bounds_and_inputs_are_known() {
     let known = |name: &str| INPUTS.iter().any(|input| input.name == name);
-    for kind in KINDS {
+    for kind in EFFECTS {
         assert!(kind.inputs.iter().all(|name| known(name)), "{}", kind.id);
         for Parameter { name, bounds: (lowest, highest), search, .. } in kind.parameters {
             let inside = match *search {
@@ -124,7 +124,9 @@ fn searches_lie_in_bounds_and_inputs_are_known() {
                 Search::Log(low, high) => {
                     lowest.max(0.0) <= low && 0.0 < low && low < high && &high <= highest
                 }
-                Search::Over(input) | Search::Across(input) => known(input) && kind.inputs.contains(&input),
+                Search::InputRange(input) | Search::InputWidth(input) => {
+                    known(input) && kind.inputs.contains(&input)
+                }
             };
             assert!(inside && lowest < highest, "{} {name}", kind.id);
         }
@@ -133,11 +135,11 @@ fn searches_lie_in_bounds_and_inputs_are_known() {
 
 #[test]
 fn streams_are_distinct_and_each_effect_draws_from_its_own() {
-    let all: Vec<u64> = KINDS.iter().filter_map(|kind| kind.stream).collect();
+    let all: Vec<u64> = EFFECTS.iter().filter_map(|kind| kind.stream).collect();
     assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
     assert!(!all.contains(&0), "capture's");
     let impact = Impact { normal_speed: 2.0, tangential_speed: 1.0, ..Impact::default() };
-    for kind in KINDS {
+    for kind in EFFECTS {
         let drawn = RefCell::new(BTreeSet::new());
         let uniform = |stream| {
             drawn.borrow_mut().insert(stream);
@@ -151,7 +153,7 @@ fn streams_are_distinct_and_each_effect_draws_from_its_own() {
 
 #[test]
 fn a_model_file_reaches_every_effect_and_refuses_what_does_not_fit() {
-    for kind in KINDS {
+    for kind in EFFECTS {
         let values = typicals(kind);
         let plain = model(&table(kind, &values));
         assert_eq!(plain.terms()[0].kind().id, kind.id);
@@ -193,13 +195,13 @@ fn assert_finite(outcome: &Outcome, what: &dyn std::fmt::Debug) {
 fn hostile_impacts_have_a_finite_restitution() {
     let cases: Vec<_> = hostile_cases().into_iter().filter(|case| case.1.check().is_ok()).collect();
     assert!(cases.len() > 1000);
-    let every = |pick: fn(&Kind) -> Vec<f64>| KINDS.map(|kind| table(kind, &pick(kind))).concat();
+    let every = |pick: fn(&EffectInfo) -> Vec<f64>| EFFECTS.map(|kind| table(kind, &pick(kind))).concat();
     let mut effects = vec![
         every(typicals),
         every(|kind| kind.parameters.iter().map(|parameter| parameter.bounds.0).collect()),
         every(|kind| kind.parameters.iter().map(|parameter| parameter.bounds.1).collect()),
     ];
-    for kind in KINDS {
+    for kind in EFFECTS {
         effects.extend(corners(kind).iter().map(|corner| table(kind, corner)));
     }
     for effects in effects {
@@ -221,7 +223,7 @@ fn hostile_impacts_have_a_finite_restitution() {
 #[test]
 fn chance_counts_for_effects_with_streams_and_for_no_others() {
     let cases = random_cases(seed(), 200);
-    for kind in KINDS {
+    for kind in EFFECTS {
         let model = model(&table(kind, &typicals(kind)));
         let numbers = |impact: &Impact, chance: f64| {
             let outcome = model.resolve_with(0, impact, |_| chance).unwrap();
@@ -251,7 +253,7 @@ fn neutral_parameters_change_nothing() {
     ];
     let plain = model("");
     for (id, values) in neutral {
-        let kind = KINDS.into_iter().find(|kind| kind.id == id).unwrap();
+        let kind = EFFECTS.into_iter().find(|kind| kind.id == id).unwrap();
         let with = model(&table(kind, values));
         for (_, impact, draw) in random_cases(seed(), 200) {
             assert_eq!(with.resolve(0, &impact, draw), plain.resolve(0, &impact, draw), "{id} {impact:?}");
@@ -270,7 +272,7 @@ fn a_rough_mirror_keeps_the_energy() {
     let mut steeper = 0;
     for key in 0..1000 {
         let impact = Impact { normal_speed: 0.5, tangential_speed: 3.0, ..Impact::default() };
-        let outcome = rough.resolve(0, &impact, Draw::new(1, key)).unwrap();
+        let outcome = rough.resolve(0, &impact, ImpactRng::new(1, key)).unwrap();
         let energy =
             (0.5 * outcome.normal_restitution).powi(2) + (3.0 * outcome.tangential_restitution).powi(2);
         assert!((energy - 9.25).abs() < 1e-9, "{outcome:?}");
@@ -286,7 +288,7 @@ fn stickiness_takes_its_share_after_the_effects() {
     let melting = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 293.15\nwidth = 10\n";
     let impact = Impact { normal_speed: 1.0, ..Impact::default() };
     for effects in [format!("{agglomerates}{melting}"), format!("{melting}{agglomerates}")] {
-        let outcome = model(&effects).resolve(0, &impact, Draw::default()).unwrap();
+        let outcome = model(&effects).resolve(0, &impact, ImpactRng::default()).unwrap();
         assert!((outcome.normal_restitution - 0.4).abs() < 1e-12, "{outcome:?}");
     }
 }

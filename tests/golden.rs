@@ -4,7 +4,7 @@ mod common;
 
 use common::golden::{Golden, golden_cases};
 use nearwall::normal::{Contact, NormalLaw, reduced_modulus, restitution};
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 
 /// Relative error 1e-11 (the restitution near its zero: 1e-9 absolute).
 fn agree(name: &str, row: usize, ours: f64, golden: f64, absolute: f64) {
@@ -29,7 +29,7 @@ fn the_laws_agree() {
 fn the_model_agrees() {
     for (row, case) in golden_cases().iter().enumerate() {
         let model = Model::from_toml("golden", &case.model()).unwrap();
-        let outcome = model.resolve(0, &case.impact(), Draw::default()).unwrap();
+        let outcome = model.resolve(0, &case.impact(), ImpactRng::default()).unwrap();
         agree("e_n", row, outcome.normal_restitution, case.e_n, 1e-9);
         assert_eq!(outcome.stuck, case.v_n <= case.v_stick, "case {row}");
     }

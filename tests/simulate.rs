@@ -8,7 +8,7 @@ use std::process::Command;
 
 use nalgebra::{Complex, Vector3};
 use nearwall::simulate::{
-    Body, Burning, Case, Fate, ImpactRecorder, Life, Motion, Run, fly, position, run, state, velocity,
+    Body, Burning, Case, Fate, ImpactRecorder, Motion, Run, Trajectory, fly, position, run, state, velocity,
 };
 
 /// A model with constant restitution, whose stickiness is a known number at each temperature.
@@ -47,7 +47,7 @@ fn case(text: &str) -> Case {
     Case::from_toml("case.toml", text, Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn lives(case: &mut Case) -> (Vec<Life>, Vec<Run>) {
+fn lives(case: &mut Case) -> (Vec<Trajectory>, Vec<Run>) {
     let mut lives = Vec::new();
     let runs = run::<String>(case, |_, _, _, life| {
         lives.push(life.clone());
@@ -351,7 +351,7 @@ fn the_wax_rig_meets_the_paper() {
         assert_eq!(hits, 600);
         assert!((share - capture).abs() < 4.0 * deviation + 0.002, "{share} against {capture}");
     }
-    let first = |life: &Life| life.hits[0].impact.speed();
+    let first = |life: &Trajectory| life.hits[0].impact.speed();
     let speed = lives[..600].iter().map(first).sum::<f64>() / 600.0;
     assert!((speed - 2.0).abs() < 0.05, "{speed} m/s");
     let e_n = runs[0].tally.walls[0].e_n.mean;

@@ -23,7 +23,7 @@ module nearwall
   public
 
   ! NW_ABI_VERSION of nearwall.h: Fortran cannot tell that name from the function's
-  integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 2
+  integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 1
   ! A status
   integer(c_int32_t), parameter :: NW_OK = 0, NW_NULL_POINTER = 1, NW_STRUCT_SIZE = 2, NW_NOT_UTF8 = 3, NW_FILE = 4
   integer(c_int32_t), parameter :: NW_MODEL = 5, NW_UNKNOWN_WALL = 6, NW_BAD_STATE = 7, NW_OUT_OF_RANGE = 8, NW_PANIC = 9
@@ -68,10 +68,10 @@ module nearwall
     real(c_double) :: molten, powder, solid, cover, conversion
   end type nw_deposit
 
-  type, bind(c) :: nw_arrivals
+  type, bind(c) :: nw_deposit_source
     integer(c_int32_t) :: struct_size, count
     real(c_double) :: molten, powder, solid, cover, buried, converted
-  end type nw_arrivals
+  end type nw_deposit_source
 
   interface
     function nw_abi_version() bind(c)
@@ -180,44 +180,44 @@ module nearwall
       integer(c_int32_t) :: nw_deposit_init
     end function nw_deposit_init
 
-    function nw_deposit_start(model, voidage, deposit) bind(c)
+    function nw_deposit_initial(model, voidage, deposit) bind(c)
       import
       type(c_ptr), value :: model
       real(c_double), value :: voidage
       type(nw_deposit), intent(inout) :: deposit
-      integer(c_int32_t) :: nw_deposit_start
-    end function nw_deposit_start
+      integer(c_int32_t) :: nw_deposit_initial
+    end function nw_deposit_initial
 
-    function nw_arrivals_init(arrivals) bind(c)
+    function nw_deposit_source_init(arrivals) bind(c)
       import
-      type(nw_arrivals), intent(inout) :: arrivals
-      integer(c_int32_t) :: nw_arrivals_init
-    end function nw_arrivals_init
+      type(nw_deposit_source), intent(inout) :: arrivals
+      integer(c_int32_t) :: nw_deposit_source_init
+    end function nw_deposit_source_init
 
-    function nw_arrivals_add(model, impact, mass, density, arrivals) bind(c)
+    function nw_deposit_source_add(model, impact, mass, density, arrivals) bind(c)
       import
       type(c_ptr), value :: model
       type(nw_impact), intent(in) :: impact
       real(c_double), value :: mass, density
-      type(nw_arrivals), intent(inout) :: arrivals
-      integer(c_int32_t) :: nw_arrivals_add
-    end function nw_arrivals_add
+      type(nw_deposit_source), intent(inout) :: arrivals
+      integer(c_int32_t) :: nw_deposit_source_add
+    end function nw_deposit_source_add
 
     function nw_deposit_add(arrivals, deposit) bind(c)
       import
-      type(nw_arrivals), intent(in) :: arrivals
+      type(nw_deposit_source), intent(in) :: arrivals
       type(nw_deposit), intent(inout) :: deposit
       integer(c_int32_t) :: nw_deposit_add
     end function nw_deposit_add
 
-    function nw_deposit_dress(model, deposit, voidage, impact) bind(c)
+    function nw_deposit_apply(model, deposit, voidage, impact) bind(c)
       import
       type(c_ptr), value :: model
       type(nw_deposit), intent(in) :: deposit
       real(c_double), value :: voidage
       type(nw_impact), intent(inout) :: impact
-      integer(c_int32_t) :: nw_deposit_dress
-    end function nw_deposit_dress
+      integer(c_int32_t) :: nw_deposit_apply
+    end function nw_deposit_apply
 
     function nw_film_velocity(model, deposit, T_w, gravity_along, velocity) bind(c)
       import

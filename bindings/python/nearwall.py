@@ -6,7 +6,7 @@
     out.e_n, out.e_t, out.p_stick, out.stuck        # arrays
 
 The library is the one that NEARWALL_LIBRARY names, else the installed one beside this file, else whatever the loader
-finds as libnearwall.so.2. A model never changes and may be used by many threads; calls release the interpreter lock.
+finds as libnearwall.so.1. A model never changes and may be used by many threads; calls release the interpreter lock.
 Licence: MIT OR Apache-2.0.
 """
 
@@ -17,7 +17,7 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint
 
 import numpy
 
-ABI_VERSION = 2
+ABI_VERSION = 1
 OK = 0
 REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")  # what the numbers in `Outcomes.regime` stand for
 OUTSIDE_VALID_RANGE = 1  # bit of `Outcomes.flags`
@@ -70,19 +70,19 @@ class Deposit(ctypes.Structure):
         _check(_library.nw_deposit_add(byref(arrivals), byref(self)))
 
 
-class Arrivals(ctypes.Structure):
-    """What arrived on a piece of wall in a step and stayed, summed, per area of it; nothing at first (`Model.arrive` adds)."""
+class DepositSource(ctypes.Structure):
+    """What arrived on a piece of wall in a step and stayed, summed, per area of it; nothing at first (`Model.add_captured` adds)."""
     _fields_ = ([("struct_size", c_uint32), ("count", c_uint32)]
                 + [(name, c_double) for name in ("molten", "powder", "solid", "cover", "buried", "converted")])
 
     def __init__(self):
         super().__init__()
-        _check(_library.nw_arrivals_init(byref(self)))
+        _check(_library.nw_deposit_source_init(byref(self)))
 
 
 # The structs of nearwall.h that this module knows.
 STRUCTS = {"nw_impact": _Impact, "nw_impacts": _Impacts, "nw_outcomes": _Outcomes, "nw_deposit": Deposit,
-           "nw_arrivals": Arrivals}
+           "nw_deposit_source": DepositSource}
 
 
 def _load():
@@ -104,11 +104,11 @@ def _load():
         "nw_temperature_ranges": [c_void_p, c_uint32] + 4 * doubles,
         "nw_resolve_batch": [c_void_p, POINTER(_Impacts), POINTER(_Outcomes), POINTER(c_size_t)],
         "nw_deposit_init": [POINTER(Deposit)],
-        "nw_deposit_start": [c_void_p, c_double, POINTER(Deposit)],
-        "nw_arrivals_init": [POINTER(Arrivals)],
-        "nw_arrivals_add": [c_void_p, POINTER(_Impact), c_double, c_double, POINTER(Arrivals)],
-        "nw_deposit_add": [POINTER(Arrivals), POINTER(Deposit)],
-        "nw_deposit_dress": [c_void_p, POINTER(Deposit), c_double, POINTER(_Impact)],
+        "nw_deposit_initial": [c_void_p, c_double, POINTER(Deposit)],
+        "nw_deposit_source_init": [POINTER(DepositSource)],
+        "nw_deposit_source_add": [c_void_p, POINTER(_Impact), c_double, c_double, POINTER(DepositSource)],
+        "nw_deposit_add": [POINTER(DepositSource), POINTER(Deposit)],
+        "nw_deposit_apply": [c_void_p, POINTER(Deposit), c_double, POINTER(_Impact)],
         "nw_film_velocity": [c_void_p, POINTER(Deposit), c_double, c_double] + doubles,
     }.items():
         function = getattr(library, name)
@@ -237,24 +237,24 @@ class Model:
         _check(_library.nw_temperature_ranges(self._handle, _index("wall", wall, 32), *map(byref, found)))
         return TemperatureRanges(*(number.value for number in found))
 
-    def start_deposit(self, wall, voidage):
+    def initial_deposit(self, wall, voidage):
         """What the model file says lies on a wall, with a share `voidage` of voids in the powder: where a memory begins."""
         deposit = Deposit(wall)
-        _check(_library.nw_deposit_start(self._handle, voidage, byref(deposit)))
+        _check(_library.nw_deposit_initial(self._handle, voidage, byref(deposit)))
         return deposit
 
-    def dress(self, deposit, voidage, T_w):
-        """The arguments of `resolve` that tell impacts of the deposit on its wall of T_w [K]: resolve(..., **dress(...))."""
+    def apply_deposit(self, deposit, voidage, T_w):
+        """The arguments of `resolve` that tell impacts of the deposit on its wall of T_w [K]: resolve(..., **apply_deposit(...))."""
         impact = _impact(deposit.wall, {"T_w": T_w})
-        _check(_library.nw_deposit_dress(self._handle, byref(deposit), voidage, byref(impact)))
+        _check(_library.nw_deposit_apply(self._handle, byref(deposit), voidage, byref(impact)))
         names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
         return {name: getattr(impact, name) for name in names}
 
-    def arrive(self, arrivals, mass, density, T_w, wall=0, **inputs):
+    def add_captured(self, arrivals, mass, density, T_w, wall=0, **inputs):
         """Adds a particle that stayed on a wall of T_w [K], which decides whether as melt: `mass` of it per area [kg/m2],
         `density` [kg/m3]; inputs are numbers as in `resolve`."""
         impact = _impact(wall, {"T_w": T_w, **inputs})
-        _check(_library.nw_arrivals_add(self._handle, byref(impact), mass, density, byref(arrivals)))
+        _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(arrivals)))
 
     def film_velocity(self, deposit, T_w, gravity_along):
         """Mean speed [m/s] of a deposit's melt that runs down a wall of T_w [K]; gravity along the wall in m/s2."""

@@ -9,7 +9,7 @@ mod random;
 
 use golden::golden_cases;
 use nearwall::c_api::{nw_impact, nw_impacts, nw_outcome, nw_outcomes};
-use nearwall::{Draw, Impact as RustImpact, Model, Outcome as RustOutcome};
+use nearwall::{Impact as RustImpact, ImpactRng, Model, Outcome as RustOutcome};
 use nearwall_cpp_shim::{Impact, Impacts, Outcome, Outcomes, ffi};
 use random::{Case, EVERY_REGIME, hostile_cases, random_cases, seed};
 
@@ -65,9 +65,9 @@ fn golden_cases_have_the_same_bits() {
     for (row, case) in golden_cases().iter().enumerate() {
         let (cpp, rust) = both(&case.model());
         let impact = RustImpact { normal_speed: case.v_n, diameter: case.d, ..RustImpact::default() };
-        let case = (0, impact, Draw::default());
+        let case = (0, impact, ImpactRng::default());
         let ours = ffi::resolve(&cpp, &cpp_impact(&case)).unwrap();
-        let theirs = rust.resolve(0, &impact, Draw::default()).unwrap();
+        let theirs = rust.resolve(0, &impact, ImpactRng::default()).unwrap();
         assert_eq!(cpp_bits(&ours.0), rust_bits(&theirs), "case {row}");
         let speeds = rust.speeds(0, &impact).unwrap();
         let [adhesive, yielding, sticking] = ffi::speeds(&cpp, &cpp_impact(&case)).unwrap();

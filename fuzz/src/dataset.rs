@@ -1,7 +1,7 @@
 //! A data file with its column map: the map, a zero, the file.
 
 use nearwall::dataset::{ColumnMap, ImpactReader, Measurements, WallChoice};
-use nearwall::{Draw, Model};
+use nearwall::{ImpactRng, Model};
 
 use super::place;
 
@@ -55,7 +55,7 @@ fn planned(model: &Model, file: &[u8]) {
             Ok(row) => {
                 assert_eq!(row.cells.len(), columns);
                 row.impact.check().expect("a row that can be used");
-                model.resolve(0, &row.impact, Draw::default()).expect("constant properties");
+                model.resolve(0, &row.impact, ImpactRng::default()).expect("constant properties");
                 row.line
             }
             Err(bad) => bad.line,

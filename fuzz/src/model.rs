@@ -1,6 +1,6 @@
 //! A model file.
 
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 
 use super::bytes::file;
 use super::place;
@@ -62,7 +62,7 @@ fn impacts() -> [Impact; 8] {
 fn decides(model: &Model, again: &Model) {
     for wall in 0..=model.walls().len().min(3) {
         for (key, impact) in impacts().iter().enumerate() {
-            let draw = Draw::new(7, key as u64);
+            let draw = ImpactRng::new(7, key as u64);
             let checked = model.check(wall, impact);
             let found = model.resolve(wall, impact, draw);
             assert_eq!(checked.is_ok(), found.is_ok(), "check {checked:?}, resolve {found:?}");

@@ -36,11 +36,11 @@ void* handle = nullptr;
     APPLY(nw_outcome_init)                                                     \
     APPLY(nw_temperature_ranges)                                               \
     APPLY(nw_deposit_init)                                                     \
-    APPLY(nw_deposit_start)                                                    \
-    APPLY(nw_arrivals_init)                                                    \
-    APPLY(nw_arrivals_add)                                                     \
+    APPLY(nw_deposit_initial)                                                    \
+    APPLY(nw_deposit_source_init)                                                    \
+    APPLY(nw_deposit_source_add)                                                     \
     APPLY(nw_deposit_add)                                                      \
-    APPLY(nw_deposit_dress)                                                    \
+    APPLY(nw_deposit_apply)                                                    \
     APPLY(nw_film_velocity)                                                    \
     APPLY(nw_resolve)
 
@@ -183,43 +183,43 @@ HIDDEN nw_status nw_deposit_init(nw_deposit* deposit)
     return real_nw_deposit_init(deposit);
 }
 
-HIDDEN nw_status nw_deposit_start
+HIDDEN nw_status nw_deposit_initial
 (
     const nw_model* model, double voidage, nw_deposit* deposit
 )
 {
-    return real_nw_deposit_start(model, voidage, deposit);
+    return real_nw_deposit_initial(model, voidage, deposit);
 }
 
-HIDDEN nw_status nw_arrivals_init(nw_arrivals* arrivals)
+HIDDEN nw_status nw_deposit_source_init(nw_deposit_source* arrivals)
 {
-    return real_nw_arrivals_init(arrivals);
+    return real_nw_deposit_source_init(arrivals);
 }
 
-HIDDEN nw_status nw_arrivals_add
+HIDDEN nw_status nw_deposit_source_add
 (
     const nw_model* model, const nw_impact* impact,
-    double mass, double density, nw_arrivals* arrivals
+    double mass, double density, nw_deposit_source* arrivals
 )
 {
-    return real_nw_arrivals_add(model, impact, mass, density, arrivals);
+    return real_nw_deposit_source_add(model, impact, mass, density, arrivals);
 }
 
 HIDDEN nw_status nw_deposit_add
 (
-    const nw_arrivals* arrivals, nw_deposit* deposit
+    const nw_deposit_source* arrivals, nw_deposit* deposit
 )
 {
     return real_nw_deposit_add(arrivals, deposit);
 }
 
-HIDDEN nw_status nw_deposit_dress
+HIDDEN nw_status nw_deposit_apply
 (
     const nw_model* model, const nw_deposit* deposit,
     double voidage, nw_impact* impact
 )
 {
-    return real_nw_deposit_dress(model, deposit, voidage, impact);
+    return real_nw_deposit_apply(model, deposit, voidage, impact);
 }
 
 HIDDEN nw_status nw_film_velocity

@@ -257,7 +257,7 @@ void Foam::nearWall::wallMemory::start()
         const label patchi = patches_[i];
         const nw_deposit d
         (
-            law_->start_deposit(rules_[patchi].wall, voidage_)
+            law_->initial_deposit(rules_[patchi].wall, voidage_)
         );
         forAll(mesh_.boundaryMesh()[patchi], facei)
         {
@@ -311,20 +311,20 @@ void Foam::nearWall::wallMemory::dress
 ) const
 {
     // Refused is only a temperature that the impact will be refused for, too
-    law_->dress(deposit(patchi, facei), voidage_, impact);
+    law_->apply_deposit(deposit(patchi, facei), voidage_, impact);
 }
 
 
 nw_status Foam::nearWall::wallMemory::arrive
 (
     const event& e,
-    nw_arrivals& sum
+    nw_deposit_source& sum
 ) const
 {
     const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
     const scalar volume =
         e.particles*constant::mathematical::pi/6*pow3(e.arrived.d);
-    return law_->arrive(e.arrived, e.mass/area, e.mass/volume, sum);
+    return law_->add_captured(e.arrived, e.mass/area, e.mass/volume, sum);
 }
 
 
@@ -333,7 +333,7 @@ bool Foam::nearWall::wallMemory::joinsFilm(const event& e) const
     // A patch that always captures has no regime, and no memory
     if (!film_ || e.regime < 0 || e.mass <= 0) return false;
 
-    nw_arrivals alone(nearwall::make_arrivals());
+    nw_deposit_source alone(nearwall::make_arrivals());
     return arrive(e, alone) == NW_OK && alone.molten > 0;
 }
 
@@ -371,7 +371,7 @@ void Foam::nearWall::wallMemory::addArrivals(const label i)
 {
     const label patchi = patches_[i];
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-    List<nw_arrivals>& faces = arrived_[patchi];
+    List<nw_deposit_source>& faces = arrived_[patchi];
     scalar mass = 0;
     forAll(faces, facei)
     {
@@ -388,7 +388,7 @@ void Foam::nearWall::wallMemory::addArrivals(const label i)
         }
         setDeposit(patchi, facei, d);
         mass += (faces[facei].molten + faces[facei].powder)*area[facei];
-        nw_arrivals_init(&faces[facei]);
+        nw_deposit_source_init(&faces[facei]);
     }
     book(i, arrived, mass);
 }

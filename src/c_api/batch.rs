@@ -4,10 +4,10 @@
 use super::boundary::{guarded_status, reader};
 use super::sized;
 use super::types::{NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, nw_impact, nw_model, nw_status};
-use crate::draw::Draw;
 use crate::impact::{BOUNDS, Bounds, Impact, Outcome};
 use crate::model::Model;
 use crate::model::block::{BLOCK, Block, Outcomes};
+use crate::rng::ImpactRng;
 
 /// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array stands for the value that
 /// `nw_impact_init` gives, and for `key` the entry's own index.
@@ -215,7 +215,7 @@ impl nw_impacts {
     ///
     /// # Safety
     /// `index < count`, and every array that is not null has `count` entries.
-    unsafe fn entry(&self, index: usize) -> (usize, Impact, Draw) {
+    unsafe fn entry(&self, index: usize) -> (usize, Impact, ImpactRng) {
         let default = nw_impact::default();
         // SAFETY: the caller's promise.
         unsafe {
@@ -237,7 +237,7 @@ impl nw_impacts {
             };
             let wall = get(self.walls, index, self.wall) as usize;
             let key = get(self.key, index, index as u64);
-            (wall, impact.to_impact(), Draw::new(self.seed, key))
+            (wall, impact.to_impact(), ImpactRng::new(self.seed, key))
         }
     }
 }

@@ -4,7 +4,7 @@
 use super::boundary::{guarded_status, reader};
 use super::types::{NW_NULL_POINTER, NW_OK, nw_impact, nw_model, nw_status};
 use super::{check_size, sized, types::NW_BAD_STATE};
-use crate::deposit::{Arrivals, Deposit};
+use crate::deposit::{Deposit, DepositSource};
 use crate::slag::film;
 
 /// What lies on a piece of wall, per area of it. A bare wall is what `nw_deposit_init` gives.
@@ -27,11 +27,11 @@ pub struct nw_deposit {
     pub conversion: f64,
 }
 
-/// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_arrivals_init` gives.
+/// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_deposit_source_init` gives.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
-pub struct nw_arrivals {
-    /// `sizeof(nw_arrivals)`.
+pub struct nw_deposit_source {
+    /// `sizeof(nw_deposit_source)`.
     pub struct_size: u32,
     /// How many were added.
     pub count: u32,
@@ -63,7 +63,7 @@ impl Default for nw_deposit {
     }
 }
 
-impl Default for nw_arrivals {
+impl Default for nw_deposit_source {
     fn default() -> Self {
         Self {
             struct_size: size_of::<Self>() as u32,
@@ -100,14 +100,14 @@ impl nw_deposit {
     }
 }
 
-impl nw_arrivals {
-    fn to_arrivals(self) -> Arrivals {
+impl nw_deposit_source {
+    fn to_arrivals(self) -> DepositSource {
         let Self { molten, powder, solid, cover, buried, converted, .. } = self;
-        Arrivals { molten, powder, solid, cover, buried, converted }
+        DepositSource { molten, powder, solid, cover, buried, converted }
     }
 
-    fn with(self, arrivals: &Arrivals) -> Self {
-        let Arrivals { molten, powder, solid, cover, buried, converted } = *arrivals;
+    fn with(self, arrivals: &DepositSource) -> Self {
+        let DepositSource { molten, powder, solid, cover, buried, converted } = *arrivals;
         let count = self.count.saturating_add(1);
         Self { count, molten, powder, solid, cover, buried, converted, ..self }
     }
@@ -143,7 +143,7 @@ pub unsafe extern "C" fn nw_deposit_init(deposit: *mut nw_deposit) -> nw_status 
 /// # Safety
 /// `model` is a loaded model; `deposit` begins with its `struct_size`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_start(
+pub unsafe extern "C" fn nw_deposit_initial(
     model: *const nw_model,
     voidage: f64,
     deposit: *mut nw_deposit,
@@ -155,7 +155,7 @@ pub unsafe extern "C" fn nw_deposit_start(
             check_size(deposit.cast_const())?;
             (model, (&raw const (*deposit).wall).read_unaligned())
         };
-        let found = model.inner().lying(wall as usize, voidage)?;
+        let found = model.inner().initial_deposit(wall as usize, voidage)?;
         let begun = nw_deposit { wall, ..nw_deposit::default() }.with(&found).sound()?;
         // SAFETY: checked just above.
         unsafe { deposit.write_unaligned(begun) };
@@ -169,12 +169,12 @@ pub unsafe extern "C" fn nw_deposit_start(
 /// # Safety
 /// `arrivals` can be written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_arrivals_init(arrivals: *mut nw_arrivals) -> nw_status {
+pub unsafe extern "C" fn nw_deposit_source_init(arrivals: *mut nw_deposit_source) -> nw_status {
     if arrivals.is_null() {
         return NW_NULL_POINTER;
     }
     // SAFETY: not null, and writable by the caller's promise.
-    unsafe { arrivals.write_unaligned(nw_arrivals::default()) };
+    unsafe { arrivals.write_unaligned(nw_deposit_source::default()) };
     NW_OK
 }
 
@@ -185,18 +185,18 @@ pub unsafe extern "C" fn nw_arrivals_init(arrivals: *mut nw_arrivals) -> nw_stat
 /// # Safety
 /// `model` is a loaded model; `impact` and `arrivals` begin with their `struct_size`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_arrivals_add(
+pub unsafe extern "C" fn nw_deposit_source_add(
     model: *const nw_model,
     impact: *const nw_impact,
     mass: f64,
     density: f64,
-    arrivals: *mut nw_arrivals,
+    arrivals: *mut nw_deposit_source,
 ) -> nw_status {
     let add = || {
         // SAFETY: the caller's promises.
         let (model, impact, sum) = unsafe { (reader(model)?, sized(impact)?, sized(arrivals.cast_const())?) };
         let (wall, before) = (impact.wall as usize, sum.sound()?.to_arrivals());
-        let found = model.inner().arrive(wall, &impact.to_impact(), mass, density, before)?;
+        let found = model.inner().add_captured(wall, &impact.to_impact(), mass, density, before)?;
         let found = sum.with(&found).sound()?;
         // SAFETY: checked just above.
         unsafe { arrivals.write_unaligned(found) };
@@ -210,7 +210,10 @@ pub unsafe extern "C" fn nw_arrivals_add(
 /// # Safety
 /// `arrivals` and `deposit` begin with their `struct_size`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_add(arrivals: *const nw_arrivals, deposit: *mut nw_deposit) -> nw_status {
+pub unsafe extern "C" fn nw_deposit_add(
+    arrivals: *const nw_deposit_source,
+    deposit: *mut nw_deposit,
+) -> nw_status {
     let add = || {
         // SAFETY: the caller's promises.
         let (arrivals, before) = unsafe { (sized(arrivals)?, sized(deposit.cast_const())?) };
@@ -229,7 +232,7 @@ pub unsafe extern "C" fn nw_deposit_add(arrivals: *const nw_arrivals, deposit: *
 /// # Safety
 /// `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_dress(
+pub unsafe extern "C" fn nw_deposit_apply(
     model: *const nw_model,
     deposit: *const nw_deposit,
     voidage: f64,
@@ -240,7 +243,8 @@ pub unsafe extern "C" fn nw_deposit_dress(
         let (model, deposit, bare) =
             unsafe { (reader(model)?, sized(deposit)?, sized(impact.cast_const())?) };
         let wall = bare.wall as usize;
-        let found = model.inner().dress(wall, &deposit.sound()?.to_deposit(), voidage, &bare.to_impact())?;
+        let found =
+            model.inner().apply_deposit(wall, &deposit.sound()?.to_deposit(), voidage, &bare.to_impact())?;
         if !(found.layer_thickness.is_finite() && found.melt_thickness.is_finite()) {
             return Err(NW_BAD_STATE);
         }

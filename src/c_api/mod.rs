@@ -15,21 +15,21 @@ mod types;
 use std::ffi::{CStr, c_char};
 use std::path::Path;
 
-use crate::draw::Draw;
 use crate::impact::Regime;
 use crate::model::Model;
+use crate::rng::ImpactRng;
 
 pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
 use boundary::{Fault, guarded, guarded_status, reader, report};
 pub use deposit::{
-    nw_arrivals, nw_arrivals_add, nw_arrivals_init, nw_deposit, nw_deposit_add, nw_deposit_dress,
-    nw_deposit_init, nw_deposit_start, nw_film_velocity,
+    nw_deposit, nw_deposit_add, nw_deposit_apply, nw_deposit_init, nw_deposit_initial, nw_deposit_source,
+    nw_deposit_source_add, nw_deposit_source_init, nw_film_velocity,
 };
 use types::status_text;
 pub use types::*;
 
 /// Number of the binary interface; it changes when a struct, a function or a constant does.
-pub const NW_ABI_VERSION: u32 = 2;
+pub const NW_ABI_VERSION: u32 = 1;
 
 /// The interface version of the library that is loaded; compare with `NW_ABI_VERSION` of the header.
 #[unsafe(no_mangle)]
@@ -219,7 +219,7 @@ pub unsafe extern "C" fn nw_resolve(
         let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
         // SAFETY: the caller's promise. The rest of an outcome may be unset, so it is not read.
         unsafe { check_size(outcome.cast_const())? };
-        let draw = Draw::new(impact.seed, impact.key);
+        let draw = ImpactRng::new(impact.seed, impact.key);
         let result = model.inner().resolve(impact.wall as usize, &impact.to_impact(), draw)?;
         // SAFETY: checked just above.
         unsafe { outcome.write_unaligned(nw_outcome::from_outcome(&result)) };

@@ -156,7 +156,7 @@ impl CharOnSlag {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Draw;
+    use crate::ImpactRng;
     use approx::assert_relative_eq;
 
     const DEGREE: f64 = PI / 180.0;
@@ -324,7 +324,7 @@ mod tests {
             let interval = PI * radius * radius / arriving;
             let (mut lying, mut hits, mut counted) = (std::collections::VecDeque::new(), 0.0, 0.0);
             for number in 0..30_000_u32 {
-                let draw = Draw::new(seed, u64::from(number));
+                let draw = ImpactRng::new(seed, u64::from(number));
                 let (time, x, y) = (f64::from(number) * interval, draw.uniform(1), draw.uniform(2));
                 while lying.front().is_some_and(|&(since, _, _): &(f64, f64, f64)| since < time - 1.0) {
                     lying.pop_front();

@@ -113,9 +113,9 @@ impl ParticleStickiness {
 
     /// How sticky the material is when it lies on a wall of a temperature [K], [1]. By the droplet criterion what is hotter
     /// than its melting point is sticky, and nothing else.
-    pub fn lying(&self, temperature: f64) -> f64 {
+    pub fn as_deposit(&self, temperature: f64) -> f64 {
         match self {
-            Self::Melt(melt) => melt.lying(temperature),
+            Self::Melt(melt) => melt.as_deposit(temperature),
             Self::Droplet(droplet) => f64::from(droplet.is_molten(temperature)),
         }
     }

@@ -102,7 +102,7 @@ impl MeltStickiness {
 
     /// Probability of sticking [1] of melt that lies on a wall of a temperature [K]: frozen where it is colder than a
     /// measured viscosity, and as at the end of its table where it is hotter.
-    pub fn lying(&self, temperature: f64) -> f64 {
+    pub fn as_deposit(&self, temperature: f64) -> f64 {
         sticking_probability(self.film_viscosity(temperature), self.reference)
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::incidence::{AngleFrom, too_much};
+use super::impact_velocity::{AngleFrom, too_much};
 use super::number::{NumberColumn, NumberStyle};
 use super::observed::OutcomeWords;
 use super::table::Layout;

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::assembly::Assembly;
+use super::builder::Builder;
 use super::column::Column;
 use super::column_map::ColumnMap;
 use super::observed::Reading;
@@ -117,7 +117,7 @@ impl Measurements {
         let own = ColumnMap::default();
         let map = map.unwrap_or(&own);
         let mut table = Table::open(file, source, map.layout, |name| map.ignores(name))?;
-        let mut assembly = Assembly::new(&table, map, walls)?;
+        let mut assembly = Builder::new(&table, map, walls)?;
         let mut cells = csv::StringRecord::new();
         while let Some(next) = table.next_into(&mut cells)? {
             assembly.take(next, &cells);

@@ -8,11 +8,11 @@
 //!
 //! The format and the map for users: `docs/data-file.md`.
 
-mod assembly;
+mod builder;
 mod column;
 mod column_map;
 mod impact_reader;
-mod incidence;
+mod impact_velocity;
 mod inputs;
 mod lines;
 mod measurements;

@@ -1,15 +1,15 @@
 //! The deposit: what earlier particles left on a piece of wall, and how it grows.
 //!
 //! A code that follows many particles keeps one [`Deposit`] for each piece of wall. Within a step it sums what stays
-//! there in [`Arrivals`] ([`Model::arrive`]), and adds them at the step's end ([`Deposit::with`]); sums do not depend on the
-//! order of the particles. Each impact is told of the deposit before it is decided ([`Model::dress`]).
+//! there in [`DepositSource`] ([`Model::add_captured`]), and adds them at the step's end ([`Deposit::with`]); sums do not depend on the
+//! order of the particles. Each impact is told of the deposit before it is decided ([`Model::apply_deposit`]).
 //!
 //! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
 //! droplet, or char whose ash does not show. Powder does not melt again and does not burn here; melt that meets a cold wall
 //! later is stiff, by its viscosity.
 //!
-//! [`Model::arrive`]: crate::Model::arrive
-//! [`Model::dress`]: crate::Model::dress
+//! [`Model::add_captured`]: crate::Model::add_captured
+//! [`Model::apply_deposit`]: crate::Model::apply_deposit
 
 pub mod cover;
 pub mod wetting;
@@ -31,7 +31,7 @@ pub struct Deposit {
 
 /// What arrived on a piece of wall and stayed, summed, per area of that wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Arrivals {
+pub struct DepositSource {
     /// Molten mass [kg/m²].
     pub molten: f64,
     /// Mass of powder [kg/m²].
@@ -48,7 +48,7 @@ pub struct Arrivals {
 
 /// One kind of particle that stays.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arrival {
+pub struct CapturedParticles {
     /// Its mass on an area of wall [kg/m²].
     pub mass: f64,
     /// Density of the particles [kg/m³].
@@ -61,12 +61,12 @@ pub struct Arrival {
     pub molten: bool,
 }
 
-impl Arrivals {
+impl DepositSource {
     /// With one more arrival. Spheres of diameter `d`, density `rho` and mass `m` on an area have a projected area of
     /// `3 m/(2 rho d)` on it.
     #[must_use]
-    pub fn with(self, arrival: &Arrival) -> Self {
-        let Arrival { mass, density, diameter, conversion, molten } = *arrival;
+    pub fn with(self, arrival: &CapturedParticles) -> Self {
+        let CapturedParticles { mass, density, diameter, conversion, molten } = *arrival;
         let area = 1.5 * mass / (density * diameter);
         let converted = self.converted + mass * conversion;
         if molten {
@@ -86,7 +86,7 @@ impl Deposit {
 
     /// The deposit after arrivals, in whatever order they came. Powder that melt buries becomes part of the melt.
     #[must_use]
-    pub fn with(self, arrivals: &Arrivals) -> Self {
+    pub fn with(self, arrivals: &DepositSource) -> Self {
         let mass = self.mass() + arrivals.molten + arrivals.powder;
         if mass <= 0.0 {
             return self;
@@ -122,16 +122,16 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const CHAR: Arrival =
-        Arrival { mass: 2e-3, density: 800.0, diameter: 60e-6, conversion: 0.3, molten: false };
-    const MELT: Arrival =
-        Arrival { mass: 5e-3, density: 2500.0, diameter: 40e-6, conversion: 0.98, molten: true };
+    const CHAR: CapturedParticles =
+        CapturedParticles { mass: 2e-3, density: 800.0, diameter: 60e-6, conversion: 0.3, molten: false };
+    const MELT: CapturedParticles =
+        CapturedParticles { mass: 5e-3, density: 2500.0, diameter: 40e-6, conversion: 0.98, molten: true };
 
     /// The projected area and the volume of spheres, counted: N pi d²/4 and N pi d³/6.
     #[test]
     fn spheres_bring_their_projected_area_and_volume() {
         let number = CHAR.mass / (CHAR.density * std::f64::consts::PI / 6.0 * CHAR.diameter.powi(3));
-        let arrivals = Arrivals::default().with(&CHAR);
+        let arrivals = DepositSource::default().with(&CHAR);
         assert_relative_eq!(
             arrivals.cover,
             number * std::f64::consts::PI / 4.0 * CHAR.diameter.powi(2),
@@ -150,8 +150,8 @@ mod tests {
         let (mut mass, mut converted) = (before.mass(), before.mass() * before.conversion);
         for step in 0..40 {
             let [one, other] = if step % 3 == 0 { [CHAR, MELT] } else { [CHAR, CHAR] };
-            let forth = Arrivals::default().with(&one).with(&other);
-            let back = Arrivals::default().with(&other).with(&one);
+            let forth = DepositSource::default().with(&one).with(&other);
+            let back = DepositSource::default().with(&other).with(&one);
             assert_eq!(deposit.with(&forth), deposit.with(&back));
             deposit = deposit.with(&forth);
             mass += one.mass + other.mass;
@@ -164,14 +164,14 @@ mod tests {
 
     #[test]
     fn melt_takes_powder_up_in_proportion_to_the_cover_it_buries() {
-        let dusty = Deposit::default().with(&Arrivals::default().with(&CHAR));
-        let after = dusty.with(&Arrivals::default().with(&MELT));
+        let dusty = Deposit::default().with(&DepositSource::default().with(&CHAR));
+        let after = dusty.with(&DepositSource::default().with(&MELT));
         let left = after.cover / dusty.cover;
         assert!(left < 1.0);
         assert_relative_eq!(after.powder, dusty.powder * left, max_relative = 1e-14);
         assert_relative_eq!(after.solid, dusty.solid * left, max_relative = 1e-14);
         assert_relative_eq!(after.molten, MELT.mass + dusty.powder * (1.0 - left), max_relative = 1e-14);
         // A bare wall stays as it is when nothing arrives.
-        assert_eq!(Deposit::default().with(&Arrivals::default()), Deposit::default());
+        assert_eq!(Deposit::default().with(&DepositSource::default()), Deposit::default());
     }
 }

@@ -20,7 +20,7 @@ mod tests {
         let (diameter, thickness) = (0.02_f64, 0.002_f64);
         // Enough droplets for the thickness on a unit square that closes on itself.
         let number = (thickness / (std::f64::consts::PI / 6.0 * diameter.powi(3))).round();
-        let draw = crate::Draw::new(5, 0);
+        let draw = crate::ImpactRng::new(5, 0);
         let centres: Vec<[f64; 2]> =
             (0..number as u64).map(|i| [draw.uniform(2 * i), draw.uniform(2 * i + 1)]).collect();
         let apart = |a: f64, b: f64| {

@@ -5,11 +5,11 @@
 //! a comparison of two groups, one at each end, with 5 % false alarms and 80 % power,
 //! `n = 2 · 2 (1.96 + 0.84)² (scatter / difference)²`.
 
+use super::data_split::DataSplit;
 use super::forecast::Forecast;
 use super::hypothesis::{Hypothesis, Observable};
-use super::likelihood::{Scatter, Shift, mean};
+use super::likelihood::{Offset, Scatter, mean};
 use super::record::Measure;
-use super::study::Study;
 use crate::dataset::Measurement;
 use crate::impact::INPUTS;
 
@@ -22,7 +22,7 @@ const TOO_MANY: f64 = 1e5;
 
 /// The measurement that parts the two best; `None` where no single input does.
 pub(super) fn advise(
-    study: &Study,
+    study: &DataSplit,
     found: &Hypothesis,
     other: &Hypothesis,
     name: &str,
@@ -61,7 +61,7 @@ pub(super) fn advise(
 
 /// Fewest impacts, the observable to watch and the two places to measure at.
 fn best_contrast(
-    study: &Study,
+    study: &DataSplit,
     rows: &[Measurement],
     found: &Hypothesis,
     other: &Hypothesis,
@@ -70,7 +70,7 @@ fn best_contrast(
     let places: Vec<usize> = (0..rows.len()).collect();
     let says = |hypothesis: &Hypothesis| {
         let forecast = Forecast::new(&hypothesis.model(study), rows, &places, study.draws);
-        let one = |&place: &usize| mean(forecast.of(place), &Shift::default());
+        let one = |&place: &usize| mean(forecast.of(place), &Offset::default());
         places.iter().map(one).collect::<Vec<_>>()
     };
     let (ours, theirs) = (says(found), says(other));
@@ -97,7 +97,7 @@ fn best_contrast(
 }
 
 /// A row with every input at its median.
-fn median_row(study: &Study) -> Option<Measurement> {
+fn median_row(study: &DataSplit) -> Option<Measurement> {
     let mut row = *study.rows.first()?;
     for input in &INPUTS {
         let mut values: Vec<f64> =

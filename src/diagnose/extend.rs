@@ -2,8 +2,8 @@
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
+use super::data_split::DataSplit;
 use super::part::{Fitted, Part};
-use super::study::Study;
 use crate::dataset::Values;
 
 /// The text of the extended model. `intervals` are those of `parts`, in their order.
@@ -12,7 +12,7 @@ use crate::dataset::Values;
 /// When the base text cannot be edited.
 pub(super) fn extended(
     base: &str,
-    study: &Study,
+    study: &DataSplit,
     parts: &[Fitted],
     intervals: &[Vec<[f64; 2]>],
     notes: &[String],
@@ -59,7 +59,7 @@ fn append(document: &mut DocumentMut, added: ArrayOfTables) {
     }
 }
 
-fn effect(study: &Study, fitted: &Fitted, ends: &[[f64; 2]]) -> Table {
+fn effect(study: &DataSplit, fitted: &Fitted, ends: &[[f64; 2]]) -> Table {
     let mut table = Table::new();
     let Part::Effect(kind) = fitted.part else { return table };
     table.insert("kind", value(kind.id));
@@ -77,7 +77,7 @@ fn effect(study: &Study, fitted: &Fitted, ends: &[[f64; 2]]) -> Table {
 }
 
 /// The range of every input that varied in the rows of the fit.
-fn valid(study: &Study) -> InlineTable {
+fn valid(study: &DataSplit) -> InlineTable {
     let mut ranges = InlineTable::new();
     for factor in study.factors.iter().filter(|f| f.input && matches!(f.values, Values::Numbers(_))) {
         if let Some([low, high]) = study.range(&factor.name) {

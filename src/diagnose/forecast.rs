@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use crate::dataset::Measurement;
-use crate::draw::Draw;
 use crate::model::Model;
+use crate::rng::ImpactRng;
 
 /// What a model says of one row under one draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Said {
+pub(super) struct Prediction {
     /// Normal restitution of a rebound [1].
     pub e_n: f64,
     /// Tangential restitution of a rebound [1].
@@ -27,7 +27,7 @@ pub(super) struct Said {
 pub(super) struct Forecast {
     /// Answers a row.
     pub draws: usize,
-    said: Vec<Said>,
+    said: Vec<Prediction>,
 }
 
 /// Draws a row for models that leave something to chance: while candidates are compared, and for the last fit.
@@ -48,7 +48,7 @@ impl Forecast {
         let (streams, count) = (&streams, draws);
         let ask = |&index: &usize| {
             let draws = Draws::new(index, streams, count);
-            let mut said: Vec<Said> =
+            let mut said: Vec<Prediction> =
                 (0..count).map(|draw| ask(model, &all[index], streams, &draws, draw)).collect();
             set_reach(&mut said);
             said
@@ -67,7 +67,7 @@ impl Forecast {
     }
 
     /// The answers to the row at this place of the list of rows.
-    pub fn of(&self, place: usize) -> &[Said] {
+    pub fn of(&self, place: usize) -> &[Prediction] {
         &self.said[place * self.draws..(place + 1) * self.draws]
     }
 }
@@ -81,7 +81,7 @@ struct Draws {
 
 impl Draws {
     fn new(row: usize, streams: &[u64], count: usize) -> Self {
-        let turn = Draw::new(0, row as u64);
+        let turn = ImpactRng::new(0, row as u64);
         let mut turns = [0.0; STEPS.len()];
         for &stream in streams {
             turns[stream as usize % STEPS.len()] = turn.uniform(stream);
@@ -108,11 +108,11 @@ fn share(place: f64) -> f64 {
 }
 
 /// Half the mean gap to both neighbours; the geometric mean, so that draws that agree stay sharp.
-fn set_reach(said: &mut [Said]) {
+fn set_reach(said: &mut [Prediction]) {
     if said.len() < 2 {
         return;
     }
-    let quantities: [fn(&Said) -> f64; 2] = [|one| one.e_n, |one| one.e_t];
+    let quantities: [fn(&Prediction) -> f64; 2] = [|one| one.e_n, |one| one.e_t];
     let mut order: Vec<usize> = (0..said.len()).collect();
     for (place, of) in quantities.into_iter().enumerate() {
         order.sort_unstable_by(|&a, &b| of(&said[a]).total_cmp(&of(&said[b])));
@@ -129,10 +129,10 @@ fn set_reach(said: &mut [Said]) {
     }
 }
 
-fn ask(model: &Model, row: &Measurement, streams: &[u64], draws: &Draws, draw: usize) -> Said {
+fn ask(model: &Model, row: &Measurement, streams: &[u64], draws: &Draws, draw: usize) -> Prediction {
     let weight = streams.iter().map(|&stream| share(draws.place(draw, stream))).product::<f64>();
     match model.resolve_with(row.wall, &row.impact, |stream| stretched(draws.place(draw, stream))) {
-        Ok(outcome) => Said {
+        Ok(outcome) => Prediction {
             e_n: outcome.normal_restitution,
             e_t: outcome.tangential_restitution,
             capture: outcome.sticking_probability,
@@ -140,6 +140,6 @@ fn ask(model: &Model, row: &Measurement, streams: &[u64], draws: &Draws, draw: u
             reach: [0.0; 2],
         },
         // Rows that the base model cannot answer were left out before; effects change no property's range.
-        Err(_) => Said { e_n: 0.0, e_t: 0.0, capture: 0.5, weight, reach: [0.0; 2] },
+        Err(_) => Prediction { e_n: 0.0, e_t: 0.0, capture: 0.5, weight, reach: [0.0; 2] },
     }
 }

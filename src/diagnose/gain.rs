@@ -3,11 +3,11 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::data_split::DataSplit;
 use super::forecast::Forecast;
 use super::hypothesis::{Hypothesis, Observable};
 use super::likelihood::{Mean, Scatter, mean, score};
 use super::record::{Errors, Gain, Sample, SampleRow};
-use super::study::Study;
 use crate::dataset::{Measurement, Values};
 
 /// Resamples of the bootstrap.
@@ -23,7 +23,7 @@ pub(super) struct Answers {
 
 impl Answers {
     /// Asks without the correction of the laws' shape: a model file cannot carry it.
-    pub fn new(hypothesis: &Hypothesis, study: &Study, rows: &[usize], scatter: Scatter) -> Self {
+    pub fn new(hypothesis: &Hypothesis, study: &DataSplit, rows: &[usize], scatter: Scatter) -> Self {
         let bare = Hypothesis { shape: None, ..hypothesis.clone() };
         let shifts = bare.shifts(study);
         let forecast = Forecast::new(&bare.model(study), &study.rows, rows, study.draws);
@@ -48,7 +48,7 @@ fn pair(row: &Measurement, said: &Mean, observable: Observable) -> Option<[f64; 
 
 /// The gain in one observable; `None` where nothing was observed.
 pub(super) fn gain(
-    study: &Study,
+    study: &DataSplit,
     before: &Answers,
     after: &Answers,
     observable: Observable,
@@ -98,7 +98,7 @@ fn bootstrap(squares: &[[f64; 2]], seed: u64) -> [f64; 2] {
 }
 
 /// Errors of a hypothesis on all rows of `answers`.
-pub(super) fn errors(study: &Study, rows: &[usize], answers: &Answers) -> Errors {
+pub(super) fn errors(study: &DataSplit, rows: &[usize], answers: &Answers) -> Errors {
     let pairs = |observable| {
         let all = rows.iter().zip(&answers.means);
         all.filter_map(|(&row, said)| pair(&study.rows[row], said, observable)).collect::<Vec<_>>()
@@ -118,7 +118,12 @@ pub(super) fn errors(study: &Study, rows: &[usize], answers: &Answers) -> Errors
 }
 
 /// Rows for the figures: those held out first, then those that were fitted.
-pub(super) fn sample(study: &Study, base: &Hypothesis, extended: &Hypothesis, scatter: Scatter) -> Sample {
+pub(super) fn sample(
+    study: &DataSplit,
+    base: &Hypothesis,
+    extended: &Hypothesis,
+    scatter: Scatter,
+) -> Sample {
     let held_out = study.held_out.iter().take(SAMPLE_ROWS / 2).map(|&row| (row, true));
     let fitted = study.search.iter().take(SAMPLE_ROWS / 2).map(|&row| (row, false));
     let chosen: Vec<(usize, bool)> = held_out.chain(fitted).collect();

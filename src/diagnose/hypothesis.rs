@@ -1,11 +1,11 @@
 //! A hypothesis: the base model and what has been added to it so far.
 
+use super::data_split::DataSplit;
 use super::forecast::Forecast;
-use super::likelihood::{Scatter, Shift, fit_scatter, mean, ordinary, score};
+use super::likelihood::{Offset, Scatter, fit_scatter, mean, ordinary, score};
 use super::part::{Fitted, Part};
 use super::search::descend;
 use super::smooth::{Point, surface};
-use super::study::Study;
 use super::unknown::Unknown;
 use crate::dataset::Values;
 use crate::effect::Term;
@@ -61,7 +61,7 @@ pub(super) struct Fit {
 
 impl Hypothesis {
     /// The model with the given parameters in place of the parts' own.
-    fn model_at(&self, study: &Study, parts: &[Fitted]) -> Model {
+    fn model_at(&self, study: &DataSplit, parts: &[Fitted]) -> Model {
         let mut model = study.base.clone();
         let mut terms: Vec<Term> = model.terms().to_vec();
         for fitted in parts {
@@ -84,7 +84,7 @@ impl Hypothesis {
     }
 
     /// What each part acts on: the observables that it changes by more than a small share of what it changes most.
-    fn actions(&self, study: &Study, scatter: Scatter) -> Vec<Vec<Observable>> {
+    fn actions(&self, study: &DataSplit, scatter: Scatter) -> Vec<Vec<Observable>> {
         let whole = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
         let without = |place: usize| {
             let mut parts = self.parts.clone();
@@ -104,7 +104,7 @@ impl Hypothesis {
     }
 
     /// The base with the parts.
-    pub fn model(&self, study: &Study) -> Model {
+    pub fn model(&self, study: &DataSplit) -> Model {
         self.model_at(study, &self.parts)
     }
 
@@ -126,7 +126,7 @@ impl Hypothesis {
     }
 
     /// Fits all parameters together to the rows, from where they are, and the curves after them.
-    pub fn polish(&mut self, study: &Study, rows: &[usize], first: Scatter) -> Scatter {
+    pub fn polish(&mut self, study: &DataSplit, rows: &[usize], first: Scatter) -> Scatter {
         let mut scatter = first;
         for _ in 0..if self.unknowns.is_empty() { 1 } else { 2 } {
             let shifts = self.shifts(study);
@@ -143,7 +143,7 @@ impl Hypothesis {
     }
 
     /// Fits every curve again to what the rest leaves.
-    fn refit_unknowns(&mut self, study: &Study, rows: &[usize], scatter: Scatter) {
+    fn refit_unknowns(&mut self, study: &DataSplit, rows: &[usize], scatter: Scatter) {
         let forecast = Forecast::new(&self.model(study), &study.rows, rows, study.draws);
         for place in 0..self.unknowns.len() {
             let unknown = self.unknowns.remove(place);
@@ -154,8 +154,8 @@ impl Hypothesis {
     }
 
     /// What is added to each row's forecast; all rows of the study.
-    pub fn shifts(&self, study: &Study) -> Vec<Shift> {
-        let mut shifts = vec![Shift { capture: self.lapses, ..Shift::default() }; study.rows.len()];
+    pub fn shifts(&self, study: &DataSplit) -> Vec<Offset> {
+        let mut shifts = vec![Offset { capture: self.lapses, ..Offset::default() }; study.rows.len()];
         for &(factor, change) in &self.noise {
             for (shift, z) in shifts.iter_mut().zip(standardised(&study.factors[factor].values)) {
                 shift.spread *= (change * z).exp();
@@ -178,17 +178,17 @@ impl Hypothesis {
     }
 
     /// How well it does on the rows with these indices.
-    pub fn fit(&self, study: &Study, rows: &[usize], shifts: &[Shift], first: Scatter) -> Fit {
+    pub fn fit(&self, study: &DataSplit, rows: &[usize], shifts: &[Offset], first: Scatter) -> Fit {
         self.fit_at(study, &self.parts, rows, shifts, first)
     }
 
     /// As [`Hypothesis::fit`] with other parts.
     pub fn fit_at(
         &self,
-        study: &Study,
+        study: &DataSplit,
         parts: &[Fitted],
         rows: &[usize],
-        shifts: &[Shift],
+        shifts: &[Offset],
         first: Scatter,
     ) -> Fit {
         let forecast = Forecast::new(&self.model_at(study, parts), &study.rows, rows, study.draws);
@@ -197,13 +197,19 @@ impl Hypothesis {
     }
 
     /// Log score of each row under a given scatter.
-    pub fn row_scores(&self, study: &Study, rows: &[usize], shifts: &[Shift], scatter: Scatter) -> Vec<f64> {
+    pub fn row_scores(
+        &self,
+        study: &DataSplit,
+        rows: &[usize],
+        shifts: &[Offset],
+        scatter: Scatter,
+    ) -> Vec<f64> {
         let forecast = Forecast::new(&self.model(study), &study.rows, rows, study.draws);
         scores(study, rows, &forecast, shifts, scatter)
     }
 
     /// Takes up what the inputs of the named effects still leave, so that an inexact law does not call for a second cause.
-    pub fn absorb_shape(&mut self, study: &Study, scatter: Scatter) {
+    pub fn absorb_shape(&mut self, study: &DataSplit, scatter: Scatter) {
         self.shape = None;
         self.acts_on = self.actions(study, scatter);
         let shifts = self.shifts(study);
@@ -223,7 +229,11 @@ impl Hypothesis {
     /// Columns whose effect on an observable the parts answer for: on their own, and together with one of those.
     ///
     /// Speed and size belong to the plain laws: a part with an input of its own answers for them beside that input only.
-    fn shaping<'a>(&self, study: &'a Study, observable: Observable) -> (Vec<&'a Values>, Vec<&'a Values>) {
+    fn shaping<'a>(
+        &self,
+        study: &'a DataSplit,
+        observable: Observable,
+    ) -> (Vec<&'a Values>, Vec<&'a Values>) {
         let plain = |name: &&str| ["v_n", "d"].contains(name);
         let acting = self.parts.iter().zip(&self.acts_on).filter(|(_, on)| on.contains(&observable));
         let mut own: Vec<&str> = Vec::new();
@@ -242,8 +252,8 @@ impl Hypothesis {
 
 /// Mean squared change between two forecasts of the search's rows, in units of the scatter, by observable; 0 where it was
 /// not observed.
-pub(super) fn changes(study: &Study, one: &Forecast, other: &Forecast, scatter: Scatter) -> [f64; 3] {
-    let plain = Shift::default();
+pub(super) fn changes(study: &DataSplit, one: &Forecast, other: &Forecast, scatter: Scatter) -> [f64; 3] {
+    let plain = Offset::default();
     let mut sums = [0.0; 3];
     for (place, &index) in study.search.iter().enumerate() {
         let row = &study.rows[index];
@@ -264,10 +274,10 @@ pub(super) fn changes(study: &Study, one: &Forecast, other: &Forecast, scatter: 
 
 /// What is left of an observable in each of the rows that have it; `forecast` is of these rows.
 pub(super) fn residuals(
-    study: &Study,
+    study: &DataSplit,
     rows: &[usize],
     forecast: &Forecast,
-    shifts: &[Shift],
+    shifts: &[Offset],
     scatter: Scatter,
     observable: Observable,
     factorwise: bool,
@@ -305,10 +315,10 @@ pub(super) fn residuals(
 }
 
 fn scores(
-    study: &Study,
+    study: &DataSplit,
     rows: &[usize],
     forecast: &Forecast,
-    shifts: &[Shift],
+    shifts: &[Offset],
     scatter: Scatter,
 ) -> Vec<f64> {
     let one = |(place, &index): (usize, &usize)| {

@@ -6,9 +6,9 @@
 
 use nalgebra::DMatrix;
 
+use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
-use super::likelihood::{Scatter, Shift};
-use super::study::Study;
+use super::likelihood::{Offset, Scatter};
 
 /// Step of the differences, in the coordinate.
 const STEP: f64 = 4e-3;
@@ -20,9 +20,9 @@ const NORMAL_975: f64 = 1.959_963_985;
 /// For every part of a hypothesis the lower and upper ends of its parameters in SI units; rows by index.
 pub(super) fn intervals(
     hypothesis: &Hypothesis,
-    study: &Study,
+    study: &DataSplit,
     rows: &[usize],
-    shifts: &[Shift],
+    shifts: &[Offset],
     scatter: Scatter,
 ) -> Vec<Vec<[f64; 2]>> {
     let at = hypothesis.coordinates();

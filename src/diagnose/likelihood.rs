@@ -8,7 +8,7 @@
 //!
 //! `s` is estimated from the rows at hand for every forecast anew (expectation–maximisation).
 
-use super::forecast::{Forecast, Said};
+use super::forecast::{Forecast, Prediction};
 use crate::dataset::{Measurement, Reading};
 
 /// Share of rows that may be gross errors [1].
@@ -30,7 +30,7 @@ const SMALLEST_SCATTER: f64 = 1e-3;
 
 /// What is added to a forecast of one row, besides what the model says.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Shift {
+pub(super) struct Offset {
     /// To `e_n` [1].
     pub e_n: f64,
     /// To `e_t` [1].
@@ -41,7 +41,7 @@ pub(super) struct Shift {
     pub spread: f64,
 }
 
-impl Default for Shift {
+impl Default for Offset {
     fn default() -> Self {
         Self { e_n: 0.0, e_t: 0.0, capture: 0.0, spread: 1.0 }
     }
@@ -55,7 +55,7 @@ pub(super) struct Scatter {
 }
 
 /// The probability of capture after a shift, kept off 0 and 1: no curve may win by claiming to be certain.
-pub(super) fn capture(said: &Said, shift: &Shift) -> f64 {
+pub(super) fn capture(said: &Prediction, shift: &Offset) -> f64 {
     let doubted = |share: f64| DOUBT + (1.0 - 2.0 * DOUBT) * share;
     let plain = doubted(said.capture);
     if shift.capture == 0.0 {
@@ -75,7 +75,7 @@ pub(super) struct Mean {
 }
 
 /// The forecast's mean over chance.
-pub(super) fn mean(said: &[Said], shift: &Shift) -> Mean {
+pub(super) fn mean(said: &[Prediction], shift: &Offset) -> Mean {
     let (mut weight, mut held, mut all) = (0.0, 0.0, 0.0);
     let (mut n, mut nn, mut t, mut tt) = (0.0, 0.0, 0.0, 0.0);
     for one in said {
@@ -129,7 +129,7 @@ pub(super) fn ordinary(residual: f64, scatter: f64) -> f64 {
 }
 
 /// Log score of one row.
-pub(super) fn score(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatter) -> f64 {
+pub(super) fn score(row: &Measurement, said: &[Prediction], shift: &Offset, scatter: Scatter) -> f64 {
     if row.impacts > 1.0 {
         score_average(row, said, shift, scatter)
     } else {
@@ -137,7 +137,7 @@ pub(super) fn score(row: &Measurement, said: &[Said], shift: &Shift, scatter: Sc
     }
 }
 
-fn score_single(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatter) -> f64 {
+fn score_single(row: &Measurement, said: &[Prediction], shift: &Offset, scatter: Scatter) -> f64 {
     let (mut sum, mut rebounds, mut all) = (0.0, 0.0, 0.0);
     for one in said {
         let p = capture(one, shift);
@@ -154,7 +154,7 @@ fn score_single(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatte
 }
 
 /// Density of the restitutions of a single rebound under one draw.
-fn rebound_density(row: &Measurement, one: &Said, shift: &Shift, scatter: Scatter) -> f64 {
+fn rebound_density(row: &Measurement, one: &Prediction, shift: &Offset, scatter: Scatter) -> f64 {
     let of = |reading: &Option<Reading>, said: f64, scatter: f64, reach: f64| {
         reading.as_ref().map_or(1.0, |reading| {
             let scatter = row_scatter(scatter, shift.spread, reading, 1.0, reach * reach);
@@ -165,7 +165,7 @@ fn rebound_density(row: &Measurement, one: &Said, shift: &Shift, scatter: Scatte
         * of(&row.e_t, one.e_t + shift.e_t, scatter.e_t, one.reach[1])
 }
 
-fn score_average(row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatter) -> f64 {
+fn score_average(row: &Measurement, said: &[Prediction], shift: &Offset, scatter: Scatter) -> f64 {
     let mean = mean(said, shift);
     let of = |reading: &Option<Reading>, said: f64, scatter: f64, chance: f64| {
         reading.as_ref().map_or(0.0, |reading| {
@@ -186,7 +186,7 @@ pub(super) fn fit_scatter(
     all: &[Measurement],
     rows: &[usize],
     forecast: &Forecast,
-    shifts: &[Shift],
+    shifts: &[Offset],
     first: Scatter,
 ) -> Scatter {
     let mut scatter = first;
@@ -210,7 +210,13 @@ pub(super) fn fit_scatter(
 }
 
 /// Adds a row's squared residuals and weights, of `e_n` and `e_t`.
-fn add_row(sums: &mut [[f64; 2]; 2], row: &Measurement, said: &[Said], shift: &Shift, scatter: Scatter) {
+fn add_row(
+    sums: &mut [[f64; 2]; 2],
+    row: &Measurement,
+    said: &[Prediction],
+    shift: &Offset,
+    scatter: Scatter,
+) {
     if row.captured.is_some_and(|share| share >= 1.0) {
         return;
     }
@@ -220,7 +226,7 @@ fn add_row(sums: &mut [[f64; 2]; 2], row: &Measurement, said: &[Said], shift: &S
         (said, [0.0; 2])
     } else {
         let mean = mean(said, shift);
-        average = [Said {
+        average = [Prediction {
             e_n: mean.e_n - shift.e_n,
             e_t: mean.e_t - shift.e_t,
             capture: mean.capture,

@@ -2,22 +2,22 @@
 //!
 //! The walk of a measurement: rows → [`Model`] on every row → residuals → candidates, each fitted to training rows →
 //! contest on unseen rows → verdict → extended model → gain on rows that nothing saw → page, JSON, TOML. `diagnose` knows
-//! effects only through their [`crate::effect::Kind`]: a new effect is a candidate as soon as it is in the list. How the
+//! effects only through their [`crate::effect::EffectInfo`]: a new effect is a candidate as soon as it is in the list. How the
 //! judgement works, and where it ends, is one page: `docs/diagnosis.md`.
 
 mod advice;
-mod contest;
+mod data_split;
 mod extend;
 mod forecast;
 mod gain;
 mod hypothesis;
 mod interval;
 mod likelihood;
+mod model_selection;
 mod part;
 mod record;
 mod search;
 mod smooth;
-mod study;
 mod unknown;
 mod verdict;
 
@@ -29,12 +29,12 @@ pub use record::{
 use crate::dataset::Measurements;
 use crate::impact::{INPUTS, Impact, Input};
 use crate::model::Model;
-use contest::{Added, Contender, Round};
+use data_split::DataSplit;
 use gain::Answers;
 use hypothesis::{Hypothesis, Observable};
 use likelihood::Scatter;
+use model_selection::{Added, Round, ScoredCandidate};
 use part::Part;
-use study::Study;
 
 /// What a diagnosis may be told.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,9 +95,9 @@ const CLEAR: f64 = 1.645;
 
 /// A discovery on the way: what was added, and the round it won.
 struct Discovery {
-    winner: Contender,
+    winner: ScoredCandidate,
     /// The others of its round.
-    others: Vec<Contender>,
+    others: Vec<ScoredCandidate>,
 }
 
 /// Diagnoses `data` against the model `base` whose file has the text `text`. `progress` is called after
@@ -121,7 +121,7 @@ pub fn diagnose(
     }
     let used = data.rows.len();
     let data = &data.unfolded(MOST_UNFOLDED);
-    let study = Study::new(base, data, options.seed);
+    let study = DataSplit::new(base, data, options.seed);
     let plain = Hypothesis::default();
     let first =
         plain.fit(&study, &study.search, &plain.shifts(&study), Scatter { e_n: 0.1, e_t: 0.1 }).scatter;
@@ -142,7 +142,7 @@ pub fn diagnose(
         };
         let others = contenders.into_iter().filter(|c| !same(&c.added, &winner.added)).collect();
         scatter = adopt(&mut hypothesis, &study, &winner, scatter);
-        if !matches!(winner.added, Added::Noise(..) | Added::Lapses(_)) {
+        if !matches!(winner.added, Added::Noise(..) | Added::BackgroundCapture(_)) {
             discoveries.push(Discovery { winner, others });
         }
         scatter = drop_superfluous(&mut hypothesis, &study, &mut discoveries, scatter);
@@ -189,14 +189,19 @@ fn beyond_measure(impact: &Impact) -> Option<String> {
 }
 
 /// The candidate to adopt, or none that stands above chance.
-fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Option<Contender> {
+fn choose(
+    study: &DataSplit,
+    contenders: &[ScoredCandidate],
+    level: f64,
+    least: f64,
+) -> Option<ScoredCandidate> {
     let significant = contenders.iter().filter(|c| c.q_value <= level && c.gain() >= least);
     let (mut parts, mut unknowns, mut noises) = (Vec::new(), Vec::new(), Vec::new());
     for contender in significant {
         match contender.added {
             Added::Part(..) => parts.push(contender),
             Added::Unknown(_) => unknowns.push(contender),
-            Added::Noise(..) | Added::Lapses(_) => noises.push(contender),
+            Added::Noise(..) | Added::BackgroundCapture(_) => noises.push(contender),
         }
     }
     let part = simplest_of_best(&parts);
@@ -222,18 +227,18 @@ fn choose(study: &Study, contenders: &[Contender], level: f64, least: f64) -> Op
     }
 }
 
-fn most<'a>(contenders: impl Iterator<Item = &'a Contender>) -> Option<&'a Contender> {
+fn most<'a>(contenders: impl Iterator<Item = &'a ScoredCandidate>) -> Option<&'a ScoredCandidate> {
     contenders.max_by(|a, b| a.gain().total_cmp(&b.gain()))
 }
 
 /// Among parts that do about as well as the best, the one with the fewest parameters.
-fn simplest_of_best<'a>(parts: &[&'a Contender]) -> Option<&'a Contender> {
+fn simplest_of_best<'a>(parts: &[&'a ScoredCandidate]) -> Option<&'a ScoredCandidate> {
     let best = most(parts.iter().copied())?;
-    let about_as_good = |part: &&&Contender| {
+    let about_as_good = |part: &&&ScoredCandidate| {
         (best.lead(part) < CLEAR || best.at_an_end())
             && (part.gain() > 0.9 * best.gain() || best.gain() - part.gain() < LEAST_GAIN)
     };
-    let key = |part: &&&Contender| (part.parameters(), -part.gain());
+    let key = |part: &&&ScoredCandidate| (part.parameters(), -part.gain());
     parts
         .iter()
         .filter(about_as_good)
@@ -244,10 +249,10 @@ fn simplest_of_best<'a>(parts: &[&'a Contender]) -> Option<&'a Contender> {
 /// Whether a curve over an input has to wait: effects of the library turn on it, and some part explains a good deal.
 ///
 /// Several causes together may shape what the residuals show over one input; they are looked for first.
-fn waits(study: &Study, unknown: &Contender, parts: &[&Contender]) -> bool {
+fn waits(study: &DataSplit, unknown: &ScoredCandidate, parts: &[&ScoredCandidate]) -> bool {
     let Added::Unknown(curve) = &unknown.added else { return false };
     let factor = &study.factors[curve.factor];
-    let turned_on = crate::effect::KINDS.iter().any(|kind| kind.inputs.contains(&factor.name.as_str()));
+    let turned_on = crate::effect::EFFECTS.iter().any(|kind| kind.inputs.contains(&factor.name.as_str()));
     factor.input && turned_on && parts.iter().any(|part| part.gain() > ENOUGH * unknown.gain())
 }
 
@@ -256,13 +261,18 @@ fn same(a: &Added, b: &Added) -> bool {
         (Added::Part(a, _), Added::Part(b, _)) => a.part.name() == b.part.name(),
         (Added::Unknown(a), Added::Unknown(b)) => a.factor == b.factor,
         (Added::Noise(a, _), Added::Noise(b, _)) => a == b,
-        (Added::Lapses(_), Added::Lapses(_)) => true,
+        (Added::BackgroundCapture(_), Added::BackgroundCapture(_)) => true,
         _ => false,
     }
 }
 
 /// Adds the winner and fits everything together.
-fn adopt(hypothesis: &mut Hypothesis, study: &Study, winner: &Contender, scatter: Scatter) -> Scatter {
+fn adopt(
+    hypothesis: &mut Hypothesis,
+    study: &DataSplit,
+    winner: &ScoredCandidate,
+    scatter: Scatter,
+) -> Scatter {
     match &winner.added {
         Added::Part(fitted, others) => {
             hypothesis.parts.clone_from(others);
@@ -270,13 +280,13 @@ fn adopt(hypothesis: &mut Hypothesis, study: &Study, winner: &Contender, scatter
         }
         Added::Unknown(unknown) => hypothesis.unknowns.push(unknown.clone()),
         Added::Noise(factor, change) => hypothesis.noise.push((*factor, *change)),
-        Added::Lapses(odds) => hypothesis.lapses = *odds,
+        Added::BackgroundCapture(odds) => hypothesis.lapses = *odds,
     }
     settle(hypothesis, study, scatter)
 }
 
 /// Fits all parameters together and takes up what is left of the laws' shape.
-fn settle(hypothesis: &mut Hypothesis, study: &Study, scatter: Scatter) -> Scatter {
+fn settle(hypothesis: &mut Hypothesis, study: &DataSplit, scatter: Scatter) -> Scatter {
     hypothesis.shape = None;
     let scatter = hypothesis.polish(study, &study.search, scatter);
     hypothesis.absorb_shape(study, scatter);
@@ -291,7 +301,7 @@ fn first_gain(discoveries: &[Discovery]) -> f64 {
 /// Drops parts that a later one made superfluous.
 fn drop_superfluous(
     hypothesis: &mut Hypothesis,
-    study: &Study,
+    study: &DataSplit,
     discoveries: &mut Vec<Discovery>,
     mut scatter: Scatter,
 ) -> Scatter {
@@ -321,7 +331,7 @@ fn drop_superfluous(
 /// Errors before and after, on all rows and on those held out.
 fn measure_gain(
     diagnosis: &mut Diagnosis,
-    study: &Study,
+    study: &DataSplit,
     plain: &Hypothesis,
     first: Scatter,
     hypothesis: &Hypothesis,
@@ -343,12 +353,12 @@ fn measure_gain(
 }
 
 /// The id or name of what was added.
-fn cause_of(study: &Study, added: &Added) -> String {
+fn cause_of(study: &DataSplit, added: &Added) -> String {
     match added {
         Added::Part(fitted, _) => fitted.part.name(),
         Added::Unknown(unknown) => format!("unknown:{}", study.factors[unknown.factor].name),
         Added::Noise(factor, _) => format!("scatter:{}", study.factors[*factor].name),
-        Added::Lapses(_) => "lapses".to_owned(),
+        Added::BackgroundCapture(_) => "lapses".to_owned(),
     }
 }
 

@@ -1,8 +1,8 @@
 //! What can be added to a base model and has parameters: an effect, or another value for a number of its laws.
 
+use super::data_split::DataSplit;
 use super::search::Axis;
-use super::study::Study;
-use crate::effect::Kind;
+use crate::effect::EffectInfo;
 use crate::model::Model;
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
@@ -64,7 +64,7 @@ impl Number {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Part {
     /// An effect of the library.
-    Effect(&'static Kind),
+    Effect(&'static EffectInfo),
     /// Another value for a number of the base.
     Number(Number),
 }
@@ -93,7 +93,7 @@ impl Part {
 
     /// The axes of its parameters, with `refined` also of those that have a default (they come last); `None` where the
     /// data cannot show it.
-    pub fn axes(&self, study: &Study, refined: bool) -> Option<Vec<Axis>> {
+    pub fn axes(&self, study: &DataSplit, refined: bool) -> Option<Vec<Axis>> {
         match self {
             Self::Number(_) => Some(vec![Axis::linear(0.02, 1.1)]),
             Self::Effect(kind) => {

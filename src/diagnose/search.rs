@@ -40,11 +40,11 @@ impl Axis {
         match parameter.search {
             Search::Linear(low, high) => Some(Self::linear(low, high)),
             Search::Log(low, high) => Some(Self::log(low, high)),
-            Search::Over(input) => {
+            Search::InputRange(input) => {
                 let [low, high] = range(input)?;
                 within(low, high).map(|(low, high)| Self::linear(low, high))
             }
-            Search::Across(input) => {
+            Search::InputWidth(input) => {
                 let [low, high] = range(input)?;
                 within((high - low) / 50.0, 4.0 * (high - low)).map(|(low, high)| Self::log(low, high))
             }

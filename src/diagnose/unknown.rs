@@ -1,10 +1,10 @@
 //! A column that matters in a way that no effect explains, and the curve over it.
 
+use super::data_split::DataSplit;
 use super::forecast::Forecast;
 use super::hypothesis::{Observable, residuals};
-use super::likelihood::{Scatter, Shift, mean};
+use super::likelihood::{Offset, Scatter, mean};
 use super::smooth::{Basis, Curve};
-use super::study::Study;
 
 /// Rounds of the reweighted fit of capture, after its level.
 const ROUNDS: usize = 5;
@@ -23,11 +23,16 @@ pub(super) struct Unknown {
 
 /// The log odds to add to every forecast of capture so that as many are captured as were; by bisection. `None` where
 /// nothing was observed.
-fn level_of_capture(study: &Study, rows: &[usize], forecast: &Forecast, shifts: &[Shift]) -> Option<f64> {
+fn level_of_capture(
+    study: &DataSplit,
+    rows: &[usize],
+    forecast: &Forecast,
+    shifts: &[Offset],
+) -> Option<f64> {
     let excess = |level: f64| {
         let one = |(place, &index): (usize, &usize)| {
             let row = &study.rows[index];
-            let shift = Shift { capture: shifts[index].capture + level, ..shifts[index] };
+            let shift = Offset { capture: shifts[index].capture + level, ..shifts[index] };
             Some(row.impacts * (mean(forecast.of(place), &shift).capture - row.captured?))
         };
         rows.iter().enumerate().filter_map(one).fold(None, |sum, one| Some(sum.unwrap_or(0.0) + one))
@@ -46,10 +51,10 @@ impl Unknown {
     /// Capture goes by log odds: least squares, reweighted a few times, from the level on.
     pub fn fitted(
         &self,
-        study: &Study,
+        study: &DataSplit,
         rows: &[usize],
         forecast: &Forecast,
-        shifts: &[Shift],
+        shifts: &[Offset],
         scatter: Scatter,
     ) -> Option<Self> {
         let values = study.values(self.factor);
@@ -76,7 +81,7 @@ impl Unknown {
     }
 
     /// Adds the curve to the shifts of these rows.
-    pub fn add(&self, study: &Study, forecast: &Forecast, rows: &[usize], shifts: &mut [Shift]) {
+    pub fn add(&self, study: &DataSplit, forecast: &Forecast, rows: &[usize], shifts: &mut [Offset]) {
         let values = study.values(self.factor);
         for (place, &index) in rows.iter().enumerate() {
             let height = self.curve.at(values, index);
@@ -84,10 +89,10 @@ impl Unknown {
             let factor = |quantity: f64| if self.factorwise { quantity } else { 1.0 };
             match self.observable {
                 Observable::NormalRestitution => {
-                    shift.e_n += height * factor(mean(forecast.of(place), &Shift::default()).e_n);
+                    shift.e_n += height * factor(mean(forecast.of(place), &Offset::default()).e_n);
                 }
                 Observable::TangentialRestitution => {
-                    shift.e_t += height * factor(mean(forecast.of(place), &Shift::default()).e_t);
+                    shift.e_t += height * factor(mean(forecast.of(place), &Offset::default()).e_t);
                 }
                 Observable::Capture => shift.capture += height,
             }

@@ -3,22 +3,22 @@
 use std::collections::BTreeMap;
 
 use super::advice::advise;
-use super::contest::{Added, Contender};
+use super::data_split::DataSplit;
 use super::extend::rounded;
 use super::forecast::Forecast;
 use super::hypothesis::{Hypothesis, Observable, changes};
 use super::likelihood::Scatter;
+use super::model_selection::{Added, ScoredCandidate};
 use super::part::{Fitted, Part};
 use super::record::{
     Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, Gain, Misfit, NotExamined, Rejected,
     Rows, Sample, ScatterFound, Shape, Unexplained,
 };
 use super::smooth::Basis;
-use super::study::Study;
 use super::unknown::Unknown;
 use super::{CLEAR, Discovery, Options, cause_of, is_number};
 use crate::dataset::{Measurements, Values};
-use crate::effect::KINDS;
+use crate::effect::EFFECTS;
 
 /// Alternatives listed at most.
 const ALTERNATIVES: usize = 6;
@@ -26,7 +26,7 @@ const ALTERNATIVES: usize = 6;
 const MISFITS: usize = 12;
 
 /// Where the base model fails: curves over single columns in the first round, the best of each column and observable.
-pub(super) fn misfit(study: &Study, contenders: &[Contender], level: f64) -> Vec<Misfit> {
+pub(super) fn misfit(study: &DataSplit, contenders: &[ScoredCandidate], level: f64) -> Vec<Misfit> {
     let mut best: BTreeMap<(String, &'static str), Misfit> = BTreeMap::new();
     for contender in contenders.iter().filter(|c| c.q_value <= level) {
         let Added::Unknown(unknown) = &contender.added else { continue };
@@ -51,7 +51,7 @@ pub(super) fn misfit(study: &Study, contenders: &[Contender], level: f64) -> Vec
 
 /// Everything but gain, misfit, verdict and sample.
 pub(super) fn record(
-    study: &Study,
+    study: &DataSplit,
     data: &Measurements,
     hypothesis: &Hypothesis,
     discoveries: &[Discovery],
@@ -59,7 +59,7 @@ pub(super) fn record(
     scatter: Scatter,
     options: Options,
 ) -> Diagnosis {
-    let teller = Teller { study, hypothesis, intervals, scatter, level: options.level };
+    let teller = FindingBuilder { study, hypothesis, intervals, scatter, level: options.level };
     let mut findings: Vec<Finding> = Vec::new();
     let mut calibration = Vec::new();
     for discovery in discoveries {
@@ -108,7 +108,7 @@ pub(super) fn record(
 }
 
 /// Captured share, measured and by the named parts, where a constant rate had to be taken into account.
-fn unexplained_capture(study: &Study, hypothesis: &Hypothesis) -> Option<Unexplained> {
+fn unexplained_capture(study: &DataSplit, hypothesis: &Hypothesis) -> Option<Unexplained> {
     if hypothesis.lapses == 0.0 {
         return None;
     }
@@ -118,7 +118,7 @@ fn unexplained_capture(study: &Study, hypothesis: &Hypothesis) -> Option<Unexpla
         .iter()
         .enumerate()
         .filter_map(|(place, &row)| {
-            let said = super::likelihood::mean(forecast.of(place), &super::likelihood::Shift::default());
+            let said = super::likelihood::mean(forecast.of(place), &super::likelihood::Offset::default());
             Some([study.rows[row].captured?, said.capture])
         })
         .collect();
@@ -127,8 +127,8 @@ fn unexplained_capture(study: &Study, hypothesis: &Hypothesis) -> Option<Unexpla
 }
 
 /// Effects that the data cannot speak of, with what is missing.
-fn not_examined(study: &Study) -> Vec<NotExamined> {
-    let one = |kind: &&'static crate::effect::Kind| {
+fn not_examined(study: &DataSplit) -> Vec<NotExamined> {
+    let one = |kind: &&'static crate::effect::EffectInfo| {
         if study.base.terms().iter().any(|term| term.kind().id == kind.id) {
             return Some(NotExamined { cause: kind.id, reason: "the base model has it".to_owned() });
         }
@@ -142,26 +142,26 @@ fn not_examined(study: &Study) -> Vec<NotExamined> {
             reason: format!("{} does not vary in the data", missing.join(", ")),
         })
     };
-    KINDS.iter().filter_map(one).collect()
+    EFFECTS.iter().filter_map(one).collect()
 }
 
 /// What every sentence draws on.
-struct Teller<'a> {
-    study: &'a Study,
+struct FindingBuilder<'a> {
+    study: &'a DataSplit,
     hypothesis: &'a Hypothesis,
     intervals: &'a [Vec<[f64; 2]>],
     scatter: Scatter,
     level: f64,
 }
 
-impl Teller<'_> {
+impl FindingBuilder<'_> {
     /// A part after the last fit, with its intervals.
     fn final_part(&self, name: &str) -> Option<(&Fitted, &[[f64; 2]])> {
         let place = self.hypothesis.parts.iter().position(|fitted| fitted.part.name() == name)?;
         Some((&self.hypothesis.parts[place], self.intervals.get(place)?))
     }
 
-    fn calibration(&self, winner: &Contender) -> Option<Calibration> {
+    fn calibration(&self, winner: &ScoredCandidate) -> Option<Calibration> {
         let key = cause_of(self.study, &winner.added);
         let (fitted, ends) = self.final_part(&key)?;
         let Part::Number(number) = fitted.part else { return None };
@@ -181,7 +181,7 @@ impl Teller<'_> {
         let cause = cause_of(self.study, &winner.added);
         let observable = self.observable(winner);
         let twins = self.twins(winner, others);
-        let name = |other: &Contender| cause_of(self.study, &other.added);
+        let name = |other: &ScoredCandidate| cause_of(self.study, &other.added);
         let measure_next = twins.iter().filter_map(|twin| {
             let (found, other) = (self.alone(winner), self.alone(twin));
             advise(self.study, &found, &other, &name(twin), self.scatter)
@@ -204,14 +204,14 @@ impl Teller<'_> {
         finding
     }
 
-    fn unknown(&self, winner: &Contender) -> Option<&Unknown> {
+    fn unknown(&self, winner: &ScoredCandidate) -> Option<&Unknown> {
         let Added::Unknown(first) = &winner.added else { return None };
         let of_last_fit = |u: &&Unknown| u.factor == first.factor && u.observable == first.observable;
         self.hypothesis.unknowns.iter().find(of_last_fit)
     }
 
     /// The observable in which base and cause differ most, in units of the scatter.
-    fn observable(&self, winner: &Contender) -> Observable {
+    fn observable(&self, winner: &ScoredCandidate) -> Observable {
         if let Added::Unknown(unknown) = &winner.added {
             return unknown.observable;
         }
@@ -226,7 +226,7 @@ impl Teller<'_> {
         Observable::ALL.into_iter().rev().max_by(larger).unwrap_or(Observable::NormalRestitution)
     }
 
-    fn alone(&self, contender: &Contender) -> Hypothesis {
+    fn alone(&self, contender: &ScoredCandidate) -> Hypothesis {
         let mut hypothesis = Hypothesis::default();
         if let Added::Part(fitted, _) = &contender.added {
             hypothesis.parts.push(fitted.clone());
@@ -234,11 +234,11 @@ impl Teller<'_> {
         hypothesis
     }
 
-    fn variables(&self, winner: &Contender) -> Vec<String> {
+    fn variables(&self, winner: &ScoredCandidate) -> Vec<String> {
         match &winner.added {
             Added::Part(fitted, _) => fitted.part.inputs().iter().map(|&input| input.to_owned()).collect(),
             Added::Unknown(unknown) => vec![self.study.factors[unknown.factor].name.clone()],
-            Added::Noise(..) | Added::Lapses(_) => Vec::new(),
+            Added::Noise(..) | Added::BackgroundCapture(_) => Vec::new(),
         }
     }
 
@@ -260,16 +260,16 @@ impl Teller<'_> {
     }
 
     /// The best of each other cause in the round.
-    fn alternatives(&self, winner: &Contender, others: &[Contender]) -> Vec<Alternative> {
+    fn alternatives(&self, winner: &ScoredCandidate, others: &[ScoredCandidate]) -> Vec<Alternative> {
         let mut best: BTreeMap<String, f64> = BTreeMap::new();
         let variables = self.variables(winner);
-        let rival = |other: &&Contender| match &other.added {
+        let rival = |other: &&ScoredCandidate| match &other.added {
             Added::Part(..) => true,
             // A curve over the winner's own inputs is no other cause, and one that owes all to its level is none.
             Added::Unknown(curve) => {
                 other.q_value <= self.level && !variables.contains(&self.study.factors[curve.factor].name)
             }
-            Added::Noise(..) | Added::Lapses(_) => false,
+            Added::Noise(..) | Added::BackgroundCapture(_) => false,
         };
         for other in others.iter().filter(rival) {
             let difference = winner.gain() - other.gain();
@@ -284,18 +284,18 @@ impl Teller<'_> {
     }
 
     /// Causes that do about as well without more freedom.
-    fn twins<'a>(&self, winner: &Contender, others: &'a [Contender]) -> Vec<&'a Contender> {
-        let as_good = |other: &&Contender| {
+    fn twins<'a>(&self, winner: &ScoredCandidate, others: &'a [ScoredCandidate]) -> Vec<&'a ScoredCandidate> {
+        let as_good = |other: &&ScoredCandidate| {
             let cause = match &other.added {
                 Added::Part(..) => {
                     other.parameters() <= winner.parameters().max(2) || other.gain() > winner.gain()
                 }
                 Added::Unknown(unknown) => !self.study.factors[unknown.factor].input,
-                Added::Noise(..) | Added::Lapses(_) => false,
+                Added::Noise(..) | Added::BackgroundCapture(_) => false,
             };
             cause && !is_number(&other.added) && other.q_value <= self.level && winner.lead(other) < CLEAR
         };
-        let mut twins: Vec<&Contender> = others.iter().filter(as_good).collect();
+        let mut twins: Vec<&ScoredCandidate> = others.iter().filter(as_good).collect();
         twins.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
         twins.dedup_by_key(|twin| cause_of(self.study, &twin.added));
         twins
@@ -320,7 +320,7 @@ fn explain(finding: &Finding, observable: Observable) -> String {
             "The {quantity} depends on the column `{column}` in a way that no effect of the library explains."
         );
     }
-    let about = KINDS.iter().find(|kind| kind.id == finding.cause).map_or("", |kind| kind.about);
+    let about = EFFECTS.iter().find(|kind| kind.id == finding.cause).map_or("", |kind| kind.about);
     let mut text = format!("The {quantity} shows `{}`: {about}", finding.cause);
     if !finding.variables.is_empty() {
         text += &format!(" (it turns on {})", finding.variables.join(", "));

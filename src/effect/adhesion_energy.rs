@@ -7,11 +7,11 @@
 //! between. Valid with `thornton-ning`, whose adhesion is that of JKR: for contacts soft and wide against the range of the
 //! surface forces. Slow impacts determine it; fast ones do not.
 
-use super::{Effect, Kind, Parameter, Search, Simple};
+use super::{Effect, EffectInfo, Parameter, Precomputed, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "adhesion-energy",
     about: "the work of adhesion differs from that of the surface energies",
     inputs: &[],
@@ -37,8 +37,8 @@ impl Effect for AdhesionEnergy {
         Contact { work_of_adhesion: self.work_of_adhesion, ..contact }
     }
 
-    fn simple(&self) -> Option<Simple> {
-        Some(Simple::Contact)
+    fn precompute(&self) -> Option<Precomputed> {
+        Some(Precomputed::Contact)
     }
 }
 
@@ -51,7 +51,7 @@ mod tests {
 
     fn holds_up_to(work_of_adhesion: f64) -> f64 {
         let plain = Contact { work_of_adhesion: 7.0, ..wax_on_pyrex() };
-        adhesive_velocity(&(KIND.build)(&[work_of_adhesion]).contact(&Impact::default(), plain, 0.0), 75e-6)
+        adhesive_velocity(&(INFO.build)(&[work_of_adhesion]).contact(&Impact::default(), plain, 0.0), 75e-6)
     }
 
     /// Troiano Eq. 1 for wax on Pyrex, `W = 0.346 J/m²`: 0.116 m/s, which is 0.953 of the right number.

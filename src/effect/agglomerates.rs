@@ -10,11 +10,11 @@
 //! Valid for a population, never for one particle. One draw, stream `stream::AGGLOMERATES`: below `fraction` it says that
 //! the particle is an agglomerate, and its place there, `u` of 0 to 1, how it rebounds.
 
-use super::{Effect, Kind, Parameter, Search, stream};
+use super::{Effect, EffectInfo, Parameter, Search, stream};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "agglomerates",
     about: "a fraction of the particles rebounds with little loss",
     inputs: &[],
@@ -76,7 +76,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn e_n(parameters: [f64; 3], chance: f64) -> f64 {
-        let effect = (KIND.build)(&parameters);
+        let effect = (INFO.build)(&parameters);
         effect.normal_restitution(&Impact::default(), &wax_on_pyrex(), 0.3, chance).unwrap()
     }
 

@@ -9,10 +9,10 @@
 //! Seen with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise lies at a conversion of
 //! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
 
-use super::transition::{ASYMMETRY, Over, rise};
-use super::{Kind, Parameter, Search};
+use super::transition::{ASYMMETRY, Variable, rise};
+use super::{EffectInfo, Parameter, Search};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "conversion-transition",
     about: "capture rises past a carbon conversion",
     inputs: &["conversion"],
@@ -23,7 +23,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "1",
             bounds: (0.0, 1.0),
             default: None,
-            search: Search::Over("conversion"),
+            search: Search::InputRange("conversion"),
             about: "carbon conversion at which half of the impacts stick",
         },
         Parameter {
@@ -31,7 +31,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "1",
             bounds: (1e-6, 10.0),
             default: None,
-            search: Search::Across("conversion"),
+            search: Search::InputWidth("conversion"),
             about: "conversion over which the odds of sticking change by e",
         },
         Parameter {
@@ -44,7 +44,7 @@ pub(super) const KIND: Kind = Kind {
         },
         ASYMMETRY,
     ],
-    build: |values| rise(Over::Conversion, values),
+    build: |values| rise(Variable::Conversion, values),
 };
 
 #[cfg(test)]
@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn capture_rises_past_the_threshold() {
-        let effect = (KIND.build)(&[0.89, 0.01, 0.0, 1.0]);
+        let effect = (INFO.build)(&[0.89, 0.01, 0.0, 1.0]);
         let stickiness = |conversion: f64| {
             effect.particle_stickiness(&Impact { conversion, ..Impact::default() }).unwrap()
         };

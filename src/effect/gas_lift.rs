@@ -9,11 +9,11 @@
 //! on; nothing limits it beyond. Where the solver itself moves particles through the boundary layer, its drag and lift may
 //! already hold part of this.
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "gas-lift",
     about: "gas that flows along the wall raises e_n of glancing impacts",
     inputs: &["v_gas", "v_t"],
@@ -52,7 +52,7 @@ mod tests {
     fn e_n(alpha: f64, gas_speed: f64) -> f64 {
         let tangential_speed = 1.0 / alpha.to_radians().tan();
         let impact = Impact { normal_speed: 1.0, tangential_speed, gas_speed, ..Impact::default() };
-        (KIND.build)(&[0.0567]).normal_restitution(&impact, &wax_on_pyrex(), 0.28, 0.0).unwrap()
+        (INFO.build)(&[0.0567]).normal_restitution(&impact, &wax_on_pyrex(), 0.28, 0.0).unwrap()
     }
 
     /// With the air four times as fast at 35° as near normal, both of the paper's values come out.

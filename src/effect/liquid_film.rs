@@ -15,11 +15,11 @@
 //! `viscosity` alone. Under a powder layer the film does not act: give such a wall no film (Troiano et al., Fig 10, found
 //! powder on syrup like powder on a dry target).
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "liquid-film",
     about: "a liquid film on the wall brakes the particle and may hold it",
     inputs: &["film_thickness", "v_n", "d"],
@@ -88,7 +88,7 @@ mod tests {
 
     fn e_n(viscosity: f64, film_thickness: f64, normal_speed: f64) -> Option<f64> {
         let impact = Impact { normal_speed, film_thickness, diameter: 100e-6, ..Impact::default() };
-        let effect = (KIND.build)(&[viscosity, 1e-7]);
+        let effect = (INFO.build)(&[viscosity, 1e-7]);
         effect.normal_restitution(&impact, &wax_on_pyrex(), DRY, 0.0)
     }
 

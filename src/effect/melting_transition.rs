@@ -10,10 +10,10 @@
 //! 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce. The flow test of the same wax (1, 50 and 70 %
 //! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
 
-use super::transition::{ASYMMETRY, Over, rise};
-use super::{Kind, Parameter, Search};
+use super::transition::{ASYMMETRY, Variable, rise};
+use super::{EffectInfo, Parameter, Search};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "melting-transition",
     about: "capture rises and e_n falls as the particle melts",
     inputs: &["T_p"],
@@ -24,7 +24,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "K",
             bounds: (1.0, 1e4),
             default: None,
-            search: Search::Over("T_p"),
+            search: Search::InputRange("T_p"),
             about: "particle temperature at which half of the impacts stick",
         },
         Parameter {
@@ -32,7 +32,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "K",
             bounds: (1e-3, 1e4),
             default: None,
-            search: Search::Across("T_p"),
+            search: Search::InputWidth("T_p"),
             about: "temperature over which the odds of sticking change by e",
         },
         Parameter {
@@ -45,7 +45,7 @@ pub(super) const KIND: Kind = Kind {
         },
         ASYMMETRY,
     ],
-    build: |values| rise(Over::Temperature, values),
+    build: |values| rise(Variable::Temperature, values),
 };
 
 #[cfg(test)]
@@ -55,7 +55,7 @@ mod tests {
 
     #[test]
     fn troiano_capture_against_temperature() {
-        let effect = (KIND.build)(&[360.1, 6.96, 1.0, 1.0]);
+        let effect = (INFO.build)(&[360.1, 6.96, 1.0, 1.0]);
         let capture = |celsius: f64| {
             let impact = Impact { particle_temperature: celsius + 273.15, ..Impact::default() };
             effect.particle_stickiness(&impact).unwrap()

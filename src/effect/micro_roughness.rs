@@ -16,10 +16,10 @@ use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use statrs::function::erf::{erfc, erfc_inv};
 
-use super::{Effect, Kind, Parameter, Search, stream};
+use super::{Effect, EffectInfo, Parameter, Search, stream};
 use crate::impact::Impact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "micro-roughness",
     about: "the wall is tilted at random where it is hit",
     inputs: &["v_t", "v_n"],
@@ -73,7 +73,7 @@ mod tests {
     fn tilt(angle: f64, alpha: f64, draw: f64) -> f64 {
         let (normal_speed, tangential_speed) = alpha.sin_cos();
         let impact = Impact { normal_speed, tangential_speed, ..Impact::default() };
-        (KIND.build)(&[angle]).tilt(&impact, draw)
+        (INFO.build)(&[angle]).tilt(&impact, draw)
     }
 
     /// Mean of a normal density between the cuts, by the trapezoidal rule.

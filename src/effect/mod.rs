@@ -1,6 +1,6 @@
 //! Effects: named, removable terms that change what the plain laws say. One effect a file.
 //!
-//! A new effect is one file with a [`Kind`] and one line in [`KINDS`]; the model file, the C library, OpenFOAM and
+//! A new effect is one file with a [`EffectInfo`] and one line in [`EFFECTS`]; the model file, the C library, OpenFOAM and
 //! the documentation then know it.
 
 mod adhesion_energy;
@@ -27,31 +27,31 @@ use std::sync::Arc;
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
 use crate::normal::Contact;
-use crate::tangential::{Glance, Rebound};
+use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
 
 /// Every effect there is.
-pub const KINDS: [&Kind; 17] = [
-    &yield_ratio::KIND,
-    &adhesion_energy::KIND,
-    &oblique_angle::KIND,
-    &gas_lift::KIND,
-    &sliding_to_rolling::KIND,
-    &tangential_compliance::KIND,
-    &nano_roughness::KIND,
-    &micro_roughness::KIND,
-    &agglomerates::KIND,
-    &powder_layer::KIND,
-    &liquid_film::KIND,
-    &melting_transition::KIND,
-    &conversion_transition::KIND,
-    &thermal_softening::KIND,
-    &size_dependent_yield::KIND,
-    &strain_rate_hardening::KIND,
-    &viscoelastic_loss::KIND,
+pub const EFFECTS: [&EffectInfo; 17] = [
+    &yield_ratio::INFO,
+    &adhesion_energy::INFO,
+    &oblique_angle::INFO,
+    &gas_lift::INFO,
+    &sliding_to_rolling::INFO,
+    &tangential_compliance::INFO,
+    &nano_roughness::INFO,
+    &micro_roughness::INFO,
+    &agglomerates::INFO,
+    &powder_layer::INFO,
+    &liquid_film::INFO,
+    &melting_transition::INFO,
+    &conversion_transition::INFO,
+    &thermal_softening::INFO,
+    &size_dependent_yield::INFO,
+    &strain_rate_hardening::INFO,
+    &viscoelastic_loss::INFO,
 ];
 
-/// The streams of [`Draw`](crate::Draw): each effect with chance has its own, so that no two draw the same number.
+/// The streams of [`ImpactRng`](crate::ImpactRng): each effect with chance has its own, so that no two draw the same number.
 pub(crate) mod stream {
     /// Whether a particle is captured (no effect).
     pub const CAPTURE: u64 = 0;
@@ -65,7 +65,7 @@ pub(crate) mod stream {
 
 /// A named term of a model. Each method is one step of an impact's walk; an effect overrides those it acts on.
 ///
-/// `chance` is a uniform random number in (0, 1), drawn anew for every impact and every effect with a [`Kind::stream`]; the
+/// `chance` is a uniform random number in (0, 1), drawn anew for every impact and every effect with a [`EffectInfo::stream`]; the
 /// others get zero.
 pub trait Effect: Send + Sync + std::fmt::Debug {
     /// How far the wall is tilted towards the particle where it is hit [rad]; tilts of several effects add.
@@ -101,19 +101,19 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
     }
 
     /// What the effect comes down to where it needs no walk; `None` for one that does.
-    fn simple(&self) -> Option<Simple> {
+    fn precompute(&self) -> Option<Precomputed> {
         None
     }
 
     /// Changes what the tangential law says.
-    fn tangential(&self, _glance: &Glance, rebound: Rebound) -> Rebound {
+    fn tangential(&self, _glance: &ImpactKinematics, rebound: Rebound) -> Rebound {
         rebound
     }
 }
 
 /// An effect that can be prepared before an impact is known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Simple {
+pub enum Precomputed {
     /// It changes the contact, all impacts alike, and nothing else.
     Contact,
     /// It makes the particle sticky by one input, and takes up its rebound.
@@ -145,14 +145,14 @@ pub enum Search {
     /// Evenly in the logarithm between two positive values.
     Log(f64, f64),
     /// Within the range that the data have of an input, evenly.
-    Over(&'static str),
+    InputRange(&'static str),
     /// From a fiftieth of the range that the data have of an input to four times it, evenly in the logarithm.
-    Across(&'static str),
+    InputWidth(&'static str),
 }
 
 /// What an effect is called, what it does and which parameters it has.
 #[derive(Debug)]
-pub struct Kind {
+pub struct EffectInfo {
     /// The id in model files and diagnoses.
     pub id: &'static str,
     /// One line on what it does.
@@ -170,15 +170,15 @@ pub struct Kind {
 /// An effect of a model, with the range it was fitted on.
 #[derive(Debug, Clone)]
 pub struct Term {
-    kind: &'static Kind,
+    kind: &'static EffectInfo,
     values: Vec<f64>,
     valid: Vec<(usize, [f64; 2])>,
     effect: Arc<dyn Effect>,
 }
 
 impl Term {
-    /// The effect of this kind with the given parameters, in the order of [`Kind::parameters`].
-    pub fn new(kind: &'static Kind, values: &[f64]) -> Self {
+    /// The effect of this kind with the given parameters, in the order of [`EffectInfo::parameters`].
+    pub fn new(kind: &'static EffectInfo, values: &[f64]) -> Self {
         Self { kind, values: values.to_vec(), valid: Vec::new(), effect: (kind.build)(values).into() }
     }
 
@@ -188,8 +188,8 @@ impl Term {
     /// [`InputError::Fault`] for an unknown kind, or a parameter that is unknown, missing or out of bounds.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let id = section.required_text("kind")?;
-        let ids: Vec<&str> = KINDS.iter().map(|kind| kind.id).collect();
-        let Some(kind) = KINDS.iter().find(|kind| kind.id == id).copied() else {
+        let ids: Vec<&str> = EFFECTS.iter().map(|kind| kind.id).collect();
+        let Some(kind) = EFFECTS.iter().find(|kind| kind.id == id).copied() else {
             return Err(section.fault("kind", unknown(&id, "effect", &ids)));
         };
         let values = kind
@@ -204,11 +204,11 @@ impl Term {
     }
 
     /// What kind of effect it is.
-    pub fn kind(&self) -> &'static Kind {
+    pub fn kind(&self) -> &'static EffectInfo {
         self.kind
     }
 
-    /// Its parameters, in the order of [`Kind::parameters`].
+    /// Its parameters, in the order of [`EffectInfo::parameters`].
     pub fn values(&self) -> &[f64] {
         &self.values
     }
@@ -275,7 +275,7 @@ fn bounded(factor: f64) -> f64 {
 mod testing {
     use crate::material::Library;
     use crate::normal::Contact;
-    use crate::tangential::Glance;
+    use crate::tangential::ImpactKinematics;
 
     /// Troiano's wax on Pyrex, with `c = 0.7`.
     pub fn wax_on_pyrex() -> Contact {
@@ -285,9 +285,9 @@ mod testing {
     }
 
     /// Wax that hits at 1 m/s under `alpha` [degrees] from the surface.
-    pub fn glance(alpha: f64, spin: f64) -> Glance {
+    pub fn kinematics(alpha: f64, spin: f64) -> ImpactKinematics {
         let (normal_speed, tangential_speed) = alpha.to_radians().sin_cos();
-        Glance {
+        ImpactKinematics {
             normal_speed,
             tangential_speed,
             diameter: 75e-6,

@@ -8,11 +8,11 @@
 //! adhesion matters. The asperities' own height enters nowhere: `spread` stands for it. One draw, stream
 //! `stream::NANO_ROUGHNESS`.
 
-use super::{Effect, Kind, Parameter, Search, stream};
+use super::{Effect, EffectInfo, Parameter, Search, stream};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "nano-roughness",
     about: "adhesion is drawn between a part and all of its value on smooth solids",
     inputs: &[],
@@ -48,7 +48,7 @@ mod tests {
     /// An even distribution over a width `s` has the mean `1 - s/2` and the variance `s²/12`.
     #[test]
     fn adhesion_is_even_between_a_part_and_all_of_it() {
-        let effect = (KIND.build)(&[0.6]);
+        let effect = (INFO.build)(&[0.6]);
         let plain = wax_on_pyrex();
         let share = |draw| {
             let rough = effect.contact(&Impact::default(), plain, draw);

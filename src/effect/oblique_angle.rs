@@ -11,11 +11,11 @@
 //! aluminium gained 5 to 10 % from 0 to 45°, finer glass lost (cited by Troiano et al.). The sign is therefore free.
 //! Valid within the angles and speeds it was fitted on.
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "oblique-angle",
     about: "e_n falls (or rises) with obliquity, the more the faster the impact",
     inputs: &["v_t", "v_n"],
@@ -89,7 +89,7 @@ mod tests {
     fn e_n([strength, speed_exponent]: [f64; 2], theta: f64, normal_speed: f64) -> f64 {
         let tangential_speed = normal_speed * theta.to_radians().tan();
         let impact = Impact { normal_speed, tangential_speed, ..Impact::default() };
-        (KIND.build)(&[strength, speed_exponent, 2.0])
+        (INFO.build)(&[strength, speed_exponent, 2.0])
             .normal_restitution(&impact, &wax_on_pyrex(), 0.4, 0.0)
             .unwrap()
     }

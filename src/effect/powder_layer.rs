@@ -7,11 +7,11 @@
 //! 1.4 mm of wax powder, the same on a dry target as on syrup. `h0 = 0.128 mm` and `r = 0.25` pass through all three.
 //! Three points determine two numbers and the form is a choice: between 0 and 0.2 mm it is an interpolation.
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "powder-layer",
     about: "powder on the wall dissipates the rebound",
     inputs: &["layer_thickness"],
@@ -22,7 +22,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "m",
             bounds: (1e-9, 1.0),
             default: None,
-            search: Search::Across("layer_thickness"),
+            search: Search::InputWidth("layer_thickness"),
             about: "layer thickness over which the loss builds up",
         },
         Parameter {
@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn troiano_powder_layers() {
-        let effect = (KIND.build)(&[0.128e-3, 0.25]);
+        let effect = (INFO.build)(&[0.128e-3, 0.25]);
         let e_n = |layer_thickness: f64| {
             let impact = Impact { layer_thickness, ..Impact::default() };
             effect.normal_restitution(&impact, &wax_on_pyrex(), 0.28, 0.0).unwrap()

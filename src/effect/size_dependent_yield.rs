@@ -8,11 +8,11 @@
 //! `m = 1/2` in the grain size), and the MIGRAINE dust study lets tungsten's strength depend on size without giving the
 //! law: the power is assumed. Valid over the sizes it was fitted on. With one size in the data `d0` and `m` are one number.
 
-use super::{Effect, Kind, Parameter, Search, bounded};
+use super::{Effect, EffectInfo, Parameter, Search, bounded};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "size-dependent-yield",
     about: "the yield strength rises as the particle gets smaller",
     inputs: &["d"],
@@ -60,7 +60,7 @@ mod tests {
 
     fn yields_at(diameter: f64) -> f64 {
         let impact = Impact { diameter, ..Impact::default() };
-        yield_velocity(&(KIND.build)(&[10e-6, 0.5]).contact(&impact, wax_on_pyrex(), 0.0))
+        yield_velocity(&(INFO.build)(&[10e-6, 0.5]).contact(&impact, wax_on_pyrex(), 0.0))
     }
 
     /// Hall–Petch: a quarter of the size has twice the strength, so `2^(5/2)` of the yield velocity.

@@ -8,10 +8,10 @@
 //! `alpha_cr` is 43°. Valid for a rigid sphere; near normal real ones keep more (0.85 at 80°), see
 //! `tangential-compliance`. It is an effect, besides a law, so that a diagnosis can propose it.
 
-use super::{Effect, Kind, Parameter, Search};
-use crate::tangential::{Glance, Rebound, TangentialLaw};
+use super::{Effect, EffectInfo, Parameter, Search};
+use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "sliding-to-rolling",
     about: "sliding ends at a critical angle, beyond which the particle rolls",
     inputs: &["v_t", "v_n"],
@@ -33,14 +33,14 @@ struct SlidingToRolling {
 }
 
 impl Effect for SlidingToRolling {
-    fn tangential(&self, glance: &Glance, _: Rebound) -> Rebound {
-        TangentialLaw::SlidingRolling { friction: self.friction }.rebound(glance)
+    fn tangential(&self, kinematics: &ImpactKinematics, _: Rebound) -> Rebound {
+        TangentialLaw::SlidingRolling { friction: self.friction }.rebound(kinematics)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::glance;
+    use super::super::testing::kinematics;
     use super::*;
 
     const BEFORE: Rebound = Rebound { restitution: 0.1, spin: 7.0 };
@@ -48,8 +48,8 @@ mod tests {
     /// Troiano Fig 7: `f = 0.28` is the slope of `1 - e_t` over `(1+e_n) tan(alpha)` from 10 to 45°; rolling is 5/7.
     #[test]
     fn troiano_sliding_and_rolling() {
-        let effect = (KIND.build)(&[0.28]);
-        let e_t = |alpha| effect.tangential(&glance(alpha, 0.0), BEFORE).restitution;
+        let effect = (INFO.build)(&[0.28]);
+        let e_t = |alpha| effect.tangential(&kinematics(alpha, 0.0), BEFORE).restitution;
         for alpha in [10.0, 20.0, 30.0, 42.0_f64] {
             let slope = (1.0 - e_t(alpha)) / (1.39 * alpha.to_radians().tan());
             assert!((slope - 0.28).abs() < 1e-12, "{slope} at {alpha}");

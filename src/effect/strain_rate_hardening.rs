@@ -9,11 +9,11 @@
 //! on; much slower impacts find the solid too weak. The sticking velocity is then that of a solid as strong as at the
 //! impact's own speed.
 
-use super::{Effect, Kind, Parameter, Search, bounded};
+use super::{Effect, EffectInfo, Parameter, Search, bounded};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "strain-rate-hardening",
     about: "the yield strength rises with the speed of the impact",
     inputs: &["v_n"],
@@ -64,7 +64,7 @@ mod tests {
     fn e_n(exponent: f64, normal_speed: f64) -> f64 {
         let plain = Contact { work_of_adhesion: 0.0, ..wax_on_pyrex() };
         let impact = Impact { normal_speed, ..Impact::default() };
-        let contact = (KIND.build)(&[1e3, exponent]).contact(&impact, plain, 0.0);
+        let contact = (INFO.build)(&[1e3, exponent]).contact(&impact, plain, 0.0);
         NormalLaw::ThorntonNing.restitution(&contact, impact.diameter, normal_speed).unwrap()
     }
 
@@ -79,7 +79,7 @@ mod tests {
 
     #[test]
     fn a_particle_at_rest_has_a_strength() {
-        let contact = (KIND.build)(&[1.0, 2.0]).contact(&Impact::default(), wax_on_pyrex(), 0.0);
+        let contact = (INFO.build)(&[1.0, 2.0]).contact(&Impact::default(), wax_on_pyrex(), 0.0);
         assert!(contact.yield_strength > 0.0);
     }
 }

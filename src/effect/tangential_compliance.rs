@@ -18,10 +18,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Effect, Kind, Parameter, Search};
-use crate::tangential::{Glance, Rebound, TangentialLaw, critical_angle};
+use super::{Effect, EffectInfo, Parameter, Search};
+use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw, critical_angle};
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "tangential-compliance",
     about: "e_t falls below rolling past the critical angle and rises towards head-on",
     inputs: &["v_t", "v_n"],
@@ -65,19 +65,20 @@ struct TangentialCompliance {
 }
 
 impl Effect for TangentialCompliance {
-    fn tangential(&self, glance: &Glance, _: Rebound) -> Rebound {
-        let slip = glance.tangential_speed - 0.5 * glance.diameter * glance.spin;
-        let angle = glance.normal_speed.atan2(slip.abs());
-        let critical = critical_angle(self.friction, glance.normal_restitution, glance.stiffness_ratio);
+    fn tangential(&self, kinematics: &ImpactKinematics, _: Rebound) -> Rebound {
+        let slip = kinematics.tangential_speed - 0.5 * kinematics.diameter * kinematics.spin;
+        let angle = kinematics.normal_speed.atan2(slip.abs());
+        let critical =
+            critical_angle(self.friction, kinematics.normal_restitution, kinematics.stiffness_ratio);
         if angle <= critical {
-            return TangentialLaw::Sliding { friction: self.friction }.rebound(glance);
+            return TangentialLaw::Sliding { friction: self.friction }.rebound(kinematics);
         }
         let past = ((angle - critical) / (FRAC_PI_2 - critical)).min(1.0);
-        let kept = self.kept(past, glance.stiffness_ratio);
+        let kept = self.kept(past, kinematics.stiffness_ratio);
         let change = (1.0 - kept) * slip;
         let restitution =
-            if glance.tangential_speed > 0.0 { 1.0 - change / glance.tangential_speed } else { kept };
-        Rebound { restitution, spin: glance.spin + 5.0 * change / glance.diameter }
+            if kinematics.tangential_speed > 0.0 { 1.0 - change / kinematics.tangential_speed } else { kept };
+        Rebound { restitution, spin: kinematics.spin + 5.0 * change / kinematics.diameter }
     }
 }
 
@@ -91,14 +92,14 @@ impl TangentialCompliance {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::glance;
+    use super::super::testing::kinematics;
     use super::*;
     use approx::assert_relative_eq;
 
     const BEFORE: Rebound = Rebound { restitution: 0.1, spin: 7.0 };
 
     fn rebound(alpha: f64, spin: f64) -> Rebound {
-        (KIND.build)(&[0.28, 1.0, 2.2]).tangential(&glance(alpha, spin), BEFORE)
+        (INFO.build)(&[0.28, 1.0, 2.2]).tangential(&kinematics(alpha, spin), BEFORE)
     }
 
     /// Troiano Fig 6: sliding up to 43°, 0.85 at 80°; the theory they cite: below 5/7 past the transition.
@@ -116,7 +117,7 @@ mod tests {
         for spin in [-2e4, 0.0, 1e4] {
             // The angle at which atan(v_n/|slip|) is the critical 43 degrees, by bisection.
             let slope = |alpha: f64| {
-                let g = glance(alpha, spin);
+                let g = kinematics(alpha, spin);
                 let slip = g.tangential_speed - 0.5 * g.diameter * spin;
                 g.normal_speed.atan2(slip) - critical_angle(0.28, 0.39, 0.676)
             };
@@ -135,7 +136,7 @@ mod tests {
     fn angular_momentum_about_the_contact_point_is_kept() {
         for alpha in [5.0, 40.0, 44.0, 60.0, 85.0] {
             for spin in [-3e5, -1e4, 0.0, 1e4, 3e5] {
-                let before = glance(alpha, spin);
+                let before = kinematics(alpha, spin);
                 let after = rebound(alpha, spin);
                 let momentum = |u: f64, omega: f64| u + 0.2 * before.diameter * omega;
                 assert_relative_eq!(
@@ -151,7 +152,7 @@ mod tests {
     /// A sphere that already rolls goes on rolling.
     #[test]
     fn without_slip_nothing_changes() {
-        let rolling = 2.0 * glance(60.0, 0.0).tangential_speed / 75e-6;
+        let rolling = 2.0 * kinematics(60.0, 0.0).tangential_speed / 75e-6;
         let after = rebound(60.0, rolling);
         assert_relative_eq!(after.restitution, 1.0, max_relative = 1e-12);
         assert_relative_eq!(after.spin, rolling, max_relative = 1e-12);

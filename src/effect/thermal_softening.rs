@@ -9,11 +9,11 @@
 //! this acts on top of them. It softens the contact as a whole: it means a particle that yields before the wall does and
 //! holds most of the compliance.
 
-use super::{Effect, Kind, Parameter, Search, bounded};
+use super::{Effect, EffectInfo, Parameter, Search, bounded};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "thermal-softening",
     about: "yield strength and modulus fall with the particle's temperature",
     inputs: &["T_p"],
@@ -24,7 +24,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "K",
             bounds: (0.0, 1e4),
             default: None,
-            search: Search::Over("T_p"),
+            search: Search::InputRange("T_p"),
             about: "particle temperature from which it softens",
         },
         Parameter {
@@ -32,7 +32,7 @@ pub(super) const KIND: Kind = Kind {
             unit: "K",
             bounds: (1.0, 1e5),
             default: None,
-            search: Search::Across("T_p"),
+            search: Search::InputWidth("T_p"),
             about: "temperature over which the yield strength falls by e",
         },
     ],
@@ -66,7 +66,7 @@ mod tests {
 
     fn softened(particle_temperature: f64) -> Contact {
         let impact = Impact { particle_temperature, ..Impact::default() };
-        (KIND.build)(&[400.0, 100.0]).contact(&impact, wax_on_pyrex(), 0.0)
+        (INFO.build)(&[400.0, 100.0]).contact(&impact, wax_on_pyrex(), 0.0)
     }
 
     #[test]

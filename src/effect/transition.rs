@@ -4,9 +4,9 @@
 //! `1 / (1 + exp((x_50 - x) / width))`. A particle that still rebounds leaves with `e_n (1 - softening S)`.
 //! `x`, `x_50` and `width` are temperatures [K] or carbon conversions [1]; `softening` and `a` are pure numbers.
 
-use super::{Effect, Parameter, Search, Simple};
-use crate::elementary::exponential;
+use super::{Effect, Parameter, Precomputed, Search};
 use crate::impact::Impact;
+use crate::vector_math::exponential;
 
 /// The last parameter of both effects.
 pub(super) const ASYMMETRY: Parameter = Parameter {
@@ -20,14 +20,14 @@ pub(super) const ASYMMETRY: Parameter = Parameter {
 
 /// The input that stickiness rises over.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Over {
+pub(super) enum Variable {
     /// The particle's temperature [K].
     Temperature,
     /// The carbon conversion [1].
     Conversion,
 }
 
-impl Over {
+impl Variable {
     #[inline(always)]
     fn value(self, particle_temperature: f64, conversion: f64) -> f64 {
         match self {
@@ -40,7 +40,7 @@ impl Over {
 /// A symmetric rise, ready for many impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transition {
-    over: Over,
+    over: Variable,
     middle: f64,
     /// One over the width.
     sharpness: f64,
@@ -57,7 +57,7 @@ impl Transition {
 
 /// The effect that both kinds build.
 #[derive(Debug)]
-struct Rise {
+struct RichardsCurve {
     symmetric: Transition,
     width: f64,
     softening: f64,
@@ -65,12 +65,12 @@ struct Rise {
 }
 
 /// The effect with the parameters `x_50`, `width`, `softening` and `a`.
-pub(super) fn rise(over: Over, values: &[f64]) -> Box<dyn Effect> {
+pub(super) fn rise(over: Variable, values: &[f64]) -> Box<dyn Effect> {
     let symmetric = Transition { over, middle: values[0], sharpness: values[1].recip() };
-    Box::new(Rise { symmetric, width: values[1], softening: values[2], asymmetry: values[3] })
+    Box::new(RichardsCurve { symmetric, width: values[1], softening: values[2], asymmetry: values[3] })
 }
 
-impl Effect for Rise {
+impl Effect for RichardsCurve {
     fn particle_stickiness(&self, impact: &Impact) -> Option<f64> {
         let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
         if self.asymmetry == 1.0 {
@@ -87,7 +87,7 @@ impl Effect for Rise {
     }
 
     /// The power of an asymmetric rise has no plain arithmetic.
-    fn simple(&self) -> Option<Simple> {
-        (self.asymmetry == 1.0).then_some(Simple::Transition(self.symmetric))
+    fn precompute(&self) -> Option<Precomputed> {
+        (self.asymmetry == 1.0).then_some(Precomputed::Transition(self.symmetric))
     }
 }

@@ -8,11 +8,11 @@
 //! multiplies what plasticity and adhesion leave. Expected of soft particles. Valid over the speeds it was fitted on; size
 //! and temperature enter by the fitted values alone.
 
-use super::{Effect, Kind, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "viscoelastic-loss",
     about: "a further loss of e_n that grows with speed",
     inputs: &["v_n"],
@@ -58,7 +58,7 @@ mod tests {
 
     fn e_n(exponent: f64, normal_speed: f64) -> f64 {
         let impact = Impact { normal_speed, ..Impact::default() };
-        (KIND.build)(&[50.0, exponent]).normal_restitution(&impact, &wax_on_pyrex(), 1.0, 0.0).unwrap()
+        (INFO.build)(&[50.0, exponent]).normal_restitution(&impact, &wax_on_pyrex(), 1.0, 0.0).unwrap()
     }
 
     /// Viscoelastic spheres lose `v^(1/5)` at first: 32 times the speed, twice the loss.

@@ -7,11 +7,11 @@
 //! with wax spheres, soft against a hard target: 0.7 (Troiano et al.). Valid with `thornton-ning`, whose limits it shares.
 //! A rebound shows `c` and `sigma_y` only as their product: a ratio far from 1.6 to 4 may well mean a strength.
 
-use super::{Effect, Kind, Parameter, Search, Simple};
+use super::{Effect, EffectInfo, Parameter, Precomputed, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
-pub(super) const KIND: Kind = Kind {
+pub(super) const INFO: EffectInfo = EffectInfo {
     id: "yield-ratio",
     about: "the limiting contact pressure over the yield strength differs from the assumed one",
     inputs: &[],
@@ -37,8 +37,8 @@ impl Effect for YieldRatio {
         Contact { yield_ratio: self.ratio, ..contact }
     }
 
-    fn simple(&self) -> Option<Simple> {
-        Some(Simple::Contact)
+    fn precompute(&self) -> Option<Precomputed> {
+        Some(Precomputed::Contact)
     }
 }
 
@@ -51,7 +51,7 @@ mod tests {
 
     fn yields_at(ratio: f64) -> f64 {
         let plain = Contact { yield_ratio: 2.8, ..wax_on_pyrex() };
-        yield_velocity(&(KIND.build)(&[ratio]).contact(&Impact::default(), plain, 0.0))
+        yield_velocity(&(INFO.build)(&[ratio]).contact(&Impact::default(), plain, 0.0))
     }
 
     /// Troiano Table 4: wax with 0.7 yields at 6.8e-3 m/s on Pyrex.

@@ -3,8 +3,8 @@
 pub use fearless_simd::Level;
 
 use super::Model;
-use crate::draw::Draw;
 use crate::impact::{INPUTS, Impact, ImpactError};
+use crate::rng::ImpactRng;
 
 /// Impacts of a block: their columns stay in the first-level cache.
 pub const BLOCK: usize = 128;
@@ -113,7 +113,8 @@ impl Model {
             }
         }
         for index in 0..block.length.min(BLOCK) {
-            let outcome = self.resolve(wall, &block.impact(index), Draw::new(seed, block.keys[index]))?;
+            let outcome =
+                self.resolve(wall, &block.impact(index), ImpactRng::new(seed, block.keys[index]))?;
             outcomes.normal_restitution[index] = outcome.normal_restitution;
             outcomes.tangential_restitution[index] = outcome.tangential_restitution;
             outcomes.sticking_probability[index] = outcome.sticking_probability;

@@ -3,7 +3,7 @@
 use super::Model;
 use super::wall::Wall;
 use crate::capture::{MeltStickiness, ParticleStickiness, Stickiness};
-use crate::deposit::{Arrival, Arrivals, Deposit, wetting};
+use crate::deposit::{CapturedParticles, Deposit, DepositSource, wetting};
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
 
@@ -26,14 +26,14 @@ impl Model {
     ///
     /// # Errors
     /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or a wall that is not there.
-    pub fn arrive(
+    pub fn add_captured(
         &self,
         wall: usize,
         impact: &Impact,
         mass: f64,
         density: f64,
-        arrivals: Arrivals,
-    ) -> Result<Arrivals, ImpactError> {
+        arrivals: DepositSource,
+    ) -> Result<DepositSource, ImpactError> {
         self.at_wall(wall, impact)?;
         at_least_zero("mass", mass)?;
         if !(density.is_finite() && density > 0.0) {
@@ -42,7 +42,7 @@ impl Model {
         }
         let molten = self.stickiness_as_melt(impact, impact.conversion) >= Stickiness::THRESHOLD;
         let Impact { diameter, conversion, .. } = *impact;
-        Ok(arrivals.with(&Arrival { mass, density, diameter, conversion, molten }))
+        Ok(arrivals.with(&CapturedParticles { mass, density, diameter, conversion, molten }))
     }
 
     /// What the model file says lies on a wall, with a share `voidage` of voids in the powder [1]: where a memory begins. A
@@ -51,7 +51,7 @@ impl Model {
     ///
     /// # Errors
     /// [`ImpactError`] for a voidage without physical meaning, a wall that is not there, or a density that is not known.
-    pub fn lying(&self, wall: usize, voidage: f64) -> Result<Deposit, ImpactError> {
+    pub fn initial_deposit(&self, wall: usize, voidage: f64) -> Result<Deposit, ImpactError> {
         check_voidage(voidage)?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         let solid = wall.layer_thickness * (1.0 - voidage);
@@ -66,7 +66,7 @@ impl Model {
     ///
     /// # Errors
     /// [`ImpactError`] for a deposit or a voidage without physical meaning, or a wall that is not there.
-    pub fn dress(
+    pub fn apply_deposit(
         &self,
         wall: usize,
         deposit: &Deposit,
@@ -131,7 +131,8 @@ impl Model {
     /// product of what the terms say, 0 when none speaks of it.
     fn stickiness_as_melt(&self, impact: &Impact, conversion: f64) -> f64 {
         let there = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
-        let criterion = self.stickiness.as_ref().map(|criterion| criterion.lying(impact.wall_temperature));
+        let criterion =
+            self.stickiness.as_ref().map(|criterion| criterion.as_deposit(impact.wall_temperature));
         let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&there));
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
@@ -170,8 +171,8 @@ fn density_near(material: &Material, temperature: f64) -> Result<f64, ImpactErro
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::Draw;
     use crate::impact::Regime;
+    use crate::rng::ImpactRng;
     use approx::assert_relative_eq;
 
     const ASH: &str = r#"
@@ -216,12 +217,13 @@ width = 0.01
     fn captured(impact: &Impact) -> f64 {
         // A dry particle: what is captured is captured by the wall.
         let dry = Impact { conversion: 0.2, ..*impact };
-        model().resolve(0, &dry, Draw::default()).unwrap().sticking_probability
+        model().resolve(0, &dry, ImpactRng::default()).unwrap().sticking_probability
     }
 
     #[test]
     fn what_freezes_on_the_wall_or_still_has_its_carbon_is_powder() {
-        let arrive = |impact: &Impact| model().arrive(0, impact, 1.0, 2000.0, Arrivals::default()).unwrap();
+        let arrive =
+            |impact: &Impact| model().add_captured(0, impact, 1.0, 2000.0, DepositSource::default()).unwrap();
         assert_eq!(arrive(&at(1900.0)).molten, 1.0);
         assert_eq!(arrive(&at(1100.0)).powder, 1.0);
         assert_eq!(arrive(&Impact { conversion: 0.5, ..at(1900.0) }).powder, 1.0);
@@ -245,9 +247,9 @@ width = 0.01
             assert!(captured(&melt(1000.0, thickness)) < 1e-3, "{thickness}");
         }
         let hot = Impact { conversion: 0.2, ..melt(1900.0, 1e-3) };
-        assert_eq!(model().resolve(0, &hot, Draw::default()).unwrap().regime, Regime::NspSw);
+        assert_eq!(model().resolve(0, &hot, ImpactRng::default()).unwrap().regime, Regime::NspSw);
         let covered = Impact { coverage: 1.0, ..hot };
-        assert_eq!(model().resolve(0, &covered, Draw::default()).unwrap().regime, Regime::NspNsw);
+        assert_eq!(model().resolve(0, &covered, ImpactRng::default()).unwrap().regime, Regime::NspNsw);
     }
 
     #[test]
@@ -262,7 +264,7 @@ width = 0.01
             .replace("slag = \"coal-slag\"", "");
         let model = Model::from_toml("m", &text).unwrap();
         let wet = Impact { conversion: 0.2, melt_thickness: 1.0, ..at(1900.0) };
-        assert!(model.resolve(0, &wet, Draw::default()).unwrap().sticking_probability < 1e-6);
+        assert!(model.resolve(0, &wet, ImpactRng::default()).unwrap().sticking_probability < 1e-6);
         assert_eq!(model.melt(0, 1900.0).unwrap().viscosity, f64::INFINITY);
     }
 
@@ -293,7 +295,8 @@ model = "droplet"
             wall_temperature,
             ..Impact::default()
         };
-        let arrive = |impact: &Impact| wax.arrive(0, impact, 1.0, 960.0, Arrivals::default()).unwrap();
+        let arrive =
+            |impact: &Impact| wax.add_captured(0, impact, 1.0, 960.0, DepositSource::default()).unwrap();
         assert_eq!(arrive(&at(370.0, 300.0)).molten, 1.0);
         assert_eq!(arrive(&at(350.0, 370.0)).powder, 1.0);
         assert_eq!(wax.melt(0, 350.0).unwrap().viscosity, f64::INFINITY);
@@ -302,7 +305,7 @@ model = "droplet"
         assert_eq!(wax.melt(0, 500.0).unwrap().viscosity, wax.particle().viscosity(403.15).unwrap());
 
         let resolve = |melt_thickness, impact| {
-            wax.resolve(0, &Impact { melt_thickness, ..impact }, Draw::default()).unwrap()
+            wax.resolve(0, &Impact { melt_thickness, ..impact }, ImpactRng::default()).unwrap()
         };
         let wet: f64 = 1.0 - (-6.0_f64 * 10.0 / 120.0).exp();
         let solid = resolve(10e-6, at(370.0, 300.0));
@@ -317,14 +320,14 @@ model = "droplet"
     #[test]
     fn an_impact_is_dressed_with_what_lies_there() {
         let deposit = Deposit { molten: 0.055, powder: 0.1, solid: 1e-4, cover: 2.0, conversion: 0.5 };
-        let dressed = model().dress(1, &deposit, 0.5, &at(1700.0)).unwrap();
+        let dressed = model().apply_deposit(1, &deposit, 0.5, &at(1700.0)).unwrap();
         assert_eq!(dressed.layer_thickness, 2e-4);
         assert_relative_eq!(dressed.coverage, 1.0 - (-2.0_f64).exp(), max_relative = 1e-15);
         // The slag's 2750 kg/m³ on its wall, the ash's own 2300 elsewhere.
         assert_relative_eq!(dressed.melt_thickness, 2e-5);
-        let elsewhere = model().dress(0, &deposit, 0.5, &at(1700.0)).unwrap();
+        let elsewhere = model().apply_deposit(0, &deposit, 0.5, &at(1700.0)).unwrap();
         assert_relative_eq!(elsewhere.melt_thickness, 0.055 / 2300.0);
-        let none = model().dress(0, &Deposit::default(), 0.5, &at(1700.0)).unwrap();
+        let none = model().apply_deposit(0, &Deposit::default(), 0.5, &at(1700.0)).unwrap();
         assert_eq!(none, at(1700.0));
     }
 
@@ -334,7 +337,7 @@ model = "droplet"
     fn a_memory_begins_with_what_the_file_says() {
         let given = |text: &str| {
             let text = ASH.replace("slag = \"coal-slag\"", &format!("slag = \"coal-slag\"\n{text}"));
-            Model::from_toml("m", &text).unwrap().lying(1, 0.5).unwrap()
+            Model::from_toml("m", &text).unwrap().initial_deposit(1, 0.5).unwrap()
         };
         assert_eq!(given(""), Deposit::default());
         let char = given("coverage = 0.4");
@@ -345,17 +348,18 @@ model = "droplet"
         assert_relative_eq!(powder.powder, 0.23);
         assert_relative_eq!(powder.cover, 1.5);
         assert!(given("coverage = 1").cover.is_finite());
-        assert!(model().lying(9, 0.5).is_err() && model().lying(0, 1.0).is_err());
+        assert!(model().initial_deposit(9, 0.5).is_err() && model().initial_deposit(0, 1.0).is_err());
     }
 
     #[test]
     fn nonsense_is_refused() {
         let model = model();
         let bad = Deposit { cover: f64::NAN, ..Deposit::default() };
-        assert!(model.dress(0, &bad, 0.5, &at(1700.0)).is_err());
-        assert!(model.dress(0, &Deposit::default(), 1.0, &at(1700.0)).is_err());
-        assert!(model.dress(9, &Deposit::default(), 0.5, &at(1700.0)).is_err());
-        let arrive = |mass, density| model.arrive(0, &at(1700.0), mass, density, Arrivals::default());
+        assert!(model.apply_deposit(0, &bad, 0.5, &at(1700.0)).is_err());
+        assert!(model.apply_deposit(0, &Deposit::default(), 1.0, &at(1700.0)).is_err());
+        assert!(model.apply_deposit(9, &Deposit::default(), 0.5, &at(1700.0)).is_err());
+        let arrive =
+            |mass, density| model.add_captured(0, &at(1700.0), mass, density, DepositSource::default());
         assert!(arrive(-1.0, 1000.0).is_err() && arrive(1.0, 0.0).is_err() && arrive(1.0, f64::NAN).is_err());
         assert!(arrive(0.0, 1000.0).is_ok());
     }

@@ -8,25 +8,25 @@
 pub mod block;
 mod deposit;
 mod describe;
-mod facet;
-mod plan;
+mod prepared_wall;
 mod read;
+mod tilted_frame;
 mod wall;
 
 use std::path::Path;
 
 use crate::capture::{Criterion, MeltStickiness, ParticleStickiness, Stickiness};
-use crate::draw::Draw;
 use crate::effect::{Term, stream};
 use crate::impact::{Impact, ImpactError, Outcome, Regime};
 use crate::input::{Document, InputError};
 use crate::material::{Material, overlap};
 use crate::normal::{Contact, NormalLaw, Speeds};
-use crate::tangential::{Glance, TangentialLaw};
+use crate::rng::ImpactRng;
+use crate::tangential::{ImpactKinematics, TangentialLaw};
 
 pub use deposit::Melt;
-use facet::Facet;
-use plan::Plan;
+use prepared_wall::PreparedWall;
+use tilted_frame::TiltedFrame;
 pub use wall::Wall;
 
 /// Everything that decides what happens when a particle hits a wall. Immutable once read.
@@ -41,12 +41,12 @@ pub struct Model {
     tangential: TangentialLaw,
     terms: Vec<Term>,
     /// For each wall its prepared numbers, where that is all its impacts need.
-    plans: Vec<Option<Plan>>,
+    plans: Vec<Option<PreparedWall>>,
 }
 
 /// What one term did to one impact.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Share {
+pub struct TraceEntry {
     /// Name of the law or effect.
     pub term: &'static str,
     /// The quantity it set, for instance `e_n`.
@@ -120,7 +120,7 @@ impl Model {
 
     /// The model with the plans that belong to it.
     fn prepared(mut self) -> Self {
-        self.plans = self.walls.iter().map(|wall| Plan::new(&self, wall)).collect();
+        self.plans = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         self
     }
 
@@ -163,7 +163,7 @@ impl Model {
     /// # Errors
     /// [`ImpactError`] for an impact without physical meaning, or a temperature outside a property table.
     #[inline(always)]
-    pub fn resolve(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
+    pub fn resolve(&self, wall: usize, impact: &Impact, draw: ImpactRng) -> Result<Outcome, ImpactError> {
         // A plan knows no melt on the wall.
         if let (Some(Some(plan)), 0.0) = (self.plans.get(wall), impact.melt_thickness) {
             impact.check()?;
@@ -174,7 +174,7 @@ impl Model {
 
     /// Apart, so that the short way above stays short and its numbers in registers.
     #[inline(never)]
-    fn walk_drawn(&self, wall: usize, impact: &Impact, draw: Draw) -> Result<Outcome, ImpactError> {
+    fn walk_drawn(&self, wall: usize, impact: &Impact, draw: ImpactRng) -> Result<Outcome, ImpactError> {
         self.walk(wall, impact, |stream| draw.uniform(stream), |_, _, _| {})
     }
 
@@ -200,12 +200,12 @@ impl Model {
         &self,
         wall: usize,
         impact: &Impact,
-        draw: Draw,
-    ) -> Result<(Outcome, Vec<Share>), ImpactError> {
+        draw: ImpactRng,
+    ) -> Result<(Outcome, Vec<TraceEntry>), ImpactError> {
         let mut shares = Vec::new();
         let uniform = |stream| draw.uniform(stream);
         let outcome = self.walk(wall, impact, uniform, |term, quantity, value| {
-            shares.push(Share { term, quantity, value });
+            shares.push(TraceEntry { term, quantity, value });
         })?;
         Ok((outcome, shares))
     }
@@ -223,7 +223,7 @@ impl Model {
     fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        Ok((wall, wall.dress(impact)))
+        Ok((wall, wall.apply_deposit(impact)))
     }
 
     /// The contact of particle and wall at their temperatures, with the effects that act on it.
@@ -274,7 +274,7 @@ impl Model {
     ) -> Result<Outcome, ImpactError> {
         let (wall, arriving) = self.at_wall(wall, impact)?;
         let tilt = self.terms.iter().map(|term| term.effect().tilt(&arriving, term.chance(&uniform))).sum();
-        let facet = Facet { tilt };
+        let facet = TiltedFrame { tilt };
         let impact = &facet.turn(&arriving);
         let contact = self.contact(wall, impact, &uniform)?;
 
@@ -295,7 +295,7 @@ impl Model {
         let e_n = rebound.unwrap_or(0.0) * (1.0 - self.rebound_loss() * sticky.particle);
         note("stickiness", "e_n", e_n);
 
-        let glance = Glance {
+        let kinematics = ImpactKinematics {
             normal_speed: impact.normal_speed,
             tangential_speed: impact.tangential_speed,
             diameter: impact.diameter,
@@ -303,10 +303,10 @@ impl Model {
             normal_restitution: e_n,
             stiffness_ratio: contact.stiffness_ratio,
         };
-        let mut along = self.tangential.rebound(&glance);
+        let mut along = self.tangential.rebound(&kinematics);
         note(self.tangential.name(), "e_t", along.restitution);
         for term in &self.terms {
-            let changed = term.effect().tangential(&glance, along);
+            let changed = term.effect().tangential(&kinematics, along);
             if changed != along {
                 note(term.kind().id, "e_t", changed.restitution);
             }

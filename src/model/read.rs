@@ -85,7 +85,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
         (None, NormalLaw::Constant { .. }) => 1.0,
-        (None, NormalLaw::ThorntonNing | NormalLaw::RaisedPullOff) => {
+        (None, NormalLaw::ThorntonNing | NormalLaw::PlasticJkr) => {
             let what = "p_y / sigma_y (1.6 to 4 for hard, 0.7 for soft particles)";
             return Err(section.missing("yield_ratio", what));
         }
@@ -166,8 +166,8 @@ fn read_pattern(name: &str, section: &Section<'_>) -> Result<Option<Regex>, Inpu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::Draw;
     use crate::impact::{Impact, Regime};
+    use crate::rng::ImpactRng;
 
     const SMALLEST: &str = r#"
 [particle]
@@ -190,13 +190,13 @@ e_t = 0.76
     fn the_smallest_file_gives_the_papers_wax() {
         let model = Model::from_toml("m.toml", SMALLEST).unwrap();
         let impact = Impact { normal_speed: 1.0, diameter: 75e-6, ..Impact::default() };
-        let outcome = model.resolve(0, &impact, Draw::default()).unwrap();
+        let outcome = model.resolve(0, &impact, ImpactRng::default()).unwrap();
         assert!((outcome.normal_restitution - 0.28).abs() < 0.06, "{outcome:?}");
         assert_eq!(outcome.tangential_restitution, 0.76);
         assert_eq!((outcome.sticking_probability, outcome.stuck), (0.0, false));
         assert_eq!(outcome.regime, Regime::NspNsw);
         let slow = Impact { normal_speed: 0.05, ..impact };
-        assert!(model.resolve(0, &slow, Draw::default()).unwrap().stuck);
+        assert!(model.resolve(0, &slow, ImpactRng::default()).unwrap().stuck);
     }
 
     #[test]
@@ -210,7 +210,7 @@ e_t = 0.76
         let sticking = model.speeds(0, &impact).unwrap().sticking;
         for (share, stuck) in [(0.999, true), (1.001, false)] {
             let near = Impact { normal_speed: share * sticking, ..impact };
-            assert_eq!(model.resolve(0, &near, Draw::default()).unwrap().stuck, stuck);
+            assert_eq!(model.resolve(0, &near, ImpactRng::default()).unwrap().stuck, stuck);
         }
         let no_ratio = error(&text.replace("yield_ratio = 0.7", ""));
         assert!(no_ratio.contains("normal.yield_ratio: missing"), "{no_ratio}");
@@ -308,7 +308,7 @@ e_t = 0.76
                 particle_temperature: temperature,
                 ..Impact::default()
             };
-            model.resolve(0, &impact, Draw::default()).unwrap().outside_range
+            model.resolve(0, &impact, ImpactRng::default()).unwrap().outside_range
         };
         assert!(!outside("kalmanovitch-frank-silica", 50.0, 1700.0));
         assert!(outside("kalmanovitch-frank-silica", 50.0, 1400.0));
@@ -324,7 +324,7 @@ e_t = 0.76
         let model = Model::from_toml("m.toml", &text).unwrap();
         let impact =
             Impact { normal_speed: 2.0, diameter: 80e-6, particle_temperature: 378.15, ..Impact::default() };
-        let (outcome, shares) = model.explain(0, &impact, Draw::default()).unwrap();
+        let (outcome, shares) = model.explain(0, &impact, ImpactRng::default()).unwrap();
         assert_eq!(outcome.regime, Regime::SpNsw);
         assert!(outcome.outside_range, "the wax's solid properties do not hold at 105 °C");
         let melting = shares.iter().find(|share| share.term == "melting-transition").unwrap();

@@ -51,7 +51,7 @@ impl Wall {
     /// The impact as this wall sees it: with the powder and the covering that the model file puts on the wall.
     ///
     /// A powder layer also covers: one particle diameter of it hides the wall.
-    pub(super) fn dress(&self, impact: &Impact) -> Impact {
+    pub(super) fn apply_deposit(&self, impact: &Impact) -> Impact {
         let layer_thickness = impact.layer_thickness.max(self.layer_thickness);
         let hidden = (layer_thickness / impact.diameter).min(1.0);
         let coverage = impact.coverage.max(self.coverage).max(hidden);

@@ -214,8 +214,8 @@ fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::Draw;
     use crate::normal::{adhesive_velocity, yield_velocity};
+    use crate::rng::ImpactRng;
     use approx::assert_relative_eq;
 
     const R: f64 = 4.5e-6;
@@ -226,7 +226,7 @@ mod tests {
 
     /// Evenly over the sphere, with spins up to `R omega / v = 2` in any direction.
     fn any(key: u64) -> Motion {
-        let draw = Draw::new(7, key);
+        let draw = ImpactRng::new(7, key);
         let direction = |stream| {
             let (z, turn) = (2.0 * draw.uniform(stream) - 1.0, TAU * draw.uniform(stream + 1));
             let across = (1.0 - z * z).sqrt();

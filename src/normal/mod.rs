@@ -3,7 +3,7 @@
 mod constant;
 mod contact;
 pub mod doublet;
-mod raised_pull_off;
+mod plastic_jkr;
 mod thornton_ning;
 
 pub use contact::{Contact, reduced_modulus, stiffness_ratio};
@@ -30,7 +30,7 @@ pub enum NormalLaw {
     /// Elastic–perfectly plastic with adhesion.
     ThorntonNing,
     /// The same contact with the pull-off that its yielding raises.
-    RaisedPullOff,
+    PlasticJkr,
     /// The same number for every impact that does not stick.
     Constant {
         /// Normal restitution `e_n` [1].
@@ -47,7 +47,7 @@ impl NormalLaw {
         let word =
             section.choice("model", &["thornton-ning", "thornton-ning-raised-pull-off", "constant"])?;
         match word.as_deref() {
-            Some("thornton-ning-raised-pull-off") => Ok(Self::RaisedPullOff),
+            Some("thornton-ning-raised-pull-off") => Ok(Self::PlasticJkr),
             Some("constant") => Ok(Self::Constant { restitution: constant::read(section)? }),
             _ => Ok(Self::ThorntonNing),
         }
@@ -57,7 +57,7 @@ impl NormalLaw {
     pub fn name(self) -> &'static str {
         match self {
             Self::ThorntonNing => "thornton-ning",
-            Self::RaisedPullOff => "thornton-ning-raised-pull-off",
+            Self::PlasticJkr => "thornton-ning-raised-pull-off",
             Self::Constant { .. } => "constant",
         }
     }
@@ -67,7 +67,7 @@ impl NormalLaw {
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
         let e_n = match self {
             Self::ThorntonNing => Prepared::new(contact).restitution(diameter, normal_speed),
-            Self::RaisedPullOff => raised_pull_off::restitution(
+            Self::PlasticJkr => plastic_jkr::restitution(
                 normal_speed,
                 adhesive_velocity(contact, diameter),
                 yield_velocity(contact),
@@ -83,8 +83,8 @@ impl NormalLaw {
         let plain = thornton_ning::speeds(contact, diameter);
         match self {
             Self::ThorntonNing | Self::Constant { .. } => plain,
-            Self::RaisedPullOff => {
-                let [yielding, sticking] = raised_pull_off::speeds(plain.adhesive, plain.yielding);
+            Self::PlasticJkr => {
+                let [yielding, sticking] = plastic_jkr::speeds(plain.adhesive, plain.yielding);
                 Speeds { yielding, sticking, ..plain }
             }
         }

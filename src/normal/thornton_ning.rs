@@ -13,13 +13,13 @@
 //! `p_y` limiting contact pressure [Pa], `v` normal impact speed [m/s]. Valid for one sphere on a smooth, thick,
 //! dry plane, for contacts small against `R` and impacts slow against the speed of sound. The closed form adds the
 //! losses of adhesion and of plasticity; it leaves out that yielding flattens the contact and so raises pull-off, which
-//! `raised_pull_off.rs` has.
+//! `plastic_jkr.rs` has.
 //!
 //! Slips in print: Troiano et al., Eq. 1, has 4/3 where 16/9 belongs (their `K` is `4E*/3`), which makes `v_s`
 //! 0.953 of the above; Eq. 6 lost a minus sign under its inner root. Tests below state both.
 
 use super::{Contact, Speeds};
-use crate::elementary::inverse_cube_root;
+use crate::vector_math::inverse_cube_root;
 
 /// `C1 = (sqrt3/2) π^(1/3) sqrt((1 + 6·2^(2/3))/5)`.
 pub(super) const ADHESIVE_FACTOR: f64 = 1.840_183_180_799_056_5;

@@ -14,24 +14,24 @@ pub mod gas;
 mod geometry;
 pub mod heating;
 mod injection;
-mod life;
 mod output;
 mod page;
 mod profile;
 mod surface;
 mod tally;
+mod trajectory;
 
 pub use burning::{Burning, GAS_CONSTANT};
 pub use case::{Case, Reference, SWEEP_KEYS, Sweep, sweep_unit};
 pub use distribution::Distribution;
 pub use flight::{Arrival, Body, Lost, Motion, State, fly, position, state, velocity};
 pub use injection::{Injection, Load, Start};
-pub use life::{Fate, Hit, Life};
 pub use output::{ImpactRecorder, summary, write};
 pub use page::page;
 pub use profile::Profile;
 pub use surface::{Role, Shape, Surface};
 pub use tally::{Capture, Mass, Moments, Share, Tally, WallTally};
+pub use trajectory::{Fate, Hit, Trajectory};
 
 use rayon::prelude::*;
 
@@ -47,38 +47,39 @@ pub struct Run {
     pub tally: Tally,
 }
 
-/// Runs a case once, or once for each value of its sweep. Each particle's life is handed to `witness` in order, then
+/// Runs a case once, or once for each value of its sweep. Each particle's life is handed to `observer` in order, then
 /// forgotten.
 ///
 /// # Errors
-/// What `witness` returns, and a swept value that cannot be set.
+/// What `observer` returns, and a swept value that cannot be set.
 pub fn run<E: From<String>>(
     case: &mut Case,
-    mut witness: impl FnMut(&Case, Option<f64>, u64, &Life) -> Result<(), E>,
+    mut observer: impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
 ) -> Result<Vec<Run>, E> {
     let Some(sweep) = case.sweep.clone() else {
-        let tally = run_once(case, |number, life| witness(case, None, number, life))?;
+        let tally = run_once(case, |number, life| observer(case, None, number, life))?;
         return Ok(vec![Run { value: None, tally }]);
     };
     let mut runs = Vec::new();
     for &value in &sweep.values {
         case.set(&sweep.key, value).map_err(E::from)?;
-        let tally = run_once(case, |number, life| witness(case, Some(value), number, life))?;
+        let tally = run_once(case, |number, life| observer(case, Some(value), number, life))?;
         runs.push(Run { value: Some(value), tally });
     }
     Ok(runs)
 }
 
-fn run_once<E>(case: &Case, mut witness: impl FnMut(u64, &Life) -> Result<(), E>) -> Result<Tally, E> {
+fn run_once<E>(case: &Case, mut observer: impl FnMut(u64, &Trajectory) -> Result<(), E>) -> Result<Tally, E> {
     let mut tally = Tally::new(&case.surfaces);
     let count = case.injection.count;
     let mut from = 0;
     while from < count {
         let to = (from + BATCH).min(count);
-        let lives: Vec<Life> = (from..to).into_par_iter().map(|number| life::live(case, number)).collect();
+        let lives: Vec<Trajectory> =
+            (from..to).into_par_iter().map(|number| trajectory::live(case, number)).collect();
         for (number, life) in (from..to).zip(&lives) {
             tally.add(life, &case.surfaces);
-            witness(number, life)?;
+            observer(number, life)?;
         }
         from = to;
     }

@@ -5,10 +5,10 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::case::{Case, sweep_unit};
-use super::life::{Hit, Life};
 use super::tally::{Share, Tally, WallTally, ratio};
+use super::trajectory::{Hit, Trajectory};
 use super::{Run, page};
-use crate::aside::{Aside, of_csv, refused};
+use crate::atomic_file::{AtomicFile, of_csv, refused};
 use crate::impact::{INPUTS, Regime};
 
 /// Columns before and after the inputs of the data file.
@@ -53,7 +53,13 @@ impl<W: Write> ImpactRecorder<W> {
     ///
     /// # Errors
     /// When the sink cannot be written to.
-    pub fn record(&mut self, case: &Case, value: Option<f64>, number: u64, life: &Life) -> csv::Result<()> {
+    pub fn record(
+        &mut self,
+        case: &Case,
+        value: Option<f64>,
+        number: u64,
+        life: &Trajectory,
+    ) -> csv::Result<()> {
         if value != self.value {
             (self.value, self.left) = (value, self.share);
         }
@@ -309,7 +315,7 @@ pub fn write(
     mut progress: impl FnMut(),
 ) -> Result<Vec<Run>, String> {
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
-    let open = |name: &str| Aside::new(&folder.join(name), &[]);
+    let open = |name: &str| AtomicFile::new(&folder.join(name), &[]);
     let (impacts, mut json, mut html) = (open("impacts.csv")?, open("summary.json")?, open("report.html")?);
     let at_impacts = |error: csv::Error| refused(&folder.join("impacts.csv"), &of_csv(error));
     let mut recorder = ImpactRecorder::new(impacts, case).map_err(at_impacts)?;
@@ -322,6 +328,6 @@ pub fn write(
     let summary = serde_json::to_string_pretty(&summary(case, &runs));
     json.put(&(summary.map_err(|error| format!("summary.json: {error}"))? + "\n"))?;
     html.put(&page::page(case, &runs, left_out)?)?;
-    Aside::into_place(vec![impacts, json, html])?;
+    AtomicFile::commit(vec![impacts, json, html])?;
     Ok(runs)
 }

@@ -1,7 +1,7 @@
 //! Sums over all particles: per wall, per exit, and the balance.
 
-use super::life::{Fate, Hit, Life};
 use super::surface::{Role, Surface};
+use super::trajectory::{Fate, Hit, Trajectory};
 use crate::impact::Regime;
 
 /// Bins of the histograms: restitution 0 to 1.5 in steps of 0.025.
@@ -250,7 +250,7 @@ impl Tally {
         }
     }
 
-    pub(super) fn add(&mut self, life: &Life, surfaces: &[Surface]) {
+    pub(super) fn add(&mut self, life: &Trajectory, surfaces: &[Surface]) {
         let [before, after] = life.mass;
         self.injected.add(before);
         self.reacted.add(before - after);

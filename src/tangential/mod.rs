@@ -10,7 +10,7 @@ use crate::input::{InputError, Section};
 
 /// What a tangential law needs to know of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Glance {
+pub struct ImpactKinematics {
     /// Speed towards the wall `v_n` [m/s].
     pub normal_speed: f64,
     /// Speed along the wall `v_t` [m/s].
@@ -25,7 +25,7 @@ pub struct Glance {
     pub stiffness_ratio: f64,
 }
 
-impl Glance {
+impl ImpactKinematics {
     /// Speed of the contact point along the wall [m/s].
     #[inline(always)]
     fn slip(&self) -> f64 {
@@ -103,11 +103,11 @@ impl TangentialLaw {
     /// Tangential restitution and spin after the impact. Without tangential speed the restitution is that of
     /// the smallest one.
     #[inline(always)]
-    pub fn rebound(self, glance: &Glance) -> Rebound {
+    pub fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
         match self {
-            Self::Constant { restitution } => Rebound { restitution, spin: glance.spin },
-            Self::Sliding { friction } => sliding::rebound(friction, glance),
-            Self::SlidingRolling { friction } => sliding_rolling::rebound(friction, glance),
+            Self::Constant { restitution } => Rebound { restitution, spin: kinematics.spin },
+            Self::Sliding { friction } => sliding::rebound(friction, kinematics),
+            Self::SlidingRolling { friction } => sliding_rolling::rebound(friction, kinematics),
         }
     }
 }

@@ -12,30 +12,30 @@
 //! back. And an impulse `J` per mass changes the energy of motion and spin by `-|s| J + 7/4 J²`, so friction that exceeds
 //! `J = 4|s|/7` would make energy: it turns the sphere no further than that, and with spin it drives it no further.
 
-use super::{Glance, Rebound};
+use super::{ImpactKinematics, Rebound};
 
 /// Speed along the wall [m/s], and spin as `[omega_0, x]` for `omega_0 + x/d`, after gross sliding. Without branches, for
 /// vectors.
 #[inline(always)]
-pub(super) fn motion(friction: f64, glance: &Glance) -> [f64; 3] {
-    let slip = glance.slip();
+pub(super) fn motion(friction: f64, kinematics: &ImpactKinematics) -> [f64; 3] {
+    let slip = kinematics.slip();
     let keeps_energy = 4.0 / 7.0 * slip.abs();
-    let most = larger(smaller(glance.tangential_speed, slip), keeps_energy);
-    let change = smaller(impulse(friction, glance), most).copysign(slip);
+    let most = larger(smaller(kinematics.tangential_speed, slip), keeps_energy);
+    let change = smaller(impulse(friction, kinematics), most).copysign(slip);
     let turning = larger(smaller(change, keeps_energy), -keeps_energy);
-    [glance.tangential_speed - change, glance.spin, 5.0 * turning]
+    [kinematics.tangential_speed - change, kinematics.spin, 5.0 * turning]
 }
 
 /// Tangential restitution and spin after gross sliding.
 #[inline(always)]
-pub(super) fn rebound(friction: f64, glance: &Glance) -> Rebound {
-    glance.rebound(motion(friction, glance), 0.0)
+pub(super) fn rebound(friction: f64, kinematics: &ImpactKinematics) -> Rebound {
+    kinematics.rebound(motion(friction, kinematics), 0.0)
 }
 
 /// Largest change of tangential speed that friction allows [m/s].
 #[inline(always)]
-pub(super) fn impulse(friction: f64, glance: &Glance) -> f64 {
-    friction * (1.0 + glance.normal_restitution) * glance.normal_speed
+pub(super) fn impulse(friction: f64, kinematics: &ImpactKinematics) -> f64 {
+    friction * (1.0 + kinematics.normal_restitution) * kinematics.normal_speed
 }
 
 /// `f64::min` takes care of what is no number, which costs a vector three instructions instead of one.

@@ -8,7 +8,7 @@
 //! sliding branch reaches `1 - 2k/(7k-1)` at `alpha_cr`, below 5/7: `e_t` jumps there. That is the theory as the
 //! paper uses it; tangential compliance, a term of its own, is what smooths the jump in reality.
 
-use super::{Glance, Rebound, sliding};
+use super::{ImpactKinematics, Rebound, sliding};
 
 /// Angle from the surface [rad] at which sliding gives way to rolling.
 ///
@@ -25,14 +25,14 @@ fn critical_cotangent(friction: f64, normal_restitution: f64, stiffness_ratio: f
 
 /// Tangential restitution and spin after sliding or rolling. Without branches, for vectors.
 #[inline(always)]
-pub(super) fn rebound(friction: f64, glance: &Glance) -> Rebound {
-    let cotangent = critical_cotangent(friction, glance.normal_restitution, glance.stiffness_ratio);
-    let slides = glance.slip().abs() > cotangent * glance.normal_speed;
-    let sliding = sliding::motion(friction, glance);
-    let speed = (5.0 * glance.tangential_speed + glance.diameter * glance.spin) * (1.0 / 7.0);
+pub(super) fn rebound(friction: f64, kinematics: &ImpactKinematics) -> Rebound {
+    let cotangent = critical_cotangent(friction, kinematics.normal_restitution, kinematics.stiffness_ratio);
+    let slides = kinematics.slip().abs() > cotangent * kinematics.normal_speed;
+    let sliding = sliding::motion(friction, kinematics);
+    let speed = (5.0 * kinematics.tangential_speed + kinematics.diameter * kinematics.spin) * (1.0 / 7.0);
     let rolling = [speed, 0.0, 2.0 * speed];
     let pick = |place: usize| if slides { sliding[place] } else { rolling[place] };
-    glance.rebound([pick(0), pick(1), pick(2)], if slides { 0.0 } else { 5.0 / 7.0 })
+    kinematics.rebound([pick(0), pick(1), pick(2)], if slides { 0.0 } else { 5.0 / 7.0 })
 }
 
 #[cfg(test)]
@@ -40,9 +40,9 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    fn glance(angle_degrees: f64, spin: f64) -> Glance {
+    fn kinematics(angle_degrees: f64, spin: f64) -> ImpactKinematics {
         let angle = angle_degrees.to_radians();
-        Glance {
+        ImpactKinematics {
             normal_speed: angle.sin(),
             tangential_speed: angle.cos(),
             diameter: 75e-6,
@@ -63,12 +63,13 @@ mod tests {
 
     #[test]
     fn sliding_loses_what_friction_takes_and_steep_impacts_roll() {
-        let shallow = rebound(0.28, &glance(20.0, 0.0));
+        let shallow = rebound(0.28, &kinematics(20.0, 0.0));
         let expected = 1.0 - 0.28 * 1.39 * 20f64.to_radians().tan();
         assert_relative_eq!(shallow.restitution, expected, max_relative = 1e-14);
-        assert_relative_eq!(rebound(0.28, &glance(70.0, 0.0)).restitution, 5.0 / 7.0);
+        assert_relative_eq!(rebound(0.28, &kinematics(70.0, 0.0)).restitution, 5.0 / 7.0);
         // The paper's 0.8 at 13 degrees is on the sliding branch within its scatter.
-        let e_t = rebound(0.28, &Glance { normal_restitution: 0.3, ..glance(13.0, 0.0) }).restitution;
+        let e_t =
+            rebound(0.28, &ImpactKinematics { normal_restitution: 0.3, ..kinematics(13.0, 0.0) }).restitution;
         assert!((e_t - 0.8).abs() < 0.12, "{e_t}");
     }
 
@@ -77,7 +78,7 @@ mod tests {
     fn angular_momentum_about_the_contact_point_is_kept() {
         for angle in [5.0, 20.0, 40.0, 44.0, 60.0, 85.0] {
             for spin in [-3e5, -1e4, 0.0, 1e4, 3e5] {
-                let before = glance(angle, spin);
+                let before = kinematics(angle, spin);
                 let after = rebound(0.28, &before);
                 let momentum = |u: f64, omega: f64| u + 0.2 * before.diameter * omega;
                 assert_relative_eq!(

@@ -18,7 +18,7 @@ int main(int argc, char **argv) {
     nw_impact impact;
     nw_outcome outcome;
     nw_deposit deposit;
-    nw_arrivals arrivals;
+    nw_deposit_source arrivals;
     double velocity = 0;
     FILE *table;
 
@@ -28,21 +28,21 @@ int main(int argc, char **argv) {
     if (!table || !fgets(header, sizeof header, table)) return 2;
     must(nw_impact_init(&impact));
     must(nw_outcome_init(&outcome));
-    must(nw_arrivals_init(&arrivals));
+    must(nw_deposit_source_init(&arrivals));
     must(nw_deposit_init(&deposit));
     must(nw_model_find_wall(model, "default", &deposit.wall));
-    must(nw_deposit_start(model, 0.4, &deposit));
+    must(nw_deposit_initial(model, 0.4, &deposit));
     impact.wall = deposit.wall;
     impact.seed = 1;
     for (; fscanf(table, "%lf,%lf,%lf,%lf,%lf", &impact.v_n, &impact.v_t, &impact.d, &impact.T_p, &impact.T_w) == 5;
          impact.key += 1) {
         impact.conversion = impact.key % 2 ? 0.5 : 1.0;
-        must(nw_deposit_dress(model, &deposit, 0.4, &impact));
+        must(nw_deposit_apply(model, &deposit, 0.4, &impact));
         must(nw_resolve(model, &impact, &outcome));
-        if (outcome.stuck) must(nw_arrivals_add(model, &impact, (double)(1 + impact.key % 7) / 1024, 2300, &arrivals));
+        if (outcome.stuck) must(nw_deposit_source_add(model, &impact, (double)(1 + impact.key % 7) / 1024, 2300, &arrivals));
         if (impact.key % 4 == 3) {
             must(nw_deposit_add(&arrivals, &deposit));
-            must(nw_arrivals_init(&arrivals));
+            must(nw_deposit_source_init(&arrivals));
         }
         must(nw_film_velocity(model, &deposit, impact.T_w, 9.81, &velocity));
         printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", (unsigned)outcome.stuck, impact.layer_thickness,

@@ -99,18 +99,18 @@ int deposit(const nearwall::model& model) {
     impact.d = 60e-6;
     impact.T_p = impact.T_w = 1000;
     const double volume = 3.14159265358979 / 6 * 60e-6 * 60e-6 * 60e-6 * 1e6;
-    nw_arrivals arrivals = nearwall::make_arrivals();
-    REQUIRE(model.arrive(impact, 1000 * volume, 1000, arrivals) == NW_OK);
+    nw_deposit_source arrivals = nearwall::make_arrivals();
+    REQUIRE(model.add_captured(impact, 1000 * volume, 1000, arrivals) == NW_OK);
     nw_deposit deposit = nearwall::make_deposit(impact.wall);
     REQUIRE(nearwall::add(arrivals, deposit) == NW_OK);
-    REQUIRE(model.dress(deposit, 0.5, impact) == NW_OK);
+    REQUIRE(model.apply_deposit(deposit, 0.5, impact) == NW_OK);
     REQUIRE(std::fabs(deposit.cover / (3.14159265358979 / 4 * 60e-6 * 60e-6 * 1e6) - 1) < 1e-13);
     REQUIRE(std::fabs(impact.layer_thickness / (2 * volume) - 1) < 1e-13);
     double velocity = -1;
     REQUIRE(model.film_velocity(deposit, 1600, 9.81, velocity) == NW_OK && velocity == 0);
-    REQUIRE(model.dress(deposit, 1, impact) == NW_BAD_STATE);
-    REQUIRE(model.start_deposit(impact.wall, 0.5).cover == 0);
-    REQUIRE(thrown([&] { model.start_deposit(99, 0.5); }) == NW_UNKNOWN_WALL);
+    REQUIRE(model.apply_deposit(deposit, 1, impact) == NW_BAD_STATE);
+    REQUIRE(model.initial_deposit(impact.wall, 0.5).cover == 0);
+    REQUIRE(thrown([&] { model.initial_deposit(99, 0.5); }) == NW_UNKNOWN_WALL);
     return 0;
 }
 

@@ -4,9 +4,9 @@ use std::ffi::{CStr, c_char};
 
 use libloading::Library;
 use nearwall::c_api::{
-    NW_OK, nw_arrivals, nw_deposit, nw_impact, nw_impacts, nw_model, nw_outcome, nw_outcomes,
+    NW_OK, nw_deposit, nw_deposit_source, nw_impact, nw_impacts, nw_model, nw_outcome, nw_outcomes,
 };
-use nearwall::{Draw, Impact, Outcome};
+use nearwall::{Impact, ImpactRng, Outcome};
 
 use crate::common::library_path;
 
@@ -57,12 +57,12 @@ calls! {
     nw_resolve_batch:
         unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
     nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
-    nw_deposit_start: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
-    nw_arrivals_init: unsafe extern "C" fn(*mut nw_arrivals) -> i32,
-    nw_arrivals_add:
-        unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, f64, *mut nw_arrivals) -> i32,
-    nw_deposit_add: unsafe extern "C" fn(*const nw_arrivals, *mut nw_deposit) -> i32,
-    nw_deposit_dress:
+    nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
+    nw_deposit_source_init: unsafe extern "C" fn(*mut nw_deposit_source) -> i32,
+    nw_deposit_source_add:
+        unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, f64, *mut nw_deposit_source) -> i32,
+    nw_deposit_add: unsafe extern "C" fn(*const nw_deposit_source, *mut nw_deposit) -> i32,
+    nw_deposit_apply:
         unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *mut nw_impact) -> i32,
     nw_film_velocity:
         unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, *mut f64) -> i32,
@@ -127,7 +127,7 @@ pub fn c_outcome(outcome: &Outcome) -> [u8; size_of::<nw_outcome>()] {
 }
 
 /// A case as the C library takes it.
-pub fn c_case((wall, impact, draw): &(usize, Impact, Draw)) -> nw_impact {
+pub fn c_case((wall, impact, draw): &(usize, Impact, ImpactRng)) -> nw_impact {
     let wall = u32::try_from(*wall).unwrap();
     nw_impact { wall, seed: draw.seed, key: draw.key, ..nw_impact::from(impact) }
 }

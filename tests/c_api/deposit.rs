@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
-use nearwall::deposit::{Arrivals, Deposit};
+use nearwall::deposit::{Deposit, DepositSource};
 use nearwall::{Impact, Model};
 
 use crate::calls::Calls;
@@ -23,17 +23,18 @@ fn a_wall_grows_as_in_the_rust_library() {
         let impact = Impact { layer_thickness: 0.0, coverage: 0.0, melt_thickness: 0.0, ..impact };
         let (mass, density) = (0.1 * draw.uniform(1), 500.0 + 2000.0 * draw.uniform(2));
         let bare = nw_impact { wall: 1, ..nw_impact::from(&impact) };
-        let mut arrivals = nw_arrivals::default();
+        let mut arrivals = nw_deposit_source::default();
         let mut dressed = bare;
         unsafe {
-            assert_eq!((calls.nw_deposit_dress)(model, &raw const deposit, 0.4, &raw mut dressed), NW_OK);
-            let status = (calls.nw_arrivals_add)(model, &raw const dressed, mass, density, &raw mut arrivals);
+            assert_eq!((calls.nw_deposit_apply)(model, &raw const deposit, 0.4, &raw mut dressed), NW_OK);
+            let status =
+                (calls.nw_deposit_source_add)(model, &raw const dressed, mass, density, &raw mut arrivals);
             assert_eq!(status, NW_OK);
         }
-        let met = rust.dress(1, &expected, 0.4, &impact).unwrap();
+        let met = rust.apply_deposit(1, &expected, 0.4, &impact).unwrap();
         let found = [dressed.layer_thickness, dressed.coverage, dressed.melt_thickness];
         assert_eq!(found, [met.layer_thickness, met.coverage, met.melt_thickness]);
-        let stayed = rust.arrive(1, &met, mass, density, Arrivals::default()).unwrap();
+        let stayed = rust.add_captured(1, &met, mass, density, DepositSource::default()).unwrap();
         both[usize::from(stayed.molten > 0.0)] += 1;
         assert_eq!((arrivals.count, arrivals.molten, arrivals.powder), (1, stayed.molten, stayed.powder));
         assert_eq!(unsafe { (calls.nw_deposit_add)(&raw const arrivals, &raw mut deposit) }, NW_OK);
@@ -53,11 +54,11 @@ fn a_deposit_starts_from_its_wall() {
     let mut expected = nw_deposit { wall: 1, ..nw_deposit::default() };
     let mut bytes = [MaybeUninit::<u8>::uninit(); size_of::<nw_deposit>() + 1];
     let found = unsafe {
-        assert_eq!((calls.nw_deposit_start)(model, 0.4, &raw mut expected), NW_OK);
+        assert_eq!((calls.nw_deposit_initial)(model, 0.4, &raw mut expected), NW_OK);
         let deposit = bytes.as_mut_ptr().add(1).cast::<nw_deposit>();
         (&raw mut (*deposit).struct_size).write_unaligned(size_of::<nw_deposit>() as u32);
         (&raw mut (*deposit).wall).write_unaligned(1);
-        assert_eq!((calls.nw_deposit_start)(model, 0.4, deposit), NW_OK);
+        assert_eq!((calls.nw_deposit_initial)(model, 0.4, deposit), NW_OK);
         (calls.nw_model_free)(model);
         deposit.read_unaligned()
     };
@@ -115,26 +116,26 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         let mut deposit = nw_deposit { wall: 9, molten: 9.0, ..nw_deposit::default() };
         assert_eq!((calls.nw_deposit_init)(&raw mut deposit), NW_OK);
         assert_eq!(format!("{deposit:?}"), format!("{:?}", nw_deposit::default()));
-        let mut arrivals = nw_arrivals { count: 9, molten: 9.0, ..nw_arrivals::default() };
-        assert_eq!((calls.nw_arrivals_init)(&raw mut arrivals), NW_OK);
-        assert_eq!(format!("{arrivals:?}"), format!("{:?}", nw_arrivals::default()));
+        let mut arrivals = nw_deposit_source { count: 9, molten: 9.0, ..nw_deposit_source::default() };
+        assert_eq!((calls.nw_deposit_source_init)(&raw mut arrivals), NW_OK);
+        assert_eq!(format!("{arrivals:?}"), format!("{:?}", nw_deposit_source::default()));
         assert_eq!((calls.nw_deposit_init)(null_mut()), NW_NULL_POINTER);
-        assert_eq!((calls.nw_arrivals_init)(null_mut()), NW_NULL_POINTER);
+        assert_eq!((calls.nw_deposit_source_init)(null_mut()), NW_NULL_POINTER);
 
         let mut start = nw_deposit { wall: 2, molten: 9.0, ..nw_deposit::default() };
-        assert_eq!((calls.nw_deposit_start)(model, 0.4, &raw mut start), NW_OK);
+        assert_eq!((calls.nw_deposit_initial)(model, 0.4, &raw mut start), NW_OK);
         // 10 um of powder with 0.4 voids, of the fly ash's 2300 kg/m3.
         assert!((start.powder / (6e-6 * 2300.0) - 1.0).abs() < 1e-14, "{start:?}");
         assert_eq!((start.molten, start.solid, start.wall), (0.0, 6e-6, 2));
         let kept = format!("{start:?}");
-        assert_eq!((calls.nw_deposit_start)(model, 1.0, &raw mut start), NW_BAD_STATE);
-        assert_eq!((calls.nw_deposit_start)(null(), 0.4, &raw mut start), NW_NULL_POINTER);
-        assert_eq!((calls.nw_deposit_start)(model, 0.4, null_mut()), NW_NULL_POINTER);
+        assert_eq!((calls.nw_deposit_initial)(model, 1.0, &raw mut start), NW_BAD_STATE);
+        assert_eq!((calls.nw_deposit_initial)(null(), 0.4, &raw mut start), NW_NULL_POINTER);
+        assert_eq!((calls.nw_deposit_initial)(model, 0.4, null_mut()), NW_NULL_POINTER);
         assert_eq!(format!("{start:?}"), kept);
 
         let mut add = |model, impact: *const nw_impact, mass, density| {
             let before = format!("{arrivals:?}");
-            let status = (calls.nw_arrivals_add)(model, impact, mass, density, &raw mut arrivals);
+            let status = (calls.nw_deposit_source_add)(model, impact, mass, density, &raw mut arrivals);
             assert_eq!(format!("{arrivals:?}"), before);
             status
         };
@@ -148,19 +149,22 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         let nowhere = nw_impact { wall: 77, ..impact };
         assert_eq!(add(model, &raw const nowhere, 1.0, 1e3), NW_UNKNOWN_WALL);
 
-        let mut grow = |arrivals: *const nw_arrivals| {
+        let mut grow = |arrivals: *const nw_deposit_source| {
             let before = format!("{deposit:?}");
             let status = (calls.nw_deposit_add)(arrivals, &raw mut deposit);
             assert_eq!(format!("{deposit:?}"), before);
             status
         };
         assert_eq!(grow(null()), NW_NULL_POINTER);
-        assert_eq!(grow(&nw_arrivals { buried: -1.0, ..nw_arrivals::default() }), NW_BAD_STATE);
-        assert_eq!(grow(&nw_arrivals { struct_size: 8, ..nw_arrivals::default() }), NW_STRUCT_SIZE);
+        assert_eq!(grow(&nw_deposit_source { buried: -1.0, ..nw_deposit_source::default() }), NW_BAD_STATE);
+        assert_eq!(
+            grow(&nw_deposit_source { struct_size: 8, ..nw_deposit_source::default() }),
+            NW_STRUCT_SIZE
+        );
 
         let dress = |deposit: &nw_deposit, voidage| {
             let mut dressed = impact;
-            let status = (calls.nw_deposit_dress)(model, deposit, voidage, &raw mut dressed);
+            let status = (calls.nw_deposit_apply)(model, deposit, voidage, &raw mut dressed);
             assert_eq!(format!("{dressed:?}"), format!("{impact:?}"));
             status
         };
@@ -180,21 +184,21 @@ fn what_overflows_is_refused_and_nothing_written() {
     let model = calls.parse(EVERY_REGIME);
     let impact = nw_impact { v_n: 1.0, T_p: 1600.0, T_w: 1600.0, ..nw_impact::default() };
     let huge = nw_deposit { wall: 1, molten: f64::MAX, solid: f64::MAX, ..nw_deposit::default() };
-    let many = nw_arrivals { molten: f64::MAX, powder: 1e300, ..nw_arrivals::default() };
+    let many = nw_deposit_source { molten: f64::MAX, powder: 1e300, ..nw_deposit_source::default() };
     unsafe {
         let (mut deposit, mut arrivals, mut dressed, mut velocity) = (huge, many, impact, -1.0);
         let found = [
             (calls.nw_deposit_add)(&raw const many, &raw mut deposit),
-            (calls.nw_arrivals_add)(model, &raw const impact, f64::MAX, 1e-300, &raw mut arrivals),
-            (calls.nw_deposit_dress)(model, &raw const huge, 0.5, &raw mut dressed),
+            (calls.nw_deposit_source_add)(model, &raw const impact, f64::MAX, 1e-300, &raw mut arrivals),
+            (calls.nw_deposit_apply)(model, &raw const huge, 0.5, &raw mut dressed),
             (calls.nw_film_velocity)(model, &raw const huge, 1600.0, 9.81, &raw mut velocity),
         ];
         assert_eq!(found, [NW_BAD_STATE; 4]);
         assert_eq!(format!("{deposit:?}{arrivals:?}{dressed:?}"), format!("{huge:?}{many:?}{impact:?}"));
         assert_eq!(velocity, -1.0);
-        let no_number = nw_arrivals { converted: f64::NAN, ..nw_arrivals::default() };
+        let no_number = nw_deposit_source { converted: f64::NAN, ..nw_deposit_source::default() };
         arrivals = no_number;
-        let status = (calls.nw_arrivals_add)(model, &raw const impact, 1.0, 1e3, &raw mut arrivals);
+        let status = (calls.nw_deposit_source_add)(model, &raw const impact, 1.0, 1e3, &raw mut arrivals);
         assert_eq!((status, arrivals.count), (NW_BAD_STATE, 0));
         (calls.nw_model_free)(model);
     }

@@ -4,7 +4,7 @@ use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
-use nearwall::{Draw, Impact, ImpactError, Model};
+use nearwall::{Impact, ImpactError, ImpactRng, Model};
 
 use crate::calls::{Calls, bytes, c_case, c_outcome, poisoned};
 use crate::common::golden::golden_cases;
@@ -48,7 +48,7 @@ fn golden_random_and_hostile_impacts_have_the_bits_of_the_rust_library() {
     for (row, golden) in golden_cases().iter().enumerate() {
         let model = calls.parse(&golden.model());
         let impact = Impact { normal_speed: golden.v_n, diameter: golden.d, ..Impact::default() };
-        let case = (0, impact, Draw::default());
+        let case = (0, impact, ImpactRng::default());
         let ours = calls.resolve(model, &c_case(&case)).unwrap();
         let rust = Model::from_toml("m", &golden.model()).unwrap();
         assert_eq!(bytes(&ours), c_outcome(&rust.resolve(0, &case.1, case.2).unwrap()), "case {row}");
@@ -65,7 +65,10 @@ fn initialised_structs_are_the_defaults() {
         assert_eq!(bytes(&outcome), bytes(&nw_outcome::default()));
         let mut impact: nw_impact = std::mem::zeroed();
         assert_eq!((calls.nw_impact_init)(&raw mut impact), NW_OK);
-        assert_eq!(format!("{impact:?}"), format!("{:?}", c_case(&(0, Impact::default(), Draw::default()))));
+        assert_eq!(
+            format!("{impact:?}"),
+            format!("{:?}", c_case(&(0, Impact::default(), ImpactRng::default())))
+        );
         assert_eq!((calls.nw_impact_init)(null_mut()), NW_NULL_POINTER);
         assert_eq!((calls.nw_outcome_init)(null_mut()), NW_NULL_POINTER);
     }
@@ -123,8 +126,11 @@ fn speeds_are_written_where_wanted_and_never_on_failure() {
     let calls = Calls::load();
     let model = calls.parse(EVERY_REGIME);
     let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
-    let case =
-        (1, Impact { normal_speed: 1.0, wall_temperature: 1200.0, ..Impact::default() }, Draw::default());
+    let case = (
+        1,
+        Impact { normal_speed: 1.0, wall_temperature: 1200.0, ..Impact::default() },
+        ImpactRng::default(),
+    );
     let speeds = rust.speeds(1, &case.1).unwrap();
     let expected = [speeds.adhesive, speeds.yielding, speeds.sticking];
     let impact = c_case(&case);

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nearwall::c_api::nw_impact;
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 
 use crate::calls::{c_case, c_outcome};
 use crate::common::compile::{Build, Language, Program, compiles, next_version, shared_library};
@@ -20,7 +20,7 @@ fn a_c99_program_gets_the_golden_bits() {
         let model = Model::from_toml("m", &golden.model()).unwrap();
         let impact = golden_impact(golden);
         let (outcome, speeds) =
-            (model.resolve(0, &impact, Draw::default()), model.speeds(0, &impact).unwrap());
+            (model.resolve(0, &impact, ImpactRng::default()), model.speeds(0, &impact).unwrap());
         bits([outcome.unwrap().normal_restitution, speeds.adhesive, speeds.yielding, speeds.sticking])
     };
     let expected: Vec<String> = golden_cases().iter().map(rust).collect();
@@ -59,7 +59,12 @@ fn any_floating_point_state_is_survived_and_kept() {
     write(program.folder(), 0, EVERY_REGIME, &cases);
     let golden = golden_cases();
     for (row, golden) in golden.iter().enumerate() {
-        write(program.folder(), row + 1, &golden.model(), &[(0, golden_impact(golden), Draw::default())]);
+        write(
+            program.folder(),
+            row + 1,
+            &golden.model(),
+            &[(0, golden_impact(golden), ImpactRng::default())],
+        );
     }
     println!("{}", program.run(&[program.folder()]));
 }
@@ -131,7 +136,7 @@ fn c_and_rust_agree_on_layout_and_numbers() {
             roughness omega coverage key melt_thickness
         }
         nw_deposit { struct_size wall molten powder solid cover conversion }
-        nw_arrivals { struct_size count molten powder solid cover buried converted }
+        nw_deposit_source { struct_size count molten powder solid cover buried converted }
         nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
     } + &constants! {
         NW_ABI_VERSION NW_OK NW_NULL_POINTER NW_STRUCT_SIZE NW_NOT_UTF8 NW_FILE NW_MODEL NW_UNKNOWN_WALL NW_BAD_STATE

@@ -155,8 +155,8 @@ impl Program {
     /// Compiles `tests/c/<source>` and links it to a build of the library.
     pub fn build(language: Language, source: &str, build: Build) -> Self {
         let folder = TempDir::new().unwrap();
-        std::fs::copy(shared_library(build), folder.path().join("libnearwall.so.2")).unwrap();
-        std::os::unix::fs::symlink("libnearwall.so.2", folder.path().join("libnearwall.so")).unwrap();
+        std::fs::copy(shared_library(build), folder.path().join("libnearwall.so.1")).unwrap();
+        std::os::unix::fs::symlink("libnearwall.so.1", folder.path().join("libnearwall.so")).unwrap();
         let mut compiler = language.compiler();
         compiler.arg("-O2").args(words("NEARWALL_CFLAGS")).arg(root().join("tests/c").join(source));
         compiler.arg("-o").arg(folder.path().join("program")).arg("-L").arg(folder.path());

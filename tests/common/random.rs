@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "clippy.toml's leave for tests does not reach their helpers")]
 
 use nearwall::impact::INPUTS;
-use nearwall::{Draw, Impact};
+use nearwall::{Impact, ImpactRng};
 
 /// Ash that melts and burns out, a bare and a slag-covered wall, powder, and a steel wall known up to 873 K only.
 pub const EVERY_REGIME: &str = r#"
@@ -50,7 +50,7 @@ pub fn seed() -> u64 {
 }
 
 /// One impact with its wall and its draw.
-pub type Case = (usize, Impact, Draw);
+pub type Case = (usize, Impact, ImpactRng);
 
 /// Impacts over all regimes, some of them on a wall that is too hot for its table.
 pub fn random_cases(seed: u64, count: u64) -> Vec<Case> {
@@ -58,7 +58,7 @@ pub fn random_cases(seed: u64, count: u64) -> Vec<Case> {
 }
 
 fn random_case(seed: u64, index: u64) -> Case {
-    let draw = Draw::new(seed, index);
+    let draw = ImpactRng::new(seed, index);
     let mut stream = 100;
     let mut uniform = |low: f64, high: f64| {
         stream += 1;
@@ -104,7 +104,7 @@ pub const HOSTILE: [f64; 15] = [
 /// Ordinary impacts with one or two inputs replaced by each hostile number, and one on a wall that is not there.
 pub fn hostile_cases() -> Vec<Case> {
     let base = Impact { normal_speed: 1.0, tangential_speed: 0.5, ..Impact::default() };
-    let mut cases = vec![(usize::try_from(u32::MAX).unwrap(), base, Draw::default())];
+    let mut cases = vec![(usize::try_from(u32::MAX).unwrap(), base, ImpactRng::default())];
     for (first, one) in INPUTS.iter().enumerate() {
         for other in &INPUTS[first..] {
             for (index, a) in HOSTILE.iter().enumerate() {
@@ -112,7 +112,7 @@ pub fn hostile_cases() -> Vec<Case> {
                     let mut impact = base;
                     (other.set)(&mut impact, *b);
                     (one.set)(&mut impact, *a);
-                    cases.push((index % WALLS, impact, Draw::new(7, cases.len() as u64)));
+                    cases.push((index % WALLS, impact, ImpactRng::new(7, cases.len() as u64)));
                 }
             }
         }

@@ -7,7 +7,7 @@ use nearwall::c_api::{
     NW_OK, nw_impacts, nw_model, nw_model_free, nw_model_parse, nw_outcomes, nw_resolve_batch,
 };
 use nearwall::impact::INPUTS;
-use nearwall::{Draw, Impact, Model, Outcome};
+use nearwall::{Impact, ImpactRng, Model, Outcome};
 use proptest::prelude::*;
 
 use crate::cases::{config, effects_but, impacts, normal_laws, spinning, tangential_laws};
@@ -123,7 +123,7 @@ proptest! {
         let alone: Vec<Bits> = cases
             .iter()
             .zip(0..)
-            .map(|(impact, key)| bits(&rust.resolve(0, impact, Draw::new(seed, key)).unwrap()))
+            .map(|(impact, key)| bits(&rust.resolve(0, impact, ImpactRng::new(seed, key)).unwrap()))
             .collect();
         let model = Shared::new(&toml);
         prop_assert_eq!(&batch(&model, &cases, 0, seed, offset), &alone);

@@ -1,7 +1,7 @@
 //! Same inputs, same bits: one at a time, noted step by step, and in blocks of any length with any vectors.
 
 use nearwall::model::block::{BLOCK, Block, Level, Outcomes};
-use nearwall::{Draw, Impact, Model, Outcome, impact::INPUTS};
+use nearwall::{Impact, ImpactRng, Model, Outcome, impact::INPUTS};
 use proptest::prelude::*;
 
 use crate::cases::*;
@@ -102,7 +102,7 @@ proptest! {
         seed: u64,
     ) {
         for (key, impact) in impacts.iter().enumerate() {
-            let draw = Draw::new(seed, key as u64);
+            let draw = ImpactRng::new(seed, key as u64);
             let plain = model.resolve(0, impact, draw).unwrap();
             let (noted, _) = model.explain(0, impact, draw).unwrap();
             prop_assert_eq!(bits(&plain), bits(&noted), "{:?}: {:?} or {:?}", impact, plain, noted);
@@ -127,7 +127,7 @@ proptest! {
             let mut outcomes = Outcomes::default();
             model.resolve_block_at(level, 0, &block, seed, &mut outcomes).unwrap();
             for (index, impact) in impacts.iter().enumerate() {
-                let alone = model.resolve(0, impact, Draw::new(seed, block.keys[index])).unwrap();
+                let alone = model.resolve(0, impact, ImpactRng::new(seed, block.keys[index])).unwrap();
                 prop_assert_eq!(bits(&alone), bits_at(&outcomes, index), "{:?}, {} of {}: {:?}", level, index, impacts.len(), impact);
             }
         }

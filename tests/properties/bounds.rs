@@ -1,7 +1,7 @@
 //! Restitutions between 0 and 1, and numbers that stay numbers.
 
-use nearwall::effect::KINDS;
-use nearwall::{Draw, Impact, Model};
+use nearwall::effect::EFFECTS;
+use nearwall::{Impact, ImpactRng, Model};
 use proptest::prelude::*;
 
 use crate::cases::{
@@ -53,7 +53,7 @@ proptest! {
         effects += &oblique.map_or_else(String::new, |(a, b, c)| table("oblique-angle", &[a, b, c]));
         effects += &compliance.map_or_else(String::new, |(a, b, c)| table("tangential-compliance", &[a, b, c]));
         let model = wax(&normal, &tangential, &effects);
-        let outcome = model.resolve(0, &impact, Draw::new(1, key)).unwrap();
+        let outcome = model.resolve(0, &impact, ImpactRng::new(1, key)).unwrap();
         for share in [outcome.normal_restitution, outcome.tangential_restitution, outcome.sticking_probability] {
             prop_assert!((0.0..=1.0).contains(&share), "{outcome:?}\n{effects}");
         }
@@ -86,7 +86,7 @@ proptest! {
             ..Impact::default()
         };
         let model = wax(crate::cases::THORNTON_NING, &tangential, &effects);
-        let outcome = model.resolve(0, &impact, Draw::new(1, key)).unwrap();
+        let outcome = model.resolve(0, &impact, ImpactRng::new(1, key)).unwrap();
         prop_assert!(outcome.normal_restitution.is_finite() && outcome.normal_restitution >= 0.0, "{outcome:?}");
         prop_assert!((0.0..=1.0).contains(&outcome.sticking_probability), "{outcome:?}");
         prop_assert!(!outcome.tangential_restitution.is_nan() && !outcome.spin.is_nan(), "{outcome:?}");
@@ -143,5 +143,5 @@ proptest! {
 /// The list of exceptions names effects that exist.
 #[test]
 fn exceptions_are_effects() {
-    assert!(BEYOND_ONE.iter().all(|id| KINDS.iter().any(|kind| kind.id == *id)));
+    assert!(BEYOND_ONE.iter().all(|id| EFFECTS.iter().any(|kind| kind.id == *id)));
 }

@@ -1,7 +1,7 @@
 //! Random models and impacts.
 
-use nearwall::effect::{KINDS, Kind, Parameter, Search};
-use nearwall::{Draw, Impact, Model, Outcome};
+use nearwall::effect::{EFFECTS, EffectInfo, Parameter, Search};
+use nearwall::{Impact, ImpactRng, Model, Outcome};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -40,13 +40,13 @@ pub const FREE: &str = "model = \"constant\"\ne_t = 1";
 
 /// The `[[effects]]` table of a kind, its parameters in their order.
 pub fn table(id: &str, values: &[f64]) -> String {
-    let kind = KINDS.into_iter().find(|kind| kind.id == id).unwrap();
+    let kind = EFFECTS.into_iter().find(|kind| kind.id == id).unwrap();
     let lines = kind.parameters.iter().zip(values).map(|(p, value)| format!("{} = {value:e}\n", p.name));
     format!("[[effects]]\nkind = \"{id}\"\n{}", lines.collect::<String>())
 }
 
 pub fn resolve(model: &Model, impact: &Impact) -> Outcome {
-    model.resolve(0, impact, Draw::default()).unwrap()
+    model.resolve(0, impact, ImpactRng::default()).unwrap()
 }
 
 pub fn e_n(model: &Model, impact: &Impact) -> f64 {
@@ -117,25 +117,25 @@ fn values(parameter: &'static Parameter) -> BoxedStrategy<f64> {
     match parameter.search {
         Search::Linear(low, high) => (low..high).boxed(),
         Search::Log(low, high) => decades(low, high).boxed(),
-        Search::Over("T_p") => (250.0..2500.0).boxed(),
-        Search::Across("T_p") => decades(1.0, 1e3).boxed(),
-        Search::Over("v_n") => decades(1e-3, 1e3).boxed(),
-        Search::Over("d") | Search::Across("layer_thickness") => decades(1e-6, 1e-2).boxed(),
-        Search::Over("conversion") => (0.0..1.0).boxed(),
-        Search::Across("conversion") => decades(1e-3, 1.0).boxed(),
+        Search::InputRange("T_p") => (250.0..2500.0).boxed(),
+        Search::InputWidth("T_p") => decades(1.0, 1e3).boxed(),
+        Search::InputRange("v_n") => decades(1e-3, 1e3).boxed(),
+        Search::InputRange("d") | Search::InputWidth("layer_thickness") => decades(1e-6, 1e-2).boxed(),
+        Search::InputRange("conversion") => (0.0..1.0).boxed(),
+        Search::InputWidth("conversion") => decades(1e-3, 1.0).boxed(),
         other => unreachable!("{other:?}"),
     }
 }
 
 /// The table of a kind with random parameters, or nothing.
-fn perhaps(kind: &'static Kind) -> BoxedStrategy<String> {
+fn perhaps(kind: &'static EffectInfo) -> BoxedStrategy<String> {
     let parameters: Vec<_> = kind.parameters.iter().map(values).collect();
     let with = parameters.prop_map(|values| table(kind.id, &values));
     prop_oneof![2 => Just(String::new()), 1 => with].boxed()
 }
 
-/// Some of the effects but those named, in the order of [`KINDS`].
+/// Some of the effects but those named, in the order of [`EFFECTS`].
 pub fn effects_but(left_out: &[&str]) -> impl Strategy<Value = String> + use<> {
-    let kinds = KINDS.into_iter().filter(|kind| !left_out.contains(&kind.id));
+    let kinds = EFFECTS.into_iter().filter(|kind| !left_out.contains(&kind.id));
     kinds.map(perhaps).collect::<Vec<_>>().prop_map(|tables| tables.concat())
 }

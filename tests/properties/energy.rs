@@ -1,6 +1,6 @@
 //! Energy: motion and spin together never gain by a collision.
 
-use nearwall::{Draw, Impact, Outcome};
+use nearwall::{Impact, ImpactRng, Outcome};
 use proptest::prelude::*;
 
 use crate::cases::{config, decades, effects_but, normal_laws, spinning, table, tangential_laws, wax};
@@ -46,7 +46,7 @@ proptest! {
     ) {
         let impact = Impact { spin: if still { 0.0 } else { impact.spin }, ..impact };
         let effects = effects + &table("oblique-angle", &[oblique.0, oblique.1, 2.0]);
-        let outcome = wax(&normal, &tangential, &effects).resolve(0, &impact, Draw::new(1, key)).unwrap();
+        let outcome = wax(&normal, &tangential, &effects).resolve(0, &impact, ImpactRng::new(1, key)).unwrap();
         let (before, after) = (before(&impact), after(&impact, &outcome));
         prop_assert!(after <= before * (1.0 + 1e-12), "{before} -> {after}: {outcome:?}\n{tangential}\n{effects}");
     }
@@ -62,7 +62,7 @@ proptest! {
     ) {
         let normal = crate::cases::constant_normal(e_n);
         let effect = table("tangential-compliance", &[friction, near_normal, exponent]);
-        let outcome = wax(&normal, crate::cases::FREE, &effect).resolve(0, &impact, Draw::default()).unwrap();
+        let outcome = wax(&normal, crate::cases::FREE, &effect).resolve(0, &impact, ImpactRng::default()).unwrap();
         let (before, after) = (before(&impact), after(&impact, &outcome));
         prop_assert!(after <= before * (1.0 + 1e-12), "{before} -> {after}: {outcome:?}");
     }
@@ -73,7 +73,7 @@ proptest! {
         prop_assume!(!tangential.contains("constant") && impact.tangential_speed > 0.0);
         let impact = Impact { spin: 2.0 * impact.tangential_speed / impact.diameter, ..impact };
         let model = wax(&crate::cases::constant_normal(e_n), &tangential, "");
-        let outcome = model.resolve(0, &impact, Draw::default()).unwrap();
+        let outcome = model.resolve(0, &impact, ImpactRng::default()).unwrap();
         prop_assert!((outcome.tangential_restitution - 1.0).abs() < 1e-12, "{outcome:?}");
         prop_assert!((outcome.spin / impact.spin - 1.0).abs() < 1e-12, "{outcome:?}");
     }

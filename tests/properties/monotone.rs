@@ -2,7 +2,7 @@
 
 use nearwall::effect::Term;
 use nearwall::normal::{restitution, sticking_velocity};
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 use proptest::prelude::*;
 
 use crate::cases::{
@@ -165,9 +165,9 @@ proptest! {
     #[test]
     fn nano_roughness_only_helps_the_rebound(impact in impacts(), spread in 0.0..=1.0, key in any::<u64>()) {
         let plain = wax(THORNTON_NING, FREE, "");
-        let rough = plain.with_terms(vec![Term::new(nearwall::effect::KINDS[6], &[spread])]);
+        let rough = plain.with_terms(vec![Term::new(nearwall::effect::EFFECTS[6], &[spread])]);
         prop_assert_eq!(rough.terms()[0].kind().id, "nano-roughness");
-        let rough = rough.resolve(0, &impact, Draw::new(1, key)).unwrap().normal_restitution;
+        let rough = rough.resolve(0, &impact, ImpactRng::new(1, key)).unwrap().normal_restitution;
         prop_assert!(rough >= e_n(&plain, &impact) - 1e-15);
     }
 }

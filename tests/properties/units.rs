@@ -12,10 +12,10 @@
 //!   quantities; a melt with a viscosity of its own is here;
 //! - the twelve decades that `thermal-softening` and its kind are kept within are ratios.
 
-use nearwall::effect::{KINDS, Kind, Parameter, Search};
+use nearwall::effect::{EFFECTS, EffectInfo, Parameter, Search};
 use nearwall::impact::INPUTS;
 use nearwall::material::Library;
-use nearwall::{Draw, Impact, Model, Outcome};
+use nearwall::{Impact, ImpactRng, Model, Outcome};
 use proptest::prelude::*;
 
 use crate::cases::{config, decades, impacts};
@@ -87,17 +87,17 @@ fn typical(parameter: &Parameter) -> f64 {
     match parameter.search {
         Search::Linear(low, high) => 0.5 * (low + high),
         Search::Log(low, high) => (low * high).sqrt(),
-        Search::Over("T_p") => 900.0,
-        Search::Across("T_p") => 200.0,
-        Search::Over("conversion") => 0.5,
-        Search::Across("conversion") => 0.1,
-        Search::Over("v_n") => 1.0,
-        Search::Over("d") | Search::Across("layer_thickness") => 1e-4,
+        Search::InputRange("T_p") => 900.0,
+        Search::InputWidth("T_p") => 200.0,
+        Search::InputRange("conversion") => 0.5,
+        Search::InputWidth("conversion") => 0.1,
+        Search::InputRange("v_n") => 1.0,
+        Search::InputRange("d") | Search::InputWidth("layer_thickness") => 1e-4,
         other => unreachable!("{other:?}"),
     }
 }
 
-fn table(kind: &Kind, units: Units) -> String {
+fn table(kind: &EffectInfo, units: Units) -> String {
     let values: Vec<f64> = kind.parameters.iter().map(typical).collect();
     let line = |(parameter, value): (&Parameter, &f64)| {
         // The one parameter with a hidden unit.
@@ -115,7 +115,7 @@ fn table(kind: &Kind, units: Units) -> String {
 fn model(law: &str, mask: u32, units: Units) -> Model {
     // The bits above those of the effects choose the normal law.
     let normal = if mask >> 31 == 1 { "thornton-ning-raised-pull-off" } else { "thornton-ning" };
-    let picked = KINDS.into_iter().enumerate().filter(|(index, _)| mask >> index & 1 == 1);
+    let picked = EFFECTS.into_iter().enumerate().filter(|(index, _)| mask >> index & 1 == 1);
     let effects: String = picked.map(|(_, kind)| table(kind, units)).collect();
     let text = format!(
         "[particle]\nmaterial = \"own-tungsten\"\n\
@@ -174,7 +174,7 @@ proptest! {
         let impact = Impact { tangential_speed: impact.tangential_speed.max(1e-4), ..impact };
         let impact = Impact { spin: share * impact.speed() / impact.diameter, ..impact };
         let mask = if all { u32::MAX } else { mask };
-        let draw = Draw::new(3, key);
+        let draw = ImpactRng::new(3, key);
         let plain = model(law, mask, SI).resolve(0, &impact, draw).unwrap();
         let mut other = model(law, mask, units).resolve(0, &counted(&impact, units), draw).unwrap();
         other.spin /= units.factor("rad/s");
@@ -198,14 +198,15 @@ proptest! {
 /// The test above sees a unit that is wrong: the hidden metre per second of `oblique-angle` shows when it is not counted.
 #[test]
 fn a_hidden_unit_shows() {
-    let place = KINDS.iter().position(|kind| kind.id == "oblique-angle").unwrap();
+    let place = EFFECTS.iter().position(|kind| kind.id == "oblique-angle").unwrap();
     let law = "model = \"constant\"\ne_t = 0.7";
     let impact = Impact { normal_speed: 5.0, tangential_speed: 9.0, ..Impact::default() };
     let units = Units { metre: 10.0, ..SI };
-    let right = model(law, 1 << place, units).resolve(0, &counted(&impact, units), Draw::default()).unwrap();
+    let right =
+        model(law, 1 << place, units).resolve(0, &counted(&impact, units), ImpactRng::default()).unwrap();
     let plain = model(law, 1 << place, SI);
-    assert!(agree(&plain.resolve(0, &impact, Draw::default()).unwrap(), &right, 0.0));
+    assert!(agree(&plain.resolve(0, &impact, ImpactRng::default()).unwrap(), &right, 0.0));
     let wrong = model(law, 1 << place, units).with_terms(plain.terms().to_vec());
-    let wrong = wrong.resolve(0, &counted(&impact, units), Draw::default()).unwrap();
+    let wrong = wrong.resolve(0, &counted(&impact, units), ImpactRng::default()).unwrap();
     assert!(!agree(&right, &wrong, 0.0), "{right:?} {wrong:?}");
 }

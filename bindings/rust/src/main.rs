@@ -17,7 +17,7 @@ use std::ptr::null_mut;
 use libloading::Library;
 
 /// `NW_ABI_VERSION` of the header that these structs were copied from.
-const ABI_VERSION: u32 = 2;
+const ABI_VERSION: u32 = 1;
 
 #[repr(C)]
 #[derive(Default)]
@@ -70,7 +70,7 @@ struct Nearwall {
 
 impl Nearwall {
     fn open() -> Result<Self, Box<dyn Error>> {
-        let path = std::env::var_os("NEARWALL_LIBRARY").unwrap_or_else(|| "libnearwall.so.2".into());
+        let path = std::env::var_os("NEARWALL_LIBRARY").unwrap_or_else(|| "libnearwall.so.1".into());
         // SAFETY: the library's initialisers are the C and Rust runtimes'; names and types are those of nearwall.h, and
         // the version is looked at before anything else is called.
         unsafe {

@@ -12,7 +12,7 @@ use super::room::{Room, known};
 #[derive(Default)]
 pub struct Wall {
     deposit: nw_deposit,
-    arrivals: nw_arrivals,
+    arrivals: nw_deposit_source,
 }
 
 impl Wall {
@@ -21,9 +21,9 @@ impl Wall {
         match bytes.byte() % 6 {
             0 => begin(bytes),
             1 => self.start(bytes, model),
-            2 => self.arrive(bytes, model),
+            2 => self.add_captured(bytes, model),
             3 => self.add(bytes),
-            4 => self.dress(bytes, model),
+            4 => self.apply_deposit(bytes, model),
             _ => self.flow(bytes, model),
         }
     }
@@ -33,7 +33,7 @@ impl Wall {
         let before = self.deposit(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: null or what it should be.
-            unsafe { nw_deposit_start(model, voidage, to) }
+            unsafe { nw_deposit_initial(model, voidage, to) }
         });
         let Some(after) = status else { return };
         sound(&after);
@@ -41,7 +41,7 @@ impl Wall {
         self.deposit = after;
     }
 
-    fn arrive(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
+    fn add_captured(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let impact = impact(bytes);
         let mass = if bytes.below(2) == 0 { 1e-3 } else { bytes.number() };
         let density = if bytes.below(2) == 0 { 2e3 } else { bytes.number() };
@@ -50,7 +50,7 @@ impl Wall {
         let before = self.arrivals(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: each is null or what it should be.
-            unsafe { nw_arrivals_add(model, from, mass, density, to) }
+            unsafe { nw_deposit_source_add(model, from, mass, density, to) }
         });
         asked.kept();
         let Some(after) = status else { return };
@@ -63,7 +63,7 @@ impl Wall {
     fn add(&mut self, bytes: &mut Bytes<'_>) {
         let arrivals = self.arrivals(bytes);
         let mut asked = Room::holding(bytes, arrivals);
-        let from: *const nw_arrivals = asked.perhaps(bytes);
+        let from: *const nw_deposit_source = asked.perhaps(bytes);
         let before = self.deposit(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: each is null or what it should be.
@@ -74,10 +74,10 @@ impl Wall {
         sound(&after);
         alike(before.molten + before.powder + arrivals.molten + arrivals.powder, after.molten + after.powder);
         assert!(after.wall == before.wall && after.molten >= before.molten, "{after:?} of {before:?}");
-        (self.deposit, self.arrivals) = (after, nw_arrivals::default());
+        (self.deposit, self.arrivals) = (after, nw_deposit_source::default());
     }
 
-    fn dress(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
+    fn apply_deposit(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let voidage = share(bytes);
         let deposit = self.deposit(bytes);
         let bare = impact(bytes);
@@ -85,7 +85,7 @@ impl Wall {
         let from: *const nw_deposit = asked.perhaps(bytes);
         let status = changed(bytes, bare, |to| {
             // SAFETY: each is null or what it should be.
-            unsafe { nw_deposit_dress(model, from, voidage, to) }
+            unsafe { nw_deposit_apply(model, from, voidage, to) }
         });
         asked.kept();
         let Some(dressed) = status else { return };
@@ -160,7 +160,7 @@ impl Wall {
     }
 
     /// The step's own arrivals, or hostile ones.
-    fn arrivals(&self, bytes: &mut Bytes<'_>) -> nw_arrivals {
+    fn arrivals(&self, bytes: &mut Bytes<'_>) -> nw_deposit_source {
         let mut arrivals = self.arrivals;
         let which = bytes.byte();
         let fields = [
@@ -188,10 +188,10 @@ impl Wall {
 
 fn begin(bytes: &mut Bytes<'_>) {
     let mut deposit = Room::new(bytes, size_of::<nw_deposit>());
-    let mut arrivals = Room::new(bytes, size_of::<nw_arrivals>());
+    let mut arrivals = Room::new(bytes, size_of::<nw_deposit_source>());
     let (to_deposit, to_arrivals) = (deposit.perhaps(bytes), arrivals.perhaps(bytes));
     // SAFETY: each is null or room for what is written.
-    let found = unsafe { [nw_deposit_init(to_deposit), nw_arrivals_init(to_arrivals)] };
+    let found = unsafe { [nw_deposit_init(to_deposit), nw_deposit_source_init(to_arrivals)] };
     for (room, status) in [deposit, arrivals].iter().zip(found) {
         known(status);
         room.kept();
@@ -232,7 +232,7 @@ fn sound(deposit: &nw_deposit) {
     assert!((0.0..=1.0).contains(&deposit.conversion), "{deposit:?}");
 }
 
-fn sound_sums(sums: &nw_arrivals) {
+fn sound_sums(sums: &nw_deposit_source) {
     let sizes = [sums.molten, sums.powder, sums.solid, sums.cover, sums.buried, sums.converted];
     assert!(sizes.iter().all(|size| size.is_finite() && *size >= 0.0), "{sums:?}");
 }

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use nearwall::Model;
-use nearwall::aside::{Aside, refused};
+use nearwall::atomic_file::{AtomicFile, refused};
 use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
 use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose};
 use nearwall::input::Document;
@@ -74,18 +74,18 @@ pub fn run(arguments: &Arguments) -> CommandResult {
 const RESULTS: [&str; 3] = ["extended.toml", "diagnosis.json", "report.html"];
 
 /// Opens all results before any is written.
-fn open(arguments: &Arguments) -> Result<[Aside; 3], String> {
+fn open(arguments: &Arguments) -> Result<[AtomicFile; 3], String> {
     let folder = &arguments.out;
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
     let columns = arguments.columns.as_deref();
     let inputs: Vec<&Path> =
         [arguments.data.as_path(), &arguments.model].into_iter().chain(columns).collect();
-    let [model, json, page] = RESULTS.map(|name| Aside::new(&folder.join(name), &inputs));
+    let [model, json, page] = RESULTS.map(|name| AtomicFile::new(&folder.join(name), &inputs));
     Ok([model?, json?, page?])
 }
 
 fn write(
-    mut results: [Aside; 3],
+    mut results: [AtomicFile; 3],
     arguments: &Arguments,
     diagnosis: &Diagnosis,
     extended: &str,
@@ -96,7 +96,7 @@ fn write(
     for (result, text) in results.iter_mut().zip([extended, &json, &page]) {
         result.put(text)?;
     }
-    Ok(Aside::into_place(results.into())?)
+    Ok(AtomicFile::commit(results.into())?)
 }
 
 fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use nearwall::aside::{Aside, of_csv, refused};
+use nearwall::atomic_file::{AtomicFile, of_csv, refused};
 use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
-use nearwall::{Draw, Model};
+use nearwall::{ImpactRng, Model};
 
 use crate::{CommandResult, progress};
 
@@ -54,9 +54,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
             done.map_err(|error| at(Path::new("standard output"), error))
         }
         Some(path) => {
-            let mut aside = Aside::new(path, &[&arguments.impacts, &arguments.model])?;
+            let mut aside = AtomicFile::new(path, &[&arguments.impacts, &arguments.model])?;
             predict(&model, &walls, &mut reader, &mut aside).map_err(|error| at(path, error))?;
-            Ok(Aside::into_place(vec![aside])?)
+            Ok(AtomicFile::commit(vec![aside])?)
         }
     }
 }
@@ -136,7 +136,8 @@ fn predict(
 
 fn predict_row(model: &Model, walls: &Walls<'_>, row: &Row) -> Result<(csv::StringRecord, bool), String> {
     let wall = walls.of(row)?;
-    let outcome = model.resolve(wall, &row.impact, Draw::default()).map_err(|error| error.to_string())?;
+    let outcome =
+        model.resolve(wall, &row.impact, ImpactRng::default()).map_err(|error| error.to_string())?;
     let mut record = row.cells.clone();
     for value in [outcome.normal_restitution, outcome.tangential_restitution, outcome.sticking_probability] {
         record.push_field(&format!("{value:.16e}"));
@@ -176,7 +177,7 @@ fn explain(
             Err(bad) if bad.line == line => return Err(format!("line {line}: {}", bad.reason).into()),
             Ok(row) if row.line == line => {
                 let wall = walls.of(&row)?;
-                let (outcome, shares) = model.explain(wall, &row.impact, Draw::default())?;
+                let (outcome, shares) = model.explain(wall, &row.impact, ImpactRng::default())?;
                 let speeds = model.speeds(wall, &row.impact)?;
                 let mut text = format!(
                     "wall {}, regime {}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",

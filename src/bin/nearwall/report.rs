@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall::aside::Aside;
+use nearwall::atomic_file::AtomicFile;
 use nearwall::report::{openfoam, sweep};
 
 use crate::CommandResult;
@@ -48,8 +48,8 @@ pub fn whole(path: &Path) -> PathBuf {
 }
 
 fn write(output: &Path, inputs: &[&Path], page: &str) -> CommandResult {
-    let mut aside = Aside::new(output, inputs)?;
+    let mut aside = AtomicFile::new(output, inputs)?;
     aside.put(page)?;
-    Aside::into_place(vec![aside])?;
+    AtomicFile::commit(vec![aside])?;
     crate::print(&format!("open {}\n", whole(output).display()))
 }

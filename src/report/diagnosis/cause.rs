@@ -6,7 +6,7 @@ use super::axis::Axis;
 use super::plot::{BASE, EXTENDED, Window, identifier, running, title, triple};
 use super::{cause_title, chance, curve, spread, strings, usage};
 use crate::diagnose::{Alternative, Diagnosis, Estimate, Finding};
-use crate::effect::KINDS;
+use crate::effect::EFFECTS;
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, place: usize) {
     let heading = match finding.cause.strip_prefix("unknown:") {
@@ -47,7 +47,7 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
 
 fn parameters(finding: &Finding) -> Table {
     let about = |name: &str| {
-        let kind = KINDS.iter().find(|kind| kind.id == finding.cause)?;
+        let kind = EFFECTS.iter().find(|kind| kind.id == finding.cause)?;
         kind.parameters.iter().find(|parameter| parameter.name == name).map(|parameter| parameter.about)
     };
     let row = |(name, estimate): (&&'static str, &Estimate)| {
@@ -101,7 +101,7 @@ fn figures(diagnosis: &Diagnosis, finding: &Finding) -> Vec<Figure> {
         Some(column) => format!("unknown-{}", identifier(column)),
         None => finding.cause.clone(),
     };
-    let kind = KINDS.iter().find(|kind| kind.id == finding.cause);
+    let kind = EFFECTS.iter().find(|kind| kind.id == finding.cause);
     if kind.is_some_and(|kind| kind.stream.is_some()) && finding.observable != "outcome" {
         return spread::figures(diagnosis, finding, &id);
     }

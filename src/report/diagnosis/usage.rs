@@ -3,7 +3,7 @@
 use super::super::page::{Block, Page, Table};
 use super::{cause_title, strings, with_unit};
 use crate::diagnose::{Diagnosis, Measure, NotExamined};
-use crate::effect::KINDS;
+use crate::effect::EFFECTS;
 
 /// The five lines that put a model file into an OpenFOAM case.
 const OPENFOAM: &str = "libs (\"libnearWallInteraction.so\");              // system/controlDict
@@ -68,7 +68,7 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
 }
 
 fn not_examined(one: &NotExamined) -> Vec<String> {
-    let about = KINDS.iter().find(|kind| kind.id == one.cause).map_or("", |kind| kind.about);
+    let about = EFFECTS.iter().find(|kind| kind.id == one.cause).map_or("", |kind| kind.about);
     let advice = one
         .reason
         .strip_suffix(" does not vary in the data")

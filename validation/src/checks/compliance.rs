@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use nearwall::normal::Contact;
 use nearwall::report::{Chart, Figure, Table, number};
-use nearwall::tangential::{Glance, Rebound, critical_angle};
+use nearwall::tangential::{ImpactKinematics, Rebound, critical_angle};
 
 use super::{DIAMETER, FRICTION, Outcome, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
@@ -72,7 +72,7 @@ fn lowest(points: &[[f64; 2]]) -> [f64; 2] {
 fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Outcome<f64> {
     let term = term("tangential-compliance", &[FRICTION, near_normal, exponent])?;
     let (normal_speed, tangential_speed) = degrees.to_radians().sin_cos();
-    let glance = Glance {
+    let glance = ImpactKinematics {
         normal_speed,
         tangential_speed,
         diameter: DIAMETER,

@@ -79,7 +79,7 @@ impl Curves {
     fn new(ratio: f64, steps: usize) -> Self {
         let contact = contact(ratio);
         let plain = NormalLaw::ThorntonNing.speeds(&contact, DIAMETER);
-        let raised = NormalLaw::RaisedPullOff.speeds(&contact, DIAMETER);
+        let raised = NormalLaw::PlasticJkr.speeds(&contact, DIAMETER);
         let speeds = even_in_logarithm([0.9 * plain.sticking, 30.0 * raised.sticking], steps);
         let line = |e_n: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
             speeds.clone().map(|v| [v / plain.yielding, e_n(v)]).collect()
@@ -88,7 +88,7 @@ impl Curves {
         Self {
             ratio,
             closed: of(NormalLaw::ThorntonNing),
-            raised: of(NormalLaw::RaisedPullOff),
+            raised: of(NormalLaw::PlasticJkr),
             followed: line(&|v| followed(&contact, DIAMETER, v)),
         }
     }
@@ -148,7 +148,7 @@ fn ratios(extent: Extent) -> Outcome<Figure> {
         .map(|ratio| {
             let contact = contact(ratio);
             let sticking = |law: NormalLaw| law.speeds(&contact, DIAMETER).sticking;
-            [ratio, sticking(NormalLaw::RaisedPullOff) / sticking(NormalLaw::ThorntonNing)]
+            [ratio, sticking(NormalLaw::PlasticJkr) / sticking(NormalLaw::ThorntonNing)]
         })
         .collect();
     Ok(Chart::new(
@@ -194,13 +194,13 @@ fn claims(worst: f64) -> Vec<Claim> {
             source,
             &format!("{what}, their numerical solution"),
             Published::within(1.6, 0.05),
-            sticking(NormalLaw::RaisedPullOff),
+            sticking(NormalLaw::PlasticJkr),
             Basis::Predicted,
         )
         .because(&format!(
             "{} % low. How adhesion enters after yield is read differently: here the pressure is cut at p_y all the time; a \
              stiffness after yield as we recall it of the paper (not at hand) gives 1.82. The default law gives {}",
-            number((100.0 * (1.0 - sticking(NormalLaw::RaisedPullOff) / 1.6)).round()),
+            number((100.0 * (1.0 - sticking(NormalLaw::PlasticJkr) / 1.6)).round()),
             number(sticking(NormalLaw::ThorntonNing))
         )),
     ]

@@ -1,7 +1,7 @@
 //! Sliding and rolling beside a rigid sphere with spin, integrated over the impulse.
 
 use nearwall::report::{Chart, Figure, Table, number};
-use nearwall::tangential::{Glance, Rebound, TangentialLaw, critical_angle};
+use nearwall::tangential::{ImpactKinematics, Rebound, TangentialLaw, critical_angle};
 
 use super::{DIAMETER, FRICTION, Outcome, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1e-10;
 
 /// A glancing impact of 1 m/s and what both make of it.
 struct Case {
-    glance: Glance,
+    glance: ImpactKinematics,
     friction: f64,
     rigid: Left,
 }
@@ -34,7 +34,7 @@ impl Case {
         let (normal_speed, tangential_speed) = degrees.to_radians().sin_cos();
         let spin = 2.0 * rim * 0.5f64.sqrt() / DIAMETER;
         let sphere = RigidSphere { normal_speed, tangential_speed, spin, diameter: DIAMETER };
-        let glance = Glance {
+        let glance = ImpactKinematics {
             normal_speed,
             tangential_speed,
             diameter: DIAMETER,
@@ -108,7 +108,7 @@ fn sliding_rolling(case: &Case) -> Rebound {
 
 /// The law for a contact that is all but rigid.
 fn stiff(case: &Case) -> Rebound {
-    let glance = Glance { stiffness_ratio: RIGID, ..case.glance };
+    let glance = ImpactKinematics { stiffness_ratio: RIGID, ..case.glance };
     TangentialLaw::SlidingRolling { friction: case.friction }.rebound(&glance)
 }
 
@@ -243,7 +243,7 @@ fn energy(cases: &[Case]) -> Claim {
 
 /// What a rebound gains along the wall.
 fn gain(case: &Case, rebound: Rebound) -> f64 {
-    let Glance { normal_speed, tangential_speed, spin, diameter, .. } = case.glance;
+    let ImpactKinematics { normal_speed, tangential_speed, spin, diameter, .. } = case.glance;
     let sphere = RigidSphere { normal_speed, tangential_speed, spin, diameter };
     sphere.energy(rebound.restitution * tangential_speed, rebound.spin)
         - sphere.energy(tangential_speed, spin)

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use nearwall::Draw;
+use nearwall::ImpactRng;
 use nearwall::normal::{Contact, NormalLaw};
 use nearwall::report::{Chart, Figure, Table, number};
 
@@ -94,7 +94,7 @@ impl Hold {
 
     /// With the pull-off that yielding raises.
     fn raised(contact: Contact) -> Self {
-        Self { law: NormalLaw::RaisedPullOff, contact }
+        Self { law: NormalLaw::PlasticJkr, contact }
     }
 
     /// Sticking velocity [m/s] of a diameter [m].
@@ -178,7 +178,7 @@ impl Cases {
             for ((spread, _), list) in Spread::ALL.into_iter().zip(&mut both) {
                 let sampler = Sampler::new(set, spread)?;
                 list.extend((0..count).map(|key| {
-                    let impact = sampler.impact(Draw::new(SEED, key));
+                    let impact = sampler.impact(ImpactRng::new(SEED, key));
                     (impact.diameter, impact.normal_speed)
                 }));
             }

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::TangentialLaw;
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 
 use super::curves::contact;
 use super::published::{E_T, RATIO, SETS, Set};
@@ -60,7 +60,7 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
 fn drawn(count: u64) -> Result<Drawn, Box<dyn Error>> {
     let of = |set: &Set| -> Result<Vec<Impact>, Box<dyn Error>> {
         let sampler = Sampler::new(*set, Spread::Even)?;
-        Ok((0..count).map(|key| sampler.impact(Draw::new(SEED, key))).collect())
+        Ok((0..count).map(|key| sampler.impact(ImpactRng::new(SEED, key))).collect())
     };
     SETS.iter().map(of).collect()
 }

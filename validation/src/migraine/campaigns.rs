@@ -4,7 +4,7 @@ use std::error::Error;
 
 use nearwall::report::{Chart, Figure, Table};
 use nearwall::tangential::TangentialLaw;
-use nearwall::{Draw, Model};
+use nearwall::{ImpactRng, Model};
 
 use super::published::{PARTING, RATIO, SETS, Set};
 use super::sample::{Sampler, Spread};
@@ -137,7 +137,7 @@ fn campaign(model: &Model, sampler: &Sampler, replicate: u64) -> Result<Counts, 
     let count = sampler.set().impacts as u64;
     let (mut below, mut kept) = (0, Vec::new());
     for key in replicate * count..(replicate + 1) * count {
-        let draw = Draw::new(SEED + 100 * sampler.set().number as u64, key);
+        let draw = ImpactRng::new(SEED + 100 * sampler.set().number as u64, key);
         let outcome = model.resolve(0, &sampler.impact(draw), draw)?;
         if !outcome.stuck {
             below += u64::from(outcome.normal_restitution < PARTING);
@@ -285,7 +285,7 @@ fn steps(both: &Both, models: &[Model; 2], replicates: usize) -> Result<Table, B
 fn redrawn(observable: &Observable, set: &Set, replicate: usize, place: usize) -> f64 {
     let Some([hits, trials]) = (observable.trials)(set) else { return (observable.published)(set) };
     let share = hits as f64 / trials as f64;
-    let draw = Draw::new(SEED + 1, (10 * replicate + place) as u64);
+    let draw = ImpactRng::new(SEED + 1, (10 * replicate + place) as u64);
     let stream = 1000 * set.number as u64;
     let drawn = (0..trials as u64).filter(|trial| draw.uniform(stream + trial) < share).count();
     drawn as f64 / trials as f64

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::f64::consts::TAU;
 
-use nearwall::Draw;
+use nearwall::ImpactRng;
 use nearwall::normal::doublet::{Motion, Rebound, contact_restitution, rebound};
 use nearwall::normal::{Contact, NormalLaw, restitution};
 use nearwall::report::{Chart, Figure, Table, number, round_edges};
@@ -90,14 +90,14 @@ fn text(solid: &Contact, fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], s
 }
 
 /// A direction, evenly over the sphere.
-fn direction(draw: Draw, stream: u64) -> [f64; 3] {
+fn direction(draw: ImpactRng, stream: u64) -> [f64; 3] {
     let (height, turn) = (2.0 * draw.uniform(stream) - 1.0, TAU * draw.uniform(stream + 1));
     let across = (1.0 - height * height).sqrt();
     [across * turn.cos(), across * turn.sin(), height]
 }
 
 /// A spin of `R omega/v_n` square to the axis, in a direction drawn evenly.
-fn arriving(speed: f64, spin: f64, draw: Draw) -> Motion {
+fn arriving(speed: f64, spin: f64, draw: ImpactRng) -> Motion {
     let axis = direction(draw, 0);
     let [x, y, z] = axis;
     let [a, b, c] = direction(draw, 2);
@@ -117,7 +117,7 @@ fn spin_of(motion: &Motion, speed: f64) -> f64 {
 fn sample(solid: &Contact, speed: f64, count: usize, spin: impl Fn(u64) -> f64) -> Sample {
     let mut sample = empty();
     for key in 0..count as u64 {
-        let motion = arriving(speed, spin(key), Draw::new(SEED, key));
+        let motion = arriving(speed, spin(key), ImpactRng::new(SEED, key));
         sample.arriving_spin.push(spin_of(&motion, speed));
         if let Some(after) = hit(solid, &motion) {
             sample.add(&after, speed);
@@ -132,13 +132,13 @@ fn travelled(solid: &Contact, earlier: f64, count: usize) -> Sample {
     for key in 0..count as u64 {
         let mut spin = 0.0;
         for round in 0..HISTORY {
-            let draw = Draw::new(SEED + 1, HISTORY * key + round);
+            let draw = ImpactRng::new(SEED + 1, HISTORY * key + round);
             if let Some(after) = hit(solid, &arriving(earlier * SPEED, spin, draw)) {
                 spin = spin_of(&after.motion, earlier * SPEED);
             }
         }
         sample.arriving_spin.push(earlier * spin);
-        if let Some(after) = hit(solid, &arriving(SPEED, earlier * spin, Draw::new(SEED + 2, key))) {
+        if let Some(after) = hit(solid, &arriving(SPEED, earlier * spin, ImpactRng::new(SEED + 2, key))) {
             sample.add(&after, SPEED);
         }
     }

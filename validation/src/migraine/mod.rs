@@ -11,7 +11,7 @@
 //! - `molten.rs`: set 6;
 //! - `campaigns.rs`: all sets drawn again, under the old and the calibrated model; what is fitted, what is predicted, the gain.
 //!
-//! Model files stand in `validation/migraine/`; copy them. All chance comes from `nearwall::Draw` with the seeds named on the page.
+//! Model files stand in `validation/migraine/`; copy them. All chance comes from `nearwall::ImpactRng` with the seeds named on the page.
 
 mod adhesion;
 mod along;

@@ -5,7 +5,7 @@ use std::error::Error;
 use nearwall::capture::{DropletNumbers, SPLASH_K};
 use nearwall::normal::NormalLaw;
 use nearwall::report::number;
-use nearwall::{Draw, Impact, Model};
+use nearwall::{Impact, ImpactRng, Model};
 
 use super::published::{MOLTEN, MOLTEN_SIZE, MOLTEN_TEMPERATURES, RATIO, SETS};
 use super::sample::{Sampler, Spread};
@@ -112,7 +112,7 @@ fn capture(low: f64, least: f64, splash: f64) -> Claim {
 
 /// Whether droplets are consistent with the counts, and solid grains, too.
 fn droplets(model: &Model, least: f64) -> Result<Claim, Box<dyn Error>> {
-    let flattened = model.with_laws(NormalLaw::RaisedPullOff, model.tangential_law());
+    let flattened = model.with_laws(NormalLaw::PlasticJkr, model.tangential_law());
     let solid = [solid_share(model, Spread::Even)?, solid_share(model, Spread::Slow)?];
     let raised = [solid_share(&flattened, Spread::Even)?, solid_share(&flattened, Spread::Slow)?];
     let [solid_at, ..] = TEMPERATURES;
@@ -152,7 +152,7 @@ fn solid_share(model: &Model, spread: Spread) -> Result<f64, Box<dyn Error>> {
     let sampler = Sampler::new(SETS[4], spread)?;
     let mut held = 0;
     for key in 0..COUNT {
-        let draw = Draw::new(SEED, key);
+        let draw = ImpactRng::new(SEED, key);
         let impact = Impact { particle_temperature: TEMPERATURES[0], ..sampler.impact(draw) };
         held += u64::from(model.resolve(0, &impact, draw)?.stuck);
     }

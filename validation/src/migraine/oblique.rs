@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use nearwall::report::{Chart, Figure, Table, number};
-use nearwall::{Draw, Model};
+use nearwall::{ImpactRng, Model};
 use statrs::distribution::{Discrete, Hypergeometric};
 
 use super::published::{PARTING, RATIO, SETS, Set, near_normal};
@@ -149,7 +149,7 @@ fn e_n(
     let sampler = Sampler::new(set, spread)?;
     let mut found = Vec::new();
     for key in 0..count {
-        let draw = Draw::new(SEED, key);
+        let draw = ImpactRng::new(SEED, key);
         found.push(model.resolve(0, &sampler.impact(draw), draw)?.normal_restitution);
     }
     Ok(found.into_iter())

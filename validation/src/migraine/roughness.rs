@@ -4,7 +4,7 @@ use std::error::Error;
 
 use nearwall::normal::{NormalLaw, restitution};
 use nearwall::report::{Chart, Figure, Table, number};
-use nearwall::{Draw, Model};
+use nearwall::{ImpactRng, Model};
 
 use super::curves::contact;
 use super::published::{PARTING, RATIO, SETS};
@@ -175,7 +175,7 @@ fn largest_tilt(plain: &Model, replicates: usize) -> Result<f64, Box<dyn Error>>
         for replicate in 0..replicates as u64 {
             let mut least = f64::INFINITY;
             for key in replicate * count..(replicate + 1) * count {
-                let draw = Draw::new(SEED, key);
+                let draw = ImpactRng::new(SEED, key);
                 least = least.min(rough.resolve(0, &sampler.impact(draw), draw)?.tangential_restitution);
             }
             kept += usize::from(least > least_allowed);

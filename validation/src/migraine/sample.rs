@@ -3,7 +3,7 @@
 
 use std::error::Error;
 
-use nearwall::{Draw, Impact};
+use nearwall::{Impact, ImpactRng};
 
 use super::published::{Set, TEMPERATURES};
 
@@ -43,7 +43,7 @@ impl Sampler {
         let with = |lean| Self { set, spread, lean };
         let mean = |lean| {
             let sampler = with(lean);
-            let angles = (0..TRIAL).map(|key| angle(&sampler.impact(Draw::new(0, key))));
+            let angles = (0..TRIAL).map(|key| angle(&sampler.impact(ImpactRng::new(0, key))));
             angles.sum::<f64>() / TRIAL as f64
         };
         let (mut low, mut high) = match spread {
@@ -68,7 +68,7 @@ impl Sampler {
     }
 
     /// An impact at the paper's temperatures.
-    pub fn impact(&self, draw: Draw) -> Impact {
+    pub fn impact(&self, draw: ImpactRng) -> Impact {
         let attempt = |round: u64| self.attempt(|place| draw.uniform(STREAM + ATTEMPT * round + place));
         let [low, high] = self.set.along;
         let fits = |impact: &Impact| (low..=high).contains(&impact.tangential_speed);
@@ -126,7 +126,7 @@ mod tests {
     fn impacts_lie_in_the_printed_ranges_with_the_printed_mean_angle() {
         for (set, (spread, name)) in SETS.iter().flat_map(|set| Spread::ALL.map(|spread| (set, spread))) {
             let sampler = Sampler::new(*set, spread).unwrap();
-            let impacts: Vec<Impact> = (0..2000).map(|key| sampler.impact(Draw::new(5, key))).collect();
+            let impacts: Vec<Impact> = (0..2000).map(|key| sampler.impact(ImpactRng::new(5, key))).collect();
             let inside =
                 |value: f64, [low, high]: [f64; 2]| (low * 0.999999..=high * 1.000001).contains(&value);
             for impact in &impacts {

@@ -2,7 +2,7 @@
 
 use nearwall::report::number;
 use nearwall::tangential::critical_angle;
-use nearwall::{Draw, Impact, global_restitution};
+use nearwall::{Impact, ImpactRng, global_restitution};
 
 use super::angle::{sliding, stated_e_n};
 use super::published::{
@@ -202,10 +202,10 @@ fn stiffness(k: f64) -> Answer<Claim> {
 fn counting() -> Answer<Claim> {
     let melting = model!("melting.toml")?;
     let warm = Impact { particle_temperature: 343.15, wall_temperature: 343.15, ..arriving(2.0, 84.0) };
-    let probability = melting.resolve(0, &warm, Draw::new(1, 0))?.sticking_probability;
+    let probability = melting.resolve(0, &warm, ImpactRng::new(1, 0))?.sticking_probability;
     let mut counted = 0.0;
     for number in 0..4000 {
-        counted += f64::from(u8::from(melting.resolve(0, &warm, Draw::new(1, number))?.stuck));
+        counted += f64::from(u8::from(melting.resolve(0, &warm, ImpactRng::new(1, number))?.stuck));
     }
     Ok(Claim::number(
         "Eq 14",

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 /// A result on its way.
-pub struct Aside {
+pub struct AtomicFile {
     place: PathBuf,
     sink: BufWriter<Sink>,
 }
@@ -20,7 +20,7 @@ enum Sink {
     Direct(File),
 }
 
-impl Aside {
+impl AtomicFile {
     /// Opens the result that is to stand at `place`, which must not be one of the `inputs`.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl Aside {
     ///
     /// # Errors
     /// What could not be written, with its place and what to do.
-    pub fn into_place(results: Vec<Self>) -> Result<(), String> {
+    pub fn commit(results: Vec<Self>) -> Result<(), String> {
         let mut whole = Vec::new();
         for result in results {
             let Self { place, sink } = result;
@@ -70,7 +70,7 @@ impl Aside {
     }
 }
 
-impl Write for Aside {
+impl Write for AtomicFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.sink.write(bytes)
     }

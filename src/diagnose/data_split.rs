@@ -33,13 +33,13 @@ pub(super) struct Factor {
 
 /// Everything that stays the same during a diagnosis.
 #[derive(Debug)]
-pub(super) struct Study {
+pub(super) struct DataSplit {
     pub base: Model,
     pub rows: Vec<Measurement>,
     pub factors: Vec<Factor>,
     /// Rows that the search sees, by fold.
     pub folds: Vec<Vec<usize>>,
-    /// All of [`Study::folds`].
+    /// All of [`DataSplit::folds`].
     pub search: Vec<usize>,
     /// Rows that the last fit sees: those of the search and more.
     pub fit: Vec<usize>,
@@ -49,7 +49,7 @@ pub(super) struct Study {
     pub draws: usize,
 }
 
-impl Study {
+impl DataSplit {
     /// Deals the rows out; the same seed deals the same.
     pub fn new(base: &Model, data: &Measurements, seed: u64) -> Self {
         let mut order: Vec<usize> = (0..data.rows.len()).collect();

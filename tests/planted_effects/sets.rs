@@ -45,7 +45,7 @@ pub struct Set {
 }
 
 /// What a set is made from.
-pub struct Plan {
+pub struct PreparedWall {
     pub campaign: Campaign,
     pub plants: Vec<Plant>,
 }
@@ -54,14 +54,18 @@ pub struct Plan {
 pub struct Recipe {
     pub name: String,
     pub kind: Kind,
-    plan: Box<dyn Fn(&mut Dice) -> Plan + Send + Sync>,
+    plan: Box<dyn Fn(&mut Dice) -> PreparedWall + Send + Sync>,
 }
 
 /// What the data have to be worth, nats.
 const LEAST: Gain = Gain { over_base: 30.0, over_refitted: 20.0, least_plant: 30.0 };
 
 impl Recipe {
-    pub fn new(name: String, kind: Kind, plan: impl Fn(&mut Dice) -> Plan + Send + Sync + 'static) -> Self {
+    pub fn new(
+        name: String,
+        kind: Kind,
+        plan: impl Fn(&mut Dice) -> PreparedWall + Send + Sync + 'static,
+    ) -> Self {
         Self { name, kind, plan: Box::new(plan) }
     }
 
@@ -78,7 +82,7 @@ impl Recipe {
     }
 
     fn draw(&self, dice: &mut Dice) -> Set {
-        let Plan { campaign, plants } = (self.plan)(dice);
+        let PreparedWall { campaign, plants } = (self.plan)(dice);
         let plants = plants.into_iter().map(Arc::new).collect();
         let world = World { contact: campaign.system.contact(), tangential: campaign.law, plants };
         let rows = campaign.run(&world, dice);
@@ -212,7 +216,7 @@ fn null(index: usize) -> Recipe {
         campaign.spread =
             [Spread::Even, Spread::Random, Spread::WithSpeed, Spread::WithForeign][index / 2 % 4];
         campaign.outliers = if index % 5 == 4 { 0.0 } else { 0.02 };
-        Plan { campaign, plants: vec![] }
+        PreparedWall { campaign, plants: vec![] }
     })
 }
 
@@ -259,7 +263,7 @@ fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
         campaign.rows = 600 + dice.below(401);
         campaign.noise_e_n = campaign.noise_e_n.min(0.05);
         let plants = [one, other].into_iter().map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
-        Plan { campaign, plants }
+        PreparedWall { campaign, plants }
     })
 }
 
@@ -268,7 +272,7 @@ fn unknown_number(index: usize) -> Recipe {
         let system = any_system(dice);
         let mut campaign = Campaign::new(system, any_law(system, dice), dice);
         campaign.needs("humidity");
-        Plan { plants: vec![plant::unknown_number(dice.uniform((0.3, 0.6)))], campaign }
+        PreparedWall { plants: vec![plant::unknown_number(dice.uniform((0.3, 0.6)))], campaign }
     })
 }
 
@@ -278,7 +282,10 @@ fn unknown_group(index: usize) -> Recipe {
         let mut campaign = Campaign::new(system, any_law(system, dice), dice);
         campaign.needs("batch");
         let size = dice.uniform((0.2, 0.4));
-        Plan { plants: vec![plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size])], campaign }
+        PreparedWall {
+            plants: vec![plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size])],
+            campaign,
+        }
     })
 }
 
@@ -303,13 +310,13 @@ fn few(index: usize) -> Recipe {
 }
 
 /// One effect at level 0, 1 or 2, in a campaign in which it shows.
-fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> Plan {
+fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> PreparedWall {
     let strength = (level as f64 / 2.0 + dice.uniform((-0.2, 0.2))).clamp(0.0, 1.0);
     let system = system_for(effect, dice);
     let law = law_for(effect, system, dice);
     let mut campaign = Campaign::new(system, law, dice);
     let plants = vec![sow(effect, strength, &mut campaign, dice)];
-    Plan { campaign, plants }
+    PreparedWall { campaign, plants }
 }
 
 fn any_system(dice: &mut Dice) -> System {

@@ -9,12 +9,12 @@ use crate::impact::Impact;
 
 /// Tilt of the local wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Facet {
+pub(super) struct TiltedFrame {
     /// Towards the particle [rad].
     pub tilt: f64,
 }
 
-impl Facet {
+impl TiltedFrame {
     /// The impact as the facet sees it.
     pub fn turn(self, impact: &Impact) -> Impact {
         if self.tilt == 0.0 {
@@ -75,7 +75,7 @@ mod tests {
     fn a_tilted_mirror_turns_the_path_by_twice_the_tilt() {
         let impact = Impact { normal_speed: 1.0, tangential_speed: 2.0, ..Impact::default() };
         for tilt in [-0.2, 0.0, 0.1, 0.3] {
-            let facet = Facet { tilt };
+            let facet = TiltedFrame { tilt };
             let turned = facet.turn(&impact);
             let [e_n, e_t] = facet.turn_back(&impact, &turned, [1.0, 1.0]);
             let out = 1f64.atan2(2.0) + 2.0 * tilt;
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn spin_keeps_its_sense() {
         let impact = Impact { normal_speed: 1.0, tangential_speed: 0.1, spin: 5.0, ..Impact::default() };
-        let facet = Facet { tilt: 0.3 };
+        let facet = TiltedFrame { tilt: 0.3 };
         assert_eq!(facet.turn(&impact).spin, -5.0);
         assert_eq!(facet.spin_back(&impact, -5.0), 5.0);
     }

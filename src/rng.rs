@@ -7,14 +7,14 @@
 
 /// The draws of one impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Draw {
+pub struct ImpactRng {
     /// The run's seed.
     pub seed: u64,
     /// What tells this impact from all others of the run.
     pub key: u64,
 }
 
-impl Draw {
+impl ImpactRng {
     /// Draws for the impact `key` of the run `seed`.
     pub fn new(seed: u64, key: u64) -> Self {
         Self { seed, key }
@@ -85,17 +85,17 @@ mod tests {
         for key in 0..100_000 {
             let [a, b, ..] = philox([key, 0, 3, 0], [9, 0]);
             let n = (a << 32 | b) >> 11;
-            assert_eq!(Draw::new(9, key).uniform(3), (n as f64 + 0.5) / (1u64 << 53) as f64);
+            assert_eq!(ImpactRng::new(9, key).uniform(3), (n as f64 + 0.5) / (1u64 << 53) as f64);
         }
     }
 
     #[test]
     fn draws_are_uniform_and_independent_of_order() {
         let count = 100_000_u64;
-        let mean = (0..count).map(|key| Draw::new(1, key).uniform(0)).sum::<f64>() / count as f64;
+        let mean = (0..count).map(|key| ImpactRng::new(1, key).uniform(0)).sum::<f64>() / count as f64;
         let error = (1.0 / 12.0 / count as f64).sqrt();
         assert!((mean - 0.5).abs() < 5.0 * error, "mean {mean}");
-        assert_eq!(Draw::new(3, 5).uniform(2), Draw::new(3, 5).uniform(2));
-        assert_ne!(Draw::new(3, 5).uniform(2), Draw::new(3, 5).uniform(1));
+        assert_eq!(ImpactRng::new(3, 5).uniform(2), ImpactRng::new(3, 5).uniform(2));
+        assert_ne!(ImpactRng::new(3, 5).uniform(2), ImpactRng::new(3, 5).uniform(1));
     }
 }

@@ -1,7 +1,7 @@
 //! Sets with a planted cause that `nearwall diagnose` has to find, made without any of the crate's own laws.
 //!
-//! - `cargo test --release --test hidden -- --nocapture diagnose` scores the command on all sets.
-//! - `NEARWALL_HIDDEN_OUT=DIR cargo test --release --test hidden -- --ignored write_sets` writes them.
+//! - `cargo test --release --test planted_effects -- --nocapture diagnose` scores the command on all sets.
+//! - `NEARWALL_PLANTED_OUT=DIR cargo test --release --test planted_effects -- --ignored write_sets` writes them.
 //!
 //! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_HIDDEN_SETS` makes more of each, `NEARWALL_HIDDEN_ONLY` names those wanted.
 #![allow(
@@ -33,7 +33,7 @@ use rayon::prelude::*;
 #[test]
 #[cfg_attr(
     debug_assertions,
-    ignore = "minutes in a debug build: cargo test --release --test hidden -- --nocapture"
+    ignore = "minutes in a debug build: cargo test --release --test planted_effects -- --nocapture"
 )]
 fn diagnose_finds_what_is_planted() {
     let seed = random::seed();
@@ -43,11 +43,11 @@ fn diagnose_finds_what_is_planted() {
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 
-/// Writes every set to the folder `NEARWALL_HIDDEN_OUT`.
+/// Writes every set to the folder `NEARWALL_PLANTED_OUT`.
 #[test]
 #[ignore = "writes files on request"]
 fn write_sets() {
-    let folder = std::env::var("NEARWALL_HIDDEN_OUT").unwrap();
+    let folder = std::env::var("NEARWALL_PLANTED_OUT").unwrap();
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder).unwrap();
     let seed = random::seed();

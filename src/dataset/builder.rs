@@ -4,7 +4,7 @@ use std::io::Read;
 
 use super::column::{Cells, Column, Values};
 use super::column_map::{Bound, ColumnMap};
-use super::incidence::{AngleColumn, Incidence};
+use super::impact_velocity::{AngleColumn, Incidence};
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
 use super::notes::{self, Tally};
@@ -15,7 +15,7 @@ use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
 
 /// A file that is being read.
-pub(super) struct Assembly<'a> {
+pub(super) struct Builder<'a> {
     map: &'a ColumnMap,
     walls: &'a WallChoice<'a>,
     bound: Bound,
@@ -29,7 +29,7 @@ pub(super) struct Assembly<'a> {
     tally: Tally,
 }
 
-impl<'a> Assembly<'a> {
+impl<'a> Builder<'a> {
     /// Finds out what the columns mean.
     ///
     /// # Errors

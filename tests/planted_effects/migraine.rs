@@ -5,7 +5,7 @@ use crate::campaign::{Campaign, Series, System};
 use crate::contact::Tangential;
 use crate::dice::Dice;
 use crate::plant;
-use crate::sets::Plan;
+use crate::sets::PreparedWall;
 
 /// The yield ratio that has to be found.
 pub const YIELD_RATIO: f64 = 4.0;
@@ -32,7 +32,7 @@ fn series(index: usize) -> Series {
 }
 
 /// The campaign over a base with yield ratio 2.8 and e_t = 1.
-pub fn plan(dice: &mut Dice) -> Plan {
+pub fn plan(dice: &mut Dice) -> PreparedWall {
     let mut campaign = Campaign::new(System::HotTungsten, Tangential::Constant(1.0), dice);
     campaign.columns = vec!["T_w"];
     campaign.extras = vec!["series"];
@@ -48,5 +48,5 @@ pub fn plan(dice: &mut Dice) -> Plan {
         plant::molten_series(5),
         plant::tangential_level(E_T),
     ];
-    Plan { campaign, plants }
+    PreparedWall { campaign, plants }
 }

@@ -7,7 +7,7 @@ use crate::contact::{Body, Contact, Tangential};
 use crate::dice::Dice;
 use crate::plant::Hook;
 use crate::score::{Verdict, at_most, judge};
-use crate::sets::{EFFECTS, Kind, Plan, Recipe, Set, recipes};
+use crate::sets::{EFFECTS, Kind, PreparedWall, Recipe, Set, recipes};
 use crate::world::{Inputs, normal};
 use crate::{random, runner};
 
@@ -41,7 +41,7 @@ fn plain(system: System, law: Tangential, name: &str) -> Set {
         campaign.columns = KNOWN.to_vec();
         campaign.v_n.0 /= 5.0;
         campaign.theta = (1.0, 85.0);
-        Plan { campaign, plants: vec![] }
+        PreparedWall { campaign, plants: vec![] }
     });
     recipe.make(random::seed())
 }
@@ -231,7 +231,7 @@ fn the_gain_of_a_known_shift() {
     let recipe = Recipe::new("known-shift".into(), Kind::Planted, |dice| {
         let mut campaign = Campaign::new(System::Wax, Tangential::Constant(0.7), dice);
         campaign.v_n = (2.0, 5.0);
-        Plan { campaign, plants: vec![crate::plant::yield_ratio(1.2)] }
+        PreparedWall { campaign, plants: vec![crate::plant::yield_ratio(1.2)] }
     });
     let set = recipe.make(random::seed());
     let off = |pick: &dyn Fn(&Inputs) -> f64| {

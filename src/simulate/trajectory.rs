@@ -10,8 +10,8 @@ use super::flight::{
 use super::geometry::across;
 use super::injection::Load;
 use super::surface::{Role, Shape};
-use crate::draw::Draw;
 use crate::impact::{Impact, ImpactError, Outcome};
+use crate::rng::ImpactRng;
 
 /// A rebound slower than this [m/s] leaves the particle lying on the wall.
 const REST: f64 = 1e-9;
@@ -52,7 +52,7 @@ pub struct Hit {
 
 /// A particle from start to end.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Life {
+pub struct Trajectory {
     /// How it ended.
     pub fate: Fate,
     /// Its hits in order.
@@ -70,7 +70,7 @@ pub struct Life {
 }
 
 /// Follows the particle with this number.
-pub(super) fn live(case: &Case, number: u64) -> Life {
+pub(super) fn live(case: &Case, number: u64) -> Trajectory {
     let start = case.injection.draw(case.seed, number);
     let (density, trouble) = match case.density(start.temperature) {
         Ok(density) => (density, None),
@@ -106,7 +106,7 @@ pub(super) fn live(case: &Case, number: u64) -> Life {
         Some(reason) => Fate::Unusable(reason),
         None => traveller.travel(),
     };
-    Life {
+    Trajectory {
         fate,
         diameter: body.diameter,
         mass: [mass, traveller.mass()],
@@ -202,7 +202,7 @@ impl Traveller<'_> {
             ..Impact::default()
         };
         let key = (self.number << HIT_BITS) | self.hits.len() as u64;
-        let outcome = self.case.model.resolve(*wall, &impact, Draw::new(self.case.seed, key))?;
+        let outcome = self.case.model.resolve(*wall, &impact, ImpactRng::new(self.case.seed, key))?;
         let mass = self.mass();
         self.hits.push(Hit { time: self.time, surface: index, position: here, impact, outcome, mass });
         if outcome.stuck {

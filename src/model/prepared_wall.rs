@@ -1,7 +1,7 @@
 //! A wall's impacts, prepared: what depends on material and model alone is worked out when the model is read.
 //!
 //! A plan exists where the walk of an impact needs no more than constant properties, a Thornton–Ning or constant normal law,
-//! any tangential law, and the effects that name what they come down to ([`Simple`]). It gives the bits of the walk in
+//! any tangential law, and the effects that name what they come down to ([`Precomputed`]). It gives the bits of the walk in
 //! `mod.rs`: the laws are the same functions, and this file only leaves out what the model does not have. One formula serves
 //! a single impact and a block of them; it has no branches, so the compiler makes vectors of it.
 
@@ -11,15 +11,15 @@ use super::block::{BLOCK, Block, Outcomes};
 use super::wall::Wall;
 use super::{Model, captured};
 use crate::capture::Stickiness;
-use crate::draw::Draw;
-use crate::effect::{Simple, Term, Transition, stream};
+use crate::effect::{Precomputed, Term, Transition, stream};
 use crate::impact::{INPUTS, Impact, Outcome, Regime};
 use crate::normal::{self, NormalLaw};
-use crate::tangential::{Glance, TangentialLaw};
+use crate::rng::ImpactRng;
+use crate::tangential::{ImpactKinematics, TangentialLaw};
 
 /// The prepared numbers of one wall.
 #[derive(Debug, Clone)]
-pub(super) struct Plan {
+pub(super) struct PreparedWall {
     normal: Normal,
     tangential: TangentialLaw,
     /// Mindlin's `k` [1].
@@ -47,7 +47,7 @@ enum Transitions {
     Two(Transition, Transition),
 }
 
-impl Plan {
+impl PreparedWall {
     /// The plan of a wall; `None` where the walk needs more than a plan has.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
         if model.stickiness.is_some() || wall.melt.is_some() {
@@ -56,15 +56,15 @@ impl Plan {
         let mut contact = wall.prepared?;
         let mut transitions = Transitions::None;
         for term in &model.terms {
-            match term.effect().simple()? {
-                Simple::Contact => contact = term.effect().contact(&Impact::default(), contact, 0.0),
-                Simple::Transition(transition) => transitions = transitions.and(transition)?,
+            match term.effect().precompute()? {
+                Precomputed::Contact => contact = term.effect().contact(&Impact::default(), contact, 0.0),
+                Precomputed::Transition(transition) => transitions = transitions.and(transition)?,
             }
         }
         let normal = match model.normal {
             NormalLaw::ThorntonNing => Normal::ThorntonNing(normal::Prepared::new(&contact)),
             NormalLaw::Constant { restitution } => Normal::Constant(restitution),
-            NormalLaw::RaisedPullOff => return None,
+            NormalLaw::PlasticJkr => return None,
         };
         // The wall's own powder changes these two on the way.
         let dressed = |name| name == "layer_thickness" || name == "coverage";
@@ -85,7 +85,7 @@ impl Plan {
 
     /// Decides one impact that has been checked.
     #[inline(always)]
-    pub fn one(&self, impact: &Impact, draw: Draw) -> Outcome {
+    pub fn one(&self, impact: &Impact, draw: ImpactRng) -> Outcome {
         // First, while nothing has to be kept over a call.
         let holds = self.holds_at(impact.particle_temperature, impact.wall_temperature)
             && (self.valid.is_empty() || self.terms_hold_for(impact));
@@ -106,7 +106,7 @@ impl Plan {
             _ => draw.uniform(stream::CAPTURE),
         };
         let e_n = self.softened(plain, sticky);
-        let along = self.tangential.rebound(&Glance {
+        let along = self.tangential.rebound(&ImpactKinematics {
             normal_speed: impact.normal_speed,
             tangential_speed: impact.tangential_speed,
             diameter: impact.diameter,
@@ -131,7 +131,7 @@ impl Plan {
         dispatch!(level, _simd => self.fill(block, seed, outcomes));
     }
 
-    /// The steps of [`Plan::one`], each for the whole block: short loops keep a processor's divider busy, while in a long one
+    /// The steps of [`PreparedWall::one`], each for the whole block: short loops keep a processor's divider busy, while in a long one
     /// every impact waits for its own chain of results. What needs the divider goes with what does not.
     #[inline(always)]
     #[allow(clippy::needless_range_loop, reason = "one index over many columns")]
@@ -169,7 +169,7 @@ impl Plan {
             (Normal::ThorntonNing(law), true) => {
                 for i in 0..length {
                     plain[i] = law.rebound(speed[i], plain[i]);
-                    chance[i] = Draw::new(seed, block.keys[i]).uniform(stream::CAPTURE);
+                    chance[i] = ImpactRng::new(seed, block.keys[i]).uniform(stream::CAPTURE);
                 }
             }
             (Normal::ThorntonNing(law), false) => {
@@ -179,7 +179,7 @@ impl Plan {
             }
             (Normal::Constant(_), true) => {
                 for i in 0..length {
-                    chance[i] = Draw::new(seed, block.keys[i]).uniform(stream::CAPTURE);
+                    chance[i] = ImpactRng::new(seed, block.keys[i]).uniform(stream::CAPTURE);
                 }
             }
             (Normal::Constant(_), false) => {}
@@ -212,7 +212,7 @@ impl Plan {
             let (plain, sticky) = (outcomes.normal_restitution[i], outcomes.sticking_probability[i]);
             let (probability, stuck) = self.capture(plain, sticky, outcomes.spin[i]);
             let e_n = self.softened(plain, sticky);
-            let along = law.rebound(&Glance {
+            let along = law.rebound(&ImpactKinematics {
                 normal_speed: block.inputs[Impact::NORMAL_SPEED][i],
                 tangential_speed: block.inputs[Impact::TANGENTIAL_SPEED][i],
                 diameter: block.inputs[Impact::DIAMETER][i],

@@ -10,16 +10,16 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use super::data_split::DataSplit;
 use super::forecast::Forecast;
 use super::hypothesis::{Hypothesis, Observable, changes, standardised};
-use super::likelihood::{Scatter, Shift, fit_scatter, score};
+use super::likelihood::{Offset, Scatter, fit_scatter, score};
 use super::part::{Fitted, Number, Part};
 use super::search::{best_of_grid, descend};
 use super::smooth::{Basis, Curve};
-use super::study::Study;
 use super::unknown::Unknown;
 use crate::dataset::Values;
-use crate::effect::KINDS;
+use crate::effect::EFFECTS;
 
 /// Gain on the rows of the fit [nats] below which a candidate is not worth a cross-validation.
 const HOPELESS: f64 = 2.0;
@@ -51,7 +51,7 @@ pub(super) enum Candidate {
         observable: Observable,
     },
     /// Captures at a constant rate that nothing explains.
-    Lapses,
+    BackgroundCapture,
     /// Scatter that changes with a factor.
     Noise {
         /// Place among the study's factors.
@@ -67,14 +67,14 @@ pub(super) enum Added {
     Unknown(Unknown),
     Noise(usize, f64),
     /// Log odds of capture that no column explains.
-    Lapses(f64),
+    BackgroundCapture(f64),
 }
 
 /// A candidate after the round.
 #[derive(Debug, Clone)]
-pub(super) struct Contender {
+pub(super) struct ScoredCandidate {
     pub added: Added,
-    /// Difference in log score of each row of [`Study::search`].
+    /// Difference in log score of each row of [`DataSplit::search`].
     pub differences: Vec<f64>,
     /// Gain that is its own rather than that of a mere level [nats].
     pub own_gain: f64,
@@ -82,7 +82,7 @@ pub(super) struct Contender {
     pub q_value: f64,
 }
 
-impl Contender {
+impl ScoredCandidate {
     /// Sum of the differences [nats].
     pub fn gain(&self) -> f64 {
         self.differences.iter().sum()
@@ -102,7 +102,7 @@ impl Contender {
             }
             Added::Part(fitted, _) => fitted.at.len(),
             Added::Unknown(unknown) => unknown.curve.heights.len(),
-            Added::Noise(..) | Added::Lapses(_) => 1,
+            Added::Noise(..) | Added::BackgroundCapture(_) => 1,
         }
     }
 
@@ -118,10 +118,10 @@ type Levels = BTreeMap<(Observable, bool), Vec<f64>>;
 
 /// The round as the hypothesis stands.
 pub(super) struct Round<'a> {
-    study: &'a Study,
+    study: &'a DataSplit,
     hypothesis: &'a Hypothesis,
-    shifts: Vec<Shift>,
-    /// The hypothesis' forecast of [`Study::search`].
+    shifts: Vec<Offset>,
+    /// The hypothesis' forecast of [`DataSplit::search`].
     forecast: Forecast,
     /// The place of each row in the forecast.
     places: Vec<usize>,
@@ -132,7 +132,7 @@ pub(super) struct Round<'a> {
 }
 
 impl<'a> Round<'a> {
-    pub fn new(study: &'a Study, hypothesis: &'a Hypothesis, first: Scatter) -> Self {
+    pub fn new(study: &'a DataSplit, hypothesis: &'a Hypothesis, first: Scatter) -> Self {
         let shifts = hypothesis.shifts(study);
         let forecast = Forecast::new(&hypothesis.model(study), &study.rows, &study.search, study.draws);
         let mut places = vec![usize::MAX; study.rows.len()];
@@ -158,10 +158,10 @@ impl<'a> Round<'a> {
     }
 
     /// All candidates with their gains, those without hope left out; `done` is called after each.
-    pub fn contenders(&self, done: &(dyn Fn() + Sync)) -> Vec<Contender> {
+    pub fn contenders(&self, done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
         let candidates = self.candidates();
         let levels = self.levels();
-        let mut contenders: Vec<Contender> = candidates
+        let mut contenders: Vec<ScoredCandidate> = candidates
             .par_iter()
             .filter_map(|&candidate| {
                 let contender = self.contend(candidate, &levels);
@@ -178,7 +178,7 @@ impl<'a> Round<'a> {
         let study = self.study;
         let taken = |name: &str| self.hypothesis.parts.iter().any(|fitted| fitted.part.name() == name);
         let in_base = |id: &str| study.base.terms().iter().any(|term| term.kind().id == id);
-        let effects = KINDS.iter().map(|kind| Part::Effect(kind));
+        let effects = EFFECTS.iter().map(|kind| Part::Effect(kind));
         let numbers = [Number::NormalRestitution, Number::TangentialRestitution, Number::Friction];
         let numbers = numbers.into_iter().filter(|number| number.of(&study.base).is_some()).map(Part::Number);
         let parts = effects.chain(numbers).filter(|part| !taken(&part.name()) && !in_base(&part.name()));
@@ -201,7 +201,7 @@ impl<'a> Round<'a> {
             }
         }
         if self.hypothesis.lapses == 0.0 && self.observed(Observable::Capture) {
-            candidates.push(Candidate::Lapses);
+            candidates.push(Candidate::BackgroundCapture);
         }
         candidates
     }
@@ -228,12 +228,12 @@ impl<'a> Round<'a> {
         values.len() >= 10 && values.iter().any(|value| *value != values[0])
     }
 
-    fn contend(&self, candidate: Candidate, levels: &Levels) -> Option<Contender> {
+    fn contend(&self, candidate: Candidate, levels: &Levels) -> Option<ScoredCandidate> {
         let added = match candidate {
             Candidate::Part(part) => self.fit_part(part)?,
             Candidate::Unknown { factor, observable } => self.better_curve(factor, observable)?,
             Candidate::Noise { factor } => self.fit_noise(factor, &self.study.search, 0.0),
-            Candidate::Lapses => Added::Lapses(self.fit_lapses(&self.study.search)?),
+            Candidate::BackgroundCapture => Added::BackgroundCapture(self.fit_lapses(&self.study.search)?),
         };
         if self.gain_in_sample(&added) < HOPELESS {
             return None;
@@ -250,7 +250,7 @@ impl<'a> Round<'a> {
         let freedom = (tested.len() as f64 - 1.0).max(1.0);
         let t = t_statistic(&tested);
         let p_value = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.sf(t)).max(1e-300);
-        Some(Contender { added, differences, own_gain, p_value, q_value: 1.0 })
+        Some(ScoredCandidate { added, differences, own_gain, p_value, q_value: 1.0 })
     }
 
     /// What a mere level gains in each observable, added or multiplied.
@@ -278,14 +278,14 @@ impl<'a> Round<'a> {
         differences
     }
 
-    fn scores(&self, rows: &[usize], shifts: &[Shift], scatter: Scatter) -> Vec<f64> {
+    fn scores(&self, rows: &[usize], shifts: &[Offset], scatter: Scatter) -> Vec<f64> {
         let one = |&row: &usize| {
             score(&self.study.rows[row], self.forecast.of(self.places[row]), &shifts[row], scatter)
         };
         rows.iter().map(one).collect()
     }
 
-    fn fit_scatter(&self, rows: &[usize], shifts: &[Shift]) -> Scatter {
+    fn fit_scatter(&self, rows: &[usize], shifts: &[Offset]) -> Scatter {
         let forecast = self.forecast.of_places(rows.iter().map(|&row| self.places[row]));
         fit_scatter(&self.study.rows, rows, &forecast, shifts, self.scatter)
     }
@@ -299,7 +299,7 @@ impl<'a> Round<'a> {
             }
             Added::Unknown(unknown) => self.cost_with_shifts(&self.with_unknown(unknown), rows),
             Added::Noise(factor, change) => self.cost_with_shifts(&self.with_noise(*factor, *change), rows),
-            Added::Lapses(odds) => self.cost_with_shifts(&self.with_lapses(*odds), rows),
+            Added::BackgroundCapture(odds) => self.cost_with_shifts(&self.with_lapses(*odds), rows),
         };
         -after - self.score
     }
@@ -324,7 +324,7 @@ impl<'a> Round<'a> {
                 }
                 None => nothing(),
             },
-            Added::Lapses(_) => match self.fit_lapses(outside) {
+            Added::BackgroundCapture(_) => match self.fit_lapses(outside) {
                 Some(odds) => self.scores(fold, &self.with_lapses(odds), scatter),
                 None => nothing(),
             },
@@ -351,7 +351,7 @@ impl<'a> Round<'a> {
         }
     }
 
-    fn cost_with_shifts(&self, shifts: &[Shift], rows: &[usize]) -> f64 {
+    fn cost_with_shifts(&self, shifts: &[Offset], rows: &[usize]) -> f64 {
         -self.scores(rows, shifts, self.fit_scatter(rows, shifts)).iter().sum::<f64>()
     }
 
@@ -432,13 +432,13 @@ impl<'a> Round<'a> {
         blank.fitted(self.study, rows, &forecast, &self.shifts, scatter)
     }
 
-    fn with_unknown(&self, unknown: &Unknown) -> Vec<Shift> {
+    fn with_unknown(&self, unknown: &Unknown) -> Vec<Offset> {
         let mut shifts = self.shifts.clone();
         unknown.add(self.study, &self.forecast, &self.study.search, &mut shifts);
         shifts
     }
 
-    fn with_noise(&self, factor: usize, change: f64) -> Vec<Shift> {
+    fn with_noise(&self, factor: usize, change: f64) -> Vec<Offset> {
         let mut shifts = self.shifts.clone();
         for (shift, z) in shifts.iter_mut().zip(standardised(&self.study.factors[factor].values)) {
             shift.spread *= (change * z).exp();
@@ -453,7 +453,7 @@ impl<'a> Round<'a> {
         self.fit_unknown(&blank, rows, self.scatter)?.curve.heights.first().copied()
     }
 
-    fn with_lapses(&self, odds: f64) -> Vec<Shift> {
+    fn with_lapses(&self, odds: f64) -> Vec<Offset> {
         let mut shifts = self.shifts.clone();
         shifts.iter_mut().for_each(|shift| shift.capture += odds);
         shifts
@@ -484,7 +484,7 @@ fn t_statistic(differences: &[f64]) -> f64 {
 }
 
 /// Benjamini and Hochberg's q-values for `count` candidates, of which those without hope are not in the list.
-fn adjust(contenders: &mut [Contender], count: usize) {
+fn adjust(contenders: &mut [ScoredCandidate], count: usize) {
     let mut order: Vec<usize> = (0..contenders.len()).collect();
     order.sort_by(|&a, &b| contenders[b].p_value.total_cmp(&contenders[a].p_value));
     let mut smallest = 1.0_f64;
