@@ -1,13 +1,12 @@
-# Rows of results/probe.csv from a run, one for each size: the lines of reference.awk, then the list of arrivals at the tube
-# (tube.post).
+# Prints the rows of results/probe.csv for a run, one for each size. Input: the lines of reference.awk, then the list of
+# arrivals at the tube (tube.post).
 #
-#   -v rows=500     particles of a size on one tube radius
-#   -v deposit=FILE diameters of the parcels that lie on the tube at the end; not there when none does
+#   -v rows=500     particles of each size on one tube radius
+#   -v deposit=FILE diameters of the parcels on the tube at the end; missing when there are none
 #   -v header=1     print the names of the columns
 #
-# impaction: particles that arrive (once, however often they come back) over those released within one radius, known to half a
-# particle. capture: particles that lie on the tube at the end over the same. Speeds, angle and temperature: means of
-# first arrivals.
+# impaction: particles that arrive (counted once each) over those released within one radius, known to half a particle.
+# capture: particles on the tube at the end over the same number. Speeds, angle and temperature: means of first arrivals.
 
 function size(x) { return sprintf("%.0f", x*1e6) }
 function file() { if (FILENAME != shown) { shown = FILENAME; files++ } return files }
@@ -19,7 +18,7 @@ BEGIN {
             "stuck,capture,stuck_of_arrived,v_n_mean_m_s,angle_mean_deg,T_mean_K"
         exit
     }
-    # A list of the cloud: a line each, between the brackets
+    # An OpenFOAM list: one value per line between the brackets
     while ((getline line < deposit) > 0) {
         if (line ~ /^\(/) inside = 1; else if (line ~ /^\)/) inside = 0; else if (inside) stuck[size(line)]++
     }

@@ -1,9 +1,11 @@
-# The ash: for each size a row of particles, evenly spaced across the stream, 20 radii ahead of the tube.
+# Prints the injection table of the ash: for each size a row of particles, evenly spaced across the stream, 20 radii
+# upstream of the tube.
 #
 #   awk -v sizes="10 20 50" -v rows=500 -v T=1600 -f particles.awk
 #
-# sizes [um]; rows: particles on one tube radius; T [K]: the particles', as the gas. They start with the gas's 10 m/s between
-# the plane of symmetry and 1.05 radii, in the middle of their strips: an efficiency is known to half a strip, 0.5/rows.
+# sizes [um]; rows: particles on one tube radius; T [K]: temperature of particles and gas. Particles start at the gas
+# speed of 10 m/s between the plane of symmetry and 1.05 radii, each in the middle of a strip. An efficiency is
+# therefore known to half a strip, 0.5/rows.
 BEGIN {
     kinds = split(sizes, d)
     per = int(1.05*rows)

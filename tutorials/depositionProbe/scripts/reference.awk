@@ -1,15 +1,16 @@
-# What the runs are compared with, worked out without OpenFOAM: a line for each size,
+# Prints the reference of the runs, computed without OpenFOAM, a line for each size:
 #
-#     d [um]  Stk  Stk_eff  Re_p  impaction from paths  impaction from the published fit (- below its range)
+#     d [um]  Stk  Stk_eff  Re_p  impaction from trajectories  impaction from the published fit (- below its range)
 #
 #   awk -v sizes="10 20 50" -v T=1600 -f reference.awk
 #
-# Paths: d v/dt = (u - v) C_D Re/(24 tau) in the exact potential flow around a tube, u_x = U (1 - R2 (x2 - y2)/r4),
-# u_y = -2 U R2 x y/r4, tau = rho d2/(18 mu), C_D Re = 24 (1 + Re^(2/3)/6) (Putnam 1961; OpenFOAM's sphereDrag); classical
-# Runge-Kutta; the start that just hits by halving (to 1e-4 radii). Start: 20 radii ahead with speed U, as in the runs.
+# Trajectories: d v/dt = (u - v) C_D Re/(24 tau) in the exact potential flow around a tube, u_x = U (1 - R2 (x2 - y2)/r4),
+# u_y = -2 U R2 x y/r4, tau = rho d2/(18 mu), C_D Re = 24 (1 + Re^(2/3)/6) (Putnam 1961; OpenFOAM's sphereDrag). Method:
+# classical Runge-Kutta, with bisection for the start that just hits (to 1e-4 radii). Start: 20 radii upstream with speed
+# U, as in the runs.
 #
 # Fit: Israel and Rosner, Aerosol Sci. Technol. 2 (1983) 45, eta = 1/(1 + 1.25/s - 1.4e-2/s2 + 0.508e-4/s3), s = Stk_eff - 1/8, for
-# Stk_eff > 0.14 (quoted after others; the paper was not at hand). Stk = tau U/R, and Stk_eff = Stk psi with
+# Stk_eff > 0.14 (quoted from others; the paper was not available). Stk = tau U/R, and Stk_eff = Stk psi with
 # psi = 1/Re int_0^Re 24/(C_D Re') dRe' = 18 (q - sqrt6 atan(q/sqrt6))/q3, q = Re^(1/3), at Re = rho_g U d/mu.
 
 function move(x, y, u, v,    r2, r4, gx, gy, re, rate) {

@@ -1,26 +1,26 @@
-# Draws dust: one line of OpenFOAM's injection table for each grain.
+# Draws the dust: prints OpenFOAM's injection table, one line for each grain.
 #
 #   awk -v n=6000 -v seed=1 -v from=dropper -f dust.awk
 #   awk -v n=4000 -v seed=1 -v from=set1 -f dust.awk
 #
-# from=dropper: 1 mm below the top of the vessel, 22 cm from the source (32 cm from the end plate), over a disc of 10 mm (assumed), with the
-# speed of a free fall from the dropper 1.875 m above the axis. Direction: down, off by a normal angle of 0.2 degrees in x and in y
-# (assumed; 6 mm after the fall).
+# from=dropper: grains start 1 mm below the top of the vessel, 22 cm from the source (32 cm from the end plate), on a disc
+# of 10 mm (assumed), with the speed of a free fall from the dropper 1.875 m above the axis. Direction: down, with normally
+# distributed deviations of 0.2 degrees in x and in y (assumed; 6 mm after the fall).
 #
-# from=set1 to set5: on its way to the target, 4 mm before it, as that set's impacts are printed. v_n evenly over its range, angle from the
-# normal exponential over its range with the printed mean, v_t within its range: the shapes are assumed. Sets 1, 2, 3 and 5: upright
-# target, v_t any way. Set 4: oblique target, v_t up its slope.
+# from=set1 to set5: grains start 4 mm before the target and hit it as the paper prints for that set: v_n uniform over its
+# range, angle from the normal exponential over its range with the printed mean, v_t within its range (the shapes are
+# assumed). Sets 1, 2, 3 and 5: upright target, v_t in any direction. Set 4: oblique target, v_t up its slope.
 #
-# Diameter: triangle over the printed range about the most probable one.
+# Diameter: triangular distribution over the printed range about the most probable one.
 
-# Own generator (Park and Miller), so that every awk draws the same batch
+# Generator of Park and Miller, so that every awk draws the same batch
 function uniform() { state = (16807*state) % 2147483647; return state/2147483647 }
 function normal()  { return sqrt(-2*log(uniform()))*cos(2*pi*uniform()) }
 
-# v_n, v_t [m/s], angle [degrees from the normal]: least, most, mean; d [um]: least, most probable, most
+# Arguments: v_n, v_t [m/s] (min, max), angle [degrees from the normal] (min, max, mean), d [um] (min, most probable, max)
 function take(a, b, c, e, f, g, h, i, j, k) { n0 = a; n1 = b; t0 = c; t1 = e; a0 = f; a1 = g; mean = h; d0 = i; dm = j; d1 = k }
 
-# One impact: sets v_n, v_t, for an angle whose density is exp(-lean angle)
+# Draws one impact: sets v_n and v_t for an angle with density exp(-lean angle)
 function impact(    u) {
     do {
         v_n = n0 + (n1 - n0)*uniform()
@@ -30,7 +30,7 @@ function impact(    u) {
     } while (v_t < t0 || v_t > t1)
 }
 
-# The lean with which the mean angle is the printed one
+# Sets lean so that the mean angle is the printed one
 function find_lean(    low, high, k, sum, i) {
     low = -0.5; high = 0.5
     for (k = 0; k < 16; k++) {
@@ -61,7 +61,7 @@ BEGIN {
     print "FoamFile { version 2.0; format ascii; class dictionary; object " from "; }"
     print "// (x y z) (u v w) d rho mDot"
     print n; print "("
-    slope = from == "set4" ? 10*pi/180 : pi/2           # of the target, from the axis
+    slope = from == "set4" ? 10*pi/180 : pi/2           # angle of the target from the axis
     nx = -sin(slope); nz = cos(slope)                   # its normal, into the vessel
     fall = sqrt(2*9.81*(1.875 - 0.199))
     for (i = 0; i < n; i++) {

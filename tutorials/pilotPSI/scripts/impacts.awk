@@ -1,10 +1,11 @@
-# One row of results/dust.csv from a run's list of impacts (impacts.csv of nearWallInteraction).
+# Prints the row of results/dust.csv for a run from its list of impacts (impacts.csv of nearWallInteraction).
 #
-#   -v name=... -v grains=6000 -v from=set1     the run, its grains, where they come from (scripts/dust.awk)
+#   -v name=... -v grains=6000 -v from=set1     run, number of grains, source of the dust (scripts/dust.awk)
 #   -v header=1                                 print the names of the columns
 #
-# Target: in the runs of the paper's sets the one impact that each grain was sent to (the first 30 ms); with dust from the dropper all
-# impacts with v_n of 0.57 m/s and more, the slowest that the paper saw. bounces: impacts of a grain on any wall before it stays.
+# Impacts on the target: in the runs of the paper's sets the first impact of each grain (the first 30 ms); with dust from
+# the dropper all impacts from v_n = 0.57 m/s upwards, the lowest in the paper. bounces: impacts of a grain on any wall
+# before capture.
 
 BEGIN {
     CONVFMT = "%.9g"; pi = 3.141592653589793
@@ -37,7 +38,7 @@ $1 == "time" { for (i = 1; i <= NF; i++) at[$i] = i; next }
     if ($at["e_n"] < 0.6) below++
 }
 
-# A published number; - where there is none
+# A published number, or - if there is none
 function published(x) { return x == "-" ? x : sprintf("%.4g", x) }
 function share(k, n) { return n ? sprintf("%.4f,%.4f", k/n, sqrt(k/n*(1 - k/n)/n)) : "-,-" }
 

@@ -1,4 +1,4 @@
-# results/dust.csv as a table on the screen.
+# Prints results/dust.csv as a table.
 NR == 1 {
     for (i = 1; i <= NF; i++) at[$i] = i
     print "                       grains on           impacts on the target                    captured        e_n < 0.6         mean e_t"

@@ -1,8 +1,8 @@
-# Two tables of Allrun beside the paper's numbers: a row for each run, then the root mean square errors of both.
+# Prints two tables of Allrun beside the paper's numbers: a row for each run, then the root mean square errors of both.
 #
 #   awk -v out=against.csv -f against.awk before/wax.csv after/wax.csv
 #
-# A bound such as ">0.85" is shown and not counted.
+# A bound such as ">0.85" is printed but not counted.
 
 function shown(x, places) { return x == "" || x == "-" ? "-" : sprintf("%." places "f", x) }
 function percent(x,    bound) { bound = sub(/^>/, "", x) ? ">" : ""; return x == "" || x == "-" ? "-" : sprintf("%s%.1f", bound, 100*x) }

@@ -1,12 +1,12 @@
-# Draws the batch of particles: one line of OpenFOAM's injection table each.
+# Draws the batch of particles: prints OpenFOAM's injection table, one line for each particle.
 #
 #   awk -v n=4000 -v seed=1 -v C=70 -v air=2.7 -v d=80 -v sd=15 -v low=50 -v high=110 -v disc=0.010 -v scatter=3 -f batch.awk
 #
-# Diameter [um]: normal (d, sd), cut at low and high. Position: evenly over a disc, diameter [m]. Direction: down, off by
-# a normal angle `scatter` [degrees] in x and in y. Speed at the end of the tube: air [m/s] + terminal velocity, as in the
-# paper. Temperature C [degrees Celsius]: that of the air.
+# Diameter [um]: normal distribution (d, sd), cut at low and high. Position: uniform over a disc of diameter `disc` [m].
+# Direction: down, with normally distributed deviations `scatter` [degrees] in x and in y. Speed at the end of the tube:
+# air [m/s] + terminal velocity, as in the paper. Temperature C [degrees Celsius]: that of the air.
 
-# Own generator (Park and Miller), so that every awk draws the same batch
+# Generator of Park and Miller, so that every awk draws the same batch
 function uniform() { state = (16807*state) % 2147483647; return state/2147483647 }
 function normal()  { return sqrt(-2*log(uniform()))*cos(2*pi*uniform()) }
 

@@ -1,9 +1,10 @@
-# One row of results/wax.csv from a run: its log, its table of the plate (target.dat), its list of impacts (target.post).
+# Prints the row of results/wax.csv for a run. Input: its log, the table of the plate (target.dat) and the list of impacts
+# (target.post).
 #
-# First impacts only, as the paper's camera saw them. A run ends before a particle that rebounded can come back, unless
-# it was so hot that it hardly left: those come back at once, too slowly to leave again, and are told by their number.
+# First impacts only, as the paper's camera recorded them. A run ends before a particle that rebounded can return. Hot
+# particles hardly rebound and return at once, too slowly to leave again; their number identifies them.
 #
-#   -v list=FILE    also write these impacts there, as a data file for `nearwall predict`
+#   -v list=FILE    also write the first impacts to FILE, a data file for `nearwall predict`
 #   -v header=1     print the names of the columns
 #   -v tilt=4.5     inclination of the plate [degrees]
 
@@ -11,7 +12,7 @@ function sum(i, x) { s[i] += x; q[i] += x*x }
 function mean(i) { return s[i]/n }
 function sd(i,    m) { m = s[i]/n; return sqrt(q[i]/n - m*m) }
 function degrees(x) { return x*180/pi }
-# Percent as a share; ">85" stays a bound, "-" nothing
+# Percent as a share; ">85" stays a bound, "-" means no value
 function share(x,    bound) { bound = sub(/^>/, "", x) ? ">" : ""; return x == "-" ? x : bound x/100 }
 function known(name) { return name in column }
 function total(name) { return value[column[name]] }
