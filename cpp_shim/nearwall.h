@@ -11,7 +11,7 @@
 #ifndef NEARWALL_H
 #define NEARWALL_H
 
-/* Written by cbindgen from src/c_api; `NEARWALL_BLESS=1 cargo test --test header` writes it again. */
+/* Written by cbindgen from src/c_api; `NEARWALL_BLESS=1 cargo test --test c_api header` writes it again. */
 
 #include <stddef.h>
 #include <stdint.h>

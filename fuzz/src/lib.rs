@@ -1,5 +1,5 @@
 //! What is fuzzed: one function a door. Each takes any bytes and panics where a promise of nearwall is broken. The fuzzer
-//! (`fuzz/run`) and the replay of what it found (`tests/corpus.rs`) call the same functions.
+//! (`fuzz/run`) and the replay of what it found (`tests/library/corpus.rs`) call the same functions.
 
 mod bytes;
 mod c_api;

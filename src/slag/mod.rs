@@ -2,7 +2,7 @@
 //! it runs down a wall.
 //!
 //! A [`ViscosityLaw`] is chosen by name; [`SlagViscosity`] is a law with a composition worked in, ready to be asked at
-//! many temperatures. How well each law meets measurements is shown in `tests/slag_viscosity.rs`.
+//! many temperatures. How well each law meets measurements is shown in `tests/library/slag_viscosity.rs`.
 
 mod composition;
 pub mod film;

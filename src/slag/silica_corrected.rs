@@ -9,7 +9,7 @@
 //! the melt (without `SO3`), held at the ends of 30 to 70. The correction does not depend on temperature, so the
 //! viscosity falls with it as it does after Kalmanovitch and Frank.
 //!
-//! Source: fitted to `tests/data/slag_viscosity_measured.csv` by `tests/slag_viscosity_study.rs`, which chose silica
+//! Source: fitted to `tests/data/slag_viscosity_measured.csv` by `tests/library/slag_viscosity_study.rs`, which chose silica
 //! among 29 terms and recomputes the numbers. The study is in `docs/slag-viscosity.md`.
 //!
 //! # Range and error

@@ -77,7 +77,7 @@ def compare_golden(table, output):
     found = outcomes(output)
     for number, (row, ours) in enumerate(zip(golden(table), found[:400])):
         expected = float(row["e_n"])
-        # As in tests/golden.rs: near its zero e_n is a root of a difference that rounding fills.
+        # As in tests/library/golden.rs: near its zero e_n is a root of a difference that rounding fills.
         allowed = max(1e-11 * abs(expected), 1e-9)
         assert abs(ours[0] - expected) <= allowed, f"case {number}: e_n {ours[0]!r}, golden {expected!r}"
         if expected > 0.01:

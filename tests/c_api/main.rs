@@ -1,4 +1,5 @@
-//! `libnearwall.so` as a C program meets it: every status, hostile input, threads, floating-point state, the file itself.
+//! The C library: every call and status, hostile input, threads, floating-point state, the shared library's file, the header,
+//! the binary interface and the dependencies.
 #![allow(unsafe_code, reason = "calling a C library")]
 #![allow(
     clippy::unwrap_used,
@@ -10,9 +11,13 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod abi;
+mod allocations;
 mod batch;
 mod calls;
+mod dependencies;
 mod deposit;
+mod header;
 mod impacts;
 mod library_file;
 mod loading;

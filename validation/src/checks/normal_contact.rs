@@ -182,7 +182,7 @@ fn claims(worst: f64) -> Vec<Claim> {
             worst,
             Basis::Derived,
         )
-        .because("400 further cases, all branches: cargo test --test contact_integration"),
+        .because("400 further cases, all branches: cargo test --test library contact_integration"),
         Claim::number(
             source,
             &format!("{what}, closed form"),

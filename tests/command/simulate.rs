@@ -1,6 +1,5 @@
 //! Standalone cases against things that this code did not produce: exact solutions, statistics, the paper; and the
 //! command with its errors.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};

@@ -1,14 +1,12 @@
 //! Both Thornton–Ning laws against the same contact followed through time, which shares no code with them.
 //!
-//! `cargo test --test contact_integration -- --nocapture` prints where the laws part, and by how much.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
+//! `cargo test --test library contact_integration -- --nocapture` prints where the laws part, and by how much.
 
-mod common;
-#[path = "../validation/src/oracle/normal_contact.rs"]
+#[path = "../../validation/src/oracle/normal_contact.rs"]
 #[allow(dead_code, reason = "a test reads what it compares")]
 mod normal_contact;
 
-use common::golden::golden_cases;
+use crate::common::golden::golden_cases;
 use nearwall::material::{Library, Mechanical};
 use nearwall::normal::{Contact, NormalLaw, Speeds, plastic_term};
 use normal_contact::{Bounce, Impact, follow};
@@ -65,7 +63,7 @@ impl Case {
 }
 
 fn golden() -> Vec<Case> {
-    let case = |golden: &common::golden::Golden| Case {
+    let case = |golden: &crate::common::golden::Golden| Case {
         impact: Impact {
             radius: 0.5 * golden.d,
             density: golden.rho,

@@ -1,11 +1,8 @@
 //! `cpp_shim/nearwall.h` is what cbindgen writes from `src/c_api`, and it compiles wherever it should.
-#![allow(clippy::unwrap_used, reason = "clippy.toml's leave for tests does not reach their helpers")]
-
-mod common;
 
 use std::path::Path;
 
-use common::compile::{Language, compiles};
+use crate::common::compile::{Language, compiles};
 
 /// The header as cbindgen writes it now.
 fn generated() -> String {
@@ -33,7 +30,7 @@ fn the_header_in_the_repository_is_the_generated_one() {
     assert!(
         kept == fresh,
         "cpp_shim/nearwall.h differs from src/c_api from line {} on; \
-         `NEARWALL_BLESS=1 cargo test --test header` writes it again",
+         `NEARWALL_BLESS=1 cargo test --test c_api header` writes it again",
         place.map_or(kept.lines().count().min(fresh.lines().count()), |line| line) + 1
     );
 }

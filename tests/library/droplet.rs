@@ -1,5 +1,4 @@
 //! `[capture] model = "droplet"` through the one door: what two papers saw of molten particles, and the file's errors.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use nearwall::{Impact, ImpactError, ImpactRng, Model, Regime};
 

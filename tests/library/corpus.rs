@@ -1,9 +1,6 @@
 //! Everything that the fuzzer kept (`fuzz/corpus`, `fuzz/run`), fed to the same functions without a fuzzer.
-#![allow(unsafe_code, reason = "the C interface is one of the doors")]
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
-#![allow(missing_docs, reason = "the doors belong to the fuzzer's own workspace")]
 
-#[path = "../fuzz/src/lib.rs"]
+#[path = "../../fuzz/src/lib.rs"]
 mod doors;
 
 use std::collections::BTreeSet;

@@ -6,13 +6,9 @@
 //! `nearwall::slag` documents, the table gives 0.183, 0.289 and 0.394. No treatment of iron gets to the first two:
 //! the 44 rows that carry iron are too few (see `iron_is_not_what_sets_the_error`).
 //!
-//! `cargo test --test slag_viscosity -- --nocapture` prints the comparison by source.
+//! `cargo test --test library slag_viscosity -- --nocapture` prints the comparison by source.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop at a broken table")]
-
-mod common;
-
-use common::measured_slags::{Measured, OXIDES, measured};
+use crate::common::measured_slags::{Measured, OXIDES, measured};
 use nearwall::slag::{Composition, SlagViscosity, ViscosityLaw};
 
 /// Root mean square and mean of predicted minus measured log10 viscosity.

@@ -1,16 +1,12 @@
 //! The binary interface of the C library, as `cpp_shim/abi.txt` keeps it: symbols, sizes and places of struct fields, numbers,
 //! prototypes. Any change needs another `NW_ABI_VERSION`, because programs that were built before would go wrong.
-#![allow(clippy::unwrap_used, reason = "clippy.toml's leave for tests does not reach their helpers")]
-#![allow(clippy::panic, reason = "clippy.toml's leave for tests does not reach their helpers")]
-
-mod common;
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use common::compile::{Build, run, shared_library};
+use crate::common::compile::{Build, run, shared_library};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -97,7 +93,7 @@ fn prototypes(header: &str) -> String {
 
 /// What the shared library of this build exports, and its soname.
 fn symbols() -> String {
-    let library = common::library_path();
+    let library = crate::common::library_path();
     let printed = run(Command::new("nm").args(["--dynamic", "--defined-only"]).arg(&library));
     let names: BTreeSet<&str> = printed.lines().map(|line| line.rsplit(' ').next().unwrap()).collect();
     let dynamic = run(Command::new("readelf").args(["--dynamic", "--wide"]).arg(&library).env("LC_ALL", "C"));
@@ -130,7 +126,7 @@ fn may_follow(kept: &str, fresh: &str) -> Result<(), String> {
     let come = new.difference(&old).map(|line| format!("  + {line}\n"));
     Err(format!(
         "the binary interface changed, but NW_ABI_VERSION did not rise:\n{}raise it in src/c_api and the soname in build.rs; \
-         then `NEARWALL_BLESS=1 cargo test --test abi`",
+         then `NEARWALL_BLESS=1 cargo test --test c_api abi`",
         gone.chain(come).collect::<String>()
     ))
 }
@@ -153,7 +149,7 @@ fn no_change_without_another_version() {
     }
     assert!(
         kept == fresh,
-        "cpp_shim/abi.txt is of another version; `NEARWALL_BLESS=1 cargo test --test abi` writes it"
+        "cpp_shim/abi.txt is of another version; `NEARWALL_BLESS=1 cargo test --test c_api abi` writes it"
     );
 }
 

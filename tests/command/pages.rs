@@ -1,12 +1,9 @@
 //! The pages in a real browser: nothing loaded from elsewhere, no complaint on the console, every figure there.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
 
 use std::path::Path;
 use std::process::Command;
 
-use common::browser::{Seen, browse};
+use crate::common::browser::{Seen, browse};
 
 fn nearwall(arguments: &[&str]) {
     let root = env!("CARGO_MANIFEST_DIR");

@@ -1,5 +1,4 @@
 //! Every relative link in the documents leads somewhere.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

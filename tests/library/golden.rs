@@ -1,8 +1,6 @@
 //! Thornton–Ning against 400 cases computed with 40 digits, through the Rust API, the C library and the command.
 
-mod common;
-
-use common::golden::{Golden, golden_cases};
+use crate::common::golden::{Golden, golden_cases};
 use nearwall::normal::{Contact, NormalLaw, reduced_modulus, restitution};
 use nearwall::{Impact, ImpactRng, Model};
 
@@ -37,7 +35,7 @@ fn the_model_agrees() {
 
 #[test]
 fn the_c_library_agrees() {
-    let library = common::CLibrary::load();
+    let library = crate::common::CLibrary::load();
     for (row, case) in golden_cases().iter().enumerate() {
         let model = library.parse(&case.model());
         let impact = case.impact();

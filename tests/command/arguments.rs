@@ -1,7 +1,4 @@
 //! The command as a user types it: results, exit codes, and messages that name the place and the remedy.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
 
 use std::io::Write;
 use std::path::Path;
@@ -50,8 +47,8 @@ fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
 
 #[test]
 fn predict_agrees_with_the_golden_table() {
-    let cases = common::golden::golden_cases();
-    let worker = |chunk: &[common::golden::Golden]| {
+    let cases = crate::common::golden::golden_cases();
+    let worker = |chunk: &[crate::common::golden::Golden]| {
         let folder = tempfile::tempdir().unwrap();
         for case in chunk {
             std::fs::write(folder.path().join("m.toml"), case.model()).unwrap();

@@ -1,6 +1,4 @@
 //! Deciding impacts allocates nothing, one at a time or in a batch, whatever their number.
-#![allow(unsafe_code, reason = "an allocator that counts, and calls through the C interface")]
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;

@@ -1,13 +1,10 @@
 //! `nearwall diagnose` as a laboratory uses it: a file of measured impacts in, page, JSON and extended model out.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
 
 use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use common::browser::{Seen, browse};
+use crate::common::browser::{Seen, browse};
 use nearwall::{Impact, ImpactRng, Model};
 use serde_json::Value;
 

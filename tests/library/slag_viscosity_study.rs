@@ -16,14 +16,10 @@
 //!   one; of the sizes within one standard error of the best the smallest is taken.
 //! - Intervals: 95 % percentiles of 10 000 draws of references with replacement, ChaCha8, fixed seed.
 //!
-//! `cargo test --test slag_viscosity_study -- --nocapture` prints every figure of `docs/slag-viscosity.md`; with
+//! `cargo test --test library slag_viscosity_study -- --nocapture` prints every figure of `docs/slag-viscosity.md`; with
 //! `NEARWALL_BLESS=1` before it, it also draws the figures there anew.
 
-#![allow(clippy::unwrap_used, reason = "a test may stop at a broken table")]
-
-mod common;
-
-use common::measured_slags::{Measured, measured};
+use crate::common::measured_slags::{Measured, measured};
 use nalgebra::{DMatrix, DVector};
 use nearwall::slag::{SlagViscosity, ViscosityLaw, silica_corrected};
 use rand_chacha::ChaCha8Rng;
@@ -352,7 +348,7 @@ fn extended(all: &[&Block], candidates: usize) -> Vec<Unseen> {
 /// The page about the study has this number.
 fn written(number: &str) {
     assert!(
-        include_str!("../docs/slag-viscosity.md").contains(number),
+        include_str!("../../docs/slag-viscosity.md").contains(number),
         "docs/slag-viscosity.md lacks {number}"
     );
 }

@@ -1,13 +1,10 @@
 //! The page of finished OpenFOAM cases: from files as the solvers and our library write them, and in a real browser.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
-
-mod common;
 
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use common::browser::{Seen, browse};
+use crate::common::browser::{Seen, browse};
 use nearwall::report::openfoam;
 
 const PATCHES: [&str; 2] = ["slagWall", "quenchWall"];

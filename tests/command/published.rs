@@ -1,5 +1,4 @@
 //! Numbers that papers print: what the models say of them, and what a diagnosis finds in them.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::path::Path;
 use std::process::Command;

@@ -1,12 +1,9 @@
 //! All effects together: what the documents say of them, that a model file reaches each, and that none breaks arithmetic.
-#![allow(clippy::unwrap_used, reason = "a test may fail")]
-
-mod common;
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
-use common::random::{HOSTILE, hostile_cases, random_cases, seed};
+use crate::common::random::{HOSTILE, hostile_cases, random_cases, seed};
 use nearwall::effect::{EFFECTS, EffectInfo, Parameter, Search};
 use nearwall::impact::INPUTS;
 use nearwall::{Impact, ImpactRng, Model, Outcome};

@@ -1,13 +1,10 @@
 //! What comes in with the library is what `docs/dependencies.md` says, and asks for no younger Rust than we promise.
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may fail")]
-
-mod common;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
-use common::compile::{Build, run, shared_library};
+use crate::common::compile::{Build, run, shared_library};
 use serde_json::Value;
 
 fn cargo(arguments: &[&str]) -> String {

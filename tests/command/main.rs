@@ -1,0 +1,15 @@
+//! The command as a user runs it: each subcommand, its pages in a browser, and what goes wrong around it.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
+#![allow(unsafe_code, reason = "the shared helpers call the C library")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod arguments;
+mod diagnose;
+#[cfg(unix)]
+mod faults;
+mod pages;
+mod published;
+mod report;
+mod simulate;

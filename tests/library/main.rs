@@ -1,0 +1,17 @@
+//! The library: the golden table, independent oracles, effects, droplets, slag viscosity, the fuzzer's corpus, and the
+//! links in the documents.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
+#![allow(unsafe_code, reason = "the C interface is compared and fuzzed too")]
+#![allow(missing_docs, reason = "the fuzz targets belong to another workspace")]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod contact_integration;
+mod corpus;
+mod docs;
+mod droplet;
+mod effects;
+mod golden;
+mod slag_viscosity;
+mod slag_viscosity_study;
