@@ -1,14 +1,17 @@
-//! Figures and the page that holds them: what `simulate`, `report` and other commands show their results with.
+//! Pages of results, as `diagnose`, `simulate` and `report` write them.
 //!
-//! A [`Figure`] is an SVG with a title and a caption; a [`Page`] is a self-contained HTML file of paragraphs, tables and
-//! figures, readable on paper. [`openfoam`] reads finished OpenFOAM cases and makes a page of them, [`sweep`] a table of runs.
+//! A [`Chart`], [`BarChart`] or [`FigureMap`] becomes a [`Figure`]: an SVG with a title and a caption. A [`Page`] is a
+//! self-contained HTML file of text, tables and figures, readable on paper. [`openfoam`] reads finished OpenFOAM cases
+//! and writes a page about them, [`sweep`] a page about a table of runs.
 
+mod chart;
 mod diagnosis;
-mod figure;
+mod format;
 pub mod openfoam;
 mod page;
 pub mod sweep;
 
+pub use chart::{BarChart, Chart, ErrorBars, Figure, FigureMap, round_edges};
 pub use diagnosis::page as diagnosis_page;
-pub use figure::{Bars, Chart, Errors, Figure, FigureMap, round_edges};
-pub use page::{Block, Mark, Page, Table, number, percent};
+pub use format::{number, percent};
+pub use page::{Page, RowStatus, Table};

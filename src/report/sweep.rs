@@ -7,7 +7,7 @@
 
 use std::path::Path;
 
-use super::{Block, Chart, Errors, Figure, Page, Table, number};
+use super::{Chart, ErrorBars, Figure, Page, Table, number};
 
 /// Why a table cannot be drawn.
 #[derive(Debug, thiserror::Error)]
@@ -135,11 +135,11 @@ pub fn page(path: &Path) -> Result<String, SweepError> {
     let label = readable(&variable);
     let mut page = Page::new("Runs beside published numbers");
     let bars = if runs.has_errors() { "; bars are 95 % intervals of the sampling" } else { "" };
-    page.add(Block::Lead(format!("{} runs over {label}{bars}.", runs.rows.len())));
+    page.lead(format!("{} runs over {label}{bars}.", runs.rows.len()));
     let quantities = runs.quantities().into_iter().enumerate();
     let figures = quantities.map(|(index, quantity)| figure(&runs, quantity, &x, &label, index));
-    page.add(Block::Figures(figures.collect()));
-    page.add(Block::Table(table(&runs, &variable)));
+    page.figures(figures);
+    page.table(table(&runs, &variable));
     page.foot(&format!("Made from {file}."));
     Ok(page.html()?)
 }
@@ -154,7 +154,7 @@ fn figure(runs: &Runs, quantity: &str, x: &[f64], label: &str, index: usize) -> 
         (0..values.len()).filter(|i| x[*i].is_finite() && values[*i].is_finite()).collect();
     let errors = runs.errors(quantity, &values);
     let points: Vec<[f64; 2]> = drawn.iter().map(|i| [x[*i], values[*i]]).collect();
-    let bars: Errors = drawn.iter().map(|i| errors[*i]).collect();
+    let bars: ErrorBars = drawn.iter().map(|i| errors[*i]).collect();
     let mut chart = Chart::new(&readable(quantity), label, &format!("{} [1]", readable(quantity)))
         .points_with_errors("simulated", &points, &bars)
         .points("published", &over_x(published));

@@ -7,7 +7,7 @@ use super::tally::{
     CONVERSION_BINS, Moments, RESTITUTION_BINS, RESTITUTION_TOP, Share, Tally, WallTally, ratio,
 };
 use crate::impact::Regime;
-use crate::report::{Bars, Block, Chart, Figure, FigureMap, Page, Table, number, percent, round_edges};
+use crate::report::{BarChart, Chart, Figure, FigureMap, Page, Table, number, percent, round_edges};
 
 /// Above this number of captures a map is drawn as cells, below as points.
 const POINTS: usize = 300;
@@ -19,7 +19,7 @@ const POINTS: usize = 300;
 pub fn page(case: &Case, runs: &[Run], left_out: u64) -> Result<String, String> {
     let mut page = Page::new(&case.title);
     if let Some(about) = &case.about {
-        page.add(Block::Lead(about.clone()));
+        page.lead(about.clone());
     }
     match (&case.sweep, runs) {
         (Some(sweep), _) => add_sweep(&mut page, case, sweep, runs),
@@ -38,34 +38,34 @@ fn name(case: &Case, wall: &WallTally) -> String {
 // --- one run -------------------------------------------------------------------------------------------------------
 
 fn add_run(page: &mut Page, case: &Case, tally: &Tally) {
-    page.add(Block::Verdict(verdict(case, tally)));
+    page.verdict(verdict(case, tally));
     if let Some(trouble) = &tally.first_trouble {
         let count = tally.unusable.count;
-        page.add(Block::Text(format!("{count} particles could not be used. The first: {trouble}.")));
+        page.text(format!("{count} particles could not be used. The first: {trouble}."));
     }
-    page.add(Block::Heading("Where material is captured".into()));
-    page.add(Block::Table(wall_table(case, tally)));
+    page.heading("Where material is captured");
+    page.table(wall_table(case, tally));
     if tally.stuck_later() > 0.1 {
-        page.add(Block::Text(hops(tally)));
+        page.text(hops(tally));
     }
-    page.add(Block::Figures(maps(case, tally)));
-    page.add(Block::Heading("In which state".into()));
+    page.figures(maps(case, tally));
+    page.heading("In which state");
     let mut states = vec![regimes(case, tally)];
     if has_carbon(tally) {
         states.push(conversions(case, tally));
     }
     states.push(sizes(case, tally));
-    page.add(Block::Figures(states));
-    page.add(Block::Heading("How particles rebound".into()));
-    page.add(Block::Table(impact_table(case, tally)));
-    page.add(Block::Figures(vec![
+    page.figures(states);
+    page.heading("How particles rebound");
+    page.table(impact_table(case, tally));
+    page.figures(vec![
         restitution(case, tally, "normal-restitution", "Normal restitution e_n", |wall| &wall.e_n_histogram),
         restitution(case, tally, "tangential-restitution", "Tangential restitution e_t", |wall| {
             &wall.e_t_histogram
         }),
-    ]));
-    page.add(Block::Heading("Balance".into()));
-    page.add(Block::Table(balance(case, tally)));
+    ]);
+    page.heading("Balance");
+    page.table(balance(case, tally));
 }
 
 /// Whether conversion says anything: some captured particle had carbon left.
@@ -280,7 +280,7 @@ fn along_pipe(case: &Case, tally: &Tally) -> Option<Figure> {
 
 fn regimes(case: &Case, tally: &Tally) -> Figure {
     let names: Vec<String> = tally.walls.iter().map(|wall| name(case, wall)).collect();
-    let mut bars = Bars::new("Regime of the hits", "share of the wall's hits [%]", &names).stacked();
+    let mut bars = BarChart::new("Regime of the hits", "share of the wall's hits [%]", &names).stacked();
     for regime in Regime::ALL {
         let share = |w: &WallTally| 100.0 * ratio(w.regime_hits[regime as usize] as f64, w.hits.count as f64);
         let shares: Vec<f64> = tally.walls.iter().map(share).collect();
@@ -404,32 +404,27 @@ impl SweepAxis {
 
 fn add_sweep(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) {
     let axis = SweepAxis::of(&sweep.key);
-    page.add(Block::Figures(vec![sweep_capture(&axis, sweep, runs), sweep_restitution(&axis, sweep, runs)]));
-    page.add(Block::Heading("Numbers".into()));
-    page.add(Block::Table(sweep_table(&axis, runs)));
+    page.figures(vec![sweep_capture(&axis, sweep, runs), sweep_restitution(&axis, sweep, runs)]);
+    page.heading("Numbers");
+    page.table(sweep_table(&axis, runs));
     let gap = |run: &&Run| run.tally.stuck_later() > 0.1;
     if let Some(run) =
         runs.iter().filter(gap).max_by(|a, b| a.tally.stuck_later().total_cmp(&b.tally.stuck_later()))
     {
-        page.add(Block::Text(format!(
-            "At {} = {}: {}",
-            axis.label,
-            number(shown(&axis, run)),
-            hops(&run.tally)
-        )));
+        page.text(format!("At {} = {}: {}", axis.label, number(shown(&axis, run)), hops(&run.tally)));
     }
     for reference in &sweep.references {
-        page.add(Block::Note(format!("{}: {}", reference.quantity, reference.source)));
+        page.note(format!("{}: {}", reference.quantity, reference.source));
     }
     if let Some(run) = runs.iter().find(|run| run.tally.unusable.count > 0) {
         let trouble = run.tally.first_trouble.clone().unwrap_or_default();
-        page.add(Block::Text(format!("Some particles could not be used. The first: {trouble}.")));
+        page.text(format!("Some particles could not be used. The first: {trouble}."));
     }
     if let Some(run) = runs.iter().max_by_key(|run| run.tally.stuck.count).filter(|r| r.tally.stuck.count > 0)
     {
         let value = run.value.map_or(f64::NAN, axis.shown);
-        page.add(Block::Heading(format!("Where it sticks at {} = {}", axis.label, number(value))));
-        page.add(Block::Figures(maps(case, &run.tally)));
+        page.heading(format!("Where it sticks at {} = {}", axis.label, number(value)));
+        page.figures(maps(case, &run.tally));
     }
 }
 
@@ -559,20 +554,18 @@ fn sweep_table(axis: &SweepAxis, runs: &[Run]) -> Table {
 // --- how to read it ------------------------------------------------------------------------------------------------
 
 fn add_reading(page: &mut Page, case: &Case, left_out: u64) {
-    page.add(Block::Heading("How this was computed".into()));
-    page.add(Block::Text(
+    page.heading("How this was computed");
+    page.text(
         "Particles move alone in a prescribed, steady gas: drag of Schiller and Naumann, weight, convective heat of Ranz \
          and Marshall, and the stated law of carbon conversion. There is no turbulence and no action on the gas. A \
          particle touches a wall with its surface, half a diameter from its centre. Each hit is decided by the impact \
-         model; its random draw depends on seed, particle and hit number alone."
-            .into(),
-    ));
+         model; its random draw depends on seed, particle and hit number alone.");
     if left_out > 0 {
-        page.add(Block::Note(format!(
+        page.note(format!(
             "impacts.csv holds all hits of the first particles (of each value of a sweep), {} rows at most; {left_out} \
              hits of later particles are in the figures but not in the file (run.recorded_impacts).",
             case.recorded
-        )));
+        ));
     }
 }
 

@@ -578,7 +578,7 @@ fn draw_gain(groups: &Groups, unseen: &[Unseen]) {
     };
     let names: Vec<String> = groups.iter().map(|(source, _)| short(source)).collect();
     let of = |part: fn(&Unseen) -> f64| unseen.iter().map(|fold| part(fold).sqrt()).collect::<Vec<_>>();
-    let bars = nearwall::report::Bars::new("Error on references held out whole", "rms of log10", &names)
+    let bars = nearwall::report::BarChart::new("Error on references held out whole", "rms of log10", &names)
         .series("Kalmanovitch-Frank", &of(|fold| fold.before))
         .series("extended on the other references", &of(|fold| fold.after));
     keep(&bars.figure("slag-viscosity-held-out", ""));

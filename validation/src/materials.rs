@@ -3,7 +3,7 @@
 use std::error::Error;
 
 use nearwall::material::{Library, Material, Property};
-use nearwall::report::{Bars, Figure, Table, number};
+use nearwall::report::{BarChart, Figure, Table, number};
 
 use crate::claim::{Basis, Claim};
 use crate::study::{self, Extent, Part, Study};
@@ -84,7 +84,7 @@ fn lead(materials: &[&Material]) -> String {
 
 fn origins(materials: &[&Material]) -> Figure {
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
-    let mut bars = Bars::new("Where the numbers come from", "property values", &names).stacked();
+    let mut bars = BarChart::new("Where the numbers come from", "property values", &names).stacked();
     for origin in Origin::ALL {
         let counts: Vec<f64> = materials.iter().map(|material| count(material, origin) as f64).collect();
         bars = bars.series(origin.name(), &counts);

@@ -1,13 +1,16 @@
 //! The page: what agrees, what differs and why, what cannot be checked and why.
 
-use nearwall::report::{Block, Figure, Mark, Page, Table};
+use nearwall::report::{Figure, Page, RowStatus, Table};
 
 use crate::claim::{Claim, Verdict};
 use crate::study::{Part, Study, table};
 
 /// Every verdict in the order of the page, with its colour.
-const VERDICTS: [(Verdict, Mark); 3] =
-    [(Verdict::Agrees, Mark::Good), (Verdict::Differs, Mark::Watch), (Verdict::Unchecked, Mark::Open)];
+const VERDICTS: [(Verdict, RowStatus); 3] = [
+    (Verdict::Agrees, RowStatus::Good),
+    (Verdict::Differs, RowStatus::Watch),
+    (Verdict::Unchecked, RowStatus::Open),
+];
 
 const TRUST: &str = "Trust it for: the normal rebound of solid, dry particles from a harder wall once the limiting pressure p_y is \
     known (Thornton and Ning's law to rounding, wax on Pyrex within the scatter of its measured strength); the mechanics of sliding and \
@@ -28,9 +31,9 @@ pub fn page(studies: &[Study]) -> Page {
     let mut page = Page::new("nearwall: where it agrees with its sources, and where it does not");
     summary(&mut page, studies);
     for study in studies {
-        page.add(Block::Heading(study.title.clone()));
-        page.add(Block::Note(study.source.clone()));
-        page.add(Block::Lead(study.lead.clone()));
+        page.heading(study.title.clone());
+        page.note(study.source.clone());
+        page.lead(study.lead.clone());
         study.parts.iter().for_each(|part| add_part(&mut page, part));
     }
     page.foot("Made by validation/run; the published numbers and their sources stand in validation/.");
@@ -40,7 +43,7 @@ pub fn page(studies: &[Study]) -> Page {
 fn summary(page: &mut Page, studies: &[Study]) {
     let total = |verdict| studies.iter().map(|study| study.count(verdict)).sum::<usize>();
     let all: usize = studies.iter().map(|study| study.claims().count()).sum();
-    page.add(Block::Verdict(vec![
+    page.verdict(vec![
         format!(
             "Of {all} statements {} agree, {} differ and {} cannot be checked.",
             total(Verdict::Agrees),
@@ -51,13 +54,14 @@ fn summary(page: &mut Page, studies: &[Study]) {
          printed digit where it states none. \"Fitted\" marks numbers that a parameter was set to, so that their agreement \
          proves little; \"predicted\" and \"derived\" ones were not used."
             .to_owned(),
-    ]));
+    ]);
     for text in ADVICE {
-        page.add(Block::Text(text.to_owned()));
+        page.text(text);
     }
-    let marks =
-        studies.iter().map(|study| if study.count(Verdict::Differs) == 0 { Mark::Good } else { Mark::Watch });
-    page.add(Block::Marked(overview(studies), marks.collect()));
+    let marks = studies
+        .iter()
+        .map(|study| if study.count(Verdict::Differs) == 0 { RowStatus::Good } else { RowStatus::Watch });
+    page.marked(overview(studies), marks.collect());
 }
 
 /// The studies with their verdicts.
@@ -76,22 +80,22 @@ pub fn overview(studies: &[Study]) -> Table {
 
 fn add_part(page: &mut Page, part: &Part) {
     if !part.heading.is_empty() {
-        page.add(Block::Subheading(part.heading.clone()));
+        page.subheading(part.heading.clone());
     }
-    part.text.iter().for_each(|text| page.add(Block::Text(plain(text))));
+    part.text.iter().for_each(|text| page.text(plain(text)));
     if !part.figures.is_empty() {
         let captioned = |figure: &Figure| Figure { caption: plain(&figure.caption), ..figure.clone() };
-        page.add(Block::Figures(part.figures.iter().map(captioned).collect()));
+        page.figures(part.figures.iter().map(captioned));
     }
     if !part.claims.is_empty() {
         let marks = part.claims.iter().map(|claim| mark(claim.verdict)).collect();
-        page.add(Block::Marked(claims(&part.claims), marks));
+        page.marked(claims(&part.claims), marks);
     }
-    part.tables.iter().for_each(|table| page.add(Block::Table(table.clone())));
+    part.tables.iter().for_each(|table| page.table(table.clone()));
 }
 
-fn mark(verdict: Verdict) -> Mark {
-    VERDICTS.iter().find(|(known, _)| *known == verdict).map_or(Mark::Open, |(_, mark)| *mark)
+fn mark(verdict: Verdict) -> RowStatus {
+    VERDICTS.iter().find(|(known, _)| *known == verdict).map_or(RowStatus::Open, |(_, mark)| *mark)
 }
 
 /// Columns of the statements.

@@ -1,6 +1,6 @@
 //! Columns as axes: numbers even or by their logarithm, words side by side.
 
-use super::super::figure::Chart;
+use super::super::chart::Chart;
 use super::plot::DISTINCT;
 use crate::diagnose::{Sample, SampleRow};
 

@@ -1,7 +1,8 @@
 //! One cause: what it is, its numbers, why the others lost, and what it mends.
 
-use super::super::figure::Figure;
-use super::super::page::{Block, Page, Table, number};
+use super::super::chart::Figure;
+use super::super::format::number;
+use super::super::page::{Page, Table};
 use super::axis::Axis;
 use super::plot::{BASE, EXTENDED, Window, identifier, running, title, triple};
 use super::{cause_title, chance, curve, spread, strings, usage};
@@ -13,9 +14,9 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
         Some(column) => format!("Cause {}: something that goes with {column}", place + 1),
         None => format!("Cause {}: {}", place + 1, finding.cause),
     };
-    page.add(Block::Heading(heading));
-    page.add(Block::Lead(finding.explanation.replace('`', "")));
-    page.add(Block::Text(format!(
+    page.heading(heading);
+    page.lead(finding.explanation.replace('`', ""));
+    page.text(format!(
         "It predicts unseen rows better by {:.1} nats in all. The chance of that by luck, corrected for the number of \
          candidates, is q {}.",
         finding.gain,
@@ -23,25 +24,25 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
             bound if bound.starts_with('<') => bound,
             value => format!("= {value}"),
         }
-    )));
+    ));
     if !finding.parameters.is_empty() {
-        page.add(Block::Table(parameters(finding)));
+        page.table(parameters(finding));
     }
     let figures = figures(diagnosis, finding);
     if !figures.is_empty() {
-        page.add(Block::Figures(figures));
+        page.figures(figures);
     }
     add_alternatives(page, finding);
     if !finding.indistinguishable_from.is_empty() {
         let others: Vec<String> =
             finding.indistinguishable_from.iter().map(|cause| cause_title(cause)).collect();
-        page.add(Block::Text(format!(
+        page.text(format!(
             "With these data {} might as well be the cause: what is named here is the simplest of them, not proven.",
             others.join(" or ")
-        )));
+        ));
     }
     for measure in &finding.measure_next {
-        page.add(Block::Text(usage::sentence(measure, &finding.cause)));
+        page.text(usage::sentence(measure, &finding.cause));
     }
 }
 
@@ -79,12 +80,12 @@ fn add_alternatives(page: &mut Page, finding: &Finding) {
             if odds < 1e-4 { "< 0.0001".to_owned() } else { number(odds) },
         ]
     };
-    page.add(Block::Table(Table {
+    page.table(Table {
         caption: "Why the others lost: how much worse they predict unseen rows.".into(),
         header: strings(["alternative", "score difference D [nats]", "exp(−D)"]),
         rows: finding.alternatives.iter().map(row).collect(),
         text_columns: 1,
-    }));
+    });
     let mut text =
         "Unseen rows are exp(−D) times as likely under the alternative: more than 3 nats (one in twenty) is \
                     clear, less than 1 is a draw."
@@ -93,7 +94,7 @@ fn add_alternatives(page: &mut Page, finding: &Finding) {
         text += " A negative difference: the alternative predicts a little better, but needs more parameters, or says less \
                  than a law.";
     }
-    page.add(Block::Note(text));
+    page.note(text);
 }
 
 fn figures(diagnosis: &Diagnosis, finding: &Finding) -> Vec<Figure> {

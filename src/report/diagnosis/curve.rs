@@ -1,6 +1,6 @@
 //! The curve over a column that no effect explains, with what the rest of the model leaves of the rows.
 
-use super::super::figure::Figure;
+use super::super::chart::Figure;
 use super::axis::Axis;
 use super::plot::{EXTENDED, Window, running, title, triple};
 use crate::diagnose::{Diagnosis, Finding, Shape};

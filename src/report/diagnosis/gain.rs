@@ -1,7 +1,8 @@
 //! What the extended model gains, on rows that no fit and no choice saw.
 
-use super::super::figure::{Chart, Errors, Figure};
-use super::super::page::{Block, Page, Table, number};
+use super::super::chart::{Chart, ErrorBars, Figure};
+use super::super::format::number;
+use super::super::page::{Page, Table};
 use super::plot::{BASE, EXTENDED, OBSERVABLES, identifier, span, title, triple};
 use super::strings;
 use crate::diagnose::{Diagnosis, Gain};
@@ -14,13 +15,12 @@ const ROWS_A_BIN: usize = 10;
 const BEYOND: f64 = 0.004;
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
-    page.add(Block::Heading("What is gained on rows that no fit saw".into()));
+    page.heading("What is gained on rows that no fit saw");
     if diagnosis.gains.is_empty() {
-        page.add(Block::Text(
-            "Nothing was added to the model, so nothing is gained. The figures show how well it does as it is.".into(),
-        ));
+        page.text(
+            "Nothing was added to the model, so nothing is gained. The figures show how well it does as it is.");
     } else {
-        page.add(Block::Table(table(&diagnosis.gains)));
+        page.table(table(&diagnosis.gains));
         let scores = diagnosis.gains.first().map(|gain| (gain.log_score_before, gain.log_score_after));
         let scores = scores.map_or(String::new(), |(before, after)| {
             format!(
@@ -31,23 +31,23 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
                 number((after - before).exp())
             )
         });
-        page.add(Block::Text(format!(
+        page.text(format!(
             "Below 1 the extended model errs less; an interval wholly below 1 is no luck. For capture the error is that of \
              the probability.{scores}"
-        )));
+        ));
         let curves: Vec<&str> =
             diagnosis.findings.iter().filter(|f| f.curve.is_some()).map(|f| f.cause.as_str()).collect();
         if !curves.is_empty() {
-            page.add(Block::Text(format!(
+            page.text(format!(
                 "These numbers include {}, which a model file cannot carry: extended.toml alone gains less, or nothing.",
                 curves.into_iter().map(super::cause_title).map(|c| format!("the {c}")).collect::<Vec<_>>().join(" and ")
-            )));
+            ));
         }
     }
     let figures: Vec<Figure> =
         OBSERVABLES.iter().flat_map(|observable| parity(diagnosis, observable)).collect();
     if !figures.is_empty() {
-        page.add(Block::Figures(figures));
+        page.figures(figures);
     }
 }
 
@@ -148,7 +148,7 @@ fn scatter(observable: &str, rows: &[[f64; 3]], which: usize, model: &str, [low,
 }
 
 /// Captured shares over parts of the predicted probability, with their standard errors.
-fn calibration(rows: &[[f64; 3]], which: usize) -> (Vec<[f64; 2]>, Errors) {
+fn calibration(rows: &[[f64; 3]], which: usize) -> (Vec<[f64; 2]>, ErrorBars) {
     let mut sorted: Vec<[f64; 2]> = rows.iter().map(|numbers| [numbers[which], numbers[0]]).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let most = (sorted.len() / CAPTURE_BINS).max(ROWS_A_BIN).min(sorted.len().max(1));

@@ -1,7 +1,8 @@
 //! What was wrong: residuals of the base model against the columns that matter, and their ranking.
 
-use super::super::figure::Figure;
-use super::super::page::{Block, Page, Table, number};
+use super::super::chart::Figure;
+use super::super::format::number;
+use super::super::page::{Page, Table};
 use super::axis::Axis;
 use super::plot::{BASE, OBSERVABLES, Window, identifier, running, title, triple};
 use super::{chance, strings};
@@ -13,21 +14,17 @@ const FIGURES: usize = 8;
 const LEAST_FIGURES: usize = 4;
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
-    page.add(Block::Heading("What was wrong".into()));
-    page.add(Block::Table(errors(diagnosis)));
+    page.heading("What was wrong");
+    page.table(errors(diagnosis));
     let wrong = !(diagnosis.misfit.is_empty() && diagnosis.findings.is_empty());
     if wrong {
-        page.add(Block::Text(
+        page.text(
             "Each figure shows measured minus base model, over one column. A model without fault scatters evenly about \
-             zero; running means that leave zero by several of their bars show where it fails."
-                .into(),
-        ));
+             zero; running means that leave zero by several of their bars show where it fails.");
     } else {
-        page.add(Block::Text(
+        page.text(
             "No column stands out beyond chance, once it is counted how many were tried. A fault smaller than the bars below \
-             cannot be seen with so many rows."
-                .into(),
-        ));
+             cannot be seen with so many rows.");
     }
     let sample = &diagnosis.sample;
     let figures = pairs(diagnosis)
@@ -35,14 +32,14 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
         .filter_map(|(column, observable)| residuals(sample, observable, column, wrong));
     let figures: Vec<Figure> = figures.take(FIGURES).collect();
     if !figures.is_empty() {
-        page.add(Block::Figures(figures));
+        page.figures(figures);
     }
     if sample.rows.len() < diagnosis.rows.used {
-        page.add(Block::Note(format!(
+        page.note(format!(
             "The figures of this page show {} of the {} used rows.",
             sample.rows.len(),
             diagnosis.rows.used
-        )));
+        ));
     }
     add_ranking(page, &diagnosis.misfit);
 }
@@ -75,14 +72,14 @@ fn add_ranking(page: &mut Page, misfit: &[Misfit]) {
             chance(one.q_value),
         ]
     };
-    page.add(Block::Table(Table {
+    page.table(Table {
         caption: "How much better a free curve over one column predicts rows that it was not fitted to, beyond what an \
                   error that is the same everywhere would give."
             .into(),
         header: strings(["column", "observable", "gain [nats]", "q"]),
         rows: misfit.iter().map(row).collect(),
         text_columns: 2,
-    }));
+    });
 }
 
 /// Columns and observables to show, the worst misfit first: those of the causes, then those that stand out.

@@ -10,7 +10,8 @@ mod plot;
 mod spread;
 mod usage;
 
-use super::page::{Block, Page, Table, number};
+use super::format::number;
+use super::page::{Page, Table};
 use crate::diagnose::{Calibration, Diagnosis};
 
 /// Rejected rows listed at most.
@@ -25,7 +26,7 @@ const REJECTED: usize = 50;
 pub fn page(diagnosis: &Diagnosis, names: &[String; 2], extended: &str) -> Result<String, askama::Error> {
     let [data, model] = names;
     let mut page = Page::new(&format!("Diagnosis of {}", file_name(data)));
-    page.add(Block::Verdict(vec![diagnosis.verdict.clone(), rows(diagnosis)]));
+    page.verdict(vec![diagnosis.verdict.clone(), rows(diagnosis)]);
     misfit::add(&mut page, diagnosis);
     for (place, finding) in diagnosis.findings.iter().enumerate() {
         cause::add(&mut page, diagnosis, finding, place);
@@ -85,9 +86,9 @@ fn chance(value: f64) -> String {
 
 /// Numbers of the base that the data want otherwise, and the scatter.
 fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
-    page.add(Block::Heading("Recalibrated numbers and scatter".into()));
+    page.heading("Recalibrated numbers and scatter");
     if diagnosis.calibration.is_empty() {
-        page.add(Block::Text("The data ask for no other value of the base model's own numbers.".into()));
+        page.text("The data ask for no other value of the base model's own numbers.");
     } else {
         let row = |number_found: &Calibration| {
             vec![
@@ -98,12 +99,12 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
                 chance(number_found.q_value),
             ]
         };
-        page.add(Block::Table(Table {
+        page.table(Table {
             caption: "Numbers of the base model's laws, in the units of the model file.".into(),
             header: strings(["key", "model file", "the data want", "95 % interval", "q"]),
             rows: diagnosis.calibration.iter().map(row).collect(),
             text_columns: 1,
-        }));
+        });
     }
     let scatter = &diagnosis.scatter;
     let one = |name: &str, value: f64| (value > 0.0).then(|| format!("{} in {name}", number(value)));
@@ -121,7 +122,7 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
                 scatter.changes_with.join(", ")
             );
         }
-        page.add(Block::Text(text));
+        page.text(text);
     }
 }
 
@@ -130,8 +131,8 @@ fn add_rejected(page: &mut Page, diagnosis: &Diagnosis) {
     if rejected.is_empty() {
         return;
     }
-    page.add(Block::Heading("Rows left out".into()));
-    page.add(Block::Table(Table {
+    page.heading("Rows left out");
+    page.table(Table {
         caption: "Lines of the data file, counted from 1 with the header.".into(),
         header: strings(["line", "reason"]),
         rows: rejected
@@ -140,32 +141,29 @@ fn add_rejected(page: &mut Page, diagnosis: &Diagnosis) {
             .map(|row| vec![row.line.to_string(), row.reason.clone()])
             .collect(),
         text_columns: 2,
-    }));
+    });
     if rejected.len() > REJECTED {
-        page.add(Block::Text(format!(
-            "… and {} more; diagnosis.json names them all.",
-            rejected.len() - REJECTED
-        )));
+        page.text(format!("… and {} more; diagnosis.json names them all.", rejected.len() - REJECTED));
     }
 }
 
 fn add_judgement(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
-    page.add(Block::Heading("How it was judged".into()));
-    page.add(Block::Note(format!(
+    page.heading("How it was judged");
+    page.note(format!(
         "Seed {} dealt the rows out: three quarters for fits and choices, one quarter held out until the gain was measured. \
          Candidates (every effect, every number of the laws, a free curve over every column) were fitted on four fifths of \
          the first part and scored on the remaining fifth, five times over. q is the chance of so large a gain by luck, \
          corrected for the number of candidates; up to {} is accepted. Intervals of parameters hold 95 %. docs/diagnosis.md \
          of nearwall says how the judgement works and where it ends.",
         diagnosis.seed, diagnosis.level
-    )));
-    page.add(Block::Code(format!(
+    ));
+    page.code(format!(
         "nearwall diagnose {} \\\n  --model {} \\\n  --seed {} --level {} --out DIR",
         quoted(data),
         quoted(model),
         diagnosis.seed,
         diagnosis.level
-    )));
+    ));
 }
 
 /// A path as a shell takes it.

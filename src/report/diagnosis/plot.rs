@@ -1,6 +1,6 @@
 //! What the page's figures have in common: running means, ranges that gross errors do not stretch.
 
-use super::super::figure::{Chart, Errors, round_edges};
+use super::super::chart::{Chart, ErrorBars, round_edges};
 use crate::diagnose::SampleRow;
 
 /// Running means along an axis at most.
@@ -63,7 +63,7 @@ pub(super) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
 #[derive(Default)]
 pub(super) struct Running {
     pub means: Vec<[f64; 2]>,
-    pub errors: Errors,
+    pub errors: ErrorBars,
 }
 
 /// Running means of `points`: one for each word, for each value where there are few, else for equally many rows each.

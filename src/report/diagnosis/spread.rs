@@ -1,6 +1,6 @@
 //! Causes that leave something to chance: they show in the spread of what was measured.
 
-use super::super::figure::{Chart, Figure};
+use super::super::chart::{Chart, Figure};
 use super::plot::{BASE, span, triple};
 use crate::diagnose::{Diagnosis, Finding};
 
@@ -81,7 +81,7 @@ fn bell(edges: &[f64], deviation: f64) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::figure::round_edges;
+    use super::super::super::chart::round_edges;
     use super::*;
 
     #[test]

@@ -1,6 +1,6 @@
 //! What to do with a diagnosis: what to measure next, and how to run the extended model.
 
-use super::super::page::{Block, Page, Table};
+use super::super::page::{Page, Table};
 use super::{cause_title, strings, with_unit};
 use crate::diagnose::{Diagnosis, Measure, NotExamined};
 use crate::effect::EFFECTS;
@@ -34,36 +34,34 @@ pub(super) fn sentence(measure: &Measure, cause: &str) -> String {
 }
 
 pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
-    page.add(Block::Heading("What to measure next".into()));
+    page.heading("What to measure next");
     let mut asked = false;
     for finding in &diagnosis.findings {
         for measure in &finding.measure_next {
-            page.add(Block::Text(sentence(measure, &finding.cause)));
+            page.text(sentence(measure, &finding.cause));
             asked = true;
         }
         if let Some(column) = finding.cause.strip_prefix("unknown:") {
-            page.add(Block::Text(format!(
+            page.text(format!(
                 "Something that goes with {column} acts on {}. Hold everything else and vary {column} alone, or write down \
                  what changes along with it (temperature, humidity, cleaning, supplier) as columns of their own: the next \
                  diagnosis will look at them.",
                 finding.observable
-            )));
+            ));
             asked = true;
         }
     }
     if !diagnosis.not_examined.is_empty() {
-        page.add(Block::Table(Table {
+        page.table(Table {
             caption: "Effects of the library that these data cannot speak of.".into(),
             header: strings(["effect", "what it does", "why not examined", "to examine it"]),
             rows: diagnosis.not_examined.iter().map(not_examined).collect(),
             text_columns: 4,
-        }));
+        });
     } else if !asked {
-        page.add(Block::Text(
+        page.text(
             "Every effect of the library was examined, and no two causes were left that these data cannot tell apart. \
-             Further rows sharpen the intervals: four times as many halve them."
-                .into(),
-        ));
+             Further rows sharpen the intervals: four times as many halve them.");
     }
 }
 
@@ -77,28 +75,28 @@ fn not_examined(one: &NotExamined) -> Vec<String> {
 }
 
 pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &str) {
-    page.add(Block::Heading("How to run the extended model".into()));
+    page.heading("How to run the extended model");
     let file = diagnosis.extended_model;
-    page.add(Block::Text(if diagnosis.findings.is_empty() && diagnosis.calibration.is_empty() {
+    page.text(if diagnosis.findings.is_empty() && diagnosis.calibration.is_empty() {
         format!("{file} lies beside this page. Nothing was found, so it is the base model as it was:")
     } else {
         format!("{file} lies beside this page; it is the base model's file with what was found:")
-    }));
-    page.add(Block::Code(extended.trim_end().to_owned()));
+    });
+    page.code(extended.trim_end());
     let not_carried = not_carried(diagnosis);
     if !not_carried.is_empty() {
-        page.add(Block::Text(format!("What the model file cannot carry: {}.", not_carried.join("; "))));
+        page.text(format!("What the model file cannot carry: {}.", not_carried.join("; ")));
     }
-    page.add(Block::Text("Forecasts of any impacts, and what each term does to one of them:".into()));
-    page.add(Block::Code(format!(
+    page.text("Forecasts of any impacts, and what each term does to one of them:");
+    page.code(format!(
         "nearwall check {file}\nnearwall predict --model {file} impacts.csv -o predicted.csv\n\
          nearwall predict --model {file} impacts.csv --explain 2"
-    )));
-    page.add(Block::Text(format!(
+    ));
+    page.text(format!(
         "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and give it these five lines (every shell that runs a \
          solver needs openfoam/environment):"
-    )));
-    page.add(Block::Code(OPENFOAM.to_owned()));
+    ));
+    page.code(OPENFOAM);
 }
 
 fn not_carried(diagnosis: &Diagnosis) -> Vec<String> {

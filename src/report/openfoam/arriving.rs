@@ -2,7 +2,7 @@
 
 use super::CloudResult;
 use super::distributions::{Class, Quantity, Sums, together};
-use crate::report::{Bars, Block, Chart, Figure, Page, Table, number, percent};
+use crate::report::{BarChart, Chart, Figure, Page, Table, number, percent};
 
 /// The cases with what they share.
 pub(super) struct Arriving<'a> {
@@ -21,7 +21,7 @@ impl<'a> Arriving<'a> {
         if walls.is_empty() {
             return;
         }
-        page.add(Block::Heading("What arrives at the walls".into()));
+        page.heading("What arrives at the walls");
         for (index, wall) in &walls {
             let figures = [
                 self.distribution(*index, wall, Quantity::Speed),
@@ -29,11 +29,11 @@ impl<'a> Arriving<'a> {
                 self.distribution(*index, wall, Quantity::Diameter),
                 self.capture(*index, wall),
             ];
-            page.add(Block::Figures(figures.into_iter().flatten().collect()));
+            page.figures(figures.into_iter().flatten());
         }
         let walls: Vec<String> = walls.iter().map(|(_, wall)| (*wall).clone()).collect();
-        page.add(Block::Figures(vec![self.energy(&walls)]));
-        page.add(Block::Table(self.table()));
+        page.figures(vec![self.energy(&walls)]);
+        page.table(self.table());
     }
 
     /// The cases that have distributions at a wall, with their classes.
@@ -106,7 +106,7 @@ impl<'a> Arriving<'a> {
 
     fn energy(&self, walls: &[String]) -> Figure {
         let title = "Kinetic energy that leaves again";
-        let mut bars = Bars::new(title, "of the arriving kinetic energy [%]", walls);
+        let mut bars = BarChart::new(title, "of the arriving kinetic energy [%]", walls);
         for (label, result) in self.labels.iter().zip(self.results) {
             let share = |wall: &String| {
                 let patch = result.distributions.iter().find(|patch| patch.patch == *wall);

@@ -4,7 +4,7 @@ use super::arriving::Arriving;
 use super::tables::{PatchRow, value};
 use super::{CloudResult, memory};
 use crate::impact::Regime;
-use crate::report::{Bars, Block, Chart, Figure, Page, Table, number, percent, round_edges};
+use crate::report::{BarChart, Chart, Figure, Page, Table, number, percent, round_edges};
 
 /// Conversion below which captured char still hides its ash behind carbon (Troiano et al.: threshold 0.88 to 0.90).
 const RAW: f64 = 0.8;
@@ -18,33 +18,33 @@ const BINS: usize = 40;
 pub fn page(results: &[CloudResult]) -> Result<String, String> {
     let view = View::new(results);
     let mut page = Page::new(&view.title());
-    page.add(Block::Lead(view.lead()));
-    page.add(Block::Verdict(view.verdict()));
-    page.add(Block::Heading("Where material is captured".into()));
+    page.lead(view.lead());
+    page.verdict(view.verdict());
+    page.heading("Where material is captured");
     let mut capture = drawn(vec![view.by_wall()]);
     capture.extend(view.regimes());
     capture.extend(drawn(vec![view.along(), view.history()]));
-    page.add(Block::Figures(capture));
-    page.add(Block::Table(view.wall_table()));
+    page.figures(capture);
+    page.table(view.wall_table());
     let conversion = drawn(vec![view.conversion(), view.arriving()]);
     if !conversion.is_empty() {
-        page.add(Block::Heading("At which carbon conversion".into()));
-        page.add(Block::Figures(conversion));
+        page.heading("At which carbon conversion");
+        page.figures(conversion);
     }
     let View { labels, results, walls, time, .. } = &view;
     Arriving { labels, results, walls, time: *time }.add(&mut page);
     let places = view.places();
     if !places.is_empty() {
-        page.add(Block::Heading("Where captured parcels lie".into()));
-        page.add(Block::Figures(places));
+        page.heading("Where captured parcels lie");
+        page.figures(places);
     }
     let remembered = memory::figures(view.each());
     if !remembered.is_empty() {
-        page.add(Block::Heading("What the walls remember".into()));
-        page.add(Block::Figures(remembered));
+        page.heading("What the walls remember");
+        page.figures(remembered);
     }
-    page.add(Block::Heading("Balance".into()));
-    page.add(Block::Table(view.balance()));
+    page.heading("Balance");
+    page.table(view.balance());
     view.add_notes(&mut page);
     page.html().map_err(|error| error.to_string())
 }
@@ -283,18 +283,16 @@ impl<'a> View<'a> {
     }
 
     fn add_notes(&self, page: &mut Page) {
-        page.add(Block::Heading("What this rests on".into()));
-        page.add(Block::Text(
+        page.heading("What this rests on");
+        page.text(
             "nearWallInteraction's own tables give hits, captures, regimes and conversion at capture. The stock models \
              leave only counts and masses in the solver's log; what arrives at their walls comes from the cloud function \
              patchPostProcessing. Where a stock model captures every arrival, its conversion at capture is that of the \
              arrivals. A parcel that rebounds may arrive many times. Places are those of parcels that lie still at the \
-             last written time."
-                .into(),
-        ));
+             last written time.");
         for (label, result) in self.each() {
             for missing in &result.missing {
-                page.add(Block::Note(format!("{label}: {missing}.")));
+                page.note(format!("{label}: {missing}."));
             }
         }
     }
@@ -306,7 +304,7 @@ impl<'a> View<'a> {
             return None;
         }
         let title = "Captured mass by wall, at capture";
-        let mut bars = Bars::new(title, "mass at capture [% of injected]", &self.walls);
+        let mut bars = BarChart::new(title, "mass at capture [% of injected]", &self.walls);
         for (label, result) in self.each() {
             let share = |wall: &String| {
                 100.0
@@ -374,7 +372,7 @@ impl<'a> View<'a> {
                 ours.patch(wall).and_then(|patch| patch.at(self.time)).and_then(|row| row.regimes)
             };
             let title = format!("Regime of capture, {label}");
-            let mut bars = Bars::new(&title, "mass at capture [% of injected]", &self.walls).stacked();
+            let mut bars = BarChart::new(&title, "mass at capture [% of injected]", &self.walls).stacked();
             for regime in Regime::ALL {
                 let share = |w: &String| {
                     100.0 * ratio(row(w).map_or(0.0, |r| r[regime as usize]), self.injected(ours))

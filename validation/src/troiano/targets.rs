@@ -1,7 +1,7 @@
 //! Fig 9: four targets.
 
 use nearwall::normal::{Contact, restitution, yield_velocity};
-use nearwall::report::{Bars, Figure, Table};
+use nearwall::report::{BarChart, Figure, Table};
 use nearwall::{Model, global_restitution};
 
 use super::published::{DIAMETER, E_N_MEAN, E_N_MEAN_WAX, STEEP, TARGETS, Target, YIELD_RATIO};
@@ -162,7 +162,7 @@ fn bars(four: &Four) -> Figure {
          wax.",
         E_N_MEAN.value
     );
-    Bars::new("Normal restitution on four targets", "e_n [1]", &names)
+    BarChart::new("Normal restitution on four targets", "e_n [1]", &names)
         .series("T–N, v_y by Eq. 3", &four.all().map(|found| found.e_n))
         .series("T–N, v_y and v_s as printed", &four.all().map(|found| found.printed))
         .figure("troiano-targets", &caption)

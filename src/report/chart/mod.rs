@@ -1,0 +1,353 @@
+//! Charts as SVG: points, lines, bands and histograms over two axes; bars; maps.
+//!
+//! Colours are those of Okabe and Ito, which colour-blind readers can tell apart; series also differ by marker and dash, so
+//! that a figure survives a black-and-white printer.
+
+mod axis;
+mod bars;
+mod map;
+mod svg;
+
+use kuva::plot::annotations::ReferenceLine;
+use kuva::plot::legend::{LegendEntry, LegendShape};
+use kuva::plot::line::LineStyle;
+use kuva::plot::scatter::MarkerShape;
+use kuva::plot::{BandPlot, Histogram, LinePlot, ScatterPlot};
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+
+use axis::{all_drawable, drawable, ends, finite, round_step};
+
+pub use axis::round_edges;
+pub use bars::BarChart;
+pub use map::FigureMap;
+pub use svg::Figure;
+
+/// Okabe and Ito's colours in an order that keeps neighbours apart; black is left for text.
+const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8A8A8A"];
+/// Colour of single readings behind other series: pale, but visible on paper.
+const CLOUD: &str = "#a6a6a6";
+const MARKERS: [MarkerShape; 7] = [
+    MarkerShape::Circle,
+    MarkerShape::Square,
+    MarkerShape::Triangle,
+    MarkerShape::Diamond,
+    MarkerShape::TriangleDown,
+    MarkerShape::Cross,
+    MarkerShape::Plus,
+];
+const DASHES: [LineStyle; 4] = [LineStyle::Solid, LineStyle::Dashed, LineStyle::DashDot, LineStyle::Dotted];
+/// Letters that fit side by side under an x axis.
+const WORDS_LETTERS: usize = 60;
+
+/// Length of each point's error bar below and above it.
+pub type ErrorBars = Vec<(f64, f64)>;
+
+/// An entry of the legend; `None` for a series without a name.
+fn legend_entry(name: &str, colour: &str, shape: LegendShape) -> Option<LegendEntry> {
+    let entry = || LegendEntry { label: name.to_owned(), color: colour.to_owned(), shape, dasharray: None };
+    (!name.is_empty()).then(entry)
+}
+
+/// A chart with two number axes. Series are drawn in the order in which they are added and get their colours in turn.
+#[derive(Default)]
+pub struct Chart {
+    title: String,
+    labels: [String; 2],
+    plots: Vec<Plot>,
+    colours: usize,
+    legend: Vec<LegendEntry>,
+    x_range: Option<[f64; 2]>,
+    y_range: Option<[f64; 2]>,
+    y_step: Option<f64>,
+    log: [bool; 2],
+    words: Vec<String>,
+    lines: Vec<ReferenceLine>,
+}
+
+impl Chart {
+    /// An empty chart; axis labels carry their units.
+    pub fn new(title: &str, x_label: &str, y_label: &str) -> Self {
+        Self { title: title.to_owned(), labels: [x_label, y_label].map(str::to_owned), ..Self::default() }
+    }
+
+    /// Puts words along the x axis instead of numbers, the first at 1, the next at 2.
+    #[must_use]
+    pub fn words(mut self, words: &[String]) -> Self {
+        self.words = words.to_vec();
+        self
+    }
+
+    /// Fixes the ends of the x axis.
+    #[must_use]
+    pub fn x_range(mut self, low: f64, high: f64) -> Self {
+        self.x_range = ends(low, high);
+        self
+    }
+
+    /// Fixes the ends of the y axis.
+    #[must_use]
+    pub fn y_range(mut self, low: f64, high: f64) -> Self {
+        self.y_range = ends(low, high);
+        self
+    }
+
+    /// Fixes the distance of the ticks of the y axis.
+    #[must_use]
+    pub fn y_step(mut self, step: f64) -> Self {
+        self.y_step = Some(step);
+        self
+    }
+
+    /// Makes the x axis logarithmic.
+    #[must_use]
+    pub fn log_x(mut self) -> Self {
+        self.log[0] = true;
+        self
+    }
+
+    /// Makes the y axis logarithmic.
+    #[must_use]
+    pub fn log_y(mut self) -> Self {
+        self.log[1] = true;
+        self
+    }
+
+    /// Adds points. A series without a name is not in the legend.
+    #[must_use]
+    pub fn points(self, name: &str, points: &[[f64; 2]]) -> Self {
+        self.next_points(name, points, None)
+    }
+
+    /// Adds small pale points for single readings.
+    #[must_use]
+    pub fn cloud(self, name: &str, points: &[[f64; 2]]) -> Self {
+        let size = if points.len() > 500 { 1.5 } else { 2.0 };
+        self.scatter(name, &finite(points), CLOUD, MarkerShape::Circle, |plot| plot.with_size(size))
+    }
+
+    /// Adds large points to compare with.
+    #[must_use]
+    pub fn reference(self, name: &str, points: &[[f64; 2]]) -> Self {
+        self.next_points(name, points, Some(8.0))
+    }
+
+    /// Adds points with error bars.
+    #[must_use]
+    pub fn points_with_errors(mut self, name: &str, points: &[[f64; 2]], errors: &ErrorBars) -> Self {
+        let (colour, place) = self.next();
+        self.error_bars(name, points, errors, colour, MARKERS[place % MARKERS.len()])
+    }
+
+    /// Adds measured values with error bars, in black.
+    #[must_use]
+    pub fn measured(self, name: &str, points: &[[f64; 2]], errors: &ErrorBars) -> Self {
+        self.error_bars(name, points, errors, "#000000", MarkerShape::Circle)
+    }
+
+    /// Adds a line through points in their order.
+    #[must_use]
+    pub fn line(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let (colour, place) = self.next();
+        let style = &DASHES[place % DASHES.len()];
+        let entry = legend_entry(name, colour, LegendShape::Line);
+        self.legend.extend(entry.map(|entry| LegendEntry { dasharray: style.dasharray(), ..entry }));
+        let plot = LinePlot::new()
+            .with_data(finite(points).into_iter().map(|[x, y]| (x, y)))
+            .with_color(colour)
+            .with_stroke_width(2.0)
+            .with_line_style(style.clone());
+        self.plots.push(plot.into());
+        self
+    }
+
+    /// Adds a shaded band between two curves, in the colour that the next series will have.
+    #[must_use]
+    pub fn band(mut self, x: &[f64], low: &[f64], high: &[f64]) -> Self {
+        let colour = COLOURS[self.colours % COLOURS.len()];
+        let edges = x.iter().zip(low).zip(high);
+        let edges: Vec<[f64; 3]> =
+            edges.filter_map(|((x, low), high)| all_drawable([*x, *low, *high])).collect();
+        let [x, low, high] = [0, 1, 2].map(|side| edges.iter().map(|edge| edge[side]).collect::<Vec<f64>>());
+        let band = BandPlot::new(x, low, high);
+        self.plots.push(band.with_color(colour).with_opacity(0.2).into());
+        self
+    }
+
+    /// Adds the bars of a histogram between `edges`, one more than `heights`; after another series as an outline.
+    #[must_use]
+    pub fn histogram(mut self, name: &str, edges: &[f64], heights: &[f64]) -> Self {
+        if self.colours > 0 {
+            return self.stairs(name, edges, heights);
+        }
+        if edges.iter().any(|edge| drawable(*edge).is_none()) {
+            return self;
+        }
+        let (colour, _) = self.next();
+        self.legend.extend(legend_entry(name, colour, LegendShape::Rect));
+        if let (None, [low, .., high]) = (self.x_range, edges) {
+            self.x_range = ends(*low, *high);
+        }
+        let heights = heights.iter().map(|height| drawable(*height).unwrap_or(0.0)).collect();
+        self.plots.push(Histogram::from_bins(edges.to_vec(), heights).with_color(colour).into());
+        self
+    }
+
+    /// Adds a histogram as an outline, for several series or a logarithmic axis.
+    #[must_use]
+    pub fn stairs(self, name: &str, edges: &[f64], heights: &[f64]) -> Self {
+        let mut line: Vec<[f64; 2]> = edges.first().map(|first| [*first, 0.0]).into_iter().collect();
+        for (pair, height) in edges.windows(2).zip(heights) {
+            line.extend([[pair[0], *height], [pair[1], *height]]);
+        }
+        line.extend(edges.last().map(|last| [*last, 0.0]));
+        self.line(name, &line)
+    }
+
+    /// Adds a thin vertical line with a label.
+    #[must_use]
+    pub fn mark_x(mut self, x: f64, label: &str) -> Self {
+        self.lines.extend(drawable(x).map(ReferenceLine::vertical).map(|line| line.with_label(label)));
+        self
+    }
+
+    /// Adds a thin horizontal line with a label.
+    #[must_use]
+    pub fn mark_y(mut self, y: f64, label: &str) -> Self {
+        self.lines.extend(drawable(y).map(ReferenceLine::horizontal).map(|line| line.with_label(label)));
+        self
+    }
+
+    /// The figure; `id` is its name on the page.
+    pub fn figure(mut self, id: &str, caption: &str) -> Figure {
+        if self.plots.is_empty() {
+            self.plots.push(ScatterPlot::new().with_data(vec![(0.0, 0.0)]).with_size(0.0).into());
+        }
+        let [x_label, y_label] = self.labels;
+        let mut layout = Layout::auto_from_plots(&self.plots).with_x_label(x_label).with_y_label(y_label);
+        if let Some([low, high]) = self.x_range {
+            let step = round_step((high - low) / 6.0);
+            let (low, high) = ((low / step).floor() * step, (high / step - 1e-9).ceil() * step);
+            layout = layout.with_x_axis_min(low).with_x_axis_max(high).with_x_tick_step(step);
+        }
+        if !self.words.is_empty() {
+            let letters: usize = self.words.iter().map(|word| word.chars().count() + 2).sum();
+            if letters > WORDS_LETTERS {
+                layout = layout.with_x_tick_rotate(-40.0);
+            }
+            let end = self.words.len() as f64 + 0.5;
+            layout = layout.with_x_axis_min(0.5).with_x_axis_max(end).with_x_categories(self.words);
+        }
+        if let Some([low, high]) = self.y_range {
+            layout = layout.with_y_axis_min(low).with_y_axis_max(high);
+        }
+        if let Some(step) = self.y_step {
+            layout = layout.with_y_tick_step(step);
+        }
+        if self.log[0] {
+            layout = layout.with_log_x();
+        }
+        if self.log[1] {
+            layout = layout.with_log_y();
+        }
+        let lines = self.lines.into_iter().map(|line| line.with_color("#444444"));
+        layout = lines.fold(layout, Layout::with_reference_line);
+        Figure::new([id, &self.title, caption], self.plots, layout, self.legend)
+    }
+
+    /// Points in the next colour; `size` is the radius of a marker [px].
+    fn next_points(mut self, name: &str, points: &[[f64; 2]], size: Option<f64>) -> Self {
+        let points = finite(points);
+        let (colour, place) = self.next();
+        let size = size.unwrap_or(if points.len() > 500 { 1.5 } else { 4.0 });
+        self.scatter(name, &points, colour, MARKERS[place % MARKERS.len()], |plot| plot.with_size(size))
+    }
+
+    fn error_bars(
+        self,
+        name: &str,
+        points: &[[f64; 2]],
+        errors: &ErrorBars,
+        colour: &'static str,
+        marker: MarkerShape,
+    ) -> Self {
+        let both = points.iter().zip(errors);
+        let drawn =
+            both.filter(|([x, y], (below, above))| all_drawable([*x, *y, y - below, y + above]).is_some());
+        let (points, errors): (Vec<[f64; 2]>, ErrorBars) = drawn.unzip();
+        let size = if points.len() > 500 { 1.5 } else { 4.0 };
+        self.scatter(name, &points, colour, marker, |plot| plot.with_size(size).with_y_err_asymmetric(errors))
+    }
+
+    fn scatter(
+        mut self,
+        name: &str,
+        points: &[[f64; 2]],
+        colour: &'static str,
+        marker: MarkerShape,
+        finish: impl FnOnce(ScatterPlot) -> ScatterPlot,
+    ) -> Self {
+        self.legend.extend(legend_entry(name, colour, LegendShape::Marker(marker)));
+        let plot = ScatterPlot::new().with_data(points.iter().map(|[x, y]| (*x, *y)));
+        self.plots.push(finish(plot.with_color(colour).with_marker(marker)).into());
+        self
+    }
+
+    fn next(&mut self) -> (&'static str, usize) {
+        let place = self.colours;
+        self.colours += 1;
+        (COLOURS[place % COLOURS.len()], place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_same_figure_is_the_same_text() {
+        let draw = || {
+            let chart =
+                Chart::new("t < u", "x [m]", "y [1]").line("a", &[[0.0, 1.0], [1.0, f64::NAN], [2.0, 3.0]]);
+            chart.points("b", &[[1.0, 2.0]]).mark_x(1.5, "here").figure("one", "c")
+        };
+        let (first, second) = (draw(), draw());
+        assert_eq!(first, second);
+        assert!(first.svg.starts_with("<svg xmlns"), "{}", first.svg);
+        assert!(
+            first.svg.contains("viewBox=\"0 0 620 388\"") && first.svg.contains("aria-label=\"t &lt; u\"")
+        );
+        assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
+        assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
+    }
+
+    /// The plotting crate would look for a tick at each power of ten up to infinity.
+    #[test]
+    fn numbers_beyond_any_axis_are_left_out() {
+        let far = [[1.7e308, 1.0], [1.0, -1.7e308], [5e-324, 2.0], [3.0, 4.0]];
+        let chart = Chart::new("t", "x", "y").points_with_errors("p", &far, &vec![(1e300, 0.0); 4]);
+        let chart = chart.line("l", &far).band(&[1.0, 1e200], &[0.0; 2], &[1.0; 2]).mark_x(f64::NAN, "n");
+        let chart = chart.histogram("h", &[0.0, 1e300], &[1.0]).x_range(2.0, 2.0).y_range(-1e300, 1e300);
+        for svg in [
+            chart.log_x().figure("f", "").svg,
+            BarChart::new("t", "y", &["a".into()]).series("s", &[1e300]).figure("b", "").svg,
+        ] {
+            assert!(svg.contains("</svg>") && !svg.contains("NaN") && !svg.contains("inf"), "{svg}");
+        }
+    }
+
+    #[test]
+    fn words_stand_along_the_axis() {
+        let words = ["Ann".to_owned(), "Bob".to_owned()];
+        let chart = Chart::new("t", "who", "y [1]").words(&words).cloud("rows", &[[1.0, 2.0], [2.0, 3.0]]);
+        let svg = chart.figure("w", "").svg;
+        assert!(svg.contains(">Ann<") && svg.contains(">Bob<") && svg.contains(CLOUD), "{svg}");
+    }
+
+    #[test]
+    fn empty_charts_and_bars_are_drawn() {
+        assert!(Chart::new("t", "x", "y").figure("e", "").svg.contains("</svg>"));
+        let bars = BarChart::new("t", "mass [kg]", &["a".into(), "b".into()]).series("s", &[1.0]).stacked();
+        assert!(bars.figure("b", "").svg.contains("mass [kg]"));
+    }
+}

@@ -1,0 +1,85 @@
+//! Figures: the SVG of the plotting crate, made fit for a page.
+
+use kuva::plot::legend::{LegendEntry, LegendPosition};
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+
+use super::axis::tick_format;
+
+const WIDTH: f64 = 620.0;
+const HEIGHT: f64 = 370.0;
+/// Height of a row of the legend [px].
+const LEGEND_ROW: f64 = 18.0;
+/// Width of a letter of the legend, on average [px].
+const LETTER: f64 = 6.6;
+
+/// An SVG with a title and a caption.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// Unique on its page; letters, digits and hyphens.
+    pub id: String,
+    /// A short heading.
+    pub title: String,
+    /// What the figure shows, in one to three sentences.
+    pub caption: String,
+    /// The SVG without width and height, so that it fills the width of its column.
+    pub svg: String,
+}
+
+impl Figure {
+    pub(super) fn new(
+        [id, title, caption]: [&str; 3],
+        plots: Vec<Plot>,
+        layout: Layout,
+        legend: Vec<LegendEntry>,
+    ) -> Self {
+        let widest = legend.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0);
+        let columns = ((WIDTH - 100.0) / (45.0 + LETTER * widest as f64)).floor().max(1.0);
+        let rows = (legend.len() as f64 / columns).ceil();
+        let layout = layout
+            .with_width(WIDTH)
+            .with_height(HEIGHT + LEGEND_ROW * rows)
+            .with_tick_format(tick_format())
+            .with_legend_position(LegendPosition::OutsideBottomColumns)
+            .with_legend_box(false)
+            .with_legend_col_limit(columns as usize);
+        let layout = if legend.is_empty() { layout } else { layout.with_legend_entries(legend) };
+        let svg = embedded(&kuva::render_to_svg(plots, layout), id, title);
+        Self { id: id.to_owned(), title: title.to_owned(), caption: caption.to_owned(), svg }
+    }
+}
+
+/// Makes an SVG fit for a page: scaled by a view box, labelled for screen readers, without a background.
+fn embedded(svg: &str, id: &str, title: &str) -> String {
+    let svg = with_own_ids(svg, id);
+    let Some((head, body)) = svg.split_once('>') else { return svg };
+    let size = |key: &str| {
+        let (_, rest) = head.split_once(&format!(" {key}=\""))?;
+        rest.split('"').next()
+    };
+    let (Some(width), Some(height)) = (size("width"), size("height")) else { return svg };
+    let label = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\" \
+         font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" fill=\"black\">{}",
+        body.replacen("<rect width=\"100%\" height=\"100%\" fill=\"white\" />", "", 1)
+    )
+}
+
+/// Names clip paths after the figure. The plotting crate numbers them through a whole program, but the same figure has to
+/// be the same text every time.
+fn with_own_ids(svg: &str, id: &str) -> String {
+    let mut parts = svg.split("kuva-clip-");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    let mut seen: Vec<&str> = Vec::new();
+    for part in parts {
+        let digits = part.len() - part.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let (number, rest) = part.split_at(digits);
+        let place = seen.iter().position(|earlier| *earlier == number).unwrap_or_else(|| {
+            seen.push(number);
+            seen.len() - 1
+        });
+        text += &format!("{id}-clip-{place}{rest}");
+    }
+    text
+}

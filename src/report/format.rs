@@ -1,0 +1,66 @@
+//! Numbers as text for a reader.
+
+/// A number with four significant digits, in powers of ten below 0.001 and from 1e6 on; a dash where it is not finite.
+pub fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let trimmed = |digits: &str| digits.trim_end_matches('0').trim_end_matches('.').to_owned();
+    let magnitude = value.abs().log10().floor();
+    if !(-3.0..6.0).contains(&magnitude) {
+        let text = format!("{value:.3e}");
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        return format!("{}e{power}", trimmed(digits));
+    }
+    if value.fract() == 0.0 {
+        return format!("{value:.0}");
+    }
+    let text = format!("{value:.*}", (3.0 - magnitude).max(0.0) as usize);
+    if text.contains('.') { trimmed(&text) } else { text }
+}
+
+/// A number with its unit; shares (unit `1` or empty) have none.
+pub fn with_unit(value: f64, unit: &str) -> String {
+    if unit == "1" || unit.is_empty() { number(value) } else { format!("{} {unit}", number(value)) }
+}
+
+/// A share in per cent.
+pub fn percent(share: f64) -> String {
+    let value = 100.0 * share;
+    match value.abs() {
+        size if !size.is_finite() => "–".to_owned(),
+        0.0 => "0 %".to_owned(),
+        size if size >= 0.1 => format!("{value:.1} %"),
+        size if size >= 1e-4 => format!("{value:.*} %", (1.0 - size.log10().floor()) as usize),
+        _ => format!("{value:.1e} %"),
+    }
+}
+
+/// A probability; one below 1e-12 is given as a bound.
+pub fn probability(value: f64) -> String {
+    match value {
+        small if small < 1e-12 => "< 1e-12".to_owned(),
+        small if small < 1e-3 => format!("{small:.1e}"),
+        _ => format!("{value:.3}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let short = [0.0, 1.0, 0.123_456, 12.345_67, 123_456.0, 0.000_012_34, 2.5e9, f64::NAN].map(number);
+        assert_eq!(short, ["0", "1", "0.1235", "12.35", "123456", "1.234e-5", "2.5e9", "–"]);
+    }
+
+    #[test]
+    fn shares_keep_two_digits() {
+        let short = [0.0, 0.1234, 0.000_057, 1.0, 1e-9, f64::NAN].map(percent);
+        assert_eq!(short, ["0 %", "12.3 %", "0.0057 %", "100.0 %", "1.0e-7 %", "–"]);
+    }
+}
