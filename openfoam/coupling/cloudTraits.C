@@ -1,0 +1,46 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "cloudTraits.H"
+#include "versionCompat.H"
+
+void Foam::nearWall::reportCarbon
+(
+    const dictionary& coeffs,
+    const wordList& solids
+)
+{
+    const word carbon(readOr<word>(coeffs, "carbon", word("C")));
+    forAll(solids, i)
+    {
+        if (solids[i] == carbon)
+        {
+            Info<< "    nearWallInteraction: carbon conversion from solid"
+                << " component '" << carbon << "'" << nl;
+            return;
+        }
+    }
+
+    if (coeffs.found("carbon"))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Key 'carbon': this cloud has no solid component '" << carbon
+            << "'." << nl;
+        if (solids.size())
+        {
+            FatalIOError << "    The solid has " << solids;
+        }
+        else
+        {
+            FatalIOError
+                << "    It has no solid components at all; remove the key.";
+        }
+        FatalIOError << exit(FatalIOError);
+    }
+
+    Info<< "    nearWallInteraction: no carbon in this cloud, conversion 1"
+        << nl;
+}

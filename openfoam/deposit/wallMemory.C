@@ -1,0 +1,503 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "wallMemory.H"
+#include "dictionaryChecks.H"
+#include "mathematicalConstants.H"
+#include "surfaceFields.H"
+#include "wallHitFields.H"
+
+namespace
+{
+
+using namespace Foam;
+using namespace Foam::nearWall;
+
+//- Names of the terms, in their order: keys of a restart and columns
+const char* const termNames[] =
+{
+    "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg"
+};
+
+
+wordList sumNames()
+{
+    DynamicList<word> all;
+    for (const char* const name : termNames) all.append(name);
+    return wordList(all);
+}
+
+
+//- A film needs the viscosity of the melt on one of the walls
+void requireViscosity
+(
+    const dictionary& dict,
+    const nearwall::model& model,
+    const List<patchRule>& rules,
+    const labelList& patches
+)
+{
+    // Above the range of any table
+    const scalar hot = 1e4;
+    forAll(patches, i)
+    {
+        nw_deposit melt(nearwall::make_deposit(rules[patches[i]].wall));
+        melt.molten = 1;
+        scalar speed = 0;
+        model.film_velocity(melt, hot, 1, speed);
+        if (speed > 0) return;
+    }
+    FatalIOErrorInFunction(dict)
+        << "Key 'film' is yes, but the model knows no viscosity of the melt on"
+        << " the walls." << nl
+        << "    Give the model [capture] model = \"viscosity\" and the particle,"
+        << " or the slag of a wall, a composition or a viscosity;" << nl
+        << "    or give it [capture] model = \"droplet\"."
+        << exit(FatalIOError);
+}
+
+
+//- Mean by area and largest value of a field on a patch, over all ranks
+struct patchExtremes
+{
+    scalar mean;
+    scalar largest = 0;
+
+    patchExtremes(const scalarField& x, const scalarField& area)
+    {
+        scalarList sums(2, scalar(0));
+        forAll(x, i)
+        {
+            sums[0] += x[i]*area[i];
+            sums[1] += area[i];
+            largest = max(largest, x[i]);
+        }
+        sumOverRanks(sums);
+        reduce(largest, maxOp<scalar>());
+        mean = sums[1] > 0 ? sums[0]/sums[1] : 0;
+    }
+};
+
+} // End anonymous namespace
+
+
+Foam::nearWall::wallMemory::wallMemory
+(
+    const dictionary& dict,
+    const fvMesh& mesh,
+    const word& cloudName,
+    const List<patchRule>& rules,
+    const wallModelPtr& model,
+    const vector& gravity,
+    const dictionary& saved,
+    const fileName& folder
+)
+:
+    mesh_(mesh),
+    rules_(rules),
+    model_(model),
+    voidage_
+    (
+        readChecked<scalar>
+        (
+            dict, "voidage", 0.5, [](scalar v) { return v >= 0 && v < 1; },
+            "from 0 to below 1"
+        )
+    ),
+    molten_(readWallField(mesh, cloudName + ":moltenMass", dimMass/dimArea)),
+    powder_(readWallField(mesh, cloudName + ":powderMass", dimMass/dimArea)),
+    layer_(readWallField(mesh, cloudName + ":layerThickness", dimLength)),
+    cover_(readWallField(mesh, cloudName + ":coverArea", dimless)),
+    coverage_(readWallField(mesh, cloudName + ":coverage", dimless)),
+    conversion_(readWallField(mesh, cloudName + ":depositConversion", dimless)),
+    temperature_
+    (
+        readWallField(mesh, cloudName + ":wallTemperature", dimTemperature)
+    ),
+    captured_(rules.size())
+{
+    refuseUnknownKeys(dict, wordList({"voidage", "film"}), "memory");
+
+    forAll(rules, patchi)
+    {
+        if (rules[patchi].type == patchRule::interact) patches_.append(patchi);
+    }
+    if (isNew()) setInitial();
+    checkFields();
+
+    added_.resize(patches_.size());
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        const word& name = patchName(i);
+        captured_[patchi].setSize
+        (
+            mesh.boundaryMesh()[patchi].size(), nearwall::make_arrivals()
+        );
+        sums_.append(runningTotals(sumNames(), saved.subOrEmptyDict(name)));
+        if (!saved.found(name)) addToSum(i, initial, mass(i));
+        tables_.emplace_back(folder/(name + ".wall.dat"));
+        setCoverage(patchi);
+    }
+
+    if (readOr<Switch>(dict, "film", Switch(false)))
+    {
+        requireViscosity(dict, *model, rules, patches_);
+        film_.reset(new wallFilm(mesh, patches_, model, gravity));
+    }
+    Info<< "    nearWallInteraction, memory of the walls: voidage " << voidage_
+        << ", film " << (film_ ? "yes" : "no") << nl;
+}
+
+
+const Foam::word& Foam::nearWall::wallMemory::patchName(const label i) const
+{
+    return mesh_.boundaryMesh()[patches_[i]].name();
+}
+
+
+nw_deposit Foam::nearWall::wallMemory::deposit
+(
+    const label patchi,
+    const label facei
+) const
+{
+    nw_deposit d;
+    nw_deposit_init(&d);
+    d.wall = rules_[patchi].wall;
+    d.molten = molten_.boundaryField()[patchi][facei];
+    d.powder = powder_.boundaryField()[patchi][facei];
+    d.solid = layer_.boundaryField()[patchi][facei]*(1 - voidage_);
+    d.cover = cover_.boundaryField()[patchi][facei];
+    d.conversion = conversion_.boundaryField()[patchi][facei];
+    return d;
+}
+
+
+void Foam::nearWall::wallMemory::setDeposit
+(
+    const label patchi,
+    const label facei,
+    const nw_deposit& d
+)
+{
+    molten_.boundaryFieldRef()[patchi][facei] = d.molten;
+    powder_.boundaryFieldRef()[patchi][facei] = d.powder;
+    layer_.boundaryFieldRef()[patchi][facei] = d.solid/(1 - voidage_);
+    cover_.boundaryFieldRef()[patchi][facei] = d.cover;
+    conversion_.boundaryFieldRef()[patchi][facei] = d.conversion;
+}
+
+
+std::array<const Foam::volScalarField*, 5>
+Foam::nearWall::wallMemory::stateFields() const
+{
+    return {{&molten_, &powder_, &layer_, &cover_, &conversion_}};
+}
+
+
+bool Foam::nearWall::wallMemory::isNew() const
+{
+    bool given = false;
+    for (const volScalarField* const field : stateFields())
+    {
+        given = const_cast<volScalarField*>(field)->headerOk() || given;
+    }
+    return !returnReduce(given, orOp<bool>());
+}
+
+
+void Foam::nearWall::wallMemory::setInitial()
+{
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        const nw_deposit d
+        (
+            model_->initial_deposit(rules_[patchi].wall, voidage_)
+        );
+        forAll(mesh_.boundaryMesh()[patchi], facei)
+        {
+            setDeposit(patchi, facei, d);
+        }
+    }
+}
+
+
+void Foam::nearWall::wallMemory::checkFields() const
+{
+    for (const volScalarField* const field : stateFields())
+    {
+        const scalar most = field == &conversion_ ? 1 : GREAT;
+        forAll(patches_, i)
+        {
+            const scalarField& x = field->boundaryField()[patches_[i]];
+            forAll(x, facei)
+            {
+                if (x[facei] >= 0 && x[facei] <= most) continue;
+
+                FatalErrorInFunction
+                    << "Field " << field->name() << " of time "
+                    << mesh_.time().timeName() << " is " << x[facei]
+                    << " on patch '" << patchName(i)
+                    << "'; it must be from 0 to " << most << "."
+                    << exit(FatalError);
+            }
+        }
+    }
+}
+
+
+Foam::scalar Foam::nearWall::wallMemory::mass(const label i) const
+{
+    const label patchi = patches_[i];
+    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    const scalarField& molten = molten_.boundaryField()[patchi];
+    const scalarField& powder = powder_.boundaryField()[patchi];
+    return sum((molten + powder)*area);
+}
+
+
+void Foam::nearWall::wallMemory::addToSum
+(
+    const label i,
+    const term t,
+    const scalar mass
+)
+{
+    const scalar added = added_[i][t].add(mass);
+    sums_[i].add(t, added - sums_[i].added()[t]);
+}
+
+
+void Foam::nearWall::wallMemory::applyDeposit(impactEvent& e) const
+{
+    // The status needs no check: it refuses only a temperature for which the
+    // impact will be refused as well
+    model_->apply_deposit(deposit(e.patch, e.face), voidage_, e.impact);
+}
+
+
+nw_status Foam::nearWall::wallMemory::addToSource
+(
+    const impactEvent& e,
+    nw_deposit_source& sum
+) const
+{
+    const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
+    const scalar volume =
+        e.particles*constant::mathematical::pi/6*pow3(e.impact.d);
+    return model_->add_captured(e.impact, e.mass/area, e.mass/volume, sum);
+}
+
+
+bool Foam::nearWall::wallMemory::joinsFilm(const impactEvent& e) const
+{
+    if (!film_ || !e.stuckByModel() || e.mass <= 0) return false;
+
+    nw_deposit_source alone(nearwall::make_arrivals());
+    return addToSource(e, alone) == NW_OK && alone.molten > 0;
+}
+
+
+void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
+{
+    if (e.mass <= 0) return;
+
+    const nw_status status = addToSource(e, captured_[e.patch][e.face]);
+    if (status != NW_OK)
+    {
+        FatalErrorInFunction
+            << "A parcel that stuck on patch '"
+            << mesh_.boundaryMesh()[e.patch].name() << "' (" << e.mass
+            << " kg, diameter " << e.impact.d
+            << " m) cannot be added to the deposit: "
+            << nw_status_text(status) << exit(FatalError);
+    }
+}
+
+
+void Foam::nearWall::wallMemory::addSources(const label i)
+{
+    const label patchi = patches_[i];
+    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    List<nw_deposit_source>& faces = captured_[patchi];
+    scalar mass = 0;
+    forAll(faces, facei)
+    {
+        if (!faces[facei].count) continue;
+
+        nw_deposit d(deposit(patchi, facei));
+        const nw_status status = nearwall::add(faces[facei], d);
+        if (status != NW_OK)
+        {
+            FatalErrorInFunction
+                << "The deposit on patch '" << patchName(i)
+                << "' cannot grow: " << nw_status_text(status)
+                << exit(FatalError);
+        }
+        setDeposit(patchi, facei, d);
+        mass += (faces[facei].molten + faces[facei].powder)*area[facei];
+        nw_deposit_source_init(&faces[facei]);
+    }
+    addToSum(i, arrived, mass);
+}
+
+
+void Foam::nearWall::wallMemory::setTemperature(const label patchi)
+{
+    const patchRule& rule = rules_[patchi];
+    scalarField& T = temperature_.boundaryFieldRef()[patchi];
+    if (rule.temperatureFromField)
+    {
+        T = rule.temperatureOn(mesh_, patchi);
+    }
+    else
+    {
+        T = rule.temperature;
+    }
+}
+
+
+void Foam::nearWall::wallMemory::setCoverage(const label patchi)
+{
+    const scalarField& cover = cover_.boundaryField()[patchi];
+    scalarField& coverage = coverage_.boundaryFieldRef()[patchi];
+    forAll(cover, facei)
+    {
+        coverage[facei] = -std::expm1(-cover[facei]);
+    }
+}
+
+
+void Foam::nearWall::wallMemory::flow(const scalar duration)
+{
+    List<filmPatch> film(patches_.size());
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        film[i].wall = rules_[patchi].wall;
+        film[i].area = mesh_.magSf().boundaryField()[patchi];
+        film[i].T = temperature_.boundaryField()[patchi];
+        film[i].molten = molten_.boundaryField()[patchi];
+        film[i].solid = powder_.boundaryField()[patchi];
+        film[i].conversion = conversion_.boundaryField()[patchi];
+    }
+    film_->flow(film, duration);
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        scalarField& molten = molten_.boundaryFieldRef()[patchi];
+        scalarField& conversion = conversion_.boundaryFieldRef()[patchi];
+        molten = film[i].molten;
+        conversion = film[i].conversion;
+        addToSum(i, drained, film[i].drained);
+        addToSum(i, fromOthers, film[i].fromOthers);
+    }
+}
+
+
+void Foam::nearWall::wallMemory::finishStep(const scalar duration)
+{
+    if (mesh_.changing())
+    {
+        FatalErrorInFunction
+            << "The mesh moves or changes, and walls cannot remember a deposit"
+            << " on such a mesh. Remove the key 'memory'." << exit(FatalError);
+    }
+    forAll(patches_, i) setTemperature(patches_[i]);
+
+    // What was captured in this step flows in the next one. So a steady film is
+    // that of the flow alone.
+    if (film_) flow(duration);
+    forAll(patches_, i)
+    {
+        addSources(i);
+        setCoverage(patches_[i]);
+    }
+}
+
+
+void Foam::nearWall::wallMemory::report
+(
+    Ostream& os,
+    const List<scalarList>& totals,
+    const scalar time,
+    const bool writeRow
+)
+{
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+        const scalarField& molten = molten_.boundaryField()[patchi];
+        const scalarField& powder = powder_.boundaryField()[patchi];
+        const scalarField& conversion = conversion_.boundaryField()[patchi];
+
+        scalarList masses(3, scalar(0));
+        forAll(area, facei)
+        {
+            masses[0] += molten[facei]*area[facei];
+            masses[1] += powder[facei]*area[facei];
+            masses[2] +=
+                (molten[facei] + powder[facei])*area[facei]*conversion[facei];
+        }
+        sumOverRanks(masses);
+
+        const scalarList& t = totals[i];
+        const scalar in = t[initial] + t[arrived];
+        const scalar deposited = masses[0] + masses[1];
+        const scalar rest = in + t[fromOthers] - t[drained] - deposited;
+        const scalar all = max(in, in + t[fromOthers]);
+        const patchExtremes coverage(coverage_.boundaryField()[patchi], area);
+        if (in > 0 || deposited > 0)
+        {
+            os  << "        " << patchName(i) << ", memory: molten "
+                << masses[0] << " kg, powder " << masses[1]
+                << " kg, coverage " << coverage.mean;
+            if (film_) os << ", drained " << t[drained] << " kg";
+            os  << nl;
+        }
+        if (!writeRow) continue;
+
+        const patchExtremes melt(molten, area);
+        const patchExtremes dust(powder, area);
+        const patchExtremes layer(layer_.boundaryField()[patchi], area);
+        const patchExtremes T(temperature_.boundaryField()[patchi], area);
+        tableRow row;
+        row.add("time_s", time);
+        for (label k = 0; k < nTerms; ++k) row.add(termNames[k], t[k]);
+        row.add("molten_kg", masses[0]);
+        row.add("powder_kg", masses[1]);
+        row.add("residual", all > 0 ? rest/all : 0);
+        row.add("molten_mean_kg_m2", melt.mean);
+        row.add("molten_max_kg_m2", melt.largest);
+        row.add("powder_mean_kg_m2", dust.mean);
+        row.add("powder_max_kg_m2", dust.largest);
+        row.add("layer_thickness_mean_m", layer.mean);
+        row.add("layer_thickness_max_m", layer.largest);
+        row.add("coverage_mean", coverage.mean);
+        row.add("coverage_max", coverage.largest);
+        row.add("conversion_mean", deposited > 0 ? masses[2]/deposited : 0);
+        row.add("wall_temperature_mean_K", T.mean);
+        row.add("wall_temperature_max_K", T.largest);
+        tables_[i].write(row);
+    }
+}
+
+
+Foam::dictionary Foam::nearWall::wallMemory::saved
+(
+    const List<scalarList>& totals
+) const
+{
+    dictionary dict;
+    forAll(patches_, i)
+    {
+        dict.add(keyType(patchName(i)), sums_[i].saved(totals[i]));
+    }
+    return dict;
+}

@@ -1,0 +1,708 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "nearWallInteraction.H"
+#include "buildCheck.H"
+#include "dictionaryChecks.H"
+#include "impactKey.H"
+#include "nearWallPreEvolve.H"
+#include "parcelTraits.H"
+
+// * * * * * * * * * * * * * * * * Set-up  * * * * * * * * * * * * * * * * * //
+
+template<class CloudType>
+const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
+(
+    const dictionary& coeffs
+)
+{
+    nearWall::checkBuild();
+    nearWall::refuseUnknownKeys
+    (
+        coeffs,
+        wordList
+        ({
+            "model", "patches", "stuck", "writeFields", "seed",
+            "statisticsInterval", "particleTemperature", "carbon", "record",
+            "memory"
+        }),
+        "nearWallInteraction"
+    );
+    return coeffs;
+}
+
+
+template<class CloudType>
+Foam::fileName Foam::nearWallInteraction<CloudType>::tableFolder() const
+{
+    const Time& time = mesh().time();
+    return
+        nearWall::caseFolder(time)/"postProcessing"/"nearWallInteraction"
+       /this->owner().name()/time.timeName();
+}
+
+
+template<class CloudType>
+Foam::dictionary Foam::nearWallInteraction<CloudType>::saved
+(
+    const word& name
+) const
+{
+    dictionary dict;
+    this->getModelDict(name, dict);
+    return dict;
+}
+
+
+template<class CloudType>
+Foam::scalar Foam::nearWallInteraction<CloudType>::injectedMass() const
+{
+    scalar mass = 0;
+    forAll(this->owner().injectors(), i)
+    {
+        mass += this->owner().injectors()[i].massInjected();
+    }
+    return mass;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::makeMemory(const dictionary& coeffs)
+{
+    if (!coeffs.found("memory")) return;
+
+    if (!coeffs.isDict("memory"))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Key 'memory' must be a dictionary, as in" << nl
+            << "    memory { film yes; }" << nl
+            << "Without the key the walls remember nothing."
+            << exit(FatalIOError);
+    }
+    if (this->owner().solution().steadyState())
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Key 'memory': a steady cloud has no time in which a deposit"
+            << " could grow; remove the key." << exit(FatalIOError);
+    }
+    run_->memory.reset
+    (
+        new nearWall::wallMemory
+        (
+            coeffs.subDict("memory"),
+            mesh(),
+            this->owner().name(),
+            rules_,
+            model_,
+            this->owner().g().value(),
+            saved("memory"),
+            tableFolder()
+        )
+    );
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportSetup
+(
+    const dictionary& coeffs
+) const
+{
+    Info<< "    nearWallInteraction, model: "
+        << nearWall::wallModelOrigin(coeffs, mesh().time()).c_str() << nl
+        << "    nearWallInteraction, patches:" << nl;
+    forAll(rules_, patchi)
+    {
+        rules_[patchi].report(mesh().boundaryMesh()[patchi].name());
+    }
+    Info<< endl;
+    nearWall::report(stuck_, run_->deposit->name());
+    if (!nearWall::hasTemperature(static_cast<const parcelType*>(nullptr)))
+    {
+        Info<< "    nearWallInteraction: parcels have no temperature, "
+            << particleTemperature_ << " K is taken (particleTemperature)"
+            << endl;
+    }
+    if
+    (
+        mesh().time().writeFormat() == IOstream::ASCII
+     && IOstream::defaultPrecision() < 15
+    )
+    {
+        Info<< "    nearWallInteraction: parcels are written with "
+            << label(IOstream::defaultPrecision())
+            << " digits; after a restart the balance will show the rounding"
+            << " as 'read back'" << nl
+            << "        (writeFormat binary; in controlDict avoids it)" << endl;
+    }
+}
+
+
+template<class CloudType>
+Foam::nearWallInteraction<CloudType>::runState::runState
+(
+    const nearWallInteraction& m,
+    const dictionary& coeffs
+)
+:
+    totals(m.mesh(), m.rules_, m.saved("patches"), m.tableFolder()),
+    distributions
+    (
+        m.mesh(),
+        nearWall::injectorNames(m.owner().injectors()),
+        m.saved("statistics"),
+        m.tableFolder()
+    ),
+    recorder
+    (
+        coeffs,
+        m.mesh(),
+        m.rules_,
+        nearWall::injectorNames(m.owner().injectors()),
+        m.saved("record"),
+        m.tableFolder()
+    ),
+    balance
+    (
+        std::make_shared<nearWall::massBalance>
+        (
+            m.saved("balance"), m.tableFolder(), m.injectedMass()
+        )
+    ),
+    deposit(nearWall::depositCloud::read(m.mesh(), m.owner().name()))
+{
+    if (nearWall::readOr<Switch>(coeffs, "writeFields", Switch(true)))
+    {
+        fields.reset(new nearWall::wallHitFields(m.mesh(), m.owner().name()));
+    }
+}
+
+
+template<class CloudType>
+Foam::nearWallInteraction<CloudType>::nearWallInteraction
+(
+    const dictionary& dict,
+    CloudType& owner
+)
+:
+    PatchInteractionModel<CloudType>(dict, owner, typeName),
+    model_
+    (
+        nearWall::readWallModel
+        (
+            checked(nearWall::coefficients(*this)), owner.mesh().time()
+        )
+    ),
+    rules_
+    (
+        nearWall::patchRule::read
+        (
+            nearWall::coefficients(*this), owner.mesh(), *model_
+        )
+    ),
+    stuck_(nearWall::readStuckTreatment(nearWall::coefficients(*this))),
+    seed_(nearWall::readOr<label>(nearWall::coefficients(*this), "seed", 1)),
+    statisticsInterval_
+    (
+        nearWall::readChecked<label>
+        (
+            nearWall::coefficients(*this), "statisticsInterval", 1,
+            [](label n) { return n >= 1; }, "a number of steps, 1 or more"
+        )
+    ),
+    particleTemperature_
+    (
+        nearWall::readOr<scalar>
+        (
+            nearWall::coefficients(*this), "particleTemperature", 293.15
+        )
+    ),
+    carbon_
+    (
+        nearWall::readOr<word>
+        (
+            nearWall::coefficients(*this), "carbon", word("C")
+        )
+    )
+{
+    const dictionary& coeffs = nearWall::coefficients(*this);
+    run_.reset(new runState(*this, coeffs));
+    makeMemory(coeffs);
+    owner.functions().append
+    (
+        new nearWallPreEvolve<CloudType>
+        (
+            owner, run_->balance, run_->deposit, coeffs
+        )
+    );
+    reportSetup(coeffs);
+}
+
+
+// * * * * * * * * * * * * * * * One impact  * * * * * * * * * * * * * * * * //
+
+template<class CloudType>
+typename Foam::nearWallInteraction<CloudType>::relativeVelocity
+Foam::nearWallInteraction<CloudType>::velocityOf
+(
+    const parcelType& p,
+    const polyPatch& pp
+) const
+{
+    relativeVelocity v;
+    this->owner().patchData(p, pp, v.normal, v.wall);
+
+    const vector relative(p.U() - v.wall);
+    v.vn = relative & v.normal;
+    const vector along(relative - v.vn*v.normal);
+    v.vt = mag(along);
+    v.tangent = v.vt > VSMALL ? vector(along/v.vt) : vector(Zero);
+    return v;
+}
+
+
+template<class CloudType>
+typename Foam::nearWallInteraction<CloudType>::fullCloudType*
+Foam::nearWallInteraction<CloudType>::solverCloud() const
+{
+    return dynamic_cast<fullCloudType*>
+    (
+        &const_cast<CloudType&>(this->owner())
+    );
+}
+
+
+template<class CloudType>
+Foam::scalar Foam::nearWallInteraction<CloudType>::conversionOf
+(
+    const parcelType& p
+) const
+{
+    fullCloudType* const cloud = solverCloud();
+    return cloud ? nearWall::carbonConversion(*cloud, p, carbon_) : 1;
+}
+
+
+template<class CloudType>
+std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
+(
+    const parcelType& p
+) const
+{
+    nearWall::impactKey key;
+    key.addExact(mesh().time().timeIndex()).add(p.d());
+    key.add(p.position(), mesh().bounds().mag());
+    key.add(p.U(), mag(p.U()) + VSMALL);
+    return key.value();
+}
+
+
+template<class CloudType>
+Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
+(
+    const parcelType& p,
+    const polyPatch& pp,
+    const relativeVelocity& v
+) const
+{
+    nearWall::impactEvent e;
+    e.patch = pp.index();
+    e.face = pp.whichFace(p.face());
+    e.injector = p.typeId();
+    e.position = p.position();
+    e.particles = p.nParticle();
+    e.mass = p.nParticle()*p.mass();
+    e.speed = sqrt(sqr(v.vn) + sqr(v.vt));
+    e.impact.v_n = v.vn;
+    e.impact.v_t = v.vt;
+    e.impact.d = p.d();
+    e.impact.T_p = nearWall::temperature(p, particleTemperature_);
+    e.impact.conversion = conversionOf(p);
+
+    const nearWall::patchRule& rule = rules_[e.patch];
+    if (rule.type != nearWall::patchRule::interact) return e;
+
+    const vector gas(this->owner().U()[p.cell()] - v.wall);
+    e.impact.wall = rule.wall;
+    e.impact.T_w =
+        rule.temperatureFromField
+      ? rule.temperatureOn(mesh(), e.patch)[e.face]
+      : rule.temperature;
+    e.impact.v_gas = mag(gas - (gas & v.normal)*v.normal);
+    e.impact.omega = nearWall::spin(p, v.tangent ^ v.normal);
+    e.impact.seed = seed_;
+    e.impact.key = keyOf(p);
+    if (run_->memory) run_->memory->applyDeposit(e);
+    return e;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::interact
+(
+    parcelType& p,
+    const polyPatch& pp,
+    bool& keepParticle
+)
+{
+    const relativeVelocity v(velocityOf(p, pp));
+
+    // No impact: the parcel leaves the wall, for instance one that moves away
+    if (v.vn <= 0) return;
+
+    nearWall::impactEvent e(eventOf(p, pp, v));
+    nw_outcome outcome;
+    nw_outcome_init(&outcome);
+
+    const nw_status status = model_->resolve(e.impact, outcome);
+    if (status != NW_OK)
+    {
+        handleUnusable(p, v, e, status, keepParticle);
+        return;
+    }
+
+    e.regime = min(label(outcome.regime), label(3));
+    e.outsideRange = outcome.flags & NW_OUTSIDE_VALID_RANGE;
+    if (outcome.stuck)
+    {
+        stick(p, e, keepParticle);
+    }
+    else
+    {
+        rebound(p, v, e, outcome.e_n, outcome.e_t);
+        nearWall::addSpin
+        (
+            p, outcome.omega - e.impact.omega, v.tangent ^ v.normal
+        );
+    }
+}
+
+
+// * * * * * * * * * * * * * * Result of an impact * * * * * * * * * * * * * //
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::record
+(
+    const nearWall::impactEvent& e
+)
+{
+    run_->totals.add(e);
+    run_->distributions.add(e);
+    run_->recorder.add(e);
+    if (run_->fields) run_->fields->add(e);
+    if (run_->memory && e.stuckByModel()) run_->memory->addCaptured(e);
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::setVelocity
+(
+    parcelType& p,
+    const relativeVelocity& v,
+    const scalar en,
+    const scalar et
+)
+{
+    nearWall::setMoving(p, true);
+    p.U() = v.wall + et*v.vt*v.tangent - en*v.vn*v.normal;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::escape
+(
+    parcelType& p,
+    nearWall::impactEvent& e,
+    bool& keepParticle
+)
+{
+    e.result = nearWall::impactEvent::escaped;
+    run_->totals.add(e);
+    run_->balance->add(nearWall::massBalance::escaped, e.mass);
+    keepParticle = false;
+    nearWall::setMoving(p, false);
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::stick
+(
+    parcelType& p,
+    nearWall::impactEvent& e,
+    bool& keepParticle
+)
+{
+    e.result = nearWall::impactEvent::stuck;
+    record(e);
+    nearWall::setMoving(p, false);
+    p.U() = Zero;
+    keepParticle = stuck_ == nearWall::stuckTreatment::react;
+    if (keepParticle) return;
+
+    const bool isRemoved =
+        stuck_ == nearWall::stuckTreatment::remove
+     || (
+            stuck_ == nearWall::stuckTreatment::slide
+         && run_->memory->joinsFilm(e)
+        );
+    if (isRemoved)
+    {
+        run_->balance->add(nearWall::massBalance::stuckRemoved, e.mass);
+    }
+    else
+    {
+        addToDeposit(p, e.regime);
+    }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::addToDeposit
+(
+    const parcelType& p,
+    const label regime
+)
+{
+    nearWall::capturedState state;
+    state.d = p.d();
+    state.nParticle = p.nParticle();
+    state.mass = p.nParticle()*p.mass();
+    state.T = nearWall::temperature(p, particleTemperature_);
+    state.conversion = conversionOf(p);
+    state.captureTime = mesh().time().value();
+    state.regime = regime;
+    state.typeId = p.typeId();
+    run_->deposit->add(p, state);
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::rebound
+(
+    parcelType& p,
+    const relativeVelocity& v,
+    nearWall::impactEvent& e,
+    const scalar en,
+    const scalar et
+)
+{
+    e.result = nearWall::impactEvent::rebounded;
+    e.en = en;
+    e.et = et;
+    e.eg = sqrt(sqr(en*v.vn) + sqr(et*v.vt))/e.speed;
+    record(e);
+    setVelocity(p, v, en, et);
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::handleUnusable
+(
+    parcelType& p,
+    const relativeVelocity& v,
+    nearWall::impactEvent& e,
+    const nw_status status,
+    bool& keepParticle
+)
+{
+    ++run_->unusable;
+    run_->unusableStatus = status;
+    e.result = nearWall::impactEvent::unusable;
+
+    // OpenFOAM cannot track or sum a speed or mass that is not a number
+    keepParticle = std::isfinite(e.speed) && std::isfinite(e.mass);
+    if (keepParticle)
+    {
+        run_->totals.add(e);
+        setVelocity(p, v, 1, 1);
+        return;
+    }
+
+    e.speed = 0;
+    e.impact.v_n = 0;
+    if (!std::isfinite(e.mass)) e.mass = 0;
+    run_->totals.add(e);
+    run_->balance->add(nearWall::massBalance::unusableRemoved, e.mass);
+    nearWall::setMoving(p, false);
+}
+
+
+template<class CloudType>
+bool Foam::nearWallInteraction<CloudType>::correct
+(
+    parcelType& p,
+    const polyPatch& pp,
+    bool& keepParticle
+)
+{
+    const nearWall::patchRule& rule = rules_[pp.index()];
+    if (rule.type == nearWall::patchRule::pass) return false;
+
+    if (rule.type == nearWall::patchRule::interact)
+    {
+        interact(p, pp, keepParticle);
+        return true;
+    }
+
+    const relativeVelocity v(velocityOf(p, pp));
+    nearWall::impactEvent e(eventOf(p, pp, v));
+    if (rule.type == nearWall::patchRule::escape)
+    {
+        escape(p, e, keepParticle);
+    }
+    else if (rule.type == nearWall::patchRule::stick)
+    {
+        stick(p, e, keepParticle);
+    }
+    else if (v.vn > 0)
+    {
+        rebound(p, v, e, rule.e, 1 - rule.mu);
+    }
+    return true;
+}
+
+
+// * * * * * * * * * * * * * * * End of a step * * * * * * * * * * * * * * * //
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::stopStuckParcels()
+{
+    CloudType& cloud = this->owner();
+    for (parcelType& p : cloud)
+    {
+        if (nearWall::isMoving(p)) continue;
+
+        p.U() = Zero;
+        if
+        (
+            stuck_ == nearWall::stuckTreatment::keep
+         || stuck_ == nearWall::stuckTreatment::slide
+        )
+        {
+            addToDeposit(p, -1);
+            cloud.deleteParticle(p);
+        }
+    }
+}
+
+
+template<class CloudType>
+Foam::nearWall::massBalance::content
+Foam::nearWallInteraction<CloudType>::content() const
+{
+    nearWall::massBalance::content now;
+    for (const parcelType& p : this->owner())
+    {
+        const scalar mass = p.nParticle()*p.mass();
+        (nearWall::isMoving(p) ? now.airborne : now.stuck) += mass;
+    }
+    now.stuck += run_->deposit->mass();
+    return now;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportBalance
+(
+    Ostream& os,
+    const bool writeRow
+)
+{
+    // A steady cloud forgets its parcels after each iteration
+    if (this->owner().solution().steadyState()) return;
+
+    nearWall::massBalance& balance = *run_->balance;
+    if (fullCloudType* const cloud = solverCloud())
+    {
+        balance.add
+        (
+            nearWall::massBalance::reacted,
+            nearWall::reactedMass(*cloud, run_->meters)
+        );
+    }
+
+    nearWall::massBalance::content now;
+    const scalarList totals(balance.totals(injectedMass(), content(), now));
+    balance.report(os, totals, now);
+
+    const Time& time = mesh().time();
+    if (writeRow) balance.writeRow(time.value(), totals, now);
+    if (time.writeTime())
+    {
+        this->setModelProperty("balance", balance.saved(totals));
+    }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
+{
+    const label n = returnReduce(run_->unusable, sumOp<label>());
+    const label status = returnReduce(run_->unusableStatus, maxOp<label>());
+    run_->unusable = 0;
+    run_->unusableStatus = 0;
+    if (n == 0) return;
+
+    os  << "    nearWallInteraction: " << n << " impact" << (n == 1 ? "" : "s")
+        << " of this step could not be decided ("
+        << nw_status_text(nw_status(status))
+        << "); the parcels rebound without loss, or are removed when"
+        << " their speed or mass is not a number" << nl;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::reportMemory
+(
+    Ostream& os,
+    const bool writeRow
+)
+{
+    if (!run_->memory) return;
+
+    const Time& time = mesh().time();
+    nearWall::wallMemory& memory = *run_->memory;
+    memory.finishStep(time.deltaTValue());
+
+    const List<scalarList> totals(memory.totals());
+    memory.report(os, totals, time.value(), writeRow);
+    if (time.writeTime())
+    {
+        this->setModelProperty("memory", memory.saved(totals));
+    }
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
+{
+    stopStuckParcels();
+    run_->deposit->endStep();
+
+    const Time& time = mesh().time();
+    const bool writeRow =
+        time.writeTime() || run_->calls % statisticsInterval_ == 0;
+    ++run_->calls;
+
+    const List<scalarList> totals(run_->totals.totals());
+    run_->totals.report(NEARWALL_INFO_STREAM, totals);
+    reportUnusable(NEARWALL_INFO_STREAM);
+    reportMemory(NEARWALL_INFO_STREAM, writeRow);
+    reportBalance(NEARWALL_INFO_STREAM, writeRow);
+
+    if (writeRow) run_->totals.writeRows(time.value(), totals);
+    if (!time.writeTime()) return;
+
+    this->setModelProperty("patches", run_->totals.saved(totals));
+    this->setModelProperty("statistics", run_->distributions.write());
+    if (run_->recorder.on())
+    {
+        this->setModelProperty
+        (
+            "record", run_->recorder.write(NEARWALL_INFO_STREAM)
+        );
+    }
+}

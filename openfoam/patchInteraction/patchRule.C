@@ -1,0 +1,357 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "patchRule.H"
+#include "dictionaryChecks.H"
+#include "volFields.H"
+#include "wallPolyPatch.H"
+#include "wordRe.H"
+
+const Foam::nearWall::Enum<Foam::nearWall::patchRule::ruleType>
+Foam::nearWall::patchRule::typeNames
+({
+    {interact, "interact"},
+    {escape, "escape"},
+    {rebound, "rebound"},
+    {stick, "stick"}
+});
+
+
+namespace
+{
+
+using namespace Foam;
+using namespace Foam::nearWall;
+
+wordList knownKeys(const patchRule::ruleType type)
+{
+    if (type == patchRule::interact)
+    {
+        return wordList({"type", "wall", "wallTemperature", "field"});
+    }
+    if (type == patchRule::rebound)
+    {
+        return wordList({"type", "e", "mu"});
+    }
+    return wordList({"type"});
+}
+
+
+bool isHandled(const polyPatch& pp)
+{
+    return !pp.coupled() && !polyPatch::constraintType(pp.type());
+}
+
+
+//- How well an entry fits a patch: 0 not, 1 expression, 2 group, 3 name
+int fit(const keyType& key, const polyPatch& pp)
+{
+    if (key.isPattern()) return wordRe(key).match(pp.name()) ? 1 : 0;
+    if (key == pp.name()) return 3;
+    forAll(pp.inGroups(), i)
+    {
+        if (pp.inGroups()[i] == key) return 2;
+    }
+    return 0;
+}
+
+
+//- The entry for a patch, null if there is none
+const entry* findEntry(const dictionary& patches, const polyPatch& pp)
+{
+    const entry* best = nullptr;
+    int bestFit = 1;
+    forAllConstIter(dictionary, patches, iter)
+    {
+        const int f = fit((*iter).keyword(), pp);
+        if (f >= bestFit)
+        {
+            best = &(*iter);
+            bestFit = f;
+        }
+    }
+    return best;
+}
+
+
+//- Every entry must be a dictionary and fit a patch that is handled here
+void checkEntries(const dictionary& patches, const polyBoundaryMesh& pbm)
+{
+    DynamicList<word> names;
+    forAll(pbm, patchi)
+    {
+        if (isHandled(pbm[patchi])) names.append(pbm[patchi].name());
+    }
+
+    forAllConstIter(dictionary, patches, iter)
+    {
+        const keyType& key = (*iter).keyword();
+        if (!(*iter).isDict())
+        {
+            FatalIOErrorInFunction(patches)
+                << "patches: '" << key << "' must be a dictionary, as in" << nl
+                << "    " << key << " { type interact; }" << exit(FatalIOError);
+        }
+
+        int best = 0;
+        forAll(pbm, patchi)
+        {
+            const int f = fit(key, pbm[patchi]);
+            best = max(best, f);
+            if (f == 3 && !isHandled(pbm[patchi]))
+            {
+                FatalIOErrorInFunction(patches)
+                    << "patches: OpenFOAM itself handles '" << key
+                    << "', a patch of type " << pbm[patchi].type()
+                    << ". Remove the entry." << exit(FatalIOError);
+            }
+        }
+        if (best == 0)
+        {
+            FatalIOErrorInFunction(patches)
+                << "patches: '" << key << "' matches no patch and no patch"
+                << " group of this mesh." << nl
+                << "    The patches are " << wordList(names)
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+scalar readFraction
+(
+    const dictionary& dict,
+    const word& key,
+    const scalar fallback
+)
+{
+    return readChecked<scalar>
+    (
+        dict, key, fallback, [](scalar x) { return x >= 0 && x <= 1; },
+        "from 0 to 1"
+    );
+}
+
+} // End anonymous namespace
+
+
+void Foam::nearWall::patchRule::readWall
+(
+    const dictionary& dict,
+    const polyPatch& pp,
+    const nearwall::model& model
+)
+{
+    const bool given = dict.found("wall");
+    DynamicList<string> names;
+    if (given)
+    {
+        names.append(nearWall::read<word>(dict, "wall"));
+    }
+    else
+    {
+        names.append(pp.name());
+        forAll(pp.inGroups(), i) names.append(pp.inGroups()[i]);
+        names.append("default");
+    }
+
+    forAll(names, i)
+    {
+        wallName = names[i];
+        if (model.find_wall(wallName, wall)) return;
+    }
+
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name() << "': the wall model has no wall '"
+        << names[0].c_str() << "'" << (given ? "" : " and no default") << "."
+        << nl << "    Add [walls." << names[0].c_str() << "]"
+        << (given ? "" : " or [walls.default]")
+        << " to the model, or name one of its walls: " << pp.name()
+        << " { type interact; wall ...; }" << exit(FatalIOError);
+}
+
+
+void Foam::nearWall::patchRule::requireField
+(
+    const dictionary& dict,
+    const polyPatch& pp,
+    const fvMesh& mesh
+) const
+{
+    if (mesh.foundObject<volScalarField>(temperatureField)) return;
+
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name() << "': the wall temperature is to come from"
+        << " a field, but no field '" << temperatureField << "' is registered."
+        << nl << "    If this solver has no temperature, give a number in K,"
+        << " wallTemperature 300;" << nl
+        << "    otherwise give the name of its temperature field, field T;"
+        << exit(FatalIOError);
+}
+
+
+void Foam::nearWall::patchRule::readTemperature
+(
+    const dictionary& dict,
+    const polyPatch& pp,
+    const fvMesh& mesh
+)
+{
+    temperatureField = readOr<word>(dict, "field", word("T"));
+
+    if (!dict.found("wallTemperature"))
+    {
+        if (dict.found("field")) requireField(dict, pp, mesh);
+        temperatureFromField = mesh.foundObject<volScalarField>(temperatureField);
+        return;
+    }
+
+    const tokenList& given = dict.lookup("wallTemperature");
+    if (given.size() == 1)
+    {
+        const token& t = given[0];
+        if (t.isNumber() && t.number() > 0)
+        {
+            temperature = t.number();
+            return;
+        }
+        if (t.isWord() && t.wordToken() == "field")
+        {
+            temperatureFromField = true;
+            requireField(dict, pp, mesh);
+            return;
+        }
+    }
+
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name()
+        << "': wallTemperature must be 'field' or a number above 0, in K." << nl
+        << "    Give the number without a unit: wallTemperature 673.15;"
+        << exit(FatalIOError);
+}
+
+
+void Foam::nearWall::patchRule::checkTemperature
+(
+    const dictionary& dict,
+    const polyPatch& pp,
+    const fvMesh& mesh,
+    const nearwall::model& model
+) const
+{
+    scalar lowest = temperature;
+    scalar highest = temperature;
+    if (temperatureFromField)
+    {
+        const scalarField& T = temperatureOn(mesh, pp.index());
+        if (returnReduce(T.size(), sumOp<label>()) == 0) return;
+        lowest = gMin(T);
+        highest = gMax(T);
+    }
+
+    const nearwall::temperature_ranges known = model.ranges(wall);
+    if (lowest >= known.wall_low && highest <= known.wall_high) return;
+
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name() << "': the wall temperature is " << lowest
+        << " to " << highest << " K, but the properties of wall '"
+        << wallName.c_str() << "' are known from " << known.wall_low << " to "
+        << known.wall_high << " K." << nl << "    Correct "
+        << (temperatureFromField ? "field " + temperatureField : "wallTemperature")
+        << ", or extend the property tables of the wall's material in the model."
+        << exit(FatalIOError);
+}
+
+
+Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
+(
+    const dictionary& coeffs,
+    const fvMesh& mesh,
+    const nearwall::model& model
+)
+{
+    const polyBoundaryMesh& pbm = mesh.boundaryMesh();
+    const dictionary patches(coeffs.subOrEmptyDict("patches"));
+    checkEntries(patches, pbm);
+
+    // For patches without an entry: messages name the coefficients
+    const dictionary none(coeffs.name());
+
+    List<patchRule> rules(pbm.size());
+    forAll(pbm, patchi)
+    {
+        const polyPatch& pp = pbm[patchi];
+        if (!isHandled(pp)) continue;
+
+        const entry* const given = findEntry(patches, pp);
+        const dictionary& dict = given ? given->dict() : none;
+        patchRule& rule = rules[patchi];
+        rule.named = given;
+        if (given)
+        {
+            const word type(nearWall::read<word>(dict, "type"));
+            const string owner(" of patch '" + pp.name() + "'");
+            rule.type = checkedChoice(dict, "type", type, typeNames, owner);
+            refuseUnknownKeys
+            (
+                dict,
+                knownKeys(rule.type),
+                "Patch '" + pp.name() + "', type " + type
+            );
+        }
+        else
+        {
+            rule.type = isA<wallPolyPatch>(pp) ? interact : escape;
+        }
+
+        if (rule.type == interact)
+        {
+            rule.readWall(dict, pp, model);
+            rule.readTemperature(dict, pp, mesh);
+            rule.checkTemperature(dict, pp, mesh, model);
+        }
+        if (rule.type == rebound)
+        {
+            rule.e = readFraction(dict, "e", 1);
+            rule.mu = readFraction(dict, "mu", 0);
+        }
+    }
+    return rules;
+}
+
+
+const Foam::scalarField& Foam::nearWall::patchRule::temperatureOn
+(
+    const fvMesh& mesh,
+    const label patchi
+) const
+{
+    return
+        mesh.lookupObject<volScalarField>(temperatureField)
+       .boundaryField()[patchi];
+}
+
+
+void Foam::nearWall::patchRule::report(const word& patchName) const
+{
+    if (type == pass) return;
+
+    Info<< "        " << patchName << ": " << typeNames[type];
+    if (type == rebound) Info<< ", e " << e << ", mu " << mu;
+    if (type == interact)
+    {
+        Info<< ", wall '" << wallName.c_str() << "', temperature ";
+        if (temperatureFromField)
+        {
+            Info<< "from field " << temperatureField;
+        }
+        else
+        {
+            Info<< temperature << " K";
+        }
+    }
+    Info<< (named ? "" : " (not named, default)") << nl;
+}

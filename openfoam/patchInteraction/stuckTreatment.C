@@ -1,0 +1,67 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "stuckTreatment.H"
+#include "dictionaryChecks.H"
+
+Foam::nearWall::stuckTreatment Foam::nearWall::readStuckTreatment
+(
+    const dictionary& coeffs
+)
+{
+    static const Enum<stuckTreatment> names
+    ({
+        {stuckTreatment::keep, "keep"},
+        {stuckTreatment::react, "react"},
+        {stuckTreatment::remove, "remove"},
+        {stuckTreatment::slide, "slide"}
+    });
+    const word name(readOr<word>(coeffs, "stuck", word("keep")));
+    const stuckTreatment treatment = checkedChoice(coeffs, "stuck", name, names);
+
+    if
+    (
+        treatment == stuckTreatment::slide
+     && !readOr<Switch>(coeffs.subOrEmptyDict("memory"), "film", Switch(false))
+    )
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Key 'stuck' is 'slide', but no film flows on the walls." << nl
+            << "    Add  memory { film yes; }  or choose keep, react or remove."
+            << exit(FatalIOError);
+    }
+    return treatment;
+}
+
+
+void Foam::nearWall::report
+(
+    const stuckTreatment treatment,
+    const word& depositName
+)
+{
+    Info<< "    nearWallInteraction, stuck parcels: ";
+    switch (treatment)
+    {
+        case stuckTreatment::keep:
+            Info<< "kept in the cloud " << depositName << ", inert";
+            break;
+
+        case stuckTreatment::react:
+            Info<< "stay in this cloud and go on reacting";
+            break;
+
+        case stuckTreatment::remove:
+            Info<< "removed";
+            break;
+
+        case stuckTreatment::slide:
+            Info<< "molten ones join the film on the wall, others are kept in"
+                << " the cloud " << depositName << ", inert";
+            break;
+    }
+    Info<< nl;
+}

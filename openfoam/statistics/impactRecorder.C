@@ -1,0 +1,447 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "impactRecorder.H"
+#include "dictionaryChecks.H"
+#include "exactText.H"
+#include "impactKey.H"
+#include "OSspecific.H"
+#include "wordReList.H"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+
+namespace
+{
+
+using namespace Foam;
+using namespace Foam::nearWall;
+
+typedef impactRecorder::row row;
+
+//- A column that holds a number
+struct numberColumn
+{
+    const char* name;
+    scalar (*value)(const row&);
+};
+
+//- The first columns; the first seven of them identify an impact
+const numberColumn numberColumns[] =
+{
+    {"time", [](const row& r) { return r.time; }},
+    {"x", [](const row& r) { return r.event.position.x(); }},
+    {"y", [](const row& r) { return r.event.position.y(); }},
+    {"z", [](const row& r) { return r.event.position.z(); }},
+    {"v_n", [](const row& r) { return r.event.impact.v_n; }},
+    {"v_t", [](const row& r) { return r.event.impact.v_t; }},
+    {"d", [](const row& r) { return r.event.impact.d; }},
+    {"T_p", [](const row& r) { return r.event.impact.T_p; }},
+    {"T_w", [](const row& r) { return r.event.impact.T_w; }},
+    {"conversion", [](const row& r) { return r.event.impact.conversion; }},
+    {"layer_thickness", [](const row& r) { return r.event.impact.layer_thickness; }},
+    {"film_thickness", [](const row& r) { return r.event.impact.film_thickness; }},
+    {"v_gas", [](const row& r) { return r.event.impact.v_gas; }},
+    {"roughness", [](const row& r) { return r.event.impact.roughness; }},
+    {"omega", [](const row& r) { return r.event.impact.omega; }},
+    {"coverage", [](const row& r) { return r.event.impact.coverage; }},
+    {"melt_thickness", [](const row& r) { return r.event.impact.melt_thickness; }}
+};
+
+const label nIdentifying = 7;
+
+//- The columns after them, as text() writes them
+const char* const textColumns =
+    "patch,wall,injector,mass,regime,outcome,e_n,e_t";
+
+
+const std::string& header()
+{
+    static std::string all;
+    if (all.empty())
+    {
+        for (const numberColumn& c : numberColumns)
+        {
+            all += std::string(c.name) + ",";
+        }
+        all += textColumns;
+    }
+    return all;
+}
+
+
+//- Hash of the numbers that identify an impact: time, position, v_n, v_t, d.
+//  Their last digits, in which ranks and restarts differ, do not count.
+std::uint64_t hashOf(const scalar* id)
+{
+    const scalar speed = std::sqrt(sqr(id[4]) + sqr(id[5]));
+    impactKey key;
+    key.add(id[0]).add(speed).add(id[6]);
+
+    // Steps of 1e-6 m
+    key.add(vector(id[1], id[2], id[3]), 0.1);
+    key.add(vector(id[4], id[5], 0), speed);
+
+    // Differs from the key of the impact's draws, so that the choice of rows
+    // does not depend on the outcome
+    return impactKey::mix(key.value() ^ 0x5851f42d4c957f2dULL);
+}
+
+
+//- How many halvings of the sample an impact survives
+label halvingsOf(std::uint64_t hash)
+{
+    label n = 0;
+    while (n < impactRecorder::nHalvings - 1 && !(hash >> 63))
+    {
+        hash <<= 1;
+        ++n;
+    }
+    return n;
+}
+
+
+//- Read the identifying numbers of a line; false for an incomplete line
+bool readIdentity(const std::string& line, scalar* id)
+{
+    const auto commas = [](const std::string& s)
+    {
+        return std::count(s.begin(), s.end(), ',');
+    };
+    if (commas(line) < commas(header())) return false;
+
+    const char* at = line.c_str();
+    for (label i = 0; i < nIdentifying; ++i)
+    {
+        char* end = nullptr;
+        id[i] = std::strtod(at, &end);
+        if (end == at || *end != ',') return false;
+        at = end + 1;
+    }
+    return true;
+}
+
+
+//- A name as a cell of a CSV file
+std::string csvCell(const std::string& name)
+{
+    if (name.find_first_of(",\"\n") == std::string::npos) return name;
+    std::string quoted("\"");
+    for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
+    return quoted + "\"";
+}
+
+
+std::string fraction(const label level)
+{
+    return level ? "1 in " + exactText(std::pow(2.0, level)) : "all";
+}
+
+} // End anonymous namespace
+
+
+Foam::nearWall::impactRecorder::impactRecorder
+(
+    const dictionary& coeffs,
+    const fvMesh& mesh,
+    const List<patchRule>& rules,
+    const injectorNames& injectors,
+    const dictionary& saved,
+    const fileName& folder
+)
+:
+    mesh_(mesh),
+    rules_(rules),
+    injectors_(injectors),
+    maxRows_(0),
+    recorded_(rules.size(), false),
+    file_(folder/"impacts.csv"),
+    level_(label(readExact(saved, "halvings"))),
+    before_(readExact(saved, "impacts")),
+    seen_(0),
+    opened_(false),
+    fileLevel_(0),
+    previous_
+    (
+        saved.found("start")
+      ? folder.path()/nearWall::read<string>(saved, "start")/"impacts.csv"
+      : fileName()
+    ),
+    previousRows_(readExact(saved, "rows")),
+    // After the rounding of the time's name, before the next step
+    start_(mesh.time().value() + 1e-3*mesh.time().deltaTValue())
+{
+    inFile_.fill(0);
+    if (!coeffs.found("record")) return;
+
+    const dictionary& dict = coeffs.subDict("record");
+    refuseUnknownKeys(dict, wordList({"maxRows", "patches"}), "record");
+    maxRows_ = readChecked<label>
+    (
+        dict, "maxRows", 100000, [](label n) { return n >= 1; }, "1 or more"
+    );
+    readPatches(dict);
+}
+
+
+void Foam::nearWall::impactRecorder::readPatches(const dictionary& dict)
+{
+    const bool named = dict.found("patches");
+    wordReList names;
+    if (named) names = nearWall::read<wordReList>(dict, "patches");
+
+    std::vector<bool> used(names.size(), false);
+    DynamicList<word> possible;
+    forAll(rules_, patchi)
+    {
+        if (rules_[patchi].type != patchRule::interact) continue;
+
+        const polyPatch& pp = mesh_.boundaryMesh()[patchi];
+        recorded_[patchi] = !named;
+        possible.append(pp.name());
+        forAll(names, i)
+        {
+            bool fits = names[i].match(pp.name());
+            forAll(pp.inGroups(), j)
+            {
+                fits = fits || names[i] == pp.inGroups()[j];
+            }
+            if (fits) recorded_[patchi] = used[i] = true;
+        }
+    }
+    forAll(names, i)
+    {
+        if (!used[i])
+        {
+            FatalIOErrorInFunction(dict)
+                << "record: '" << names[i] << "' matches no patch and no patch"
+                << " group of type interact." << nl
+                << "    The patches of this type are " << wordList(possible)
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::nearWall::impactRecorder::add(const impactEvent& e)
+{
+    if (!recorded_[e.patch]) return;
+
+    row r;
+    r.event = e;
+    r.time = mesh_.time().value();
+    scalar id[nIdentifying];
+    for (label i = 0; i < nIdentifying; ++i) id[i] = numberColumns[i].value(r);
+    r.hash = hashOf(id);
+    seen_ += 1;
+
+    if (halvingsOf(r.hash) < level_) return;
+    rows_.push_back(r);
+
+    // The sample of all ranks is larger than that of one: halving here gives
+    // the same sample as halving at the next write
+    while (label(rows_.size()) > maxRows_ && level_ < nHalvings - 1)
+    {
+        ++level_;
+        thin();
+    }
+}
+
+
+void Foam::nearWall::impactRecorder::thin()
+{
+    const label level = level_;
+    rows_.erase
+    (
+        std::remove_if
+        (
+            rows_.begin(), rows_.end(),
+            [level](const row& r) { return halvingsOf(r.hash) < level; }
+        ),
+        rows_.end()
+    );
+}
+
+
+std::string Foam::nearWall::impactRecorder::text(const row& r) const
+{
+    const impactEvent& e = r.event;
+    std::string line;
+    for (const numberColumn& c : numberColumns)
+    {
+        line += exactText(c.value(r)) + ",";
+    }
+    line += csvCell(mesh_.boundaryMesh()[e.patch].name());
+    line += "," + csvCell(rules_[e.patch].wallName);
+    line += "," + csvCell(injectors_.name(e.injector));
+    line += "," + exactText(e.mass);
+    line += std::string(",") + nw_regime_name(nw_regime(e.regime));
+    if (e.result == impactEvent::stuck) return line + ",stick,,";
+    return line + ",rebound," + exactText(e.en) + "," + exactText(e.et);
+}
+
+
+std::vector<Foam::nearWall::impactRecorder::line>
+Foam::nearWall::impactRecorder::gathered() const
+{
+    List<List<string>> texts(Pstream::nProcs());
+    List<string>& own = texts[Pstream::myProcNo()];
+    own.setSize(label(rows_.size()));
+    forAll(own, i) own[i] = text(rows_[i]);
+    Pstream::gatherList(texts);
+
+    std::vector<line> lines;
+    if (Pstream::master())
+    {
+        for (const List<string>& list : texts)
+        {
+            for (const string& text : list)
+            {
+                scalar id[nIdentifying];
+                readIdentity(text, id);
+                lines.push_back(line{id[0], hashOf(id), text});
+            }
+        }
+    }
+
+    // An order that does not depend on the ranks
+    std::sort
+    (
+        lines.begin(), lines.end(),
+        [](const line& a, const line& b)
+        {
+            if (a.time != b.time) return a.time < b.time;
+            return a.hash != b.hash ? a.hash < b.hash : a.text < b.text;
+        }
+    );
+    return lines;
+}
+
+
+void Foam::nearWall::impactRecorder::rewrite
+(
+    const fileName& from,
+    const scalar until
+)
+{
+    inFile_.fill(0);
+    fileLevel_ = level_;
+    mkDir(file_.path());
+    const fileName newFile(file_ + ".new");
+    {
+        std::ofstream to(newFile.c_str());
+        to  << "# nearWallInteraction, recorded impacts: " << fraction(level_)
+            << " since the start of the case, evenly chosen\n" << header()
+            << '\n';
+
+        std::ifstream rows(from.c_str());
+        std::string line;
+        while (std::getline(rows, line))
+        {
+            scalar id[nIdentifying];
+            if (!readIdentity(line, id) || id[0] > until) continue;
+            const label halvings = halvingsOf(hashOf(id));
+            if (halvings < level_) continue;
+            inFile_[halvings] += 1;
+            to << line << '\n';
+        }
+        to.close();
+        if (!to)
+        {
+            WarningInFunction << "Cannot write " << newFile << endl;
+            return;
+        }
+    }
+    mv(newFile, file_);
+}
+
+
+void Foam::nearWall::impactRecorder::open()
+{
+    if (opened_ || !Pstream::master()) return;
+    opened_ = true;
+    rewrite(previous_, start_);
+
+    if (rowsInFile() < previousRows_)
+    {
+        WarningInFunction
+            << "Of " << previousRows_ << " impacts recorded before "
+            << rowsInFile() << " are left in " << previous_ << nl
+            << "    The record is no even sample of the time before this run."
+            << endl;
+    }
+}
+
+
+void Foam::nearWall::impactRecorder::append(const std::vector<line>& lines)
+{
+    std::ofstream to(file_.c_str(), std::ios::app);
+    for (const line& one : lines)
+    {
+        to << one.text << '\n';
+        inFile_[halvingsOf(one.hash)] += 1;
+    }
+    to.close();
+    if (!to)
+    {
+        WarningInFunction << "Cannot write to " << file_ << endl;
+    }
+}
+
+
+Foam::scalar Foam::nearWall::impactRecorder::rowsInFile() const
+{
+    scalar rows = 0;
+    for (const scalar n : inFile_) rows += n;
+    return rows;
+}
+
+
+Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
+{
+    dictionary dict;
+    if (!on()) return dict;
+
+    open();
+    scalarList sums(nHalvings + 1, scalar(0));
+    for (label i = 0; i < nHalvings; ++i) sums[i] = inFile_[i];
+    for (const row& r : rows_) sums[halvingsOf(r.hash)] += 1;
+    sums[nHalvings] = seen_;
+    sumOverRanks(sums);
+
+    // The level of the largest sample that fits, the same on all ranks
+    scalar rows = 0;
+    label level = nHalvings;
+    while (level > 0 && rows + sums[level - 1] <= maxRows_)
+    {
+        rows += sums[--level];
+    }
+    const label needed = min(level, nHalvings - 1);
+    level_ = max(needed, returnReduce(level_, maxOp<label>()));
+    thin();
+    if (Pstream::master() && fileLevel_ < level_)
+    {
+        rewrite(file_, std::numeric_limits<scalar>::infinity());
+    }
+
+    const std::vector<line> lines(gathered());
+    rows_.clear();
+    if (Pstream::master()) append(lines);
+
+    const scalar written = rowsInFile();
+    const scalar impacts = before_ + sums[nHalvings];
+    os  << "    Near-wall record: " << exactText(written).c_str() << " rows, "
+        << fraction(level_).c_str() << " of " << exactText(impacts).c_str()
+        << " impacts" << nl;
+
+    addExact(dict, "halvings", level_);
+    addExact(dict, "impacts", impacts);
+    addExact(dict, "rows", returnReduce(written, maxOp<scalar>()));
+    dict.add(keyType("start"), string(file_.path().name()));
+    return dict;
+}

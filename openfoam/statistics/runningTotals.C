@@ -1,0 +1,54 @@
+/*---------------------------------------------------------------------------*\
+    nearwall: particle-wall interaction for OpenFOAM
+    Copyright (C) 2026 the nearwall authors
+    SPDX-License-Identifier: GPL-3.0-or-later
+\*---------------------------------------------------------------------------*/
+
+#include "runningTotals.H"
+#include "exactText.H"
+#include "versionCompat.H"
+
+Foam::nearWall::runningTotals::runningTotals
+(
+    const wordList& names,
+    const dictionary& saved
+)
+:
+    names_(names),
+    base_(names.size()),
+    added_(names.size(), scalar(0))
+{
+    forAll(names_, i) base_[i] = readExact(saved, names_[i]);
+}
+
+
+Foam::dictionary Foam::nearWall::runningTotals::saved
+(
+    const scalarList& totals
+) const
+{
+    dictionary dict;
+    forAll(names_, i) addExact(dict, names_[i], totals[i]);
+    return dict;
+}
+
+
+Foam::List<Foam::scalarList> Foam::nearWall::runningTotals::totals
+(
+    const UList<runningTotals>& sums
+)
+{
+    DynamicList<scalar> all;
+    forAll(sums, i) all.append(sums[i].added());
+    scalarList added(all);
+    sumOverRanks(added);
+
+    List<scalarList> totals(sums.size());
+    label n = 0;
+    forAll(sums, i)
+    {
+        totals[i] = sums[i].base();
+        forAll(totals[i], j) totals[i][j] += added[n++];
+    }
+    return totals;
+}
