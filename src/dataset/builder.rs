@@ -1,63 +1,63 @@
-//! Puts a file of measurements together, row by row.
+//! Reads a file of measurements, row by row.
 
 use std::io::Read;
 
 use super::column::{Cells, Column, Values};
-use super::column_map::{Bound, ColumnMap};
-use super::impact_velocity::{AngleColumn, Incidence};
+use super::column_map::ColumnMap;
+use super::csv_table::CsvTable;
+use super::impact_velocity::{AngleColumn, ImpactVelocity};
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
-use super::notes::{self, Tally};
-use super::number::is_blank;
+use super::notes::{self, NoteCounts};
+use super::number::{NamedColumns, is_blank};
 use super::observed::{DETAILS, OBSERVATIONS, ObservedColumns};
-use super::table::Table;
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
 
-/// A file that is being read.
-pub(super) struct Builder<'a> {
+/// The state of a file while it is read.
+struct Builder<'a> {
     map: &'a ColumnMap,
     walls: &'a WallChoice<'a>,
-    bound: Bound,
+    named: NamedColumns,
     inputs: InputColumns,
-    incidence: Incidence,
+    velocity: ImpactVelocity,
     observed: ObservedColumns,
-    /// The columns that may be causes, each with its place in a row.
+    /// The possible causes, each with its index in a row.
     causes: Vec<(usize, Cells)>,
     rows: Vec<Measurement>,
     rejected: Vec<BadRow>,
-    tally: Tally,
+    counts: NoteCounts,
 }
 
 impl<'a> Builder<'a> {
-    /// Finds out what the columns mean.
+    /// Assigns the columns.
     ///
     /// # Errors
-    /// [`DatasetError`] for a header in which something is missing or stands twice, and for an undecided wall.
-    pub(super) fn new<R: Read>(
-        table: &Table<R>,
+    /// [`DatasetError`] for a header with a missing or repeated column, and for an undetermined wall.
+    fn new<R: Read>(
+        table: &CsvTable<R>,
         map: &'a ColumnMap,
         walls: &'a WallChoice<'a>,
     ) -> Result<Self, DatasetError> {
         let headers = table.headers();
         let fault = |problem: String| table.header_fault(problem);
-        let bound = map.bind(headers).map_err(fault)?;
-        let inputs = InputColumns::new(|name| bound.column(name));
-        let angle = bound.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
-        let incidence = Incidence::of(&inputs, bound.column("speed"), angle)
+        let named = map.name_columns(headers).map_err(fault)?;
+        let inputs = InputColumns::new(|name| named.column(name));
+        let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
+        let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
             .map_err(|problem| fault(with_columns(&problem, headers)))?;
-        let observed = ObservedColumns::new(&bound, map.words.clone()).ok_or_else(|| {
-            let problem = format!("nothing observed: no column {}", OBSERVATIONS.join(", "));
+        let observed = ObservedColumns::new(&named, map.words.clone()).ok_or_else(|| {
+            let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
             fault(with_columns(&problem, headers))
         })?;
-        walls.check(bound.index("wall").is_some())?;
-        let causes = causes(headers, map, &bound);
-        let (rows, rejected, tally) = Default::default();
-        Ok(Self { map, walls, bound, inputs, incidence, observed, causes, rows, rejected, tally })
+        walls.check(named.index("wall").is_some())?;
+        let causes = causes(headers, map, &named);
+        let (rows, rejected, counts) = Default::default();
+        Ok(Self { map, walls, named, inputs, velocity, observed, causes, rows, rejected, counts })
     }
 
-    /// Takes the next record: its line, or why it is none.
-    pub(super) fn take(&mut self, next: Result<u64, BadRow>, cells: &csv::StringRecord) {
+    /// Adds the next record: its line, or why it cannot be used.
+    fn take(&mut self, next: Result<u64, BadRow>, cells: &csv::StringRecord) {
         let next = next.map_err(|bad| with_lines(bad, cells));
         let row = next.and_then(|line| self.read(line, cells).map_err(|reason| BadRow { line, reason }));
         match row {
@@ -74,9 +74,9 @@ impl<'a> Builder<'a> {
     fn read(&mut self, line: u64, cells: &csv::StringRecord) -> Result<Measurement, String> {
         self.check_quotes(cells)?;
         let (mut impact, mut stated) = self.inputs.read(cells)?;
-        self.incidence.complete(cells, &mut impact, &mut stated)?;
+        self.velocity.complete(cells, &mut impact, &mut stated)?;
         impact.check().map_err(|error| error.to_string())?;
-        let wall = self.bound.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
+        let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
         let wall = self.walls.of(wall).map_err(|error| error.to_string())?;
         let seen = self.observed.read(cells)?;
         let row = Measurement {
@@ -90,11 +90,11 @@ impl<'a> Builder<'a> {
             e_t: seen.e_t,
             captured: seen.captured,
         };
-        self.tally.count(&row, &seen);
+        self.counts.count(&row, &seen);
         Ok(row)
     }
 
-    /// A quotation mark that is never closed makes one cell of the rows that follow.
+    /// Refuses a quoted cell that contains whole rows: its quotation mark is not closed.
     fn check_quotes(&self, cells: &csv::StringRecord) -> Result<(), String> {
         if !cells.as_slice().contains('\n') {
             return Ok(());
@@ -102,22 +102,16 @@ impl<'a> Builder<'a> {
         let separator = char::from(self.map.layout.separator);
         let is_row = |line: &str| line.matches(separator).count() + 1 >= cells.len();
         match cells.iter().any(|cell| cell.lines().skip(1).any(is_row)) {
-            true => {
-                Err("a cell in quotation marks swallows the rows that follow; is one not closed?".to_owned())
-            }
+            true => Err("unterminated quotation mark: a quoted cell contains the following rows".to_owned()),
             false => Ok(()),
         }
     }
 
-    /// Everything that was read from `file`.
+    /// The measurements of `file`.
     ///
     /// # Errors
     /// [`DatasetError::NoRows`].
-    pub(super) fn finish(
-        self,
-        file: &str,
-        headers: &csv::StringRecord,
-    ) -> Result<Measurements, DatasetError> {
+    fn finish(self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
         let read = self.rows.len() + self.rejected.len();
         if read == 0 {
             return Err(DatasetError::NoRows { file: file.to_owned() });
@@ -125,18 +119,18 @@ impl<'a> Builder<'a> {
         let given: Vec<&'static str> =
             INPUTS.iter().map(|input| input.name).filter(|name| self.gives(name)).collect();
         let mut notes = self.header_notes(headers, &given);
-        notes.extend(self.tally.notes(&given, self.rows.len()));
+        notes.extend(self.counts.notes(&given, self.rows.len()));
         let mut columns = Vec::new();
         for (_, cells) in self.causes {
-            let (column, spoilt) = cells.finish(|cell| self.map.parse(cell));
-            let line = spoilt.as_ref().and_then(|spoilt| self.rows.get(spoilt.row)).map(|row| row.line);
-            if let (Some(spoilt), Some(line)) = (spoilt, line) {
+            let (column, invalid) = cells.finish(|cell| self.map.parse(cell));
+            let line = invalid.as_ref().and_then(|invalid| self.rows.get(invalid.row)).map(|row| row.line);
+            if let (Some(invalid), Some(line)) = (invalid, line) {
                 notes.push(format!(
-                    "column `{}` is read as words, for `{}` on line {line} is not a number",
-                    column.name, spoilt.cell
+                    "column `{}` is read as text because `{}` on line {line} is not a number",
+                    column.name, invalid.cell
                 ));
             }
-            if says_something(&column) {
+            if is_possible_cause(&column) {
                 columns.push(column);
             }
         }
@@ -145,30 +139,30 @@ impl<'a> Builder<'a> {
     }
 
     fn gives(&self, input: &str) -> bool {
-        self.inputs.gives(input) || self.incidence.gives(input)
+        self.inputs.gives(input) || self.velocity.gives(input)
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
         let mut notes = Vec::new();
         let observable =
-            OBSERVATIONS.into_iter().chain(DETAILS).filter(|name| self.bound.index(name).is_none());
+            OBSERVATIONS.into_iter().chain(DETAILS).filter(|name| self.named.index(name).is_none());
         let inputs = INPUTS.iter().map(|input| input.name);
         let absent: Vec<&'static str> =
             inputs.filter(|name| !given.contains(name)).chain(observable).collect();
         let unused = self.causes.iter().filter_map(|(index, _)| headers.get(*index));
         for (column, name) in notes::near_misses(unused.clone(), &absent) {
             notes.push(format!(
-                "column `{column}` is only a possible cause; if it is `{name}` in SI units, call it so"
+                "column `{column}` is only a possible cause; rename it if it is the input `{name}` in SI units"
             ));
         }
         for column in unused.filter(|column| ["speed", "angle"].contains(column)) {
             notes.push(format!(
-                "column `{column}` is only a possible cause; a column map can make v_n and v_t of it"
+                "column `{column}` is only a possible cause; a column map can convert it to v_n and v_t"
             ));
         }
         let missing = |name: &&String| !headers.iter().any(|header| header == name.as_str());
         for name in self.map.ignored.iter().chain(&self.map.labels).filter(missing) {
-            notes.push(format!("the column map speaks of a column `{name}`, which is not there"));
+            notes.push(format!("the column map names a column `{name}`, which does not exist"));
         }
         match headers.iter().filter(|header| header.is_empty()).count() {
             0 => {}
@@ -179,9 +173,33 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The columns that may be causes: all without another meaning, and the labels `wall` and `series`.
-fn causes(headers: &csv::StringRecord, map: &ColumnMap, bound: &Bound) -> Vec<(usize, Cells)> {
-    let cause = |(index, header): (usize, &str)| match bound.name_of(index) {
+impl Measurements {
+    /// Reads a whole file; `file` names the source in messages. A row that cannot be used is listed with its reason.
+    ///
+    /// # Errors
+    /// [`DatasetError`] for a source that cannot be read, a header with a missing or repeated column, a file without
+    /// rows, and an undetermined wall.
+    pub fn read(
+        file: &str,
+        source: impl Read,
+        map: Option<&ColumnMap>,
+        walls: &WallChoice<'_>,
+    ) -> Result<Self, DatasetError> {
+        let own = ColumnMap::default();
+        let map = map.unwrap_or(&own);
+        let mut table = CsvTable::open(file, source, map.layout, |name| map.ignores(name))?;
+        let mut builder = Builder::new(&table, map, walls)?;
+        let mut cells = csv::StringRecord::new();
+        while let Some(next) = table.next_into(&mut cells)? {
+            builder.take(next, &cells);
+        }
+        builder.finish(file, table.headers())
+    }
+}
+
+/// The possible causes: all columns without another meaning, and the labels `wall` and `series`.
+fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, Cells)> {
+    let cause = |(index, header): (usize, &str)| match named.name_of(index) {
         Some(name @ ("wall" | "series")) => Some((index, Cells::new(name, true))),
         Some(_) => None,
         None if map.ignores(header) => None,
@@ -190,43 +208,41 @@ fn causes(headers: &csv::StringRecord, map: &ColumnMap, bound: &Bound) -> Vec<(u
     headers.iter().enumerate().filter_map(cause).collect()
 }
 
-/// A `wall` column that names one wall has done its work.
-fn says_something(column: &Column) -> bool {
+/// Whether a column varies in meaning: a `wall` column with a single wall does not.
+fn is_possible_cause(column: &Column) -> bool {
     match &column.values {
-        Values::Words { levels, .. } if column.name == "wall" => levels.len() > 1,
+        Values::Labels { levels, .. } if column.name == "wall" => levels.len() > 1,
         _ => true,
     }
 }
 
-/// A record of the wrong length that runs over several lines has most likely swallowed some.
+/// Explains a record of the wrong length over several lines.
 fn with_lines(bad: BadRow, cells: &csv::StringRecord) -> BadRow {
     match cells.as_slice().matches('\n').count() {
         0 => bad,
         more => {
-            let reason = format!(
-                "{}, and a cell in quotation marks goes on for {more} more lines; is one not closed?",
-                bad.reason
-            );
-            BadRow { reason, ..bad }
+            let cause =
+                format!("a quoted cell continues for {more} more lines: unterminated quotation mark?");
+            BadRow { reason: format!("{}; {cause}", bad.reason), ..bad }
         }
     }
 }
 
-/// Most characters of column names in a message.
+/// Largest number of characters of column names in a message.
 const LONGEST_LIST: usize = 1000;
 
-/// A fault of the header, with what the header has and the remedy.
+/// An error of the header, with its columns and the remedy.
 fn with_columns(problem: &str, headers: &csv::StringRecord) -> String {
     let found = headers.iter().collect::<Vec<_>>().join(", ");
     let separator = found.chars().find(|mark| [';', '\t', '|'].contains(mark)).filter(|_| headers.len() == 1);
     let separator = separator.map_or(String::new(), |mark| {
         let mark = if mark == '\t' { "tab".to_owned() } else { mark.to_string() };
-        format!("; cells are separated by commas unless it says separator = \"{mark}\"")
+        format!(". Cells are separated by commas unless the column map sets separator = \"{mark}\"")
     });
-    // A quotation mark that is not closed makes a header of the whole file.
+    // With an unterminated quotation mark the header is the whole file.
     let found = match found.char_indices().nth(LONGEST_LIST) {
         Some((end, _)) => format!("{} ...", found.get(..end).unwrap_or_default()),
         None => found,
     };
-    format!("{problem}; the columns are: {found}. A column map (--columns) says which is which{separator}")
+    format!("{problem}. The columns are: {found}. A column map (--columns) assigns them{separator}")
 }

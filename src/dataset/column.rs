@@ -1,60 +1,60 @@
-//! Columns that no law asks for: possible causes of what the model does not explain.
+//! Columns that are not inputs of the model: possible causes of its residuals.
 
 use std::collections::HashMap;
 
 use super::number::is_blank;
 
-/// A column that is no input of the model: a possible cause.
+/// A column that is not an input of the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// As it stands in the file; `wall` and `series` by nearwall's name.
+    /// Its name in the file; `wall` and `series` by nearwall's name.
     pub name: String,
     /// One value for each usable row.
     pub values: Values,
 }
 
-/// What stands in a [`Column`].
+/// The cells of a [`Column`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
     /// Numbers in the file's own unit, NaN where the cell is blank.
     Numbers(Vec<f64>),
-    /// Words or labels.
-    Words {
-        /// The different ones, sorted.
+    /// Categories.
+    Labels {
+        /// The different labels, sorted.
         levels: Vec<String>,
-        /// For each row which level it has, `None` where the cell is blank.
+        /// Index of each row's label, `None` where the cell is blank.
         of_row: Vec<Option<usize>>,
     },
 }
 
-/// The cells of a column while the file is read: whether they are numbers is known at the end.
+/// The cells of a column while the file is read; whether all are numbers is known at the end.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
     name: String,
-    /// Whether numbers in it are labels.
-    labels: bool,
-    /// All cells, one after the other: an allocation for each would take longer than reading them.
+    /// Whether its numbers are labels.
+    as_labels: bool,
+    /// All cells, one after the other: an allocation for each cell would be slower than reading it.
     text: String,
     /// Where each cell ends in `text`.
     ends: Vec<usize>,
 }
 
-/// A cell that is no number in a column of numbers.
+/// A cell that is not a number in a column of numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Spoilt {
-    /// Which row it is in, from 0.
+pub(super) struct InvalidCell {
+    /// Its row, from 0.
     pub(super) row: usize,
-    /// What it says.
+    /// Its text.
     pub(super) cell: String,
 }
 
 impl Cells {
     /// An empty column.
-    pub(super) fn new(name: &str, labels: bool) -> Self {
-        Self { name: name.to_owned(), labels, text: String::new(), ends: Vec::new() }
+    pub(super) fn new(name: &str, as_labels: bool) -> Self {
+        Self { name: name.to_owned(), as_labels, text: String::new(), ends: Vec::new() }
     }
 
-    /// Takes the cell of the next row.
+    /// Appends the cell of the next row.
     pub(super) fn push(&mut self, cell: &str) {
         self.text.push_str(if is_blank(cell) { "" } else { cell });
         self.ends.push(self.text.len());
@@ -65,18 +65,17 @@ impl Cells {
         starts.zip(&self.ends).map(|(start, end)| self.text.get(start..*end).unwrap_or(""))
     }
 
-    /// The column, and a cell that made words of it although more than half of the others are numbers; `parse` reads
-    /// one number.
-    pub(super) fn finish(self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<Spoilt>) {
-        let (values, spoilt) = match (!self.labels).then(|| self.numbers(&parse)) {
+    /// The column, and the first cell that is not a number if most are; `parse` reads one number.
+    pub(super) fn finish(self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<InvalidCell>) {
+        let (values, invalid) = match (!self.as_labels).then(|| self.numbers(&parse)) {
             Some(Ok(numbers)) => (Values::Numbers(numbers), None),
-            Some(Err(row)) => (self.words(), self.spoilt(row, &parse)),
-            None => (self.words(), None),
+            Some(Err(row)) => (self.labels(), self.invalid(row, &parse)),
+            None => (self.labels(), None),
         };
-        (Column { name: self.name, values }, spoilt)
+        (Column { name: self.name, values }, invalid)
     }
 
-    /// All cells as numbers, or the first row where that is impossible. A column of blanks is not one of numbers.
+    /// All cells as numbers, or the first row that is not a number; a column of blanks has no numbers.
     fn numbers(&self, parse: &impl Fn(&str) -> Option<f64>) -> Result<Vec<f64>, usize> {
         if self.text.is_empty() {
             return Err(0);
@@ -88,15 +87,15 @@ impl Cells {
         self.cells().enumerate().map(number).collect()
     }
 
-    fn spoilt(&self, row: usize, parse: &impl Fn(&str) -> Option<f64>) -> Option<Spoilt> {
+    fn invalid(&self, row: usize, parse: &impl Fn(&str) -> Option<f64>) -> Option<InvalidCell> {
         let filled = self.cells().filter(|cell| !cell.is_empty());
         let (numbers, all) = filled
             .fold((0, 0), |(numbers, all), cell| (numbers + usize::from(parse(cell).is_some()), all + 1));
         let cell = self.cells().nth(row)?.to_owned();
-        (2 * numbers > all).then_some(Spoilt { row, cell })
+        (2 * numbers > all).then_some(InvalidCell { row, cell })
     }
 
-    fn words(&self) -> Values {
+    fn labels(&self) -> Values {
         let mut place: HashMap<&str, usize> =
             self.cells().filter(|cell| !cell.is_empty()).map(|cell| (cell, 0)).collect();
         let mut levels: Vec<&str> = place.keys().copied().collect();
@@ -105,7 +104,7 @@ impl Cells {
             place.insert(level, index);
         }
         let of_row = self.cells().map(|cell| place.get(cell).copied()).collect();
-        Values::Words { levels: levels.into_iter().map(str::to_owned).collect(), of_row }
+        Values::Labels { levels: levels.into_iter().map(str::to_owned).collect(), of_row }
     }
 }
 
@@ -114,7 +113,7 @@ impl Column {
     pub(super) fn at(&self, rows: &[usize]) -> Self {
         let values = match &self.values {
             Values::Numbers(numbers) => Values::Numbers(rows.iter().map(|&row| numbers[row]).collect()),
-            Values::Words { levels, of_row } => Values::Words {
+            Values::Labels { levels, of_row } => Values::Labels {
                 levels: levels.clone(),
                 of_row: rows.iter().map(|&row| of_row[row]).collect(),
             },
@@ -127,15 +126,15 @@ impl Column {
 mod tests {
     use super::*;
 
-    fn finish(cells: &[&str], labels: bool) -> (Values, Option<Spoilt>) {
+    fn finish(cells: &[&str], labels: bool) -> (Values, Option<InvalidCell>) {
         let mut column = Cells::new("c", labels);
         cells.iter().for_each(|cell| column.push(cell));
-        let (column, spoilt) = column.finish(|cell| cell.parse().ok().filter(|n: &f64| n.is_finite()));
-        (column.values, spoilt)
+        let (column, invalid) = column.finish(|cell| cell.parse().ok().filter(|n: &f64| n.is_finite()));
+        (column.values, invalid)
     }
 
     fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {
-        Values::Words { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
+        Values::Labels { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
     }
 
     #[test]
@@ -148,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn words_are_sorted_and_kept_as_written() {
+    fn labels_are_sorted_and_kept_as_written() {
         let expected = words(&["1.0", "Ann", "Bob"], &[Some(2), None, Some(1), Some(0), Some(2)]);
         assert_eq!(finish(&["Bob", "", "Ann", "1.0", "Bob"], false), (expected, None));
         assert_eq!(finish(&["01", "1"], true).0, words(&["01", "1"], &[Some(0), Some(1)]));
@@ -157,8 +156,8 @@ mod tests {
     }
 
     #[test]
-    fn a_cell_that_spoils_a_column_of_numbers_is_named() {
-        let (_, spoilt) = finish(&["1", "2", "<0.1", "4", "inf"], false);
-        assert_eq!(spoilt, Some(Spoilt { row: 2, cell: "<0.1".to_owned() }));
+    fn the_cell_that_makes_labels_of_numbers_is_returned() {
+        let (_, invalid) = finish(&["1", "2", "<0.1", "4", "inf"], false);
+        assert_eq!(invalid, Some(InvalidCell { row: 2, cell: "<0.1".to_owned() }));
     }
 }

@@ -1,15 +1,15 @@
-//! What the columns of a laboratory's own file mean: names, units, words and separators, from a small TOML file.
+//! The column map: names, units, words and separators of a laboratory's own file, from a TOML file.
 
 use std::path::Path;
 
-use super::impact_velocity::{AngleFrom, too_much};
-use super::number::{NumberColumn, NumberStyle};
+use super::csv_table::Layout;
+use super::impact_velocity::{AngleFrom, over_determined};
+use super::number::{NamedColumns, NumberColumn, NumberStyle};
 use super::observed::OutcomeWords;
-use super::table::Layout;
-use super::unit::{Quantity, Unit, names};
+use super::unit::{Dimension, Unit, names};
 use crate::input::{Document, InputError, Section, unknown};
 
-/// A file of impacts as its laboratory writes it. The default is nearwall's own: names as in [`INPUTS`], SI, commas.
+/// The format of a file of impacts. The default is nearwall's own: names as in [`INPUTS`], SI units, commas.
 ///
 /// [`INPUTS`]: crate::impact::INPUTS
 #[derive(Debug, Clone, Default)]
@@ -18,7 +18,7 @@ pub struct ColumnMap {
     pub(super) layout: Layout,
     pub(super) style: NumberStyle,
     pub(super) words: OutcomeWords,
-    /// Of the column `angle`.
+    /// The origin of the column `angle`.
     pub(super) from: Option<AngleFrom>,
     sources: Vec<Source>,
     pub(super) ignored: Vec<String>,
@@ -33,12 +33,7 @@ struct Source {
     unit: Unit,
 }
 
-/// The columns of one file that have a meaning.
-pub(super) struct Bound {
-    columns: Vec<NumberColumn>,
-}
-
-/// The last line on which a header may stand: what is before it is a preamble, not the data.
+/// Largest line number of a header.
 const LAST_HEADER_LINE: f64 = 10_000.0;
 
 impl ColumnMap {
@@ -50,7 +45,7 @@ impl ColumnMap {
         Self::from_document(&Document::from_file(path)?)
     }
 
-    /// Reads a column map from TOML text; `name` stands for the file in messages.
+    /// Reads a column map from TOML text; `name` names the file in messages.
     ///
     /// # Errors
     /// [`InputError`] naming line, column and key.
@@ -66,11 +61,11 @@ impl ColumnMap {
             map.ignored = read_names(top, "ignore")?;
             map.labels = read_names(top, "labels")?;
             if let Some(columns) = top.section("columns")? {
-                for (name, quantity) in names() {
-                    map.read_source(&columns, name, quantity)?;
+                for (name, dimension) in names() {
+                    map.read_source(&columns, name, dimension)?;
                 }
                 columns.finish()?;
-                if let Some(problem) = too_much(|key| map.source(key).is_some()) {
+                if let Some(problem) = over_determined(|key| map.source(key).is_some()) {
                     return Err(top.fault("columns", problem));
                 }
             }
@@ -78,12 +73,12 @@ impl ColumnMap {
         })
     }
 
-    /// Reads what the map says of one name, if anything.
+    /// Reads the map's entry of one name, if any.
     fn read_source(
         &mut self,
         columns: &Section<'_>,
         name: &'static str,
-        quantity: Quantity,
+        dimension: Dimension,
     ) -> Result<(), InputError> {
         if !columns.has(name) {
             return Ok(());
@@ -91,8 +86,8 @@ impl ColumnMap {
         let (column, unit) = if columns.is_section(name) {
             let details = columns.required_section(name)?;
             let column = details.required_text("column")?;
-            let unit = read_unit(&details, quantity)?;
-            if quantity == Quantity::Angle {
+            let unit = read_unit(&details, dimension)?;
+            if dimension == Dimension::Angle {
                 self.from = Some(read_from(&details)?);
             }
             if name == "outcome" {
@@ -103,17 +98,18 @@ impl ColumnMap {
         } else {
             (columns.required_text(name)?, Unit::SI)
         };
-        if quantity == Quantity::Angle && self.from.is_none() {
-            return Err(
-                columns.fault(name, format!("say its unit and what it is measured from: {ANGLE_EXAMPLE}"))
-            );
+        if dimension == Dimension::Angle && self.from.is_none() {
+            return Err(columns.fault(name, format!("state its unit and its origin: {ANGLE_EXAMPLE}")));
         }
         let column = column.trim().to_owned();
         if let Some(other) = self.sources.iter().find(|other| other.column == column) {
-            return Err(columns.fault(name, format!("column `{column}` is {} already", other.name)));
+            return Err(columns.fault(name, format!("column `{column}` is already used for {}", other.name)));
         }
         if self.ignored.contains(&column) {
-            return Err(columns.fault(name, format!("column `{column}` stands under [ignore] too; keep one")));
+            return Err(columns.fault(
+                name,
+                format!("column `{column}` is also listed under [ignore]; remove one of the two"),
+            ));
         }
         self.sources.push(Source { name, column, unit });
         Ok(())
@@ -123,21 +119,21 @@ impl ColumnMap {
         self.sources.iter().find(|source| source.name == name)
     }
 
-    /// Whether no name and no cause is to come from this column.
+    /// Whether this column is not used at all.
     pub(super) fn ignores(&self, column: &str) -> bool {
         column.is_empty() || self.ignored.iter().any(|ignored| ignored == column)
     }
 
-    /// Finds the columns that have a meaning among `headers`.
+    /// Finds the columns that the map names among `headers`.
     ///
     /// # Errors
-    /// The reason, where a column of the map is not there or a name stands for two columns.
-    pub(super) fn bind(&self, headers: &csv::StringRecord) -> Result<Bound, String> {
-        let columns = names().map(|(name, _)| self.bind_name(name, headers));
-        Ok(Bound { columns: columns.filter_map(Result::transpose).collect::<Result<_, _>>()? })
+    /// The reason, if a column of the map is missing or a name has two columns.
+    pub(super) fn name_columns(&self, headers: &csv::StringRecord) -> Result<NamedColumns, String> {
+        let columns = names().map(|(name, _)| self.name_column(name, headers));
+        Ok(NamedColumns { columns: columns.filter_map(Result::transpose).collect::<Result<_, _>>()? })
     }
 
-    fn bind_name(
+    fn name_column(
         &self,
         name: &'static str,
         headers: &csv::StringRecord,
@@ -151,8 +147,7 @@ impl ColumnMap {
             (None, None) => Ok(None),
             (None, Some(index)) => found(index, Unit::SI),
             (Some(source), Some(_)) => Err(format!(
-                "{} takes {name} from column `{}`, but there is a column `{name}` too; \
-                 put that one under [ignore] or use it",
+                "{} reads {name} from column `{}`, but a column `{name}` exists too; list it under [ignore] or use it",
                 self.file, source.column
             )),
             (Some(source), None) => match place(&source.column) {
@@ -165,51 +160,34 @@ impl ColumnMap {
     fn absent(&self, source: &Source, headers: &csv::StringRecord) -> String {
         let known: Vec<&str> = headers.iter().filter(|header| !header.is_empty()).collect();
         let problem = unknown(&source.column, "column", &known);
-        format!("{} takes {} from a column that is not there: {problem}", self.file, source.name)
+        format!("{} reads {} from a missing column: {problem}", self.file, source.name)
     }
 
-    /// How numbers are written. In measured data, markers of missing values are blanks.
+    /// The notation of numbers. In measured data, markers of missing values are blanks.
     fn style(&self) -> NumberStyle {
         NumberStyle { markers: true, ..self.style }
     }
 
-    /// Parses a number of a column that has no meaning.
+    /// Parses a number of a possible cause.
     pub(super) fn parse(&self, cell: &str) -> Option<f64> {
         self.style.parse(cell).filter(|number| number.is_finite())
     }
 }
 
-impl Bound {
-    /// The column of this name.
-    pub(super) fn column(&self, name: &str) -> Option<NumberColumn> {
-        self.columns.iter().find(|column| column.name == name).copied()
-    }
-
-    /// The cell of a row under this name.
-    pub(super) fn index(&self, name: &str) -> Option<usize> {
-        self.column(name).map(|column| column.index)
-    }
-
-    /// What the column with this index is called.
-    pub(super) fn name_of(&self, index: usize) -> Option<&'static str> {
-        self.columns.iter().find(|column| column.index == index).map(|column| column.name)
-    }
-}
-
-/// How an angle is written.
+/// An example of an angle's entry.
 const ANGLE_EXAMPLE: &str = r#"angle = { column = "...", unit = "deg", from = "surface" } (0 is glancing) or from = "normal" (0 is head-on)"#;
 
-fn read_unit(details: &Section<'_>, quantity: Quantity) -> Result<Unit, InputError> {
-    let units = quantity.units();
+fn read_unit(details: &Section<'_>, dimension: Dimension) -> Result<Unit, InputError> {
+    let units = dimension.units();
     if units.is_empty() {
         return Ok(Unit::SI);
     }
     match details.text("unit")? {
-        Some(word) => quantity.unit(&word).ok_or_else(|| {
+        Some(word) => dimension.unit(&word).ok_or_else(|| {
             let known: Vec<&str> = units.iter().map(|unit| unit.name).collect();
             details.fault("unit", unknown(&word, "unit", &known))
         }),
-        None if quantity == Quantity::Angle => Err(details.missing("unit", "\"deg\" or \"rad\"")),
+        None if dimension == Dimension::Angle => Err(details.missing("unit", "\"deg\" or \"rad\"")),
         None => Ok(Unit::SI),
     }
 }
@@ -249,12 +227,12 @@ fn read_layout(top: &Section<'_>) -> Result<Layout, InputError> {
         Some("") => None,
         Some(word) => match word.as_bytes() {
             &[mark] if mark.is_ascii_punctuation() && mark != separator && mark != b'"' => Some(mark),
-            _ => return Err(top.fault("comment", "has to be one mark such as \"%\", or \"\" for none")),
+            _ => return Err(top.fault("comment", "must be one mark such as \"%\", or \"\" for none")),
         },
     };
     let header_line = top.number_within("header_line", 1.0, LAST_HEADER_LINE)?.unwrap_or(1.0);
     if header_line.fract() != 0.0 {
-        return Err(top.fault("header_line", "has to be a whole number"));
+        return Err(top.fault("header_line", "must be a whole number"));
     }
     Ok(Layout { separator, comment, header_line: header_line as u64 })
 }
@@ -279,8 +257,11 @@ mod tests {
         assert!(
             fault("[columns]\noutcome = { column = \"a\", unit = \"1\" }\n").contains("unknown key `unit`")
         );
-        assert!(fault("[columns]\nd = \"a\"\nv_n = \"a\"\n").contains("column `a` is v_n already"));
-        assert!(fault("[columns]\nd = \"a\"\n[ignore]\ncolumns = [\"a\"]\n").contains("[ignore] too"));
+        assert!(fault("[columns]\nd = \"a\"\nv_n = \"a\"\n").contains("column `a` is already used for v_n"));
+        assert!(
+            fault("[columns]\nd = \"a\"\n[ignore]\ncolumns = [\"a\"]\n")
+                .contains("also listed under [ignore]")
+        );
         assert!(fault("[ignore]\ncolumns = \"a\"\n").contains("a list of texts"));
         assert!(fault("[ignore]\n").contains("ignore.columns: missing"));
         assert!(fault("separator = \"and\"\n").contains("unknown separator"));
@@ -292,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn an_angle_says_its_unit_and_its_origin() {
+    fn an_angle_needs_unit_and_origin() {
         let angle = |rest: &str| fault(&format!("[columns]\nspeed = \"V\"\nangle = {rest}\n"));
         for rest in [
             "\"theta\"",
@@ -312,7 +293,7 @@ mod tests {
     fn too_many_speeds_are_named() {
         let angle = "angle = { column = \"t\", unit = \"deg\", from = \"normal\" }\n";
         let message = fault(&format!("[columns]\nv_n = \"a\"\nspeed = \"b\"\n{angle}"));
-        assert!(message.contains("v_n, speed, angle together say too much"), "{message}");
-        assert!(fault("[columns]\nv_n = \"a\"\nspeed = \"b\"\n").contains("v_n, speed together"));
+        assert!(message.contains("v_n, speed, angle over-determine the velocity"), "{message}");
+        assert!(fault("[columns]\nv_n = \"a\"\nspeed = \"b\"\n").contains("v_n, speed over-determine"));
     }
 }

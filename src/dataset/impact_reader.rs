@@ -2,10 +2,10 @@
 
 use std::io::Read;
 
+use super::csv_table::{CsvTable, Layout};
 use super::inputs::InputColumns;
 use super::notes;
 use super::number::{NumberColumn, NumberStyle};
-use super::table::{Layout, Table};
 use super::unit::Unit;
 use super::{BadRow, DatasetError};
 use crate::impact::{INPUTS, Impact};
@@ -15,7 +15,7 @@ use crate::impact::{INPUTS, Impact};
 pub struct Row {
     /// Line in the file, counted from 1.
     pub line: u64,
-    /// Every cell as it stands.
+    /// Every cell as written.
     pub cells: csv::StringRecord,
     /// The impact that the cells describe.
     pub impact: Impact,
@@ -23,17 +23,17 @@ pub struct Row {
 
 /// Reads impacts from CSV text.
 pub struct ImpactReader<R> {
-    table: Table<R>,
+    table: CsvTable<R>,
     inputs: InputColumns,
 }
 
 impl<R: Read> ImpactReader<R> {
-    /// Reads the header; `file` stands for the source in messages. Lines that begin with `#` are comments.
+    /// Reads the header; `file` names the source in messages. Lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// [`DatasetError`] for a source that cannot be read, a missing `v_n` or a column that stands there twice.
+    /// [`DatasetError`] for a source that cannot be read, a missing `v_n` or a repeated column.
     pub fn new(file: &str, source: R) -> Result<Self, DatasetError> {
-        let table = Table::open(file, source, Layout::default(), |_| false)?;
+        let table = CsvTable::open(file, source, Layout::default(), |_| false)?;
         let inputs = InputColumns::new(|name| {
             let index = table.column(name)?;
             Some(NumberColumn { name, index, unit: Unit::SI, style: NumberStyle::default() })
@@ -54,12 +54,12 @@ impl<R: Read> ImpactReader<R> {
         self.table.column(name)
     }
 
-    /// The inputs that no column gives.
+    /// The inputs without a column.
     pub fn absent(&self) -> Vec<&'static str> {
         INPUTS.iter().map(|input| input.name).filter(|name| !self.inputs.gives(name)).collect()
     }
 
-    /// Columns that are not used but look like an input that is absent, each with that input's name.
+    /// Unused columns whose name resembles an absent input, each with that input's name.
     pub fn near_misses(&self) -> Vec<(&str, &'static str)> {
         notes::near_misses(self.headers().iter(), &self.absent())
     }
@@ -85,13 +85,13 @@ impl<R: Read> ImpactReader<R> {
 fn no_normal_speed(headers: &csv::StringRecord) -> String {
     let found = headers.iter().collect::<Vec<_>>().join(", ");
     let separator = if headers.len() == 1 && found.contains([';', '\t']) {
-        " Cells have to be separated by commas."
+        " Cells must be separated by commas."
     } else {
         ""
     };
     format!(
-        "no column `v_n` (speed towards the wall, m/s); the columns are: {found}. \
-         Rename the one that holds it.{separator}"
+        "there is no column `v_n` (normal speed, m/s). The columns are: {found}. Rename the column of the normal \
+         speed.{separator}"
     )
 }
 
@@ -125,13 +125,13 @@ mod tests {
         let text = "# a comment\nv_n,d\n1,1e-4\nfast,1e-4\n1,-2\n1\n,1e-4\nnan,1e-4\n";
         let (rows, bad) = read(text);
         assert_eq!(rows.len(), 1);
-        let said: Vec<String> = bad.iter().map(|b| format!("{}: {}", b.line, b.reason)).collect();
+        let reasons: Vec<String> = bad.iter().map(|b| format!("{}: {}", b.line, b.reason)).collect();
         assert_eq!(
-            said,
+            reasons,
             [
                 "4: v_n `fast` is not a number",
                 "5: d = -2: must be positive and finite",
-                "6: 1 cells under 2 columns",
+                "6: the row has 1 cells, the header 2",
                 "7: v_n is blank",
                 "8: v_n = NaN: must be finite and not negative",
             ]
@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_that_look_like_inputs_are_named() {
+    fn columns_that_resemble_inputs_are_named() {
         let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t [m/s],operator\n".as_bytes()).unwrap();
         assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t [m/s]", "v_t")]);
     }

@@ -1,10 +1,10 @@
-//! How the two speeds of an impact follow from what was measured: speeds, or one speed and an angle.
+//! The normal and tangential speed of an impact, from two speeds or from one speed and an angle.
 
 use super::inputs::{InputColumns, Stated, position};
 use super::number::NumberColumn;
 use crate::impact::Impact;
 
-/// What an angle is measured from.
+/// The origin of an angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AngleFrom {
     /// 0° is glancing.
@@ -14,7 +14,7 @@ pub(super) enum AngleFrom {
 }
 
 impl AngleFrom {
-    /// Words of a column map.
+    /// The words of a column map.
     pub(super) const WORDS: [&str; 2] = ["surface", "normal"];
 
     /// The meaning of one of [`Self::WORDS`].
@@ -23,13 +23,13 @@ impl AngleFrom {
     }
 }
 
-/// Path of a particle against the wall.
+/// Direction of the impact.
 #[derive(Debug, Clone, Copy)]
 struct Slope {
     /// Sine of the angle from the surface [1].
-    towards: f64,
+    normal: f64,
     /// Sine of the angle from the normal [1].
-    along: f64,
+    tangential: f64,
 }
 
 /// A column of angles.
@@ -42,7 +42,7 @@ pub(super) struct AngleColumn {
 }
 
 impl AngleColumn {
-    /// Angles this much above 90° [°] are 90°: 1.5708 rad is a right angle that somebody rounded.
+    /// Excess over 90° [°] that is taken for rounding, as in 1.5708 rad.
     const SLACK: f64 = 0.06;
 
     fn read(&self, cells: &csv::StringRecord) -> Result<Option<Slope>, String> {
@@ -51,21 +51,21 @@ impl AngleColumn {
             return Err(format!("angle = {angle}°: must be between 0° and 90°"));
         }
         let angle = angle.min(90.0);
-        // Sines of both, since the cosine of 90° is not exactly 0.
+        // Sines of both angles: the cosine of 90° is not exactly 0.
         let (near, far) = (angle.to_radians().sin(), (90.0 - angle).to_radians().sin());
         Ok(Some(match self.from {
-            AngleFrom::Surface => Slope { towards: near, along: far },
-            AngleFrom::Normal => Slope { towards: far, along: near },
+            AngleFrom::Surface => Slope { normal: near, tangential: far },
+            AngleFrom::Normal => Slope { normal: far, tangential: near },
         }))
     }
 }
 
-/// Where `v_n` and `v_t` come from.
+/// The columns that determine `v_n` and `v_t`.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Incidence {
+pub(super) enum ImpactVelocity {
     /// Both from their columns.
     Speeds,
-    /// From the whole speed and the angle.
+    /// From the magnitude of the velocity and the angle.
     SpeedAndAngle(NumberColumn, AngleColumn),
     /// `v_t` from `v_n` and the angle.
     NormalAndAngle(AngleColumn),
@@ -73,36 +73,33 @@ pub(super) enum Incidence {
     TangentialAndAngle(AngleColumn),
 }
 
-/// What says how fast and how steep, and which sets of them do.
+/// The columns that may determine the velocity.
 pub(super) const KEYS: [&str; 4] = ["v_n", "v_t", "speed", "angle"];
 
-/// Which of [`KEYS`] are enough; more is too much.
-const ENOUGH: &str = "v_n, or v_n and v_t, or angle with one of speed, v_n and v_t";
+/// The sufficient sets of [`KEYS`].
+const SUFFICIENT: &str = "v_n, or v_n and v_t, or angle with one of speed, v_n and v_t";
 
-/// Why keys say too much, or `None` if they do not; `has` says which of [`KEYS`] there are.
-pub(super) fn too_much(has: impl Fn(&str) -> bool) -> Option<String> {
+/// The error if the keys over-determine the velocity; `has` tells which of [`KEYS`] are given.
+pub(super) fn over_determined(has: impl Fn(&str) -> bool) -> Option<String> {
     let given: Vec<&str> = KEYS.into_iter().filter(|key| has(key)).collect();
     let contradicts = given.len() > 2 || (has("speed") && (has("v_n") || has("v_t")));
-    contradicts.then(|| format!("{} together say too much; keep {ENOUGH}", given.join(", ")))
+    contradicts.then(|| format!("{} over-determine the velocity; keep {SUFFICIENT}", given.join(", ")))
 }
 
-/// Why there is no speed towards the wall; `has` says which of [`KEYS`] there are.
-fn too_little(has: impl Fn(&str) -> bool) -> String {
+/// The error if the keys under-determine the velocity; `has` tells which of [`KEYS`] are given.
+fn under_determined(has: impl Fn(&str) -> bool) -> String {
     let given: Vec<&str> = KEYS.into_iter().filter(|key| has(key)).collect();
     if given.is_empty() {
-        return "no column `v_n` (speed towards the wall, m/s)".to_owned();
+        return "there is no column `v_n` (normal speed, m/s)".to_owned();
     }
-    format!(
-        "{} alone does not say how fast the particle comes towards the wall; give {ENOUGH}",
-        given.join(", ")
-    )
+    format!("{} alone does not determine the normal speed; give {SUFFICIENT}", given.join(", "))
 }
 
-impl Incidence {
-    /// What follows from the columns there are.
+impl ImpactVelocity {
+    /// The velocity that the given columns determine.
     ///
     /// # Errors
-    /// The reason, where they say too much or too little.
+    /// The reason, if they over- or under-determine it.
     pub(super) fn of(
         inputs: &InputColumns,
         speed: Option<NumberColumn>,
@@ -113,7 +110,7 @@ impl Incidence {
             "angle" => angle.is_some(),
             input => inputs.gives(input),
         };
-        if let Some(problem) = too_much(has) {
+        if let Some(problem) = over_determined(has) {
             return Err(problem);
         }
         match (angle, speed) {
@@ -121,11 +118,11 @@ impl Incidence {
             (Some(angle), None) if has("v_n") => Ok(Self::NormalAndAngle(angle)),
             (Some(angle), None) if has("v_t") => Ok(Self::TangentialAndAngle(angle)),
             (None, None) if has("v_n") => Ok(Self::Speeds),
-            _ => Err(too_little(has)),
+            _ => Err(under_determined(has)),
         }
     }
 
-    /// Whether a row can state this input although no column has its name.
+    /// Whether this input is computed.
     pub(super) fn gives(&self, name: &str) -> bool {
         match self {
             Self::Speeds => false,
@@ -133,10 +130,10 @@ impl Incidence {
         }
     }
 
-    /// Sets what follows from the angle.
+    /// Sets the speeds that follow from the angle.
     ///
     /// # Errors
-    /// The reason, where a cell is no number or the wanted speed does not follow.
+    /// The reason, if a cell is not a number or the angle does not determine the speed.
     pub(super) fn complete(
         &self,
         cells: &csv::StringRecord,
@@ -151,20 +148,22 @@ impl Incidence {
                     return Err("speed is negative".to_owned());
                 }
                 let slope = angle.read(cells)?.ok_or("angle is blank")?;
-                impact.normal_speed = speed * slope.towards;
-                impact.tangential_speed = speed * slope.along;
+                impact.normal_speed = speed * slope.normal;
+                impact.tangential_speed = speed * slope.tangential;
             }
             Self::NormalAndAngle(angle) => {
-                // Blank is the default of v_t, as in a column of its own.
+                // A blank angle means the default of v_t, as a blank v_t does.
                 let Some(slope) = angle.read(cells)? else { return Ok(()) };
-                impact.tangential_speed = follows(impact.normal_speed, slope.along, slope.towards, "v_n")?;
+                impact.tangential_speed =
+                    other_speed(impact.normal_speed, slope.tangential, slope.normal, "v_n")?;
             }
             Self::TangentialAndAngle(angle) => {
                 if !stated[position("v_t")] {
-                    return Err("v_t is blank, and v_n follows from it".to_owned());
+                    return Err("v_t is blank, but v_n is computed from it".to_owned());
                 }
                 let slope = angle.read(cells)?.ok_or("angle is blank")?;
-                impact.normal_speed = follows(impact.tangential_speed, slope.towards, slope.along, "v_t")?;
+                impact.normal_speed =
+                    other_speed(impact.tangential_speed, slope.normal, slope.tangential, "v_t")?;
             }
         }
         stated[position("v_n")] = true;
@@ -173,12 +172,10 @@ impl Incidence {
     }
 }
 
-/// The one speed [m/s] from the other; both sines [1].
-fn follows(other: f64, wanted: f64, given: f64, name: &str) -> Result<f64, String> {
+/// The wanted speed [m/s] from the given one; both sines [1].
+fn other_speed(known: f64, wanted: f64, given: f64, name: &str) -> Result<f64, String> {
     if given == 0.0 {
-        return Err(format!(
-            "the angle leaves no part of the speed to {name}, so the other part does not follow"
-        ));
+        return Err(format!("{name} is 0 at this angle and does not determine the other speed"));
     }
-    Ok(other * wanted / given)
+    Ok(known * wanted / given)
 }

@@ -3,26 +3,26 @@
 use super::number::NumberColumn;
 use crate::impact::{INPUTS, Impact};
 
-/// For each of [`INPUTS`] the column that gives it.
+/// The column of each of [`INPUTS`].
 pub(super) struct InputColumns {
     columns: [Option<NumberColumn>; INPUTS.len()],
 }
 
-/// For each of [`INPUTS`] whether a row states it.
+/// Whether a row states each of [`INPUTS`].
 pub(super) type Stated = [bool; INPUTS.len()];
 
-/// Which of [`INPUTS`] has this name; beyond the last for a name that is none.
+/// The index of the input of this name; that beyond the last one if there is none.
 pub(super) fn position(name: &str) -> usize {
     INPUTS.iter().position(|input| input.name == name).unwrap_or(INPUTS.len())
 }
 
 impl InputColumns {
-    /// Asks for the column of each name.
+    /// Looks up the column of each input.
     pub(super) fn new(column: impl Fn(&'static str) -> Option<NumberColumn>) -> Self {
         Self { columns: std::array::from_fn(|input: usize| column(INPUTS[input].name)) }
     }
 
-    /// Whether a column gives this input.
+    /// Whether this input has a column.
     pub(super) fn gives(&self, name: &str) -> bool {
         self.columns.get(position(name)).is_some_and(Option::is_some)
     }
@@ -30,7 +30,7 @@ impl InputColumns {
     /// Reads a row's inputs; blank ones keep their default. The impact is not checked yet.
     ///
     /// # Errors
-    /// The reason, for a cell that is no number or a blank `v_n`.
+    /// The reason, for a cell that is not a number or a blank `v_n`.
     pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<(Impact, Stated), String> {
         let mut impact = Impact::default();
         let mut stated = Stated::default();

@@ -1,19 +1,19 @@
-//! Every line of a text ends with a line feed, whichever system wrote it.
+//! Converts the line ends of any system to line feeds.
 
 use std::io::Read;
 
-/// Passes a text on with each line end (CR LF, CR, LF) as one line feed, so that the number of line feeds read says on
-/// which line a record stands. [`Self::EXTRA`] line feeds follow its end: the first closes the last line, and whoever
-/// reads the second within a record has met a quotation mark that is not closed.
+/// A text with each line end (CR LF, CR, LF) as one line feed, so that the number of line feeds gives the line of a
+/// record. [`Self::EXTRA`] line feeds follow the end: the first ends the last line; a record that contains the second has
+/// an unterminated quotation mark.
 pub(super) struct Lines<R> {
     source: R,
-    /// Lines that are still to be left out at the beginning.
+    /// Lines still to be skipped at the beginning.
     skip: u64,
-    /// Whether the last byte was a carriage return, whose line feed may follow.
+    /// Whether the last byte was a carriage return.
     after_return: bool,
-    /// Line feeds that still follow the end.
+    /// Line feeds still to follow the end.
     extra: u8,
-    /// Bytes passed on.
+    /// Number of bytes returned.
     passed: u64,
 }
 
@@ -21,17 +21,17 @@ impl<R> Lines<R> {
     /// Line feeds after the end.
     const EXTRA: u8 = 2;
 
-    /// Leaves out the first `skip` lines.
+    /// Skips the first `skip` lines.
     pub(super) fn new(source: R, skip: u64) -> Self {
         Self { source, skip, after_return: false, extra: Self::EXTRA, passed: 0 }
     }
 
-    /// Whether the text ends with this many bytes passed on.
+    /// Whether the text has ended after this many bytes.
     pub(super) fn ends_at(&self, bytes: u64) -> bool {
         self.extra == 0 && self.passed == bytes
     }
 
-    /// Rewrites the bytes in place; returns how many are left.
+    /// Rewrites the bytes in place; returns the number that is left.
     fn rewrite(&mut self, bytes: &mut [u8]) -> usize {
         if self.skip == 0 && !self.after_return && !bytes.contains(&b'\r') {
             return bytes.len();
@@ -59,7 +59,7 @@ impl<R> Lines<R> {
 impl<R: Read> Read for Lines<R> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
         while self.extra > 0 && !buffer.is_empty() {
-            // Once it has ended, the source is not asked again.
+            // After its end the source is not read again.
             let size = if self.extra < Self::EXTRA { 0 } else { self.source.read(buffer)? };
             if size == 0 {
                 self.extra -= 1;
@@ -68,7 +68,7 @@ impl<R: Read> Read for Lines<R> {
                 return Ok(1);
             }
             let kept = self.rewrite(&mut buffer[..size]);
-            // None kept does not mean the end, which is what 0 would say.
+            // Returning 0 would mean the end.
             if kept > 0 {
                 self.passed += kept as u64;
                 return Ok(kept);
@@ -82,7 +82,7 @@ impl<R: Read> Read for Lines<R> {
 mod tests {
     use super::*;
 
-    /// Gives one byte at a time: every pair of bytes is torn apart.
+    /// Returns one byte at a time.
     struct Trickle<'a>(&'a [u8]);
 
     impl Read for Trickle<'_> {
@@ -100,11 +100,11 @@ mod tests {
         for skip in [0, 2] {
             let mut whole = String::new();
             Lines::new(mixed.as_slice(), skip).read_to_string(&mut whole).unwrap();
-            let mut torn = String::new();
-            Lines::new(Trickle(mixed), skip).read_to_string(&mut torn).unwrap();
+            let mut bytewise = String::new();
+            Lines::new(Trickle(mixed), skip).read_to_string(&mut bytewise).unwrap();
             let expected = "a\nb\nc\n\nd\n\n";
             assert_eq!(whole, expected[2 * skip as usize..]);
-            assert_eq!(torn, whole);
+            assert_eq!(bytewise, whole);
         }
     }
 }

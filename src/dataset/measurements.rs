@@ -1,35 +1,30 @@
-//! Measured impacts from any laboratory's file, with every column that may be a cause.
+//! Measured impacts with every column that may be a cause.
 
-use std::io::Read;
-
-use super::builder::Builder;
+use super::BadRow;
 use super::column::Column;
-use super::column_map::ColumnMap;
 use super::observed::Reading;
-use super::table::Table;
-use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::{INPUTS, Impact};
 
-/// Everything read from a file of measured impacts.
+/// The content of a file of measured impacts.
 #[derive(Debug, Clone)]
 pub struct Measurements {
-    /// The file's name as the user gave it.
+    /// The name of the file.
     pub file: String,
-    /// The rows that can be used, in the order of the file. All may have been rejected.
+    /// The usable rows, in the order of the file; possibly none.
     pub rows: Vec<Measurement>,
-    /// The columns that are no inputs, in the order of the file.
+    /// The columns that are not inputs, in the order of the file.
     pub columns: Vec<Column>,
-    /// The inputs that a column gives, or two columns together.
+    /// The inputs that a column states, or two columns together.
     pub given: Vec<&'static str>,
-    /// How many rows were read: those that can be used and those that cannot.
+    /// Number of usable and rejected rows.
     pub read: usize,
-    /// The rows that cannot be used, with the reason.
+    /// The rejected rows, with the reason.
     pub rejected: Vec<BadRow>,
-    /// What was assumed, and what looks like a mistake but is allowed.
+    /// Assumptions, and warnings about likely mistakes.
     pub notes: Vec<String>,
 }
 
-/// One row: one impact, or the average of several.
+/// One row: one impact, or an average over several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measurement {
     /// Line in the file, counted from 1.
@@ -40,20 +35,20 @@ pub struct Measurement {
     pub stated: [bool; INPUTS.len()],
     /// Index of the model's wall that is hit.
     pub wall: usize,
-    /// How many impacts the row stands for, 1 for a single one.
+    /// Number of impacts of the row, 1 for a single one.
     pub impacts: f64,
-    /// How many rebounds `e_n` and `e_t` stand for: the impacts that were not captured, all where that is not known.
+    /// Number of rebounds that `e_n` and `e_t` average: all impacts if captures were not recorded.
     pub rebounds: f64,
-    /// Normal restitution [1]; not negative.
+    /// Normal restitution [1], not negative.
     pub e_n: Option<Reading>,
-    /// Tangential restitution [1]; negative where the particle comes back along the wall.
+    /// Tangential restitution [1], negative if the tangential velocity is reversed.
     pub e_t: Option<Reading>,
-    /// Share of the impacts that was captured [1]; 0 or 1 for a single one.
+    /// Captured share of the impacts [1], 0 or 1 for a single one.
     pub captured: Option<f64>,
 }
 
 impl Measurements {
-    /// The data without the rows for which `fault` has a reason; those are listed among the rejected.
+    /// The data without the rows for which `fault` returns a reason; those rows become rejected rows.
     #[must_use]
     pub fn without(&self, fault: impl Fn(&Measurement) -> Option<String>) -> Self {
         let faults: Vec<Option<String>> = self.rows.iter().map(fault).collect();
@@ -71,9 +66,9 @@ impl Measurements {
         }
     }
 
-    /// The data with the captures of every average told impact by impact: `k` of `n` captured says exactly what `k` single
-    /// captures and `n-k` single rebounds say, and so counts as `n` observations. What the average says of restitution
-    /// stays in one row. Averages of more than `most` impacts stay as they are.
+    /// The data with every average of up to `most` impacts split into single impacts: `k` captures of `n` impacts become
+    /// `k` rows of one capture and `n-k` rows of one rebound. The averages of `e_n` and `e_t` remain in a row of their
+    /// own.
     #[must_use]
     pub fn unfolded(&self, most: f64) -> Self {
         let (mut rows, mut from) = (Vec::new(), Vec::new());
@@ -101,34 +96,11 @@ impl Measurements {
         let columns = self.columns.iter().map(|column| column.at(&from)).collect();
         Self { rows, columns, ..self.clone() }
     }
-
-    /// Reads a file to its end; `file` stands for the source in messages. A row that cannot be used is listed with its
-    /// reason, never dropped in silence.
-    ///
-    /// # Errors
-    /// [`DatasetError`] for a source that cannot be read, a header in which something is missing or stands twice, a
-    /// file without rows, and rows that do not say which wall they hit.
-    pub fn read(
-        file: &str,
-        source: impl Read,
-        map: Option<&ColumnMap>,
-        walls: &WallChoice<'_>,
-    ) -> Result<Self, DatasetError> {
-        let own = ColumnMap::default();
-        let map = map.unwrap_or(&own);
-        let mut table = Table::open(file, source, map.layout, |name| map.ignores(name))?;
-        let mut assembly = Builder::new(&table, map, walls)?;
-        let mut cells = csv::StringRecord::new();
-        while let Some(next) = table.next_into(&mut cells)? {
-            assembly.take(next, &cells);
-        }
-        assembly.finish(file, table.headers())
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Values;
+    use super::super::{ColumnMap, DatasetError, Values, WallChoice};
     use super::*;
     use crate::model::Model;
 
@@ -163,7 +135,7 @@ mod tests {
     }
 
     fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {
-        Values::Words { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
+        Values::Labels { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
     }
 
     #[test]
@@ -225,18 +197,18 @@ mod tests {
             [
                 "3: e_n is negative",
                 "4: e_n `high` is not a number",
-                "5: 8 cells under 7 columns",
+                "5: the row has 8 cells, the header 7",
                 "6: e_n is not finite",
                 "7: v_n is blank",
                 "8: v_n = -1: must be finite and not negative",
                 "9: d = 0: must be positive and finite",
-                "10: e_n is 3.5, above 3; is it in another unit?",
+                "10: e_n is 3.5, above 3; check its unit",
                 "11: e_t is -3.5, below -3",
-                "12: outcome `melted` is none of rebound, bounce, stick, stuck",
-                "13: nothing was observed: all columns of observations are blank",
+                "12: outcome `melted` is unknown; use one of rebound, bounce, stick, stuck",
+                "13: the row has no observation: all columns of observations are blank",
                 "14: e_n_err is negative",
                 "15: v_n = inf: must be finite and not negative",
-                "16: e_n `0,5` is not a number; if it has a decimal comma, the column map has to say decimal = \",\"",
+                "16: e_n `0,5` is not a number; for a decimal comma set decimal = \",\" in the column map",
             ]
         );
     }
@@ -285,21 +257,21 @@ mod tests {
         );
         assert_eq!(data.rows[3].e_n, None);
         assert!(
-            data.notes.iter().any(|note| note.contains("in 1 of 7 rows capture_efficiency stands without"))
+            data.notes.iter().any(|note| note.contains("in 1 of 7 rows capture_efficiency is given without"))
         );
         assert_eq!(
             reasons(&data),
             [
                 "9: captured is 11, more than n_impacts = 10",
-                "10: capture_efficiency is 1.2; it has to be between 0 and 1",
-                "11: capture_efficiency is -0.1; it has to be between 0 and 1",
+                "10: capture_efficiency is 1.2; it must be between 0 and 1",
+                "11: capture_efficiency is -0.1; it must be between 0 and 1",
                 "12: captured / n_impacts is 0.3000, but capture_efficiency is 0.5",
-                "13: n_impacts is 2.5; it has to be a whole number from 1 on",
-                "14: n_impacts is 0; it has to be a whole number from 1 on",
-                "15: captured is 1.5; it has to be a whole number from 0 on",
+                "13: n_impacts is 2.5; it must be a whole number from 1",
+                "14: n_impacts is 0; it must be a whole number from 1",
+                "15: captured is 1.5; it must be a whole number from 0",
                 "16: captured is 5, but n_impacts is blank",
-                "17: one outcome for 10 impacts; give captured or capture_efficiency",
-                "18: outcome says rebound, but the share captured is 0.4",
+                "17: one outcome cannot describe 10 impacts; give captured or capture_efficiency",
+                "18: outcome is rebound, but the captured share is 0.4",
                 "19: capture_efficiency is 0.4, but n_impacts is 1",
             ]
         );
@@ -319,7 +291,7 @@ mod tests {
              1;75;20;35,5;200;0;ABPRALL;01;1,5;1;;\r\n2;;-10;;200;90;-;1;-2;2;;\r\n3;75;20;1.5;200;30;;1;1;3;;\r\n",
             GERMAN,
         );
-        assert_eq!(reasons(&data), ["5: e_n `1.5` is not a number, for the column map says decimal = \",\""]);
+        assert_eq!(reasons(&data), ["5: e_n `1.5` is not a number; the column map sets decimal = \",\""]);
         let [first, second] = data.rows[..] else { unreachable!() };
         let expected = Impact { normal_speed: 2.0, diameter: 75e-6, ..Impact::default() };
         assert_eq!((first.line, first.impact, first.e_n), (3, expected, exact(0.355)));
@@ -354,14 +326,8 @@ mod tests {
         near(speeds("v_t", "deg", "normal", "1,30"), 3f64.sqrt(), 1.0);
         assert_eq!(speeds("speed", "rad", "surface", "2,1.5708"), Ok((2.0, 0.0)));
         assert_eq!(speeds("v_n", "deg", "normal", "2,"), Ok((2.0, 0.0)));
-        assert!(
-            speeds("v_n", "deg", "surface", "2,0")
-                .unwrap_err()
-                .contains("leaves no part of the speed to v_n")
-        );
-        assert!(
-            speeds("v_t", "deg", "normal", "2,0").unwrap_err().contains("leaves no part of the speed to v_t")
-        );
+        assert!(speeds("v_n", "deg", "surface", "2,0").unwrap_err().contains("v_n is 0 at this angle"));
+        assert!(speeds("v_t", "deg", "normal", "2,0").unwrap_err().contains("v_t is 0 at this angle"));
         assert!(speeds("speed", "deg", "normal", "2,120").unwrap_err().contains("angle = 120°"));
         assert_eq!(speeds("speed", "deg", "normal", "2,"), Err("angle is blank".to_owned()));
         assert_eq!(speeds("speed", "deg", "normal", "-2,3"), Err("speed is negative".to_owned()));
@@ -374,17 +340,17 @@ mod tests {
             assert!(message.contains(part), "`{part}` is not in: {message}");
         };
         part("", "", "t.csv:1: there is no header");
-        part("v_n,e_n\n# 1,2\n", "", "t.csv: no row follows the header");
+        part("v_n,e_n\n# 1,2\n", "", "t.csv: there is no row under the header");
         part("speed,e_n\n1,1\n", "", "no column `v_n`");
         part("v_n;e_n\n1;1\n", "", "separator = \";\"");
         part("v_n\te_n\n1\t1\n", "", "separator = \"tab\"");
-        part("v_n,humidity\n1,1\n", "", "nothing observed: no column e_n, e_t, outcome");
-        part("v_n,e_n,e_n\n1,1,1\n", "", "column `e_n` stands there twice");
+        part("v_n,humidity\n1,1\n", "", "the file has no observation; add a column e_n, e_t, outcome");
+        part("v_n,e_n,e_n\n1,1,1\n", "", "column `e_n` occurs twice");
         part("Vn (m/s),e_n\n1,1\n", "[columns]\nv_n = \"Vn [m/s]\"\n", "did you mean `Vn (m/s)`?");
-        part("V,v_n,e_n\n1,1,1\n", "[columns]\nv_n = \"V\"\n", "there is a column `v_n` too");
-        part("V,e_n\n1,1\n", "[columns]\nspeed = \"V\"\n", "speed alone does not say");
-        part("V,v_n,e_n\n1,1,1\n", "[columns]\nspeed = \"V\"\n", "v_n, speed together say too much");
-        assert!(refused("v_n,e_n\n1,1\n", "[ignore]\ncolumns = [\"e_n\"]\n").contains("nothing observed"));
+        part("V,v_n,e_n\n1,1,1\n", "[columns]\nv_n = \"V\"\n", "a column `v_n` exists too");
+        part("V,e_n\n1,1\n", "[columns]\nspeed = \"V\"\n", "speed alone does not determine");
+        part("V,v_n,e_n\n1,1,1\n", "[columns]\nspeed = \"V\"\n", "v_n, speed over-determine the velocity");
+        assert!(refused("v_n,e_n\n1,1\n", "[ignore]\ncolumns = [\"e_n\"]\n").contains("has no observation"));
     }
 
     #[test]
@@ -406,34 +372,32 @@ mod tests {
     }
 
     #[test]
-    fn an_open_quotation_mark_does_not_swallow_rows_in_silence() {
+    fn an_unterminated_quotation_mark_is_reported() {
         let data = read("v_n,e_n,note\n1,0.5,fine\n1,0.4,\"broken\n1,0.3,lost\n1,0.2,lost\n");
         assert_eq!(data.rows.len(), 1);
-        assert!(
-            reasons(&data)[0].starts_with("3: a cell in quotation marks swallows"),
-            "{:?}",
-            data.rejected
-        );
+        assert!(reasons(&data)[0].starts_with("3: unterminated quotation mark"), "{:?}", data.rejected);
         let data = read("v_n,e_n,note\n1,0.5,\n1,\"0.4,broken\n1,0.3,lost");
-        assert_eq!(reasons(&data)[0].split(" and").next(), Some("3: 2 cells under 3 columns,"));
+        assert!(
+            reasons(&data)[0].starts_with("3: the row has 2 cells, the header 3; a quoted cell continues")
+        );
         let data = read("v_n,e_n,note\n1,0.5,\"two\nlines\"\n1,0.4,\n");
         assert_eq!((data.rows.len(), data.rows[1].line), (2, 4));
     }
 
     #[test]
-    fn what_looks_like_a_mistake_is_noted() {
+    fn likely_mistakes_are_noted() {
         let data = mapped(
             "v_n,Tp,T_w,en,e_n,e_n_err,angle,dirt\n1,300,20,0.3,1.2,0,30,1\n1,300,20,0.3,0.5,0.1,30,2\n1,1,20,1,1,,1,<1\n",
             "[ignore]\ncolumns = [\"gone\"]\n",
         );
         for part in [
-            "column `Tp` is only a possible cause; if it is `T_p`",
-            "column `angle` is only a possible cause; a column map can make v_n and v_t of it",
-            "the column map speaks of a column `gone`",
+            "column `Tp` is only a possible cause; rename it if it is the input `T_p`",
+            "column `angle` is only a possible cause; a column map can convert it to v_n and v_t",
+            "the column map names a column `gone`",
             "20 K; is that °C?",
             "in 1 of 3 rows e_n is above 1",
             "in 1 of 3 rows a standard error is 0",
-            "column `dirt` is read as words, for `<1` on line 4 is not a number",
+            "column `dirt` is read as text because `<1` on line 4 is not a number",
         ] {
             assert!(
                 data.notes.iter().any(|note| note.contains(part)),
@@ -447,7 +411,7 @@ mod tests {
     #[test]
     fn rows_that_are_not_utf8_are_rejected() {
         let data = try_read(b"v_n,e_n\n1,0.5\n1,\xb5\n", "", None).unwrap();
-        assert_eq!(reasons(&data), ["3: not UTF-8"]);
+        assert_eq!(reasons(&data), ["3: the row is not UTF-8"]);
         let utf16: Vec<u8> = "\u{feff}v_n,e_n\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
         let message = try_read(&utf16, "", None).unwrap_err().to_string();
         assert!(message.contains("save the file as UTF-8"), "{message}");

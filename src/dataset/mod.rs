@@ -1,16 +1,16 @@
 //! Impacts in a CSV file: one row an impact, columns by name.
 //!
-//! [`ImpactReader`] reads measured or planned impacts one at a time, in SI units, so a file may be larger than memory;
-//! `predict` uses it. [`Measurements`] reads all of a file of measured impacts with what was observed and every column
-//! that may be a cause; a [`ColumnMap`] says what the columns of a laboratory's own file mean. For both, the columns
-//! named in [`crate::impact::INPUTS`] are the inputs; only `v_n` has to be there, a blank or absent one takes the value
-//! of [`crate::Impact::default`]. A row that cannot be used is returned as a [`BadRow`] with its line and the reason.
+//! [`ImpactReader`] reads impacts one at a time, in SI units, so a file may be larger than memory. [`Measurements`] reads
+//! a whole file with its observations and all columns that may be causes; a [`ColumnMap`] describes the columns of a
+//! laboratory's own file. The columns named in [`crate::impact::INPUTS`] are the inputs; only `v_n` is required, a blank
+//! or absent input takes its value in [`crate::Impact::default`]. A row that cannot be used becomes a [`BadRow`].
 //!
-//! The format and the map for users: `docs/data-file.md`.
+//! Format for users: `docs/data-file.md`.
 
 mod builder;
 mod column;
 mod column_map;
+mod csv_table;
 mod impact_reader;
 mod impact_velocity;
 mod inputs;
@@ -19,7 +19,6 @@ mod measurements;
 mod notes;
 mod number;
 mod observed;
-mod table;
 mod unit;
 mod wall_choice;
 
@@ -31,34 +30,34 @@ pub use notes::{assumed, unlikely};
 pub use observed::Reading;
 pub use wall_choice::{WallChoice, WallError};
 
-/// Why a file cannot be read as impacts at all.
+/// Why a file cannot be read as impacts.
 #[derive(Debug, thiserror::Error)]
 pub enum DatasetError {
     /// The file cannot be opened or read.
     #[error("{file}: {reason}")]
     Unreadable {
-        /// The file's name as the user gave it.
+        /// The name of the file.
         file: String,
-        /// What the operating system or the CSV reader said.
+        /// The error of the operating system or the CSV reader.
         reason: String,
     },
-    /// The header is at fault.
+    /// The header has an error.
     #[error("{file}:{line}: {problem}")]
     Header {
-        /// The file's name as the user gave it.
+        /// The name of the file.
         file: String,
         /// Line of the header, counted from 1.
         line: u64,
-        /// What is wrong and the remedy.
+        /// The error and the remedy.
         problem: String,
     },
-    /// There is nothing but a header.
-    #[error("{file}: no row follows the header; write one row an impact under it (a comment line is no row)")]
+    /// There is only a header.
+    #[error("{file}: there is no row under the header; write one row per impact")]
     NoRows {
-        /// The file's name as the user gave it.
+        /// The name of the file.
         file: String,
     },
-    /// Nothing says which wall is hit.
+    /// The wall is undetermined.
     #[error(transparent)]
     Wall(#[from] WallError),
 }
@@ -68,6 +67,6 @@ pub enum DatasetError {
 pub struct BadRow {
     /// Line in the file, counted from 1.
     pub line: u64,
-    /// What is wrong with it.
+    /// The reason.
     pub reason: String,
 }

@@ -1,11 +1,11 @@
-//! What a reader of a file should know about it although nothing is wrong.
+//! Warnings about a file: assumptions and likely mistakes.
 
 use super::measurements::Measurement;
 use super::observed::Observed;
 use crate::impact::{INPUTS, Impact, Input};
 use crate::input::alike;
 
-/// Columns whose name looks like one of `absent`, each with that name.
+/// Columns whose name resembles one of `absent`, each with that name.
 pub(super) fn near_misses<'a>(
     columns: impl Iterator<Item = &'a str>,
     absent: &[&'static str],
@@ -15,7 +15,7 @@ pub(super) fn near_misses<'a>(
     columns.filter_map(|column| Some((column, meant(column)?))).collect()
 }
 
-/// What stands in for the inputs that are not given, where that is more than "none"; `None` if nothing does.
+/// The default values of the absent inputs that are not 0; `None` if there are none.
 pub fn assumed(absent: &[&str]) -> Option<String> {
     let of_input = |input: &Input| match (input.value)(&Impact::default()) {
         0.0 => None,
@@ -26,38 +26,38 @@ pub fn assumed(absent: &[&str]) -> Option<String> {
     (!texts.is_empty()).then(|| texts.join(", "))
 }
 
-/// An impact that is allowed but looks like another unit; `line` is its line in the file.
+/// A warning if an input is probably in another unit; `line` is the impact's line in the file.
 pub fn unlikely(line: u64, impact: &Impact) -> Option<String> {
     let Impact { diameter, particle_temperature, wall_temperature, .. } = *impact;
     if diameter > 0.05 {
-        return Some(format!("line {line}: d = {diameter} m; is that another unit?"));
+        return Some(format!("line {line}: d = {diameter} m is unusually large; check its unit"));
     }
     let coldest = particle_temperature.min(wall_temperature);
     (coldest < 150.0).then(|| format!("line {line}: a temperature of {coldest} K; is that °C?"))
 }
 
-/// Counts what is worth a note.
+/// Counts of rows with a warning.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Tally {
-    /// For each of [`INPUTS`] how many rows do not state it.
+pub(super) struct NoteCounts {
+    /// Rows without each of [`INPUTS`].
     blank: [usize; INPUTS.len()],
-    /// Rows with more than 1 in `e_n`.
-    lively: usize,
-    /// Rows with a share captured of an unknown number of impacts.
+    /// Rows with `e_n` above 1.
+    above_one: usize,
+    /// Rows with a captured share of an unknown number of impacts.
     uncounted: usize,
     /// Rows with a standard error of 0.
     no_error: usize,
-    /// The first impact that looks like another unit.
+    /// The first warning about a unit.
     unlikely: Option<String>,
 }
 
-impl Tally {
+impl NoteCounts {
     /// Counts one usable row.
     pub(super) fn count(&mut self, row: &Measurement, seen: &Observed) {
         for (blank, stated) in self.blank.iter_mut().zip(row.stated) {
             *blank += usize::from(!stated);
         }
-        self.lively += usize::from(row.e_n.is_some_and(|e_n| e_n.value > 1.0));
+        self.above_one += usize::from(row.e_n.is_some_and(|e_n| e_n.value > 1.0));
         self.uncounted += usize::from(seen.uncounted);
         self.no_error += usize::from(seen.no_error);
         if self.unlikely.is_none() {
@@ -65,7 +65,7 @@ impl Tally {
         }
     }
 
-    /// What is worth saying of `rows` usable rows of a file that gives these inputs.
+    /// The warnings about `rows` usable rows of a file with these inputs.
     pub(super) fn notes(&self, given: &[&str], rows: usize) -> Vec<String> {
         let absent: Vec<&str> = INPUTS.iter().map(|i| i.name).filter(|name| !given.contains(name)).collect();
         let mut notes: Vec<String> =
@@ -78,9 +78,9 @@ impl Tally {
         }
         notes.extend(self.unlikely.clone());
         let counted = [
-            (self.lively, "e_n is above 1: a rough wall, spin, or another unit?"),
-            (self.uncounted, "capture_efficiency stands without n_impacts: each row counts as one impact"),
-            (self.no_error, "a standard error is 0, which is read as not known"),
+            (self.above_one, "e_n is above 1; check its unit unless the wall is rough or the particle spins"),
+            (self.uncounted, "capture_efficiency is given without n_impacts; each row counts as one impact"),
+            (self.no_error, "a standard error is 0; it is treated as unknown"),
         ];
         let counted = counted.into_iter().filter(|(count, _)| *count > 0);
         notes.extend(counted.map(|(count, text)| format!("in {count} of {rows} rows {text}")));

@@ -1,26 +1,26 @@
-//! Numbers in cells: how they are written, in which unit, and what stands for "not known".
+//! Numbers in cells: their notation, their unit, and markers of missing values.
 
 use super::unit::Unit;
 
-/// How numbers are written in a file.
+/// The notation of numbers in a file.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct NumberStyle {
-    /// Whether a comma stands before the decimals.
+    /// Whether the decimal separator is a comma.
     pub(super) decimal_comma: bool,
-    /// Whether the [`MARKERS`] stand for a blank cell.
+    /// Whether the [`MARKERS`] denote a missing value.
     pub(super) markers: bool,
 }
 
-/// What laboratories and programs write where they have no value.
+/// Markers of missing values.
 const MARKERS: [&str; 7] = ["NA", "NaN", "nan", "-", "n/a", "N/A", "#N/A"];
 
-/// Whether a cell says that there is no value.
+/// Whether a cell is blank or a marker of a missing value.
 pub(super) fn is_blank(cell: &str) -> bool {
     cell.is_empty() || (cell.len() <= 4 && MARKERS.contains(&cell))
 }
 
 impl NumberStyle {
-    /// The number in a cell, or `None` if it is not one.
+    /// The number in a cell, or `None` if it is not a number.
     pub(super) fn parse(self, cell: &str) -> Option<f64> {
         match self.decimal_comma {
             false => cell.parse().ok(),
@@ -30,13 +30,13 @@ impl NumberStyle {
         }
     }
 
-    /// Why a cell is not a number; where a column map can help, how.
+    /// The error of a cell that is not a number, with the remedy if a column map can help.
     fn not_a_number(self, name: &str, cell: &str) -> String {
         let other = Self { decimal_comma: !self.decimal_comma, ..self };
         let hint = match (self.markers && other.parse(cell).is_some(), self.decimal_comma) {
             (false, _) => "",
-            (true, false) => "; if it has a decimal comma, the column map has to say decimal = \",\"",
-            (true, true) => ", for the column map says decimal = \",\"",
+            (true, false) => "; for a decimal comma set decimal = \",\" in the column map",
+            (true, true) => "; the column map sets decimal = \",\"",
         };
         format!("{name} `{cell}` is not a number{hint}")
     }
@@ -45,13 +45,13 @@ impl NumberStyle {
 /// A column of numbers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct NumberColumn {
-    /// What nearwall calls it.
+    /// Its name in nearwall.
     pub(super) name: &'static str,
-    /// Which cell of a row it is.
+    /// Its index in a row.
     pub(super) index: usize,
-    /// Unit that the cells are in.
+    /// Unit of the cells.
     pub(super) unit: Unit,
-    /// How its numbers are written.
+    /// Notation of its numbers.
     pub(super) style: NumberStyle,
 }
 
@@ -59,7 +59,7 @@ impl NumberColumn {
     /// The value in SI units (angles in degrees), or `None` where the cell is blank. It may be NaN or infinite.
     ///
     /// # Errors
-    /// The reason, for a cell that is no number.
+    /// The reason, for a cell that is not a number.
     pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
         let cell = cells.get(self.index).unwrap_or("");
         if if self.style.markers { is_blank(cell) } else { cell.is_empty() } {
@@ -69,7 +69,7 @@ impl NumberColumn {
         Ok(Some(self.unit.to_si(number)))
     }
 
-    /// As [`Self::read`], but NaN and infinity are refused.
+    /// As [`Self::read`], without NaN and infinity.
     pub(super) fn read_finite(&self, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
         match self.read(cells)? {
             Some(value) if !value.is_finite() => Err(format!("{} is not finite", self.name)),
@@ -78,12 +78,34 @@ impl NumberColumn {
     }
 }
 
+/// The columns of a file to which a column map gives a name.
+pub(super) struct NamedColumns {
+    pub(super) columns: Vec<NumberColumn>,
+}
+
+impl NamedColumns {
+    /// The column of this name.
+    pub(super) fn column(&self, name: &str) -> Option<NumberColumn> {
+        self.columns.iter().find(|column| column.name == name).copied()
+    }
+
+    /// The index of the column of this name.
+    pub(super) fn index(&self, name: &str) -> Option<usize> {
+        self.column(name).map(|column| column.index)
+    }
+
+    /// The name of the column with this index.
+    pub(super) fn name_of(&self, index: usize) -> Option<&'static str> {
+        self.columns.iter().find(|column| column.index == index).map(|column| column.name)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn decimal_commas_are_read_where_they_are_announced() {
+    fn decimal_commas_are_read_if_the_map_sets_them() {
         let comma = NumberStyle { decimal_comma: true, markers: true };
         assert_eq!(comma.parse("-1,5e-3"), Some(-1.5e-3));
         assert_eq!(comma.parse("12"), Some(12.0));
@@ -96,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn sodium_is_no_missing_value() {
+    fn sodium_is_not_a_missing_value() {
         assert!(is_blank("NA") && is_blank("") && is_blank("-") && is_blank("nan"));
         assert!(!is_blank("Na") && !is_blank("-1") && !is_blank("0"));
     }

@@ -1,19 +1,18 @@
-//! What was seen of an impact, or of several that stand in one row as an average.
+//! The observations of a row: of one impact, or an average over several.
 
-use super::column_map::Bound;
-use super::number::{NumberColumn, is_blank};
+use super::number::{NamedColumns, NumberColumn, is_blank};
 use crate::input::{InputError, Section};
 
-/// Names of the columns that hold an observation; a row has at least one of them.
+/// The columns of observations; a row has at least one of them.
 pub(super) const OBSERVATIONS: [&str; 5] = ["e_n", "e_t", "outcome", "capture_efficiency", "captured"];
 
-/// Names of the columns that say more of an observation.
+/// The columns that qualify an observation.
 pub(super) const DETAILS: [&str; 3] = ["e_n_err", "e_t_err", "n_impacts"];
 
-/// Highest restitution [1] that is believed. Rough walls and spin give more than 1; beyond this it is another unit.
+/// Largest plausible restitution [1]. Rough walls and spin give more than 1; a larger value is in another unit.
 const HIGHEST: f64 = 3.0;
 
-/// Largest difference [1] between a counted and a stated share of captures: a rounded percentage.
+/// Largest difference [1] between a counted and a stated share of captures, due to rounding.
 const ROUNDING: f64 = 0.01;
 
 /// A measured value.
@@ -21,11 +20,11 @@ const ROUNDING: f64 = 0.01;
 pub struct Reading {
     /// The value [1].
     pub value: f64,
-    /// Its standard error [1] where it is known, positive.
+    /// Its standard error [1], positive, if known.
     pub error: Option<f64>,
 }
 
-/// What one row says was seen.
+/// The observations of one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Observed {
     pub(super) impacts: f64,
@@ -33,13 +32,13 @@ pub(super) struct Observed {
     pub(super) e_n: Option<Reading>,
     pub(super) e_t: Option<Reading>,
     pub(super) captured: Option<f64>,
-    /// Whether the share captured is that of an unknown number of impacts.
+    /// Whether the captured share is that of an unknown number of impacts.
     pub(super) uncounted: bool,
-    /// Whether a standard error of 0 was read as not known.
+    /// Whether a standard error is 0, which is treated as unknown.
     pub(super) no_error: bool,
 }
 
-/// Words that say what became of a particle, in small letters.
+/// The words of the column `outcome`, in lower case.
 #[derive(Debug, Clone, Default)]
 pub(super) struct OutcomeWords {
     rebound: Vec<String>,
@@ -58,12 +57,13 @@ impl OutcomeWords {
         };
         let all = Self { rebound: words("rebound")?, stick: words("stick")? };
         if let Some(word) = all.rebound.iter().find(|word| all.stick.contains(word)) {
-            return Err(details.fault("stick", format!("`{word}` stands under rebound too; keep one")));
+            return Err(details
+                .fault("stick", format!("`{word}` is also listed under rebound; remove one of the two")));
         }
         Ok(all)
     }
 
-    /// Whether the word says that the particle was captured; the words of the map come before nearwall's own.
+    /// Whether the word means capture; the words of the map take precedence over nearwall's own.
     fn captured(&self, cell: &str) -> Option<bool> {
         let word = cell.to_lowercase();
         let own = |list: &[String]| list.contains(&word);
@@ -79,11 +79,11 @@ impl OutcomeWords {
     fn unknown(&self, cell: &str) -> String {
         let own = self.rebound.iter().chain(&self.stick).map(String::as_str);
         let known: Vec<&str> = Self::REBOUND.into_iter().chain(Self::STICK).chain(own).collect();
-        format!("outcome `{cell}` is none of {}", known.join(", "))
+        format!("outcome `{cell}` is unknown; use one of {}", known.join(", "))
     }
 }
 
-/// The columns that hold what was seen.
+/// The columns of the observations.
 pub(super) struct ObservedColumns {
     e_n: Option<NumberColumn>,
     e_n_err: Option<NumberColumn>,
@@ -97,22 +97,22 @@ pub(super) struct ObservedColumns {
 }
 
 impl ObservedColumns {
-    /// The columns of a file; `None` if no observation is among them.
-    pub(super) fn new(bound: &Bound, words: OutcomeWords) -> Option<Self> {
-        OBSERVATIONS.iter().any(|name| bound.index(name).is_some()).then(|| Self {
-            e_n: bound.column("e_n"),
-            e_n_err: bound.column("e_n_err"),
-            e_t: bound.column("e_t"),
-            e_t_err: bound.column("e_t_err"),
-            impacts: bound.column("n_impacts"),
-            captured: bound.column("captured"),
-            efficiency: bound.column("capture_efficiency"),
-            outcome: bound.index("outcome"),
+    /// The columns of a file; `None` if there is no observation.
+    pub(super) fn new(named: &NamedColumns, words: OutcomeWords) -> Option<Self> {
+        OBSERVATIONS.iter().any(|name| named.index(name).is_some()).then(|| Self {
+            e_n: named.column("e_n"),
+            e_n_err: named.column("e_n_err"),
+            e_t: named.column("e_t"),
+            e_t_err: named.column("e_t_err"),
+            impacts: named.column("n_impacts"),
+            captured: named.column("captured"),
+            efficiency: named.column("capture_efficiency"),
+            outcome: named.index("outcome"),
             words,
         })
     }
 
-    /// Reads what a row says was seen.
+    /// Reads the observations of a row.
     ///
     /// # Errors
     /// The reason why the row cannot be used.
@@ -120,7 +120,7 @@ impl ObservedColumns {
         let counted = read(&self.impacts, cells)?;
         let impacts = counted.unwrap_or(1.0);
         if impacts < 1.0 || impacts.fract() != 0.0 {
-            return Err(format!("n_impacts is {impacts}; it has to be a whole number from 1 on"));
+            return Err(format!("n_impacts is {impacts}; it must be a whole number from 1"));
         }
         let captured = self.share_captured(cells, counted)?;
         let mut seen = Observed {
@@ -132,7 +132,7 @@ impl ObservedColumns {
             uncounted: counted.is_none() && captured.is_some_and(|share| share.fract() != 0.0),
             no_error: false,
         };
-        // Where all were captured nothing rebounds, whatever stands under e_n and e_t.
+        // Without rebounds there is no e_n and e_t.
         if captured != Some(1.0) {
             seen.e_n = self.reading(cells, &self.e_n, &self.e_n_err, 0.0, &mut seen.no_error)?;
             seen.e_t = self.reading(cells, &self.e_t, &self.e_t_err, -HIGHEST, &mut seen.no_error)?;
@@ -140,23 +140,23 @@ impl ObservedColumns {
         let nothing_back =
             seen.e_n.is_some_and(|e| e.value == 0.0) && seen.e_t.is_none_or(|e| e.value == 0.0);
         if captured.is_none() && nothing_back {
-            // A particle that does not come back is captured (Troiano et al., Eq. 14).
+            // A particle that does not rebound is captured (Troiano et al., Eq. 14).
             (seen.captured, seen.e_n, seen.e_t, seen.no_error) = (Some(1.0), None, None, false);
         }
         seen.rebounds = rebounds(impacts, seen.captured);
         if seen.captured.is_none() && seen.e_n.is_none() && seen.e_t.is_none() {
-            return Err("nothing was observed: all columns of observations are blank".to_owned());
+            return Err("the row has no observation: all columns of observations are blank".to_owned());
         }
         Ok(seen)
     }
 
-    /// The share of the impacts that was captured [1], if anything says so.
+    /// The captured share of the impacts [1], if recorded.
     fn share_captured(&self, cells: &csv::StringRecord, counted: Option<f64>) -> Result<Option<f64>, String> {
         let impacts = counted.unwrap_or(1.0);
         let count = self.count_captured(cells, counted)?.map(|count| count / impacts);
         let stated = read(&self.efficiency, cells)?;
         if let Some(share) = stated.filter(|share| !(0.0..=1.0).contains(share)) {
-            return Err(format!("capture_efficiency is {share}; it has to be between 0 and 1"));
+            return Err(format!("capture_efficiency is {share}; it must be between 0 and 1"));
         }
         if let (Some(share), Some(1.0)) = (stated.filter(|share| share.fract() != 0.0), counted) {
             return Err(format!("capture_efficiency is {share}, but n_impacts is 1"));
@@ -169,14 +169,14 @@ impl ObservedColumns {
         let share = count.or(stated);
         match (self.outcome(cells)?, share) {
             (None, share) => Ok(share),
-            (Some(_), None) if impacts > 1.0 => {
-                Err(format!("one outcome for {impacts} impacts; give captured or capture_efficiency"))
-            }
+            (Some(_), None) if impacts > 1.0 => Err(format!(
+                "one outcome cannot describe {impacts} impacts; give captured or capture_efficiency"
+            )),
             (Some(stuck), None) => Ok(Some(f64::from(stuck))),
             (Some(stuck), Some(share)) if f64::from(stuck) == share => Ok(Some(share)),
             (Some(stuck), Some(share)) => {
                 let word = if stuck { "stick" } else { "rebound" };
-                Err(format!("outcome says {word}, but the share captured is {share}"))
+                Err(format!("outcome is {word}, but the captured share is {share}"))
             }
         }
     }
@@ -184,7 +184,7 @@ impl ObservedColumns {
     fn count_captured(&self, cells: &csv::StringRecord, counted: Option<f64>) -> Result<Option<f64>, String> {
         let Some(count) = read(&self.captured, cells)? else { return Ok(None) };
         if count < 0.0 || count.fract() != 0.0 {
-            return Err(format!("captured is {count}; it has to be a whole number from 0 on"));
+            return Err(format!("captured is {count}; it must be a whole number from 0"));
         }
         match counted {
             Some(impacts) if count > impacts => {
@@ -222,7 +222,7 @@ impl ObservedColumns {
             });
         }
         if value > HIGHEST {
-            return Err(format!("{name} is {value}, above {HIGHEST}; is it in another unit?"));
+            return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
         }
         let error = read(error, cells)?;
         if error.is_some_and(|error| error < 0.0) {
@@ -233,8 +233,7 @@ impl ObservedColumns {
     }
 }
 
-/// How many rebounds averages of `e_n` and `e_t` stand for. Where some rebounded it was at least one, however the
-/// share captured was rounded.
+/// The number of rebounds that `e_n` and `e_t` average: at least one, although the captured share may be rounded to 1.
 fn rebounds(impacts: f64, captured: Option<f64>) -> f64 {
     match captured {
         None => impacts,

@@ -1,13 +1,13 @@
-//! Units that laboratories write their columns in.
+//! The units of a column map.
 
 use crate::impact::INPUTS;
 
-/// A unit and the way to SI: `(value + offset) factor / divisor`.
+/// A unit and its conversion to SI: `(value + offset) factor / divisor`.
 ///
-/// Small units have a divisor, because 75 / 1e6 is 75e-6 to the last bit and 75 * 1e-6 is not.
+/// Small units have a divisor because 75 / 1e6 equals 75e-6 exactly and 75 * 1e-6 does not.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unit {
-    /// As it is written in a column map.
+    /// Its name in a column map.
     pub(super) name: &'static str,
     offset: f64,
     factor: f64,
@@ -15,7 +15,7 @@ pub(super) struct Unit {
 }
 
 impl Unit {
-    /// The SI unit, whichever it is.
+    /// The SI unit of any dimension.
     pub(super) const SI: Self = scaled("SI", 1.0, 1.0);
 
     /// A value in SI units (an angle in degrees).
@@ -50,27 +50,27 @@ const SPINS: [Unit; 4] = [
     scaled("rpm", std::f64::consts::TAU, 60.0),
 ];
 const SHARES: [Unit; 2] = [scaled("1", 1.0, 1.0), scaled("%", 1.0, 100.0)];
-/// Degrees, not radians, are the common unit: 90 of them are a right angle to the last bit.
+/// Angles are converted to degrees, not radians: 90 is a right angle exactly.
 const ANGLES: [Unit; 2] = [scaled("deg", 1.0, 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
 
-/// What a column holds.
+/// The dimension of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(super) enum Dimension {
     Length,
     Speed,
     Temperature,
     Spin,
-    /// A pure number: a share or a restitution.
+    /// A dimensionless number: a share or a restitution.
     Share,
     Angle,
     /// A whole number, which has no unit.
     Count,
     /// Text, which has no unit.
-    Words,
+    Text,
 }
 
-impl Quantity {
-    /// The units that it can be written in; none where it has no unit.
+impl Dimension {
+    /// Its units; empty if it has none.
     pub(super) fn units(self) -> &'static [Unit] {
         match self {
             Self::Length => &LENGTHS,
@@ -79,41 +79,41 @@ impl Quantity {
             Self::Spin => &SPINS,
             Self::Share => &SHARES,
             Self::Angle => &ANGLES,
-            Self::Count | Self::Words => &[],
+            Self::Count | Self::Text => &[],
         }
     }
 
-    /// The unit of this name. The Greek letter mu stands for the micro sign, which looks the same.
+    /// The unit of this name. The Greek letter mu is accepted for the micro sign, which looks the same.
     pub(super) fn unit(self, name: &str) -> Option<Unit> {
         let name = name.replace('μ', "µ");
         self.units().iter().find(|unit| unit.name == name).copied()
     }
 }
 
-/// Every name that a column map can give a column, beyond the inputs of an impact.
-const MORE_NAMES: [(&str, Quantity); 12] = [
-    ("speed", Quantity::Speed),
-    ("angle", Quantity::Angle),
-    ("e_n", Quantity::Share),
-    ("e_n_err", Quantity::Share),
-    ("e_t", Quantity::Share),
-    ("e_t_err", Quantity::Share),
-    ("outcome", Quantity::Words),
-    ("capture_efficiency", Quantity::Share),
-    ("captured", Quantity::Count),
-    ("n_impacts", Quantity::Count),
-    ("wall", Quantity::Words),
-    ("series", Quantity::Words),
+/// The names that a column map accepts beyond the inputs of an impact.
+const MORE_NAMES: [(&str, Dimension); 12] = [
+    ("speed", Dimension::Speed),
+    ("angle", Dimension::Angle),
+    ("e_n", Dimension::Share),
+    ("e_n_err", Dimension::Share),
+    ("e_t", Dimension::Share),
+    ("e_t_err", Dimension::Share),
+    ("outcome", Dimension::Text),
+    ("capture_efficiency", Dimension::Share),
+    ("captured", Dimension::Count),
+    ("n_impacts", Dimension::Count),
+    ("wall", Dimension::Text),
+    ("series", Dimension::Text),
 ];
 
-/// Every name that a column of the file can have a meaning under, with what it holds.
-pub(super) fn names() -> impl Iterator<Item = (&'static str, Quantity)> {
+/// Every name that a column map accepts, with its dimension.
+pub(super) fn names() -> impl Iterator<Item = (&'static str, Dimension)> {
     let of_unit = |unit: &str| match unit {
-        "m" => Quantity::Length,
-        "m/s" => Quantity::Speed,
-        "K" => Quantity::Temperature,
-        "rad/s" => Quantity::Spin,
-        _ => Quantity::Share,
+        "m" => Dimension::Length,
+        "m/s" => Dimension::Speed,
+        "K" => Dimension::Temperature,
+        "rad/s" => Dimension::Spin,
+        _ => Dimension::Share,
     };
     INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(MORE_NAMES)
 }
@@ -122,21 +122,21 @@ pub(super) fn names() -> impl Iterator<Item = (&'static str, Quantity)> {
 mod tests {
     use super::*;
 
-    fn si(quantity: Quantity, unit: &str, value: f64) -> f64 {
-        quantity.unit(unit).unwrap().to_si(value)
+    fn si(dimension: Dimension, unit: &str, value: f64) -> f64 {
+        dimension.unit(unit).unwrap().to_si(value)
     }
 
     #[test]
-    fn units_are_what_they_are_defined_to_be() {
-        assert_eq!(si(Quantity::Length, "um", 75.0), 75e-6);
-        assert_eq!(Quantity::Length.unit("μm"), Quantity::Length.unit("µm"));
-        assert_eq!(si(Quantity::Length, "nm", 3.0), 3e-9);
-        assert_eq!(si(Quantity::Speed, "km/h", 36.0), 10.0);
-        assert_eq!(si(Quantity::Temperature, "C", 20.0), 293.15);
-        assert!((si(Quantity::Temperature, "F", 212.0) - 373.15).abs() < 1e-12);
-        assert!((si(Quantity::Spin, "rpm", 60.0) - std::f64::consts::TAU).abs() < 1e-12);
-        assert_eq!(si(Quantity::Share, "%", 35.0), 0.35);
-        assert_eq!(si(Quantity::Angle, "rad", std::f64::consts::FRAC_PI_2), 90.0);
+    fn units_are_converted_exactly() {
+        assert_eq!(si(Dimension::Length, "um", 75.0), 75e-6);
+        assert_eq!(Dimension::Length.unit("μm"), Dimension::Length.unit("µm"));
+        assert_eq!(si(Dimension::Length, "nm", 3.0), 3e-9);
+        assert_eq!(si(Dimension::Speed, "km/h", 36.0), 10.0);
+        assert_eq!(si(Dimension::Temperature, "C", 20.0), 293.15);
+        assert!((si(Dimension::Temperature, "F", 212.0) - 373.15).abs() < 1e-12);
+        assert!((si(Dimension::Spin, "rpm", 60.0) - std::f64::consts::TAU).abs() < 1e-12);
+        assert_eq!(si(Dimension::Share, "%", 35.0), 0.35);
+        assert_eq!(si(Dimension::Angle, "rad", std::f64::consts::FRAC_PI_2), 90.0);
     }
 
     #[test]
@@ -145,8 +145,8 @@ mod tests {
         assert!(INPUTS.iter().all(|input| all.contains(&input.name)));
         assert!(all.iter().enumerate().all(|(index, name)| !all[..index].contains(name)));
         for input in &INPUTS {
-            let quantity = names().find(|(name, _)| *name == input.name).unwrap().1;
-            assert_eq!(quantity.units()[0].name, input.unit, "{}", input.name);
+            let dimension = names().find(|(name, _)| *name == input.name).unwrap().1;
+            assert_eq!(dimension.units()[0].name, input.unit, "{}", input.name);
         }
     }
 }

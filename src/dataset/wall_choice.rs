@@ -1,20 +1,20 @@
-//! Which wall of the model a row of a file hits.
+//! The wall of the model that a row of a file hits.
 
 use crate::model::Model;
 
 /// Why a wall cannot be chosen.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum WallError {
-    /// The wall that the user asks for is not in the model.
-    #[error("--wall {name}: the model's walls are {walls}")]
+    /// The wall given by the user is not in the model.
+    #[error("--wall {name}: the model has no such wall; its walls are {walls}")]
     NotInModel {
-        /// What the user asked for.
+        /// The wall given by the user.
         name: String,
         /// The model's walls.
         walls: String,
     },
-    /// Nothing says which wall is hit.
-    #[error("which wall is hit? Give --wall with one of: {walls}")]
+    /// The wall is undetermined.
+    #[error("the wall is undetermined; give --wall with one of: {walls}")]
     Undecided {
         /// The model's walls.
         walls: String,
@@ -24,17 +24,17 @@ pub enum WallError {
     Unknown(String),
 }
 
-/// Finds the wall of each row: the one that the user names, else what the row says, else `default`, else the only one.
+/// Finds the wall of each row: the one given by the user, else that of the row, else `default`, else the only one.
 pub struct WallChoice<'a> {
     model: &'a Model,
-    /// The wall of rows that do not name their own.
+    /// The wall of rows that name none.
     common: Option<usize>,
-    /// Whether the user names the wall of all rows.
+    /// Whether the user gives the wall of all rows.
     fixed: bool,
 }
 
 impl<'a> WallChoice<'a> {
-    /// A choice among the walls of `model`; `named` is the wall that the user names for all rows.
+    /// A choice among the walls of `model`; `named` is the wall that the user gives for all rows.
     ///
     /// # Errors
     /// [`WallError::NotInModel`].
@@ -49,7 +49,7 @@ impl<'a> WallChoice<'a> {
         Ok(Self { model, common: model.find_wall("default").or(only), fixed: false })
     }
 
-    /// Checks that there is a wall for every row; `column` says whether rows have a cell that names it.
+    /// Checks that every row has a wall; `column` tells whether the file has a column of walls.
     ///
     /// # Errors
     /// [`WallError::Undecided`].
@@ -60,7 +60,7 @@ impl<'a> WallChoice<'a> {
         Ok(())
     }
 
-    /// The wall of a row with this cell. As in OpenFOAM, a wall that the model does not name is its `default`.
+    /// The wall of a row with this cell. As in OpenFOAM, `default` applies to walls that the model does not name.
     ///
     /// # Errors
     /// [`WallError::Unknown`].

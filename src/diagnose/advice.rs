@@ -1,14 +1,14 @@
-//! Which measurement would tell two causes apart.
+//! The measurement that would distinguish two causes.
 //!
-//! One input after the other is moved over its range and a quarter of it beyond, all others at their medians. Where the
-//! two fitted models' forecasts part most, relative to the scatter, is where to measure: the number of impacts is that of
-//! a comparison of two groups, one at each end, with 5 % false alarms and 80 % power,
+//! Each input in turn varies over its range and a quarter beyond, with all others at their medians. The best place to
+//! measure is where the predictions of the two fitted models differ most, relative to the scatter. The number of impacts
+//! is that of a comparison of two groups, one at each end, with 5 % false alarms and 80 % power:
 //! `n = 2 · 2 (1.96 + 0.84)² (scatter / difference)²`.
 
-use super::data_split::DataSplit;
 use super::forecast::Forecast;
-use super::hypothesis::{Hypothesis, Observable};
-use super::likelihood::{Offset, Scatter, mean};
+use super::hypothesis::Hypothesis;
+use super::likelihood::{Offset, mean};
+use super::observable::Observable;
 use super::record::Measure;
 use crate::dataset::Measurement;
 use crate::impact::INPUTS;
@@ -17,40 +17,30 @@ use crate::impact::INPUTS;
 const STEPS: usize = 9;
 /// (1.96 + 0.84)².
 const POWER: f64 = 7.85;
-/// More impacts than this are no advice.
-const TOO_MANY: f64 = 1e5;
+/// Largest number of impacts in an advice.
+const MOST_IMPACTS: f64 = 1e5;
+/// Scatter of a capture [1].
+const CAPTURE_SCATTER: f64 = 0.5;
 
-/// The measurement that parts the two best; `None` where no single input does.
-pub(super) fn advise(
-    study: &DataSplit,
-    found: &Hypothesis,
-    other: &Hypothesis,
-    name: &str,
-    scatter: Scatter,
-) -> Option<Measure> {
-    let middle = median_row(study)?;
+/// The measurement that best distinguishes two hypotheses; `None` if no single input does.
+pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str) -> Option<Measure> {
+    let middle = median_row(found)?;
     let candidates = INPUTS.iter().filter_map(|input| {
-        let [low, high] = study.range(input.name)?;
+        let [low, high] = found.data.range(input.name)?;
         let beyond = 0.25 * (high - low);
-        let ends = [
-            if low > 0.0 { (low - beyond).max(0.5 * low) } else { low },
-            if input.unit == "1" { high } else { high + beyond },
-        ];
-        let rows: Vec<Measurement> = (0..STEPS)
-            .map(|step| {
-                let mut row = middle;
-                let share = step as f64 / (STEPS - 1) as f64;
-                (input.set)(&mut row.impact, ends[0] + share * (ends[1] - ends[0]));
-                row
-            })
-            .collect();
-        let (impacts, observable, [low, high]) = best_contrast(study, &rows, found, other, scatter)?;
-        let at = |step: usize| (input.value)(&rows[step].impact);
-        let range = [at(low), at(high)];
+        let first = if low > 0.0 { (low - beyond).max(0.5 * low) } else { low };
+        let last = if input.unit == "1" { high } else { high + beyond };
+        let row = |step: usize| {
+            let mut row = middle;
+            (input.set)(&mut row.impact, first + step as f64 / (STEPS - 1) as f64 * (last - first));
+            row
+        };
+        let rows: Vec<Measurement> = (0..STEPS).map(row).collect();
+        let (impacts, observable, ends) = best_contrast(&rows, found, other)?;
         Some(Measure {
             against: name.to_owned(),
             vary: input.name.to_owned(),
-            range,
+            range: ends.map(|step| (input.value)(&rows[step].impact)),
             unit: input.unit,
             observable: observable.name(),
             impacts: (impacts.ceil() as u64).max(10),
@@ -59,35 +49,26 @@ pub(super) fn advise(
     candidates.min_by_key(|measure| measure.impacts)
 }
 
-/// Fewest impacts, the observable to watch and the two places to measure at.
+/// Least number of impacts, the observable to measure and the two rows to compare.
 fn best_contrast(
-    study: &DataSplit,
     rows: &[Measurement],
-    found: &Hypothesis,
-    other: &Hypothesis,
-    scatter: Scatter,
+    found: &Hypothesis<'_>,
+    other: &Hypothesis<'_>,
 ) -> Option<(f64, Observable, [usize; 2])> {
     let places: Vec<usize> = (0..rows.len()).collect();
-    let says = |hypothesis: &Hypothesis| {
-        let forecast = Forecast::new(&hypothesis.model(study), rows, &places, study.draws);
-        let one = |&place: &usize| mean(forecast.of(place), &Offset::default());
-        places.iter().map(one).collect::<Vec<_>>()
-    };
-    let (ours, theirs) = (says(found), says(other));
+    let [ours, theirs] = [found, other].map(|hypothesis| {
+        let forecast = Forecast::new(&hypothesis.model(), rows, &places, hypothesis.data.draws);
+        places.iter().map(|&place| mean(forecast.of(place), &Offset::default())).collect::<Vec<_>>()
+    });
+    let [e_n, e_t] = found.scatter;
     let mut best: Option<(f64, Observable, [usize; 2])> = None;
     for low in 0..rows.len() {
         for high in low + 1..rows.len() {
-            let change = |of: fn(&super::likelihood::Mean) -> f64| {
-                (of(&ours[high]) - of(&ours[low])) - (of(&theirs[high]) - of(&theirs[low]))
-            };
-            let contrasts = [
-                (Observable::NormalRestitution, change(|m| m.e_n), scatter.e_n),
-                (Observable::TangentialRestitution, change(|m| m.e_t), scatter.e_t),
-                (Observable::Capture, change(|m| m.capture), 0.5),
-            ];
-            for (observable, difference, scatter) in contrasts {
+            for (observable, scatter) in Observable::ALL.into_iter().zip([e_n, e_t, CAPTURE_SCATTER]) {
+                let of = |mean| observable.predicted(mean);
+                let difference = (of(&ours[high]) - of(&ours[low])) - (of(&theirs[high]) - of(&theirs[low]));
                 let impacts = 4.0 * POWER * (scatter / difference).powi(2);
-                if impacts < TOO_MANY && best.is_none_or(|b| impacts < b.0) {
+                if impacts < MOST_IMPACTS && best.is_none_or(|b| impacts < b.0) {
                     best = Some((impacts, observable, [low, high]));
                 }
             }
@@ -97,11 +78,12 @@ fn best_contrast(
 }
 
 /// A row with every input at its median.
-fn median_row(study: &DataSplit) -> Option<Measurement> {
-    let mut row = *study.rows.first()?;
+fn median_row(hypothesis: &Hypothesis<'_>) -> Option<Measurement> {
+    let data = hypothesis.data;
+    let mut row = *data.rows.first()?;
     for input in &INPUTS {
         let mut values: Vec<f64> =
-            study.fit.iter().map(|&row| (input.value)(&study.rows[row].impact)).collect();
+            data.fit.iter().map(|&row| (input.value)(&data.rows[row].impact)).collect();
         values.sort_by(f64::total_cmp);
         (input.set)(&mut row.impact, values[values.len() / 2]);
     }

@@ -1,139 +1,176 @@
-//! The rows of a diagnosis and who sees them: three quarters for fits and choices, in five folds, one quarter for nobody
-//! until the gain is measured.
+//! Splits the measured rows: three quarters for fits and choices, the last quarter for the gain alone.
+
+use std::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::forecast::{COARSE, FINE};
 use crate::dataset::{Column, Measurement, Measurements, Values};
 use crate::impact::INPUTS;
 use crate::model::Model;
 
 /// Folds of the cross-validation.
 const FOLDS: usize = 5;
-/// Rows that the search for causes looks at; more would not change a choice, only take longer.
+/// Largest number of rows in the search for causes; more rows would only take longer.
 const SEARCH_ROWS: usize = 1000;
-/// Rows that the last fit of the chosen parameters looks at.
+/// Largest number of rows in the final fit of the parameters.
 const FIT_ROWS: usize = 10_000;
-/// The same where a model leaves something to chance.
-const FIT_ROWS_BY_CHANCE: usize = 1000;
-/// Rows that the gain is measured on.
+/// The same for a stochastic model.
+const STOCHASTIC_FIT_ROWS: usize = 1000;
+/// Largest number of rows on which the gain is measured.
 const GAIN_ROWS: usize = 20_000;
+/// Random draws a row of a stochastic model, in the search and in the final fit.
+const COARSE_DRAWS: usize = 16;
+const FINE_DRAWS: usize = 64;
 
-/// A column that may matter: an input of the model or one of the file's own.
+/// A column that may explain the residuals: an input of the model or a further column of the file.
 #[derive(Debug, Clone)]
-pub(super) struct Factor {
+pub(super) struct Covariate {
     pub name: String,
-    /// SI unit of an input, empty for the file's own columns.
+    /// SI unit of an input; empty for a further column.
     pub unit: &'static str,
     pub values: Values,
     /// Whether it is an input of the model.
     pub input: bool,
 }
 
-/// Everything that stays the same during a diagnosis.
-#[derive(Debug)]
+impl Covariate {
+    fn varies(&self) -> bool {
+        match &self.values {
+            Values::Numbers(numbers) => {
+                let mut finite = numbers.iter().filter(|value| value.is_finite());
+                finite.next().is_some_and(|first| finite.any(|value| value != first))
+            }
+            Values::Labels { levels, .. } => levels.len() > 1,
+        }
+    }
+
+    /// Distance from the mean in standard deviations, at most three; labels and blanks are 0.
+    pub fn standardised(&self) -> Vec<f64> {
+        let numbers = match &self.values {
+            Values::Numbers(numbers) => numbers,
+            Values::Labels { of_row, .. } => return vec![0.0; of_row.len()],
+        };
+        let finite: Vec<f64> = numbers.iter().copied().filter(|value| value.is_finite()).collect();
+        let count = finite.len().max(1) as f64;
+        let mean = finite.iter().sum::<f64>() / count;
+        let deviation = (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let z = |value: &f64| {
+            if value.is_finite() && deviation > 0.0 {
+                ((value - mean) / deviation).clamp(-3.0, 3.0)
+            } else {
+                0.0
+            }
+        };
+        numbers.iter().map(z).collect()
+    }
+}
+
+/// One fold of the cross-validation, as places in [`DataSplit::search`].
+#[derive(Debug, Clone)]
+pub(super) struct Fold {
+    /// Rows that are scored.
+    pub inside: Vec<usize>,
+    /// Rows that are fitted.
+    pub outside: Vec<usize>,
+}
+
+/// The base model and the measured rows, with the role of each row. It does not change during a diagnosis.
+#[derive(Debug, Clone)]
 pub(super) struct DataSplit {
     pub base: Model,
-    pub rows: Vec<Measurement>,
-    pub factors: Vec<Factor>,
-    /// Rows that the search sees, by fold.
-    pub folds: Vec<Vec<usize>>,
-    /// All of [`DataSplit::folds`].
+    pub rows: Arc<[Measurement]>,
+    /// All columns that vary.
+    pub covariates: Arc<[Covariate]>,
+    /// Rows of the search for causes.
     pub search: Vec<usize>,
-    /// Rows that the last fit sees: those of the search and more.
+    pub folds: Vec<Fold>,
+    /// Rows of the final fit: those of the search and more.
     pub fit: Vec<usize>,
-    /// Rows that no fit and no choice sees.
+    /// Rows that no fit and no choice uses.
     pub held_out: Vec<usize>,
-    /// Draws a row where a model leaves something to chance.
+    /// Random draws a row where a model is stochastic.
     pub draws: usize,
 }
 
 impl DataSplit {
-    /// Deals the rows out; the same seed deals the same.
-    pub fn new(base: &Model, data: &Measurements, seed: u64) -> Self {
+    /// Shuffles and splits the rows; the same seed gives the same split.
+    pub fn new(base: &Model, data: Measurements, seed: u64) -> Self {
         let mut order: Vec<usize> = (0..data.rows.len()).collect();
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         for place in (1..order.len()).rev() {
             let other = (random.next_u64() % (place as u64 + 1)) as usize;
             order.swap(place, other);
         }
-        let held_out = order.split_off(order.len() - order.len() / 4);
-        let search: Vec<usize> = order.iter().copied().take(SEARCH_ROWS).collect();
-        let folds =
-            (0..FOLDS).map(|fold| search.iter().copied().skip(fold).step_by(FOLDS).collect()).collect();
+        let mut held_out = order.split_off(order.len() - order.len() / 4);
+        held_out.truncate(GAIN_ROWS);
+        order.truncate(FIT_ROWS);
+        let search = order[..order.len().min(SEARCH_ROWS)].to_vec();
+        let places = |fold: usize| (fold..search.len()).step_by(FOLDS);
+        let fold = |fold: usize| Fold {
+            inside: places(fold).collect(),
+            outside: (0..FOLDS).filter(|other| *other != fold).flat_map(places).collect(),
+        };
         Self {
             base: base.clone(),
-            factors: factors(data),
-            folds,
-            fit: order.into_iter().take(FIT_ROWS).collect(),
+            covariates: covariates(&data).into(),
+            folds: (0..FOLDS).map(fold).collect(),
             search,
-            held_out: held_out.into_iter().take(GAIN_ROWS).collect(),
-            rows: data.rows.clone(),
-            draws: COARSE,
+            fit: order,
+            held_out,
+            rows: data.rows.into(),
+            draws: COARSE_DRAWS,
         }
     }
 
-    /// For the last fit: more draws a row, and fewer rows where there is chance, since each costs more.
-    #[must_use]
-    pub fn fine(mut self, by_chance: bool) -> Self {
-        self.draws = FINE;
-        if by_chance {
-            self.fit.truncate(FIT_ROWS_BY_CHANCE);
+    /// The split for the final fit: more draws a row, and fewer rows for a stochastic model.
+    pub fn fine(&self, stochastic: bool) -> Self {
+        let mut fine = Self { draws: FINE_DRAWS, ..self.clone() };
+        if stochastic {
+            fine.fit.truncate(STOCHASTIC_FIT_ROWS);
         }
-        self
+        fine
     }
 
-    /// The rows of the search outside one fold.
-    pub fn outside(&self, fold: usize) -> Vec<usize> {
-        let others = self.folds.iter().enumerate().filter(|(index, _)| *index != fold);
-        others.flat_map(|(_, rows)| rows.iter().copied()).collect()
+    /// The indices of all rows.
+    pub fn all(&self) -> Vec<usize> {
+        (0..self.rows.len()).collect()
     }
 
-    /// The cells of a factor; none where no column varies, as a level asks for, which looks at no column.
-    pub fn values(&self, factor: usize) -> &Values {
+    /// The cells of a covariate; none if no column varies. A constant offset needs none.
+    pub fn values(&self, covariate: usize) -> &Values {
         static NONE: Values = Values::Numbers(Vec::new());
-        self.factors.get(factor).map_or(&NONE, |factor| &factor.values)
+        self.covariates.get(covariate).map_or(&NONE, |covariate| &covariate.values)
     }
 
-    /// The factor of this name.
-    pub fn factor(&self, name: &str) -> Option<&Factor> {
-        self.factors.iter().find(|factor| factor.name == name)
+    /// The covariate of this name.
+    pub fn covariate(&self, name: &str) -> Option<&Covariate> {
+        self.covariates.iter().find(|covariate| covariate.name == name)
     }
 
-    /// The least and largest value of an input in the rows that fits see, where it varies.
+    /// The least and largest value of an input in the fitted rows, if it varies.
     pub fn range(&self, input: &str) -> Option<[f64; 2]> {
-        let Values::Numbers(numbers) = &self.factor(input)?.values else { return None };
-        let seen = self.fit.iter().map(|&row| numbers[row]).filter(|value| value.is_finite());
-        let [low, high] = seen.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
+        let Values::Numbers(numbers) = &self.covariate(input)?.values else { return None };
+        let fitted = self.fit.iter().map(|&row| numbers[row]).filter(|value| value.is_finite());
+        let [low, high] = fitted.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
         (high > low).then_some([low, high])
     }
 }
 
-/// The inputs that the file gives and its own columns, as far as they vary.
-fn factors(data: &Measurements) -> Vec<Factor> {
+/// The inputs that the file states and its further columns, if they vary.
+fn covariates(data: &Measurements) -> Vec<Covariate> {
     let given = INPUTS.iter().filter(|input| data.given.contains(&input.name));
-    let inputs = given.map(|input| Factor {
+    let inputs = given.map(|input| Covariate {
         name: input.name.to_owned(),
         unit: input.unit,
         values: Values::Numbers(data.rows.iter().map(|row| (input.value)(&row.impact)).collect()),
         input: true,
     });
-    let own = data.columns.iter().map(|Column { name, values }| Factor {
+    let further = data.columns.iter().map(|Column { name, values }| Covariate {
         name: name.clone(),
         unit: "",
         values: values.clone(),
         input: false,
     });
-    inputs.chain(own).filter(varies).collect()
-}
-
-fn varies(factor: &Factor) -> bool {
-    match &factor.values {
-        Values::Numbers(numbers) => {
-            let mut finite = numbers.iter().filter(|value| value.is_finite());
-            finite.next().is_some_and(|first| finite.any(|value| value != first))
-        }
-        Values::Words { levels, .. } => levels.len() > 1,
-    }
+    inputs.chain(further).filter(Covariate::varies).collect()
 }

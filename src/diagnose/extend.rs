@@ -1,33 +1,32 @@
-//! Writes the extended model: the base file as it stands, with the named terms added and the recalibrated numbers changed.
+//! Writes the extended model: the base file with the fitted effects added and the recalibrated parameters changed.
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
 use super::data_split::DataSplit;
-use super::part::{Fitted, Part};
+use super::hypothesis::Hypothesis;
+use super::part::{FittedPart, Part};
 use crate::dataset::Values;
+use crate::effect::EffectInfo;
 
-/// The text of the extended model. `intervals` are those of `parts`, in their order.
+/// The text of the extended model, with the notes as comments at its end.
 ///
 /// # Errors
 /// When the base text cannot be edited.
 pub(super) fn extended(
     base: &str,
-    study: &DataSplit,
-    parts: &[Fitted],
-    intervals: &[Vec<[f64; 2]>],
+    hypothesis: &Hypothesis<'_>,
     notes: &[String],
 ) -> Result<String, toml_edit::TomlError> {
     let mut document: DocumentMut = base.parse()?;
     let mut added = ArrayOfTables::new();
-    for (fitted, ends) in parts.iter().zip(intervals) {
-        match fitted.part {
-            Part::Number(number) => {
-                let [table, key] = number.key();
-                if let Some(number) = fitted.values().first() {
-                    document[table][key] = value(rounded(*number));
-                }
+    for fitted in &hypothesis.parts {
+        match (fitted.part, fitted.values().first()) {
+            (Part::LawParameter(parameter), Some(number)) => {
+                let [table, key] = parameter.key();
+                document[table][key] = value(rounded(*number));
             }
-            Part::Effect(_) => added.push(effect(study, fitted, ends)),
+            (Part::LawParameter(_), None) => {}
+            (Part::Effect(info), _) => added.push(effect(hypothesis.data, fitted, info)),
         }
     }
     append(&mut document, added);
@@ -36,14 +35,14 @@ pub(super) fn extended(
         text.push('\n');
     }
     for note in notes {
-        // A note names columns, and a quoted header may hold line breaks: what follows one would be read as TOML.
+        // A note contains column names, and a quoted header may contain line breaks, which would end the comment.
         let line: String = note.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         text += &format!("# {line}\n");
     }
     Ok(text)
 }
 
-/// Adds the effects behind those that the base has, in whichever form it has them.
+/// Adds the effects after those of the base, in the notation of the base.
 fn append(document: &mut DocumentMut, added: ArrayOfTables) {
     if added.is_empty() {
         return;
@@ -59,11 +58,12 @@ fn append(document: &mut DocumentMut, added: ArrayOfTables) {
     }
 }
 
-fn effect(study: &DataSplit, fitted: &Fitted, ends: &[[f64; 2]]) -> Table {
+fn effect(data: &DataSplit, fitted: &FittedPart, info: &EffectInfo) -> Table {
     let mut table = Table::new();
-    let Part::Effect(kind) = fitted.part else { return table };
-    table.insert("kind", value(kind.id));
-    for ((parameter, number), [low, high]) in kind.parameters.iter().zip(fitted.values()).zip(ends) {
+    table.insert("kind", value(info.id));
+    for ((parameter, number), [low, high]) in
+        info.parameters.iter().zip(fitted.values()).zip(&fitted.intervals)
+    {
         let mut fit = InlineTable::new();
         fit.insert("value", rounded(number).into());
         fit.insert("low", rounded(*low).into());
@@ -71,31 +71,25 @@ fn effect(study: &DataSplit, fitted: &Fitted, ends: &[[f64; 2]]) -> Table {
         fit.insert("unit", parameter.unit.into());
         table.insert(parameter.name, value(fit));
     }
-    table.insert("valid", value(valid(study)));
+    table.insert("valid", value(valid(data)));
     table.insert("source", value("fitted by nearwall diagnose"));
     table
 }
 
-/// The range of every input that varied in the rows of the fit.
-fn valid(study: &DataSplit) -> InlineTable {
+/// The range of every input that varies in the fitted rows.
+fn valid(data: &DataSplit) -> InlineTable {
     let mut ranges = InlineTable::new();
-    for factor in study.factors.iter().filter(|f| f.input && matches!(f.values, Values::Numbers(_))) {
-        if let Some([low, high]) = study.range(&factor.name) {
-            ranges.insert(
-                &factor.name,
-                Value::Array([outward(low, -1.0), outward(high, 1.0)].into_iter().collect()),
-            );
+    for column in data.covariates.iter().filter(|c| c.input && matches!(c.values, Values::Numbers(_))) {
+        if let Some([low, high]) = data.range(&column.name) {
+            // Rounded outwards, so that the rows at the ends stay within the range.
+            let ends = [low - 1e-5 * low.abs(), high + 1e-5 * high.abs()].map(rounded);
+            ranges.insert(&column.name, Value::Array(ends.into_iter().collect()));
         }
     }
     ranges
 }
 
-/// Six digits, rounded so that the rows at the ends of the range stay within it.
-fn outward(end: f64, direction: f64) -> f64 {
-    rounded(end + direction * 1e-5 * end.abs())
-}
-
-/// Six digits are more than a fit is worth, and easier to read than seventeen.
+/// The number with six digits, which is more than the accuracy of a fit.
 pub(super) fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }

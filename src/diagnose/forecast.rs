@@ -1,4 +1,4 @@
-//! What a model says of every measured row, under several draws of what it leaves to chance.
+//! A model's predictions of measured rows, with several random draws a row for a stochastic model.
 
 use rayon::prelude::*;
 
@@ -6,94 +6,89 @@ use crate::dataset::Measurement;
 use crate::model::Model;
 use crate::rng::ImpactRng;
 
-/// What a model says of one row under one draw.
+/// The prediction of one row under one draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Prediction {
-    /// Normal restitution of a rebound [1].
-    pub e_n: f64,
-    /// Tangential restitution of a rebound [1].
-    pub e_t: f64,
+    /// `e_n` and `e_t` of a rebound [1].
+    pub restitution: [f64; 2],
     /// Probability of capture [1].
     pub capture: f64,
-    /// Share of the row's draws that this one stands for [1].
+    /// Share of the row's draws that this draw represents [1].
     pub weight: f64,
-    /// How far it stands from its neighbours among the row's draws, in `e_n` and `e_t` [1]: what lies between two draws
-    /// is as likely as they are.
+    /// Half the distance to the neighbouring draws in `e_n` and `e_t` [1]: values between two draws are as likely as
+    /// the draws.
     pub reach: [f64; 2],
 }
 
-/// What a model says of several rows: `draws` answers a row.
+/// The predictions of several rows.
 #[derive(Debug, Clone)]
 pub(super) struct Forecast {
-    /// Answers a row.
-    pub draws: usize,
-    said: Vec<Prediction>,
+    /// Predictions a row.
+    draws: usize,
+    predictions: Vec<Prediction>,
 }
 
-/// Draws a row for models that leave something to chance: while candidates are compared, and for the last fit.
-pub(super) const COARSE: usize = 16;
-pub(super) const FINE: usize = 64;
-/// Steps of the lattice of draws, one a stream: odd, so that each visits all places.
+/// Steps of the lattice of draws, one a stream. They are odd, so each stream visits all places.
 const STEPS: [usize; 4] = [1, 3, 5, 7];
-/// No draw stands for more than this on either side [1].
-const FARTHEST: f64 = 0.1;
-/// Rows below which threads cost more than they bring.
-const WORTH_THREADS: usize = 20_000;
+/// Largest reach of a draw [1].
+const LARGEST_REACH: f64 = 0.1;
+/// Number of predictions from which threads pay off.
+const PARALLEL: usize = 20_000;
 
 impl Forecast {
-    /// Asks the model about the rows with these indices, `draws` times each where it leaves something to chance.
+    /// Predicts the rows with these indices, `draws` times each if the model is stochastic.
     pub fn new(model: &Model, all: &[Measurement], rows: &[usize], draws: usize) -> Self {
         let streams: Vec<u64> = model.terms().iter().filter_map(|t| t.kind().stream).collect();
         let draws = if streams.is_empty() { 1 } else { draws };
-        let (streams, count) = (&streams, draws);
-        let ask = |&index: &usize| {
-            let draws = Draws::new(index, streams, count);
-            let mut said: Vec<Prediction> =
-                (0..count).map(|draw| ask(model, &all[index], streams, &draws, draw)).collect();
-            set_reach(&mut said);
-            said
+        let predict = |&index: &usize| {
+            let lattice = Lattice::new(index, &streams, draws);
+            let predict = |draw| predict(model, &all[index], &streams, &lattice, draw);
+            let mut predictions: Vec<Prediction> = (0..draws).map(predict).collect();
+            set_reach(&mut predictions);
+            predictions
         };
-        let said = if rows.len() * draws > WORTH_THREADS {
-            rows.par_iter().flat_map_iter(ask).collect()
+        let predictions = if rows.len() * draws > PARALLEL {
+            rows.par_iter().flat_map_iter(predict).collect()
         } else {
-            rows.iter().flat_map(ask).collect()
+            rows.iter().flat_map(predict).collect()
         };
-        Self { draws, said }
+        Self { draws, predictions }
     }
 
-    /// The answers to the rows at these places.
-    pub fn of_places(&self, places: impl Iterator<Item = usize>) -> Self {
-        Self { draws: self.draws, said: places.flat_map(|place| self.of(place)).copied().collect() }
+    /// The predictions of the rows at these places.
+    pub fn select(&self, places: &[usize]) -> Self {
+        let predictions = places.iter().flat_map(|&place| self.of(place)).copied().collect();
+        Self { draws: self.draws, predictions }
     }
 
-    /// The answers to the row at this place of the list of rows.
+    /// The predictions of the row at this place in the list of rows.
     pub fn of(&self, place: usize) -> &[Prediction] {
-        &self.said[place * self.draws..(place + 1) * self.draws]
+        &self.predictions[place * self.draws..(place + 1) * self.draws]
     }
 }
 
-/// The draws of one row.
-struct Draws {
-    /// How far the lattice is turned in each stream, by its number.
-    turns: [f64; STEPS.len()],
+/// The draws of one row: a lattice with a random rotation for every row, even within a row and over all rows.
+struct Lattice {
+    /// Rotation of each stream, by its number.
+    rotations: [f64; STEPS.len()],
     count: usize,
 }
 
-impl Draws {
+impl Lattice {
     fn new(row: usize, streams: &[u64], count: usize) -> Self {
-        let turn = ImpactRng::new(0, row as u64);
-        let mut turns = [0.0; STEPS.len()];
+        let random = ImpactRng::new(0, row as u64);
+        let mut rotations = [0.0; STEPS.len()];
         for &stream in streams {
-            turns[stream as usize % STEPS.len()] = turn.uniform(stream);
+            rotations[stream as usize % STEPS.len()] = random.uniform(stream);
         }
-        Self { turns, count }
+        Self { rotations, count }
     }
 
-    /// A place in 0 to 1: a lattice that is turned at random for every row, even within a row and smooth over all.
+    /// The place of a draw, in 0 to 1.
     fn place(&self, draw: usize, stream: u64) -> f64 {
         let which = stream as usize % STEPS.len();
         let place = ((draw * STEPS[which]) % self.count) as f64 / self.count as f64;
-        (place + self.turns[which]).fract()
+        (place + self.rotations[which]).fract()
     }
 }
 
@@ -102,44 +97,41 @@ fn stretched(place: f64) -> f64 {
     0.3 * place + 0.7 * place * place * (3.0 - 2.0 * place)
 }
 
-/// How much of the unit interval a stretched place stands for: the derivative of [`stretched`].
-fn share(place: f64) -> f64 {
+/// The part of the unit interval that a stretched place represents: the derivative of [`stretched`].
+fn density(place: f64) -> f64 {
     0.3 + 4.2 * place * (1.0 - place)
 }
 
-/// Half the mean gap to both neighbours; the geometric mean, so that draws that agree stay sharp.
-fn set_reach(said: &mut [Prediction]) {
-    if said.len() < 2 {
+/// Half the mean distance to both neighbours: the geometric mean, so that equal draws have no reach.
+fn set_reach(predictions: &mut [Prediction]) {
+    if predictions.len() < 2 {
         return;
     }
-    let quantities: [fn(&Prediction) -> f64; 2] = [|one| one.e_n, |one| one.e_t];
-    let mut order: Vec<usize> = (0..said.len()).collect();
-    for (place, of) in quantities.into_iter().enumerate() {
-        order.sort_unstable_by(|&a, &b| of(&said[a]).total_cmp(&of(&said[b])));
-        let mut before = None;
-        for rank in 0..order.len() {
-            let after = order.get(rank + 1).map(|&next| of(&said[next]) - of(&said[order[rank]]));
-            let gap = match (before, after) {
+    let mut order: Vec<usize> = (0..predictions.len()).collect();
+    for which in 0..2 {
+        let value = |index: usize| predictions[index].restitution[which];
+        order.sort_unstable_by(|&a, &b| value(a).total_cmp(&value(b)));
+        let gaps: Vec<f64> = order.windows(2).map(|pair| value(pair[1]) - value(pair[0])).collect();
+        for (rank, &index) in order.iter().enumerate() {
+            let before = rank.checked_sub(1).map(|rank| gaps[rank]);
+            let gap = match (before, gaps.get(rank).copied()) {
                 (Some(before), Some(after)) => f64::sqrt(before * after),
                 (one, other) => one.or(other).unwrap_or(0.0),
             };
-            said[order[rank]].reach[place] = (0.5 * gap).min(FARTHEST);
-            before = after;
+            predictions[index].reach[which] = (0.5 * gap).min(LARGEST_REACH);
         }
     }
 }
 
-fn ask(model: &Model, row: &Measurement, streams: &[u64], draws: &Draws, draw: usize) -> Prediction {
-    let weight = streams.iter().map(|&stream| share(draws.place(draw, stream))).product::<f64>();
-    match model.resolve_with(row.wall, &row.impact, |stream| stretched(draws.place(draw, stream))) {
-        Ok(outcome) => Prediction {
-            e_n: outcome.normal_restitution,
-            e_t: outcome.tangential_restitution,
-            capture: outcome.sticking_probability,
-            weight,
-            reach: [0.0; 2],
-        },
-        // Rows that the base model cannot answer were left out before; effects change no property's range.
-        Err(_) => Prediction { e_n: 0.0, e_t: 0.0, capture: 0.5, weight, reach: [0.0; 2] },
-    }
+fn predict(model: &Model, row: &Measurement, streams: &[u64], lattice: &Lattice, draw: usize) -> Prediction {
+    let weight = streams.iter().map(|&stream| density(lattice.place(draw, stream))).product::<f64>();
+    let (restitution, capture) =
+        match model.resolve_with(row.wall, &row.impact, |stream| stretched(lattice.place(draw, stream))) {
+            Ok(outcome) => {
+                ([outcome.normal_restitution, outcome.tangential_restitution], outcome.sticking_probability)
+            }
+            // Unreachable: rows that the base model refuses were removed, and no effect narrows a property's range.
+            Err(_) => ([0.0; 2], 0.5),
+        };
+    Prediction { restitution, capture, weight, reach: [0.0; 2] }
 }

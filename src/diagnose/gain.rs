@@ -1,81 +1,51 @@
-//! What the extended model gains, on rows that no fit and no choice saw.
+//! The gain of the extended model on held-out rows, and the rows of the figures.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::data_split::DataSplit;
-use super::forecast::Forecast;
-use super::hypothesis::{Hypothesis, Observable};
-use super::likelihood::{Mean, Scatter, mean, score};
+use super::evaluation::Evaluation;
+use super::hypothesis::Hypothesis;
+use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
-use crate::dataset::{Measurement, Values};
+use crate::dataset::Values;
 
 /// Resamples of the bootstrap.
 const RESAMPLES: usize = 1000;
-/// Rows in figures at most.
+/// Largest number of rows in figures.
 const SAMPLE_ROWS: usize = 1500;
+/// Least number of held-out rows for a gain.
+const LEAST_ROWS: usize = 3;
 
-/// What a hypothesis says of some rows.
-pub(super) struct Answers {
-    means: Vec<Mean>,
-    scores: Vec<f64>,
+/// The rows under a hypothesis without its discrepancy, which a model file cannot contain.
+pub(super) fn evaluate<'b>(hypothesis: &Hypothesis<'b>, rows: &[usize]) -> Evaluation<'b> {
+    let bare = Hypothesis { discrepancy: None, ..hypothesis.clone() };
+    bare.evaluate(rows.to_vec(), bare.offsets())
 }
 
-impl Answers {
-    /// Asks without the correction of the laws' shape: a model file cannot carry it.
-    pub fn new(hypothesis: &Hypothesis, study: &DataSplit, rows: &[usize], scatter: Scatter) -> Self {
-        let bare = Hypothesis { shape: None, ..hypothesis.clone() };
-        let shifts = bare.shifts(study);
-        let forecast = Forecast::new(&bare.model(study), &study.rows, rows, study.draws);
-        let each = || rows.iter().enumerate();
-        Self {
-            means: each().map(|(place, &row)| mean(forecast.of(place), &shifts[row])).collect(),
-            scores: each()
-                .map(|(place, &row)| score(&study.rows[row], forecast.of(place), &shifts[row], scatter))
-                .collect(),
-        }
-    }
-}
-
-/// Measured and expected, where the row has it.
-fn pair(row: &Measurement, said: &Mean, observable: Observable) -> Option<[f64; 2]> {
-    match observable {
-        Observable::NormalRestitution => row.e_n.as_ref().map(|reading| [reading.value, said.e_n]),
-        Observable::TangentialRestitution => row.e_t.as_ref().map(|reading| [reading.value, said.e_t]),
-        Observable::Capture => row.captured.map(|share| [share, said.capture]),
-    }
-}
-
-/// The gain in one observable; `None` where nothing was observed.
+/// The gain in one observable; `None` where too few rows have it.
 pub(super) fn gain(
-    study: &DataSplit,
-    before: &Answers,
-    after: &Answers,
+    before: &Evaluation<'_>,
+    after: &Evaluation<'_>,
     observable: Observable,
     seed: u64,
 ) -> Option<Gain> {
-    let rows = study.held_out.iter().enumerate();
-    let squares: Vec<[f64; 2]> = rows
-        .filter_map(|(place, &row)| {
-            let of = |answers: &Answers| pair(&study.rows[row], &answers.means[place], observable);
-            let squared = |[measured, said]: [f64; 2]| (measured - said).powi(2);
-            Some([squared(of(before)?), squared(of(after)?)])
-        })
-        .collect();
-    if squares.len() < 3 {
+    let squared = |[measured, predicted]: [f64; 2]| (measured - predicted).powi(2);
+    let pairs = before.pairs(observable).zip(after.pairs(observable));
+    let squares: Vec<[f64; 2]> =
+        pairs.filter_map(|(before, after)| Some([squared(before?), squared(after?)])).collect();
+    if squares.len() < LEAST_ROWS {
         return None;
     }
-    let sum = |which: usize| squares.iter().map(|pair| pair[which]).sum::<f64>();
-    let root = |sum: f64| (sum / squares.len() as f64).sqrt();
-    let mean_score = |answers: &Answers| answers.scores.iter().sum::<f64>() / answers.scores.len() as f64;
+    let rmse = |which: usize| average(squares.iter().map(|pair| pair[which])).map_or(f64::NAN, f64::sqrt);
+    let log_score = |rows: &Evaluation<'_>| average(rows.scores().into_iter()).unwrap_or(f64::NAN);
     Some(Gain {
         held_out_rows: squares.len(),
         observable: observable.name(),
-        rmse_before: root(sum(0)),
-        rmse_after: root(sum(1)),
+        rmse_before: rmse(0),
+        rmse_after: rmse(1),
         ci95: bootstrap(&squares, seed),
-        log_score_before: mean_score(before),
-        log_score_after: mean_score(after),
+        log_score_before: log_score(before),
+        log_score_after: log_score(after),
     })
 }
 
@@ -97,66 +67,64 @@ fn bootstrap(squares: &[[f64; 2]], seed: u64) -> [f64; 2] {
     [ratios[RESAMPLES / 40], ratios[RESAMPLES - 1 - RESAMPLES / 40]]
 }
 
-/// Errors of a hypothesis on all rows of `answers`.
-pub(super) fn errors(study: &DataSplit, rows: &[usize], answers: &Answers) -> Errors {
-    let pairs = |observable| {
-        let all = rows.iter().zip(&answers.means);
-        all.filter_map(|(&row, said)| pair(&study.rows[row], said, observable)).collect::<Vec<_>>()
-    };
-    let average =
-        |losses: Vec<f64>| (!losses.is_empty()).then(|| losses.iter().sum::<f64>() / losses.len() as f64);
+fn average(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let values: Vec<f64> = values.collect();
+    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// The errors of a hypothesis on these rows.
+pub(super) fn errors(rows: &Evaluation<'_>) -> Errors {
     let rmse = |observable| {
-        let squares = pairs(observable).iter().map(|[measured, said]| (measured - said).powi(2)).collect();
-        average(squares).map(f64::sqrt)
+        let squared = |[measured, predicted]: [f64; 2]| (measured - predicted).powi(2);
+        average(rows.pairs(observable).flatten().map(squared)).map(f64::sqrt)
     };
-    let loss = |[share, said]: &[f64; 2]| -(share * said.ln() + (1.0 - share) * (1.0 - said).ln());
+    let loss = |[share, p]: [f64; 2]| -(share * p.ln() + (1.0 - share) * (1.0 - p).ln());
     Errors {
         rmse_e_n: rmse(Observable::NormalRestitution),
         rmse_e_t: rmse(Observable::TangentialRestitution),
-        log_loss_stick: average(pairs(Observable::Capture).iter().map(loss).collect()),
+        log_loss_stick: average(rows.pairs(Observable::Capture).flatten().map(loss)),
     }
 }
 
-/// Rows for the figures: those held out first, then those that were fitted.
-pub(super) fn sample(
-    study: &DataSplit,
-    base: &Hypothesis,
-    extended: &Hypothesis,
-    scatter: Scatter,
-) -> Sample {
-    let held_out = study.held_out.iter().take(SAMPLE_ROWS / 2).map(|&row| (row, true));
-    let fitted = study.search.iter().take(SAMPLE_ROWS / 2).map(|&row| (row, false));
-    let chosen: Vec<(usize, bool)> = held_out.chain(fitted).collect();
-    let rows: Vec<usize> = chosen.iter().map(|(row, _)| *row).collect();
-    let (before, after) =
-        (Answers::new(base, study, &rows, scatter), Answers::new(extended, study, &rows, scatter));
+/// Mean measured and predicted share of captures, without offsets.
+pub(super) fn captured_shares(hypothesis: &Hypothesis<'_>) -> [f64; 2] {
+    let model = Hypothesis::with_parts(hypothesis.data, hypothesis.parts.clone(), hypothesis.scatter);
+    let rows = model.evaluate(&model.data.search, model.offsets());
+    let pairs: Vec<[f64; 2]> = rows.pairs(Observable::Capture).flatten().collect();
+    [0, 1].map(|which| pairs.iter().map(|pair| pair[which]).sum::<f64>() / pairs.len().max(1) as f64)
+}
+
+/// Rows of the figures: held-out rows first, then fitted ones.
+pub(super) fn sample(base: &Hypothesis<'_>, extended: &Hypothesis<'_>) -> Sample {
+    let data = base.data;
+    let some = |rows: &[usize]| rows[..rows.len().min(SAMPLE_ROWS / 2)].to_vec();
+    let (held_out, fitted) = (some(&data.held_out), some(&data.search));
+    let rows = [held_out.as_slice(), &fitted].concat();
+    let (before, after) = (evaluate(base, &rows), evaluate(extended, &rows));
+    let triples = Observable::ALL.map(|observable| {
+        let pairs = before.pairs(observable).zip(after.pairs(observable));
+        let triple = |(before, after): (Option<[f64; 2]>, Option<[f64; 2]>)| {
+            let ([measured, base], [_, extended]) = (before?, after?);
+            Some([measured, base, extended])
+        };
+        pairs.map(triple).collect::<Vec<_>>()
+    });
     let cell = |values: &Values, row: usize| match values {
         Values::Numbers(numbers) => numbers[row],
-        Values::Words { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
+        Values::Labels { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
     };
-    let triple = |place: usize, observable| {
-        let row = &study.rows[rows[place]];
-        let [measured, base] = pair(row, &before.means[place], observable)?;
-        let [_, extended] = pair(row, &after.means[place], observable)?;
-        Some([measured, base, extended])
+    let row = |(place, &row): (usize, &usize)| {
+        let [e_n, e_t, captured] = [0, 1, 2].map(|which| triples[which][place]);
+        let cells = data.covariates.iter().map(|column| cell(&column.values, row)).collect();
+        SampleRow { held_out: place < held_out.len(), cells, e_n, e_t, captured }
     };
-    let row = |(place, &(row, held_out)): (usize, &(usize, bool))| SampleRow {
-        held_out,
-        cells: study.factors.iter().map(|factor| cell(&factor.values, row)).collect(),
-        e_n: triple(place, Observable::NormalRestitution),
-        e_t: triple(place, Observable::TangentialRestitution),
-        captured: triple(place, Observable::Capture),
-    };
+    let words = data.covariates.iter().map(|column| match &column.values {
+        Values::Labels { levels, .. } => Some(levels.clone()),
+        Values::Numbers(_) => None,
+    });
     Sample {
-        columns: study.factors.iter().map(|f| (f.name.clone(), f.unit.to_owned())).collect(),
-        words: study
-            .factors
-            .iter()
-            .map(|factor| match &factor.values {
-                Values::Words { levels, .. } => Some(levels.clone()),
-                Values::Numbers(_) => None,
-            })
-            .collect(),
-        rows: chosen.iter().enumerate().map(row).collect(),
+        columns: data.covariates.iter().map(|c| (c.name.clone(), c.unit.to_owned())).collect(),
+        words: words.collect(),
+        rows: rows.iter().enumerate().map(row).collect(),
     }
 }

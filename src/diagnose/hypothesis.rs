@@ -1,111 +1,132 @@
-//! A hypothesis: the base model and what has been added to it so far.
+//! A hypothesis: the base model with everything that was added to it so far, and the scatter about it.
 
+use std::borrow::Cow;
+
+use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
+use super::evaluation::Evaluation;
 use super::forecast::Forecast;
-use super::likelihood::{Offset, Scatter, fit_scatter, mean, ordinary, score};
-use super::part::{Fitted, Part};
+use super::likelihood::{Mean, Offset, Scatter, mean};
+use super::observable::Observable;
+use super::part::{FittedPart, Part};
 use super::search::descend;
-use super::smooth::{Point, surface};
-use super::unknown::Unknown;
+use super::smooth::surface;
 use crate::dataset::Values;
 use crate::effect::Term;
 use crate::model::Model;
 
-/// A part acts on an observable where it changes it by this share of its largest change.
+/// A part acts on an observable if it changes it by more than this share of its largest change.
 const MINOR: f64 = 0.05;
-/// Scatter of a capture for comparisons with that of restitutions [1].
+/// Scatter of a capture in comparisons with that of restitutions [1].
 const CAPTURE_SCATTER: f64 = 0.25;
+/// First guess of the scatter of `e_n` and `e_t` [1].
+const FIRST_SCATTER: Scatter = [0.1, 0.1];
 
-/// What a row's observation is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Observable {
-    NormalRestitution,
-    TangentialRestitution,
-    Capture,
+/// A scatter that changes with a covariate.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ScatterTrend {
+    /// Index among the covariates.
+    pub covariate: usize,
+    /// Change of the logarithm of the scatter per standard deviation of the covariate [1].
+    pub slope: f64,
 }
 
-impl Observable {
-    pub const ALL: [Self; 3] = [Self::NormalRestitution, Self::TangentialRestitution, Self::Capture];
-
-    /// The name in the data file.
-    pub fn name(self) -> &'static str {
-        ["e_n", "e_t", "outcome"][self as usize]
-    }
-
-    /// The name for a reader.
-    pub fn title(self) -> &'static str {
-        ["normal restitution e_n", "tangential restitution e_t", "capture"][self as usize]
+impl ScatterTrend {
+    pub fn add_to(&self, offsets: &mut [Offset], data: &DataSplit) {
+        for (offset, z) in offsets.iter_mut().zip(data.covariates[self.covariate].standardised()) {
+            offset.spread *= (self.slope * z).exp();
+        }
     }
 }
 
-/// The base and what was added.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Hypothesis {
-    pub parts: Vec<Fitted>,
-    /// What each part acts on, in their order, as far as [`Hypothesis::absorb_shape`] has looked.
+/// The base model, the additions and the scatter. All fits and comparisons start from here.
+#[derive(Debug, Clone)]
+pub(super) struct Hypothesis<'a> {
+    pub data: &'a DataSplit,
+    pub parts: Vec<FittedPart>,
+    /// The observables that each part acts on, in their order, as of the last [`Hypothesis::fit_discrepancy`].
     pub acts_on: Vec<Vec<Observable>>,
-    pub unknowns: Vec<Unknown>,
-    /// Log odds of capture that nothing explains.
-    pub lapses: f64,
-    /// Columns with which the scatter changes: factor and log change a standard deviation of the column.
-    pub noise: Vec<(usize, f64)>,
-    /// What the named causes' own inputs still leave, row by row: the laws' shape need not be exact.
-    pub shape: Option<[Vec<f64>; 2]>,
-}
-
-/// How well a hypothesis does on some rows.
-pub(super) struct Fit {
+    pub curves: Vec<ColumnCurve>,
+    /// Offset of the log odds of capture that no column explains.
+    pub background_capture: f64,
+    pub scatter_trends: Vec<ScatterTrend>,
+    /// Offsets of `e_n` and `e_t` by row: residuals over the parts' own inputs, where a law is inexact.
+    pub discrepancy: Option<[Vec<f64>; 2]>,
+    /// Scatter of single measurements [1].
     pub scatter: Scatter,
-    pub score: f64,
 }
 
-impl Hypothesis {
-    /// The model with the given parameters in place of the parts' own.
-    fn model_at(&self, study: &DataSplit, parts: &[Fitted]) -> Model {
-        let mut model = study.base.clone();
-        let mut terms: Vec<Term> = model.terms().to_vec();
-        for fitted in parts {
-            match fitted.part {
-                Part::Effect(kind) => terms.push(Term::new(kind, &fitted.values())),
-                Part::Number(number) => {
-                    if let [value] = fitted.values()[..] {
-                        model = number.set(&model, value);
-                    }
-                }
+impl<'a> Hypothesis<'a> {
+    /// The base model with these parts.
+    pub fn with_parts(data: &'a DataSplit, parts: Vec<FittedPart>, scatter: Scatter) -> Self {
+        Self {
+            data,
+            parts,
+            acts_on: Vec::new(),
+            curves: Vec::new(),
+            background_capture: 0.0,
+            scatter_trends: Vec::new(),
+            discrepancy: None,
+            scatter,
+        }
+    }
+
+    /// The base model with the scatter that fits it best.
+    pub fn base(data: &'a DataSplit) -> Self {
+        let mut base = Self::with_parts(data, Vec::new(), FIRST_SCATTER);
+        base.fit_scatter(&data.search);
+        base
+    }
+
+    /// The base model with the parts. Curves, trends and discrepancy are in [`Hypothesis::offsets`].
+    pub fn model(&self) -> Model {
+        let mut model = self.data.base.clone();
+        let mut terms = model.terms().to_vec();
+        for part in &self.parts {
+            match (part.part, part.values().as_slice()) {
+                (Part::Effect(effect), values) => terms.push(Term::new(effect, values)),
+                (Part::LawParameter(parameter), [value]) => model = parameter.set(&model, *value),
+                (Part::LawParameter(_), _) => {}
             }
         }
         model.with_terms(terms)
     }
 
-    /// Whether a part turns on this input and acts on this observable.
-    pub fn turns_on(&self, input: &str, observable: Observable) -> bool {
-        let acting = self.parts.iter().zip(&self.acts_on).filter(|(_, on)| on.contains(&observable));
-        acting.into_iter().any(|(fitted, _)| fitted.part.inputs().contains(&input))
+    /// The offsets of all rows.
+    pub fn offsets(&self) -> Vec<Offset> {
+        let data = self.data;
+        let constant = Offset { capture: self.background_capture, ..Offset::default() };
+        let mut offsets = vec![constant; data.rows.len()];
+        for trend in &self.scatter_trends {
+            trend.add_to(&mut offsets, data);
+        }
+        for (which, values) in self.discrepancy.iter().flatten().enumerate() {
+            for (offset, value) in offsets.iter_mut().zip(values) {
+                offset.restitution[which] += value;
+            }
+        }
+        if !self.curves.is_empty() {
+            let all = self.evaluate(data.all(), vec![constant; data.rows.len()]);
+            self.curves.iter().for_each(|curve| curve.add_to(&mut offsets, &all));
+        }
+        offsets
     }
 
-    /// What each part acts on: the observables that it changes by more than a small share of what it changes most.
-    fn actions(&self, study: &DataSplit, scatter: Scatter) -> Vec<Vec<Observable>> {
-        let whole = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
-        let without = |place: usize| {
-            let mut parts = self.parts.clone();
-            parts.remove(place);
-            let model = self.model_at(study, &parts);
-            let changes = changes(
-                study,
-                &whole,
-                &Forecast::new(&model, &study.rows, &study.search, study.draws),
-                scatter,
-            );
-            let most = changes.iter().copied().fold(0.0, f64::max);
-            let strong = |o: &Observable| changes[*o as usize] > MINOR * most;
-            Observable::ALL.into_iter().filter(strong).collect()
-        };
-        (0..self.parts.len()).map(without).collect()
+    /// Predicts these rows.
+    pub fn evaluate<'b>(
+        &self,
+        rows: impl Into<Cow<'b, [usize]>>,
+        offsets: impl Into<Cow<'b, [Offset]>>,
+    ) -> Evaluation<'b>
+    where
+        'a: 'b,
+    {
+        Evaluation::new(self.data, &self.model(), rows, offsets, self.scatter)
     }
 
-    /// The base with the parts.
-    pub fn model(&self, study: &DataSplit) -> Model {
-        self.model_at(study, &self.parts)
+    /// The predictions of the rows of the search.
+    pub fn forecast(&self) -> Forecast {
+        Forecast::new(&self.model(), &self.data.rows, &self.data.search, self.data.draws)
     }
 
     /// The coordinates of all parts, one part after the other.
@@ -125,220 +146,118 @@ impl Hypothesis {
         moved
     }
 
-    /// Fits all parameters together to the rows, from where they are, and the curves after them.
-    pub fn polish(&mut self, study: &DataSplit, rows: &[usize], first: Scatter) -> Scatter {
-        let mut scatter = first;
-        for _ in 0..if self.unknowns.is_empty() { 1 } else { 2 } {
-            let shifts = self.shifts(study);
+    /// Fits the scatter to these rows.
+    pub fn fit_scatter(&mut self, rows: &[usize]) {
+        self.scatter = self.evaluate(rows, self.offsets()).with_fitted_scatter().scatter;
+    }
+
+    /// Fits all parameters together to these rows, from their present values, then the curves and the scatter.
+    pub fn fit(&mut self, rows: &[usize]) {
+        for _ in 0..if self.curves.is_empty() { 1 } else { 2 } {
+            let offsets = self.offsets();
             let start = self.coordinates();
             if !start.is_empty() {
-                let cost = |at: &[f64]| -self.with_coordinates(at).fit(study, rows, &shifts, scatter).score;
+                let cost = |at: &[f64]| {
+                    -self.with_coordinates(at).evaluate(rows, &offsets).with_fitted_scatter().score()
+                };
                 let (at, _) = descend(cost, &start, 0.06, 60 * start.len() as u64);
                 *self = self.with_coordinates(&at);
             }
-            scatter = self.fit(study, rows, &shifts, scatter).scatter;
-            self.refit_unknowns(study, rows, scatter);
-        }
-        self.fit(study, rows, &self.shifts(study), scatter).scatter
-    }
-
-    /// Fits every curve again to what the rest leaves.
-    fn refit_unknowns(&mut self, study: &DataSplit, rows: &[usize], scatter: Scatter) {
-        let forecast = Forecast::new(&self.model(study), &study.rows, rows, study.draws);
-        for place in 0..self.unknowns.len() {
-            let unknown = self.unknowns.remove(place);
-            let shifts = self.shifts(study);
-            let fitted = unknown.fitted(study, rows, &forecast, &shifts, scatter);
-            self.unknowns.insert(place, fitted.unwrap_or(unknown));
-        }
-    }
-
-    /// What is added to each row's forecast; all rows of the study.
-    pub fn shifts(&self, study: &DataSplit) -> Vec<Offset> {
-        let mut shifts = vec![Offset { capture: self.lapses, ..Offset::default() }; study.rows.len()];
-        for &(factor, change) in &self.noise {
-            for (shift, z) in shifts.iter_mut().zip(standardised(&study.factors[factor].values)) {
-                shift.spread *= (change * z).exp();
+            self.scatter = self.evaluate(rows, &offsets).with_fitted_scatter().scatter;
+            for place in 0..self.curves.len() {
+                let curve = self.curves.remove(place);
+                let fitted = curve.form.clone().fit(&self.evaluate(rows, self.offsets()));
+                self.curves.insert(place, fitted.unwrap_or(curve));
             }
         }
-        if let Some([e_n, e_t]) = &self.shape {
-            for (index, shift) in shifts.iter_mut().enumerate() {
-                shift.e_n += e_n[index];
-                shift.e_t += e_t[index];
-            }
-        }
-        if !self.unknowns.is_empty() {
-            let all: Vec<usize> = (0..study.rows.len()).collect();
-            let forecast = Forecast::new(&self.model(study), &study.rows, &all, study.draws);
-            for unknown in &self.unknowns {
-                unknown.add(study, &forecast, &all, &mut shifts);
-            }
-        }
-        shifts
+        self.fit_scatter(rows);
     }
 
-    /// How well it does on the rows with these indices.
-    pub fn fit(&self, study: &DataSplit, rows: &[usize], shifts: &[Offset], first: Scatter) -> Fit {
-        self.fit_at(study, &self.parts, rows, shifts, first)
+    /// Fits all parameters together to the rows of the search, then the discrepancy.
+    pub fn fit_with_discrepancy(&mut self) {
+        let data = self.data;
+        self.discrepancy = None;
+        self.fit(&data.search);
+        self.fit_discrepancy();
     }
 
-    /// As [`Hypothesis::fit`] with other parts.
-    pub fn fit_at(
-        &self,
-        study: &DataSplit,
-        parts: &[Fitted],
-        rows: &[usize],
-        shifts: &[Offset],
-        first: Scatter,
-    ) -> Fit {
-        let forecast = Forecast::new(&self.model_at(study, parts), &study.rows, rows, study.draws);
-        let scatter = fit_scatter(&study.rows, rows, &forecast, shifts, first);
-        Fit { scatter, score: scores(study, rows, &forecast, shifts, scatter).iter().sum() }
-    }
-
-    /// Log score of each row under a given scatter.
-    pub fn row_scores(
-        &self,
-        study: &DataSplit,
-        rows: &[usize],
-        shifts: &[Offset],
-        scatter: Scatter,
-    ) -> Vec<f64> {
-        let forecast = Forecast::new(&self.model(study), &study.rows, rows, study.draws);
-        scores(study, rows, &forecast, shifts, scatter)
-    }
-
-    /// Takes up what the inputs of the named effects still leave, so that an inexact law does not call for a second cause.
-    pub fn absorb_shape(&mut self, study: &DataSplit, scatter: Scatter) {
-        self.shape = None;
-        self.acts_on = self.actions(study, scatter);
-        let shifts = self.shifts(study);
-        let all: Vec<usize> = (0..study.rows.len()).collect();
-        let forecast = Forecast::new(&self.model(study), &study.rows, &study.search, study.draws);
+    /// Fits a smooth surface to the residuals over the parts' inputs, so that an inexact law needs no second cause.
+    pub fn fit_discrepancy(&mut self) {
+        self.discrepancy = None;
+        self.acts_on = self.actions();
+        let all = self.data.all();
+        let evaluation = self.evaluate(&self.data.search, self.offsets());
         let of = |observable| {
-            let (own, others) = self.shaping(study, observable);
+            let (own, others) = self.discrepancy_columns(observable);
             if own.is_empty() {
                 return vec![0.0; all.len()];
             }
-            let points = residuals(study, &study.search, &forecast, &shifts, scatter, observable, false);
-            surface(&own, &others, &points, &all)
+            surface(&own, &others, &evaluation.residuals(observable, false), &all)
         };
-        self.shape = Some([of(Observable::NormalRestitution), of(Observable::TangentialRestitution)]);
+        self.discrepancy = Some([of(Observable::NormalRestitution), of(Observable::TangentialRestitution)]);
     }
 
-    /// Columns whose effect on an observable the parts answer for: on their own, and together with one of those.
+    /// The columns of the discrepancy of an observable: those with a curve of their own, and those that only interact
+    /// with one of them.
     ///
-    /// Speed and size belong to the plain laws: a part with an input of its own answers for them beside that input only.
-    fn shaping<'a>(
-        &self,
-        study: &'a DataSplit,
-        observable: Observable,
-    ) -> (Vec<&'a Values>, Vec<&'a Values>) {
+    /// The plain laws explain speed and diameter: for a part with another input they only interact with that input.
+    fn discrepancy_columns(&self, observable: Observable) -> (Vec<&'a Values>, Vec<&'a Values>) {
         let plain = |name: &&str| ["v_n", "d"].contains(name);
-        let acting = self.parts.iter().zip(&self.acts_on).filter(|(_, on)| on.contains(&observable));
         let mut own: Vec<&str> = Vec::new();
-        for (fitted, _) in acting {
-            let inputs = fitted.part.inputs();
+        for part in self.acting_on(observable) {
+            let inputs = part.part.inputs();
             let alone = inputs.iter().all(plain);
             own.extend(inputs.iter().filter(|name| alone || !plain(name)));
         }
         own.sort_unstable();
         own.dedup();
         let others = ["v_n", "d"].into_iter().filter(|name| !own.contains(name));
-        let values = |name: &str| study.factor(name).map(|factor| &factor.values);
+        let data = self.data;
+        let values = |name: &str| data.covariate(name).map(|covariate| &covariate.values);
         (own.iter().copied().filter_map(values).collect(), others.filter_map(values).collect())
     }
-}
 
-/// Mean squared change between two forecasts of the search's rows, in units of the scatter, by observable; 0 where it was
-/// not observed.
-pub(super) fn changes(study: &DataSplit, one: &Forecast, other: &Forecast, scatter: Scatter) -> [f64; 3] {
-    let plain = Offset::default();
-    let mut sums = [0.0; 3];
-    for (place, &index) in study.search.iter().enumerate() {
-        let row = &study.rows[index];
-        let (a, b) = (mean(one.of(place), &plain), mean(other.of(place), &plain));
-        let squared = |x: f64, variance: f64, scatter: f64| (x * x + variance.abs()) / (scatter * scatter);
-        if row.e_n.is_some() {
-            sums[0] += squared(a.e_n - b.e_n, a.variance_e_n - b.variance_e_n, scatter.e_n);
-        }
-        if row.e_t.is_some() {
-            sums[1] += squared(a.e_t - b.e_t, a.variance_e_t - b.variance_e_t, scatter.e_t);
-        }
-        if row.captured.is_some() {
-            sums[2] += squared(a.capture - b.capture, 0.0, CAPTURE_SCATTER);
-        }
+    fn acting_on(&self, observable: Observable) -> impl Iterator<Item = &FittedPart> {
+        let acting = self.parts.iter().zip(&self.acts_on).filter(move |(_, on)| on.contains(&observable));
+        acting.map(|(part, _)| part)
     }
-    sums.map(|sum| sum / study.search.len() as f64)
-}
 
-/// What is left of an observable in each of the rows that have it; `forecast` is of these rows.
-pub(super) fn residuals(
-    study: &DataSplit,
-    rows: &[usize],
-    forecast: &Forecast,
-    shifts: &[Offset],
-    scatter: Scatter,
-    observable: Observable,
-    factorwise: bool,
-) -> Vec<Point> {
-    let point = |(place, &index): (usize, &usize)| {
-        let (row, shift) = (&study.rows[index], &shifts[index]);
-        let said = mean(forecast.of(place), shift);
-        let (reading, expected, scatter, chance) = match observable {
-            Observable::NormalRestitution => (row.e_n.as_ref(), said.e_n, scatter.e_n, said.variance_e_n),
-            Observable::TangentialRestitution => (row.e_t.as_ref(), said.e_t, scatter.e_t, said.variance_e_t),
-            Observable::Capture => {
-                let spread = said.capture * (1.0 - said.capture);
-                return row.captured.map(|share| Point {
-                    row: index,
-                    // One step of the logistic fit: the residual in log odds and its information.
-                    residual: (share - said.capture) / spread,
-                    weight: spread * row.impacts,
-                    factor: 1.0,
-                });
-            }
+    /// Whether a part depends on this input and acts on this observable.
+    pub fn explains(&self, input: &str, observable: Observable) -> bool {
+        self.acting_on(observable).any(|part| part.part.inputs().contains(&input))
+    }
+
+    /// The observables that each part acts on.
+    fn actions(&self) -> Vec<Vec<Observable>> {
+        let whole = self.forecast();
+        let of_part = |place: usize| {
+            let mut without = self.clone();
+            without.parts.remove(place);
+            let changes = self.changes(&whole, &without.forecast());
+            let most = changes.iter().copied().fold(0.0, f64::max);
+            let acts = |observable: &Observable| changes[*observable as usize] > MINOR * most;
+            Observable::ALL.into_iter().filter(acts).collect()
         };
-        reading.map(|reading| {
-            let residual = reading.value - expected;
-            let own = (scatter * shift.spread).powi(2) + chance;
-            let variance = reading.error.map_or(own / row.rebounds.max(1.0), |error| own + error * error);
-            Point {
-                row: index,
-                residual,
-                weight: ordinary(residual, variance.sqrt()) / variance,
-                factor: if factorwise { expected } else { 1.0 },
+        (0..self.parts.len()).map(of_part).collect()
+    }
+
+    /// Mean squared difference of two forecasts of the search's rows, in units of the scatter, by observable; 0 where it
+    /// was not measured.
+    pub fn changes(&self, one: &Forecast, other: &Forecast) -> [f64; 3] {
+        let [e_n, e_t] = self.scatter;
+        let scatter = [e_n, e_t, CAPTURE_SCATTER];
+        let mut sums = [0.0; 3];
+        for (place, &index) in self.data.search.iter().enumerate() {
+            let row = &self.data.rows[index];
+            let [a, b] = [one, other].map(|forecast| mean(forecast.of(place), &Offset::default()));
+            for observable in Observable::ALL.into_iter().filter(|o| o.measured(row).is_some()) {
+                let which = observable as usize;
+                let difference = observable.predicted(&a) - observable.predicted(&b);
+                let variance = |mean: &Mean| mean.variance.get(which).copied().unwrap_or(0.0);
+                let squared = difference * difference + (variance(&a) - variance(&b)).abs();
+                sums[which] += squared / (scatter[which] * scatter[which]);
             }
-        })
-    };
-    rows.iter().enumerate().filter_map(point).collect()
-}
-
-fn scores(
-    study: &DataSplit,
-    rows: &[usize],
-    forecast: &Forecast,
-    shifts: &[Offset],
-    scatter: Scatter,
-) -> Vec<f64> {
-    let one = |(place, &index): (usize, &usize)| {
-        score(&study.rows[index], forecast.of(place), &shifts[index], scatter)
-    };
-    rows.iter().enumerate().map(one).collect()
-}
-
-/// A column in standard deviations from its mean, at most three; words and blanks are 0.
-pub(super) fn standardised(values: &Values) -> Vec<f64> {
-    let Values::Numbers(numbers) = values else {
-        let Values::Words { of_row, .. } = values else { return Vec::new() };
-        return vec![0.0; of_row.len()];
-    };
-    let finite: Vec<f64> = numbers.iter().copied().filter(|value| value.is_finite()).collect();
-    let count = finite.len().max(1) as f64;
-    let mean = finite.iter().sum::<f64>() / count;
-    let deviation = (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
-    let z = |value: &f64| {
-        if value.is_finite() && deviation > 0.0 { ((value - mean) / deviation).clamp(-3.0, 3.0) } else { 0.0 }
-    };
-    numbers.iter().map(z).collect()
+        }
+        sums.map(|sum| sum / self.data.search.len() as f64)
+    }
 }

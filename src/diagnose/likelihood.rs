@@ -1,41 +1,36 @@
-//! How well a model's forecast of a measured row fits it: the log score, and the scatter it implies.
+//! The log score of a measured row under a prediction.
 //!
-//! A rebound's `e_n` and `e_t` scatter normally about the forecast, except that one row in fifty may be anything (a gross
-//! error of measurement): the density is `0.98 N(residual; s) + 0.02 · 0.4`, the second term even over 2.5 wide. So a few
-//! outliers cannot make or break a cause. A capture scores `ln p`, a rebound `ln (1-p)` besides, with `p` kept 0.005 off 0
-//! and 1. Where a model leaves something to chance, the row's probability is the mean over [`Forecast::draws`] draws. An
-//! average of `n` impacts scatters with `s/sqrt(n)`, or with its stated standard error and the common scatter `s` together.
-//!
-//! `s` is estimated from the rows at hand for every forecast anew (expectation–maximisation).
+//! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a share of 2 % gross
+//! errors: the density is `0.98 N(residual; s) + 0.02 · 0.4`, where the second term is uniform over a width of 2.5. So a few
+//! outliers cannot decide for or against a cause. A capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to
+//! 0.995. Under a stochastic model the probability of a row is the mean over the draws. The scatter of an average of `n`
+//! impacts is `s/sqrt(n)`, or `s` combined with its stated standard error.
 
-use super::forecast::{Forecast, Prediction};
+use super::forecast::Prediction;
 use crate::dataset::{Measurement, Reading};
 
-/// Share of rows that may be gross errors [1].
+/// Expected share of gross errors [1].
 const GROSS_SHARE: f64 = 0.02;
 /// Density of a gross error [1].
 const GROSS_DENSITY: f64 = 0.4;
-/// Beyond this many times the scatter the normal density is nothing beside that of a gross error.
+/// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
 const FAR: f64 = 8.0;
-/// Rounds of the estimate of the scatter.
-const ROUNDS: usize = 6;
-/// It is near enough where a round changes it by this share.
-const NEAR: f64 = 3e-3;
-/// No outcome is ever held to be certain.
-const DOUBT: f64 = 0.005;
-/// Largest shift of the log odds of capture.
+/// No outcome is predicted with more certainty than one minus this.
+const UNCERTAINTY: f64 = 0.005;
+/// Largest offset of the log odds of capture.
 const LARGEST_ODDS: f64 = 10.0;
 /// Smallest scatter of a restitution [1].
-const SMALLEST_SCATTER: f64 = 1e-3;
+pub(super) const SMALLEST_SCATTER: f64 = 1e-3;
 
-/// What is added to a forecast of one row, besides what the model says.
+/// Scatter of single measurements of `e_n` and `e_t` about the prediction [1].
+pub(super) type Scatter = [f64; 2];
+
+/// Correction of the prediction of one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Offset {
-    /// To `e_n` [1].
-    pub e_n: f64,
-    /// To `e_t` [1].
-    pub e_t: f64,
-    /// To the log odds of capture [1].
+    /// Added to `e_n` and `e_t` [1].
+    pub restitution: [f64; 2],
+    /// Added to the log odds of capture [1].
     pub capture: f64,
     /// Factor on the scatter [1].
     pub spread: f64,
@@ -43,227 +38,184 @@ pub(super) struct Offset {
 
 impl Default for Offset {
     fn default() -> Self {
-        Self { e_n: 0.0, e_t: 0.0, capture: 0.0, spread: 1.0 }
+        Self { restitution: [0.0; 2], capture: 0.0, spread: 1.0 }
     }
 }
 
-/// Scatter of single measurements about the forecast [1].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scatter {
-    pub e_n: f64,
-    pub e_t: f64,
-}
-
-/// The probability of capture after a shift, kept off 0 and 1: no curve may win by claiming to be certain.
-pub(super) fn capture(said: &Prediction, shift: &Offset) -> f64 {
-    let doubted = |share: f64| DOUBT + (1.0 - 2.0 * DOUBT) * share;
-    let plain = doubted(said.capture);
-    if shift.capture == 0.0 {
-        return plain;
-    }
-    let odds = plain / (1.0 - plain) * shift.capture.clamp(-LARGEST_ODDS, LARGEST_ODDS).exp();
-    doubted(odds / (1.0 + odds))
-}
-
-/// Mean `e_n`, `e_t` of the rebounds, their variances over chance, and the mean probability of capture.
+/// Predicted means of a row over its draws.
 pub(super) struct Mean {
-    pub e_n: f64,
-    pub e_t: f64,
-    pub variance_e_n: f64,
-    pub variance_e_t: f64,
+    /// `e_n` and `e_t` of the rebounds [1].
+    pub restitution: [f64; 2],
+    /// Their variances over the draws [1].
+    pub variance: [f64; 2],
+    /// Probability of capture [1].
     pub capture: f64,
 }
 
-/// The forecast's mean over chance.
-pub(super) fn mean(said: &[Prediction], shift: &Offset) -> Mean {
-    let (mut weight, mut held, mut all) = (0.0, 0.0, 0.0);
-    let (mut n, mut nn, mut t, mut tt) = (0.0, 0.0, 0.0, 0.0);
-    for one in said {
-        let p = capture(one, shift);
-        let rebounds = (1.0 - p) * one.weight;
-        held += p * one.weight;
-        all += one.weight;
-        weight += rebounds;
-        n += rebounds * one.e_n;
-        nn += rebounds * one.e_n * one.e_n;
-        t += rebounds * one.e_t;
-        tt += rebounds * one.e_t * one.e_t;
+/// The measured `e_n` and `e_t` of a row.
+pub(super) fn readings(row: &Measurement) -> [Option<Reading>; 2] {
+    [row.e_n, row.e_t]
+}
+
+/// The probability of capture with its offset, away from 0 and 1: no curve may gain from a claim of certainty.
+fn capture(prediction: &Prediction, offset: &Offset) -> f64 {
+    let bounded = |share: f64| UNCERTAINTY + (1.0 - 2.0 * UNCERTAINTY) * share;
+    let plain = bounded(prediction.capture);
+    if offset.capture == 0.0 {
+        return plain;
     }
-    let (e_n, e_t) = (n / weight, t / weight);
+    let odds = plain / (1.0 - plain) * offset.capture.clamp(-LARGEST_ODDS, LARGEST_ODDS).exp();
+    bounded(odds / (1.0 + odds))
+}
+
+/// The means over the draws of a row.
+pub(super) fn mean(predictions: &[Prediction], offset: &Offset) -> Mean {
+    let (mut rebounds, mut captured, mut all) = (0.0, 0.0, 0.0);
+    let (mut sum, mut squares) = ([0.0; 2], [0.0; 2]);
+    for one in predictions {
+        let p = capture(one, offset);
+        let weight = (1.0 - p) * one.weight;
+        captured += p * one.weight;
+        all += one.weight;
+        rebounds += weight;
+        for (which, e) in one.restitution.into_iter().enumerate() {
+            sum[which] += weight * e;
+            squares[which] += weight * e * e;
+        }
+    }
+    let plain = sum.map(|sum| sum / rebounds);
     Mean {
-        e_n: e_n + shift.e_n,
-        e_t: e_t + shift.e_t,
-        variance_e_n: (nn / weight - e_n * e_n).max(0.0),
-        variance_e_t: (tt / weight - e_t * e_t).max(0.0),
-        capture: held / all,
+        restitution: [0, 1].map(|which| plain[which] + offset.restitution[which]),
+        variance: [0, 1].map(|which| (squares[which] / rebounds - plain[which] * plain[which]).max(0.0)),
+        capture: captured / all,
     }
 }
 
-/// One quantity's scatter in one row [1].
-fn row_scatter(scatter: f64, spread: f64, reading: &Reading, rebounds: f64, chance: f64) -> f64 {
+/// The standard deviation of a reading about the prediction [1]; `variance` is that of the prediction.
+fn deviation(scatter: f64, spread: f64, reading: &Reading, rebounds: f64, variance: f64) -> f64 {
     let own = match reading.error {
-        Some(error) => (scatter * spread).powi(2) + error * error + chance / rebounds.max(1.0),
-        None => ((scatter * spread).powi(2) + chance) / rebounds.max(1.0),
+        Some(error) => (scatter * spread).powi(2) + error * error + variance / rebounds.max(1.0),
+        None => ((scatter * spread).powi(2) + variance) / rebounds.max(1.0),
     };
     own.sqrt().max(SMALLEST_SCATTER)
 }
 
-fn normal_density(residual: f64, scatter: f64) -> f64 {
-    let z = residual / scatter;
+fn normal_density(residual: f64, deviation: f64) -> f64 {
+    let z = residual / deviation;
     if z.abs() > FAR {
         return 0.0;
     }
-    (-0.5 * z * z).exp() / (scatter * (2.0 * std::f64::consts::PI).sqrt())
+    (-0.5 * z * z).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt())
 }
 
-/// Density of a residual, and the part of it that is ordinary scatter.
-fn densities(residual: f64, scatter: f64) -> (f64, f64) {
-    let normal = (1.0 - GROSS_SHARE) * normal_density(residual, scatter);
+/// Density of a residual, and its part without gross errors.
+fn densities(residual: f64, deviation: f64) -> (f64, f64) {
+    let normal = (1.0 - GROSS_SHARE) * normal_density(residual, deviation);
     (normal + GROSS_SHARE * GROSS_DENSITY, normal)
 }
 
-/// Whether a residual is ordinary scatter rather than a gross error, 0 to 1.
-pub(super) fn ordinary(residual: f64, scatter: f64) -> f64 {
-    let (density, normal) = densities(residual, scatter);
+/// Probability that a residual is no gross error.
+pub(super) fn regular(residual: f64, deviation: f64) -> f64 {
+    let (density, normal) = densities(residual, deviation);
     normal / density
 }
 
-/// Log score of one row.
-pub(super) fn score(row: &Measurement, said: &[Prediction], shift: &Offset, scatter: Scatter) -> f64 {
+/// Log score of one row [nats].
+pub(super) fn score(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
     if row.impacts > 1.0 {
-        score_average(row, said, shift, scatter)
+        score_average(row, predictions, offset, scatter)
     } else {
-        score_single(row, said, shift, scatter)
+        score_single(row, predictions, offset, scatter)
     }
 }
 
-fn score_single(row: &Measurement, said: &[Prediction], shift: &Offset, scatter: Scatter) -> f64 {
+fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
     let (mut sum, mut rebounds, mut all) = (0.0, 0.0, 0.0);
-    for one in said {
-        let p = capture(one, shift);
+    for one in predictions {
+        let p = capture(one, offset);
         all += one.weight;
         if row.captured.is_some_and(|share| share > 0.5) {
             sum += p * one.weight;
             continue;
         }
-        sum += (1.0 - p) * one.weight * rebound_density(row, one, shift, scatter);
+        let mut density = 1.0;
+        for (which, reading) in readings(row).iter().enumerate() {
+            let Some(reading) = reading else { continue };
+            let width = deviation(scatter[which], offset.spread, reading, 1.0, one.reach[which].powi(2));
+            let residual = reading.value - (one.restitution[which] + offset.restitution[which]);
+            density *= densities(residual, width).0;
+        }
+        sum += (1.0 - p) * one.weight * density;
         rebounds += (1.0 - p) * one.weight;
     }
-    // Where captures are not recorded, the row speaks of rebounds alone.
+    // Where captures are not recorded, the row is a sample of the rebounds.
     if row.captured.is_some() { (sum / all).ln() } else { (sum / rebounds).ln() }
 }
 
-/// Density of the restitutions of a single rebound under one draw.
-fn rebound_density(row: &Measurement, one: &Prediction, shift: &Offset, scatter: Scatter) -> f64 {
-    let of = |reading: &Option<Reading>, said: f64, scatter: f64, reach: f64| {
-        reading.as_ref().map_or(1.0, |reading| {
-            let scatter = row_scatter(scatter, shift.spread, reading, 1.0, reach * reach);
-            densities(reading.value - said, scatter).0
-        })
-    };
-    of(&row.e_n, one.e_n + shift.e_n, scatter.e_n, one.reach[0])
-        * of(&row.e_t, one.e_t + shift.e_t, scatter.e_t, one.reach[1])
-}
-
-fn score_average(row: &Measurement, said: &[Prediction], shift: &Offset, scatter: Scatter) -> f64 {
-    let mean = mean(said, shift);
-    let of = |reading: &Option<Reading>, said: f64, scatter: f64, chance: f64| {
-        reading.as_ref().map_or(0.0, |reading| {
-            let scatter = row_scatter(scatter, shift.spread, reading, row.rebounds, chance);
-            densities(reading.value - said, scatter).0.ln()
-        })
-    };
-    let captured = row.captured.map_or(0.0, |share| {
+fn score_average(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
+    let mean = mean(predictions, offset);
+    let mut score = row.captured.map_or(0.0, |share| {
         row.impacts * (share * mean.capture.ln() + (1.0 - share) * (1.0 - mean.capture).ln())
     });
-    captured
-        + of(&row.e_n, mean.e_n, scatter.e_n, mean.variance_e_n)
-        + of(&row.e_t, mean.e_t, scatter.e_t, mean.variance_e_t)
-}
-
-/// The scatter that makes the rows most likely, from a first guess; `rows` are indices.
-pub(super) fn fit_scatter(
-    all: &[Measurement],
-    rows: &[usize],
-    forecast: &Forecast,
-    shifts: &[Offset],
-    first: Scatter,
-) -> Scatter {
-    let mut scatter = first;
-    for _ in 0..ROUNDS {
-        let mut sums = [[0.0; 2]; 2];
-        for (place, &index) in rows.iter().enumerate() {
-            add_row(&mut sums, &all[index], forecast.of(place), &shifts[index], scatter);
-        }
-        let root = |[sum, weight]: [f64; 2], before: f64| {
-            if weight > 0.0 { (sum / weight).max(SMALLEST_SCATTER.powi(2)).sqrt() } else { before }
-        };
-        let next = Scatter { e_n: root(sums[0], scatter.e_n), e_t: root(sums[1], scatter.e_t) };
-        let done = (next.e_n - scatter.e_n).abs() < NEAR * next.e_n
-            && (next.e_t - scatter.e_t).abs() < NEAR * next.e_t;
-        scatter = next;
-        if done {
-            break;
-        }
+    for (which, reading) in readings(row).iter().enumerate() {
+        let Some(reading) = reading else { continue };
+        let width = deviation(scatter[which], offset.spread, reading, row.rebounds, mean.variance[which]);
+        score += densities(reading.value - mean.restitution[which], width).0.ln();
     }
-    scatter
+    score
 }
 
-/// Adds a row's squared residuals and weights, of `e_n` and `e_t`.
-fn add_row(
+/// Adds a row's squared residuals and their weights, of `e_n` and `e_t`, for one step of expectation–maximisation.
+pub(super) fn add_squares(
     sums: &mut [[f64; 2]; 2],
     row: &Measurement,
-    said: &[Prediction],
-    shift: &Offset,
+    predictions: &[Prediction],
+    offset: &Offset,
     scatter: Scatter,
 ) {
     if row.captured.is_some_and(|share| share >= 1.0) {
         return;
     }
-    let single = row.impacts <= 1.0;
     let average;
-    let (said, chance) = if single || said.len() == 1 {
-        (said, [0.0; 2])
+    let (predictions, variance) = if row.impacts <= 1.0 || predictions.len() == 1 {
+        (predictions, [0.0; 2])
     } else {
-        let mean = mean(said, shift);
+        let mean = mean(predictions, offset);
         average = [Prediction {
-            e_n: mean.e_n - shift.e_n,
-            e_t: mean.e_t - shift.e_t,
+            restitution: [0, 1].map(|which| mean.restitution[which] - offset.restitution[which]),
             capture: mean.capture,
             weight: 1.0,
             reach: [0.0; 2],
         }];
-        (&average[..], [mean.variance_e_n, mean.variance_e_t])
+        (&average[..], mean.variance)
     };
-    // Each draw counts by how likely it makes the row; the sum of these weights is not known before the last draw.
-    let (mut own, mut whole) = ([[0.0; 2]; 2], 0.0);
-    for one in said {
-        let readings =
-            [(&row.e_n, one.e_n + shift.e_n, scatter.e_n), (&row.e_t, one.e_t + shift.e_t, scatter.e_t)];
-        let mut likely = (1.0 - capture(one, shift)) * one.weight;
+    // The weight of a draw is the likelihood of the row under it, over that of all draws.
+    let (mut own, mut total) = ([[0.0; 2]; 2], 0.0);
+    for one in predictions {
+        let mut likelihood = (1.0 - capture(one, offset)) * one.weight;
         let mut terms = [[0.0; 2]; 2];
-        for (quantity, (reading, said, scatter)) in readings.into_iter().enumerate() {
+        for (which, reading) in readings(row).iter().enumerate() {
             let Some(reading) = reading else { continue };
-            let residual = reading.value - said;
-            let chance = chance[quantity] + one.reach[quantity].powi(2);
-            let width = row_scatter(scatter, shift.spread, reading, row.rebounds, chance);
+            let residual = reading.value - (one.restitution[which] + offset.restitution[which]);
+            let variance = variance[which] + one.reach[which].powi(2);
+            let width = deviation(scatter[which], offset.spread, reading, row.rebounds, variance);
             let (density, normal) = densities(residual, width);
             let (foreign, count) = match reading.error {
                 Some(error) => (error * error, 1.0),
-                None => (chance / row.rebounds.max(1.0), row.rebounds.max(1.0)),
+                None => (variance / row.rebounds.max(1.0), row.rebounds.max(1.0)),
             };
-            let squared = (residual * residual - foreign).max(0.0) * count / (shift.spread * shift.spread);
-            likely *= density;
-            terms[quantity] = [squared * normal / density, normal / density];
+            let squared = (residual * residual - foreign).max(0.0) * count / (offset.spread * offset.spread);
+            likelihood *= density;
+            terms[which] = [squared * normal / density, normal / density];
         }
         for (sum, term) in own.iter_mut().flatten().zip(terms.as_flattened()) {
-            *sum += likely * term;
+            *sum += likelihood * term;
         }
-        whole += likely;
+        total += likelihood;
     }
-    if whole > 0.0 {
+    if total > 0.0 {
         for (sum, own) in sums.iter_mut().flatten().zip(own.as_flattened()) {
-            *sum += own / whole;
+            *sum += own / total;
         }
     }
 }

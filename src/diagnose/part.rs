@@ -1,15 +1,15 @@
-//! What can be added to a base model and has parameters: an effect, or another value for a number of its laws.
+//! What a fit can add to a base model: an effect, or another value of a parameter of its laws.
 
 use super::data_split::DataSplit;
-use super::search::Axis;
+use super::search::SearchAxis;
 use crate::effect::EffectInfo;
 use crate::model::Model;
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
-/// A number of the base model's own laws.
+/// A parameter of the base model's own laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Number {
+pub(super) enum LawParameter {
     /// `normal.e_n` of constant restitution.
     NormalRestitution,
     /// `tangential.e_t` of constant restitution.
@@ -18,7 +18,9 @@ pub(super) enum Number {
     Friction,
 }
 
-impl Number {
+impl LawParameter {
+    pub const ALL: [Self; 3] = [Self::NormalRestitution, Self::TangentialRestitution, Self::Friction];
+
     /// Table and key in the model file.
     pub fn key(self) -> [&'static str; 2] {
         match self {
@@ -28,11 +30,24 @@ impl Number {
         }
     }
 
-    /// Its value in a model, where the model has it.
+    /// Its value in a model, if the model has it.
     pub fn of(self, model: &Model) -> Option<f64> {
-        match (self, model.normal_law(), model.tangential_law()) {
-            (Self::NormalRestitution, NormalLaw::Constant { restitution }, _) => Some(restitution),
-            (Self::TangentialRestitution, _, TangentialLaw::Constant { restitution }) => Some(restitution),
+        self.find(&mut model.normal_law(), &mut model.tangential_law()).copied()
+    }
+
+    /// The model with another value.
+    pub fn set(self, model: &Model, value: f64) -> Model {
+        let (mut normal, mut tangential) = (model.normal_law(), model.tangential_law());
+        if let Some(parameter) = self.find(&mut normal, &mut tangential) {
+            *parameter = value;
+        }
+        model.with_laws(normal, tangential)
+    }
+
+    fn find<'a>(self, normal: &'a mut NormalLaw, tangential: &'a mut TangentialLaw) -> Option<&'a mut f64> {
+        match (self, normal, tangential) {
+            (Self::NormalRestitution, NormalLaw::Constant { restitution }, _)
+            | (Self::TangentialRestitution, _, TangentialLaw::Constant { restitution }) => Some(restitution),
             (
                 Self::Friction,
                 _,
@@ -41,91 +56,74 @@ impl Number {
             _ => None,
         }
     }
-
-    /// The model with another value for it.
-    pub fn set(self, model: &Model, value: f64) -> Model {
-        let (normal, tangential) = (model.normal_law(), model.tangential_law());
-        match (self, tangential) {
-            (Self::NormalRestitution, _) => {
-                model.with_laws(NormalLaw::Constant { restitution: value }, tangential)
-            }
-            (Self::TangentialRestitution, _) => {
-                model.with_laws(normal, TangentialLaw::Constant { restitution: value })
-            }
-            (Self::Friction, TangentialLaw::Sliding { .. }) => {
-                model.with_laws(normal, TangentialLaw::Sliding { friction: value })
-            }
-            (Self::Friction, _) => model.with_laws(normal, TangentialLaw::SlidingRolling { friction: value }),
-        }
-    }
 }
 
-/// Something with parameters that can be added to the base.
+/// An addition to the base model that has parameters.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Part {
-    /// An effect of the library.
     Effect(&'static EffectInfo),
-    /// Another value for a number of the base.
-    Number(Number),
+    LawParameter(LawParameter),
 }
 
 impl Part {
-    /// Its name: an effect's id, or a number's key.
+    /// An effect's id, or the key of a law's parameter.
     pub fn name(&self) -> String {
         match self {
-            Self::Effect(kind) => kind.id.to_owned(),
-            Self::Number(number) => number.key().join("."),
+            Self::Effect(effect) => effect.id.to_owned(),
+            Self::LawParameter(parameter) => parameter.key().join("."),
         }
     }
 
-    /// Whether it leaves something to chance.
-    pub fn scatters(&self) -> bool {
-        matches!(self, Self::Effect(kind) if kind.stream.is_some())
+    /// Whether its outcome is drawn at random.
+    pub fn is_stochastic(&self) -> bool {
+        matches!(self, Self::Effect(effect) if effect.stream.is_some())
     }
 
-    /// The inputs that it turns on.
+    /// The inputs that it depends on.
     pub fn inputs(&self) -> &'static [&'static str] {
         match self {
-            Self::Effect(kind) => kind.inputs,
-            Self::Number(_) => &[],
+            Self::Effect(effect) => effect.inputs,
+            Self::LawParameter(_) => &[],
         }
     }
 
-    /// The axes of its parameters, with `refined` also of those that have a default (they come last); `None` where the
-    /// data cannot show it.
-    pub fn axes(&self, study: &DataSplit, refined: bool) -> Option<Vec<Axis>> {
-        match self {
-            Self::Number(_) => Some(vec![Axis::linear(0.02, 1.1)]),
-            Self::Effect(kind) => {
-                // What an effect turns on has to vary. Beside another input, speed and size need not: laws work with them as
-                // they are.
-                let (known, needed): (Vec<&str>, Vec<&str>) =
-                    kind.inputs.iter().partition(|input| ["v_n", "d"].contains(*input));
-                let needed = if needed.is_empty() { known } else { needed };
-                needed.iter().map(|input| study.range(input)).collect::<Option<Vec<_>>>()?;
-                let free = kind.parameters.iter().filter(|p| refined || p.default.is_none());
-                free.map(|p| Axis::of(p, |input| study.range(input))).collect()
-            }
-        }
+    /// The search ranges of its parameters, with `refined` also of those with a default, which come last. `None` if the
+    /// data do not vary in what it depends on.
+    pub fn axes(&self, data: &DataSplit, refined: bool) -> Option<Vec<SearchAxis>> {
+        let Self::Effect(effect) = self else { return Some(vec![SearchAxis::linear(0.02, 1.1)]) };
+        // Beside another input, speed and diameter need not vary: the plain laws depend on them too.
+        let (plain, others): (Vec<&str>, Vec<&str>) =
+            effect.inputs.iter().partition(|input| ["v_n", "d"].contains(*input));
+        let needed = if others.is_empty() { plain } else { others };
+        needed.iter().map(|input| data.range(input)).collect::<Option<Vec<_>>>()?;
+        let free = effect.parameters.iter().filter(|p| refined || p.default.is_none());
+        free.map(|p| SearchAxis::of(p, |input| data.range(input))).collect()
     }
 }
 
-/// A part with its parameters.
+/// A part with the values of its parameters.
 #[derive(Debug, Clone)]
-pub(super) struct Fitted {
+pub(super) struct FittedPart {
     pub part: Part,
-    pub axes: Vec<Axis>,
+    pub axes: Vec<SearchAxis>,
     /// Coordinates on the axes.
     pub at: Vec<f64>,
+    /// 95 % intervals of the parameters that have an axis, in SI units; empty before the final fit.
+    pub intervals: Vec<[f64; 2]>,
 }
 
-impl Fitted {
+impl FittedPart {
+    /// The part at the middle of its search ranges.
+    pub fn middle(part: Part, axes: Vec<SearchAxis>) -> Self {
+        Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new() }
+    }
+
     /// The parameters in SI units; those without an axis have their defaults.
     pub fn values(&self) -> Vec<f64> {
         let mut values: Vec<f64> = self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect();
-        if let Part::Effect(kind) = self.part {
-            values
-                .extend(kind.parameters.iter().skip(values.len()).filter_map(|parameter| parameter.default));
+        if let Part::Effect(effect) = self.part {
+            let further = effect.parameters.iter().skip(values.len());
+            values.extend(further.filter_map(|parameter| parameter.default));
         }
         values
     }

@@ -1,37 +1,37 @@
-//! What a diagnosis comes to: the content of `diagnosis.json`, and the rows behind its figures.
+//! The result of a diagnosis: the content of `diagnosis.json` and the rows of its figures.
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-/// The answer to a file of measured impacts.
+/// The result of a diagnosis.
 #[derive(Debug, Clone, Serialize)]
 pub struct Diagnosis {
     /// `nearwall.diagnosis/1`.
     pub schema: &'static str,
-    /// What dealt the rows out.
+    /// Seed of the data split.
     pub seed: u64,
     /// Accepted share of false discoveries [1].
     pub level: f64,
-    /// The answer in a sentence or two.
+    /// The result in a few sentences.
     pub verdict: String,
     /// Rows read and used.
     pub rows: Rows,
     /// Errors of the base model on all used rows.
     pub base: Errors,
-    /// Where the base model fails, the worst first.
+    /// The columns with which the base model's residuals vary, the largest gain first.
     pub misfit: Vec<Misfit>,
     /// The causes, in the order in which they were found.
     pub findings: Vec<Finding>,
-    /// Numbers of the base model's own laws that the data want otherwise.
+    /// Parameters of the base model's own laws with a significantly different value.
     pub calibration: Vec<Calibration>,
-    /// Scatter that changes with a column: no cause, but taken into account.
+    /// Scatter about the extended model.
     pub scatter: ScatterFound,
-    /// Effects that these data cannot speak of.
+    /// Effects that these data cannot show.
     pub not_examined: Vec<NotExamined>,
-    /// Captures that neither the base nor a cause accounts for, at a rate that no column explains.
+    /// Captures that neither the base model nor a cause nor a column explains.
     pub unexplained_capture: Option<Unexplained>,
-    /// The gain on rows that no fit and no choice saw.
+    /// The gain on held-out rows in the observable of the first finding.
     pub gain: Option<Gain>,
     /// The same for every observable.
     pub gains: Vec<Gain>,
@@ -43,24 +43,24 @@ pub struct Diagnosis {
 }
 
 /// Rows of the file.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Default)]
 pub struct Rows {
     /// Rows in the file.
     pub read: usize,
     /// Rows that the diagnosis used.
     pub used: usize,
-    /// Impacts and readings that no fit and no choice saw; an average counts as the captures and rebounds it states.
+    /// Impacts and readings that no fit and no choice used; an average counts as the captures and rebounds it states.
     pub held_out: usize,
-    /// Rows left out.
+    /// Rows that were not used.
     pub rejected: Vec<Rejected>,
 }
 
-/// A row left out.
+/// A row that was not used.
 #[derive(Debug, Clone, Serialize)]
 pub struct Rejected {
     /// Line in the file, counted from 1.
     pub line: u64,
-    /// Why.
+    /// The reason.
     pub reason: String,
 }
 
@@ -75,15 +75,14 @@ pub struct Errors {
     pub log_loss_stick: Option<f64>,
 }
 
-/// How much of one observable's misfit a curve over one column explains.
+/// The dependence of an observable's residuals on one column.
 #[derive(Debug, Clone, Serialize)]
 pub struct Misfit {
     /// The column.
     pub column: String,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
-    /// Gain in log score on rows that the curve was not fitted to, beyond what an error that is the same everywhere
-    /// would give [nats].
+    /// Cross-validated gain in log score of a curve over the column, beyond that of a constant offset [nats].
     pub gain: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,
@@ -96,25 +95,25 @@ pub struct Finding {
     pub cause: String,
     /// The observable that gains most: `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
-    /// The inputs that it turns on.
+    /// The columns that it depends on.
     pub variables: Vec<String>,
-    /// Gain in log score on rows that its fit did not see [nats].
+    /// Cross-validated gain in log score [nats].
     pub gain: f64,
-    /// Of the paired test on unseen rows.
+    /// Of the paired test of the cross-validated gain.
     pub p_value: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,
     /// Its parameters by name.
     pub parameters: BTreeMap<&'static str, Estimate>,
-    /// Why the others lost, the best of them first.
+    /// Other causes, the best first.
     pub alternatives: Vec<Alternative>,
-    /// Causes that these data cannot tell from this one.
+    /// Causes that these data cannot distinguish from this one.
     pub indistinguishable_from: Vec<String>,
-    /// What to measure to tell them apart.
+    /// Measurements that would distinguish them.
     pub measure_next: Vec<Measure>,
-    /// A fitted curve, for a column that no effect explains.
-    pub curve: Option<Shape>,
-    /// One sentence.
+    /// The fitted curve, for a column that no effect explains.
+    pub curve: Option<FittedCurve>,
+    /// The finding in a few sentences.
     pub explanation: String,
 }
 
@@ -131,49 +130,49 @@ pub struct Estimate {
     pub unit: &'static str,
 }
 
-/// A cause that lost.
+/// A cause that was not chosen.
 #[derive(Debug, Clone, Serialize)]
 pub struct Alternative {
     /// An effect's id, a number's key or `unknown:<column>`.
     pub cause: String,
-    /// How much better the winner predicts unseen rows [nats].
+    /// Difference in cross-validated gain to the chosen cause [nats].
     pub score_difference: f64,
 }
 
-/// A measurement that would tell two causes apart.
+/// A measurement that would distinguish two causes.
 #[derive(Debug, Clone, Serialize)]
 pub struct Measure {
     /// The other cause.
     pub against: String,
     /// The input to vary.
     pub vary: String,
-    /// From where to where, in SI units.
+    /// The two values to measure at, in SI units.
     pub range: [f64; 2],
     /// The input's unit.
     pub unit: &'static str,
-    /// What to watch.
+    /// The observable to measure.
     pub observable: &'static str,
-    /// About how many impacts, half of them at each end.
+    /// Approximate number of impacts, half of them at each value.
     pub impacts: u64,
 }
 
-/// A curve over a column.
+/// A fitted curve over a column.
 #[derive(Debug, Clone, Serialize)]
-pub struct Shape {
-    /// Whether it multiplies the forecast instead of adding to it.
+pub struct FittedCurve {
+    /// Whether it is multiplied with the prediction rather than added.
     pub factor: bool,
-    /// Positions of its bends in the column's unit, or its words.
+    /// Its knots in the column's unit, or the labels.
     pub at: Vec<String>,
-    /// What it adds to the observable there (as a share of it if `factor`; in log odds for capture).
+    /// Its heights there: added to the observable, as a share of it if `factor`, in log odds for capture.
     pub adds: Vec<f64>,
 }
 
-/// A number of the base's laws that the data want otherwise.
+/// A parameter of the base model's laws with a significantly different value.
 #[derive(Debug, Clone, Serialize)]
 pub struct Calibration {
     /// Its key in the model file.
     pub key: String,
-    /// The base model's.
+    /// Value in the base model.
     pub from: f64,
     /// Most likely value.
     pub value: f64,
@@ -181,7 +180,7 @@ pub struct Calibration {
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Of the paired test on unseen rows.
+    /// Of the paired test of the cross-validated gain.
     pub p_value: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,
@@ -198,40 +197,40 @@ pub struct ScatterFound {
     pub changes_with: Vec<String>,
 }
 
-/// Captured share [1].
+/// Share of captured impacts [1].
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Unexplained {
-    /// In the rows.
+    /// Measured.
     pub measured: f64,
-    /// By the named causes.
+    /// Predicted with the named causes.
     pub expected: f64,
 }
 
-/// An effect that the data cannot speak of.
+/// An effect that was no candidate.
 #[derive(Debug, Clone, Serialize)]
 pub struct NotExamined {
     /// Its id.
     pub cause: &'static str,
-    /// What is missing.
+    /// The reason.
     pub reason: String,
 }
 
-/// Errors on rows that no fit and no choice saw.
+/// Errors on held-out rows.
 #[derive(Debug, Clone, Serialize)]
 pub struct Gain {
-    /// How many.
+    /// Number of rows.
     pub held_out_rows: usize,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
-    /// Of the base model; for `outcome` of the probability of capture.
+    /// Root mean square error of the base model [1]; for `outcome` of the probability of capture.
     pub rmse_before: f64,
-    /// Of the extended model.
+    /// Root mean square error of the extended model [1].
     pub rmse_after: f64,
-    /// 95 % interval of `rmse_after / rmse_before` (bootstrap over rows).
+    /// 95 % interval of `rmse_after / rmse_before`, by a bootstrap over rows.
     pub ci95: [f64; 2],
-    /// Mean log score of a row before, all observables together [nats].
+    /// Mean log score of a row under the base model, all observables together [nats].
     pub log_score_before: f64,
-    /// After.
+    /// The same under the extended model [nats].
     pub log_score_after: f64,
 }
 
@@ -240,18 +239,18 @@ pub struct Gain {
 pub struct Sample {
     /// Columns that vary: name and unit.
     pub columns: Vec<(String, String)>,
-    /// Words of columns of words, by column.
+    /// The labels of each column of labels, by column.
     pub words: Vec<Option<Vec<String>>>,
-    /// Some of the rows.
+    /// A sample of the rows.
     pub rows: Vec<SampleRow>,
 }
 
 /// A row for figures.
 #[derive(Debug, Clone)]
 pub struct SampleRow {
-    /// Whether no fit and no choice saw it.
+    /// Whether no fit and no choice used it.
     pub held_out: bool,
-    /// Its cells, by column; the place of the word for columns of words; NaN where blank.
+    /// Its cells, by column; the index of the label for a column of labels; NaN where blank.
     pub cells: Vec<f64>,
     /// `e_n`: measured, base model, extended model.
     pub e_n: Option<[f64; 3]>,

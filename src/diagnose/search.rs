@@ -1,57 +1,48 @@
-//! Finds the parameters that fit best: a coarse grid, then the simplex search of Nelder and Mead (crate argmin).
+//! Minimises a cost over parameters: a coarse grid, then the simplex method of Nelder and Mead (crate argmin).
 //!
-//! A parameter is searched in a coordinate that runs from 0 to 1 over its search range.
+//! Every parameter has a coordinate from 0 to 1 over its search range.
 
 use argmin::core::{CostFunction, Error, Executor};
 use argmin::solver::neldermead::NelderMead;
 
 use crate::effect::{Parameter, Search};
 
-/// The descent ends where the simplex' costs agree to this [nats].
+/// The descent ends when the standard deviation of the simplex' costs falls below this [nats].
 const TOLERANCE: f64 = 0.01;
 
-/// A parameter's range in this data set.
+/// The search range of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Axis {
+pub(super) struct SearchAxis {
     low: f64,
     high: f64,
     logarithmic: bool,
 }
 
-impl Axis {
-    /// From one value to another, evenly.
+impl SearchAxis {
+    /// A linear axis.
     pub fn linear(low: f64, high: f64) -> Self {
         Self { low, high, logarithmic: false }
     }
 
-    fn log(low: f64, high: f64) -> Self {
-        Self { low, high, logarithmic: true }
-    }
-
-    /// The axis of a parameter; `range` gives the least and largest value that the data have of an input. `None` where
-    /// the data do not vary in the input that sets the range, or only beyond what makes sense for the parameter: a wrong
-    /// unit, say, from which a fit would write a model that cannot be read.
+    /// The axis of a parameter; `range` gives the least and largest value of an input in the data. `None` if the input
+    /// that sets the range does not vary, or only outside the bounds of the parameter, as in a wrong unit.
     pub fn of(parameter: &Parameter, range: impl Fn(&str) -> Option<[f64; 2]>) -> Option<Self> {
         let (least, most) = parameter.bounds;
-        let within = |low: f64, high: f64| {
+        let within = |low: f64, high: f64, logarithmic| {
             let (low, high) = (low.max(least), high.min(most));
-            (low < high).then_some((low, high))
+            (low < high).then_some(Self { low, high, logarithmic })
         };
         match parameter.search {
             Search::Linear(low, high) => Some(Self::linear(low, high)),
-            Search::Log(low, high) => Some(Self::log(low, high)),
-            Search::InputRange(input) => {
-                let [low, high] = range(input)?;
-                within(low, high).map(|(low, high)| Self::linear(low, high))
-            }
+            Search::Log(low, high) => Some(Self { low, high, logarithmic: true }),
+            Search::InputRange(input) => range(input).and_then(|[low, high]| within(low, high, false)),
             Search::InputWidth(input) => {
-                let [low, high] = range(input)?;
-                within((high - low) / 50.0, 4.0 * (high - low)).map(|(low, high)| Self::log(low, high))
+                range(input).and_then(|[low, high]| within((high - low) / 50.0, 4.0 * (high - low), true))
             }
         }
     }
 
-    /// The parameter at a coordinate, which is kept within 0 and 1.
+    /// The parameter at a coordinate, which is clamped to 0 to 1.
     pub fn value(self, coordinate: f64) -> f64 {
         let share = coordinate.clamp(0.0, 1.0);
         if self.logarithmic {
@@ -62,10 +53,10 @@ impl Axis {
     }
 }
 
-/// A cost with a wall around 0 to 1, for argmin.
-struct Walled<F>(F);
+/// A cost with a penalty outside 0 to 1, for argmin.
+struct Bounded<F>(F);
 
-impl<F: Fn(&[f64]) -> f64> CostFunction for Walled<F> {
+impl<F: Fn(&[f64]) -> f64> CostFunction for Bounded<F> {
     type Param = Vec<f64>;
     type Output = f64;
 
@@ -76,7 +67,7 @@ impl<F: Fn(&[f64]) -> f64> CostFunction for Walled<F> {
     }
 }
 
-/// The minimum near `start`, with a simplex of this size, and the cost there.
+/// A local minimum from `start`, with an initial simplex of this size and at most `rounds` iterations; and its cost.
 pub(super) fn descend(
     cost: impl Fn(&[f64]) -> f64,
     start: &[f64],
@@ -85,7 +76,7 @@ pub(super) fn descend(
 ) -> (Vec<f64>, f64) {
     let corner = |moved: usize| {
         let mut corner = start.to_vec();
-        // Away from the nearer end, so that no corner lies outside.
+        // No corner lies outside 0 to 1.
         corner[moved] += if corner[moved] + size > 1.0 { -size } else { size };
         corner
     };
@@ -93,7 +84,7 @@ pub(super) fn descend(
         std::iter::once(start.to_vec()).chain((0..start.len()).map(corner)).collect();
     let fallback = || (start.to_vec(), cost(start));
     let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(TOLERANCE) else { return fallback() };
-    let run = Executor::new(Walled(&cost), solver).configure(|state| state.max_iters(rounds)).run();
+    let run = Executor::new(Bounded(&cost), solver).configure(|state| state.max_iters(rounds)).run();
     let Ok(result) = run else { return fallback() };
     match result.state.best_param {
         Some(at) => (at.iter().map(|c| c.clamp(0.0, 1.0)).collect(), result.state.best_cost),
@@ -101,7 +92,7 @@ pub(super) fn descend(
     }
 }
 
-/// The best places of a grid over all coordinates, at most `count` of them, no two of them neighbours.
+/// The best points of a grid over all coordinates: at most `count`, no two of them neighbours.
 pub(super) fn best_of_grid(cost: impl Fn(&[f64]) -> f64, dimensions: usize, count: usize) -> Vec<Vec<f64>> {
     let steps = [1, 24, 9, 5][dimensions.min(3)];
     let size = usize::pow(steps, dimensions as u32);
@@ -127,7 +118,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn grid_and_descent_find_a_minimum_at_the_wall_and_inside() {
+    fn grid_and_descent_find_a_minimum_at_a_bound_and_inside() {
         let cost = |x: &[f64]| 1e4 * (x[0] - 0.31).powi(2) + 1e5 * (x[1] - 1.2).powi(2);
         let start = best_of_grid(cost, 2, 1).remove(0);
         let (at, _) = descend(cost, &start, 0.1, 200);

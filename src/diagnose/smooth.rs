@@ -1,43 +1,45 @@
-//! A smooth curve through residuals over one column, or over two: what data say before any law is named.
+//! Penalised regression of residuals on one column or two.
 //!
-//! Numbers: a line with up to eight bends at quantiles of the column (hat functions), whose bends are penalised
-//! (P-spline of degree one; Eilers and Marx 1996). Words: a level for each word, drawn towards zero. The penalty is the
-//! one with the smallest generalised cross-validation error. Blank cells count as zero effect.
+//! Numbers: a linear spline with up to eight knots at quantiles of the column and a penalty on its bends (P-spline of
+//! degree one; Eilers and Marx 1996). Labels: a ridge-penalised height for each label. The penalty minimises the
+//! generalised cross-validation error. Blank cells have no effect.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::dataset::Values;
 
-/// Bends of a curve at most.
-const BENDS: usize = 8;
-/// Penalties tried, relative to the number of rows a bend.
+/// Largest number of knots of a curve.
+const KNOTS: usize = 8;
+/// Largest number of different labels.
+const LABELS: usize = 40;
+/// Penalties tried, relative to the mean diagonal of the normal matrix.
 const PENALTIES: [f64; 9] = [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1e4];
 
-/// What a row's cell contributes: places in the basis and their values.
+/// The nonzero basis functions of a row: places in the basis and values.
 type Entry = Vec<(usize, f64)>;
 
-/// Functions of a column that a curve is made of.
+/// The basis functions of a curve over a column.
 #[derive(Debug, Clone)]
 pub(super) enum Basis {
-    /// Hats over these knots, in ascending order.
+    /// Hat functions over these knots, in ascending order.
     Hats(Vec<f64>),
-    /// One function a word.
-    Words(usize),
-    /// One function for all rows: a level.
-    Level,
+    /// One indicator function a label.
+    Labels(usize),
+    /// One function for all rows.
+    Constant,
 }
 
 impl Basis {
-    /// The basis for a column, as far as the rows with these indices vary in it.
+    /// The basis for a column; `None` if the rows with these indices do not vary enough in it.
     pub fn of(values: &Values, rows: &[usize]) -> Option<Self> {
         match values {
             Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row])),
-            Values::Words { levels, of_row } => {
+            Values::Labels { levels, of_row } => {
                 let used =
                     (0..levels.len()).filter(|&l| rows.iter().any(|&row| of_row[row] == Some(l))).count();
-                // Nearly as many words as rows is a label of the row, which says nothing of the next one.
-                (used > 1 && levels.len() <= 40 && used * 4 <= rows.len())
-                    .then_some(Self::Words(levels.len()))
+                // Nearly as many labels as rows identify the row and predict nothing for another one.
+                (used > 1 && levels.len() <= LABELS && used * 4 <= rows.len())
+                    .then_some(Self::Labels(levels.len()))
             }
         }
     }
@@ -49,8 +51,8 @@ impl Basis {
         if high <= low || sorted.len() < 8 {
             return None;
         }
-        let quantile = |i: usize| sorted[(i * (sorted.len() - 1)) / (BENDS - 1)];
-        let mut knots: Vec<f64> = (0..BENDS).map(quantile).collect();
+        let quantile = |i: usize| sorted[(i * (sorted.len() - 1)) / (KNOTS - 1)];
+        let mut knots: Vec<f64> = (0..KNOTS).map(quantile).collect();
         knots.dedup_by(|a, b| *a - *b < 1e-9 * (high - low));
         Some(Self::Hats(knots))
     }
@@ -58,24 +60,24 @@ impl Basis {
     fn len(&self) -> usize {
         match self {
             Self::Hats(knots) => knots.len(),
-            Self::Words(count) => *count,
-            Self::Level => 1,
+            Self::Labels(count) => *count,
+            Self::Constant => 1,
         }
     }
 
-    /// What the cell of a row contributes.
+    /// The basis functions at a row.
     fn entry(&self, values: &Values, row: usize) -> Entry {
         match (self, values) {
             (Self::Hats(knots), Values::Numbers(numbers)) => hats(knots, numbers[row]),
-            (Self::Words(_), Values::Words { of_row, .. }) => {
+            (Self::Labels(_), Values::Labels { of_row, .. }) => {
                 of_row[row].map_or(Vec::new(), |level| vec![(level, 1.0)])
             }
-            (Self::Level, _) => vec![(0, 1.0)],
+            (Self::Constant, _) => vec![(0, 1.0)],
             _ => Vec::new(),
         }
     }
 
-    /// The penalty on the coefficients: bends for numbers, size for words.
+    /// The penalty on the heights: bends for numbers, size for labels.
     fn penalty(&self) -> DMatrix<f64> {
         let count = self.len();
         let Self::Hats(knots) = self else { return DMatrix::identity(count, count) };
@@ -84,7 +86,7 @@ impl Basis {
         for i in 1..count - 1 {
             let (left, right) = ((knots[i] - knots[i - 1]) / span, (knots[i + 1] - knots[i]) / span);
             let bend = [(i - 1, 1.0 / left), (i, -1.0 / left - 1.0 / right), (i + 1, 1.0 / right)];
-            // A bend over a short interval weighs no more than over a long one.
+            // The penalty of a bend does not depend on the length of its intervals.
             let scale = 0.5 * (left + right);
             for &(a, x) in &bend {
                 for &(b, y) in &bend {
@@ -92,7 +94,7 @@ impl Basis {
                 }
             }
         }
-        // A little pull to zero, so that a column with two knots is regular too.
+        // A small ridge penalty keeps a column with two knots regular.
         penalty + DMatrix::identity(count, count) * 1e-6
     }
 }
@@ -125,26 +127,26 @@ pub(super) struct Curve {
 pub(super) struct Point {
     /// Index of the row.
     pub row: usize,
-    /// What is left of the observation.
+    /// Measured minus predicted value.
     pub residual: f64,
     /// Weight: one over the variance, less for gross errors.
     pub weight: f64,
-    /// What the curve is multiplied with in this row (1: it is added).
-    pub factor: f64,
+    /// Factor on the curve in this row: the prediction for a multiplicative curve, otherwise 1.
+    pub scale: f64,
 }
 
 impl Curve {
-    /// The curve through the points; `None` where they are too few or do not vary.
+    /// The curve through the points; `None` where there are too few.
     pub fn fit(values: &Values, basis: &Basis, points: &[Point]) -> Option<Self> {
         let entries = points
             .iter()
-            .map(|point| scaled(basis.entry(values, point.row), point.factor))
+            .map(|point| scaled(basis.entry(values, point.row), point.scale))
             .collect::<Vec<_>>();
         let heights = ridge(basis.len(), &basis.penalty(), &entries, points)?;
         Some(Self { basis: basis.clone(), heights })
     }
 
-    /// Its height at a row, before any factor.
+    /// Its height at a row, without the scale.
     pub fn at(&self, values: &Values, row: usize) -> f64 {
         self.basis.entry(values, row).iter().map(|&(place, share)| share * self.heights[place]).sum()
     }
@@ -155,7 +157,7 @@ fn scaled(mut entry: Entry, factor: f64) -> Entry {
     entry
 }
 
-/// Penalised least squares; the penalty by generalised cross-validation.
+/// Penalised least squares with the penalty of smallest generalised cross-validation error.
 fn ridge(count: usize, penalty: &DMatrix<f64>, entries: &[Entry], points: &[Point]) -> Option<Vec<f64>> {
     let mut normal: DMatrix<f64> = DMatrix::zeros(count, count);
     let mut right: DVector<f64> = DVector::zeros(count);
@@ -187,8 +189,8 @@ fn ridge(count: usize, penalty: &DMatrix<f64>, entries: &[Entry], points: &[Poin
     Some(best.1.iter().copied().collect())
 }
 
-/// What curves over the columns `own`, and over each of them together with another of `own` or `others`, make of the
-/// points: the fitted values at `targets`, centred on the points.
+/// Fits curves over the columns `own`, and interactions of each of them with another of `own` or `others`. Returns the
+/// fitted values at the rows `targets`, with mean zero over the points.
 pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], targets: &[usize]) -> Vec<f64> {
     let rows: Vec<usize> = points.iter().map(|point| point.row).collect();
     let based = |values: &[&'_ Values]| {
@@ -199,10 +201,10 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
     let mut left: Vec<Point> = points.to_vec();
     let mut fitted = vec![0.0; targets.len()];
     let mut take = |left: &mut Vec<Point>, at: &dyn Fn(usize) -> f64| {
-        left.iter_mut().for_each(|point| point.residual -= point.factor * at(point.row));
+        left.iter_mut().for_each(|point| point.residual -= point.scale * at(point.row));
         fitted.iter_mut().zip(targets).for_each(|(sum, &row)| *sum += at(row));
     };
-    // Columns that run along with each other share their part after a second turn.
+    // The second pass distributes the effect over correlated columns (backfitting).
     for _ in 0..2 {
         for (basis, values) in &own {
             if let Some(curve) = Curve::fit(values, basis, &left) {
@@ -221,16 +223,16 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
             }
         }
     }
-    // Residuals are now what is left; the level stays with the model.
+    // The mean stays with the model.
     let weights: f64 = points.iter().map(|point| point.weight).sum();
     let taken =
         points.iter().zip(&left).map(|(before, after)| before.weight * (before.residual - after.residual));
-    let level = if weights > 0.0 { taken.sum::<f64>() / weights } else { 0.0 };
-    fitted.iter_mut().for_each(|value| *value -= level);
+    let mean = if weights > 0.0 { taken.sum::<f64>() / weights } else { 0.0 };
+    fitted.iter_mut().for_each(|value| *value -= mean);
     fitted
 }
 
-/// The functions of two columns together: every product of theirs.
+/// The basis functions of an interaction: all products.
 fn pair_entry(pair: &[(&Basis, &Values); 2], row: usize, factor: f64) -> Entry {
     let [one, two] = pair.map(|(basis, values)| basis.entry(values, row));
     let wide = pair[1].0.len();
@@ -240,7 +242,7 @@ fn pair_entry(pair: &[(&Basis, &Values); 2], row: usize, factor: f64) -> Entry {
 
 fn fit_pair(pair: &[(&Basis, &Values); 2], points: &[Point]) -> Option<Vec<f64>> {
     let count = pair[0].0.len() * pair[1].0.len();
-    let entries: Vec<Entry> = points.iter().map(|point| pair_entry(pair, point.row, point.factor)).collect();
+    let entries: Vec<Entry> = points.iter().map(|point| pair_entry(pair, point.row, point.scale)).collect();
     ridge(count, &DMatrix::identity(count, count), &entries, points)
 }
 
@@ -249,11 +251,11 @@ mod tests {
     use super::*;
 
     fn points(count: usize, of: impl Fn(usize) -> f64) -> Vec<Point> {
-        (0..count).map(|row| Point { row, residual: of(row), weight: 1.0, factor: 1.0 }).collect()
+        (0..count).map(|row| Point { row, residual: of(row), weight: 1.0, scale: 1.0 }).collect()
     }
 
     #[test]
-    fn a_curve_follows_what_it_is_shown() {
+    fn a_curve_follows_a_sine() {
         let x: Vec<f64> = (0..200).map(|i| f64::from(i) / 200.0).collect();
         let values = Values::Numbers(x.clone());
         let rows: Vec<usize> = (0..200).collect();
@@ -265,14 +267,14 @@ mod tests {
     }
 
     #[test]
-    fn words_have_levels_and_labels_of_rows_are_refused() {
+    fn labels_have_heights_and_identifiers_of_rows_are_refused() {
         let of_row = (0..60).map(|i| Some(i % 3)).collect();
-        let values = Values::Words { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
+        let values = Values::Labels { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
         let rows: Vec<usize> = (0..60).collect();
         let basis = Basis::of(&values, &rows).unwrap();
         let curve = Curve::fit(&values, &basis, &points(60, |i| [0.5, -0.25, -0.25][i % 3])).unwrap();
         assert!((curve.at(&values, 0) - 0.5).abs() < 0.01);
-        let labels = Values::Words {
+        let labels = Values::Labels {
             levels: (0..30).map(|i| i.to_string()).collect(),
             of_row: (0..60).map(|i| Some(i % 30)).collect(),
         };

@@ -6,7 +6,7 @@ use crate::contact::{Body, Contact, Tangential};
 use crate::dice::Dice;
 use crate::world::{Inputs, World};
 
-/// What is shot at what.
+/// Particles and target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum System {
     /// Montan wax on Pyrex.
@@ -108,7 +108,7 @@ impl System {
 
 type Range = (f64, f64);
 
-/// How a deviation depends on the row, in null sets.
+/// How the noise depends on the row, in null sets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spread {
     /// The same everywhere.
@@ -140,9 +140,9 @@ pub struct Campaign {
     pub conversion: Range,
     /// Known input columns that are written, beyond v_n v_t d T_p.
     pub columns: Vec<&'static str>,
-    /// Foreign columns that are written.
+    /// Further columns that are written.
     pub extras: Vec<&'static str>,
-    /// What the foreign number follows, if anything.
+    /// The input that the foreign number is correlated with, if any.
     pub decoy: Option<Decoy>,
     pub noise_e_n: f64,
     pub noise_e_t: f64,
@@ -157,10 +157,10 @@ pub struct Campaign {
     pub series: Vec<Series>,
 }
 
-/// Correlation of a decoy with what it follows.
+/// Correlation of a decoy with its input.
 pub const CORRELATION: f64 = 0.85;
 
-/// An input that the foreign number follows, its mean and deviation.
+/// The input that the foreign number is correlated with, its mean and deviation.
 #[derive(Clone, Copy, Debug)]
 pub struct Decoy {
     pub input: &'static str,

@@ -1,4 +1,4 @@
-//! The generator itself: its laws, its noise, its plants, its gains and its scoring.
+//! Tests of the generator: laws, noise, plants, gains and scoring.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use crate::contact::{Body, Contact, Tangential};
 use crate::dice::Dice;
 use crate::plant::Hook;
 use crate::score::{Verdict, at_most, judge};
-use crate::sets::{EFFECTS, Kind, PreparedWall, Recipe, Set, recipes};
+use crate::sets::{Design, EFFECTS, Kind, Recipe, Set, recipes};
 use crate::world::{Inputs, normal};
 use crate::{random, runner};
 
@@ -34,6 +34,11 @@ fn thornton_ning_agrees_with_forty_digits() {
     }
 }
 
+/// The set of this name.
+fn planted(name: &str, seed: u64) -> Set {
+    recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed)
+}
+
 /// A set of no effect on this base.
 fn plain(system: System, law: Tangential, name: &str) -> Set {
     let recipe = Recipe::new(name.into(), Kind::Null, move |dice| {
@@ -41,7 +46,7 @@ fn plain(system: System, law: Tangential, name: &str) -> Set {
         campaign.columns = KNOWN.to_vec();
         campaign.v_n.0 /= 5.0;
         campaign.theta = (1.0, 85.0);
-        PreparedWall { campaign, plants: vec![] }
+        Design { campaign, plants: vec![] }
     });
     recipe.make(random::seed())
 }
@@ -119,7 +124,7 @@ fn residuals_of_a_set_are_its_noise() {
     }
 }
 
-/// The inputs that an effect may answer to, beside v_n and v_t.
+/// The inputs that an effect may depend on, beside v_n and v_t.
 fn inputs_of(cause: &str) -> &'static [&'static str] {
     match cause {
         "gas-lift" => &["v_gas"],
@@ -132,13 +137,13 @@ fn inputs_of(cause: &str) -> &'static [&'static str] {
     }
 }
 
-/// Each plant answers to its own inputs and to no other: the ratio to the base stays when another input moves.
+/// The truth changes with the inputs of its plant and with no other.
 #[test]
-fn a_plant_answers_to_its_own_inputs() {
+fn a_plant_depends_on_its_own_inputs() {
     let seed = random::seed();
     for effect in EFFECTS {
         let name = format!("{effect}:2");
-        let set = recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed);
+        let set = planted(&name, seed);
         let mut dice = Dice::new(seed, "inputs");
         let draws = [0.37, 0.02];
         let mut moved = vec![];
@@ -165,18 +170,18 @@ fn a_plant_answers_to_its_own_inputs() {
         }
         let cause = set.causes()[0];
         let allowed: Vec<_> = inputs_of(cause).iter().filter(|name| **name != "d").collect();
-        assert!(moved.iter().all(|name| allowed.contains(&name)), "{effect} answers to {moved:?}");
-        assert_eq!(moved.len(), allowed.len(), "{effect} answers to {moved:?}");
+        assert!(moved.iter().all(|name| allowed.contains(&name)), "{effect} depends on {moved:?}");
+        assert_eq!(moved.len(), allowed.len(), "{effect} depends on {moved:?}");
     }
 }
 
-/// Plants of e_t leave e_n and capture alone; plants of e_n leave a constant e_t alone, except by tilting the wall.
+/// Plants of e_t do not change e_n and capture; plants of e_n change a constant e_t only by tilting the wall.
 #[test]
 fn a_plant_touches_its_own_observables() {
     let seed = random::seed();
     for effect in EFFECTS {
         let name = format!("{effect}:1");
-        let set = recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed);
+        let set = planted(&name, seed);
         let constant = matches!(set.campaign.law, Tangential::Constant(_));
         for row in &set.rows {
             let (base, truth) = (set.world.base(&row.x), set.world.truth(&row.x, [0.4, 0.01]));
@@ -190,7 +195,7 @@ fn a_plant_touches_its_own_observables() {
     }
 }
 
-/// e_n goes the way physics says.
+/// e_n changes with the sign that physics demands.
 #[test]
 fn signs_are_those_of_the_physics() {
     let seed = random::seed();
@@ -206,7 +211,7 @@ fn signs_are_those_of_the_physics() {
     for (effects, sign) in [(&up[..], 1.0), (&down[..], -1.0)] {
         for effect in effects {
             let name = format!("{effect}:1");
-            let set = recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed);
+            let set = planted(&name, seed);
             for row in &set.rows {
                 let change = set.world.truth(&row.x, [0.4, 0.01]).e_n - set.world.base(&row.x).e_n;
                 assert!(sign * change >= -1e-12, "{effect}: {change} at {:?}", row.x);
@@ -225,13 +230,13 @@ fn every_planted_set_can_be_told() {
     }
 }
 
-/// With a gaussian and nothing else, the gain is the textbook's.
+/// For Gaussian noise alone, the gain equals the textbook's.
 #[test]
 fn the_gain_of_a_known_shift() {
     let recipe = Recipe::new("known-shift".into(), Kind::Planted, |dice| {
         let mut campaign = Campaign::new(System::Wax, Tangential::Constant(0.7), dice);
         campaign.v_n = (2.0, 5.0);
-        PreparedWall { campaign, plants: vec![crate::plant::yield_ratio(1.2)] }
+        Design { campaign, plants: vec![crate::plant::yield_ratio(1.2)] }
     });
     let set = recipe.make(random::seed());
     let off = |pick: &dyn Fn(&Inputs) -> f64| {
@@ -245,12 +250,7 @@ fn the_gain_of_a_known_shift() {
 #[test]
 fn the_same_seed_makes_the_same_set() {
     let seed = random::seed();
-    let texts: Vec<_> = [seed, seed, seed + 1]
-        .iter()
-        .map(|seed| {
-            recipes(1).into_iter().find(|recipe| recipe.name == "gas-lift:1").unwrap().make(*seed).csv
-        })
-        .collect();
+    let texts: Vec<_> = [seed, seed, seed + 1].iter().map(|seed| planted("gas-lift:1", *seed).csv).collect();
     assert!(texts[0] == texts[1] && texts[0] != texts[2]);
 }
 
@@ -291,15 +291,14 @@ fn broken_lines_are_where_they_are_said() {
     }
 }
 
-/// An answer with these findings.
+/// A diagnosis with these findings.
 fn answer(findings: &[Value]) -> Value {
     json!({ "rows": { "rejected": [] }, "findings": findings })
 }
 
 #[test]
 fn verdicts() {
-    let find = |name: &str| recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(1);
-    let set = find("melting-transition:1");
+    let set = planted("melting-transition:1", 1);
     let half = set.world.plants[0].parameters[0].1;
     let stated = json!({ "temperature": { "value": half + 1.0, "low": half - 1.0, "high": half + 3.0 } });
     let melting = json!({ "cause": "melting-transition", "parameters": stated });
@@ -311,11 +310,11 @@ fn verdicts() {
     assert!(both.verdict == Verdict::False && !both.exact);
     assert_eq!(judge(&set, &answer(&[unsure])).verdict, Verdict::CannotTell);
     assert_eq!(judge(&set, &answer(&[])).verdict, Verdict::Missed);
-    let null = find("null:0");
+    let null = planted("null:0", 1);
     assert!(judge(&null, &answer(&[])).trap_passed && !judge(&null, &answer(&[other])).trap_passed);
 }
 
-/// What an all-knowing diagnosis would answer.
+/// The diagnosis that knows the truth.
 fn perfect(set: &Set) -> Value {
     let cause = |plant: &std::sync::Arc<crate::plant::Plant>| {
         let interval = |value: f64| json!({ "value": value, "low": 0.9 * value, "high": 1.1 * value });
@@ -329,7 +328,7 @@ fn perfect(set: &Set) -> Value {
     json!({ "rows": { "rejected": lines }, "findings": findings, "calibration": calibration })
 }
 
-/// The all-knowing passes, the silent and the one that always says the same do not.
+/// The diagnosis that knows the truth passes; an empty one and a constant one do not.
 #[test]
 fn the_demands_can_be_met_and_missed() {
     let sets: Vec<_> = recipes(1).iter().map(|recipe| recipe.make(random::seed())).collect();
@@ -350,11 +349,11 @@ fn the_level_in_a_model_file() {
     assert_eq!(runner::tangential_level(&model("friction = 0.2")), None);
 }
 
-/// The base model is far from a strong truth, the truth is at the attainable error.
+/// The error of the base model is far above the attainable one; that of the truth equals it.
 #[test]
 fn held_out_errors() {
     for (name, observable) in [("powder-layer:2", "e_n"), ("melting-transition:2", "stick")] {
-        let set = recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(random::seed());
+        let set = planted(name, random::seed());
         let fresh = runner::fresh_impacts(&set, 5);
         let truth: Vec<_> = fresh.iter().map(|x| set.world.truth(x, [0.5; 2])).collect();
         let base: Vec<_> = fresh.iter().map(|x| set.world.base(x)).collect();

@@ -1,4 +1,4 @@
-//! How much the data know: log-likelihood of the truth against the base and against a base whose numbers are free.
+//! The information of the data: log-likelihood of the truth against the base and against a refitted base.
 
 use crate::campaign::{Campaign, Row};
 use crate::contact::Tangential;
@@ -6,7 +6,7 @@ use crate::world::{Inputs, Response, World};
 
 /// Share of the rows that a fit may see.
 const FITTED: f64 = 0.75;
-/// No outcome is called more certain than this.
+/// Bound of predicted probabilities.
 const FLOOR: f64 = 0.01;
 /// Hidden draws a row over which a scattering truth is averaged.
 const GRID: usize = 24;
@@ -17,7 +17,7 @@ const GRID: usize = 24;
 pub struct Gain {
     pub over_base: f64,
     pub over_refitted: f64,
-    /// Nats that the least needed plant is worth among the others.
+    /// Gain of the least important plant [nats].
     pub least_plant: f64,
 }
 

@@ -1,9 +1,9 @@
-//! Sets with a planted cause that `nearwall diagnose` has to find, made without any of the crate's own laws.
+//! Data sets with planted causes for `nearwall diagnose`, generated without the crate's own laws.
 //!
 //! - `cargo test --release --test planted_effects -- --nocapture diagnose` scores the command on all sets.
 //! - `NEARWALL_PLANTED_OUT=DIR cargo test --release --test planted_effects -- --ignored write_sets` writes them.
 //!
-//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_HIDDEN_SETS` makes more of each, `NEARWALL_HIDDEN_ONLY` names those wanted.
+//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_PLANTED_SETS` multiplies the sets, `NEARWALL_PLANTED_ONLY` selects some.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,
@@ -29,7 +29,7 @@ use std::path::Path;
 
 use rayon::prelude::*;
 
-/// The right cause first, silence on nothing, errors near the attainable, honest intervals, no crash.
+/// The right cause first, no finding in null sets, errors near the attainable, intervals that cover, no crash.
 #[test]
 #[cfg_attr(
     debug_assertions,

@@ -1,15 +1,15 @@
-//! The published tungsten campaign: six sets with their counts, sizes, speeds and angles; the truth is hidden.
+//! The published tungsten campaign: six sets with their counts, sizes, speeds and angles.
 //! Counts and ranges: `published_scalars.csv`, rows W0 to Mo6. Where a range is not stated it is marked below.
 
 use crate::campaign::{Campaign, Series, System};
 use crate::contact::Tangential;
 use crate::dice::Dice;
 use crate::plant;
-use crate::sets::PreparedWall;
+use crate::sets::Design;
 
-/// The yield ratio that has to be found.
+/// The yield ratio to be found.
 pub const YIELD_RATIO: f64 = 4.0;
-/// The tangential restitution that has to be found.
+/// The tangential restitution to be found.
 pub const E_T: f64 = 0.8;
 
 /// A set as published.
@@ -32,7 +32,7 @@ fn series(index: usize) -> Series {
 }
 
 /// The campaign over a base with yield ratio 2.8 and e_t = 1.
-pub fn plan(dice: &mut Dice) -> PreparedWall {
+pub fn plan(dice: &mut Dice) -> Design {
     let mut campaign = Campaign::new(System::HotTungsten, Tangential::Constant(1.0), dice);
     campaign.columns = vec!["T_w"];
     campaign.extras = vec!["series"];
@@ -48,5 +48,5 @@ pub fn plan(dice: &mut Dice) -> PreparedWall {
         plant::molten_series(5),
         plant::tangential_level(E_T),
     ];
-    PreparedWall { campaign, plants }
+    Design { campaign, plants }
 }

@@ -1,4 +1,4 @@
-//! What is planted: one function an effect, each in a shape of its own. A strength runs from 0 (weak) to 1 (strong).
+//! The planted effects, each with a law that the library does not have. A strength runs from 0 (weak) to 1 (strong).
 
 use crate::contact::{Contact, ROLLING, critical_slope, sliding};
 use crate::world::{Inputs, Normal};
@@ -21,40 +21,41 @@ pub enum Hook {
 
 /// A planted effect.
 pub struct Plant {
-    /// The cause that has to be found.
+    /// The cause to be found.
     pub cause: &'static str,
     pub hook: Hook,
-    /// Whether equal impacts come out differently.
+    /// Whether equal impacts have different outcomes.
     pub scatters: bool,
     /// The observable by which it is judged: `e_n`, `e_t` or `stick`.
     pub observable: &'static str,
-    /// Numbers that a diagnosis may state.
+    /// Parameters that a diagnosis may state.
     pub parameters: Vec<(&'static str, f64)>,
 }
 
 impl Plant {
+    fn new(cause: &'static str, observable: &'static str, hook: Hook) -> Self {
+        Self { cause, hook, scatters: false, observable, parameters: vec![] }
+    }
+
     fn solid(
         cause: &'static str,
         change: impl Fn(&Inputs, f64, &mut Contact) + Send + Sync + 'static,
     ) -> Self {
-        let hook = Hook::Solid(Box::new(change));
-        Self { cause, hook, scatters: false, observable: "e_n", parameters: vec![] }
+        Self::new(cause, "e_n", Hook::Solid(Box::new(change)))
     }
 
     fn normal(
         cause: &'static str,
         change: impl Fn(&Inputs, f64, &mut Normal) + Send + Sync + 'static,
     ) -> Self {
-        let hook = Hook::Normal(Box::new(change));
-        Self { cause, hook, scatters: false, observable: "e_n", parameters: vec![] }
+        Self::new(cause, "e_n", Hook::Normal(Box::new(change)))
     }
 
     fn tangential(
         cause: &'static str,
         change: impl Fn(&Inputs, f64, f64, f64) -> f64 + Send + Sync + 'static,
     ) -> Self {
-        let hook = Hook::Tangential(Box::new(change));
-        Self { cause, hook, scatters: false, observable: "e_t", parameters: vec![] }
+        Self::new(cause, "e_t", Hook::Tangential(Box::new(change)))
     }
 
     fn with(mut self, name: &'static str, value: f64) -> Self {
@@ -165,8 +166,7 @@ pub fn nano_roughness(strength: f64, power: f64) -> Plant {
 
 /// Facets tilted at random.
 pub fn micro_roughness(angle: f64) -> Plant {
-    let parameters = vec![("angle", angle)];
-    Plant { cause: "micro-roughness", hook: Hook::Tilt(angle), scatters: true, observable: "e_n", parameters }
+    Plant::new("micro-roughness", "e_n", Hook::Tilt(angle)).with("angle", angle).scattering()
 }
 
 /// A share of loose agglomerates keeps most of its speed; adhesion still takes its part.

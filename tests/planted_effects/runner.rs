@@ -1,4 +1,4 @@
-//! Runs the command on a set as a user would, and asks its extended model about fresh impacts.
+//! Runs the command on a set and its extended model on fresh impacts.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -85,7 +85,7 @@ fn crashed(set: &Set, message: String, seconds: f64) -> Judgement {
     }
 }
 
-/// Reached and attainable error of what is planted, where one answer an impact is the whole truth.
+/// Reached and attainable errors, for sets without hidden draws.
 fn held_out(set: &Set, folder: &Path, seed: u64, diagnosis: &Value) -> Vec<HeldOut> {
     if set.kind != Kind::Planted || set.world.scatters() {
         return vec![];
@@ -98,13 +98,13 @@ fn held_out(set: &Set, folder: &Path, seed: u64, diagnosis: &Value) -> Vec<HeldO
     set.world.plants.iter().map(|plant| compare(set, plant.observable, &truth, &predicted)).collect()
 }
 
-/// Impacts of the same campaign that the diagnosis has not seen.
+/// New impacts of the same campaign.
 pub fn fresh_impacts(set: &Set, seed: u64) -> Vec<Inputs> {
     let mut dice = Dice::new(seed, &format!("{}:fresh", set.name));
     (0..FRESH).map(|_| set.campaign.inputs(&mut dice)).collect()
 }
 
-/// What a model says of these impacts, through the command.
+/// The predictions of a model for these impacts, through the command.
 pub fn predict(set: &Set, folder: &Path, model: &str, impacts: &[Inputs]) -> Vec<Response> {
     std::fs::write(folder.join("fresh.csv"), set.campaign.inputs_csv(impacts)).unwrap();
     let output = nearwall(folder, &["predict", "--model", model, "fresh.csv"]);
@@ -125,7 +125,8 @@ pub fn predict(set: &Set, folder: &Path, model: &str, impacts: &[Inputs]) -> Vec
     rows
 }
 
-/// Noise alone against noise and misfit; for capture, the log loss of the truth against that of the prediction.
+/// The error due to noise and misfit against that of noise; for capture, the log loss of the prediction against that of
+/// the truth.
 pub fn compare(set: &Set, observable: &'static str, truth: &[Response], predicted: &[Response]) -> HeldOut {
     if observable == "stick" {
         let loss = |of: &[Response]| mean(truth.iter().zip(of).map(|(t, p)| cross_entropy(t.stick, p.stick)));

@@ -1,4 +1,4 @@
-//! One diagnosis held against the truth, and the table of all.
+//! Scores a diagnosis against the truth, and prints the tables of all.
 
 use std::collections::BTreeMap;
 
@@ -7,20 +7,20 @@ use serde_json::Value;
 use crate::migraine;
 use crate::sets::{Kind, Set};
 
-/// How a diagnosis did on one set.
+/// The verdict on one diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// The cause stands first.
+    /// The planted cause is the first finding.
     Right,
-    /// Another stands first, and the cause is among those it says it cannot tell apart.
+    /// Another one is first and lists the planted cause as indistinguishable.
     CannotTell,
-    /// Another stands first.
+    /// Another one is first.
     False,
     /// No finding.
     Missed,
 }
 
-/// A stated 95 % interval and what it should hold.
+/// A stated 95 % interval and the true value.
 #[derive(Clone, Debug)]
 pub struct Interval {
     pub parameter: String,
@@ -30,7 +30,7 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Whether the interval holds the truth.
+    /// Whether the interval covers the truth.
     pub fn holds(&self) -> bool {
         (self.low..=self.high).contains(&self.truth)
     }
@@ -45,7 +45,7 @@ pub struct HeldOut {
 }
 
 impl HeldOut {
-    /// Within 15 %; an outcome that is almost certain has almost no log loss, so it has a hundredth of a nat to spare.
+    /// Within 15 %, and a hundredth of a nat for outcomes, whose log loss may be almost 0.
     pub fn close(&self) -> bool {
         let spare = if self.observable == "stick" { 0.01 } else { 0.0 };
         self.reached <= 1.15 * self.attainable + spare
@@ -59,15 +59,15 @@ pub struct Judgement {
     pub family: String,
     pub kind: Kind,
     pub verdict: Verdict,
-    /// No finding but the planted ones.
+    /// The planted causes and no others.
     pub exact: bool,
-    /// What a trap asks for beyond the verdict.
+    /// Whether a trap is passed.
     pub trap_passed: bool,
     pub intervals: Vec<Interval>,
     pub held_out: Vec<HeldOut>,
     pub findings: Vec<String>,
     pub seconds: f64,
-    /// Exit code other than 0, or an answer that cannot be read.
+    /// The error, if there is no readable diagnosis.
     pub crash: Option<String>,
 }
 
@@ -77,15 +77,15 @@ pub fn causes(diagnosis: &Value) -> Vec<String> {
     findings.iter().map(|finding| finding["cause"].as_str().unwrap().to_string()).collect()
 }
 
-/// The verdict on what stands first.
+/// The verdict on the first finding.
 fn verdict(truth: &[&str], diagnosis: &Value) -> Verdict {
     let Some(first) = diagnosis["findings"].get(0) else { return Verdict::Missed };
-    let told = |name: &Value| truth.contains(&name.as_str().unwrap_or_default());
-    if told(&first["cause"]) {
+    let matches = |name: &Value| truth.contains(&name.as_str().unwrap_or_default());
+    if matches(&first["cause"]) {
         return Verdict::Right;
     }
     let others = first["indistinguishable_from"].as_array();
-    if others.is_some_and(|others| others.iter().any(told)) { Verdict::CannotTell } else { Verdict::False }
+    if others.is_some_and(|others| others.iter().any(matches)) { Verdict::CannotTell } else { Verdict::False }
 }
 
 /// Stated intervals of planted parameters.
@@ -239,7 +239,7 @@ fn print_held_out(all: &[Judgement]) {
     }
 }
 
-/// Silence on nothing, and the traps.
+/// Null sets and traps.
 fn print_traps(all: &[Judgement]) {
     let null: Vec<_> = all.iter().filter(|one| one.kind == Kind::Null).collect();
     println!("\nsilent on {} of {} null sets", null.iter().filter(|one| one.trap_passed).count(), null.len());
@@ -260,7 +260,7 @@ fn print_intervals(all: &[Judgement]) {
     }
 }
 
-/// What does not meet the demands.
+/// The demands that are not met.
 fn failures(all: &[Judgement]) -> Vec<String> {
     let of = |kind| all.iter().filter(move |one| one.kind == kind);
     let count = |verdict| of(Kind::Planted).filter(|one| one.verdict == verdict).count();

@@ -16,7 +16,7 @@ use crate::world::World;
 pub enum Kind {
     /// One effect.
     Planted,
-    /// Nothing: the answer is silence.
+    /// No effect: there must be no finding.
     Null,
     /// Two effects.
     Pair,
@@ -26,13 +26,13 @@ pub enum Kind {
     Unknown,
     /// Rows that cannot be used.
     Broken,
-    /// Too few rows to tell.
+    /// Too few rows to distinguish effects.
     Few,
     /// The published tungsten campaign.
     Migraine,
 }
 
-/// One set: a campaign, its world, what was measured, and how much it tells.
+/// One set: a campaign, its world, the measurements and their information.
 pub struct Set {
     pub name: String,
     pub kind: Kind,
@@ -44,8 +44,8 @@ pub struct Set {
     pub gain: Gain,
 }
 
-/// What a set is made from.
-pub struct PreparedWall {
+/// The design of a set: its campaign and its planted effects.
+pub struct Design {
     pub campaign: Campaign,
     pub plants: Vec<Plant>,
 }
@@ -54,35 +54,31 @@ pub struct PreparedWall {
 pub struct Recipe {
     pub name: String,
     pub kind: Kind,
-    plan: Box<dyn Fn(&mut Dice) -> PreparedWall + Send + Sync>,
+    plan: Box<dyn Fn(&mut Dice) -> Design + Send + Sync>,
 }
 
-/// What the data have to be worth, nats.
+/// Least gain of the data [nats].
 const LEAST: Gain = Gain { over_base: 30.0, over_refitted: 20.0, least_plant: 30.0 };
 
 impl Recipe {
-    pub fn new(
-        name: String,
-        kind: Kind,
-        plan: impl Fn(&mut Dice) -> PreparedWall + Send + Sync + 'static,
-    ) -> Self {
+    pub fn new(name: String, kind: Kind, plan: impl Fn(&mut Dice) -> Design + Send + Sync + 'static) -> Self {
         Self { name, kind, plan: Box::new(plan) }
     }
 
-    /// The set of this seed: redrawn while the data could not tell.
+    /// The set of this seed: redrawn until the data are informative.
     pub fn make(&self, seed: u64) -> Set {
         let mut dice = Dice::new(seed, &self.name);
         for _ in 0..200 {
             let set = self.draw(&mut dice);
-            if self.tells(&set) {
+            if self.is_informative(&set) {
                 return set;
             }
         }
-        panic!("{}: no draw can be told from its base", self.name);
+        panic!("{}: no draw can be distinguished from its base", self.name);
     }
 
     fn draw(&self, dice: &mut Dice) -> Set {
-        let PreparedWall { campaign, plants } = (self.plan)(dice);
+        let Design { campaign, plants } = (self.plan)(dice);
         let plants = plants.into_iter().map(Arc::new).collect();
         let world = World { contact: campaign.system.contact(), tangential: campaign.law, plants };
         let rows = campaign.run(&world, dice);
@@ -91,8 +87,8 @@ impl Recipe {
         Set { name: self.name.clone(), kind: self.kind, campaign, world, rows, csv, broken_lines, gain }
     }
 
-    /// Whether the data can tell the truth from the base, from a refitted base, and each plant from its absence.
-    fn tells(&self, set: &Set) -> bool {
+    /// Whether the data distinguish the truth from the base, from a refitted base, and each plant from its absence.
+    fn is_informative(&self, set: &Set) -> bool {
         match self.kind {
             Kind::Null | Kind::Few => true,
             Kind::Migraine => set.gain.over_base > LEAST.over_base,
@@ -116,7 +112,7 @@ impl Set {
         self.campaign.system.model(self.campaign.law)
     }
 
-    /// The truth, for whoever develops against the set.
+    /// The truth, for development.
     pub fn truth(&self) -> Value {
         let plants: Vec<Value> = self
             .world
@@ -137,10 +133,8 @@ impl Set {
             "rejected_lines": self.broken_lines,
         })
     }
-}
 
-impl Set {
-    /// What the data are worth, where something is planted.
+    /// The gains, if anything is planted.
     fn gain_block(&self) -> Value {
         if self.world.plants.is_empty() {
             return Value::Null;
@@ -177,12 +171,12 @@ pub const EFFECTS: [&str; 18] = [
     "viscoelastic-loss",
 ];
 
-/// The sets that this run is asked for: `NEARWALL_HIDDEN_SETS` repeats (1), and of those only
-/// `NEARWALL_HIDDEN_ONLY`, a name (`gas-lift:2`) or a family (`gas-lift`), several with commas.
+/// The sets that this run is asked for: `NEARWALL_PLANTED_SETS` repeats (1), and of those only
+/// `NEARWALL_PLANTED_ONLY`, a name (`gas-lift:2`) or a family (`gas-lift`), several with commas.
 pub fn wanted() -> Vec<Recipe> {
-    let repeats = std::env::var("NEARWALL_HIDDEN_SETS").map_or(1, |count| count.parse().unwrap());
+    let repeats = std::env::var("NEARWALL_PLANTED_SETS").map_or(1, |count| count.parse().unwrap());
     let mut all = recipes(repeats);
-    if let Ok(only) = std::env::var("NEARWALL_HIDDEN_ONLY") {
+    if let Ok(only) = std::env::var("NEARWALL_PLANTED_ONLY") {
         all.retain(|recipe| {
             only.split(',').any(|one| recipe.name == one || recipe.name.split(':').next() == Some(one))
         });
@@ -207,7 +201,7 @@ fn planted(repeats: usize) -> Vec<Recipe> {
     EFFECTS.iter().flat_map(|effect| (0..3 * repeats).map(move |index| one(effect, index))).collect()
 }
 
-/// Nothing planted, a dozen nuisance columns, noise of a different kind in each.
+/// No effect, a dozen nuisance columns, a different kind of noise in each.
 fn null(index: usize) -> Recipe {
     Recipe::new(format!("null:{index}"), Kind::Null, move |dice| {
         let system = [System::Wax, System::Tungsten][index % 2];
@@ -216,7 +210,7 @@ fn null(index: usize) -> Recipe {
         campaign.spread =
             [Spread::Even, Spread::Random, Spread::WithSpeed, Spread::WithForeign][index / 2 % 4];
         campaign.outliers = if index % 5 == 4 { 0.0 } else { 0.02 };
-        PreparedWall { campaign, plants: vec![] }
+        Design { campaign, plants: vec![] }
     })
 }
 
@@ -263,7 +257,7 @@ fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
         campaign.rows = 600 + dice.below(401);
         campaign.noise_e_n = campaign.noise_e_n.min(0.05);
         let plants = [one, other].into_iter().map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
-        PreparedWall { campaign, plants }
+        Design { campaign, plants }
     })
 }
 
@@ -272,7 +266,7 @@ fn unknown_number(index: usize) -> Recipe {
         let system = any_system(dice);
         let mut campaign = Campaign::new(system, any_law(system, dice), dice);
         campaign.needs("humidity");
-        PreparedWall { plants: vec![plant::unknown_number(dice.uniform((0.3, 0.6)))], campaign }
+        Design { plants: vec![plant::unknown_number(dice.uniform((0.3, 0.6)))], campaign }
     })
 }
 
@@ -282,10 +276,7 @@ fn unknown_group(index: usize) -> Recipe {
         let mut campaign = Campaign::new(system, any_law(system, dice), dice);
         campaign.needs("batch");
         let size = dice.uniform((0.2, 0.4));
-        PreparedWall {
-            plants: vec![plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size])],
-            campaign,
-        }
+        Design { plants: vec![plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size])], campaign }
     })
 }
 
@@ -310,13 +301,13 @@ fn few(index: usize) -> Recipe {
 }
 
 /// One effect at level 0, 1 or 2, in a campaign in which it shows.
-fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> PreparedWall {
+fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> Design {
     let strength = (level as f64 / 2.0 + dice.uniform((-0.2, 0.2))).clamp(0.0, 1.0);
     let system = system_for(effect, dice);
     let law = law_for(effect, system, dice);
     let mut campaign = Campaign::new(system, law, dice);
     let plants = vec![sow(effect, strength, &mut campaign, dice)];
-    PreparedWall { campaign, plants }
+    Design { campaign, plants }
 }
 
 fn any_system(dice: &mut Dice) -> System {

@@ -1,4 +1,4 @@
-//! The world that is measured: a base model and what is planted on it.
+//! The true world: a base model and planted effects.
 
 use std::sync::Arc;
 
@@ -28,9 +28,7 @@ impl Inputs {
     pub fn obliquity(&self) -> f64 {
         self.v_t.atan2(self.v_n) / std::f64::consts::FRAC_PI_2
     }
-}
 
-impl Inputs {
     /// The input of this column.
     pub fn value(&self, column: &str) -> f64 {
         match column {
@@ -47,7 +45,7 @@ impl Inputs {
     }
 }
 
-/// What becomes of the impact: probability of capture, and the restitutions if it rebounds.
+/// The outcome of an impact: probability of capture, and the restitutions of a rebound.
 #[derive(Clone, Copy, Debug)]
 pub struct Response {
     pub stick: f64,
@@ -55,7 +53,7 @@ pub struct Response {
     pub e_t: f64,
 }
 
-/// The normal part while it is worked out.
+/// The normal part during its evaluation.
 #[derive(Clone, Copy, Debug)]
 pub struct Normal {
     pub stick: f64,
@@ -71,25 +69,23 @@ pub struct World {
     pub plants: Vec<Arc<Plant>>,
 }
 
-/// How many hidden draws an impact has.
+/// Number of hidden draws of an impact.
 pub const DRAWS: usize = 2;
 
 impl World {
-    /// What the base model says.
+    /// The outcome under the base model.
     pub fn base(&self, x: &Inputs) -> Response {
         evaluate(&self.contact, self.tangential, &[], x, [0.5; DRAWS])
     }
 
     /// The truth for one pair of hidden draws (each uniform in 0..1).
     pub fn truth(&self, x: &Inputs, draws: [f64; DRAWS]) -> Response {
-        let tilt = self.plants.iter().find_map(|plant| match plant.hook {
-            Hook::Tilt(angle) => Some(angle),
-            _ => None,
-        });
-        match tilt {
-            Some(angle) => self.tilted(x, angle, draws),
-            None => evaluate(&self.contact, self.tangential, &self.plants, x, draws),
+        for plant in &self.plants {
+            if let Hook::Tilt(angle) = plant.hook {
+                return self.tilted(x, angle, draws);
+            }
         }
+        evaluate(&self.contact, self.tangential, &self.plants, x, draws)
     }
 
     /// This world without its plant `index`.
@@ -99,13 +95,13 @@ impl World {
         Self { plants, ..*self }
     }
 
-    /// Whether the outcome of one and the same impact is scattered by what is planted.
+    /// Whether a plant makes the outcome of equal impacts random.
     pub fn scatters(&self) -> bool {
         self.plants.iter().any(|plant| plant.scatters)
     }
 
-    /// The impact in the frame of a facet that is tilted in the plane of impact, and back in the wall's frame.
-    /// A facet that faces away, or sends the particle into the wall, is not what was hit: half the tilt then.
+    /// The impact on a facet that is tilted in the plane of impact. The tilt is halved while the facet faces away or
+    /// reflects the particle into the wall.
     fn tilted(&self, x: &Inputs, angle: f64, draws: [f64; DRAWS]) -> Response {
         let mut tilt = angle * normal(draws);
         for _ in 0..20 {

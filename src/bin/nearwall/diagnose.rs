@@ -1,4 +1,4 @@
-//! `nearwall diagnose`: what a model gets wrong about measured impacts, the cause, and the extended model.
+//! `nearwall diagnose`: the effects that a model lacks to explain measured impacts, and the extended model.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -12,33 +12,32 @@ use nearwall::report::diagnosis_page;
 
 use crate::{CommandResult, progress};
 
-/// Finds what a model gets wrong about measured impacts, names the cause and extends the model
+/// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
     nearwall diagnose lab.csv --columns lab.map.toml --model wax.toml --out diagnosis\n\n\
-    Writes report.html (open it in a browser), diagnosis.json and extended.toml into the folder. The data file needs v_n\n\
-    and at least one of e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md\n\
-    says what a file may hold and how --columns renames and converts a laboratory's own; docs/diagnosis.md how the\n\
-    judgement works.")]
+    Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
+    e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
+    file and --columns, docs/diagnosis.md the method.")]
 pub struct Arguments {
     /// The measured impacts
     data: PathBuf,
-    /// The model file to judge
+    /// The base model
     #[arg(long)]
     model: PathBuf,
-    /// Where to write
+    /// Output folder
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
-    /// Deals rows out to fits and tests; the same seed gives the same bytes
+    /// Seed of the split into fitted and held-out rows; the same seed gives the same bytes
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Accepted share of false discoveries
     #[arg(long, default_value_t = 0.05)]
     level: f64,
-    /// Renames and converts the columns of a laboratory's own file
+    /// Column map that renames and converts the columns of a laboratory's own file
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
-    /// The model's wall that is hit; otherwise the column `wall`, then `default`, then the only one
+    /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
 }
@@ -47,7 +46,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if !(arguments.level > 0.0 && arguments.level < 0.5) {
         return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
     }
-    // Once: the file may be replaced while this runs.
+    // Read only once: the file may be replaced while this runs.
     let document = Document::from_file(&arguments.model)?;
     let model = Model::from_toml(document.name(), document.text())?;
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
@@ -58,7 +57,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     for note in &data.notes {
         eprintln!("nearwall: {note}");
     }
-    let bar = progress::spinner("candidates tried");
+    let bar = progress::spinner("candidates tested");
     let options = Options { seed: arguments.seed, level: arguments.level };
     let (diagnosis, extended) =
         diagnose(&model, document.text(), &data, options, &|| bar.inc(1)).map_err(|error| match error {
@@ -70,10 +69,10 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     crate::print(&summary(&diagnosis, &arguments.out))
 }
 
-/// What is written, in this order.
+/// The output files, in the order of writing.
 const RESULTS: [&str; 3] = ["extended.toml", "diagnosis.json", "report.html"];
 
-/// Opens all results before any is written.
+/// Opens all output files before any is written.
 fn open(arguments: &Arguments) -> Result<[AtomicFile; 3], String> {
     let folder = &arguments.out;
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
@@ -111,7 +110,7 @@ fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
     }
     if !diagnosis.rows.rejected.is_empty() {
         text += &format!(
-            "{} of {} rows were left out; report.html says which and why\n",
+            "{} of {} rows were left out; report.html lists them with the reasons\n",
             diagnosis.rows.rejected.len(),
             diagnosis.rows.read
         );

@@ -1,4 +1,4 @@
-//! `nearwall predict`: what the model says of each impact in a CSV file.
+//! `nearwall predict`: the model's prediction of each impact in a CSV file.
 
 use std::fs::File;
 use std::io::{ErrorKind, Write};
@@ -14,22 +14,22 @@ use crate::{CommandResult, progress};
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n\n\
     impacts.csv needs a column v_n [m/s]; v_t [m/s], d [m], T_p [K], T_w [K], conversion, layer_thickness [m],\n\
-    film_thickness [m], v_gas [m/s], roughness [m], omega [rad/s], coverage, melt_thickness [m] and wall are used where they are there.\n\
-    Every other column is kept. A row that cannot be used is named on standard error and left out; that is no failure as\n\
-    long as one row can be used.")]
+    film_thickness [m], v_gas [m/s], roughness [m], omega [rad/s], coverage, melt_thickness [m] and wall are optional.\n\
+    Every other column is kept. A row that cannot be used is reported on standard error and left out. The command fails\n\
+    only if no row can be used.")]
 pub struct Arguments {
-    /// The impacts, one a row
+    /// The impacts, one per row
     impacts: PathBuf,
     /// The model file
     #[arg(long)]
     model: PathBuf,
-    /// Where to write; standard output if not given
+    /// Output file; standard output by default
     #[arg(short)]
     output: Option<PathBuf>,
-    /// The model's wall that is hit; otherwise the column `wall`, then `default`, then the only one
+    /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
-    /// Print what each term did to the impact on this line of the file, instead of the table
+    /// Print the effect of each term on the impact on this line of the file, instead of the table
     #[arg(long, value_name = "LINE")]
     explain: Option<u64>,
 }
@@ -43,29 +43,30 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let source = File::open(&arguments.impacts).map_err(|error| format!("{file}: {error}"))?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "predicting");
     let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?;
-    let walls = Walls::new(&model, arguments.wall.as_deref(), reader.column("wall"))?;
+    let (walls, column) = (WallChoice::new(&model, arguments.wall.as_deref())?, reader.column("wall"));
+    walls.check(column.is_some())?;
+    let wall_of = |row: &Row| walls.of(column.and_then(|column| row.cells.get(column)));
     if let Some(line) = arguments.explain {
-        return explain(&model, &walls, &mut reader, line);
+        return explain(&model, &wall_of, &mut reader, line);
     }
     note_assumptions(&file, &reader);
-    match &arguments.output {
-        None => {
-            let done = predict(&model, &walls, &mut reader, &mut std::io::stdout().lock());
-            done.map_err(|error| at(Path::new("standard output"), error))
-        }
-        Some(path) => {
-            let mut aside = AtomicFile::new(path, &[&arguments.impacts, &arguments.model])?;
-            predict(&model, &walls, &mut reader, &mut aside).map_err(|error| at(path, error))?;
-            Ok(AtomicFile::commit(vec![aside])?)
-        }
-    }
+    let Some(path) = &arguments.output else {
+        let done = predict(&model, &wall_of, &mut reader, &mut std::io::stdout().lock());
+        return done.map_err(|error| at(Path::new("standard output"), error));
+    };
+    let mut output = AtomicFile::new(path, &[&arguments.impacts, &arguments.model])?;
+    predict(&model, &wall_of, &mut reader, &mut output).map_err(|error| at(path, error))?;
+    Ok(AtomicFile::commit(vec![output])?)
 }
 
-/// Says what stands in for inputs that the file does not give, where that is more than "none".
+/// Finds the wall of a row.
+type WallOf<'a> = dyn Fn(&Row) -> Result<usize, WallError> + 'a;
+
+/// Reports unused columns that resemble an input, and the assumed values of absent inputs.
 fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
     for (column, input) in reader.near_misses() {
         eprintln!(
-            "nearwall: {file}: column `{column}` is not used; if it is `{input}` in SI units, call it so"
+            "nearwall: {file}: column `{column}` is not used; rename it if it is the input `{input}` in SI units"
         );
     }
     if let Some(assumed) = assumed(&reader.absent()) {
@@ -73,7 +74,7 @@ fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
     }
 }
 
-/// Names the place in an error of writing; a reader that goes away is left as it is.
+/// Adds the file to a write error, except for a closed pipe.
 fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Error> {
     match error.downcast::<csv::Error>().map(|error| of_csv(*error)) {
         Ok(error) if error.kind() == ErrorKind::BrokenPipe => error.into(),
@@ -84,24 +85,24 @@ fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Er
 
 fn predict(
     model: &Model,
-    walls: &Walls<'_>,
+    wall_of: &WallOf<'_>,
     reader: &mut ImpactReader<impl std::io::Read>,
     output: &mut impl Write,
 ) -> CommandResult {
     let mut writer = csv::Writer::from_writer(output);
     let mut header = reader.headers().clone();
     for name in ADDED {
-        // A measured column keeps its name.
+        // A column of the file keeps its name.
         let taken = reader.column(name).is_some();
         header.push_field(&if taken { format!("{name}_predicted") } else { name.to_owned() });
     }
     writer.write_record(&header)?;
     let (mut done, mut left_out, mut outside) = (0_u64, 0_u64, 0_u64);
-    let mut strange = None;
+    let mut warning = None;
     while let Some(next) = reader.next_row()? {
         let predicted = next.map_err(|bad| (bad.line, bad.reason)).and_then(|row| {
-            strange = strange.take().or_else(|| unlikely(row.line, &row.impact));
-            predict_row(model, walls, &row).map_err(|reason| (row.line, reason))
+            warning = warning.take().or_else(|| unlikely(row.line, &row.impact));
+            predict_row(model, wall_of, &row).map_err(|reason| (row.line, reason))
         });
         match predicted {
             Ok((record, outside_range)) => {
@@ -116,13 +117,13 @@ fn predict(
         }
     }
     writer.flush().map_err(csv::Error::from)?;
-    if let Some(note) = strange {
-        eprintln!("nearwall: {note}");
+    if let Some(warning) = warning {
+        eprintln!("nearwall: {warning}");
     }
     if outside > 0 {
         eprintln!(
-            "nearwall: {outside} of {done} rows lie outside the range that a property or a fitted term is stated for \
-             (--explain LINE, `nearwall materials NAME`)"
+            "nearwall: {outside} of {done} rows lie outside the valid range of a property or a fitted term \
+             (see --explain LINE, `nearwall materials NAME`)"
         );
     }
     if left_out > 0 {
@@ -134,8 +135,8 @@ fn predict(
     Ok(())
 }
 
-fn predict_row(model: &Model, walls: &Walls<'_>, row: &Row) -> Result<(csv::StringRecord, bool), String> {
-    let wall = walls.of(row)?;
+fn predict_row(model: &Model, wall_of: &WallOf<'_>, row: &Row) -> Result<(csv::StringRecord, bool), String> {
+    let wall = wall_of(row).map_err(|error| error.to_string())?;
     let outcome =
         model.resolve(wall, &row.impact, ImpactRng::default()).map_err(|error| error.to_string())?;
     let mut record = row.cells.clone();
@@ -146,29 +147,10 @@ fn predict_row(model: &Model, walls: &Walls<'_>, row: &Row) -> Result<(csv::Stri
     Ok((record, outcome.outside_range))
 }
 
-/// Which wall a row hits.
-struct Walls<'a> {
-    choice: WallChoice<'a>,
-    column: Option<usize>,
-}
-
-impl<'a> Walls<'a> {
-    fn new(model: &'a Model, named: Option<&str>, column: Option<usize>) -> Result<Self, WallError> {
-        let choice = WallChoice::new(model, named)?;
-        choice.check(column.is_some())?;
-        Ok(Self { choice, column })
-    }
-
-    fn of(&self, row: &Row) -> Result<usize, String> {
-        let cell = self.column.and_then(|column| row.cells.get(column));
-        self.choice.of(cell).map_err(|error| error.to_string())
-    }
-}
-
-/// Prints the walk of one impact, a line a term.
+/// Prints the evaluation of one impact, one line per term.
 fn explain(
     model: &Model,
-    walls: &Walls<'_>,
+    wall_of: &WallOf<'_>,
     reader: &mut ImpactReader<impl std::io::Read>,
     line: u64,
 ) -> CommandResult {
@@ -176,8 +158,8 @@ fn explain(
         match next {
             Err(bad) if bad.line == line => return Err(format!("line {line}: {}", bad.reason).into()),
             Ok(row) if row.line == line => {
-                let wall = walls.of(&row)?;
-                let (outcome, shares) = model.explain(wall, &row.impact, ImpactRng::default())?;
+                let wall = wall_of(&row)?;
+                let (outcome, entries) = model.explain(wall, &row.impact, ImpactRng::default())?;
                 let speeds = model.speeds(wall, &row.impact)?;
                 let mut text = format!(
                     "wall {}, regime {}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",
@@ -188,15 +170,15 @@ fn explain(
                     speeds.sticking
                 );
                 if outcome.outside_range {
-                    text += "outside the range that a property or a fitted term is stated for\n";
+                    text += "outside the valid range of a property or a fitted term\n";
                 }
-                for share in shares {
-                    text += &format!("{:<24} {:<22} {:.6}\n", share.term, share.quantity, share.value);
+                for entry in entries {
+                    text += &format!("{:<24} {:<22} {:.6}\n", entry.term, entry.quantity, entry.value);
                 }
                 return crate::print(&text);
             }
             _ => {}
         }
     }
-    Err(format!("--explain {line}: no row stands on this line (the header is the first line)").into())
+    Err(format!("--explain {line}: there is no row on this line (the header is line 1)").into())
 }

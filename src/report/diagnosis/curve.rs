@@ -3,10 +3,15 @@
 use super::super::chart::Figure;
 use super::axis::Axis;
 use super::plot::{EXTENDED, Window, running, title, triple};
-use crate::diagnose::{Diagnosis, Finding, Shape};
+use crate::diagnose::{Diagnosis, Finding, FittedCurve};
 
 /// The curve, with the rows that it was fitted to; `None` where its column does not vary in the sample.
-pub(super) fn figure(diagnosis: &Diagnosis, finding: &Finding, shape: &Shape, id: &str) -> Option<Figure> {
+pub(super) fn figure(
+    diagnosis: &Diagnosis,
+    finding: &Finding,
+    shape: &FittedCurve,
+    id: &str,
+) -> Option<Figure> {
     let sample = &diagnosis.sample;
     let axis = Axis::new(sample, finding.variables.first()?)?;
     let mut line: Vec<[f64; 2]> = shape

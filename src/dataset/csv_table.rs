@@ -1,16 +1,16 @@
-//! A CSV file as lines of cells: the one place where such a file is opened and its header checked.
+//! A CSV file as records of cells, with a checked header.
 
 use std::io::Read;
 
 use super::lines::Lines;
 use super::{BadRow, DatasetError};
 
-/// How the cells stand in the file.
+/// The layout of a file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Layout {
-    /// What stands between two cells.
+    /// Separator of the cells.
     pub(super) separator: u8,
-    /// What a line that is no row begins with.
+    /// First character of a comment line.
     pub(super) comment: Option<u8>,
     /// Line of the header, counted from 1.
     pub(super) header_line: u64,
@@ -22,21 +22,20 @@ impl Default for Layout {
     }
 }
 
-/// Reads records of as many cells as the header has.
-pub(super) struct Table<R> {
+/// A reader of records with as many cells as the header.
+pub(super) struct CsvTable<R> {
     reader: csv::Reader<Lines<R>>,
     file: String,
     headers: csv::StringRecord,
-    /// Lines before the text that the CSV reader sees.
+    /// Number of lines before the header.
     skipped: u64,
 }
 
-impl<R: Read> Table<R> {
-    /// Reads the header; `file` stands for the source in messages. A name may stand there twice where `unused` says
-    /// that nobody asks for it.
+impl<R: Read> CsvTable<R> {
+    /// Reads the header; `file` names the source in messages. Names for which `unused` holds may be repeated.
     ///
     /// # Errors
-    /// [`DatasetError`] for a source that cannot be read, is empty or names two columns alike.
+    /// [`DatasetError`] for a source that cannot be read, is empty or repeats a name.
     pub(super) fn open(
         file: &str,
         source: R,
@@ -54,13 +53,13 @@ impl<R: Read> Table<R> {
         let mut table = Self { reader, file: file.to_owned(), headers, skipped };
         table.headers = table.read_headers()?;
         if table.headers.iter().all(str::is_empty) {
-            let problem = "there is no header; the first line that is no comment has to name the columns";
+            let problem = "there is no header; the first line that is no comment must name the columns";
             let (file, problem) = (file.to_owned(), problem.to_owned());
             return Err(DatasetError::Header { file, line: layout.header_line, problem });
         }
         for (index, name) in table.headers.iter().enumerate() {
             if !unused(name) && table.headers.iter().take(index).any(|earlier| earlier == name) {
-                return Err(table.header_fault(format!("column `{name}` stands there twice; rename one")));
+                return Err(table.header_fault(format!("column `{name}` occurs twice; rename one")));
             }
         }
         Ok(table)
@@ -92,7 +91,7 @@ impl<R: Read> Table<R> {
         DatasetError::Header { file: self.file.clone(), line: before + self.skipped, problem: problem.into() }
     }
 
-    /// The next record into `cells` and the line that it begins on, or `None` at the end.
+    /// Reads the next record into `cells`; returns its first line, or `None` at the end.
     ///
     /// # Errors
     /// [`DatasetError::Unreadable`] when the source fails.
@@ -100,16 +99,16 @@ impl<R: Read> Table<R> {
         &mut self,
         cells: &mut csv::StringRecord,
     ) -> Result<Option<Result<u64, BadRow>>, DatasetError> {
-        // As bytes: a row that is not UTF-8 has its lines counted, too.
+        // As bytes, so that the lines of a row that is not UTF-8 are counted.
         let mut record = std::mem::take(cells).into_byte_record();
         if !self.reader.read_byte_record(&mut record).map_err(|error| self.unreadable(&error))? {
             return Ok(None);
         }
         let end = self.reader.position();
-        // Every record ends with its line feed, but for one in quotation marks that nobody closed.
+        // Every record ends with its line feed, except one with an unterminated quotation mark.
         let open = self.reader.get_ref().ends_at(end.byte());
         let last = self.skipped + end.line() - u64::from(!open);
-        // The reader takes the first of the comments before a record for its line; the end is certain.
+        // The CSV reader reports the line of a preceding comment as the start of a record, but its end is correct.
         let inside = record.as_slice().iter().filter(|byte| **byte == b'\n').count();
         let line = last.saturating_sub(inside as u64);
         Ok(Some(match csv::StringRecord::from_byte_record(record) {
@@ -118,7 +117,7 @@ impl<R: Read> Table<R> {
                 cells.trim();
                 self.check_width(cells, line)
             }
-            Err(_) => Err(BadRow { line, reason: "not UTF-8".to_owned() }),
+            Err(_) => Err(BadRow { line, reason: "the row is not UTF-8".to_owned() }),
         }))
     }
 
@@ -126,7 +125,7 @@ impl<R: Read> Table<R> {
         if cells.len() == self.headers.len() {
             return Ok(line);
         }
-        let reason = format!("{} cells under {} columns", cells.len(), self.headers.len());
+        let reason = format!("the row has {} cells, the header {}", cells.len(), self.headers.len());
         Err(BadRow { line, reason })
     }
 
@@ -139,9 +138,9 @@ impl<R: Read> Table<R> {
 mod tests {
     use super::*;
 
-    /// The lines on which records begin.
+    /// The first lines of the records.
     fn lines(text: &str, layout: Layout) -> Vec<u64> {
-        let mut table = Table::open("t.csv", text.as_bytes(), layout, |_| false).unwrap();
+        let mut table = CsvTable::open("t.csv", text.as_bytes(), layout, |_| false).unwrap();
         let mut cells = csv::StringRecord::new();
         let mut found = Vec::new();
         while let Some(next) = table.next_into(&mut cells).unwrap() {
@@ -151,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn records_stand_on_their_line_whatever_stands_before() {
+    fn records_have_their_line_whatever_precedes() {
         let plain = "a,b\n# comment\n1,2\n\n\n\"x\ny\",2\n3\n4,5";
         assert_eq!(lines(plain, Layout::default()), [3, 6, 8, 9]);
         let windows = plain.replace('\n', "\r\n");
@@ -165,32 +164,32 @@ mod tests {
     }
 
     #[test]
-    fn headers_that_name_nothing_are_refused() {
+    fn empty_headers_are_refused() {
         let fault = |bytes: &[u8]| {
-            Table::open("t.csv", bytes, Layout::default(), |_| false).err().unwrap().to_string()
+            CsvTable::open("t.csv", bytes, Layout::default(), |_| false).err().unwrap().to_string()
         };
         for empty in ["", "\n\n", "\u{feff}", "# only this\r\n", ",,\n"] {
             assert!(fault(empty.as_bytes()).contains("there is no header"), "{empty:?}");
         }
-        assert_eq!(fault(b"#\n#\na,b,a\n"), "t.csv:3: column `a` stands there twice; rename one");
+        assert_eq!(fault(b"#\n#\na,b,a\n"), "t.csv:3: column `a` occurs twice; rename one");
         assert_eq!(fault(b"d [\xb5m]\n1\n"), "t.csv:1: the header is not UTF-8; save the file as UTF-8");
     }
 
     #[test]
     fn rows_that_are_not_utf8_are_named() {
         let mut table =
-            Table::open("t.csv", b"a\n\xb5\n1\n".as_slice(), Layout::default(), |_| false).unwrap();
+            CsvTable::open("t.csv", b"a\n\xb5\n1\n".as_slice(), Layout::default(), |_| false).unwrap();
         let mut cells = csv::StringRecord::new();
         let bad = table.next_into(&mut cells).unwrap().unwrap().unwrap_err();
-        assert_eq!((bad.line, bad.reason.as_str()), (2, "not UTF-8"));
+        assert_eq!((bad.line, bad.reason.as_str()), (2, "the row is not UTF-8"));
         assert_eq!(table.next_into(&mut cells).unwrap(), Some(Ok(3)));
         let mut lines = |text: &[u8]| {
-            let mut table = Table::open("t.csv", text, Layout::default(), |_| false).unwrap();
+            let mut table = CsvTable::open("t.csv", text, Layout::default(), |_| false).unwrap();
             let mut next =
                 || table.next_into(&mut cells).unwrap().map(|row| row.unwrap_or_else(|bad| bad.line));
             [next(), next(), next()]
         };
-        assert_eq!(lines(b"a\n\"\xff"), [Some(2), None, None], "in quotation marks that nobody closes");
+        assert_eq!(lines(b"a\n\"\xff"), [Some(2), None, None], "with an unterminated quotation mark");
         assert_eq!(lines(b"a\n\"x\n\n\xff\n\"\n1\n"), [Some(2), Some(6), None], "over several lines");
     }
 }

@@ -1,0 +1,156 @@
+//! The kinds of candidates: what can be added to a hypothesis.
+//!
+//! A new kind is a variant of [`Candidate`] and of [`Addition`]; the compiler then names the places that treat it: the
+//! list of candidates and both fits in `cross_validation`, its preference in `model_selection`, its finding in `finding`.
+
+use super::curve::ColumnCurve;
+use super::data_split::DataSplit;
+use super::evaluation::Evaluation;
+use super::hypothesis::{Hypothesis, ScatterTrend};
+use super::observable::Observable;
+use super::part::{FittedPart, Part};
+
+/// A coordinate nearer than this to 0 or 1 is at a bound.
+const BOUND: f64 = 0.03;
+/// Largest correction for skewness, as a share of the mean.
+const LARGEST_SKEW: f64 = 0.3;
+
+/// A kind of addition before its fit; covariates by index.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Candidate {
+    Part(Part),
+    Curve { covariate: usize, observable: Observable },
+    ScatterTrend { covariate: usize },
+    BackgroundCapture,
+}
+
+/// A fitted addition.
+#[derive(Debug, Clone)]
+pub(super) enum Addition {
+    /// A part, and the earlier parts as they fit best beside it.
+    Part { part: FittedPart, others: Vec<FittedPart> },
+    /// A curve over a column: a dependence that no effect explains.
+    Curve(ColumnCurve),
+    /// Heteroscedastic noise.
+    ScatterTrend(ScatterTrend),
+    /// Offset of the log odds of capture that no column explains.
+    BackgroundCapture(f64),
+}
+
+impl Addition {
+    /// The id of the cause.
+    pub fn name(&self, data: &DataSplit) -> String {
+        let column = |covariate: usize| &data.covariates[covariate].name;
+        match self {
+            Self::Part { part, .. } => part.part.name(),
+            Self::Curve(curve) => format!("unknown:{}", column(curve.form.covariate)),
+            Self::ScatterTrend(trend) => format!("scatter:{}", column(trend.covariate)),
+            Self::BackgroundCapture(_) => "background-capture".to_owned(),
+        }
+    }
+
+    /// The columns that it depends on.
+    pub fn variables(&self, data: &DataSplit) -> Vec<String> {
+        match self {
+            Self::Part { part, .. } => part.part.inputs().iter().map(|&input| input.to_owned()).collect(),
+            Self::Curve(curve) => vec![data.covariates[curve.form.covariate].name.clone()],
+            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => Vec::new(),
+        }
+    }
+
+    /// Whether it is another value of a parameter of the base model rather than a cause.
+    pub fn is_calibration(&self) -> bool {
+        matches!(self, Self::Part { part: FittedPart { part: Part::LawParameter(_), .. }, .. })
+    }
+
+    /// Whether it is a cause or a calibration rather than noise.
+    pub fn is_systematic(&self) -> bool {
+        matches!(self, Self::Part { .. } | Self::Curve(_))
+    }
+
+    /// The number of its free parameters; those with a default refine a law and do not count.
+    pub fn parameters(&self) -> usize {
+        match self {
+            Self::Part { part: FittedPart { part: Part::Effect(effect), .. }, .. } => {
+                effect.parameters.iter().filter(|parameter| parameter.default.is_none()).count()
+            }
+            Self::Part { part, .. } => part.at.len(),
+            Self::Curve(curve) => curve.curve.heights.len(),
+            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1,
+        }
+    }
+
+    /// Whether one of several parameters is at a bound: a simpler effect then does as well.
+    pub fn at_bound(&self) -> bool {
+        let at_bound = |at: &f64| !(BOUND..=1.0 - BOUND).contains(at);
+        matches!(self, Self::Part { part, .. } if part.at.len() > 1 && part.at.iter().any(at_bound))
+    }
+
+    /// Adds it to a hypothesis.
+    pub fn add_to(&self, hypothesis: &mut Hypothesis<'_>) {
+        match self {
+            Self::Part { part, others } => {
+                hypothesis.parts = others.iter().chain([part]).cloned().collect();
+            }
+            Self::Curve(curve) => hypothesis.curves.push(curve.clone()),
+            Self::ScatterTrend(trend) => hypothesis.scatter_trends.push(*trend),
+            Self::BackgroundCapture(odds) => hypothesis.background_capture = *odds,
+        }
+    }
+
+    /// The rows of `evaluation`, which are predicted by `hypothesis`, with this addition.
+    pub fn evaluate<'b>(&self, hypothesis: &Hypothesis<'b>, evaluation: &Evaluation<'b>) -> Evaluation<'b> {
+        let mut offsets = evaluation.offsets.to_vec();
+        match self {
+            Self::Part { .. } => {
+                let mut joint = hypothesis.clone();
+                self.add_to(&mut joint);
+                return joint.evaluate(evaluation.rows.clone(), offsets).with_scatter(evaluation.scatter);
+            }
+            Self::Curve(curve) => curve.add_to(&mut offsets, evaluation),
+            Self::ScatterTrend(trend) => trend.add_to(&mut offsets, evaluation.data),
+            Self::BackgroundCapture(odds) => offsets.iter_mut().for_each(|offset| offset.capture += odds),
+        }
+        evaluation.with_offsets(offsets)
+    }
+}
+
+/// An addition with its cross-validated gain.
+#[derive(Debug, Clone)]
+pub(super) struct ScoredCandidate {
+    pub addition: Addition,
+    /// Gain in log score of each row of [`DataSplit::search`] [nats].
+    pub differences: Vec<f64>,
+    /// Gain beyond that of a constant offset, for a curve; otherwise the whole gain [nats].
+    pub own_gain: f64,
+    pub p_value: f64,
+    pub q_value: f64,
+}
+
+impl ScoredCandidate {
+    /// Gain in log score of all rows [nats].
+    pub fn gain(&self) -> f64 {
+        self.differences.iter().sum()
+    }
+
+    /// Difference in gain to another candidate, in standard errors.
+    pub fn lead(&self, other: &Self) -> f64 {
+        let pairs = self.differences.iter().zip(&other.differences);
+        t_statistic(&pairs.map(|(a, b)| a - b).collect::<Vec<_>>())
+    }
+}
+
+/// Mean over its standard error, corrected for skewness (Johnson 1978): a rare kind of impact gains much in few rows.
+pub(super) fn t_statistic(differences: &[f64]) -> f64 {
+    let count = differences.len() as f64;
+    let mean = differences.iter().sum::<f64>() / count;
+    let moment = |power: i32| differences.iter().map(|d| (d - mean).powi(power)).sum::<f64>() / count;
+    let (variance, third) = (moment(2), moment(3));
+    if variance <= 0.0 {
+        return 0.0;
+    }
+    let skew = third / (6.0 * variance * count) + third * mean * mean / (3.0 * variance * variance);
+    // The correction is the first term of a series: where it is large, the mean is significant without it.
+    let skew = skew.clamp(-LARGEST_SKEW * mean.abs(), LARGEST_SKEW * mean.abs());
+    (mean + skew) / (variance / (count - 1.0).max(1.0)).sqrt()
+}
