@@ -276,7 +276,7 @@ closing() { # effect toml parameter=value...
 diagnosed() {   # effect parameter=value...
     if [ "$1" = none ]; then
         head -n 1 log.diagnose
-        grep -q "nothing beyond noise" log.diagnose && ! grep -q '^  [a-z]' log.diagnose
+        grep -q "no deviation from the model is significant" log.diagnose && ! grep -q '^  [a-z]' log.diagnose
         return
     fi
     grep '^  [a-z]' log.diagnose | awk -v planted="$*" '
