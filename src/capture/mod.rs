@@ -23,13 +23,26 @@ pub struct Stickiness {
 }
 
 impl Stickiness {
-    /// From here on a particle or wall counts as sticky when the regime is named.
+    /// Stickiness [1] from which a particle or a wall counts as sticky in a regime.
     pub const THRESHOLD: f64 = 0.5;
+
+    /// Whether the particle counts as sticky.
+    #[inline(always)]
+    pub fn is_particle_sticky(self) -> bool {
+        self.particle >= Self::THRESHOLD
+    }
+
+    /// Whether the wall counts as sticky.
+    #[inline(always)]
+    pub fn is_wall_sticky(self) -> bool {
+        self.wall >= Self::THRESHOLD
+    }
 
     /// Probability that a sticky particle or a sticky wall holds the particle [1]:
     /// `P = (P_p + sqrt(P_p² + 4 (1 - P_p) P_s)) / 2`, as in an open solver for slagging gasifiers (Uintah).
     ///
     /// One sticky partner is enough: `P = 1` for `P_p = 1` or `P_s = 1`; a wall that is not sticky leaves `P = P_p`.
+    #[inline(always)]
     pub fn probability(self) -> f64 {
         let Self { particle, wall } = self;
         if wall == 0.0 {

@@ -1,4 +1,4 @@
-//! Many impacts at a time, as columns: [`Model::resolve_block`].
+//! Impacts in blocks, as columns: [`Model::resolve_block`].
 
 pub use fearless_simd::Level;
 
@@ -6,7 +6,7 @@ use super::Model;
 use crate::impact::{INPUTS, Impact, ImpactError};
 use crate::rng::ImpactRng;
 
-/// Impacts of a block: their columns stay in the first-level cache.
+/// Largest number of impacts in a block: the columns stay in the first-level cache.
 pub const BLOCK: usize = 128;
 
 /// Up to [`BLOCK`] impacts on one wall, as columns.
@@ -14,13 +14,13 @@ pub const BLOCK: usize = 128;
 pub struct Block {
     /// A column for each of [`INPUTS`], in their order and units.
     pub inputs: [[f64; BLOCK]; INPUTS.len()],
-    /// What tells each impact's draws from all others.
+    /// Unique key of each impact, for its random numbers.
     pub keys: [u64; BLOCK],
     /// Number of impacts, at most [`BLOCK`].
     pub length: usize,
 }
 
-/// What became of a [`Block`], as columns: the fields of [`Outcome`](crate::Outcome).
+/// The outcomes of a [`Block`], as columns: the fields of [`Outcome`](crate::Outcome).
 #[derive(Debug, Clone)]
 pub struct Outcomes {
     /// Normal restitution `e_n` [1].
@@ -35,7 +35,7 @@ pub struct Outcomes {
     pub regime: [u32; BLOCK],
     /// 1 captured, 0 rebounds.
     pub stuck: [u32; BLOCK],
-    /// 1 outside the range that a term or a property is stated for.
+    /// 1 outside the range for which a term or a property is stated.
     pub outside_range: [u32; BLOCK],
 }
 
@@ -73,14 +73,14 @@ impl Block {
 }
 
 impl Model {
-    /// Decides a block of impacts on the wall with index `wall`: the bits of [`Model::resolve`] one by one, with the widest
-    /// vectors that this machine has.
+    /// Decides a block of impacts on the wall with index `wall`, with the widest vectors of this machine. The bits are those of
+    /// [`Model::resolve`] one by one.
     ///
-    /// Where the wall is [prepared](Model::is_prepared) the caller has checked the impacts
-    /// ([`Impact::check`]); numbers without meaning give outcomes without meaning.
+    /// On a [prepared](Model::is_prepared) wall the caller must have checked the impacts ([`Impact::check`]); numbers without
+    /// meaning give outcomes without meaning.
     ///
     /// # Errors
-    /// As [`Model::resolve`], for a wall that is not prepared. The outcomes are then in part those of the block before.
+    /// As [`Model::resolve`], for a wall that is not prepared. Part of the outcomes is then that of the previous block.
     pub fn resolve_block(
         &self,
         wall: usize,
@@ -91,8 +91,7 @@ impl Model {
         self.resolve_block_at(Level::new(), wall, block, seed, outcomes)
     }
 
-    /// As [`Model::resolve_block`] with the vectors of `level`: for tests, which show that all give the same bits, and
-    /// for benchmarks.
+    /// As [`Model::resolve_block`] with the vectors of `level`; for benchmarks, and for tests that compare the bits.
     ///
     /// # Errors
     /// As [`Model::resolve_block`].
@@ -104,11 +103,11 @@ impl Model {
         seed: u64,
         outcomes: &mut Outcomes,
     ) -> Result<(), ImpactError> {
-        if let Some(plan) = self.plans.get(wall).ok_or(ImpactError::NoSuchWall(wall))? {
-            // A plan knows no melt on the wall.
+        if let Some(prepared) = self.prepared.get(wall).ok_or(ImpactError::NoSuchWall(wall))? {
+            // Prepared walls do not support a melt layer.
             let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
             if melt.iter().all(|thickness| *thickness == 0.0) {
-                plan.many(block, seed, outcomes, level);
+                prepared.resolve_block(block, seed, outcomes, level);
                 return Ok(());
             }
         }
@@ -126,8 +125,8 @@ impl Model {
         Ok(())
     }
 
-    /// Whether every impact on this wall is decided from prepared numbers: then only [`Impact::check`] can refuse it.
+    /// Whether the wall is prepared: only [`Impact::check`] can then refuse an impact on it.
     pub fn is_prepared(&self, wall: usize) -> bool {
-        self.plans.get(wall).is_some_and(Option::is_some)
+        self.prepared.get(wall).is_some_and(Option::is_some)
     }
 }

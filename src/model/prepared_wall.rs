@@ -1,36 +1,46 @@
-//! A wall's impacts, prepared: what depends on material and model alone is worked out when the model is read.
+//! The steps of an impact on a prepared wall: what depends on materials and model alone is computed when the model is read.
 //!
-//! A plan exists where the walk of an impact needs no more than constant properties, a Thornton–Ning or constant normal law,
-//! any tangential law, and the effects that name what they come down to ([`Precomputed`]). It gives the bits of the walk in
-//! `mod.rs`: the laws are the same functions, and this file only leaves out what the model does not have. One formula serves
-//! a single impact and a block of them; it has no branches, so the compiler makes vectors of it.
+//! A wall is prepared when constant properties, a Thornton–Ning or constant normal law, any tangential law and effects with a
+//! precomputed form ([`Precomputed`]) decide its impacts. The steps have no branches, so the compiler turns a loop over a block
+//! into vector instructions.
+
+use std::convert::Infallible;
 
 use fearless_simd::{Level, dispatch};
 
+use super::Model;
 use super::block::{BLOCK, Block, Outcomes};
+use super::evaluation::{NormalRebound, Stages, State, Steps, evaluate};
 use super::wall::Wall;
-use super::{Model, captured};
 use crate::capture::Stickiness;
 use crate::effect::{Precomputed, Term, Transition, stream};
-use crate::impact::{INPUTS, Impact, Outcome, Regime};
+use crate::impact::{INPUTS, Impact, Outcome};
 use crate::normal::{self, NormalLaw};
 use crate::rng::ImpactRng;
-use crate::tangential::{ImpactKinematics, TangentialLaw};
+use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw};
 
 /// The prepared numbers of one wall.
 #[derive(Debug, Clone)]
 pub(super) struct PreparedWall {
+    constants: Constants,
+    /// Which of [`INPUTS`] has to lie in which range for the outcome to be inside its range.
+    valid: Vec<(usize, [f64; 2])>,
+}
+
+/// What the steps need of a wall.
+#[derive(Debug, Clone, Copy)]
+struct Constants {
     normal: Normal,
     tangential: TangentialLaw,
     /// Mindlin's `k` [1].
     stiffness_ratio: f64,
     transitions: Transitions,
+    /// Whether a probability other than 0 and 1 may occur, and with it a draw.
+    draws: bool,
     /// Share of `e_n` that full stickiness takes [1].
     rebound_loss: f64,
-    /// Temperatures [K] at which the properties of particle and wall are stated to hold.
+    /// Temperatures [K] for which the properties of particle and wall are stated.
     materials: [[f64; 2]; 2],
-    /// Which of [`INPUTS`] has to lie where as well, for the outcome to be inside its range.
-    valid: Vec<(usize, [f64; 2])>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -39,7 +49,7 @@ enum Normal {
     Constant(f64),
 }
 
-/// What makes the particle sticky; several multiply.
+/// What makes the particle sticky; the stickiness of two transitions is multiplied.
 #[derive(Debug, Clone, Copy)]
 enum Transitions {
     None,
@@ -47,8 +57,14 @@ enum Transitions {
     Two(Transition, Transition),
 }
 
+/// One impact on a prepared wall.
+struct PreparedImpact<'a> {
+    wall: &'a Constants,
+    rng: ImpactRng,
+}
+
 impl PreparedWall {
-    /// The plan of a wall; `None` where the walk needs more than a plan has.
+    /// Prepares a wall; `None` where its impacts need the general steps.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
         if model.stickiness.is_some() || wall.melt.is_some() {
             return None;
@@ -66,199 +82,241 @@ impl PreparedWall {
             NormalLaw::Constant { restitution } => Normal::Constant(restitution),
             NormalLaw::PlasticJkr => return None,
         };
-        // The wall's own powder changes these two on the way.
-        let dressed = |name| name == "layer_thickness" || name == "coverage";
+        // The powder of the model file changes these two inputs before a range is checked.
+        let changed = |name| name == "layer_thickness" || name == "coverage";
         let valid: Vec<_> = model.terms.iter().flat_map(Term::valid).copied().collect();
-        if valid.iter().any(|(input, _)| dressed(INPUTS[*input].name)) {
+        if valid.iter().any(|(input, _)| changed(INPUTS[*input].name)) {
             return None;
         }
-        Some(Self {
+        let constants = Constants {
             normal,
             tangential: model.tangential,
             stiffness_ratio: contact.stiffness_ratio,
             transitions,
+            draws: !matches!(transitions, Transitions::None),
             rebound_loss: model.rebound_loss(),
             materials: [model.particle.valid_range(), wall.material().valid_range()],
-            valid,
-        })
+        };
+        Some(Self { constants, valid })
     }
 
     /// Decides one impact that has been checked.
     #[inline(always)]
-    pub fn one(&self, impact: &Impact, draw: ImpactRng) -> Outcome {
-        // First, while nothing has to be kept over a call.
-        let holds = self.holds_at(impact.particle_temperature, impact.wall_temperature)
-            && (self.valid.is_empty() || self.terms_hold_for(impact));
-        let plain = match self.normal {
-            Normal::ThorntonNing(law) => law.restitution(impact.diameter, impact.normal_speed),
-            Normal::Constant(restitution) => restitution,
-        };
-        let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
-        let sticky = match self.transitions {
-            Transitions::None => 0.0,
-            Transitions::One(one) => one.at(temperature, conversion),
-            Transitions::Two(one, other) => {
-                one.at(temperature, conversion) * other.at(temperature, conversion)
-            }
-        };
-        let chance = match self.transitions {
-            Transitions::None => 0.5,
-            _ => draw.uniform(stream::CAPTURE),
-        };
-        let e_n = self.softened(plain, sticky);
-        let along = self.tangential.rebound(&ImpactKinematics {
-            normal_speed: impact.normal_speed,
-            tangential_speed: impact.tangential_speed,
-            diameter: impact.diameter,
-            spin: impact.spin,
-            normal_restitution: e_n,
-            stiffness_ratio: self.stiffness_ratio,
-        });
-        let (probability, stuck) = self.capture(plain, sticky, chance);
-        Outcome {
-            normal_restitution: e_n,
-            tangential_restitution: along.restitution,
-            sticking_probability: probability,
-            stuck,
-            spin: along.spin,
-            regime: Regime::of(sticky >= Stickiness::THRESHOLD, false),
-            outside_range: !holds,
-        }
+    pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
+        // First: no number has to be kept over the call.
+        let holds = self.valid.is_empty() || self.terms_hold_for(impact);
+        let mut state = State::new(*impact);
+        let Ok(()) = evaluate(&mut PreparedImpact { wall: &self.constants, rng }, Stages::ALL, &mut state);
+        let outcome = state.outcome();
+        Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
     }
 
     /// Decides a block of impacts that have been checked, with the instructions of `level`.
-    pub fn many(&self, block: &Block, seed: u64, outcomes: &mut Outcomes, level: Level) {
-        dispatch!(level, _simd => self.fill(block, seed, outcomes));
+    pub fn resolve_block(&self, block: &Block, seed: u64, outcomes: &mut Outcomes, level: Level) {
+        dispatch!(level, _simd => self.resolve_loops(block, seed, outcomes));
     }
 
-    /// The steps of [`PreparedWall::one`], each for the whole block: short loops keep a processor's divider busy, while in a long one
-    /// every impact waits for its own chain of results. What needs the divider goes with what does not.
+    /// The steps in four loops, the fastest grouping measured: steps that divide stand beside steps that do not.
     #[inline(always)]
-    #[allow(clippy::needless_range_loop, reason = "one index over many columns")]
-    fn fill(&self, block: &Block, seed: u64, outcomes: &mut Outcomes) {
-        // Where a step leaves what the next one needs, until the outcome itself takes the place.
-        let Outcomes { normal_restitution: plain, sticking_probability: sticky, spin: chance, .. } = outcomes;
-        let length = block.length.min(BLOCK);
-        let column = |input: usize| &block.inputs[input];
-        let (speed, diameter) = (column(Impact::NORMAL_SPEED), column(Impact::DIAMETER));
-        let (temperature, conversion) = (column(Impact::PARTICLE_TEMPERATURE), column(Impact::CONVERSION));
-        match self.transitions {
-            Transitions::None => sticky.fill(0.0),
+    fn resolve_loops(&self, block: &Block, seed: u64, outcomes: &mut Outcomes) {
+        let wall = &self.constants;
+        // Each law is matched outside its loop and is then a constant within it. Matching through the reference matters: of a
+        // local copy the compiler makes one enum again, whose variant every impact would have to ask for.
+        match wall.transitions {
+            Transitions::None => {
+                let wall = Constants { transitions: Transitions::None, ..*wall };
+                run(Stages::STICKINESS, &wall, block, seed, outcomes);
+            }
             Transitions::One(one) => {
-                for i in 0..length {
-                    sticky[i] = one.at(temperature[i], conversion[i]);
-                }
+                let wall = Constants { transitions: Transitions::One(one), ..*wall };
+                run(Stages::STICKINESS, &wall, block, seed, outcomes);
             }
-            Transitions::Two(one, other) => {
-                for i in 0..length {
-                    sticky[i] =
-                        one.at(temperature[i], conversion[i]) * other.at(temperature[i], conversion[i]);
-                }
+            Transitions::Two(one, two) => {
+                let wall = Constants { transitions: Transitions::Two(one, two), ..*wall };
+                run(Stages::STICKINESS, &wall, block, seed, outcomes);
             }
         }
-        match self.normal {
-            Normal::Constant(restitution) => plain.fill(restitution),
+        match wall.normal {
+            Normal::Constant(restitution) => {
+                let wall = Constants { normal: Normal::Constant(restitution), ..*wall };
+                normal_and_draw(&wall, block, seed, outcomes);
+            }
             Normal::ThorntonNing(law) => {
-                for i in 0..length {
-                    plain[i] = law.adhesive_squared(diameter[i]);
-                }
+                let wall = Constants { normal: Normal::ThorntonNing(law), ..*wall };
+                run(Stages::ADHESION, &wall, block, seed, outcomes);
+                normal_and_draw(&wall, block, seed, outcomes);
             }
         }
-        let draws = !matches!(self.transitions, Transitions::None);
-        match (self.normal, draws) {
-            (Normal::ThorntonNing(law), true) => {
-                for i in 0..length {
-                    plain[i] = law.rebound(speed[i], plain[i]);
-                    chance[i] = ImpactRng::new(seed, block.keys[i]).uniform(stream::CAPTURE);
-                }
-            }
-            (Normal::ThorntonNing(law), false) => {
-                for i in 0..length {
-                    plain[i] = law.rebound(speed[i], plain[i]);
-                }
-            }
-            (Normal::Constant(_), true) => {
-                for i in 0..length {
-                    chance[i] = ImpactRng::new(seed, block.keys[i]).uniform(stream::CAPTURE);
-                }
-            }
-            (Normal::Constant(_), false) => {}
-        }
-        if !draws {
-            chance.fill(0.5);
-        }
-        match self.tangential {
+        match wall.tangential {
             TangentialLaw::Constant { restitution } => {
-                self.finish(block, TangentialLaw::Constant { restitution }, outcomes);
+                let wall = Constants { tangential: TangentialLaw::Constant { restitution }, ..*wall };
+                run(Stages::REBOUND.and(Stages::RANGE), &wall, block, seed, outcomes);
             }
             TangentialLaw::Sliding { friction } => {
-                self.finish(block, TangentialLaw::Sliding { friction }, outcomes);
+                let wall = Constants { tangential: TangentialLaw::Sliding { friction }, ..*wall };
+                run(Stages::REBOUND.and(Stages::RANGE), &wall, block, seed, outcomes);
             }
             TangentialLaw::SlidingRolling { friction } => {
-                self.finish(block, TangentialLaw::SlidingRolling { friction }, outcomes);
+                let wall = Constants { tangential: TangentialLaw::SlidingRolling { friction }, ..*wall };
+                run(Stages::REBOUND.and(Stages::RANGE), &wall, block, seed, outcomes);
             }
         }
         for &(input, range) in &self.valid {
-            for i in 0..length {
+            for i in 0..block.length.min(BLOCK) {
                 outcomes.outside_range[i] |= u32::from(!within(block.inputs[input][i], range));
             }
         }
     }
 
-    /// The last step of a block.
-    #[inline(always)]
-    fn finish(&self, block: &Block, law: TangentialLaw, outcomes: &mut Outcomes) {
-        for i in 0..block.length.min(BLOCK) {
-            let (plain, sticky) = (outcomes.normal_restitution[i], outcomes.sticking_probability[i]);
-            let (probability, stuck) = self.capture(plain, sticky, outcomes.spin[i]);
-            let e_n = self.softened(plain, sticky);
-            let along = law.rebound(&ImpactKinematics {
-                normal_speed: block.inputs[Impact::NORMAL_SPEED][i],
-                tangential_speed: block.inputs[Impact::TANGENTIAL_SPEED][i],
-                diameter: block.inputs[Impact::DIAMETER][i],
-                spin: block.inputs[Impact::SPIN][i],
-                normal_restitution: e_n,
-                stiffness_ratio: self.stiffness_ratio,
-            });
-            outcomes.normal_restitution[i] = e_n;
-            outcomes.tangential_restitution[i] = along.restitution;
-            outcomes.sticking_probability[i] = probability;
-            outcomes.spin[i] = along.spin;
-            outcomes.stuck[i] = u32::from(stuck);
-            outcomes.regime[i] = 2 * u32::from(sticky >= Stickiness::THRESHOLD);
-            outcomes.outside_range[i] = u32::from(!self.holds_at(
-                block.inputs[Impact::PARTICLE_TEMPERATURE][i],
-                block.inputs[Impact::WALL_TEMPERATURE][i],
-            ));
-        }
-    }
-
-    /// Whether the materials are stated for these temperatures [K].
-    #[inline(always)]
-    fn holds_at(&self, particle: f64, wall: f64) -> bool {
-        within(particle, self.materials[0]) & within(wall, self.materials[1])
-    }
-
-    /// Whether the terms are stated for such an impact. Apart, so that the usual impact keeps its numbers in registers.
+    /// Whether the terms are stated for such an impact. Not inlined: the usual impact keeps its numbers in registers.
     #[inline(never)]
     fn terms_hold_for(&self, impact: &Impact) -> bool {
         self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(impact), range))
     }
+}
 
-    /// `e_n` [1] less what stickiness takes of it.
+/// Runs the normal law, with the draw where there is one.
+#[inline(always)]
+fn normal_and_draw(wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
+    if wall.draws {
+        run(Stages::NORMAL.and(Stages::DRAW), &Constants { draws: true, ..*wall }, block, seed, outcomes);
+    } else {
+        run(Stages::NORMAL.and(Stages::DRAW), &Constants { draws: false, ..*wall }, block, seed, outcomes);
+    }
+}
+
+/// Runs some steps on each impact of a block. Between two loops the columns of the outcomes hold the quantities of the
+/// [`State`].
+#[inline(always)]
+fn run(stages: Stages, wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
+    for i in 0..block.length.min(BLOCK) {
+        let rng = ImpactRng::new(seed, block.keys[i]);
+        let mut state = load(i, wall, block, outcomes);
+        let Ok(()) = evaluate(&mut PreparedImpact { wall, rng }, stages, &mut state);
+        store(i, stages, &state, outcomes);
+    }
+}
+
+/// The state of the impact `i` before a loop.
+#[inline(always)]
+fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> State<()> {
+    let input = |input: usize| block.inputs[input][i];
+    let normal = outcomes.normal_restitution[i];
+    State {
+        adhesion: normal,
+        sticky: Stickiness { particle: outcomes.sticking_probability[i], wall: 0.0 },
+        normal: wall.normal_rebound(normal),
+        chance: outcomes.spin[i],
+        ..State::new(Impact {
+            normal_speed: input(Impact::NORMAL_SPEED),
+            tangential_speed: input(Impact::TANGENTIAL_SPEED),
+            diameter: input(Impact::DIAMETER),
+            particle_temperature: input(Impact::PARTICLE_TEMPERATURE),
+            wall_temperature: input(Impact::WALL_TEMPERATURE),
+            conversion: input(Impact::CONVERSION),
+            spin: input(Impact::SPIN),
+            ..Impact::default()
+        })
+    }
+}
+
+/// Stores what the steps of `stages` have set for the impact `i`.
+#[inline(always)]
+fn store(i: usize, stages: Stages, state: &State<()>, outcomes: &mut Outcomes) {
+    if stages.has(Stages::STICKINESS) {
+        outcomes.sticking_probability[i] = state.sticky.particle;
+    }
+    if stages.has(Stages::ADHESION) {
+        outcomes.normal_restitution[i] = state.adhesion;
+    }
+    if stages.has(Stages::NORMAL) {
+        outcomes.normal_restitution[i] = state.normal.restitution;
+    }
+    if stages.has(Stages::DRAW) {
+        outcomes.spin[i] = state.chance;
+    }
+    if stages.has(Stages::RANGE) {
+        outcomes.outside_range[i] = u32::from(state.outside_range);
+    }
+    if stages.has(Stages::REBOUND) {
+        outcomes.normal_restitution[i] = state.normal_restitution;
+        outcomes.tangential_restitution[i] = state.rebound.restitution;
+        outcomes.sticking_probability[i] = state.probability;
+        outcomes.spin[i] = state.rebound.spin;
+        outcomes.stuck[i] = u32::from(state.captured);
+        let [particle, wall] = [state.sticky.is_particle_sticky(), state.sticky.is_wall_sticky()];
+        outcomes.regime[i] = 2 * u32::from(particle) + u32::from(wall);
+    }
+}
+
+impl Constants {
     #[inline(always)]
-    fn softened(&self, plain: f64, sticky: f64) -> f64 {
-        plain * (1.0 - self.rebound_loss * sticky)
+    fn normal_rebound(&self, restitution: f64) -> NormalRebound {
+        let held = matches!(self.normal, Normal::ThorntonNing(_)) & (restitution <= 0.0);
+        NormalRebound { restitution, held }
+    }
+}
+
+impl Steps for PreparedImpact<'_> {
+    type Contact = ();
+    type Fault = Infallible;
+
+    #[inline(always)]
+    fn outside_range(&mut self, impact: &Impact) -> bool {
+        let [particle, wall] = self.wall.materials;
+        !(within(impact.particle_temperature, particle) & within(impact.wall_temperature, wall))
     }
 
-    /// Probability of capture, and whether it comes to that.
     #[inline(always)]
-    fn capture(&self, plain: f64, sticky: f64, chance: f64) -> (f64, bool) {
-        // Adhesion holds the particle for certain; otherwise stickiness decides.
-        let held = matches!(self.normal, Normal::ThorntonNing(_)) & (plain <= 0.0);
-        let free = Stickiness { particle: sticky, wall: 0.0 }.probability();
-        let probability = if held { 1.0 } else { free };
-        (probability, captured(probability, chance))
+    fn contact(&mut self, _: &Impact) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn adhesion(&self, impact: &Impact, (): &()) -> f64 {
+        match self.wall.normal {
+            Normal::ThorntonNing(law) => law.adhesive_squared(impact.diameter),
+            Normal::Constant(_) => 0.0,
+        }
+    }
+
+    #[inline(always)]
+    fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, Infallible> {
+        let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
+        let particle = match self.wall.transitions {
+            Transitions::None => 0.0,
+            Transitions::One(one) => one.at(temperature, conversion),
+            Transitions::Two(one, two) => one.at(temperature, conversion) * two.at(temperature, conversion),
+        };
+        Ok(Stickiness { particle, wall: 0.0 })
+    }
+
+    #[inline(always)]
+    fn normal_law(&mut self, impact: &Impact, (): &(), adhesive_squared: f64) -> NormalRebound {
+        self.wall.normal_rebound(match self.wall.normal {
+            Normal::ThorntonNing(law) => law.rebound(impact.normal_speed, adhesive_squared),
+            Normal::Constant(restitution) => restitution,
+        })
+    }
+
+    #[inline(always)]
+    fn draw(&mut self) -> f64 {
+        if self.wall.draws { self.rng.uniform(stream::CAPTURE) } else { 0.5 }
+    }
+
+    #[inline(always)]
+    fn rebound_loss(&self) -> f64 {
+        self.wall.rebound_loss
+    }
+
+    #[inline(always)]
+    fn stiffness_ratio(&self, (): &()) -> f64 {
+        self.wall.stiffness_ratio
+    }
+
+    #[inline(always)]
+    fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
+        self.wall.tangential.rebound(kinematics)
     }
 }
 

@@ -59,8 +59,8 @@ impl Model {
                            give one to a material";
             return Err(top.fault("capture", problem));
         }
-        let plans = Vec::new();
-        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms, plans }.prepared())
+        let prepared = Vec::new();
+        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms, prepared }.prepare())
     }
 }
 

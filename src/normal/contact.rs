@@ -3,7 +3,7 @@
 use crate::material::Mechanical;
 
 /// What the impact laws need to know of the two solids.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Contact {
     /// Particle density `rho` [kg/m³].
     pub density: f64,

@@ -2,7 +2,6 @@
 
 mod constant;
 mod contact;
-pub mod doublet;
 mod plastic_jkr;
 mod thornton_ning;
 

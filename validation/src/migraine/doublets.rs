@@ -4,12 +4,12 @@ use std::error::Error;
 use std::f64::consts::TAU;
 
 use nearwall::ImpactRng;
-use nearwall::normal::doublet::{Motion, Rebound, contact_restitution, rebound};
 use nearwall::normal::{Contact, NormalLaw, restitution};
 use nearwall::report::{Chart, Figure, Table, number, round_edges};
 
 use super::curves::contact;
 use super::published::{PARTING, RATIO, near_normal};
+use super::rigid_doublet::{DoubletMotion, DoubletRebound, contact_restitution, rebound};
 use super::statistics::{mean, quantile};
 use super::{MEASURED_ADHESION, PLAIN, model};
 use crate::claim::{Basis, Claim};
@@ -67,7 +67,7 @@ fn text(solid: &Contact, fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], s
     let half = SPINS.iter().zip(fixed).find(|(_, sample)| sample.above(PARTING) >= 0.5);
     vec![
         format!(
-            "A rigid doublet (nearwall::normal::doublet) arrives in a random orientation and hits with one end, then perhaps the other, until it leaves. The contact is Thornton & Ning's with p_y = \
+            "A rigid doublet (validation/src/migraine/rigid_doublet.rs) arrives in a random orientation and hits with one end, then perhaps the other, until it leaves. The contact is Thornton & Ning's with p_y = \
              {} GPa and {MEASURED_ADHESION} J/m², seen with the effective mass at the contact; no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed {SEED}.",
             number(solid.limiting_pressure() / 1e9)
         ),
@@ -97,20 +97,20 @@ fn direction(draw: ImpactRng, stream: u64) -> [f64; 3] {
 }
 
 /// A spin of `R omega/v_n` square to the axis, in a direction drawn evenly.
-fn arriving(speed: f64, spin: f64, draw: ImpactRng) -> Motion {
+fn arriving(speed: f64, spin: f64, draw: ImpactRng) -> DoubletMotion {
     let axis = direction(draw, 0);
     let [x, y, z] = axis;
     let [a, b, c] = direction(draw, 2);
     let across = [y * c - z * b, z * a - x * c, x * b - y * a];
     let length = across.iter().map(|part| part * part).sum::<f64>().sqrt();
-    Motion::arriving(speed, axis, across.map(|part| spin * speed / RADIUS * part / length))
+    DoubletMotion::arriving(speed, axis, across.map(|part| spin * speed / RADIUS * part / length))
 }
 
-fn hit(solid: &Contact, motion: &Motion) -> Option<Rebound> {
+fn hit(solid: &Contact, motion: &DoubletMotion) -> Option<DoubletRebound> {
     rebound(motion, RADIUS, |speed, mass| contact_restitution(solid, DIAMETER, speed, mass))
 }
 
-fn spin_of(motion: &Motion, speed: f64) -> f64 {
+fn spin_of(motion: &DoubletMotion, speed: f64) -> f64 {
     motion.spin.iter().map(|part| part * part).sum::<f64>().sqrt() * RADIUS / speed
 }
 
@@ -150,7 +150,7 @@ fn empty() -> Sample {
 }
 
 impl Sample {
-    fn add(&mut self, after: &Rebound, speed: f64) {
+    fn add(&mut self, after: &DoubletRebound, speed: f64) {
         self.restitution.push(after.restitution);
         self.spin.push(spin_of(&after.motion, speed));
         self.hits.push(f64::from(after.hits));
@@ -234,7 +234,7 @@ fn angle_figure(solid: &Contact) -> Figure {
     };
     let followed = |e: Option<f64>| {
         along(&|phi| {
-            let motion = Motion::arriving(SPEED, [phi.sin(), 0.0, phi.cos()], [0.0; 3]);
+            let motion = DoubletMotion::arriving(SPEED, [phi.sin(), 0.0, phi.cos()], [0.0; 3]);
             let contact = |speed, mass| e.or_else(|| contact_restitution(solid, DIAMETER, speed, mass));
             rebound(&motion, RADIUS, contact).map_or(f64::NAN, |after| after.restitution)
         })

@@ -7,7 +7,7 @@
 //! - `along.rs`: the laws of `e_t` (Fig 2, Eq. 4);
 //! - `roughness.rs`: the two probabilistic models;
 //! - `oblique.rs`: set 4;
-//! - `doublets.rs`: rigid doublets, followed hit by hit;
+//! - `doublets.rs`: rigid doublets, followed hit by hit (`rigid_doublet.rs`);
 //! - `molten.rs`: set 6;
 //! - `campaigns.rs`: all sets drawn again, under the old and the calibrated model; what is fitted, what is predicted, the gain.
 //!
@@ -21,6 +21,7 @@ mod doublets;
 mod molten;
 mod oblique;
 mod published;
+mod rigid_doublet;
 mod roughness;
 mod sample;
 mod statistics;

@@ -1,63 +1,59 @@
 //! A rigid doublet: two equal spheres that hit a smooth plane as one body.
 //!
-//! Each sphere has the mass `m` and the radius `R`; together `M = 2 m`, and about an axis across the line of their
-//! centres `I = 2 (2/5 m R² + m R²) = 14/5 m R²`. Friction is left out, so the wall pushes along its normal only. At a hit
-//! of the end whose centre lies the lever arm `b = R sin(phi)` beside the common centre (`phi` the angle of the line of
-//! centres from the normal), with `c` the speed at which that end closes on the wall:
+//! Each sphere has the mass `m` and the radius `R`; the doublet has the mass `M = 2 m` and, about an axis across the line of
+//! centres, the moment of inertia `I = 2 (2/5 m R² + m R²) = 14/5 m R²`. Without friction the wall pushes along its normal
+//! only. The end that hits has its centre at the lever arm `b = R sin(phi)` beside the common centre (`phi` is the angle of the
+//! line of centres from the normal), and closes on the wall with the speed `c`:
 //! - effective mass `1/m* = 1/M + b²/I`, so `m*/m = 1/(1/2 + 5/14 sin²(phi))`, from 2 end-on to 7/6 flat;
 //! - impulse `J = (1 + e) c m*`; the centre gains `J/M` away from the wall, the spin `J b/I`;
 //! - between hits the body flies and turns freely; the ends hit in turn until it leaves.
 //!
-//! Without spin and with a single hit the centre of mass has `e_cm = (1 + e)/(1 + M b²/I) - 1`. It is below `e`; what
-//! is missing turns the doublet, and a second hit of the other end may give some of it back.
+//! Without spin and with a single hit the centre of mass has `e_cm = (1 + e)/(1 + M b²/I) - 1`, below `e`: the difference
+//! turns the doublet, and a second hit of the other end may return part of it.
 //!
-//! The contact sees one sphere: curvature `R`, and in place of `m` the mass `m*`. `v_y` and `v_adh` of Thornton & Ning
-//! go with `m^(-1/2)` at a given `R`, so they are those of a sphere of the density `rho m*/m` ([`contact_restitution`]).
+//! The contact is that of one sphere of radius `R` with the mass `m*` in place of `m`. `v_y` and `v_adh` of Thornton & Ning are
+//! proportional to `m^(-1/2)` at a given `R`, so they are those of a sphere of density `rho m*/m` ([`contact_restitution`]).
 //!
 //! Symbols: `e` contact restitution [1], `v` speed of the centre [m/s], `omega` spin [rad/s]. Rigid-body mechanics (Newton's
-//! impulse law at each contact), no fit. Valid for a neck that neither bends nor breaks, contacts short against a
-//! turn, smooth walls. Limits: no friction, hence no change of the speed along the wall and none of the spin about the line of centres,
-//! which is left out; flat impacts hit the two ends in turn rather than at once; gravity is left out.
+//! impulse law at each contact), no fit. Valid for a neck that neither bends nor breaks, contacts short against one turn, and
+//! smooth walls. Limits: without friction neither the speed along the wall nor the spin about the line of centres changes (the
+//! latter is left out); flat impacts hit the two ends in turn rather than at once; gravity is left out.
 
 use std::f64::consts::TAU;
 
-use super::{Contact, NormalLaw};
+use nearwall::normal::{Contact, NormalLaw};
 
-/// After so many hits a doublet rests on the wall.
+/// Number of hits after which a doublet counts as at rest on the wall.
 const MOST_HITS: u32 = 1000;
 
-/// How a doublet moves, seen from its centre of mass. The wall's normal, away from the wall, is the third direction.
+/// Motion of a doublet. The third direction is the wall's normal, away from the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct DoubletMotion {
     /// Speed away from the wall [m/s]; negative on arrival.
     pub speed: f64,
     /// Unit vector along the line of centres.
     pub axis: [f64; 3],
-    /// Spin `omega` [rad/s], square to `axis`.
+    /// Spin `omega` [rad/s], perpendicular to `axis`.
     pub spin: [f64; 3],
 }
 
-impl Motion {
-    /// A doublet that arrives with `normal_speed` [m/s]; `axis` of any length, of `spin` [rad/s] the part square to it.
+impl DoubletMotion {
+    /// A doublet that arrives with `normal_speed` [m/s]; `axis` has any length; only the part of `spin` [rad/s]
+    /// perpendicular to it counts.
     pub fn arriving(normal_speed: f64, axis: [f64; 3], spin: [f64; 3]) -> Self {
         let axis = scaled(axis, 1.0 / dot(axis, axis).sqrt());
         Self { speed: -normal_speed, axis, spin: sum(spin, scaled(axis, -dot(spin, axis))) }
     }
-
-    /// Energy over one sphere's mass [J/kg], motion along the wall left out: `v² + 7/5 R² omega²`.
-    pub fn energy(&self, radius: f64) -> f64 {
-        self.speed * self.speed + 1.4 * radius * radius * dot(self.spin, self.spin)
-    }
 }
 
-/// What leaves the wall.
+/// A doublet that leaves the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rebound {
-    /// The doublet as it leaves.
-    pub motion: Motion,
+pub struct DoubletRebound {
+    /// Its motion.
+    pub motion: DoubletMotion,
     /// Restitution of the centre of mass `e_cm` [1]: speed away over speed towards the wall.
     pub restitution: f64,
-    /// How often its ends hit.
+    /// Number of hits of its ends.
     pub hits: u32,
 }
 
@@ -70,27 +66,27 @@ pub fn effective_mass(axis_normal: f64) -> f64 {
 
 /// Restitution [1] of one contact after Thornton & Ning; `None` when adhesion holds it.
 ///
-/// `diameter` [m] is that of one sphere, `speed` [m/s] that at which its surface closes on the wall, `effective_mass` [1]
-/// as [`effective_mass`] gives it.
+/// `diameter` [m] is that of one sphere, `speed` [m/s] the closing speed of its surface, `effective_mass` [1] the result of
+/// [`effective_mass`].
 pub fn contact_restitution(contact: &Contact, diameter: f64, speed: f64, effective_mass: f64) -> Option<f64> {
     let contact = Contact { density: contact.density * effective_mass, ..*contact };
     NormalLaw::ThorntonNing.restitution(&contact, diameter, speed)
 }
 
 /// Follows a doublet of spheres of `radius` [m] from where its centre is `2 R` above the wall, out of reach, until it leaves;
-/// `None` when a contact holds it or it comes to rest. `arriving.axis` is its orientation there.
+/// `None` when adhesion holds a contact or the doublet comes to rest. `arriving.axis` is its orientation there.
 ///
 /// `restitution` gives the contact's `e` [1] from the closing speed [m/s] and the effective mass `m*/m` [1]; `None` holds.
 pub fn rebound(
-    arriving: &Motion,
+    arriving: &DoubletMotion,
     radius: f64,
     restitution: impl Fn(f64, f64) -> Option<f64>,
-) -> Option<Rebound> {
+) -> Option<DoubletRebound> {
     let mut flight = Flight { motion: *arriving, height: 2.0 * radius, radius };
     for hits in 0..MOST_HITS {
         let Some((time, end)) = flight.next_touch() else {
             let restitution = flight.motion.speed / -arriving.speed;
-            return Some(Rebound { motion: flight.motion, restitution, hits });
+            return Some(DoubletRebound { motion: flight.motion, restitution, hits });
         };
         flight.pass(time);
         flight.hit(end, &restitution)?;
@@ -98,18 +94,18 @@ pub fn rebound(
     None
 }
 
-/// A doublet on its way.
+/// A doublet in flight.
 struct Flight {
-    motion: Motion,
-    /// Of the centre of mass above the wall [m].
+    motion: DoubletMotion,
+    /// Height of the centre of mass above the wall [m].
     height: f64,
     radius: f64,
 }
 
 impl Flight {
-    /// Where the axis points after `time` [s]: it turns evenly in the plane square to the spin.
+    /// The axis after `time` [s]: it turns at a constant rate in the plane perpendicular to the spin.
     fn axis_after(&self, time: f64) -> [f64; 3] {
-        let Motion { axis, spin, .. } = self.motion;
+        let DoubletMotion { axis, spin, .. } = self.motion;
         let rate = dot(spin, spin).sqrt();
         if rate == 0.0 {
             return axis;
@@ -124,21 +120,21 @@ impl Flight {
         self.height += self.motion.speed * time;
     }
 
-    /// Room between the wall and an end (1 or -1 along the axis) after `time` [m].
+    /// Gap [m] between the wall and an end (1 or -1 along the axis) after `time` [s].
     fn gap(&self, end: f64, time: f64) -> f64 {
         self.height + self.motion.speed * time - self.radius + end * self.radius * self.axis_after(time)[2]
     }
 
-    /// When the next end touches [s], and which.
+    /// Time [s] until the next touch, and the end that touches.
     fn next_touch(&self) -> Option<(f64, f64)> {
         let touches = [1.0, -1.0].map(|end| self.touch(end).map(|time| (time, end)));
         touches.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// When this end touches [s]. Its gap is a line plus a sine: between turning points, which are known, it rises or falls
-    /// throughout, so that no touch is missed.
+    /// Time [s] until this end touches. Its gap is a line plus a sine and is monotonic between turning points, which are known:
+    /// no touch is missed.
     fn touch(&self, end: f64) -> Option<f64> {
-        let Motion { speed, axis, spin } = self.motion;
+        let DoubletMotion { speed, axis, spin } = self.motion;
         let rate = dot(spin, spin).sqrt();
         let last = if speed > 0.0 {
             (2.0 * self.radius - self.height) / speed
@@ -173,7 +169,7 @@ impl Flight {
         None
     }
 
-    /// Where the gap, positive at `from` and negative at `to`, is zero; by halving.
+    /// Time [s] at which the gap, positive at `from` and negative at `to`, is zero; by bisection.
     fn crossing(&self, end: f64, mut from: f64, mut to: f64) -> f64 {
         for _ in 0..100 {
             let middle = 0.5 * (from + to);
@@ -182,9 +178,9 @@ impl Flight {
         0.5 * (from + to)
     }
 
-    /// The impulse at an end that touches; `None` when the contact holds.
+    /// Applies the impulse at an end that touches; `None` when adhesion holds the contact.
     fn hit(&mut self, end: f64, restitution: &impl Fn(f64, f64) -> Option<f64>) -> Option<()> {
-        let Motion { speed, axis, spin } = &mut self.motion;
+        let DoubletMotion { speed, axis, spin } = &mut self.motion;
         let closing = -(*speed + end * self.radius * cross(*spin, *axis)[2]);
         let mass = effective_mass(axis[2]);
         let impulse = (1.0 + restitution(closing, mass)?) * closing * mass;
@@ -214,25 +210,32 @@ fn sum(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::normal::{adhesive_velocity, yield_velocity};
-    use crate::rng::ImpactRng;
     use approx::assert_relative_eq;
+    use nearwall::ImpactRng;
+    use nearwall::normal::{adhesive_velocity, restitution, yield_velocity};
 
     const R: f64 = 4.5e-6;
+
+    impl DoubletMotion {
+        /// Energy over one sphere's mass [J/kg] without the motion along the wall: `v² + 7/5 R² omega²`.
+        fn energy(&self, radius: f64) -> f64 {
+            self.speed * self.speed + 1.4 * radius * radius * dot(self.spin, self.spin)
+        }
+    }
 
     fn leaning(phi: f64) -> [f64; 3] {
         [phi.sin(), 0.0, phi.cos()]
     }
 
     /// Evenly over the sphere, with spins up to `R omega / v = 2` in any direction.
-    fn any(key: u64) -> Motion {
+    fn any(key: u64) -> DoubletMotion {
         let draw = ImpactRng::new(7, key);
         let direction = |stream| {
             let (z, turn) = (2.0 * draw.uniform(stream) - 1.0, TAU * draw.uniform(stream + 1));
             let across = (1.0 - z * z).sqrt();
             [across * turn.cos(), across * turn.sin(), z]
         };
-        Motion::arriving(3.0, direction(0), scaled(direction(2), 6.0 / R * draw.uniform(4)))
+        DoubletMotion::arriving(3.0, direction(0), scaled(direction(2), 6.0 / R * draw.uniform(4)))
     }
 
     #[test]
@@ -264,12 +267,12 @@ mod tests {
     #[test]
     fn one_hit_keeps_the_angular_momentum_about_the_contact() {
         for phi in [0.1, 0.3, 0.5] {
-            let before = Motion::arriving(2.0, leaning(phi), [0.0; 3]);
+            let before = DoubletMotion::arriving(2.0, leaning(phi), [0.0; 3]);
             let after = rebound(&before, R, |_, _| Some(0.9)).unwrap();
             assert_eq!(after.hits, 1);
             // The lower end lies R sin(phi) towards negative x, so the centre stands that much to its right.
             let momentum =
-                |motion: &Motion| 2.8 * R * R * motion.spin[1] - 2.0 * R * phi.sin() * motion.speed;
+                |motion: &DoubletMotion| 2.8 * R * R * motion.spin[1] - 2.0 * R * phi.sin() * motion.speed;
             assert_relative_eq!(momentum(&after.motion), momentum(&before), max_relative = 1e-12);
             assert_eq!([after.motion.spin[0], after.motion.spin[2]], [0.0; 2]);
         }
@@ -277,7 +280,7 @@ mod tests {
 
     #[test]
     fn end_on_it_is_one_body_of_twice_the_mass() {
-        let after = rebound(&Motion::arriving(2.0, leaning(0.0), [0.0; 3]), R, |_, mass| {
+        let after = rebound(&DoubletMotion::arriving(2.0, leaning(0.0), [0.0; 3]), R, |_, mass| {
             assert_relative_eq!(mass, 2.0);
             Some(0.37)
         });
@@ -289,7 +292,8 @@ mod tests {
     #[test]
     fn a_single_hit_has_the_closed_form() {
         for (phi, e) in [(0.2, 0.4), (0.5, 0.6), (0.5, 0.9), (0.7, 1.0)] {
-            let after = rebound(&Motion::arriving(1.0, leaning(phi), [0.0; 3]), R, |_, _| Some(e)).unwrap();
+            let after =
+                rebound(&DoubletMotion::arriving(1.0, leaning(phi), [0.0; 3]), R, |_, _| Some(e)).unwrap();
             assert_eq!(after.hits, 1, "phi {phi}");
             let closed = (1.0 + e) / (1.0 + 5.0 / 7.0 * phi.sin().powi(2)) - 1.0;
             assert_relative_eq!(after.restitution, closed, max_relative = 1e-12);
@@ -300,7 +304,7 @@ mod tests {
     fn a_contact_that_holds_captures_the_doublet() {
         assert_eq!(rebound(&any(1), R, |_, _| None), None);
         // Slow second hits stick where fast first ones do not.
-        let flat = Motion::arriving(1.0, leaning(1.3), [0.0; 3]);
+        let flat = DoubletMotion::arriving(1.0, leaning(1.3), [0.0; 3]);
         assert!(rebound(&flat, R, |speed, _| (speed > 0.9).then_some(0.1)).is_none());
     }
 
@@ -321,7 +325,7 @@ mod tests {
     }
 
     /// Restitution of the centre in units `R = m = 1`, `v = 3`; `None` when both springs were ever pressed at once.
-    fn by_springs(before: &Motion) -> Option<f64> {
+    fn by_springs(before: &DoubletMotion) -> Option<f64> {
         const STIFFNESS: f64 = 4e6;
         const STEP: f64 = 2e-6;
         let (mut height, mut speed) = (2.0, before.speed);
@@ -362,7 +366,7 @@ mod tests {
         };
         let root = 2f64.sqrt();
         let slow = (adhesive_velocity(&contact, 9e-6) / root, yield_velocity(&contact) / root);
-        let expected = crate::normal::restitution(3.0, slow.0, slow.1);
+        let expected = restitution(3.0, slow.0, slow.1);
         assert_relative_eq!(
             contact_restitution(&contact, 9e-6, 3.0, 2.0).unwrap(),
             expected,

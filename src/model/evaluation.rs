@@ -1,0 +1,249 @@
+//! The order of physics: the steps of an impact, written once.
+//!
+//! [`evaluate`] is the order. Two kinds of walls follow it through [`Steps`]: a `GeneralWall` with every law, effect, draw and
+//! trace, and a `PreparedWall` whose constants were computed when the model was read. A step that a prepared wall does not need
+//! keeps the trait's default and costs nothing.
+//!
+//! A single impact runs all steps at once. A block of impacts runs them in groups ([`Stages`]), each group in a loop of its own
+//! over the block: short loops keep a processor's divider busy, while in one long loop each impact waits for its own chain of
+//! results. The functions are the same, so both give the same bits.
+//!
+//! A new quantity of an impact is a field of [`State`]; a new step is a method of [`Steps`] and a line of [`evaluate`].
+
+use crate::capture::Stickiness;
+use crate::impact::{Impact, Outcome, Regime};
+use crate::tangential::{ImpactKinematics, Rebound};
+
+/// A set of steps.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stages(u8);
+
+impl Stages {
+    /// Whether properties, criteria and fitted terms are used within their stated ranges.
+    pub const RANGE: Self = Self(1);
+    /// Tilt of the wall, and the contact with the effects on it.
+    pub const CONTACT: Self = Self(2);
+    /// Stickiness of particle and wall.
+    pub const STICKINESS: Self = Self(4);
+    /// The part of the normal law that does not depend on speed.
+    pub const ADHESION: Self = Self(8);
+    /// Normal law and the effects on `e_n`.
+    pub const NORMAL: Self = Self(16);
+    /// Random number of the capture.
+    pub const DRAW: Self = Self(32);
+    /// Loss by stickiness, tangential law with the effects on `e_t`, and capture.
+    pub const REBOUND: Self = Self(64);
+    /// Every step.
+    pub const ALL: Self = Self(127);
+
+    /// Both sets.
+    pub const fn and(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    #[inline(always)]
+    pub const fn has(self, step: Self) -> bool {
+        self.0 & step.0 != 0
+    }
+}
+
+/// Normal restitution, and whether the particle is held.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct NormalRebound {
+    /// Normal restitution `e_n` [1]; 0 when the particle is held.
+    pub restitution: f64,
+    /// Whether adhesion or a film holds the particle with certainty.
+    pub held: bool,
+}
+
+impl NormalRebound {
+    /// From the restitution [1] of a particle that rebounds, `None` for one that is held.
+    pub fn of(restitution: Option<f64>) -> Self {
+        Self { restitution: restitution.unwrap_or(0.0), held: restitution.is_none() }
+    }
+}
+
+/// What is known of an impact between two steps. `C` is the contact of particle and wall.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct State<C> {
+    /// The impact with regard to the local, tilted wall.
+    pub impact: Impact,
+    pub outside_range: bool,
+    pub contact: C,
+    pub sticky: Stickiness,
+    /// What [`Steps::adhesion`] returned.
+    pub adhesion: f64,
+    pub normal: NormalRebound,
+    /// Random number of the capture, in (0, 1).
+    pub chance: f64,
+    /// `e_n` [1] after all losses, with regard to the mean wall.
+    pub normal_restitution: f64,
+    /// `e_t` [1] and spin [rad/s] with regard to the mean wall.
+    pub rebound: Rebound,
+    /// Probability of capture [1].
+    pub probability: f64,
+    pub captured: bool,
+}
+
+impl<C: Default> State<C> {
+    /// An impact before the first step.
+    #[inline(always)]
+    pub fn new(impact: Impact) -> Self {
+        Self {
+            impact,
+            outside_range: false,
+            contact: C::default(),
+            sticky: Stickiness { particle: 0.0, wall: 0.0 },
+            adhesion: 0.0,
+            normal: NormalRebound { restitution: 0.0, held: false },
+            chance: 0.5,
+            normal_restitution: 0.0,
+            rebound: Rebound { restitution: 0.0, spin: 0.0 },
+            probability: 0.0,
+            captured: false,
+        }
+    }
+
+    /// The outcome after the last step.
+    #[inline(always)]
+    pub fn outcome(&self) -> Outcome {
+        Outcome {
+            normal_restitution: self.normal_restitution,
+            tangential_restitution: self.rebound.restitution,
+            sticking_probability: self.probability,
+            stuck: self.captured,
+            spin: self.rebound.spin,
+            regime: Regime::of(self.sticky.is_particle_sticky(), self.sticky.is_wall_sticky()),
+            outside_range: self.outside_range,
+        }
+    }
+}
+
+/// The steps of an impact, as a kind of wall implements them.
+pub(super) trait Steps {
+    /// The contact of particle and wall; `()` where it is the same for all impacts.
+    type Contact: Copy + Default;
+    /// Why an impact cannot be decided.
+    type Fault;
+
+    /// Whether a property, a capture criterion or a fitted term is used outside the range that it is stated for.
+    fn outside_range(&mut self, arriving: &Impact) -> bool;
+
+    /// The impact with regard to the local wall, which effects may tilt.
+    #[inline(always)]
+    fn turn(&mut self, arriving: &Impact) -> Impact {
+        *arriving
+    }
+
+    /// The contact at the temperatures of the impact, with the effects on it.
+    fn contact(&mut self, impact: &Impact) -> Result<Self::Contact, Self::Fault>;
+
+    /// Stickiness of particle and wall.
+    fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, Self::Fault>;
+
+    /// The part of the normal law that does not depend on speed, where a block computes it apart: `v_adh²` [m²/s²].
+    #[inline(always)]
+    fn adhesion(&self, _: &Impact, _: &Self::Contact) -> f64 {
+        0.0
+    }
+
+    /// What the normal law gives.
+    fn normal_law(&mut self, impact: &Impact, contact: &Self::Contact, adhesion: f64) -> NormalRebound;
+
+    /// The normal rebound after the effects on it.
+    #[inline(always)]
+    fn normal_effects(&mut self, _: &Impact, _: &Self::Contact, rebound: NormalRebound) -> NormalRebound {
+        rebound
+    }
+
+    /// Random number of the capture, in (0, 1).
+    fn draw(&mut self) -> f64;
+
+    /// Share of `e_n` [1] that a fully sticky particle loses where it still rebounds.
+    fn rebound_loss(&self) -> f64;
+
+    /// Mindlin's stiffness ratio `k` [1] of the contact.
+    fn stiffness_ratio(&self, contact: &Self::Contact) -> f64;
+
+    /// What the tangential law gives.
+    fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound;
+
+    /// The tangential rebound after the effects on it.
+    #[inline(always)]
+    fn tangential_effects(&mut self, _: &ImpactKinematics, rebound: Rebound) -> Rebound {
+        rebound
+    }
+
+    /// `e_n` [1] and the tangential rebound with regard to the mean wall, from those with regard to the local one.
+    #[inline(always)]
+    fn turn_back(&self, _: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {
+        (e_n, rebound)
+    }
+
+    /// Whether the particle is a droplet, whose capture does not depend on the stickiness of the wall.
+    #[inline(always)]
+    fn is_droplet(&self, _: &Impact) -> bool {
+        false
+    }
+
+    /// Records the value of a quantity after a term.
+    #[inline(always)]
+    fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
+}
+
+/// Runs the steps of `stages` on an impact, in the order of physics.
+///
+/// # Errors
+/// What [`Steps::contact`] and [`Steps::stickiness`] return.
+#[inline(always)]
+pub(super) fn evaluate<S: Steps>(
+    steps: &mut S,
+    stages: Stages,
+    state: &mut State<S::Contact>,
+) -> Result<(), S::Fault> {
+    if stages.has(Stages::RANGE) {
+        state.outside_range = steps.outside_range(&state.impact);
+    }
+    if stages.has(Stages::CONTACT) {
+        state.impact = steps.turn(&state.impact);
+        state.contact = steps.contact(&state.impact)?;
+    }
+    if stages.has(Stages::STICKINESS) {
+        state.sticky = steps.stickiness(&state.impact)?;
+        steps.trace("wall", "wall stickiness", state.sticky.wall);
+    }
+    if stages.has(Stages::ADHESION) {
+        state.adhesion = steps.adhesion(&state.impact, &state.contact);
+    }
+    if stages.has(Stages::NORMAL) {
+        let rebound = steps.normal_law(&state.impact, &state.contact, state.adhesion);
+        state.normal = steps.normal_effects(&state.impact, &state.contact, rebound);
+    }
+    if stages.has(Stages::DRAW) {
+        state.chance = steps.draw();
+    }
+    if stages.has(Stages::REBOUND) {
+        let normal_restitution =
+            state.normal.restitution * (1.0 - steps.rebound_loss() * state.sticky.particle);
+        steps.trace("stickiness", "e_n", normal_restitution);
+        let kinematics = ImpactKinematics {
+            normal_speed: state.impact.normal_speed,
+            tangential_speed: state.impact.tangential_speed,
+            diameter: state.impact.diameter,
+            spin: state.impact.spin,
+            normal_restitution,
+            stiffness_ratio: steps.stiffness_ratio(&state.contact),
+        };
+        let rebound = steps.tangential_law(&kinematics);
+        let rebound = steps.tangential_effects(&kinematics, rebound);
+        (state.normal_restitution, state.rebound) =
+            steps.turn_back(&state.impact, normal_restitution, rebound);
+        // Adhesion holds the particle with certainty; otherwise stickiness decides, of a droplet its own alone.
+        let by_stickiness =
+            if steps.is_droplet(&state.impact) { state.sticky.particle } else { state.sticky.probability() };
+        state.probability = if state.normal.held { 1.0 } else { by_stickiness };
+        steps.trace("capture", "p_stick", state.probability);
+        state.captured = (state.probability >= 1.0) | (state.chance < state.probability);
+    }
+    Ok(())
+}

@@ -1,0 +1,189 @@
+//! The steps of an impact on any wall: properties over temperature, slag, every law and effect, draws and a trace.
+
+use super::evaluation::{NormalRebound, Stages, State, Steps, evaluate};
+use super::tilted_frame::TiltedFrame;
+use super::{Model, Wall};
+use crate::capture::{ParticleStickiness, Stickiness};
+use crate::effect::{Term, stream};
+use crate::impact::{Impact, ImpactError, Outcome};
+use crate::normal::Contact;
+use crate::tangential::{ImpactKinematics, Rebound};
+
+/// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1); `trace` receives term, quantity
+/// and value.
+struct GeneralWall<'a, U, T> {
+    model: &'a Model,
+    wall: &'a Wall,
+    /// The impact with regard to the mean wall.
+    arriving: Impact,
+    frame: TiltedFrame,
+    uniform: U,
+    trace: T,
+}
+
+impl Model {
+    /// Decides an impact by the general steps.
+    pub(super) fn evaluate(
+        &self,
+        wall: usize,
+        impact: &Impact,
+        uniform: impl Fn(u64) -> f64,
+        trace: impl FnMut(&'static str, &'static str, f64),
+    ) -> Result<Outcome, ImpactError> {
+        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let frame = TiltedFrame { tilt: 0.0 };
+        let mut steps = GeneralWall { model: self, wall, arriving, frame, uniform, trace };
+        let mut state = State::new(arriving);
+        evaluate(&mut steps, Stages::ALL, &mut state)?;
+        Ok(state.outcome())
+    }
+
+    /// The wall with this index, and the impact with what the model file puts on that wall.
+    pub(super) fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
+        impact.check()?;
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        Ok((wall, wall.apply_deposit(impact)))
+    }
+
+    /// The contact of particle and wall at their temperatures, with the effects on it.
+    pub(super) fn contact(
+        &self,
+        wall: &Wall,
+        impact: &Impact,
+        uniform: &impl Fn(u64) -> f64,
+    ) -> Result<Contact, ImpactError> {
+        let of_materials = wall.contact(&self.particle, impact)?;
+        let change = |contact, term: &Term| term.effect().contact(impact, contact, term.chance(uniform));
+        Ok(self.terms.iter().fold(of_materials, change))
+    }
+
+    /// Stickiness of the particle [1]: the product of what the capture criterion and the effects give, 0 without any.
+    pub(super) fn particle_stickiness(
+        &self,
+        impact: &Impact,
+        trace: &mut impl FnMut(&'static str, &'static str, f64),
+    ) -> Result<f64, ImpactError> {
+        let mut product = None;
+        if let Some(criterion) = &self.stickiness {
+            let stickiness = criterion.at(impact)?;
+            trace(criterion.name(), "particle stickiness", stickiness);
+            product = Some(stickiness);
+        }
+        for term in &self.terms {
+            if let Some(stickiness) = term.effect().particle_stickiness(impact) {
+                trace(term.kind().id, "particle stickiness", stickiness);
+                product = Some(product.unwrap_or(1.0) * stickiness);
+            }
+        }
+        Ok(product.unwrap_or(0.0))
+    }
+
+    /// Share of `e_n` [1] that full stickiness of the particle takes: all of it by a capture criterion.
+    pub(super) fn rebound_loss(&self) -> f64 {
+        let by_criterion = if self.stickiness.is_some() { 1.0 } else { 0.0 };
+        self.terms.iter().map(|term| term.effect().rebound_loss()).fold(by_criterion, f64::max)
+    }
+}
+
+impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> Steps for GeneralWall<'_, U, T> {
+    type Contact = Contact;
+    type Fault = ImpactError;
+
+    fn outside_range(&mut self, arriving: &Impact) -> bool {
+        let Self { model, wall, .. } = self;
+        !(model.stickiness.as_ref().is_none_or(|criterion| criterion.holds_at(arriving.particle_temperature))
+            && wall.melt.as_ref().is_none_or(|melt| melt.holds_at(arriving.wall_temperature))
+            && model.melt_holds(arriving)
+            && model.particle.holds_at(arriving.particle_temperature)
+            && wall.material.holds_at(arriving.wall_temperature)
+            && model.terms.iter().all(|term| term.holds_for(arriving)))
+    }
+
+    fn turn(&mut self, arriving: &Impact) -> Impact {
+        let tilt = |term: &Term| term.effect().tilt(arriving, term.chance(&self.uniform));
+        self.frame = TiltedFrame { tilt: self.model.terms.iter().map(tilt).sum() };
+        self.frame.turn(arriving)
+    }
+
+    fn contact(&mut self, impact: &Impact) -> Result<Contact, ImpactError> {
+        self.model.contact(self.wall, impact, &self.uniform)
+    }
+
+    fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, ImpactError> {
+        let particle = self.model.particle_stickiness(impact, &mut self.trace)?;
+        Ok(Stickiness { particle, wall: self.model.wall_stickiness(self.wall, impact)? })
+    }
+
+    fn normal_law(&mut self, impact: &Impact, contact: &Contact, _: f64) -> NormalRebound {
+        let law = self.model.normal;
+        let e_n = law.restitution(contact, impact.diameter, impact.normal_speed);
+        self.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
+        NormalRebound::of(e_n)
+    }
+
+    fn normal_effects(
+        &mut self,
+        impact: &Impact,
+        contact: &Contact,
+        rebound: NormalRebound,
+    ) -> NormalRebound {
+        let NormalRebound { restitution: mut e_n, held } = rebound;
+        if held {
+            return rebound;
+        }
+        for term in &self.model.terms {
+            let chance = term.chance(&self.uniform);
+            let changed = term.effect().normal_restitution(impact, contact, e_n, chance);
+            if changed != Some(e_n) {
+                (self.trace)(term.kind().id, "e_n", changed.unwrap_or(0.0));
+            }
+            let Some(changed) = changed else { return NormalRebound::of(None) };
+            e_n = changed;
+        }
+        NormalRebound::of(Some(e_n))
+    }
+
+    fn draw(&mut self) -> f64 {
+        (self.uniform)(stream::CAPTURE)
+    }
+
+    fn rebound_loss(&self) -> f64 {
+        self.model.rebound_loss()
+    }
+
+    fn stiffness_ratio(&self, contact: &Contact) -> f64 {
+        contact.stiffness_ratio
+    }
+
+    fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
+        let law = self.model.tangential;
+        let rebound = law.rebound(kinematics);
+        self.trace(law.name(), "e_t", rebound.restitution);
+        rebound
+    }
+
+    fn tangential_effects(&mut self, kinematics: &ImpactKinematics, mut rebound: Rebound) -> Rebound {
+        for term in &self.model.terms {
+            let changed = term.effect().tangential(kinematics, rebound);
+            if changed != rebound {
+                (self.trace)(term.kind().id, "e_t", changed.restitution);
+            }
+            rebound = changed;
+        }
+        rebound
+    }
+
+    fn turn_back(&self, impact: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {
+        let [e_n, e_t] = self.frame.turn_back(&self.arriving, impact, [e_n, rebound.restitution]);
+        (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(&self.arriving, rebound.spin) })
+    }
+
+    fn is_droplet(&self, impact: &Impact) -> bool {
+        let splashes = |criterion: &ParticleStickiness| criterion.is_droplet(impact.particle_temperature);
+        self.model.stickiness.as_ref().is_some_and(splashes)
+    }
+
+    fn trace(&mut self, term: &'static str, quantity: &'static str, value: f64) {
+        (self.trace)(term, quantity, value);
+    }
+}
