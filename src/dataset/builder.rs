@@ -40,15 +40,14 @@ impl<'a> Builder<'a> {
         walls: &'a WallChoice<'a>,
     ) -> Result<Self, DatasetError> {
         let headers = table.headers();
-        let fault = |problem: String| table.header_fault(problem);
-        let named = map.name_columns(headers).map_err(fault)?;
+        let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem))?;
         let inputs = InputColumns::new(|name| named.column(name));
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
-            .map_err(|problem| fault(with_columns(&problem, headers)))?;
+            .map_err(|problem| table.column_fault(&problem, true))?;
         let observed = ObservedColumns::new(&named, map.words.clone()).ok_or_else(|| {
             let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
-            fault(with_columns(&problem, headers))
+            table.column_fault(&problem, true)
         })?;
         walls.check(named.index("wall").is_some())?;
         let causes = causes(headers, map, &named);
@@ -78,19 +77,11 @@ impl<'a> Builder<'a> {
         impact.check().map_err(|error| error.to_string())?;
         let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
         let wall = self.walls.of(wall).map_err(|error| error.to_string())?;
-        let seen = self.observed.read(cells)?;
-        let row = Measurement {
-            line,
-            impact,
-            stated,
-            wall,
-            impacts: seen.impacts,
-            rebounds: seen.rebounds,
-            e_n: seen.e_n,
-            e_t: seen.e_t,
-            captured: seen.captured,
-        };
-        self.counts.count(&row, &seen);
+        let (e_n, e_t, captured) = (None, None, None);
+        let mut row =
+            Measurement { line, impact, stated, wall, impacts: 1.0, rebounds: 1.0, e_n, e_t, captured };
+        let remarks = self.observed.read(cells, &mut row)?;
+        self.counts.count(&row, remarks);
         Ok(row)
     }
 
@@ -226,23 +217,4 @@ fn with_lines(bad: BadRow, cells: &csv::StringRecord) -> BadRow {
             BadRow { reason: format!("{}; {cause}", bad.reason), ..bad }
         }
     }
-}
-
-/// Largest number of characters of column names in a message.
-const LONGEST_LIST: usize = 1000;
-
-/// An error of the header, with its columns and the remedy.
-fn with_columns(problem: &str, headers: &csv::StringRecord) -> String {
-    let found = headers.iter().collect::<Vec<_>>().join(", ");
-    let separator = found.chars().find(|mark| [';', '\t', '|'].contains(mark)).filter(|_| headers.len() == 1);
-    let separator = separator.map_or(String::new(), |mark| {
-        let mark = if mark == '\t' { "tab".to_owned() } else { mark.to_string() };
-        format!(". Cells are separated by commas unless the column map sets separator = \"{mark}\"")
-    });
-    // With an unterminated quotation mark the header is the whole file.
-    let found = match found.char_indices().nth(LONGEST_LIST) {
-        Some((end, _)) => format!("{} ...", found.get(..end).unwrap_or_default()),
-        None => found,
-    };
-    format!("{problem}. The columns are: {found}. A column map (--columns) assigns them{separator}")
 }

@@ -22,6 +22,9 @@ impl Default for Layout {
     }
 }
 
+/// Largest number of characters of column names in a message.
+const LONGEST_LIST: usize = 1000;
+
 /// A reader of records with as many cells as the header.
 pub(super) struct CsvTable<R> {
     reader: csv::Reader<Lines<R>>,
@@ -89,6 +92,32 @@ impl<R: Read> CsvTable<R> {
     pub(super) fn header_fault(&self, problem: impl Into<String>) -> DatasetError {
         let before = self.reader.position().line().saturating_sub(1).max(1);
         DatasetError::Header { file: self.file.clone(), line: before + self.skipped, problem: problem.into() }
+    }
+
+    /// An error of the header with a list of its columns; `mapped` tells whether a column map is possible.
+    pub(super) fn column_fault(&self, problem: &str, mapped: bool) -> DatasetError {
+        let found = self.headers.iter().collect::<Vec<_>>().join(", ");
+        let mark =
+            found.chars().find(|mark| [';', '\t', '|'].contains(mark)).filter(|_| self.headers.len() == 1);
+        let separator = match mark {
+            None => String::new(),
+            Some(_) if !mapped => " Cells must be separated by commas.".to_owned(),
+            Some(mark) => {
+                let mark = if mark == '\t' { "tab".to_owned() } else { mark.to_string() };
+                format!(" Cells are separated by commas unless the column map sets separator = \"{mark}\".")
+            }
+        };
+        let remedy = if mapped {
+            "A column map (--columns) assigns them."
+        } else {
+            "Rename the column of the normal speed."
+        };
+        // With an unterminated quotation mark the header is the whole file.
+        let found = match found.char_indices().nth(LONGEST_LIST) {
+            Some((end, _)) => format!("{} ...", found.get(..end).unwrap_or_default()),
+            None => found,
+        };
+        self.header_fault(format!("{problem}. The columns are: {found}. {remedy}{separator}"))
     }
 
     /// Reads the next record into `cells`; returns its first line, or `None` at the end.

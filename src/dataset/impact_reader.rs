@@ -3,6 +3,7 @@
 use std::io::Read;
 
 use super::csv_table::{CsvTable, Layout};
+use super::impact_velocity::NO_NORMAL_SPEED;
 use super::inputs::InputColumns;
 use super::notes;
 use super::number::{NumberColumn, NumberStyle};
@@ -39,7 +40,7 @@ impl<R: Read> ImpactReader<R> {
             Some(NumberColumn { name, index, unit: Unit::SI, style: NumberStyle::default() })
         });
         if !inputs.gives("v_n") {
-            return Err(table.header_fault(no_normal_speed(table.headers())));
+            return Err(table.column_fault(NO_NORMAL_SPEED, false));
         }
         Ok(Self { table, inputs })
     }
@@ -80,19 +81,6 @@ impl<R: Read> ImpactReader<R> {
         impact.check().map_err(|error| bad(error.to_string()))?;
         Ok(Row { line, cells, impact })
     }
-}
-
-fn no_normal_speed(headers: &csv::StringRecord) -> String {
-    let found = headers.iter().collect::<Vec<_>>().join(", ");
-    let separator = if headers.len() == 1 && found.contains([';', '\t']) {
-        " Cells must be separated by commas."
-    } else {
-        ""
-    };
-    format!(
-        "there is no column `v_n` (normal speed, m/s). The columns are: {found}. Rename the column of the normal \
-         speed.{separator}"
-    )
 }
 
 #[cfg(test)]

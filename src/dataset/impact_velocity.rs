@@ -73,6 +73,9 @@ pub(super) enum ImpactVelocity {
     TangentialAndAngle(AngleColumn),
 }
 
+/// The error of a file without a normal speed.
+pub(super) const NO_NORMAL_SPEED: &str = "there is no column `v_n` (normal speed, m/s)";
+
 /// The columns that may determine the velocity.
 pub(super) const KEYS: [&str; 4] = ["v_n", "v_t", "speed", "angle"];
 
@@ -90,7 +93,7 @@ pub(super) fn over_determined(has: impl Fn(&str) -> bool) -> Option<String> {
 fn under_determined(has: impl Fn(&str) -> bool) -> String {
     let given: Vec<&str> = KEYS.into_iter().filter(|key| has(key)).collect();
     if given.is_empty() {
-        return "there is no column `v_n` (normal speed, m/s)".to_owned();
+        return NO_NORMAL_SPEED.to_owned();
     }
     format!("{} alone does not determine the normal speed; give {SUFFICIENT}", given.join(", "))
 }

@@ -2,7 +2,6 @@
 
 use super::BadRow;
 use super::column::Column;
-use super::observed::Reading;
 use crate::impact::{INPUTS, Impact};
 
 /// The content of a file of measured impacts.
@@ -45,6 +44,15 @@ pub struct Measurement {
     pub e_t: Option<Reading>,
     /// Captured share of the impacts [1], 0 or 1 for a single one.
     pub captured: Option<f64>,
+}
+
+/// A measured value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// The value [1].
+    pub value: f64,
+    /// Its standard error [1], positive, if known.
+    pub error: Option<f64>,
 }
 
 impl Measurements {

@@ -25,9 +25,8 @@ mod wall_choice;
 pub use column::{Column, Values};
 pub use column_map::ColumnMap;
 pub use impact_reader::{ImpactReader, Row};
-pub use measurements::{Measurement, Measurements};
+pub use measurements::{Measurement, Measurements, Reading};
 pub use notes::{assumed, unlikely};
-pub use observed::Reading;
 pub use wall_choice::{WallChoice, WallError};
 
 /// Why a file cannot be read as impacts.
@@ -63,7 +62,7 @@ pub enum DatasetError {
 }
 
 /// A row that cannot be used.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct BadRow {
     /// Line in the file, counted from 1.
     pub line: u64,

@@ -1,7 +1,7 @@
 //! Warnings about a file: assumptions and likely mistakes.
 
 use super::measurements::Measurement;
-use super::observed::Observed;
+use super::observed::Remarks;
 use crate::impact::{INPUTS, Impact, Input};
 use crate::input::alike;
 
@@ -53,13 +53,13 @@ pub(super) struct NoteCounts {
 
 impl NoteCounts {
     /// Counts one usable row.
-    pub(super) fn count(&mut self, row: &Measurement, seen: &Observed) {
+    pub(super) fn count(&mut self, row: &Measurement, remarks: Remarks) {
         for (blank, stated) in self.blank.iter_mut().zip(row.stated) {
             *blank += usize::from(!stated);
         }
         self.above_one += usize::from(row.e_n.is_some_and(|e_n| e_n.value > 1.0));
-        self.uncounted += usize::from(seen.uncounted);
-        self.no_error += usize::from(seen.no_error);
+        self.uncounted += usize::from(remarks.uncounted);
+        self.no_error += usize::from(remarks.no_error);
         if self.unlikely.is_none() {
             self.unlikely = unlikely(row.line, &row.impact);
         }

@@ -1,5 +1,6 @@
 //! The observations of a row: of one impact, or an average over several.
 
+use super::measurements::{Measurement, Reading};
 use super::number::{NamedColumns, NumberColumn, is_blank};
 use crate::input::{InputError, Section};
 
@@ -15,23 +16,9 @@ const HIGHEST: f64 = 3.0;
 /// Largest difference [1] between a counted and a stated share of captures, due to rounding.
 const ROUNDING: f64 = 0.01;
 
-/// A measured value.
+/// What is unusual about the observations of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reading {
-    /// The value [1].
-    pub value: f64,
-    /// Its standard error [1], positive, if known.
-    pub error: Option<f64>,
-}
-
-/// The observations of one row.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Observed {
-    pub(super) impacts: f64,
-    pub(super) rebounds: f64,
-    pub(super) e_n: Option<Reading>,
-    pub(super) e_t: Option<Reading>,
-    pub(super) captured: Option<f64>,
+pub(super) struct Remarks {
     /// Whether the captured share is that of an unknown number of impacts.
     pub(super) uncounted: bool,
     /// Whether a standard error is 0, which is treated as unknown.
@@ -116,38 +103,35 @@ impl ObservedColumns {
     ///
     /// # Errors
     /// The reason why the row cannot be used.
-    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Observed, String> {
+    pub(super) fn read(&self, cells: &csv::StringRecord, row: &mut Measurement) -> Result<Remarks, String> {
         let counted = read(&self.impacts, cells)?;
-        let impacts = counted.unwrap_or(1.0);
-        if impacts < 1.0 || impacts.fract() != 0.0 {
-            return Err(format!("n_impacts is {impacts}; it must be a whole number from 1"));
+        row.impacts = counted.unwrap_or(1.0);
+        if row.impacts < 1.0 || row.impacts.fract() != 0.0 {
+            return Err(format!("n_impacts is {}; it must be a whole number from 1", row.impacts));
         }
-        let captured = self.share_captured(cells, counted)?;
-        let mut seen = Observed {
-            impacts,
-            rebounds: impacts,
-            e_n: None,
-            e_t: None,
-            captured,
-            uncounted: counted.is_none() && captured.is_some_and(|share| share.fract() != 0.0),
-            no_error: false,
-        };
+        row.captured = self.share_captured(cells, counted)?;
+        let uncounted = counted.is_none() && row.captured.is_some_and(|share| share.fract() != 0.0);
+        let mut no_error = false;
         // Without rebounds there is no e_n and e_t.
-        if captured != Some(1.0) {
-            seen.e_n = self.reading(cells, &self.e_n, &self.e_n_err, 0.0, &mut seen.no_error)?;
-            seen.e_t = self.reading(cells, &self.e_t, &self.e_t_err, -HIGHEST, &mut seen.no_error)?;
+        if row.captured != Some(1.0) {
+            row.e_n = reading(cells, &self.e_n, &self.e_n_err, 0.0, &mut no_error)?;
+            row.e_t = reading(cells, &self.e_t, &self.e_t_err, -HIGHEST, &mut no_error)?;
         }
-        let nothing_back =
-            seen.e_n.is_some_and(|e| e.value == 0.0) && seen.e_t.is_none_or(|e| e.value == 0.0);
-        if captured.is_none() && nothing_back {
+        let no_rebound = row.e_n.is_some_and(|e| e.value == 0.0) && row.e_t.is_none_or(|e| e.value == 0.0);
+        if row.captured.is_none() && no_rebound {
             // A particle that does not rebound is captured (Troiano et al., Eq. 14).
-            (seen.captured, seen.e_n, seen.e_t, seen.no_error) = (Some(1.0), None, None, false);
+            (row.captured, row.e_n, row.e_t, no_error) = (Some(1.0), None, None, false);
         }
-        seen.rebounds = rebounds(impacts, seen.captured);
-        if seen.captured.is_none() && seen.e_n.is_none() && seen.e_t.is_none() {
+        // At least one of the rebounds, although the captured share may be rounded.
+        row.rebounds = match row.captured {
+            None => row.impacts,
+            Some(1.0) => 0.0,
+            Some(share) => (row.impacts * (1.0 - share)).max(1.0),
+        };
+        if row.captured.is_none() && row.e_n.is_none() && row.e_t.is_none() {
             return Err("the row has no observation: all columns of observations are blank".to_owned());
         }
-        Ok(seen)
+        Ok(Remarks { uncounted, no_error })
     }
 
     /// The captured share of the impacts [1], if recorded.
@@ -203,43 +187,33 @@ impl ObservedColumns {
             known => Ok(known),
         }
     }
-
-    /// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
-    fn reading(
-        &self,
-        cells: &csv::StringRecord,
-        value: &Option<NumberColumn>,
-        error: &Option<NumberColumn>,
-        lowest: f64,
-        no_error: &mut bool,
-    ) -> Result<Option<Reading>, String> {
-        let (Some(column), Some(value)) = (value, read(value, cells)?) else { return Ok(None) };
-        let name = column.name;
-        if value < lowest {
-            return Err(match lowest {
-                0.0 => format!("{name} is negative"),
-                _ => format!("{name} is {value}, below {lowest}"),
-            });
-        }
-        if value > HIGHEST {
-            return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
-        }
-        let error = read(error, cells)?;
-        if error.is_some_and(|error| error < 0.0) {
-            return Err(format!("{name}_err is negative"));
-        }
-        *no_error |= error == Some(0.0);
-        Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
-    }
 }
 
-/// The number of rebounds that `e_n` and `e_t` average: at least one, although the captured share may be rounded to 1.
-fn rebounds(impacts: f64, captured: Option<f64>) -> f64 {
-    match captured {
-        None => impacts,
-        Some(1.0) => 0.0,
-        Some(share) => (impacts * (1.0 - share)).max(1.0),
+/// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
+fn reading(
+    cells: &csv::StringRecord,
+    value: &Option<NumberColumn>,
+    error: &Option<NumberColumn>,
+    lowest: f64,
+    no_error: &mut bool,
+) -> Result<Option<Reading>, String> {
+    let (Some(column), Some(value)) = (value, read(value, cells)?) else { return Ok(None) };
+    let name = column.name;
+    if value < lowest {
+        return Err(match lowest {
+            0.0 => format!("{name} is negative"),
+            _ => format!("{name} is {value}, below {lowest}"),
+        });
     }
+    if value > HIGHEST {
+        return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
+    }
+    let error = read(error, cells)?;
+    if error.is_some_and(|error| error < 0.0) {
+        return Err(format!("{name}_err is negative"));
+    }
+    *no_error |= error == Some(0.0);
+    Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
 }
 
 fn read(column: &Option<NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, String> {

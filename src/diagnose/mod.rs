@@ -27,31 +27,16 @@ mod verdict;
 
 pub use record::{
     Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, FittedCurve, Gain, Measure, Misfit,
-    NotExamined, Rejected, Rows, Sample, SampleRow, ScatterFound, Unexplained,
+    NotExamined, Options, Rows, Sample, SampleRow, ScatterFound, Unexplained,
 };
 
-use crate::dataset::Measurements;
+use crate::dataset::{BadRow, Measurements};
 use crate::impact::{INPUTS, Impact, Input};
 use crate::model::Model;
 use data_split::DataSplit;
 use hypothesis::Hypothesis;
 use model_selection::{Selection, select};
 use observable::Observable;
-
-/// Options of a diagnosis.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Options {
-    /// Seed of the data split; the same seed gives the same bytes.
-    pub seed: u64,
-    /// Accepted share of false discoveries [1].
-    pub level: f64,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self { seed: 1, level: 0.05 }
-    }
-}
 
 /// Why there is no diagnosis.
 #[derive(Debug, thiserror::Error)]
@@ -98,7 +83,7 @@ pub fn diagnose(
     let data = plausible(base, data);
     let (used, read) = (data.rows.len(), data.read);
     if used < LEAST_ROWS {
-        let reason = |bad: &crate::dataset::BadRow| format!("Line {}: {}.", bad.line, bad.reason);
+        let reason = |bad: &BadRow| format!("Line {}: {}.", bad.line, bad.reason);
         let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
         return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons });
     }
@@ -113,9 +98,7 @@ pub fn diagnose(
     interval::set_intervals(&mut hypothesis, &fine.fit);
 
     let mut diagnosis = verdict::record(&hypothesis, &discoveries, options);
-    let rejected = |bad: crate::dataset::BadRow| Rejected { line: bad.line, reason: bad.reason };
-    let rejected = data.rejected.into_iter().map(rejected).collect();
-    diagnosis.rows = Rows { read, used, held_out: fine.held_out.len(), rejected };
+    diagnosis.rows = Rows { read, used, held_out: fine.held_out.len(), rejected: data.rejected };
     diagnosis.misfit = verdict::misfit(&hypothesis, &first_round, options.level);
     diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()));
     diagnosis.sample = gain::sample(&plain, &hypothesis);
@@ -142,7 +125,7 @@ fn plausible(base: &Model, data: &Measurements) -> Measurements {
     })
 }
 
-/// The input that nobody can have measured: squares in a law would overflow, and the row would spoil all sums.
+/// The input with an implausible value: its squares would overflow in a law and invalidate all sums over rows.
 fn implausible(impact: &Impact) -> Option<String> {
     INPUTS.iter().find_map(|Input { name, unit, value, .. }| {
         let value = value(impact);

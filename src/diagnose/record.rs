@@ -4,8 +4,25 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::dataset::BadRow;
+
+/// Options of a diagnosis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Seed of the data split; the same seed gives the same bytes.
+    pub seed: u64,
+    /// Accepted share of false discoveries [1].
+    pub level: f64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { seed: 1, level: 0.05 }
+    }
+}
+
 /// The result of a diagnosis.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct Diagnosis {
     /// `nearwall.diagnosis/1`.
     pub schema: &'static str,
@@ -52,16 +69,7 @@ pub struct Rows {
     /// Impacts and readings that no fit and no choice used; an average counts as the captures and rebounds it states.
     pub held_out: usize,
     /// Rows that were not used.
-    pub rejected: Vec<Rejected>,
-}
-
-/// A row that was not used.
-#[derive(Debug, Clone, Serialize)]
-pub struct Rejected {
-    /// Line in the file, counted from 1.
-    pub line: u64,
-    /// The reason.
-    pub reason: String,
+    pub rejected: Vec<BadRow>,
 }
 
 /// Root mean square errors [1] and mean log loss [nats]; `None` where nothing was observed.

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use super::Options;
 use super::candidate::{Addition, ScoredCandidate};
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
@@ -11,8 +10,7 @@ use super::model_selection::Discovery;
 use super::observable::Observable;
 use super::part::Part;
 use super::record::{
-    Calibration, Diagnosis, Errors, Finding, Gain, Misfit, NotExamined, Rows, Sample, ScatterFound,
-    Unexplained,
+    Calibration, Diagnosis, Finding, Gain, Misfit, NotExamined, Options, ScatterFound, Unexplained,
 };
 use crate::effect::{EFFECTS, EffectInfo};
 
@@ -71,10 +69,6 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, discoveries: &[Discovery], opt
         schema: "nearwall.diagnosis/1",
         seed: options.seed,
         level: options.level,
-        verdict: String::new(),
-        rows: Rows::default(),
-        base: Errors::default(),
-        misfit: Vec::new(),
         findings,
         calibration,
         scatter: ScatterFound {
@@ -87,10 +81,8 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, discoveries: &[Discovery], opt
             let [measured, expected] = captured_shares(hypothesis);
             Unexplained { measured, expected }
         }),
-        gain: None,
-        gains: Vec::new(),
         extended_model: "extended.toml",
-        sample: Sample::default(),
+        ..Diagnosis::default()
     }
 }
 

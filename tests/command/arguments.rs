@@ -17,7 +17,7 @@ model = "constant"
 e_t = 0.76
 "#;
 
-fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
+pub fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
 }
 
@@ -26,7 +26,7 @@ fn text(bytes: &[u8]) -> String {
 }
 
 /// A folder with these files.
-fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
+pub fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, content) in files {
         std::fs::write(folder.path().join(name), content).unwrap();
@@ -35,7 +35,7 @@ fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
 }
 
 /// Asserts exit 1 and that the message holds each of `parts`.
-fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
+pub fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
     let output = nearwall(folder, arguments);
     let message = text(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{message}");

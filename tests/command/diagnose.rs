@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use std::process::{Command, Output};
 
+use crate::arguments::{nearwall, refused};
 use crate::common::browser::{Seen, browse};
 use nearwall::{Impact, ImpactRng, Model};
 use serde_json::Value;
@@ -21,37 +21,22 @@ model = "constant"
 e_t = 0.76
 "#;
 
-/// Rows that hold no impact, with the lines that they stand on.
+/// Invalid rows with their lines.
 const BROKEN: [(usize, &str); 2] = [(8, "fast,0.5,7e-5,0,dry,0.3,0.7"), (21, "1.5,0.5,-7e-5,0,dry,0.3,0.7")];
 
-fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
-}
-
-/// Asserts exit 0 and returns what was printed.
+/// Asserts exit 0 and returns the standard output.
 fn done(folder: &Path, arguments: &[&str]) -> String {
     let output = nearwall(folder, arguments);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// Asserts exit 1 and that the message holds each of `parts`.
-fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
-    let output = nearwall(folder, arguments);
-    let message = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "`{part}` is not in: {message}");
-    }
-    assert!(!message.contains("panicked"), "{message}");
-}
-
-/// About normal with mean 0 and deviation 1: the sum of twelve even draws.
+/// Approximately normal with mean 0 and deviation 1: the sum of twelve uniform draws.
 fn noise(draw: ImpactRng, first: u64) -> f64 {
     (first..first + 12).map(|stream| draw.uniform(stream)).sum::<f64>() - 6.0
 }
 
-/// Measured impacts: the wax model, times what `planted` makes of layer and plate, and noise.
+/// Measured impacts: the wax model with `e_n` multiplied by `planted` of layer and plate, and noise.
 fn measured(rows: u64, planted: impl Fn(f64, &str) -> f64) -> String {
     let model = Model::from_toml("wax.toml", WAX).unwrap();
     let mut text = "v_n,v_t,d,layer_thickness,plate,e_n,e_t\n".to_owned();
@@ -88,16 +73,13 @@ fn measured(rows: u64, planted: impl Fn(f64, &str) -> f64) -> String {
     lines.join("\n") + "\n"
 }
 
-/// What a layer leaves of a rebound: a form of its own, not the library's.
+/// Share of `e_n` that a layer leaves [1]; another law than the library's.
 fn rational(layer: f64) -> f64 {
     0.4 + 0.6 / (1.0 + (layer / 1.5e-4).powi(2))
 }
 
 fn folder(data: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("wax.toml"), WAX).unwrap();
-    std::fs::write(folder.path().join("lab.csv"), data).unwrap();
-    folder
+    crate::arguments::folder(&[("wax.toml", WAX), ("lab.csv", data)])
 }
 
 const DIAGNOSE: [&str; 6] = ["diagnose", "lab.csv", "--model", "wax.toml", "--out", "out"];
@@ -106,7 +88,7 @@ fn json(folder: &Path) -> Value {
     serde_json::from_str(&std::fs::read_to_string(folder.join("out/diagnosis.json")).unwrap()).unwrap()
 }
 
-/// Asserts that the page stands alone, shows a figure under each of `ids`, and says each of `words`.
+/// Asserts that the page needs no other file, and contains a figure for each of `ids` and each of `words`.
 fn page_shows(folder: &Path, ids: &[&str], words: &[&str]) {
     let page = folder.join("out/report.html");
     let html = std::fs::read_to_string(&page).unwrap();
@@ -133,7 +115,7 @@ fn page_shows(folder: &Path, ids: &[&str], words: &[&str]) {
 }
 
 #[test]
-fn a_planted_layer_is_found_and_the_three_files_hold_together() {
+fn a_planted_layer_is_found_and_the_three_files_are_consistent() {
     let folder = folder(&measured(300, |layer, _| rational(layer)));
     let folder = folder.path();
     let printed = done(folder, &DIAGNOSE);
@@ -179,7 +161,7 @@ fn a_planted_layer_is_found_and_the_three_files_hold_together() {
     let gain = &json["gain"];
     let [before, after] = ["rmse_before", "rmse_after"].map(|key| gain[key].as_f64().unwrap());
     assert!(after < 0.7 * before && gain["ci95"][1].as_f64().unwrap() < 0.8, "{gain}");
-    // The noise that was put in is all that is left, but for the other form of the layer's law.
+    // The remaining error is the noise and the difference of the two laws.
     assert!((0.015..0.028).contains(&after), "{after}");
 
     page_shows(
@@ -195,7 +177,7 @@ fn a_planted_layer_is_found_and_the_three_files_hold_together() {
 }
 
 #[test]
-fn the_extended_model_is_accepted_and_predicts_what_was_found() {
+fn the_extended_model_is_accepted_and_predicts_the_effect() {
     let folder = folder(&measured(300, |layer, _| rational(layer)));
     let folder = folder.path();
     done(folder, &DIAGNOSE);
@@ -222,7 +204,7 @@ fn the_same_seed_gives_the_same_bytes() {
 }
 
 #[test]
-fn a_plate_that_no_effect_explains_is_shown_word_by_word() {
+fn a_plate_that_no_effect_explains_is_shown_by_label() {
     let plates = |_, plate: &str| if plate == "old, worn" { 0.6 } else { 1.0 };
     let folder = folder(&measured(300, plates));
     let folder = folder.path();
@@ -238,7 +220,7 @@ fn a_plate_that_no_effect_explains_is_shown_word_by_word() {
 }
 
 #[test]
-fn a_model_without_fault_gets_a_page_of_noise() {
+fn a_correct_model_has_no_finding() {
     let folder = folder(&measured(120, |_, _| 1.0));
     let folder = folder.path();
     done(folder, &DIAGNOSE);
@@ -254,7 +236,7 @@ fn a_model_without_fault_gets_a_page_of_noise() {
 }
 
 #[test]
-fn what_cannot_be_diagnosed_is_refused_with_the_remedy() {
+fn unusable_data_are_refused_with_the_remedy() {
     let folder = folder("v_n,d\n1,7e-5\n2,7e-5\n");
     let folder = folder.path();
     refused(folder, &DIAGNOSE, &["lab.csv", "e_n", "capture_efficiency"]);
@@ -270,9 +252,9 @@ fn what_cannot_be_diagnosed_is_refused_with_the_remedy() {
     assert!(!folder.join("out").exists(), "a refused diagnosis leaves nothing behind");
 }
 
-/// Files as they come: nothing varies, a column's name has line breaks in it, a digit too many, a gas faster than light.
+/// Nothing varies, a column name contains line breaks, a temperature has a digit too many, a gas is faster than light.
 #[test]
-fn odd_files_end_in_an_extended_model_that_can_be_read() {
+fn odd_files_give_a_readable_extended_model() {
     let constant = "v_n,v_t,e_n,e_t\n".to_owned() + &"0.5,0.5,0.5,0.5\n".repeat(12);
     let rows = |of: &dyn Fn(u32) -> String| (0..24).map(of).collect::<String>();
     let broken = "v_n,\"a\nb = [1]\r\n[walls.x]\",e_n\n".to_owned()
@@ -294,9 +276,9 @@ fn odd_files_end_in_an_extended_model_that_can_be_read() {
     }
 }
 
-/// Of a size that the file does not have nothing can be said, though the laws work with one.
+/// The effect of a diameter that is not in the file cannot be examined, although the laws depend on it.
 #[test]
-fn an_effect_of_a_size_that_does_not_vary_is_not_examined() {
+fn an_effect_of_a_constant_diameter_is_not_examined() {
     let mut data = "v_n,v_t,captured\n".to_owned();
     for row in 0..12 {
         writeln!(data, "{},{},1", 1.0 + 0.2 * f64::from(row), 0.3 * f64::from(row % 4)).unwrap();

@@ -23,40 +23,13 @@ impl System {
     /// The base contact.
     pub fn contact(self) -> Contact {
         let body = |modulus, poisson| Body { modulus, poisson };
-        match self {
-            Self::Wax => Contact {
-                particle: body(700e6, 0.49),
-                wall: body(64e9, 0.2),
-                density: 1000.0,
-                yield_strength: 9.5e6,
-                yield_ratio: 0.7,
-                adhesion: 2.0 * 0.03_f64.sqrt(),
-            },
-            Self::Tungsten => Contact {
-                particle: body(398e9, 0.28),
-                wall: body(398e9, 0.28),
-                density: 19250.0,
-                yield_strength: 0.6e9,
-                yield_ratio: 2.8,
-                adhesion: 2.0 * 3.265,
-            },
-            Self::Char => Contact {
-                particle: body(1e9, 0.25),
-                wall: body(30e9, 0.2),
-                density: 900.0,
-                yield_strength: 11e6,
-                yield_ratio: 1.2,
-                adhesion: 2.0 * (0.05_f64 * 0.5).sqrt(),
-            },
-            Self::HotTungsten => Contact {
-                particle: body(190e9, 0.308),
-                wall: body(382e9, 0.287),
-                density: 18290.0,
-                yield_strength: 300e6,
-                yield_ratio: 2.8,
-                adhesion: 2.0 * 3.265,
-            },
-        }
+        let (particle, wall, density, yield_strength, yield_ratio, adhesion) = match self {
+            Self::Wax => (body(700e6, 0.49), body(64e9, 0.2), 1000.0, 9.5e6, 0.7, 2.0 * 0.03_f64.sqrt()),
+            Self::Tungsten => (body(398e9, 0.28), body(398e9, 0.28), 19250.0, 0.6e9, 2.8, 2.0 * 3.265),
+            Self::Char => (body(1e9, 0.25), body(30e9, 0.2), 900.0, 11e6, 1.2, 2.0 * (0.05_f64 * 0.5).sqrt()),
+            Self::HotTungsten => (body(190e9, 0.308), body(382e9, 0.287), 18290.0, 300e6, 2.8, 2.0 * 3.265),
+        };
+        Contact { particle, wall, density, yield_strength, yield_ratio, adhesion }
     }
 
     /// The model file of base and law.
@@ -83,27 +56,27 @@ impl System {
     }
 
     /// The materials that are not built in.
-    fn materials(self) -> &'static str {
+    fn materials(self) -> String {
+        let Contact { particle, wall, density, yield_strength, .. } = self.contact();
+        let particle = |name, energy| material(name, density, particle, yield_strength, energy);
         match self {
-            Self::Wax => "",
-            Self::Tungsten => {
-                "\n[materials.w-dust]\ndensity = 19250\nyoungs_modulus = 398e9\npoisson_ratio = 0.28\n\
-                 yield_strength = 0.6e9\nsurface_energy = 3.265\nsource = \"assumed\"\n"
-            }
-            Self::Char => {
-                "\n[materials.char-bits]\ndensity = 900\nyoungs_modulus = 1e9\npoisson_ratio = 0.25\n\
-                 yield_strength = 11e6\nsurface_energy = 0.05\nsource = \"assumed\"\n\n[materials.brick]\n\
-                 density = 3000\nyoungs_modulus = 30e9\npoisson_ratio = 0.2\nyield_strength = 60e6\n\
-                 surface_energy = 0.5\nsource = \"assumed\"\n"
-            }
+            Self::Wax => String::new(),
+            Self::Tungsten => particle("w-dust", 3.265),
+            Self::Char => particle("char-bits", 0.05) + &material("brick", 3000.0, wall, 60e6, 0.5),
             Self::HotTungsten => {
-                "\n[materials.w-dust]\ndensity = 18290\nyoungs_modulus = 190e9\npoisson_ratio = 0.308\n\
-                 yield_strength = 300e6\nsurface_energy = 3.265\nsource = \"assumed\"\n\n[materials.w-plate]\n\
-                 density = 19050\nyoungs_modulus = 382e9\npoisson_ratio = 0.287\nyield_strength = 800e6\n\
-                 surface_energy = 3.265\nsource = \"assumed\"\n"
+                particle("w-dust", 3.265) + &material("w-plate", 19050.0, wall, 800e6, 3.265)
             }
         }
     }
+}
+
+/// A material of a model file.
+fn material(name: &str, density: f64, body: Body, yield_strength: f64, surface_energy: f64) -> String {
+    let Body { modulus, poisson } = body;
+    format!(
+        "\n[materials.{name}]\ndensity = {density}\nyoungs_modulus = {modulus:e}\npoisson_ratio = {poisson}\n\
+         yield_strength = {yield_strength:e}\nsurface_energy = {surface_energy}\nsource = \"assumed\"\n"
+    )
 }
 
 type Range = (f64, f64);
@@ -376,16 +349,8 @@ impl Campaign {
         let mut cells: Vec<_> = self.header().iter().map(|column| cell(column, &row.x, dice)).collect();
         let number = |value: Option<f64>| value.map(|value| format!("{value:.4}")).unwrap_or_default();
         cells.extend([number(row.e_n), number(row.e_t)]);
-        cells.push(
-            if !row.outcome {
-                ""
-            } else if row.stuck {
-                "stick"
-            } else {
-                "rebound"
-            }
-            .into(),
-        );
+        let outcome = if row.stuck { "stick" } else { "rebound" };
+        cells.push(if row.outcome { outcome.into() } else { String::new() });
         cells.join(",")
     }
 
