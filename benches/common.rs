@@ -187,25 +187,14 @@ impl Columns {
     pub fn pointers(&mut self) -> (nw_impacts, nw_outcomes) {
         let [v_n, v_t, d, t_p, omega] = self.inputs.each_ref().map(|column| column.as_ptr());
         let impacts = nw_impacts {
-            struct_size: size_of::<nw_impacts>() as u32,
-            wall: 0,
             count: self.inputs[0].len(),
             seed: SEED,
-            walls: null(),
             v_n,
             v_t,
             d,
             T_p: t_p,
-            T_w: null(),
-            conversion: null(),
-            layer_thickness: null(),
-            film_thickness: null(),
-            v_gas: null(),
-            roughness: null(),
             omega,
-            coverage: null(),
-            key: null(),
-            melt_thickness: null(),
+            ..nw_impacts::default()
         };
         let [e_n, e_t, p_stick, omega] = self.floats.each_mut().map(|column| column.as_mut_ptr());
         let [regime, stuck, flags] = self.words.each_mut().map(|column| column.as_mut_ptr());

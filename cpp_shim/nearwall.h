@@ -1,72 +1,88 @@
 /* nearwall.h - what happens when a particle hits a wall: the C interface of libnearwall.
  *
  * Inputs come first, outputs last. Every call returns a status, and its outputs are untouched unless that is NW_OK
- * (but for a message, and the index of the impact at fault).
- * A model never changes once it is loaded: any number of threads may share it without a lock. A call keeps no state,
- * so the same model and impact give the same bits. The caller's floating-point control and flags stay as they are
- * (x86-64), and it may trap what it likes. Should memory run out while a model is read, the process ends.
+ * (except a message and the index of an invalid impact).
+ * A model never changes after it is loaded: any number of threads may share it without a lock. Calls keep no state:
+ * the same model and impact give the same bits. The floating-point control and flags of the caller stay unchanged
+ * (x86-64), whatever it traps. The process aborts if memory runs out while a model is loaded.
  *
  * Licence: MIT OR Apache-2.0. */
 
 #ifndef NEARWALL_H
 #define NEARWALL_H
 
-/* Written by cbindgen from src/c_api; `NEARWALL_BLESS=1 cargo test --test c_api header` writes it again. */
+/* Written by cbindgen from src/c_api; `NEARWALL_BLESS=1 cargo test --test library interface` writes it again. */
 
 #include <stddef.h>
 #include <stdint.h>
 
-// Number of the binary interface; it changes when a struct, a function or a constant does.
+// Applies a macro to the name of every input of `nw_impact`, in the order of its fields.
+#define NW_IMPACT_INPUTS(X) \
+  X(v_n) \
+  X(v_t) \
+  X(omega) \
+  X(d) \
+  X(T_p) \
+  X(conversion) \
+  X(T_w) \
+  X(roughness) \
+  X(coverage) \
+  X(layer_thickness) \
+  X(film_thickness) \
+  X(melt_thickness) \
+  X(v_gas)
+
+// Version of the binary interface; it rises when a struct, a function or a constant changes.
 #define NW_ABI_VERSION 1
 
-// Bit of `flags`: a property or a fitted term was used outside the range it is stated for.
+// Bit of `flags`: a property or a fitted term was used outside its stated range.
 #define NW_OUTSIDE_VALID_RANGE 1
 
 // A loaded model: opaque, immutable, shareable between threads.
 typedef struct nw_model nw_model;
 
-// What a call came to.
+// Status returned by every call.
 typedef int32_t nw_status;
 
 // Which of particle and wall is sticky.
 typedef uint32_t nw_regime;
 
-// One particle as it reaches a wall. Fill it with `nw_impact_init`, then set what you know.
+// One particle as it reaches a wall. Fill it with `nw_impact_init`, then set the known inputs.
 typedef struct nw_impact {
   // `sizeof(nw_impact)`.
   uint32_t struct_size;
   // Index of the wall, from `nw_model_find_wall`.
   uint32_t wall;
+  // Seed of the run's random draws.
+  uint64_t seed;
+  // Unique key of this impact: random draws depend only on `seed` and `key`.
+  uint64_t key;
   // Speed towards the wall [m/s], not negative.
   double v_n;
   // Speed along the wall [m/s], not negative.
   double v_t;
+  // Spin before the impact [rad/s], positive when the particle rolls forward along `v_t`.
+  double omega;
   // Particle diameter [m], positive.
   double d;
   // Particle temperature [K], positive.
   double T_p;
+  // Carbon conversion [1], 0 to 1; 1 for a particle without carbon.
+  double conversion;
   // Wall temperature [K], positive.
   double T_w;
-  // Carbon conversion 0 to 1; 1 where there is no carbon.
-  double conversion;
-  // Thickness of powder on the wall [m].
-  double layer_thickness;
-  // Thickness of the liquid film on the wall [m].
-  double film_thickness;
-  // Speed of the gas along the wall [m/s].
-  double v_gas;
-  // Roughness of the wall [m].
+  // Roughness of the wall [m], not negative.
   double roughness;
-  // Spin [rad/s], positive when rolling forward along `v_t`.
-  double omega;
-  // Share of the wall covered by non-sticky char, 0 to 1.
+  // Share of the wall that non-sticky char covers [1], 0 to 1.
   double coverage;
-  // Seed of the run's random draws.
-  uint64_t seed;
-  // What tells this impact from all others: the draws depend on `seed` and `key` only.
-  uint64_t key;
-  // Thickness of the melt that earlier particles left on the wall [m].
+  // Thickness of the powder layer on the wall [m], not negative.
+  double layer_thickness;
+  // Thickness of the liquid film on the wall [m], not negative.
+  double film_thickness;
+  // Thickness of the melt that earlier particles left on the wall [m], not negative.
   double melt_thickness;
+  // Speed of the gas along the wall [m/s], not negative.
+  double v_gas;
 } nw_impact;
 
 // What leaves the wall.
@@ -89,50 +105,50 @@ typedef struct nw_outcome {
   double omega;
 } nw_outcome;
 
-// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array stands for the value that
-// `nw_impact_init` gives, and for `key` the entry's own index.
+// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array means the value that
+// `nw_impact_init` sets, and for `key` the index of the entry.
 typedef struct nw_impacts {
   // `sizeof(nw_impacts)`.
   uint32_t struct_size;
-  // Wall of every impact where `walls` is null.
+  // Wall of every impact if `walls` is null.
   uint32_t wall;
   // Number of impacts.
   size_t count;
   // Seed of all draws.
   uint64_t seed;
-  // Index of each impact's wall.
+  // Wall of each impact.
   const uint32_t *walls;
-  // Speed towards the wall [m/s].
-  const double *v_n;
-  // Speed along the wall [m/s].
-  const double *v_t;
-  // Particle diameter [m].
-  const double *d;
-  // Particle temperature [K].
-  const double *T_p;
-  // Wall temperature [K].
-  const double *T_w;
-  // Carbon conversion.
-  const double *conversion;
-  // Thickness of powder on the wall [m].
-  const double *layer_thickness;
-  // Thickness of the liquid film [m].
-  const double *film_thickness;
-  // Speed of the gas along the wall [m/s].
-  const double *v_gas;
-  // Roughness of the wall [m].
-  const double *roughness;
-  // Spin [rad/s].
-  const double *omega;
-  // Share of the wall covered by non-sticky char.
-  const double *coverage;
-  // Key of each impact's draws.
+  // Unique key of each impact.
   const uint64_t *key;
-  // Thickness of the melt that earlier particles left on the wall [m].
+  // Speed towards the wall [m/s], not negative.
+  const double *v_n;
+  // Speed along the wall [m/s], not negative.
+  const double *v_t;
+  // Spin before the impact [rad/s], positive when the particle rolls forward along `v_t`.
+  const double *omega;
+  // Particle diameter [m], positive.
+  const double *d;
+  // Particle temperature [K], positive.
+  const double *T_p;
+  // Carbon conversion [1], 0 to 1; 1 for a particle without carbon.
+  const double *conversion;
+  // Wall temperature [K], positive.
+  const double *T_w;
+  // Roughness of the wall [m], not negative.
+  const double *roughness;
+  // Share of the wall that non-sticky char covers [1], 0 to 1.
+  const double *coverage;
+  // Thickness of the powder layer on the wall [m], not negative.
+  const double *layer_thickness;
+  // Thickness of the liquid film on the wall [m], not negative.
+  const double *film_thickness;
+  // Thickness of the melt that earlier particles left on the wall [m], not negative.
   const double *melt_thickness;
+  // Speed of the gas along the wall [m/s], not negative.
+  const double *v_gas;
 } nw_impacts;
 
-// Arrays for the outcomes, each with room for as many entries as there are impacts; null where not wanted. They must
+// Arrays that receive the outcomes, each with room for `count` entries of `nw_impacts`; null if not wanted. They must
 // not overlap the inputs or each other.
 typedef struct nw_outcomes {
   // `sizeof(nw_outcomes)`.
@@ -153,7 +169,7 @@ typedef struct nw_outcomes {
   uint32_t *flags;
 } nw_outcomes;
 
-// What lies on a piece of wall, per area of it. A bare wall is what `nw_deposit_init` gives.
+// The deposit on a piece of wall, per wall area. `nw_deposit_init` makes a bare wall.
 typedef struct nw_deposit {
   // `sizeof(nw_deposit)`.
   uint32_t struct_size;
@@ -165,17 +181,17 @@ typedef struct nw_deposit {
   double powder;
   // Volume of the powder's particles without the voids between them [m3/m2].
   double solid;
-  // Projected area of the powder's particles [1], overlaps counted.
+  // Projected area of the powder's particles [1], overlaps included.
   double cover;
-  // Carbon conversion of all that lies there, its mean by mass.
+  // Carbon conversion [1], mean by mass of the whole deposit.
   double conversion;
 } nw_deposit;
 
-// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_deposit_source_init` gives.
+// Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
 typedef struct nw_deposit_source {
   // `sizeof(nw_deposit_source)`.
   uint32_t struct_size;
-  // How many were added.
+  // Number of particles.
   uint32_t count;
   // Molten mass [kg/m2].
   double molten;
@@ -191,34 +207,34 @@ typedef struct nw_deposit_source {
   double converted;
 } nw_deposit_source;
 
-// Done.
+// Success.
 #define NW_OK 0
 
 // A required pointer is null.
 #define NW_NULL_POINTER 1
 
-// `struct_size` (or a count) is not one that this library knows.
+// `struct_size` is not the size that this library expects, or a count is too large.
 #define NW_STRUCT_SIZE 2
 
-// A text is not UTF-8.
+// A string is not valid UTF-8.
 #define NW_NOT_UTF8 3
 
 // The model file cannot be read.
 #define NW_FILE 4
 
-// The model is at fault; the message names file, line, column, key and remedy.
+// The model is invalid; the message names file, line, column, key and remedy.
 #define NW_MODEL 5
 
-// The model has no such wall.
+// The model has no wall with this name or index.
 #define NW_UNKNOWN_WALL 6
 
-// A number has no physical meaning: it is not finite or out of its bounds.
+// An input is not finite or violates its bounds.
 #define NW_BAD_STATE 7
 
-// A property is not known at the temperature of the impact.
+// A property is needed at a temperature outside its table; `nw_temperature_ranges` returns the limits of a wall.
 #define NW_OUT_OF_RANGE 8
 
-// An internal fault was stopped at the boundary.
+// An internal error; please report it.
 #define NW_PANIC 9
 
 // Non-sticky particle, non-sticky wall.
@@ -237,22 +253,22 @@ typedef struct nw_deposit_source {
 extern "C" {
 #endif // __cplusplus
 
-// The interface version of the library that is loaded; compare with `NW_ABI_VERSION` of the header.
+// Returns the interface version of the loaded library; compare it with `NW_ABI_VERSION` of the header.
 uint32_t nw_abi_version(void);
 
-// The version of the library, for instance `0.1.0`. Static text.
+// Returns the version of the library, for instance `0.1.0`, as a static string.
 const char *nw_version(void);
 
-// A status in words. Static text, also for numbers that are no status.
+// Returns the text of a status, or of an unknown number, as a static string.
 const char *nw_status_text(nw_status status);
 
-// A regime by name, for instance `NSP-SW`. Static text.
+// Returns the name of a regime, for instance `NSP-SW`, as a static string.
 const char *nw_regime_name(nw_regime regime);
 
-// Reads a model file. On success `*model` is the model; free it with `nw_model_free`.
+// Loads a model file. On success `*model` is the model; free it with `nw_model_free`.
 //
-// On failure the reason, with file, line, column, key and remedy, goes to `message` (at most `message_size` bytes with
-// the closing zero, cut at a character; may be null). On success `message` is left as it is.
+// On failure `message` (may be null) receives the reason with file, line, column, key and remedy: at most
+// `message_size` bytes with the closing zero, cut between characters. On success `message` is untouched.
 //
 // # Safety
 // `path` is a zero-terminated text, `model` can be written, `message` has room for `message_size` bytes or is null.
@@ -261,8 +277,8 @@ nw_status nw_model_load(const char *path,
                         char *message,
                         size_t message_size);
 
-// Reads a model from TOML text of `toml_size` bytes (no closing zero needed). `name` stands for the file in messages;
-// it may be null. Otherwise as `nw_model_load`.
+// Parses a model from TOML text of `toml_size` bytes, which needs no closing zero. Messages name it `name` (may be
+// null). Otherwise as `nw_model_load`.
 //
 // # Safety
 // `toml` has `toml_size` bytes, `name` is zero-terminated or null, the rest as in `nw_model_load`.
@@ -273,14 +289,14 @@ nw_status nw_model_parse(const char *toml,
                          char *message,
                          size_t message_size);
 
-// Frees a model; null is allowed.
+// Frees a model; does nothing for null.
 //
 // # Safety
 // `model` came from `nw_model_load` or `nw_model_parse` and is not used again.
 void nw_model_free(struct nw_model *model);
 
-// The index of the wall that a patch name belongs to: the wall of that name, else the last whose name is a regular
-// expression that fits. `NW_UNKNOWN_WALL` when there is none; the wall called `default` is not implied.
+// Finds the wall of a patch: the wall of that name, otherwise the last one whose name is a regular expression that
+// matches. Returns `NW_UNKNOWN_WALL` if there is none, even if the model has a wall `default`.
 //
 // # Safety
 // `model` is a loaded model, `name` is zero-terminated, `wall` can be written.
@@ -288,20 +304,19 @@ nw_status nw_model_find_wall(const struct nw_model *model,
                              const char *name,
                              uint32_t *wall);
 
-// Fills an impact with its size and the values assumed for unknown inputs: wall 0, 1e-4 m, 293.15 K, conversion 1, all
-// else 0.
+// Initialises an impact: its size and the default of every input; wall, seed and key 0.
 //
 // # Safety
 // `impact` can be written.
 nw_status nw_impact_init(struct nw_impact *impact);
 
-// Fills an outcome with its size and zeros, ready for `nw_resolve`.
+// Initialises an outcome for `nw_resolve`: its size and zeros.
 //
 // # Safety
 // `outcome` can be written.
 nw_status nw_outcome_init(struct nw_outcome *outcome);
 
-// Decides one impact. The same model and impact give the same bits, on any thread and in any order.
+// Resolves one impact. The same model and impact give the same bits, on any thread and in any order.
 //
 // # Safety
 // `model` is a loaded model; `impact` and `outcome` begin with their `struct_size`.
@@ -309,8 +324,9 @@ nw_status nw_resolve(const struct nw_model *model,
                      const struct nw_impact *impact,
                      struct nw_outcome *outcome);
 
-// Adhesive, yield and sticking velocity [m/s] of an impact's particle and wall: size and temperatures count,
-// and what effects on the contact look at; chance is at its median. Outputs may be null.
+// Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at
+// their median. They depend on the diameter, the temperatures, and the inputs of effects on the contact. Outputs may
+// be null.
 //
 // # Safety
 // `model` is a loaded model, `impact` begins with its `struct_size`, each output can be written or is null.
@@ -320,8 +336,8 @@ nw_status nw_speeds(const struct nw_model *model,
                     double *yielding,
                     double *sticking);
 
-// Temperatures [K] between which impacts on a wall can be decided, from the tables of all properties: lowest and
-// highest of the particle and of the wall, 0 and infinity where nothing limits them. Outputs may be null.
+// Returns the temperatures [K] of particle and wall for which all property tables of a wall are defined: lowest and
+// highest, 0 and infinity without a limit. Outputs may be null.
 //
 // # Safety
 // `model` is a loaded model, each output can be written or is null.
@@ -332,10 +348,10 @@ nw_status nw_temperature_ranges(const struct nw_model *model,
                                 double *wall_low,
                                 double *wall_high);
 
-// Decides many impacts: the same bits as `nw_resolve` one by one.
+// Resolves many impacts, with the same bits as `nw_resolve` for each.
 //
-// All impacts are checked first. If one cannot be resolved nothing is written to the outcomes, the status is that of
-// the first such impact, and its index goes to `first_bad` (may be null).
+// All impacts are checked first. If one of them is invalid, no outcome is written, the status is that of the first
+// invalid impact, and `first_bad` (may be null) receives its index.
 //
 // # Safety
 // `model` is a loaded model; `impacts` and `outcomes` begin with their `struct_size`; every array that is not null has
@@ -345,47 +361,48 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            const struct nw_outcomes *outcomes,
                            size_t *first_bad);
 
-// Fills a deposit with its size and a bare wall: wall 0, all else 0.
+// Initialises a deposit: its size, wall 0, a bare wall.
 //
 // # Safety
 // `deposit` can be written.
 nw_status nw_deposit_init(struct nw_deposit *deposit);
 
-// Sets a deposit to what the model file says lies on its `wall`, with a share `voidage` of voids in the powder: where a
-// memory begins.
+// Sets a deposit to the initial deposit that the model file states for its `wall`. `voidage` is the share of voids in
+// the powder [1].
 //
 // # Safety
 // `model` is a loaded model; `deposit` begins with its `struct_size`.
 nw_status nw_deposit_initial(const struct nw_model *model,
-                           double voidage,
-                           struct nw_deposit *deposit);
+                             double voidage,
+                             struct nw_deposit *deposit);
 
-// Fills arrivals with their size and zeros.
+// Initialises a deposit source: its size and zeros.
 //
 // # Safety
-// `arrivals` can be written.
-nw_status nw_deposit_source_init(struct nw_deposit_source *arrivals);
+// `source` can be written.
+nw_status nw_deposit_source_init(struct nw_deposit_source *source);
 
-// Adds a particle that stayed: `mass` of it per area of wall [kg/m2], with the particle's `density` [kg/m3]. It counts as
-// molten when it is sticky at the temperature of the wall, as powder otherwise. The order changes sums by rounding alone; arrivals of
-// several threads or ranks are added field by field (`count` too) before one `nw_deposit_add`.
+// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts as molten if it is
+// sticky at the temperature of the wall, as powder otherwise. The order of particles affects the sums only by rounding.
+// Sources of several threads or ranks are summed field by field (`count` too) before one `nw_deposit_add`.
 //
 // # Safety
-// `model` is a loaded model; `impact` and `arrivals` begin with their `struct_size`.
+// `model` is a loaded model; `impact` and `source` begin with their `struct_size`.
 nw_status nw_deposit_source_add(const struct nw_model *model,
-                          const struct nw_impact *impact,
-                          double mass,
-                          double density,
-                          struct nw_deposit_source *arrivals);
+                                const struct nw_impact *impact,
+                                double mass,
+                                double density,
+                                struct nw_deposit_source *source);
 
-// Adds the arrivals of a step to a deposit. Powder that melt buries becomes part of the melt; mass is kept.
+// Adds the source of a step to a deposit. Powder that melt buries becomes part of the melt; mass is conserved.
 //
 // # Safety
-// `arrivals` and `deposit` begin with their `struct_size`.
-nw_status nw_deposit_add(const struct nw_deposit_source *arrivals, struct nw_deposit *deposit);
+// `source` and `deposit` begin with their `struct_size`.
+nw_status nw_deposit_add(const struct nw_deposit_source *source,
+                         struct nw_deposit *deposit);
 
-// Tells an impact of the deposit that it meets: sets its `layer_thickness` (powder with a share `voidage` of voids),
-// `coverage` and `melt_thickness`. The wall is that of the impact.
+// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage` is the share of voids
+// in the powder [1]. The wall is that of the impact.
 //
 // # Safety
 // `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
@@ -394,9 +411,9 @@ nw_status nw_deposit_apply(const struct nw_model *model,
                            double voidage,
                            struct nw_impact *impact);
 
-// Mean speed [m/s] of the melt of a deposit that runs down its wall as a laminar film: at a temperature of the wall `T_w`
-// [K], with `gravity_along` the part of gravity along the wall [m/s2]. 0 where the model knows no viscosity of the melt, or
-// it is colder than a measured one. `gravity_along` is not negative; a melt hotter than its measured range is answered.
+// Computes the mean speed [m/s] at which the melt of a deposit runs down its wall as a laminar film. `T_w` is the wall
+// temperature [K], `gravity_along` the component of gravity along the wall [m/s2], not negative. The speed is 0 if the
+// model has no viscosity of the melt or the melt is colder than its measured range; a hotter melt is accepted.
 //
 // # Safety
 // `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.

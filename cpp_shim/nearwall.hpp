@@ -1,9 +1,8 @@
 // nearwall.hpp - C++11 over the C interface of nearwall.h, header only.
 //
-// A model is loaded once, is immutable, and may be used by many threads at
-// once: what is `const` here is `&T` in Rust. A fault is thrown as
-// nearwall::error; the overloads with a status do not throw and are meant for
-// the inside of a loop over impacts.
+// A model is loaded once, is immutable, and many threads may use it at once.
+// Errors are thrown as nearwall::error; the overloads that return a status do
+// not throw and suit loops over impacts.
 //
 //     nearwall::model model = nearwall::model::from_file("nearWall.toml");
 //     nw_impact impact = nearwall::make_impact();
@@ -11,7 +10,7 @@
 //     impact.v_n = 2.0;
 //     nw_outcome outcome = model.resolve(impact);
 //
-// Many impacts at once, from arrays that are there already:
+// Many impacts at once, from existing arrays:
 //
 //     nw_impacts impacts = nearwall::make_impacts(v_n.size(), v_n.data());
 //     impacts.T_p = T_p.data();
@@ -33,7 +32,7 @@
 
 namespace nearwall {
 
-// A fault with the status that caused it; what() is the library's own message.
+// An error with its status; what() is the library's message.
 class error : public std::runtime_error {
 public:
     error(nw_status status, const std::string& message)
@@ -45,14 +44,14 @@ private:
     nw_status status_;
 };
 
-// A fault of one impact among many.
+// An error of one impact among many.
 class batch_error : public error {
 public:
     batch_error(nw_status status, std::size_t index)
         : error(status, "impact " + std::to_string(index) + ": " + nw_status_text(status)),
           index_(index) {}
 
-    // Which impact, counted from 0.
+    // Index of the impact, from 0.
     std::size_t index() const noexcept { return index_; }
 
 private:
@@ -66,7 +65,7 @@ struct velocities {
     double sticking;
 };
 
-// Temperatures [K] between which impacts can be decided; 0 and infinity where nothing limits them.
+// Temperatures [K] for which the properties of particle and wall are defined; 0 and infinity without a limit.
 struct temperature_ranges {
     double particle_low;
     double particle_high;
@@ -76,7 +75,7 @@ struct temperature_ranges {
 
 namespace detail {
 
-// Room for a message; the library cuts what does not fit.
+// Buffer for a message; the library truncates longer ones.
 struct message {
     char text[2048];
     message() { text[0] = '\0'; }
@@ -94,7 +93,7 @@ inline void check(nw_status status, const message& m) {
     }
 }
 
-// The library that was loaded has to be the one that this header describes.
+// Refuses a library with another interface than this header's.
 inline void check_interface() {
     const std::uint32_t loaded = nw_abi_version();
     if (loaded != NW_ABI_VERSION) {
@@ -105,7 +104,7 @@ inline void check_interface() {
     }
 }
 
-// A text for C, which would end it at a zero inside and so mean another file or wall.
+// A string for C; refuses a zero, at which C would end it.
 inline const char* c_text(const std::string& text, nw_status status, const char* what) {
     if (text.find('\0') != std::string::npos) {
         throw error(status, std::string(what) + " has a zero in it: " + text.c_str());
@@ -115,21 +114,21 @@ inline const char* c_text(const std::string& text, nw_status status, const char*
 
 }  // namespace detail
 
-// An impact with every field at the library's default.
+// An impact with the default of every input.
 inline nw_impact make_impact() {
     nw_impact impact;
     detail::check(nw_impact_init(&impact), std::string("nw_impact_init"));
     return impact;
 }
 
-// An outcome ready to be filled.
+// An outcome for model::resolve.
 inline nw_outcome make_outcome() {
     nw_outcome outcome;
     detail::check(nw_outcome_init(&outcome), std::string("nw_outcome_init"));
     return outcome;
 }
 
-// Arrays of impacts: `count` speeds towards the wall, every other array not given. They are not copied.
+// Arrays of impacts: `count` speeds towards the wall, no other array. They are not copied.
 inline nw_impacts make_impacts(std::size_t count, const double* v_n) noexcept {
     nw_impacts impacts = nw_impacts();
     impacts.struct_size = sizeof(impacts);
@@ -138,14 +137,14 @@ inline nw_impacts make_impacts(std::size_t count, const double* v_n) noexcept {
     return impacts;
 }
 
-// Arrays for outcomes, none of them wanted yet.
+// Arrays for outcomes, none requested yet.
 inline nw_outcomes make_outcomes() noexcept {
     nw_outcomes outcomes = nw_outcomes();
     outcomes.struct_size = sizeof(outcomes);
     return outcomes;
 }
 
-// The deposit on a piece of a wall that is bare yet.
+// The deposit on a bare piece of a wall.
 inline nw_deposit make_deposit(std::uint32_t wall) {
     nw_deposit deposit;
     detail::check(nw_deposit_init(&deposit), std::string("nw_deposit_init"));
@@ -153,16 +152,16 @@ inline nw_deposit make_deposit(std::uint32_t wall) {
     return deposit;
 }
 
-// What arrived on a piece of wall: nothing yet.
-inline nw_deposit_source make_arrivals() {
-    nw_deposit_source arrivals;
-    detail::check(nw_deposit_source_init(&arrivals), std::string("nw_deposit_source_init"));
-    return arrivals;
+// An empty sum of captured particles.
+inline nw_deposit_source make_deposit_source() {
+    nw_deposit_source source;
+    detail::check(nw_deposit_source_init(&source), std::string("nw_deposit_source_init"));
+    return source;
 }
 
-// Adds the arrivals of a step to a deposit; it is untouched on failure.
-inline nw_status add(const nw_deposit_source& arrivals, nw_deposit& deposit) noexcept {
-    return nw_deposit_add(&arrivals, &deposit);
+// Adds the captured particles of a step to a deposit, which is untouched on failure.
+inline nw_status add(const nw_deposit_source& source, nw_deposit& deposit) noexcept {
+    return nw_deposit_add(&source, &deposit);
 }
 
 // A loaded model. Moves, does not copy; share it by reference or smart pointer.
@@ -178,7 +177,7 @@ public:
         return model(raw);
     }
 
-    // From TOML text; `name` stands for the file in messages.
+    // From TOML text; messages name it `name`.
     static model from_toml(const std::string& text, const std::string& name = "model") {
         detail::check_interface();
         nw_model* raw = nullptr;
@@ -203,7 +202,7 @@ public:
 
     ~model() { nw_model_free(raw_); }
 
-    // Index of a wall; throws NW_UNKNOWN_WALL when the model has none of that name.
+    // Index of the wall of a patch; throws NW_UNKNOWN_WALL if there is none.
     std::uint32_t find_wall(const std::string& name) const {
         const char* c_name = detail::c_text(name, NW_UNKNOWN_WALL, "the wall's name");
         std::uint32_t wall = 0;
@@ -211,13 +210,13 @@ public:
         return wall;
     }
 
-    // The same, asking: true and `wall` set when there is one.
+    // The same without exceptions: returns whether there is one, and if so sets `wall`.
     bool find_wall(const std::string& name, std::uint32_t& wall) const noexcept {
         return name.find('\0') == std::string::npos &&
                nw_model_find_wall(raw_, name.c_str(), &wall) == NW_OK;
     }
 
-    // What becomes of one impact; throws on an unusable state.
+    // Resolves one impact; throws if it is invalid.
     nw_outcome resolve(const nw_impact& impact) const {
         nw_outcome outcome = make_outcome();
         detail::check(nw_resolve(raw_, &impact, &outcome), std::string("nw_resolve"));
@@ -229,31 +228,32 @@ public:
         return nw_resolve(raw_, &impact, &outcome);
     }
 
-    // What the model file says lies on a wall, where a memory begins; throws for a wall that is not there.
+    // The initial deposit of a wall in the model file; throws for an unknown wall.
     nw_deposit initial_deposit(std::uint32_t wall, double voidage) const {
         nw_deposit deposit = make_deposit(wall);
         detail::check(nw_deposit_initial(raw_, voidage, &deposit), std::string("nw_deposit_initial"));
         return deposit;
     }
 
-    // Tells an impact of the deposit that it meets, powder with a share `voidage` of voids; no exceptions.
+    // Sets the thicknesses and the coverage of an impact on a deposit, with a share `voidage` of voids in the powder; no
+    // exceptions.
     nw_status apply_deposit(const nw_deposit& deposit, double voidage, nw_impact& impact) const noexcept {
         return nw_deposit_apply(raw_, &deposit, voidage, &impact);
     }
 
-    // Adds a particle that stayed, `mass` of it per area [kg/m2] and its `density` [kg/m3]; no exceptions.
+    // Adds a captured particle, its `mass` per wall area [kg/m2] and its `density` [kg/m3]; no exceptions.
     nw_status add_captured(const nw_impact& impact, double mass, double density,
-                     nw_deposit_source& arrivals) const noexcept {
-        return nw_deposit_source_add(raw_, &impact, mass, density, &arrivals);
+                           nw_deposit_source& source) const noexcept {
+        return nw_deposit_source_add(raw_, &impact, mass, density, &source);
     }
 
-    // Mean speed [m/s] of a deposit's melt that runs down a wall of `T_w` [K]; no exceptions.
+    // Mean speed [m/s] at which the melt of a deposit runs down a wall of `T_w` [K]; no exceptions.
     nw_status film_velocity(const nw_deposit& deposit, double T_w, double gravity_along,
                             double& velocity) const noexcept {
         return nw_film_velocity(raw_, &deposit, T_w, gravity_along, &velocity);
     }
 
-    // Many impacts from arrays to arrays; throws batch_error for the first that is unusable, with no outcome written.
+    // Resolves arrays of impacts; throws batch_error for the first invalid one, with no outcome written.
     void resolve_batch(const nw_impacts& impacts, const nw_outcomes& outcomes) const {
         std::size_t first_bad = SIZE_MAX;
         const nw_status status = resolve_batch(impacts, outcomes, first_bad);
@@ -263,13 +263,13 @@ public:
         detail::check(status, std::string("nw_resolve_batch"));
     }
 
-    // The same without exceptions; `first_bad` is set when one impact is at fault.
+    // The same without exceptions; sets `first_bad` to the first invalid impact.
     nw_status resolve_batch(const nw_impacts& impacts, const nw_outcomes& outcomes,
                             std::size_t& first_bad) const noexcept {
         return nw_resolve_batch(raw_, &impacts, &outcomes, &first_bad);
     }
 
-    // Many impacts, each with its own wall, seed and key; throws batch_error for the first that is unusable.
+    // Resolves impacts with a wall, seed and key each; throws batch_error for the first invalid one.
     std::vector<nw_outcome> resolve_batch(const std::vector<nw_impact>& impacts) const {
         std::vector<nw_outcome> outcomes(impacts.size(), make_outcome());
         for (std::size_t i = 0; i < impacts.size(); ++i) {
@@ -281,8 +281,7 @@ public:
         return outcomes;
     }
 
-    // Velocities that mark the impacts of this particle and wall: size and temperatures count, and what effects on the
-    // contact look at; chance is at its median.
+    // Characteristic velocities of an impact's particle and wall, with random draws at their median.
     velocities speeds(const nw_impact& impact) const {
         velocities found = velocities();
         detail::check(nw_speeds(raw_, &impact, &found.adhesive, &found.yield, &found.sticking),
@@ -290,7 +289,7 @@ public:
         return found;
     }
 
-    // Lowest and highest temperature [K] at which impacts on a wall can be decided.
+    // Lowest and highest temperature [K] for which the properties of particle and wall are defined.
     temperature_ranges ranges(std::uint32_t wall) const {
         temperature_ranges found = temperature_ranges();
         detail::check(nw_temperature_ranges(raw_, wall, &found.particle_low, &found.particle_high,

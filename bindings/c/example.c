@@ -1,10 +1,10 @@
-/* What becomes of the impacts in a file, one at a time, in C99.
+/* Resolves the impacts of a file, one at a time, in C99.
  *
  *     cc -std=c99 example.c $(pkg-config --cflags --libs nearwall) -o example
  *     ./example nearWall.toml impacts.csv
  *
  * The table has the columns v_n,v_t,d,T_p,T_w (SI units) and one header line; more pairs of model and table may follow.
- * Prints e_n, e_t, the probability of capture and 1 for captured of each impact. */
+ * Prints e_n, e_t, the capture probability and 1 (captured) or 0 for each impact. */
 #include <nearwall.h>
 
 #include <stdio.h>
@@ -38,7 +38,7 @@ static int decide(const char *model_file, const char *table_file) {
                                      &impact.T_w) == 5) {
         status = nw_resolve(model, &impact, &outcome);
         if (status == NW_OK) printf("%.17g %.17g %.17g %u\n", outcome.e_n, outcome.e_t, outcome.p_stick, (unsigned)outcome.stuck);
-        impact.key += 1; /* a number of its own for every impact: chance hangs on it alone */
+        impact.key += 1; /* unique: random draws depend only on seed and key */
     }
     if (status != NW_OK) fprintf(stderr, "impact %lu: %s\n", (unsigned long)impact.key, nw_status_text(status));
 
@@ -50,7 +50,7 @@ static int decide(const char *model_file, const char *table_file) {
 int main(int argc, char **argv) {
     int i;
     if (nw_abi_version() != NW_ABI_VERSION) {
-        fprintf(stderr, "libnearwall %s is not the one of this header\n", nw_version());
+        fprintf(stderr, "libnearwall %s does not match this header\n", nw_version());
         return 1;
     }
     for (i = 1; i + 1 < argc; i += 2) {

@@ -1,10 +1,10 @@
-// What becomes of the impacts in a file, all at once from arrays, in C++11 or later.
+// Resolves the impacts of a file, all at once from arrays, in C++11 or later.
 //
 //     c++ -std=c++11 example.cpp $(pkg-config --cflags --libs nearwall) -o example
 //     ./example nearWall.toml impacts.csv
 //
 // The table has the columns v_n,v_t,d,T_p,T_w (SI units) and one header line; more pairs of model and table may follow.
-// Prints e_n, e_t, the probability of capture and 1 for captured of each impact.
+// Prints e_n, e_t, the capture probability and 1 (captured) or 0 for each impact.
 #include <nearwall.hpp>
 
 #include <cstdio>

@@ -1,10 +1,10 @@
-! What becomes of the impacts in a file, one at a time, in Fortran 2008.
+! Resolves the impacts of a file, one at a time, in Fortran 2008.
 !
 !     gfortran $(pkg-config --variable=fortran_module nearwall) example.f90 $(pkg-config --libs nearwall) -o example
 !     ./example nearWall.toml impacts.csv
 !
 ! The table has the columns v_n,v_t,d,T_p,T_w (SI units) and one header line; more pairs of model and table may follow.
-! Prints e_n, e_t, the probability of capture and 1 for captured of each impact.
+! Prints e_n, e_t, the capture probability and 1 (captured) or 0 for each impact.
 program example
   use nearwall
   use, intrinsic :: iso_fortran_env, only: error_unit, iostat_end
@@ -45,7 +45,7 @@ contains
       if (ended /= 0) stop 1
       call check(nw_resolve(model, impact, outcome))
       print '(3(es24.16e3, 1x), i0)', outcome%e_n, outcome%e_t, outcome%p_stick, outcome%stuck
-      impact%key = impact%key + 1 ! a number of its own for every impact: chance hangs on it alone
+      impact%key = impact%key + 1 ! unique: random draws depend only on seed and key
     end do
     close (unit)
     call nw_model_free(model)

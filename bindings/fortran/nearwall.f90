@@ -1,8 +1,9 @@
 ! What happens when a particle hits a wall: the C interface of libnearwall for Fortran 2003 and later.
 !
-! Types and functions are those of nearwall.h, which says what each does; names, order and units are the same. A model is
-! a type(c_ptr). Pass arrays of nw_impacts and nw_outcomes with c_loc of a contiguous target; c_null_ptr is "not given".
-! nearwall_load, nearwall_find_wall and nearwall_text take and give Fortran texts.
+! Types and functions have the names, order and units of nearwall.h, which describes them. A model is a type(c_ptr).
+! nw_impacts and nw_outcomes begin without arrays; set theirs with c_loc of a contiguous target. nearwall_load,
+! nearwall_find_wall and nearwall_text use Fortran strings. Indices such as first_bad count from 0, as in C.
+! NEARWALL_ABI_VERSION is NW_ABI_VERSION of nearwall.h: Fortran does not distinguish that name from the function's.
 !
 !     use nearwall
 !     type(c_ptr) :: model
@@ -22,55 +23,107 @@ module nearwall
   implicit none
   public
 
-  ! NW_ABI_VERSION of nearwall.h: Fortran cannot tell that name from the function's
+  ! GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
   integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 1
-  ! A status
-  integer(c_int32_t), parameter :: NW_OK = 0, NW_NULL_POINTER = 1, NW_STRUCT_SIZE = 2, NW_NOT_UTF8 = 3, NW_FILE = 4
-  integer(c_int32_t), parameter :: NW_MODEL = 5, NW_UNKNOWN_WALL = 6, NW_BAD_STATE = 7, NW_OUT_OF_RANGE = 8, NW_PANIC = 9
-  ! A regime: sticky particle (SP) or not, sticky wall (SW) or not
-  integer(c_int32_t), parameter :: NW_NSP_NSW = 0, NW_NSP_SW = 1, NW_SP_NSW = 2, NW_SP_SW = 3
-  ! A bit of flags
   integer(c_int32_t), parameter :: NW_OUTSIDE_VALID_RANGE = 1
+  integer(c_int32_t), parameter :: NW_OK = 0
+  integer(c_int32_t), parameter :: NW_NULL_POINTER = 1
+  integer(c_int32_t), parameter :: NW_STRUCT_SIZE = 2
+  integer(c_int32_t), parameter :: NW_NOT_UTF8 = 3
+  integer(c_int32_t), parameter :: NW_FILE = 4
+  integer(c_int32_t), parameter :: NW_MODEL = 5
+  integer(c_int32_t), parameter :: NW_UNKNOWN_WALL = 6
+  integer(c_int32_t), parameter :: NW_BAD_STATE = 7
+  integer(c_int32_t), parameter :: NW_OUT_OF_RANGE = 8
+  integer(c_int32_t), parameter :: NW_PANIC = 9
+  integer(c_int32_t), parameter :: NW_NSP_NSW = 0
+  integer(c_int32_t), parameter :: NW_NSP_SW = 1
+  integer(c_int32_t), parameter :: NW_SP_NSW = 2
+  integer(c_int32_t), parameter :: NW_SP_SW = 3
 
   type, bind(c) :: nw_impact
-    integer(c_int32_t) :: struct_size, wall
-    real(c_double) :: v_n, v_t, d, T_p, T_w, conversion, layer_thickness, film_thickness, v_gas, roughness, omega, coverage
-    integer(c_int64_t) :: seed, key
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: wall
+    integer(c_int64_t) :: seed
+    integer(c_int64_t) :: key
+    real(c_double) :: v_n
+    real(c_double) :: v_t
+    real(c_double) :: omega
+    real(c_double) :: d
+    real(c_double) :: T_p
+    real(c_double) :: conversion
+    real(c_double) :: T_w
+    real(c_double) :: roughness
+    real(c_double) :: coverage
+    real(c_double) :: layer_thickness
+    real(c_double) :: film_thickness
     real(c_double) :: melt_thickness
+    real(c_double) :: v_gas
   end type nw_impact
 
   type, bind(c) :: nw_outcome
-    integer(c_int32_t) :: struct_size, regime, stuck, flags
-    real(c_double) :: e_n, e_t, p_stick, omega
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: regime
+    integer(c_int32_t) :: stuck
+    integer(c_int32_t) :: flags
+    real(c_double) :: e_n
+    real(c_double) :: e_t
+    real(c_double) :: p_stick
+    real(c_double) :: omega
   end type nw_outcome
 
-  ! Filled with nothing but its size: set count and v_n.
   type, bind(c) :: nw_impacts
-    integer(c_int32_t) :: struct_size = 144, wall = 0
+    integer(c_int32_t) :: struct_size = 144
+    integer(c_int32_t) :: wall = 0
     integer(c_size_t) :: count = 0
     integer(c_int64_t) :: seed = 0
     type(c_ptr) :: walls = c_null_ptr
-    type(c_ptr) :: v_n = c_null_ptr, v_t = c_null_ptr, d = c_null_ptr, T_p = c_null_ptr, T_w = c_null_ptr
-    type(c_ptr) :: conversion = c_null_ptr, layer_thickness = c_null_ptr, film_thickness = c_null_ptr, v_gas = c_null_ptr
-    type(c_ptr) :: roughness = c_null_ptr, omega = c_null_ptr, coverage = c_null_ptr
-    type(c_ptr) :: key = c_null_ptr, melt_thickness = c_null_ptr
+    type(c_ptr) :: key = c_null_ptr
+    type(c_ptr) :: v_n = c_null_ptr
+    type(c_ptr) :: v_t = c_null_ptr
+    type(c_ptr) :: omega = c_null_ptr
+    type(c_ptr) :: d = c_null_ptr
+    type(c_ptr) :: T_p = c_null_ptr
+    type(c_ptr) :: conversion = c_null_ptr
+    type(c_ptr) :: T_w = c_null_ptr
+    type(c_ptr) :: roughness = c_null_ptr
+    type(c_ptr) :: coverage = c_null_ptr
+    type(c_ptr) :: layer_thickness = c_null_ptr
+    type(c_ptr) :: film_thickness = c_null_ptr
+    type(c_ptr) :: melt_thickness = c_null_ptr
+    type(c_ptr) :: v_gas = c_null_ptr
   end type nw_impacts
 
-  ! Filled with nothing but its size: set the arrays that are wanted.
   type, bind(c) :: nw_outcomes
     integer(c_int32_t) :: struct_size = 64
-    type(c_ptr) :: e_n = c_null_ptr, e_t = c_null_ptr, p_stick = c_null_ptr, omega = c_null_ptr
-    type(c_ptr) :: regime = c_null_ptr, stuck = c_null_ptr, flags = c_null_ptr
+    type(c_ptr) :: e_n = c_null_ptr
+    type(c_ptr) :: e_t = c_null_ptr
+    type(c_ptr) :: p_stick = c_null_ptr
+    type(c_ptr) :: omega = c_null_ptr
+    type(c_ptr) :: regime = c_null_ptr
+    type(c_ptr) :: stuck = c_null_ptr
+    type(c_ptr) :: flags = c_null_ptr
   end type nw_outcomes
 
   type, bind(c) :: nw_deposit
-    integer(c_int32_t) :: struct_size, wall
-    real(c_double) :: molten, powder, solid, cover, conversion
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: wall
+    real(c_double) :: molten
+    real(c_double) :: powder
+    real(c_double) :: solid
+    real(c_double) :: cover
+    real(c_double) :: conversion
   end type nw_deposit
 
   type, bind(c) :: nw_deposit_source
-    integer(c_int32_t) :: struct_size, count
-    real(c_double) :: molten, powder, solid, cover, buried, converted
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: count
+    real(c_double) :: molten
+    real(c_double) :: powder
+    real(c_double) :: solid
+    real(c_double) :: cover
+    real(c_double) :: buried
+    real(c_double) :: converted
   end type nw_deposit_source
 
   interface
@@ -107,8 +160,9 @@ module nearwall
 
     function nw_model_parse(toml, toml_size, name, model, message, message_size) bind(c)
       import
-      character(kind=c_char), intent(in) :: toml(*), name(*)
+      character(kind=c_char), intent(in) :: toml(*)
       integer(c_size_t), value :: toml_size
+      character(kind=c_char), intent(in) :: name(*)
       type(c_ptr), intent(inout) :: model
       character(kind=c_char), intent(inout) :: message(*)
       integer(c_size_t), value :: message_size
@@ -152,7 +206,9 @@ module nearwall
       import
       type(c_ptr), value :: model
       type(nw_impact), intent(in) :: impact
-      real(c_double), intent(inout) :: adhesive, yielding, sticking
+      real(c_double), intent(inout) :: adhesive
+      real(c_double), intent(inout) :: yielding
+      real(c_double), intent(inout) :: sticking
       integer(c_int32_t) :: nw_speeds
     end function nw_speeds
 
@@ -160,11 +216,13 @@ module nearwall
       import
       type(c_ptr), value :: model
       integer(c_int32_t), value :: wall
-      real(c_double), intent(inout) :: particle_low, particle_high, wall_low, wall_high
+      real(c_double), intent(inout) :: particle_low
+      real(c_double), intent(inout) :: particle_high
+      real(c_double), intent(inout) :: wall_low
+      real(c_double), intent(inout) :: wall_high
       integer(c_int32_t) :: nw_temperature_ranges
     end function nw_temperature_ranges
 
-    ! first_bad counts from 0, as C does.
     function nw_resolve_batch(model, impacts, outcomes, first_bad) bind(c)
       import
       type(c_ptr), value :: model
@@ -188,24 +246,25 @@ module nearwall
       integer(c_int32_t) :: nw_deposit_initial
     end function nw_deposit_initial
 
-    function nw_deposit_source_init(arrivals) bind(c)
+    function nw_deposit_source_init(source) bind(c)
       import
-      type(nw_deposit_source), intent(inout) :: arrivals
+      type(nw_deposit_source), intent(inout) :: source
       integer(c_int32_t) :: nw_deposit_source_init
     end function nw_deposit_source_init
 
-    function nw_deposit_source_add(model, impact, mass, density, arrivals) bind(c)
+    function nw_deposit_source_add(model, impact, mass, density, source) bind(c)
       import
       type(c_ptr), value :: model
       type(nw_impact), intent(in) :: impact
-      real(c_double), value :: mass, density
-      type(nw_deposit_source), intent(inout) :: arrivals
+      real(c_double), value :: mass
+      real(c_double), value :: density
+      type(nw_deposit_source), intent(inout) :: source
       integer(c_int32_t) :: nw_deposit_source_add
     end function nw_deposit_source_add
 
-    function nw_deposit_add(arrivals, deposit) bind(c)
+    function nw_deposit_add(source, deposit) bind(c)
       import
-      type(nw_deposit_source), intent(in) :: arrivals
+      type(nw_deposit_source), intent(in) :: source
       type(nw_deposit), intent(inout) :: deposit
       integer(c_int32_t) :: nw_deposit_add
     end function nw_deposit_add
@@ -223,15 +282,18 @@ module nearwall
       import
       type(c_ptr), value :: model
       type(nw_deposit), intent(in) :: deposit
-      real(c_double), value :: T_w, gravity_along
+      real(c_double), value :: T_w
+      real(c_double), value :: gravity_along
       real(c_double), intent(inout) :: velocity
       integer(c_int32_t) :: nw_film_velocity
     end function nw_film_velocity
+
   end interface
+  ! END GENERATED
 
 contains
 
-  ! Reads a model file; trailing blanks of the path do not count. On failure the reason is in message.
+  ! Loads a model file; trailing blanks of the path are ignored. On failure message has the reason.
   function nearwall_load(path, model, message) result(status)
     character(len=*), intent(in) :: path
     type(c_ptr), intent(inout) :: model
@@ -244,7 +306,7 @@ contains
     message = ''
     room = c_null_char
     if (nw_abi_version() /= NEARWALL_ABI_VERSION) then
-      message = 'libnearwall has another interface version than the module nearwall'
+      message = 'libnearwall and the module nearwall have different interface versions'
       status = NW_STRUCT_SIZE
       return
     end if
@@ -255,7 +317,7 @@ contains
     end do
   end function nearwall_load
 
-  ! The index of the wall that a patch name belongs to.
+  ! Finds the wall of a patch.
   function nearwall_find_wall(model, name, wall) result(status)
     type(c_ptr), intent(in) :: model
     character(len=*), intent(in) :: name
@@ -265,7 +327,7 @@ contains
     status = nw_model_find_wall(model, trim(name)//c_null_char, wall)
   end function nearwall_find_wall
 
-  ! A text of the library: nearwall_text(nw_status_text(status)), nearwall_text(nw_version()).
+  ! Converts a string of the library: nearwall_text(nw_status_text(status)), nearwall_text(nw_version()).
   function nearwall_text(static_text) result(text)
     type(c_ptr), intent(in) :: static_text
     character(len=:), allocatable :: text
@@ -273,7 +335,7 @@ contains
     integer :: i
 
     text = ''
-    call c_f_pointer(static_text, letters, [1024]) ! all are shorter; nothing is read past the closing zero
+    call c_f_pointer(static_text, letters, [1024]) ! every string is shorter
     do i = 1, size(letters)
       if (letters(i) == c_null_char) exit
       text = text//letters(i)

@@ -1,9 +1,9 @@
-"""What becomes of the impacts in a file, as NumPy arrays.
+"""Resolves the impacts of a file as NumPy arrays.
 
     PYTHONPATH=$(pkg-config --variable=python_path nearwall) python3 example.py nearWall.toml impacts.csv
 
 The table has the columns v_n,v_t,d,T_p,T_w (SI units) and one header line; more pairs of model and table may follow.
-Prints e_n, e_t, the probability of capture and 1 for captured of each impact.
+Prints e_n, e_t, the capture probability and 1 (captured) or 0 for each impact.
 """
 
 import sys

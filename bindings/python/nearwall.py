@@ -2,29 +2,115 @@
 
     import nearwall
     model = nearwall.Model.from_file("nearWall.toml")
-    out = model.resolve(v_n=v_n, d=d, T_p=T_p)      # arrays of float64, SI units; numbers stand for all impacts
+    out = model.resolve(v_n=v_n, d=d, T_p=T_p)      # float64 arrays in SI units; a number applies to all impacts
     out.e_n, out.e_t, out.p_stick, out.stuck        # arrays
 
-The library is the one that NEARWALL_LIBRARY names, else the installed one beside this file, else whatever the loader
-finds as libnearwall.so.1. A model never changes and may be used by many threads; calls release the interpreter lock.
+The module loads the library that NEARWALL_LIBRARY names, else the one installed beside this file, else libnearwall.so.1
+on the loader's path. A model never changes and many threads may use it; calls release the interpreter lock.
 Licence: MIT OR Apache-2.0.
 """
 
 import ctypes
 import os
 from collections import namedtuple
-from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64, c_void_p
+from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64,
+                    c_void_p)
 
 import numpy
 
+# GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
 ABI_VERSION = 1
+OUTSIDE_VALID_RANGE = 1
 OK = 0
-REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")  # what the numbers in `Outcomes.regime` stand for
-OUTSIDE_VALID_RANGE = 1  # bit of `Outcomes.flags`
+NULL_POINTER = 1
+STRUCT_SIZE = 2
+NOT_UTF8 = 3
+FILE = 4
+MODEL = 5
+UNKNOWN_WALL = 6
+BAD_STATE = 7
+OUT_OF_RANGE = 8
+PANIC = 9
+NSP_NSW = 0
+NSP_SW = 1
+SP_NSW = 2
+SP_SW = 3
 
-# The inputs of an impact, as in nw_impact: speeds [m/s], lengths [m], temperatures [K], omega [rad/s], shares 0 to 1.
-INPUTS = ("v_n", "v_t", "d", "T_p", "T_w", "conversion", "layer_thickness", "film_thickness", "v_gas", "roughness",
-          "omega", "coverage")
+# The inputs of an impact; nearwall.h describes them.
+INPUTS = (
+    "v_n", "v_t", "omega", "d", "T_p", "conversion", "T_w", "roughness", "coverage", "layer_thickness",
+    "film_thickness", "melt_thickness", "v_gas")
+
+
+class nw_impact(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("wall", c_uint32), ("seed", c_uint64), ("key", c_uint64),
+        ("v_n", c_double), ("v_t", c_double), ("omega", c_double), ("d", c_double), ("T_p", c_double),
+        ("conversion", c_double), ("T_w", c_double), ("roughness", c_double), ("coverage", c_double),
+        ("layer_thickness", c_double), ("film_thickness", c_double), ("melt_thickness", c_double),
+        ("v_gas", c_double)]
+
+
+class nw_outcome(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("regime", c_uint32), ("stuck", c_uint32), ("flags", c_uint32),
+        ("e_n", c_double), ("e_t", c_double), ("p_stick", c_double), ("omega", c_double)]
+
+
+class nw_impacts(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("wall", c_uint32), ("count", c_size_t), ("seed", c_uint64),
+        ("walls", c_void_p), ("key", c_void_p), ("v_n", c_void_p), ("v_t", c_void_p), ("omega", c_void_p),
+        ("d", c_void_p), ("T_p", c_void_p), ("conversion", c_void_p), ("T_w", c_void_p),
+        ("roughness", c_void_p), ("coverage", c_void_p), ("layer_thickness", c_void_p),
+        ("film_thickness", c_void_p), ("melt_thickness", c_void_p), ("v_gas", c_void_p)]
+
+
+class nw_outcomes(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("e_n", c_void_p), ("e_t", c_void_p), ("p_stick", c_void_p),
+        ("omega", c_void_p), ("regime", c_void_p), ("stuck", c_void_p), ("flags", c_void_p)]
+
+
+class nw_deposit(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("wall", c_uint32), ("molten", c_double), ("powder", c_double),
+        ("solid", c_double), ("cover", c_double), ("conversion", c_double)]
+
+
+class nw_deposit_source(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("count", c_uint32), ("molten", c_double), ("powder", c_double),
+        ("solid", c_double), ("cover", c_double), ("buried", c_double), ("converted", c_double)]
+
+
+# Result and arguments of every function.
+FUNCTIONS = {
+    "nw_abi_version": (c_uint32, []),
+    "nw_version": (c_char_p, []),
+    "nw_status_text": (c_char_p, [c_int32]),
+    "nw_regime_name": (c_char_p, [c_uint32]),
+    "nw_model_load": (c_int32, [c_char_p, POINTER(c_void_p), c_char_p, c_size_t]),
+    "nw_model_parse": (c_int32, [c_char_p, c_size_t, c_char_p, POINTER(c_void_p), c_char_p, c_size_t]),
+    "nw_model_free": (None, [c_void_p]),
+    "nw_model_find_wall": (c_int32, [c_void_p, c_char_p, POINTER(c_uint32)]),
+    "nw_impact_init": (c_int32, [POINTER(nw_impact)]),
+    "nw_outcome_init": (c_int32, [POINTER(nw_outcome)]),
+    "nw_resolve": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(nw_outcome)]),
+    "nw_speeds": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
+    "nw_temperature_ranges": (c_int32, [c_void_p, c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
+    "nw_resolve_batch": (c_int32, [c_void_p, POINTER(nw_impacts), POINTER(nw_outcomes), POINTER(c_size_t)]),
+    "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
+    "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
+    "nw_deposit_source_init": (c_int32, [POINTER(nw_deposit_source)]),
+    "nw_deposit_source_add": (c_int32, [c_void_p, POINTER(nw_impact), c_double, c_double, POINTER(nw_deposit_source)]),
+    "nw_deposit_add": (c_int32, [POINTER(nw_deposit_source), POINTER(nw_deposit)]),
+    "nw_deposit_apply": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_impact)]),
+    "nw_film_velocity": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, c_double, POINTER(c_double)]),
+}
+# END GENERATED
+
+REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")  # names of the numbers in `Outcomes.regime`
 
 Outcomes = namedtuple("Outcomes", "e_n e_t p_stick omega regime stuck flags")
 Speeds = namedtuple("Speeds", "adhesive yielding sticking")
@@ -32,57 +118,33 @@ TemperatureRanges = namedtuple("TemperatureRanges", "particle_low particle_high 
 
 
 class Error(Exception):
-    """The library refused; `status` is its number, `index` the impact at fault or None."""
+    """A call of the library failed: `status` is its number, `index` the invalid impact or None."""
 
     def __init__(self, status, text, index=None):
         super().__init__(text if index is None else f"impact {index}: {text}")
         self.status, self.index = status, index
 
 
-class _Impact(ctypes.Structure):
-    _fields_ = ([("struct_size", c_uint32), ("wall", c_uint32)] + [(name, c_double) for name in INPUTS]
-                + [("seed", c_uint64), ("key", c_uint64), ("melt_thickness", c_double)])
-
-
-class _Impacts(ctypes.Structure):
-    _fields_ = ([("struct_size", c_uint32), ("wall", c_uint32), ("count", c_size_t), ("seed", c_uint64),
-                 ("walls", c_void_p)] + [(name, c_void_p) for name in INPUTS]
-                + [("key", c_void_p), ("melt_thickness", c_void_p)])
-
-
-class _Outcomes(ctypes.Structure):
-    _fields_ = [("struct_size", c_uint32)] + [(name, c_void_p) for name in Outcomes._fields]
-
-
-class Deposit(ctypes.Structure):
-    """What lies on a piece of wall, per area of it, bare at first: masses molten and powder [kg/m2], volume solid [m3/m2] and
-    projected area cover [1] of the powder's particles, carbon conversion of all [1]."""
-    _fields_ = ([("struct_size", c_uint32), ("wall", c_uint32)]
-                + [(name, c_double) for name in ("molten", "powder", "solid", "cover", "conversion")])
+class Deposit(nw_deposit):
+    """The deposit on a piece of wall, per wall area, initially bare: masses molten and powder [kg/m2], volume solid
+    [m3/m2] and projected area cover [1] of the powder's particles, carbon conversion [1]."""
 
     def __init__(self, wall=0):
         super().__init__()
         _check(_library.nw_deposit_init(byref(self)))
         self.wall = _index("wall", wall, 32)
 
-    def add(self, arrivals):
-        """What arrived in a step; powder that melt buries becomes part of the melt, mass is kept."""
-        _check(_library.nw_deposit_add(byref(arrivals), byref(self)))
+    def add(self, source):
+        """Adds the particles captured in a step. Powder that melt buries becomes part of the melt; mass is conserved."""
+        _check(_library.nw_deposit_add(byref(source), byref(self)))
 
 
-class DepositSource(ctypes.Structure):
-    """What arrived on a piece of wall in a step and stayed, summed, per area of it; nothing at first (`Model.add_captured` adds)."""
-    _fields_ = ([("struct_size", c_uint32), ("count", c_uint32)]
-                + [(name, c_double) for name in ("molten", "powder", "solid", "cover", "buried", "converted")])
+class DepositSource(nw_deposit_source):
+    """Sum of the particles captured in a step, per wall area, initially zero; `Model.add_captured` adds to it."""
 
     def __init__(self):
         super().__init__()
         _check(_library.nw_deposit_source_init(byref(self)))
-
-
-# The structs of nearwall.h that this module knows.
-STRUCTS = {"nw_impact": _Impact, "nw_impacts": _Impacts, "nw_outcomes": _Outcomes, "nw_deposit": Deposit,
-           "nw_deposit_source": DepositSource}
 
 
 def _load():
@@ -93,29 +155,8 @@ def _load():
     found = library.nw_abi_version()
     if found != ABI_VERSION:
         raise ImportError(f"libnearwall has interface version {found}, this module is for {ABI_VERSION}")
-    message = [c_char_p, c_size_t]
-    doubles = [POINTER(c_double)]
-    for name, arguments in {
-        "nw_model_load": [c_char_p, POINTER(c_void_p)] + message,
-        "nw_model_parse": [c_char_p, c_size_t, c_char_p, POINTER(c_void_p)] + message,
-        "nw_model_find_wall": [c_void_p, c_char_p, POINTER(c_uint32)],
-        "nw_impact_init": [POINTER(_Impact)],
-        "nw_speeds": [c_void_p, POINTER(_Impact)] + 3 * doubles,
-        "nw_temperature_ranges": [c_void_p, c_uint32] + 4 * doubles,
-        "nw_resolve_batch": [c_void_p, POINTER(_Impacts), POINTER(_Outcomes), POINTER(c_size_t)],
-        "nw_deposit_init": [POINTER(Deposit)],
-        "nw_deposit_initial": [c_void_p, c_double, POINTER(Deposit)],
-        "nw_deposit_source_init": [POINTER(DepositSource)],
-        "nw_deposit_source_add": [c_void_p, POINTER(_Impact), c_double, c_double, POINTER(DepositSource)],
-        "nw_deposit_add": [POINTER(DepositSource), POINTER(Deposit)],
-        "nw_deposit_apply": [c_void_p, POINTER(Deposit), c_double, POINTER(_Impact)],
-        "nw_film_velocity": [c_void_p, POINTER(Deposit), c_double, c_double] + doubles,
-    }.items():
-        function = getattr(library, name)
-        function.argtypes, function.restype = arguments, c_int32
-    library.nw_model_free.argtypes, library.nw_model_free.restype = [c_void_p], None
-    library.nw_status_text.argtypes, library.nw_status_text.restype = [c_int32], c_char_p
-    library.nw_version.argtypes, library.nw_version.restype = [], c_char_p
+    for function, (result, arguments) in FUNCTIONS.items():
+        getattr(library, function).restype, getattr(library, function).argtypes = result, arguments
     return library
 
 
@@ -129,7 +170,7 @@ def _check(status, message="", index=None):
 
 
 def _column(name, value, count, kind):
-    """An array for C: as it is, or a number repeated."""
+    """The array itself, or an array that repeats a number."""
     if numpy.ndim(value) == 0:
         return numpy.full(count, value, kind)
     if not isinstance(value, numpy.ndarray) or value.dtype != kind or not value.flags.c_contiguous:
@@ -140,14 +181,14 @@ def _column(name, value, count, kind):
 
 
 def _index(name, value, bits):
-    """A whole number that C would otherwise cut to its last bits."""
+    """An integer that fits into so many bits; C would truncate it."""
     if not 0 <= value < 2**bits:
         raise ValueError(f"{name} has to be between 0 and 2**{bits} - 1, not {value}")
     return value
 
 
 def _text(name, value):
-    """Bytes for C, where a zero ends a text."""
+    """Bytes without a zero, which would end the string in C."""
     data = os.fsencode(value)
     if b"\0" in data:
         raise ValueError(f"{name} has a zero byte in it")
@@ -155,19 +196,19 @@ def _text(name, value):
 
 
 def _impact(wall, inputs):
-    """One impact for C, from numbers."""
-    impact = _Impact()
+    """One impact from numbers."""
+    impact = nw_impact()
     _check(_library.nw_impact_init(byref(impact)))
     impact.wall = _index("wall", wall, 32)
     for name, value in inputs.items():
-        if name not in INPUTS + ("melt_thickness",):
+        if name not in INPUTS:
             raise TypeError(f"no such input: {name}")
         setattr(impact, name, value)
     return impact
 
 
 class Model:
-    """A model file, read; freed with the object."""
+    """A loaded model."""
 
     def __init__(self, handle):
         self._handle = handle
@@ -194,15 +235,15 @@ class Model:
             self._handle = None
 
     def find_wall(self, name):
-        """The index of the wall that a patch name belongs to."""
+        """Index of the wall of a patch."""
         wall = c_uint32()
         _check(_library.nw_model_find_wall(self._handle, _text("name", name), byref(wall)))
         return wall.value
 
     def resolve(self, v_n, wall=0, seed=0, key=None, **inputs):
-        """Decides len(v_n) impacts. `inputs` are those of INPUTS and melt_thickness, arrays of float64 or numbers; `wall` an
-        index or an array of uint32; `key` an array of uint64 (a number would give all the same draw), the impact's own index if not given."""
-        unknown = set(inputs) - set(INPUTS) - {"melt_thickness"}
+        """Resolves len(v_n) impacts. `inputs` are those of INPUTS, arrays of float64 or numbers; `wall` is an index or an
+        array of uint32; `key` is an array of uint64 with a unique number for each impact, by default its index."""
+        unknown = set(inputs) - set(INPUTS)
         if unknown:
             raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
         count = 1 if numpy.ndim(v_n) == 0 else len(v_n)
@@ -210,14 +251,14 @@ class Model:
         columns["v_n"] = _column("v_n", v_n, count, numpy.float64)
         if key is not None:
             if numpy.ndim(key) == 0 and count > 1:
-                raise TypeError("key has to be an array: one number would give every impact the same draw")
+                raise TypeError("key has to be an array: with one number every impact would have the same random draws")
             columns["key"] = _column("key", key, count, numpy.uint64)
         if numpy.ndim(wall) > 0:
             columns["walls"], wall = _column("wall", wall, count, numpy.uint32), 0
-        impacts = _Impacts(struct_size=ctypes.sizeof(_Impacts), wall=_index("wall", wall, 32), count=count,
+        impacts = nw_impacts(struct_size=ctypes.sizeof(nw_impacts), wall=_index("wall", wall, 32), count=count,
                            seed=_index("seed", seed, 64), **{name: column.ctypes.data for name, column in columns.items()})
         found = Outcomes(*(numpy.empty(count, numpy.float64 if i < 4 else numpy.uint32) for i in range(7)))
-        outcomes = _Outcomes(ctypes.sizeof(_Outcomes), *(column.ctypes.data for column in found))
+        outcomes = nw_outcomes(ctypes.sizeof(nw_outcomes), *(column.ctypes.data for column in found))
         none = ctypes.c_size_t(-1).value
         first_bad = c_size_t(none)
         status = _library.nw_resolve_batch(self._handle, byref(impacts), byref(outcomes), byref(first_bad))
@@ -225,39 +266,39 @@ class Model:
         return found
 
     def speeds(self, wall=0, **inputs):
-        """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers as in `resolve`."""
+        """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers, named as in `resolve`."""
         impact = _impact(wall, inputs)
         found = [c_double() for _ in range(3)]
         _check(_library.nw_speeds(self._handle, byref(impact), *map(byref, found)))
         return Speeds(*(number.value for number in found))
 
     def temperature_ranges(self, wall=0):
-        """Temperatures [K] between which impacts on a wall can be decided."""
+        """Temperatures [K] for which the properties of particle and wall are defined."""
         found = [c_double() for _ in range(4)]
         _check(_library.nw_temperature_ranges(self._handle, _index("wall", wall, 32), *map(byref, found)))
         return TemperatureRanges(*(number.value for number in found))
 
     def initial_deposit(self, wall, voidage):
-        """What the model file says lies on a wall, with a share `voidage` of voids in the powder: where a memory begins."""
+        """The initial deposit of a wall in the model file; `voidage` is the share of voids in the powder [1]."""
         deposit = Deposit(wall)
         _check(_library.nw_deposit_initial(self._handle, voidage, byref(deposit)))
         return deposit
 
     def apply_deposit(self, deposit, voidage, T_w):
-        """The arguments of `resolve` that tell impacts of the deposit on its wall of T_w [K]: resolve(..., **apply_deposit(...))."""
+        """Arguments of `resolve` for impacts on a deposit, whose wall has T_w [K]: resolve(..., **apply_deposit(...))."""
         impact = _impact(deposit.wall, {"T_w": T_w})
         _check(_library.nw_deposit_apply(self._handle, byref(deposit), voidage, byref(impact)))
         names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
         return {name: getattr(impact, name) for name in names}
 
-    def add_captured(self, arrivals, mass, density, T_w, wall=0, **inputs):
-        """Adds a particle that stayed on a wall of T_w [K], which decides whether as melt: `mass` of it per area [kg/m2],
-        `density` [kg/m3]; inputs are numbers as in `resolve`."""
+    def add_captured(self, source, mass, density, T_w, wall=0, **inputs):
+        """Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. The wall temperature T_w [K]
+        decides whether it counts as molten; inputs are numbers, named as in `resolve`."""
         impact = _impact(wall, {"T_w": T_w, **inputs})
-        _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(arrivals)))
+        _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(source)))
 
     def film_velocity(self, deposit, T_w, gravity_along):
-        """Mean speed [m/s] of a deposit's melt that runs down a wall of T_w [K]; gravity along the wall in m/s2."""
+        """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2."""
         found = c_double()
         _check(_library.nw_film_velocity(self._handle, byref(deposit), T_w, gravity_along, byref(found)))
         return found.value

@@ -1,8 +1,8 @@
 /* A wall for the particles of a commercial solver that hands over one particle at a time.
  *
- * The model file is what NEARWALL_MODEL names, else nearWall.toml in the folder of the case; it is read once, when the
- * function library is loaded. Every face is the model's wall "default"; for other walls give each its own function, or look up the
- * thread's name. The particle's spin is not followed. A captured particle's path ends.
+ * It loads the model file that NEARWALL_MODEL names, else nearWall.toml in the case folder, once, with the function
+ * library. Every face is the model's wall "default"; for other walls write a function each, or look up the thread's
+ * name. Spin is not tracked. The path of a captured particle ends.
  *
  * Compiled and tested against stand_in.h, never against a vendor's header: with the solver include its own (udf.h)
  * and compare the names. The tests' driver is driver.c. */
@@ -26,7 +26,7 @@ DEFINE_EXECUTE_ON_LOADING(nearwall_load, libname) {
     char message[512] = "";
     (void)libname;
     if (nw_abi_version() != NW_ABI_VERSION) {
-        fprintf(stderr, "libnearwall %s is not the one of this function's header\n", nw_version());
+        fprintf(stderr, "libnearwall %s does not match the header of this function\n", nw_version());
     } else if (nw_model_load(path ? path : "nearWall.toml", &model, message, sizeof message) != NW_OK) {
         fprintf(stderr, "%s\n", message);
     }
@@ -52,14 +52,14 @@ DEFINE_DPM_BC(nearwall_wall, tp, t, f, f_normal, dim) {
     impact.d = TP_DIAM(tp);
     impact.T_p = TP_T(tp);
     impact.T_w = F_T(f, t);
-    /* Chance hangs on seed and key alone: the particle and the number of its hits, so that no order of calls matters. */
+    /* Unique for each impact and independent of the order of calls: the particle and the number of its hits. */
     impact.seed = 1;
     impact.key = ((uint64_t)TP_ID(tp) << 20) + (uint64_t)TP_USER_REAL(tp, 0);
     TP_USER_REAL(tp, 0) += 1;
 
     if (!model || nw_model_find_wall(model, "default", &impact.wall) != NW_OK
         || nw_resolve(model, &impact, &outcome) != NW_OK) {
-        return PATH_ABORT; /* counted by the solver as aborted, which is better than a wrong wall */
+        return PATH_ABORT; /* the solver counts it as aborted */
     }
     if (outcome.stuck) return PATH_END;
 

@@ -9,30 +9,14 @@ mod random;
 
 use golden::golden_cases;
 use nearwall::c_api::{nw_impact, nw_impacts, nw_outcome, nw_outcomes};
+use nearwall::impact::{INPUTS, Input};
 use nearwall::{Impact as RustImpact, ImpactRng, Model, Outcome as RustOutcome};
 use nearwall_cpp_shim::{Impact, Impacts, Outcome, Outcomes, ffi};
 use random::{Case, EVERY_REGIME, hostile_cases, random_cases, seed};
 
 fn cpp_impact(&(wall, impact, draw): &Case) -> Impact {
-    Impact(nw_impact {
-        wall: u32::try_from(wall).unwrap(),
-        v_n: impact.normal_speed,
-        v_t: impact.tangential_speed,
-        d: impact.diameter,
-        T_p: impact.particle_temperature,
-        T_w: impact.wall_temperature,
-        conversion: impact.conversion,
-        layer_thickness: impact.layer_thickness,
-        film_thickness: impact.film_thickness,
-        v_gas: impact.gas_speed,
-        roughness: impact.roughness,
-        omega: impact.spin,
-        coverage: impact.coverage,
-        seed: draw.seed,
-        key: draw.key,
-        melt_thickness: impact.melt_thickness,
-        ..nw_impact::default()
-    })
+    let wall = u32::try_from(wall).unwrap();
+    Impact(nw_impact { wall, seed: draw.seed, key: draw.key, ..nw_impact::from(&impact) })
 }
 
 /// Every bit of an outcome, from C++ and from Rust.
@@ -129,48 +113,19 @@ fn batches_are_one_by_one() {
 
 /// `e_n` of a batch of arrays; untouched entries would be -1.
 fn arrays(cpp: &ffi::Model, cases: &[Case]) -> Result<Vec<f64>, String> {
-    let column = |value: fn(&Case) -> f64| cases.iter().map(value).collect::<Vec<f64>>();
     let walls: Vec<u32> = cases.iter().map(|case| case.0 as u32).collect();
-    let v_n = column(|case| case.1.normal_speed);
-    let d = column(|case| case.1.diameter);
-    let t_p = column(|case| case.1.particle_temperature);
-    let t_w = column(|case| case.1.wall_temperature);
-    let conversion = column(|case| case.1.conversion);
-    let layer = column(|case| case.1.layer_thickness);
-    let mut e_n = vec![-1.0; cases.len()];
-    let null = std::ptr::null();
-    let impacts = Impacts(nw_impacts {
-        struct_size: size_of::<nw_impacts>() as u32,
-        wall: 0,
-        count: cases.len(),
-        seed: 0,
-        walls: walls.as_ptr(),
-        v_n: v_n.as_ptr(),
-        v_t: null,
-        d: d.as_ptr(),
-        T_p: t_p.as_ptr(),
-        T_w: t_w.as_ptr(),
-        conversion: conversion.as_ptr(),
-        layer_thickness: layer.as_ptr(),
-        film_thickness: null,
-        v_gas: null,
-        roughness: null,
-        omega: null,
-        coverage: null,
-        melt_thickness: null,
-        key: std::ptr::null(),
-    });
-    let none = std::ptr::null_mut();
-    let outcomes = Outcomes(nw_outcomes {
-        struct_size: size_of::<nw_outcomes>() as u32,
-        e_n: e_n.as_mut_ptr(),
-        e_t: std::ptr::null_mut(),
-        p_stick: std::ptr::null_mut(),
-        omega: std::ptr::null_mut(),
-        regime: none,
-        stuck: none,
-        flags: none,
-    });
+    let column = |input: &Input| cases.iter().map(|case| (input.value)(&case.1)).collect();
+    let columns: Vec<Vec<f64>> = INPUTS.iter().map(column).collect();
+    let keys: Vec<u64> = cases.iter().map(|case| case.2.key).collect();
+    let (count, seed) = (cases.len(), cases[0].2.seed);
+    let mut impacts =
+        nw_impacts { count, seed, walls: walls.as_ptr(), key: keys.as_ptr(), ..nw_impacts::default() };
+    for (array, column) in impacts.columns_mut().into_iter().zip(&columns) {
+        *array = column.as_ptr();
+    }
+    let mut e_n = vec![-1.0; count];
+    let (impacts, outcomes) =
+        (Impacts(impacts), Outcomes(nw_outcomes { e_n: e_n.as_mut_ptr(), ..nw_outcomes::default() }));
     // SAFETY: every array that is given has an entry for each case.
     match unsafe { ffi::resolve_arrays(cpp, &impacts, &outcomes) } {
         Ok(()) => Ok(e_n),
@@ -209,7 +164,7 @@ fn exceptions_carry_the_librarys_words() {
     let impacts: Vec<Impact> = cases.iter().map(cpp_impact).collect();
     let mut each = vec![Outcome(nw_outcome::default()); cases.len()];
     let error = ffi::resolve_each(&cpp, &impacts, &mut each).unwrap_err();
-    assert!(error.what().starts_with("impact 17: a number has no physical meaning"), "{error}");
+    assert!(error.what().starts_with("impact 17: an input is not finite or outside its bounds"), "{error}");
     assert_eq!(arrays(&cpp, &cases).unwrap_err(), error.what());
 }
 

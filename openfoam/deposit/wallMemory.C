@@ -135,7 +135,7 @@ Foam::nearWall::wallMemory::wallMemory
         const word& name = patchName(i);
         captured_[patchi].setSize
         (
-            mesh.boundaryMesh()[patchi].size(), nearwall::make_arrivals()
+            mesh.boundaryMesh()[patchi].size(), nearwall::make_deposit_source()
         );
         sums_.append(runningTotals(sumNames(), saved.subOrEmptyDict(name)));
         if (!saved.found(name)) addToSum(i, initial, mass(i));
@@ -298,7 +298,7 @@ bool Foam::nearWall::wallMemory::joinsFilm(const impactEvent& e) const
 {
     if (!film_ || !e.stuckByModel() || e.mass <= 0) return false;
 
-    nw_deposit_source alone(nearwall::make_arrivals());
+    nw_deposit_source alone(nearwall::make_deposit_source());
     return addToSource(e, alone) == NW_OK && alone.molten > 0;
 }
 

@@ -31,29 +31,23 @@ struct numberColumn
     scalar (*value)(const row&);
 };
 
-//- The first columns; the first seven of them identify an impact
+#define INPUT_COLUMN(input)                                                    \
+    {#input, [](const row& r) { return scalar(r.event.impact.input); }},
+
+//- The first columns; the first of them identify an impact
 const numberColumn numberColumns[] =
 {
     {"time", [](const row& r) { return r.time; }},
     {"x", [](const row& r) { return r.event.position.x(); }},
     {"y", [](const row& r) { return r.event.position.y(); }},
     {"z", [](const row& r) { return r.event.position.z(); }},
-    {"v_n", [](const row& r) { return r.event.impact.v_n; }},
-    {"v_t", [](const row& r) { return r.event.impact.v_t; }},
-    {"d", [](const row& r) { return r.event.impact.d; }},
-    {"T_p", [](const row& r) { return r.event.impact.T_p; }},
-    {"T_w", [](const row& r) { return r.event.impact.T_w; }},
-    {"conversion", [](const row& r) { return r.event.impact.conversion; }},
-    {"layer_thickness", [](const row& r) { return r.event.impact.layer_thickness; }},
-    {"film_thickness", [](const row& r) { return r.event.impact.film_thickness; }},
-    {"v_gas", [](const row& r) { return r.event.impact.v_gas; }},
-    {"roughness", [](const row& r) { return r.event.impact.roughness; }},
-    {"omega", [](const row& r) { return r.event.impact.omega; }},
-    {"coverage", [](const row& r) { return r.event.impact.coverage; }},
-    {"melt_thickness", [](const row& r) { return r.event.impact.melt_thickness; }}
+    NW_IMPACT_INPUTS(INPUT_COLUMN)
 };
 
-const label nIdentifying = 7;
+#undef INPUT_COLUMN
+
+//- Time, position, v_n, v_t, omega, d
+const label nIdentifying = 8;
 
 //- The columns after them, as text() writes them
 const char* const textColumns =
@@ -81,7 +75,7 @@ std::uint64_t hashOf(const scalar* id)
 {
     const scalar speed = std::sqrt(sqr(id[4]) + sqr(id[5]));
     impactKey key;
-    key.add(id[0]).add(speed).add(id[6]);
+    key.add(id[0]).add(speed).add(id[7]);
 
     // Steps of 1e-6 m
     key.add(vector(id[1], id[2], id[3]), 0.1);

@@ -1,61 +1,16 @@
 //! Many impacts in one call: arrays in, arrays out.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{guarded_status, reader};
-use super::sized;
-use super::types::{NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, nw_impact, nw_model, nw_status};
-use crate::impact::{BOUNDS, Bounds, Impact, Outcome};
+use std::ptr::null_mut;
+
+use super::boundary::{get, guarded_status, put, reader, sized};
+use super::impact::nw_impacts;
+use super::types::{NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, flags, nw_model, nw_status};
+use crate::impact::{INPUTS, Input, Outcome};
 use crate::model::Model;
 use crate::model::block::{BLOCK, Block, Outcomes};
-use crate::rng::ImpactRng;
 
-/// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array stands for the value that
-/// `nw_impact_init` gives, and for `key` the entry's own index.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-#[allow(non_snake_case)]
-pub struct nw_impacts {
-    /// `sizeof(nw_impacts)`.
-    pub struct_size: u32,
-    /// Wall of every impact where `walls` is null.
-    pub wall: u32,
-    /// Number of impacts.
-    pub count: usize,
-    /// Seed of all draws.
-    pub seed: u64,
-    /// Index of each impact's wall.
-    pub walls: *const u32,
-    /// Speed towards the wall [m/s].
-    pub v_n: *const f64,
-    /// Speed along the wall [m/s].
-    pub v_t: *const f64,
-    /// Particle diameter [m].
-    pub d: *const f64,
-    /// Particle temperature [K].
-    pub T_p: *const f64,
-    /// Wall temperature [K].
-    pub T_w: *const f64,
-    /// Carbon conversion.
-    pub conversion: *const f64,
-    /// Thickness of powder on the wall [m].
-    pub layer_thickness: *const f64,
-    /// Thickness of the liquid film [m].
-    pub film_thickness: *const f64,
-    /// Speed of the gas along the wall [m/s].
-    pub v_gas: *const f64,
-    /// Roughness of the wall [m].
-    pub roughness: *const f64,
-    /// Spin [rad/s].
-    pub omega: *const f64,
-    /// Share of the wall covered by non-sticky char.
-    pub coverage: *const f64,
-    /// Key of each impact's draws.
-    pub key: *const u64,
-    /// Thickness of the melt that earlier particles left on the wall [m].
-    pub melt_thickness: *const f64,
-}
-
-/// Arrays for the outcomes, each with room for as many entries as there are impacts; null where not wanted. They must
+/// Arrays that receive the outcomes, each with room for `count` entries of `nw_impacts`; null if not wanted. They must
 /// not overlap the inputs or each other.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -78,10 +33,10 @@ pub struct nw_outcomes {
     pub flags: *mut u32,
 }
 
-/// Decides many impacts: the same bits as `nw_resolve` one by one.
+/// Resolves many impacts, with the same bits as `nw_resolve` for each.
 ///
-/// All impacts are checked first. If one cannot be resolved nothing is written to the outcomes, the status is that of
-/// the first such impact, and its index goes to `first_bad` (may be null).
+/// All impacts are checked first. If one of them is invalid, no outcome is written, the status is that of the first
+/// invalid impact, and `first_bad` (may be null) receives its index.
 ///
 /// # Safety
 /// `model` is a loaded model; `impacts` and `outcomes` begin with their `struct_size`; every array that is not null has
@@ -119,7 +74,7 @@ pub unsafe extern "C" fn nw_resolve_batch(
 }
 
 impl nw_impacts {
-    /// Checks all impacts; the index of the first at fault.
+    /// Checks all impacts; returns index and status of the first invalid one.
     ///
     /// # Safety
     /// Every array that is not null has `count` entries.
@@ -130,12 +85,12 @@ impl nw_impacts {
             let differing = if self.walls.is_null() { self.count.min(1) } else { self.count };
             (0..differing).all(|index| model.is_prepared(wall(index)))
         };
-        let allowed = |(column, bounds): (*const f64, &Bounds)| {
+        let allowed = |(column, Input { bounds, .. }): (*const f64, &Input)| {
+            // SAFETY: as above. Without branches, so that memory limits the speed.
             let in_bounds = |all, index| all & bounds.allow(unsafe { get(column, index, f64::NAN) });
-            // SAFETY: as above. Without branches, so that it runs as fast as memory gives it.
             column.is_null() || (0..self.count).fold(true, in_bounds)
         };
-        if prepared && self.columns().into_iter().zip(&BOUNDS).all(allowed) {
+        if prepared && self.columns().into_iter().zip(&INPUTS).all(allowed) {
             return Ok(());
         }
         (0..self.count).try_for_each(|index| {
@@ -145,7 +100,7 @@ impl nw_impacts {
         })
     }
 
-    /// Decides all impacts, block by block.
+    /// Resolves all impacts, block by block.
     ///
     /// # Safety
     /// Every array that is not null has `count` entries.
@@ -172,7 +127,7 @@ impl nw_impacts {
         Ok(())
     }
 
-    /// Fills a block with the impacts from `start` on. What has no array stays as it is.
+    /// Fills a block with the impacts from `start` on. Columns without an array keep their values.
     ///
     /// # Safety
     /// `start + block.length <= count`, and every array that is not null has `count` entries.
@@ -191,53 +146,20 @@ impl nw_impacts {
             }
         }
     }
+}
 
-    /// The arrays of the inputs, in the order of [`INPUTS`](crate::impact::INPUTS).
-    fn columns(&self) -> [*const f64; BOUNDS.len()] {
-        [
-            self.v_n,
-            self.v_t,
-            self.d,
-            self.T_p,
-            self.T_w,
-            self.conversion,
-            self.layer_thickness,
-            self.film_thickness,
-            self.v_gas,
-            self.roughness,
-            self.omega,
-            self.coverage,
-            self.melt_thickness,
-        ]
-    }
-
-    /// One impact with its wall and its draws.
-    ///
-    /// # Safety
-    /// `index < count`, and every array that is not null has `count` entries.
-    unsafe fn entry(&self, index: usize) -> (usize, Impact, ImpactRng) {
-        let default = nw_impact::default();
-        // SAFETY: the caller's promise.
-        unsafe {
-            let impact = nw_impact {
-                v_n: get(self.v_n, index, default.v_n),
-                v_t: get(self.v_t, index, default.v_t),
-                d: get(self.d, index, default.d),
-                T_p: get(self.T_p, index, default.T_p),
-                T_w: get(self.T_w, index, default.T_w),
-                conversion: get(self.conversion, index, default.conversion),
-                layer_thickness: get(self.layer_thickness, index, default.layer_thickness),
-                film_thickness: get(self.film_thickness, index, default.film_thickness),
-                v_gas: get(self.v_gas, index, default.v_gas),
-                roughness: get(self.roughness, index, default.roughness),
-                omega: get(self.omega, index, default.omega),
-                coverage: get(self.coverage, index, default.coverage),
-                melt_thickness: get(self.melt_thickness, index, default.melt_thickness),
-                ..default
-            };
-            let wall = get(self.walls, index, self.wall) as usize;
-            let key = get(self.key, index, index as u64);
-            (wall, impact.to_impact(), ImpactRng::new(self.seed, key))
+/// No outcome wanted.
+impl Default for nw_outcomes {
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>() as u32,
+            e_n: null_mut(),
+            e_t: null_mut(),
+            p_stick: null_mut(),
+            omega: null_mut(),
+            regime: null_mut(),
+            stuck: null_mut(),
+            flags: null_mut(),
         }
     }
 }
@@ -256,7 +178,7 @@ impl nw_outcomes {
             put(self.omega, index, outcome.spin);
             put(self.regime, index, outcome.regime as u32);
             put(self.stuck, index, u32::from(outcome.stuck));
-            put(self.flags, index, if outcome.outside_range { NW_OUTSIDE_VALID_RANGE } else { 0 });
+            put(self.flags, index, flags(outcome));
         }
     }
 
@@ -265,7 +187,7 @@ impl nw_outcomes {
     /// # Safety
     /// Every array that is not null has room for `start + length` entries.
     unsafe fn store(&self, start: usize, length: usize, outcomes: &Outcomes) {
-        const { assert!(NW_OUTSIDE_VALID_RANGE == 1, "what a block calls outside is the flag") };
+        const { assert!(NW_OUTSIDE_VALID_RANGE == 1, "a block writes 1 for outside") };
         // SAFETY: the caller's promise.
         unsafe {
             put_all(self.e_n, start, &outcomes.normal_restitution[..length]);
@@ -279,7 +201,7 @@ impl nw_outcomes {
     }
 }
 
-/// Copies `count` entries, of which the caller's need not be aligned.
+/// Copies `count` entries; neither side needs alignment.
 ///
 /// # Safety
 /// `from` can be read and `to` written for `count` entries; they do not overlap.
@@ -296,25 +218,5 @@ unsafe fn put_all<T>(array: *mut T, start: usize, values: &[T]) {
     if !array.is_null() {
         // SAFETY: not null, and long enough by the caller's promise.
         unsafe { copy(values.as_ptr(), array.add(start), values.len()) };
-    }
-}
-
-/// An entry of an array that may be null.
-///
-/// # Safety
-/// The array is null or has more than `index` entries.
-unsafe fn get<T: Copy>(array: *const T, index: usize, default: T) -> T {
-    // SAFETY: not null, and long enough by the caller's promise.
-    if array.is_null() { default } else { unsafe { array.add(index).read_unaligned() } }
-}
-
-/// Writes an entry of an array that may be null.
-///
-/// # Safety
-/// The array is null or has room for more than `index` entries.
-unsafe fn put<T>(array: *mut T, index: usize, value: T) {
-    if !array.is_null() {
-        // SAFETY: not null, and long enough by the caller's promise.
-        unsafe { array.add(index).write_unaligned(value) };
     }
 }

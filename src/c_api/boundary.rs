@@ -1,12 +1,16 @@
-//! What stands between a C caller and Rust: panics stop here, the floating-point state is set aside, text is copied.
+//! The boundary between C and Rust: stops panics, saves the floating-point state, reads and writes the caller's memory.
+//!
+//! Pointers of callers need no alignment: Fortran, Python and packed structs do not always align.
 
 use std::ffi::c_char;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use super::types::{NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, nw_status, status_text};
+use super::types::{
+    NW_FILE, NW_MODEL, NW_NULL_POINTER, NW_OK, NW_PANIC, NW_STRUCT_SIZE, nw_status, status_text,
+};
 use crate::input::InputError;
 
-/// A status with the words for the caller's message buffer, where those of the status are not enough.
+/// A status, and the message for the caller's buffer if it differs from the text of the status.
 #[derive(Debug)]
 pub(super) struct Fault {
     status: nw_status,
@@ -30,28 +34,28 @@ impl From<InputError> for Fault {
     }
 }
 
-/// Runs `body` with the default floating-point control (round to nearest, nothing trapped), stops panics, and gives the
-/// caller's control and flags back.
+/// Runs `body` with the default floating-point control (round to nearest, no traps), stops panics, and restores the
+/// caller's control and flags.
 ///
-/// Optimised code may compute both sides of a branch, and one of them may divide by zero harmlessly: a caller that traps
-/// division by zero, as OpenFOAM does, would be killed by it.
+/// Optimised code may compute both sides of a branch, and one of them may divide by zero harmlessly: this would kill a
+/// caller that traps division by zero, as OpenFOAM does.
 pub(super) fn guarded<E: From<nw_status>>(body: impl FnOnce() -> Result<(), E>) -> Result<(), E> {
-    let _state = FloatingPointState::set_aside();
+    let _state = FloatingPointState::save();
     out_of_line(|| catch_unwind(AssertUnwindSafe(body)).unwrap_or_else(|_| Err(NW_PANIC.into())))
 }
 
-/// As [`guarded`], for calls whose status says all.
+/// As [`guarded`], for calls without a message.
 pub(super) fn guarded_status(body: impl FnOnce() -> Result<(), nw_status>) -> nw_status {
     guarded(body).err().unwrap_or(NW_OK)
 }
 
-/// A call that the compiler cannot dissolve, so that no arithmetic moves out of the guarded stretch.
+/// A call that is never inlined, so that no arithmetic moves out of the guarded section.
 #[inline(never)]
 fn out_of_line<T>(body: impl FnOnce() -> T) -> T {
     body()
 }
 
-/// The caller's floating-point control and flags, put back when this goes.
+/// The caller's floating-point control and flags, restored on drop.
 struct FloatingPointState {
     #[cfg(target_arch = "x86_64")]
     mxcsr: u32,
@@ -59,7 +63,7 @@ struct FloatingPointState {
 
 impl FloatingPointState {
     #[cfg(target_arch = "x86_64")]
-    fn set_aside() -> Self {
+    fn save() -> Self {
         /// All exceptions masked, round to nearest, denormals kept: the state a process starts with.
         static DEFAULT: u32 = 0x1F80;
         let mut mxcsr = 0_u32;
@@ -76,9 +80,9 @@ impl FloatingPointState {
         Self { mxcsr }
     }
 
-    /// Elsewhere than on x86-64 hardware traps are rare and the state is left alone.
+    /// Hardware traps are rare on other processors: the state stays as it is.
     #[cfg(not(target_arch = "x86_64"))]
-    fn set_aside() -> Self {
+    fn save() -> Self {
         Self {}
     }
 }
@@ -86,7 +90,7 @@ impl FloatingPointState {
 #[cfg(target_arch = "x86_64")]
 impl Drop for FloatingPointState {
     fn drop(&mut self) {
-        // SAFETY: loads back the value that was stored by `set_aside`.
+        // SAFETY: loads back the value that was stored by `save`.
         unsafe {
             std::arch::asm!("ldmxcsr [{saved}]", saved = in(reg) &raw const self.mxcsr, options(nostack));
         }
@@ -102,7 +106,65 @@ pub(super) unsafe fn reader<'a, T>(pointer: *const T) -> Result<&'a T, nw_status
     unsafe { pointer.as_ref() }.ok_or(NW_NULL_POINTER)
 }
 
-/// Turns the result into a status and copies the words of a fault to the caller's buffer.
+/// Writes the default of a struct.
+///
+/// # Safety
+/// The pointer is null or can be written.
+pub(super) unsafe fn initialise<T: Default>(pointer: *mut T) -> nw_status {
+    if pointer.is_null() {
+        return NW_NULL_POINTER;
+    }
+    // SAFETY: not null, and writable by the caller's promise.
+    unsafe { pointer.write_unaligned(T::default()) };
+    NW_OK
+}
+
+/// A copy of a struct that begins with its own size.
+///
+/// # Safety
+/// The pointer is null or points to at least a `u32`, and to a whole `T` if that `u32` is the size of `T`.
+pub(super) unsafe fn sized<T: Copy>(pointer: *const T) -> Result<T, nw_status> {
+    // SAFETY: the caller's promise, and then the size says that it is a whole `T`.
+    unsafe {
+        check_size(pointer)?;
+        Ok(pointer.read_unaligned())
+    }
+}
+
+/// Refuses null and a struct of another size. Reads nothing but the size.
+///
+/// # Safety
+/// The pointer is null or points to at least a `u32`.
+pub(super) unsafe fn check_size<T>(pointer: *const T) -> Result<(), nw_status> {
+    if pointer.is_null() {
+        return Err(NW_NULL_POINTER);
+    }
+    // SAFETY: not null, so a `u32` can be read by the caller's promise.
+    let size = unsafe { pointer.cast::<u32>().read_unaligned() };
+    if size as usize == size_of::<T>() { Ok(()) } else { Err(NW_STRUCT_SIZE) }
+}
+
+/// An entry of an array that may be null.
+///
+/// # Safety
+/// The array is null or has more than `index` entries.
+pub(super) unsafe fn get<T: Copy>(array: *const T, index: usize, default: T) -> T {
+    // SAFETY: not null, and long enough by the caller's promise.
+    if array.is_null() { default } else { unsafe { array.add(index).read_unaligned() } }
+}
+
+/// Writes an entry of an array that may be null.
+///
+/// # Safety
+/// The array is null or has room for more than `index` entries.
+pub(super) unsafe fn put<T>(array: *mut T, index: usize, value: T) {
+    if !array.is_null() {
+        // SAFETY: not null, and long enough by the caller's promise.
+        unsafe { array.add(index).write_unaligned(value) };
+    }
+}
+
+/// Turns the result into a status and copies the message of a fault to the caller's buffer.
 ///
 /// # Safety
 /// `message` is null or has room for `size` bytes.

@@ -1,13 +1,13 @@
-//! What lies on a wall, for codes that remember it.
+//! The deposit on a wall.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{guarded_status, reader};
-use super::types::{NW_NULL_POINTER, NW_OK, nw_impact, nw_model, nw_status};
-use super::{check_size, sized, types::NW_BAD_STATE};
+use super::boundary::{check_size, guarded_status, initialise, reader, sized};
+use super::impact::nw_impact;
+use super::types::{NW_BAD_STATE, NW_NULL_POINTER, nw_model, nw_status};
 use crate::deposit::{Deposit, DepositSource};
 use crate::slag::film;
 
-/// What lies on a piece of wall, per area of it. A bare wall is what `nw_deposit_init` gives.
+/// The deposit on a piece of wall, per wall area. `nw_deposit_init` makes a bare wall.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct nw_deposit {
@@ -21,19 +21,19 @@ pub struct nw_deposit {
     pub powder: f64,
     /// Volume of the powder's particles without the voids between them [m3/m2].
     pub solid: f64,
-    /// Projected area of the powder's particles [1], overlaps counted.
+    /// Projected area of the powder's particles [1], overlaps included.
     pub cover: f64,
-    /// Carbon conversion of all that lies there, its mean by mass.
+    /// Carbon conversion [1], mean by mass of the whole deposit.
     pub conversion: f64,
 }
 
-/// What arrived on a piece of wall in a step and stayed, summed, per area of it. Nothing is what `nw_deposit_source_init` gives.
+/// Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct nw_deposit_source {
     /// `sizeof(nw_deposit_source)`.
     pub struct_size: u32,
-    /// How many were added.
+    /// Number of particles.
     pub count: u32,
     /// Molten mass [kg/m2].
     pub molten: f64,
@@ -94,20 +94,20 @@ impl nw_deposit {
         sizes.iter().all(|size| size.is_finite() && *size >= 0.0) && (0.0..=1.0).contains(&self.conversion)
     }
 
-    /// Itself, unless a sum has overflowed: what is written can be given to every other call.
+    /// Refuses overflowed sums, so that every other call accepts what this one writes.
     fn sound(self) -> Result<Self, nw_status> {
         if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
 impl nw_deposit_source {
-    fn to_arrivals(self) -> DepositSource {
+    fn to_source(self) -> DepositSource {
         let Self { molten, powder, solid, cover, buried, converted, .. } = self;
         DepositSource { molten, powder, solid, cover, buried, converted }
     }
 
-    fn with(self, arrivals: &DepositSource) -> Self {
-        let DepositSource { molten, powder, solid, cover, buried, converted } = *arrivals;
+    fn with(self, source: &DepositSource) -> Self {
+        let DepositSource { molten, powder, solid, cover, buried, converted } = *source;
         let count = self.count.saturating_add(1);
         Self { count, molten, powder, solid, cover, buried, converted, ..self }
     }
@@ -117,28 +117,24 @@ impl nw_deposit_source {
         sizes.iter().all(|size| size.is_finite() && *size >= 0.0)
     }
 
-    /// As that of a deposit.
+    /// As [`nw_deposit::sound`].
     fn sound(self) -> Result<Self, nw_status> {
         if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
-/// Fills a deposit with its size and a bare wall: wall 0, all else 0.
+/// Initialises a deposit: its size, wall 0, a bare wall.
 ///
 /// # Safety
 /// `deposit` can be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_deposit_init(deposit: *mut nw_deposit) -> nw_status {
-    if deposit.is_null() {
-        return NW_NULL_POINTER;
-    }
-    // SAFETY: not null, and writable by the caller's promise.
-    unsafe { deposit.write_unaligned(nw_deposit::default()) };
-    NW_OK
+    // SAFETY: the caller's promise.
+    unsafe { initialise(deposit) }
 }
 
-/// Sets a deposit to what the model file says lies on its `wall`, with a share `voidage` of voids in the powder: where a
-/// memory begins.
+/// Sets a deposit to the initial deposit that the model file states for its `wall`. `voidage` is the share of voids in
+/// the powder [1].
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` begins with its `struct_size`.
@@ -156,68 +152,64 @@ pub unsafe extern "C" fn nw_deposit_initial(
             (model, (&raw const (*deposit).wall).read_unaligned())
         };
         let found = model.inner().initial_deposit(wall as usize, voidage)?;
-        let begun = nw_deposit { wall, ..nw_deposit::default() }.with(&found).sound()?;
+        let initial = nw_deposit { wall, ..nw_deposit::default() }.with(&found).sound()?;
         // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(begun) };
+        unsafe { deposit.write_unaligned(initial) };
         Ok(())
     };
     guarded_status(start)
 }
 
-/// Fills arrivals with their size and zeros.
+/// Initialises a deposit source: its size and zeros.
 ///
 /// # Safety
-/// `arrivals` can be written.
+/// `source` can be written.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_source_init(arrivals: *mut nw_deposit_source) -> nw_status {
-    if arrivals.is_null() {
-        return NW_NULL_POINTER;
-    }
-    // SAFETY: not null, and writable by the caller's promise.
-    unsafe { arrivals.write_unaligned(nw_deposit_source::default()) };
-    NW_OK
+pub unsafe extern "C" fn nw_deposit_source_init(source: *mut nw_deposit_source) -> nw_status {
+    // SAFETY: the caller's promise.
+    unsafe { initialise(source) }
 }
 
-/// Adds a particle that stayed: `mass` of it per area of wall [kg/m2], with the particle's `density` [kg/m3]. It counts as
-/// molten when it is sticky at the temperature of the wall, as powder otherwise. The order changes sums by rounding alone; arrivals of
-/// several threads or ranks are added field by field (`count` too) before one `nw_deposit_add`.
+/// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts as molten if it is
+/// sticky at the temperature of the wall, as powder otherwise. The order of particles affects the sums only by rounding.
+/// Sources of several threads or ranks are summed field by field (`count` too) before one `nw_deposit_add`.
 ///
 /// # Safety
-/// `model` is a loaded model; `impact` and `arrivals` begin with their `struct_size`.
+/// `model` is a loaded model; `impact` and `source` begin with their `struct_size`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_deposit_source_add(
     model: *const nw_model,
     impact: *const nw_impact,
     mass: f64,
     density: f64,
-    arrivals: *mut nw_deposit_source,
+    source: *mut nw_deposit_source,
 ) -> nw_status {
     let add = || {
         // SAFETY: the caller's promises.
-        let (model, impact, sum) = unsafe { (reader(model)?, sized(impact)?, sized(arrivals.cast_const())?) };
-        let (wall, before) = (impact.wall as usize, sum.sound()?.to_arrivals());
+        let (model, impact, sum) = unsafe { (reader(model)?, sized(impact)?, sized(source.cast_const())?) };
+        let (wall, before) = (impact.wall as usize, sum.sound()?.to_source());
         let found = model.inner().add_captured(wall, &impact.to_impact(), mass, density, before)?;
         let found = sum.with(&found).sound()?;
         // SAFETY: checked just above.
-        unsafe { arrivals.write_unaligned(found) };
+        unsafe { source.write_unaligned(found) };
         Ok(())
     };
     guarded_status(add)
 }
 
-/// Adds the arrivals of a step to a deposit. Powder that melt buries becomes part of the melt; mass is kept.
+/// Adds the source of a step to a deposit. Powder that melt buries becomes part of the melt; mass is conserved.
 ///
 /// # Safety
-/// `arrivals` and `deposit` begin with their `struct_size`.
+/// `source` and `deposit` begin with their `struct_size`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_deposit_add(
-    arrivals: *const nw_deposit_source,
+    source: *const nw_deposit_source,
     deposit: *mut nw_deposit,
 ) -> nw_status {
     let add = || {
         // SAFETY: the caller's promises.
-        let (arrivals, before) = unsafe { (sized(arrivals)?, sized(deposit.cast_const())?) };
-        let after = before.sound()?.to_deposit().with(&arrivals.sound()?.to_arrivals());
+        let (source, before) = unsafe { (sized(source)?, sized(deposit.cast_const())?) };
+        let after = before.sound()?.to_deposit().with(&source.sound()?.to_source());
         let after = before.with(&after).sound()?;
         // SAFETY: checked just above.
         unsafe { deposit.write_unaligned(after) };
@@ -226,8 +218,8 @@ pub unsafe extern "C" fn nw_deposit_add(
     guarded_status(add)
 }
 
-/// Tells an impact of the deposit that it meets: sets its `layer_thickness` (powder with a share `voidage` of voids),
-/// `coverage` and `melt_thickness`. The wall is that of the impact.
+/// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage` is the share of voids
+/// in the powder [1]. The wall is that of the impact.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
@@ -238,32 +230,36 @@ pub unsafe extern "C" fn nw_deposit_apply(
     voidage: f64,
     impact: *mut nw_impact,
 ) -> nw_status {
-    let dress = || {
+    let apply = || {
         // SAFETY: the caller's promises.
-        let (model, deposit, bare) =
+        let (model, deposit, before) =
             unsafe { (reader(model)?, sized(deposit)?, sized(impact.cast_const())?) };
-        let wall = bare.wall as usize;
-        let found =
-            model.inner().apply_deposit(wall, &deposit.sound()?.to_deposit(), voidage, &bare.to_impact())?;
+        let wall = before.wall as usize;
+        let found = model.inner().apply_deposit(
+            wall,
+            &deposit.sound()?.to_deposit(),
+            voidage,
+            &before.to_impact(),
+        )?;
         if !(found.layer_thickness.is_finite() && found.melt_thickness.is_finite()) {
             return Err(NW_BAD_STATE);
         }
-        let dressed = nw_impact {
+        let after = nw_impact {
             layer_thickness: found.layer_thickness,
             coverage: found.coverage,
             melt_thickness: found.melt_thickness,
-            ..bare
+            ..before
         };
         // SAFETY: checked just above.
-        unsafe { impact.write_unaligned(dressed) };
+        unsafe { impact.write_unaligned(after) };
         Ok(())
     };
-    guarded_status(dress)
+    guarded_status(apply)
 }
 
-/// Mean speed [m/s] of the melt of a deposit that runs down its wall as a laminar film: at a temperature of the wall `T_w`
-/// [K], with `gravity_along` the part of gravity along the wall [m/s2]. 0 where the model knows no viscosity of the melt, or
-/// it is colder than a measured one. `gravity_along` is not negative; a melt hotter than its measured range is answered.
+/// Computes the mean speed [m/s] at which the melt of a deposit runs down its wall as a laminar film. `T_w` is the wall
+/// temperature [K], `gravity_along` the component of gravity along the wall [m/s2], not negative. The speed is 0 if the
+/// model has no viscosity of the melt or the melt is colder than its measured range; a hotter melt is accepted.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.

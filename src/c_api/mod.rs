@@ -1,15 +1,16 @@
-//! The C boundary: `nearwall.h`.
+//! The C interface: `nearwall.h`.
 //!
-//! Conventions: inputs come first, outputs last; `const` means it is not changed; every call returns a status, and
-//! its outputs are untouched unless that is `NW_OK` (but for a message, and the index of the impact at fault); text
-//! goes to the caller's buffer. A model never changes after it is loaded, so any number of threads may share it. No
-//! panic crosses, and the caller's floating-point control and flags are as before. This is the only module with
-//! `unsafe`: it turns C pointers into references, nothing else.
+//! Conventions: inputs come first, outputs last; `const` arguments stay unchanged; every call returns a status, and
+//! its outputs are untouched unless that is `NW_OK` (except a message and the index of an invalid impact). A model
+//! never changes after it is loaded, so any number of threads may share it. No panic reaches the caller, and its
+//! floating-point control and flags stay as they are. This is the only module with `unsafe`: it turns C pointers into
+//! references.
 #![allow(unsafe_code)]
 
 mod batch;
 mod boundary;
 mod deposit;
+mod impact;
 mod types;
 
 use std::ffi::{CStr, c_char};
@@ -19,37 +20,35 @@ use crate::impact::Regime;
 use crate::model::Model;
 use crate::rng::ImpactRng;
 
-pub use batch::{nw_impacts, nw_outcomes, nw_resolve_batch};
-use boundary::{Fault, guarded, guarded_status, reader, report};
-pub use deposit::{
-    nw_deposit, nw_deposit_add, nw_deposit_apply, nw_deposit_init, nw_deposit_initial, nw_deposit_source,
-    nw_deposit_source_add, nw_deposit_source_init, nw_film_velocity,
-};
+pub use batch::*;
+use boundary::{Fault, check_size, guarded, guarded_status, initialise, put, reader, report, sized};
+pub use deposit::*;
+pub use impact::*;
 use types::status_text;
 pub use types::*;
 
-/// Number of the binary interface; it changes when a struct, a function or a constant does.
+/// Version of the binary interface; it rises when a struct, a function or a constant changes.
 pub const NW_ABI_VERSION: u32 = 1;
 
-/// The interface version of the library that is loaded; compare with `NW_ABI_VERSION` of the header.
+/// Returns the interface version of the loaded library; compare it with `NW_ABI_VERSION` of the header.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_abi_version() -> u32 {
     NW_ABI_VERSION
 }
 
-/// The version of the library, for instance `0.1.0`. Static text.
+/// Returns the version of the library, for instance `0.1.0`, as a static string.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_version() -> *const c_char {
     concat!(env!("CARGO_PKG_VERSION"), "\0").as_ptr().cast()
 }
 
-/// A status in words. Static text, also for numbers that are no status.
+/// Returns the text of a status, or of an unknown number, as a static string.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_status_text(status: nw_status) -> *const c_char {
     status_text(status).as_ptr()
 }
 
-/// A regime by name, for instance `NSP-SW`. Static text.
+/// Returns the name of a regime, for instance `NSP-SW`, as a static string.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_regime_name(regime: nw_regime) -> *const c_char {
     let text: &'static CStr = match regime {
@@ -57,15 +56,15 @@ pub extern "C" fn nw_regime_name(regime: nw_regime) -> *const c_char {
         NW_NSP_SW => c"NSP-SW",
         NW_SP_NSW => c"SP-NSW",
         NW_SP_SW => c"SP-SW",
-        _ => c"not a regime",
+        _ => c"unknown regime",
     };
     text.as_ptr()
 }
 
-/// Reads a model file. On success `*model` is the model; free it with `nw_model_free`.
+/// Loads a model file. On success `*model` is the model; free it with `nw_model_free`.
 ///
-/// On failure the reason, with file, line, column, key and remedy, goes to `message` (at most `message_size` bytes with
-/// the closing zero, cut at a character; may be null). On success `message` is left as it is.
+/// On failure `message` (may be null) receives the reason with file, line, column, key and remedy: at most
+/// `message_size` bytes with the closing zero, cut between characters. On success `message` is untouched.
 ///
 /// # Safety
 /// `path` is a zero-terminated text, `model` can be written, `message` has room for `message_size` bytes or is null.
@@ -92,8 +91,8 @@ pub unsafe extern "C" fn nw_model_load(
     unsafe { report(guarded(load), message, message_size) }
 }
 
-/// Reads a model from TOML text of `toml_size` bytes (no closing zero needed). `name` stands for the file in messages;
-/// it may be null. Otherwise as `nw_model_load`.
+/// Parses a model from TOML text of `toml_size` bytes, which needs no closing zero. Messages name it `name` (may be
+/// null). Otherwise as `nw_model_load`.
 ///
 /// # Safety
 /// `toml` has `toml_size` bytes, `name` is zero-terminated or null, the rest as in `nw_model_load`.
@@ -131,7 +130,7 @@ pub unsafe extern "C" fn nw_model_parse(
     unsafe { report(guarded(parse), message, message_size) }
 }
 
-/// Frees a model; null is allowed.
+/// Frees a model; does nothing for null.
 ///
 /// # Safety
 /// `model` came from `nw_model_load` or `nw_model_parse` and is not used again.
@@ -148,8 +147,8 @@ pub unsafe extern "C" fn nw_model_free(model: *mut nw_model) {
     guarded_status(free);
 }
 
-/// The index of the wall that a patch name belongs to: the wall of that name, else the last whose name is a regular
-/// expression that fits. `NW_UNKNOWN_WALL` when there is none; the wall called `default` is not implied.
+/// Finds the wall of a patch: the wall of that name, otherwise the last one whose name is a regular expression that
+/// matches. Returns `NW_UNKNOWN_WALL` if there is none, even if the model has a wall `default`.
 ///
 /// # Safety
 /// `model` is a loaded model, `name` is zero-terminated, `wall` can be written.
@@ -175,36 +174,27 @@ pub unsafe extern "C" fn nw_model_find_wall(
     guarded_status(find)
 }
 
-/// Fills an impact with its size and the values assumed for unknown inputs: wall 0, 1e-4 m, 293.15 K, conversion 1, all
-/// else 0.
+/// Initialises an impact: its size and the default of every input; wall, seed and key 0.
 ///
 /// # Safety
 /// `impact` can be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_impact_init(impact: *mut nw_impact) -> nw_status {
-    if impact.is_null() {
-        return NW_NULL_POINTER;
-    }
-    // SAFETY: not null, and writable by the caller's promise.
-    unsafe { impact.write_unaligned(nw_impact::default()) };
-    NW_OK
+    // SAFETY: the caller's promise.
+    unsafe { initialise(impact) }
 }
 
-/// Fills an outcome with its size and zeros, ready for `nw_resolve`.
+/// Initialises an outcome for `nw_resolve`: its size and zeros.
 ///
 /// # Safety
 /// `outcome` can be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_outcome_init(outcome: *mut nw_outcome) -> nw_status {
-    if outcome.is_null() {
-        return NW_NULL_POINTER;
-    }
-    // SAFETY: not null, and writable by the caller's promise.
-    unsafe { outcome.write_unaligned(nw_outcome::default()) };
-    NW_OK
+    // SAFETY: the caller's promise.
+    unsafe { initialise(outcome) }
 }
 
-/// Decides one impact. The same model and impact give the same bits, on any thread and in any order.
+/// Resolves one impact. The same model and impact give the same bits, on any thread and in any order.
 ///
 /// # Safety
 /// `model` is a loaded model; `impact` and `outcome` begin with their `struct_size`.
@@ -228,8 +218,9 @@ pub unsafe extern "C" fn nw_resolve(
     guarded_status(resolve)
 }
 
-/// Adhesive, yield and sticking velocity [m/s] of an impact's particle and wall: size and temperatures count,
-/// and what effects on the contact look at; chance is at its median. Outputs may be null.
+/// Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at
+/// their median. They depend on the diameter, the temperatures, and the inputs of effects on the contact. Outputs may
+/// be null.
 ///
 /// # Safety
 /// `model` is a loaded model, `impact` begins with its `struct_size`, each output can be written or is null.
@@ -245,18 +236,19 @@ pub unsafe extern "C" fn nw_speeds(
         // SAFETY: the caller's promises.
         let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
         let found = model.inner().speeds(impact.wall as usize, &impact.to_impact())?;
-        let outputs = [(adhesive, found.adhesive), (yielding, found.yielding), (sticking, found.sticking)];
-        for (output, value) in outputs.into_iter().filter(|(output, _)| !output.is_null()) {
-            // SAFETY: not null, and writable by the caller's promise.
-            unsafe { output.write_unaligned(value) };
+        // SAFETY: the caller's promise.
+        unsafe {
+            put(adhesive, 0, found.adhesive);
+            put(yielding, 0, found.yielding);
+            put(sticking, 0, found.sticking);
         }
         Ok(())
     };
     guarded_status(speeds)
 }
 
-/// Temperatures [K] between which impacts on a wall can be decided, from the tables of all properties: lowest and
-/// highest of the particle and of the wall, 0 and infinity where nothing limits them. Outputs may be null.
+/// Returns the temperatures [K] of particle and wall for which all property tables of a wall are defined: lowest and
+/// highest, 0 and infinity without a limit. Outputs may be null.
 ///
 /// # Safety
 /// `model` is a loaded model, each output can be written or is null.
@@ -273,41 +265,16 @@ pub unsafe extern "C" fn nw_temperature_ranges(
         // SAFETY: the caller's promise.
         let model = unsafe { reader(model)? };
         let found = model.inner().temperature_ranges(wall as usize)?;
-        let outputs = [particle_low, particle_high, wall_low, wall_high];
-        let values = [found.particle[0], found.particle[1], found.wall[0], found.wall[1]];
-        for (output, value) in outputs.into_iter().zip(values).filter(|(output, _)| !output.is_null()) {
-            // SAFETY: not null, and writable by the caller's promise.
-            unsafe { output.write_unaligned(value) };
+        // SAFETY: the caller's promise.
+        unsafe {
+            put(particle_low, 0, found.particle[0]);
+            put(particle_high, 0, found.particle[1]);
+            put(wall_low, 0, found.wall[0]);
+            put(wall_high, 0, found.wall[1]);
         }
         Ok(())
     };
     guarded_status(ranges)
-}
-
-/// A copy of a struct that begins with its own size. Foreign languages do not always align what they pass: nothing here
-/// needs it.
-///
-/// # Safety
-/// The pointer is null or points to at least a `u32`, and to a whole `T` if that `u32` is the size of `T`.
-unsafe fn sized<T: Copy>(pointer: *const T) -> Result<T, nw_status> {
-    // SAFETY: the caller's promise, and then the size says that it is a whole `T`.
-    unsafe {
-        check_size(pointer)?;
-        Ok(pointer.read_unaligned())
-    }
-}
-
-/// Refuses null and a struct of another size. Reads nothing but the size.
-///
-/// # Safety
-/// The pointer is null or points to at least a `u32`.
-unsafe fn check_size<T>(pointer: *const T) -> Result<(), nw_status> {
-    if pointer.is_null() {
-        return Err(NW_NULL_POINTER);
-    }
-    // SAFETY: not null, so a `u32` can be read by the caller's promise.
-    let size = unsafe { pointer.cast::<u32>().read_unaligned() };
-    if size as usize == size_of::<T>() { Ok(()) } else { Err(NW_STRUCT_SIZE) }
 }
 
 const _: () = assert!(Regime::SpSw as u32 == NW_SP_SW);

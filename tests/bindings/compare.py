@@ -1,12 +1,11 @@
-"""What the examples in bindings/ have to agree on. Called by tests/bindings/run.
+"""Compares the outputs of the examples in bindings/. Called by tests/bindings/run.
 
     compare.py prepare TABLE SHARE FOLDER   models and impacts of the golden table, and a grid of impacts on one model
     compare.py golden TABLE OUTPUT          e_n of an example against the golden table
     compare.py same OUTPUT OUTPUT           two examples, bit for bit
     compare.py udf OUTPUT UDF IMPACTS...    velocities of the user-defined wall against e_n and e_t of an example
-    compare.py deposit IMPACTS OUTPUT OUTPUT...   deposit.c and the same in other languages, bit for bit; what arrived lies there
-    compare.py layout ABI MODULE            structs, numbers and functions of nearwall.f90 or nearwall.py against abi.txt
-    compare.py named ABI HEADER             every function of abi.txt is called in nearwall.hpp
+    compare.py deposit IMPACTS OUTPUT OUTPUT...   deposit.c and the same in other languages, bit for bit; mass is conserved
+    compare.py layout ABI MODULE            structs of nearwall.py, as ctypes lays them out, against abi.txt
 """
 
 import csv
@@ -103,7 +102,7 @@ def compare_udf(output, udf, *impacts):
     assert len(expected) == len(found) == len(rows), f"{len(expected)}, {len(found)}, {len(rows)} impacts"
     rebounds = ends = drawn = 0
     for number, ((e_n, e_t, p, _), (away, along, ended), (v_n, v_t, *_)) in enumerate(zip(expected, found, rows)):
-        # The wall draws with the particle's number and hits, the examples with the row: chance may fall otherwise.
+        # The wall has another key than the examples, the particle's number and hits: the draws differ.
         assert ended == p if p in (0, 1) else ended in (0, 1), f"impact {number}: p {p}, ended {ended}"
         drawn += 0 < p < 1
         ends += ended == 1
@@ -115,7 +114,8 @@ def compare_udf(output, udf, *impacts):
 
 
 def compare_deposit(impacts, output, *others):
-    """By hand: the mass and carbon of what stayed are there, and a laminar film's speed goes with its thickness squared (Nusselt)."""
+    """Computed here: the deposit has the captured mass and carbon; the speed of a laminar film grows with its thickness squared
+    (Nusselt)."""
     rows = outcomes(output)
     for other in others:
         theirs = outcomes(other)
@@ -143,103 +143,23 @@ def compare_deposit(impacts, output, *others):
 
 # --- layout -----------------------------------------------------------------------------------------------------------
 
-# Functions that nearwall.py and nearwall.hpp do without, and why.
-LEFT_OUT = {
-    "nearwall.py": {
-        "nw_resolve": "Model.resolve hands arrays over, also for one impact",
-        "nw_outcome_init": "no struct for a single outcome",
-        "nw_regime_name": "REGIMES has the names",
-    },
-    "nearwall.hpp": {"nw_regime_name": "needs no C++ of its own"},
-}
-
-SIZES = {"integer(c_int32_t)": 4, "real(c_double)": 8, "integer(c_int64_t)": 8, "integer(c_size_t)": 8, "type(c_ptr)": 8}
-
-
-def read_abi(path):
-    """Structs as {name: [size, (field, offset, size)...]}, numbers, and functions with how many arguments they have."""
-    structs, numbers, functions = {}, {}, {}
-    for line in pathlib.Path(path).read_text().splitlines():
-        kind, _, rest = line.partition(" ")
-        if kind == "number":
-            name, value = rest.split()
-            numbers[name] = int(value)
-        elif kind == "struct":
-            name, size = re.fullmatch(r"(\w+) size (\d+) align \d+", rest).groups()
-            structs[name] = [int(size)]
-        elif kind == "field":
-            name, field, offset, size = re.fullmatch(r"(\w+)\.(\w+) at (\d+) size (\d+)", rest).groups()
-            structs[name].append((field, int(offset), int(size)))
-        elif kind == "function":
-            name, arguments = re.fullmatch(r".*?(\w+)\((.*)\)", rest).groups()
-            functions[name] = 0 if arguments == "void" else len(arguments.split(","))
-    assert len(structs) == 6 and len(numbers) > 10 and len(functions) > 15, "abi.txt is not what this script reads"
-    return structs, numbers, functions
-
-
-def fortran(path):
-    text = re.sub(r"!.*", "", pathlib.Path(path).read_text())
-    structs, numbers, functions = {}, {}, {}
-    for name, body in re.findall(r"type, bind\(c\) :: (\w+)\n(.*?)end type", text, re.DOTALL):
-        fields, end = [], 0
-        for kind, names in re.findall(r"(\S+) :: (.*)", body):
-            for field in names.split(","):
-                size = SIZES[kind]
-                start = -(-end // size) * size
-                fields.append((field.split("=")[0].strip(), start, size))
-                end = start + size
-        structs[name] = [-(-end // 8) * 8] + fields
-        for size in re.findall(r"struct_size = (\d+)", body):
-            assert int(size) == structs[name][0], f"{name}: struct_size {size}, {structs[name][0]} bytes"
-    for line in re.findall(r"integer\(c_int32_t\), parameter :: (.*)", text):
-        numbers.update((name, int(value)) for name, value in re.findall(r"(\w+) = (\d+)", line))
-    numbers["NW_ABI_VERSION"] = numbers.pop("NEARWALL_ABI_VERSION")  # Fortran has a function of that name
-    for name, arguments in re.findall(r"(?:function|subroutine) (nw_\w+)\((.*?)\) bind\(c\)", text):
-        functions[name] = len([argument for argument in arguments.split(",") if argument])
-    return structs, numbers, functions
-
-
-def python(path):
-    spec = importlib.util.spec_from_file_location("nearwall", path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    structs = {}
-    for name, kind in module.STRUCTS.items():
-        fields = [(field, getattr(kind, field)) for field, _ in kind._fields_]
-        structs[name] = [ctypes.sizeof(kind)] + [(field, at.offset, at.size) for field, at in fields]
-    numbers = {"NW_ABI_VERSION": module.ABI_VERSION, "NW_OK": module.OK,
-               "NW_OUTSIDE_VALID_RANGE": module.OUTSIDE_VALID_RANGE}
-    numbers.update(("NW_" + name.replace("-", "_"), number) for number, name in enumerate(module.REGIMES))
-    # What the module looked up in the library, each with its arguments.
-    functions = {name: len(function.argtypes or ()) for name, function in vars(module._library).items() if name.startswith("nw_")}
-    return structs, numbers, functions
-
-
 def compare_layout(abi, module):
-    structs, numbers, functions = read_abi(abi)
-    for name in LEFT_OUT.get(pathlib.Path(module).name, ()):
-        del functions[name]
-    whole = module.endswith(".f90")
-    their_structs, their_numbers, their_functions = (fortran if whole else python)(module)
-    for kind, ours, theirs in (("struct", structs, their_structs), ("number", numbers, their_numbers),
-                               ("function", functions, their_functions)):
-        assert theirs, f"no {kind} found"
-        if whole or kind == "function":
-            assert set(ours) == set(theirs), f"{kind}: {sorted(set(ours) ^ set(theirs))}"
-        for name, value in theirs.items():
-            assert ours.get(name) == value, f"{kind} {name}: abi.txt {ours.get(name)}, here {value}"
-    print(f"{len(their_structs)} structs, {len(their_numbers)} numbers, {len(their_functions)} functions as in abi.txt")
-
-
-def compare_named(abi, header):
-    _, _, functions = read_abi(abi)
-    left_out = LEFT_OUT[pathlib.Path(header).name]
-    code = re.sub(r"//.*", "", pathlib.Path(header).read_text())
-    called = {name for name in functions if re.search(rf"\b{name}\(", code)}
-    assert called == set(functions) - set(left_out), sorted(called ^ (set(functions) - set(left_out)))
-    print(f"{len(called)} functions, without {', '.join(left_out)}")
+    text = pathlib.Path(abi).read_text()
+    expected = re.findall(r"^(?:struct|field) (.*?)(?: align \d+)?$", text, re.MULTILINE)
+    spec = importlib.util.spec_from_file_location("nearwall", module)
+    nearwall = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(nearwall)
+    found = []
+    for name in dict.fromkeys(line.split(".")[0] for line in expected if "." in line):
+        kind = getattr(nearwall, name)
+        found.append(f"{name} size {ctypes.sizeof(kind)}")
+        for field, _ in kind._fields_:
+            at = getattr(kind, field)
+            found.append(f"{name}.{field} at {at.offset} size {at.size}")
+    assert found == expected, sorted(set(found) ^ set(expected))
+    print(f"{len(found)} structs and fields as in abi.txt")
 
 
 if __name__ == "__main__":
     {"prepare": prepare, "golden": compare_golden, "same": compare_same, "udf": compare_udf,
-     "deposit": compare_deposit, "layout": compare_layout, "named": compare_named}[sys.argv[1]](*sys.argv[2:])
+     "deposit": compare_deposit, "layout": compare_layout}[sys.argv[1]](*sys.argv[2:])

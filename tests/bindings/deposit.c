@@ -1,6 +1,7 @@
-/* One wall that remembers, in C: what the other languages have to print too, bit for bit.
- * Takes a model and a table of impacts as the examples do; a step is four rows. Prints for each row captured or not, what the
- * impact met (layer, coverage, melt), what lies there then (molten, powder, solid, cover, conversion) and how fast it runs. */
+/* A wall with a growing deposit, in C: the other languages have to print the same, bit for bit.
+ * Takes a model and a table of impacts as the examples do; a step is four rows. Prints for each row whether the particle is
+ * captured, the deposit at the impact (layer, coverage, melt) and after it (molten, powder, solid, cover, conversion), and
+ * the speed of the film. */
 #include <nearwall.h>
 
 #include <stdio.h>
@@ -18,7 +19,7 @@ int main(int argc, char **argv) {
     nw_impact impact;
     nw_outcome outcome;
     nw_deposit deposit;
-    nw_deposit_source arrivals;
+    nw_deposit_source source;
     double velocity = 0;
     FILE *table;
 
@@ -28,7 +29,7 @@ int main(int argc, char **argv) {
     if (!table || !fgets(header, sizeof header, table)) return 2;
     must(nw_impact_init(&impact));
     must(nw_outcome_init(&outcome));
-    must(nw_deposit_source_init(&arrivals));
+    must(nw_deposit_source_init(&source));
     must(nw_deposit_init(&deposit));
     must(nw_model_find_wall(model, "default", &deposit.wall));
     must(nw_deposit_initial(model, 0.4, &deposit));
@@ -39,10 +40,10 @@ int main(int argc, char **argv) {
         impact.conversion = impact.key % 2 ? 0.5 : 1.0;
         must(nw_deposit_apply(model, &deposit, 0.4, &impact));
         must(nw_resolve(model, &impact, &outcome));
-        if (outcome.stuck) must(nw_deposit_source_add(model, &impact, (double)(1 + impact.key % 7) / 1024, 2300, &arrivals));
+        if (outcome.stuck) must(nw_deposit_source_add(model, &impact, (double)(1 + impact.key % 7) / 1024, 2300, &source));
         if (impact.key % 4 == 3) {
-            must(nw_deposit_add(&arrivals, &deposit));
-            must(nw_deposit_source_init(&arrivals));
+            must(nw_deposit_add(&source, &deposit));
+            must(nw_deposit_source_init(&source));
         }
         must(nw_film_velocity(model, &deposit, impact.T_w, 9.81, &velocity));
         printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", (unsigned)outcome.stuck, impact.layer_thickness,

@@ -7,7 +7,7 @@ program deposit_test
   type(nw_impact) :: impact
   type(nw_outcome) :: outcome
   type(nw_deposit) :: deposit
-  type(nw_deposit_source) :: arrivals
+  type(nw_deposit_source) :: source
   real(c_double) :: velocity
   character(len=1024) :: path
   character(len=512) :: message
@@ -17,7 +17,7 @@ program deposit_test
   call must(nearwall_load(path, model, message))
   call must(nw_impact_init(impact))
   call must(nw_outcome_init(outcome))
-  call must(nw_deposit_source_init(arrivals))
+  call must(nw_deposit_source_init(source))
   call must(nw_deposit_init(deposit))
   call must(nearwall_find_wall(model, 'default', deposit%wall))
   call must(nw_deposit_initial(model, 0.4d0, deposit))
@@ -33,10 +33,10 @@ program deposit_test
     call must(nw_deposit_apply(model, deposit, 0.4d0, impact))
     call must(nw_resolve(model, impact, outcome))
     if (outcome%stuck == 1) call must(nw_deposit_source_add(model, impact, &
-      real(1 + modulo(impact%key, 7_c_int64_t), c_double)/1024, 2300.0d0, arrivals))
+      real(1 + modulo(impact%key, 7_c_int64_t), c_double)/1024, 2300.0d0, source))
     if (modulo(impact%key, 4_c_int64_t) == 3) then
-      call must(nw_deposit_add(arrivals, deposit))
-      call must(nw_deposit_source_init(arrivals))
+      call must(nw_deposit_add(source, deposit))
+      call must(nw_deposit_source_init(source))
     end if
     call must(nw_film_velocity(model, deposit, impact%T_w, 9.81d0, velocity))
     print '(i0, 9(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &

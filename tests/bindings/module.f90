@@ -9,7 +9,7 @@ program module_test
   type(nw_impacts) :: impacts
   type(nw_outcomes) :: outcomes
   type(nw_deposit) :: deposit
-  type(nw_deposit_source) :: arrivals
+  type(nw_deposit_source) :: source
   real(c_double), target :: v_n(count), v_t(count), e_n(count), e_t(count)
   integer(c_int32_t), target :: stuck(count), regime(count)
   integer(c_int64_t), target :: key(count)
@@ -37,7 +37,7 @@ program module_test
   status = nearwall_find_wall(model, 'default', wall)
   call must(status == NW_OK .and. wall == 0, 'the wall')
   call must(nearwall_text(nw_regime_name(NW_SP_NSW)) == 'SP-NSW', 'the name of a regime')
-  call must(nearwall_text(nw_status_text(NW_OK)) == 'done', 'the words of a status')
+  call must(nearwall_text(nw_status_text(NW_OK)) == 'success', 'the words of a status')
   call must(index(nearwall_text(nw_version()), '.') > 0, 'the version')
 
   ! Sizes: the library fills in its own.
@@ -47,8 +47,8 @@ program module_test
   call must(status == NW_OK .and. outcome%struct_size == c_sizeof(outcome), 'the size of an outcome')
   status = nw_deposit_init(deposit)
   call must(status == NW_OK .and. deposit%struct_size == c_sizeof(deposit), 'the size of a deposit')
-  status = nw_deposit_source_init(arrivals)
-  call must(status == NW_OK .and. arrivals%struct_size == c_sizeof(arrivals), 'the size of arrivals')
+  status = nw_deposit_source_init(source)
+  call must(status == NW_OK .and. source%struct_size == c_sizeof(source), 'the size of source')
   call must(impacts%struct_size == c_sizeof(impacts) .and. outcomes%struct_size == c_sizeof(outcomes), 'the sizes of arrays')
 
   ! Arrays and single impacts: the same bits.
@@ -100,15 +100,15 @@ program module_test
   ! What arrives is powder on a cold wall and melt on a hot one, and its mass lies in the deposit.
   status = nw_deposit_initial(model, 0.4d0, deposit)
   call must(status == NW_OK, 'where a deposit begins')
-  status = nw_deposit_source_add(model, impact, 0.25d0, 2500.0d0, arrivals)
+  status = nw_deposit_source_add(model, impact, 0.25d0, 2500.0d0, source)
   call must(status == NW_OK, 'a cold particle')
   impact%T_p = 1600.0d0
   impact%T_w = 1600.0d0
-  status = nw_deposit_source_add(model, impact, 0.5d0, 2500.0d0, arrivals)
-  call must(status == NW_OK .and. arrivals%count == 2, 'a hot particle')
-  call must(same(arrivals%powder, 0.25d0) .and. same(arrivals%molten, 0.5d0), 'powder and melt')
-  call must(same(arrivals%solid, 0.25d0/2500.0d0), 'the volume of the powder')
-  status = nw_deposit_add(arrivals, deposit)
+  status = nw_deposit_source_add(model, impact, 0.5d0, 2500.0d0, source)
+  call must(status == NW_OK .and. source%count == 2, 'a hot particle')
+  call must(same(source%powder, 0.25d0) .and. same(source%molten, 0.5d0), 'powder and melt')
+  call must(same(source%solid, 0.25d0/2500.0d0), 'the volume of the powder')
+  status = nw_deposit_add(source, deposit)
   call must(status == NW_OK, 'the deposit')
   call must(abs(deposit%molten + deposit%powder - 0.75d0) < 1.0d-15, 'mass is kept')
   status = nw_deposit_apply(model, deposit, 0.4d0, impact)

@@ -46,18 +46,18 @@ assert model.find_wall("default") == 0 and len(nearwall.VERSION.split(".")) == 3
 
 bad = d.copy()
 bad[17] = 0.0
-fault = refused(nearwall.Error, lambda: model.resolve(v_n, d=bad), "impact 17: a number has no physical meaning")
+fault = refused(nearwall.Error, lambda: model.resolve(v_n, d=bad), "impact 17: an input is not finite or outside its bounds")
 assert (fault.status, fault.index) == (7, 17)
 refused(nearwall.Error, lambda: model.find_wall("roof"), "the model has no such wall")
 refused(nearwall.Error, lambda: nearwall.Model.from_file("/nowhere/nearWall.toml"), "/nowhere/nearWall.toml")
 refused(nearwall.Error, lambda: nearwall.Model.from_toml("x = = 1", "mine.toml"), "mine.toml:1:")
 deposit = model.initial_deposit(0, 0.4)
 refused(nearwall.Error, lambda: model.initial_deposit(9, 0.4), "the model has no such wall")
-refused(nearwall.Error, lambda: model.add_captured(nearwall.DepositSource(), -1.0, 2300.0, 900.0), "a number has no physical meaning")
-refused(nearwall.Error, lambda: model.apply_deposit(deposit, 1.0, 900.0), "a number has no physical meaning")
+refused(nearwall.Error, lambda: model.add_captured(nearwall.DepositSource(), -1.0, 2300.0, 900.0), "an input is not finite or outside its bounds")
+refused(nearwall.Error, lambda: model.apply_deposit(deposit, 1.0, 900.0), "an input is not finite or outside its bounds")
 deposit.molten = -1.0
-refused(nearwall.Error, lambda: deposit.add(nearwall.DepositSource()), "a number has no physical meaning")
-refused(nearwall.Error, lambda: model.film_velocity(deposit, 1600.0, 9.81), "a number has no physical meaning")
+refused(nearwall.Error, lambda: deposit.add(nearwall.DepositSource()), "an input is not finite or outside its bounds")
+refused(nearwall.Error, lambda: model.film_velocity(deposit, 1600.0, 9.81), "an input is not finite or outside its bounds")
 refused(TypeError, lambda: model.add_captured(nearwall.DepositSource(), 1.0, 2300.0, 900.0, diameter=1e-4), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n, diameter=d), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n.astype(numpy.float32)), "v_n has to be a contiguous array: numpy.ascontiguousarray(v_n, numpy.float64)")

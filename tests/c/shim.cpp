@@ -99,10 +99,10 @@ int deposit(const nearwall::model& model) {
     impact.d = 60e-6;
     impact.T_p = impact.T_w = 1000;
     const double volume = 3.14159265358979 / 6 * 60e-6 * 60e-6 * 60e-6 * 1e6;
-    nw_deposit_source arrivals = nearwall::make_arrivals();
-    REQUIRE(model.add_captured(impact, 1000 * volume, 1000, arrivals) == NW_OK);
+    nw_deposit_source source = nearwall::make_deposit_source();
+    REQUIRE(model.add_captured(impact, 1000 * volume, 1000, source) == NW_OK);
     nw_deposit deposit = nearwall::make_deposit(impact.wall);
-    REQUIRE(nearwall::add(arrivals, deposit) == NW_OK);
+    REQUIRE(nearwall::add(source, deposit) == NW_OK);
     REQUIRE(model.apply_deposit(deposit, 0.5, impact) == NW_OK);
     REQUIRE(std::fabs(deposit.cover / (3.14159265358979 / 4 * 60e-6 * 60e-6 * 1e6) - 1) < 1e-13);
     REQUIRE(std::fabs(impact.layer_thickness / (2 * volume) - 1) < 1e-13);

@@ -3,6 +3,7 @@
 use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
+use nearwall::impact::INPUTS;
 
 use crate::calls::{Calls, c_case};
 use crate::common::random::{EVERY_REGIME, random_cases, seed};
@@ -32,66 +33,27 @@ impl Columns {
 
     /// Every column of `cases`; the seed is that of the first.
     fn of(&mut self, cases: &[nw_impact]) -> nw_impacts {
-        let mut f64s = |value: fn(&nw_impact) -> f64| self.put(cases.iter().map(value), f64::to_ne_bytes);
+        let mut impacts = only(self.count, null());
+        for (column, input) in impacts.columns_mut().into_iter().zip(&INPUTS) {
+            *column = self.put(cases.iter().map(|case| (input.value)(&case.to_impact())), f64::to_ne_bytes);
+        }
         nw_impacts {
-            v_n: f64s(|i| i.v_n),
-            v_t: f64s(|i| i.v_t),
-            d: f64s(|i| i.d),
-            T_p: f64s(|i| i.T_p),
-            T_w: f64s(|i| i.T_w),
-            conversion: f64s(|i| i.conversion),
-            layer_thickness: f64s(|i| i.layer_thickness),
-            film_thickness: f64s(|i| i.film_thickness),
-            v_gas: f64s(|i| i.v_gas),
-            roughness: f64s(|i| i.roughness),
-            omega: f64s(|i| i.omega),
-            coverage: f64s(|i| i.coverage),
-            melt_thickness: f64s(|i| i.melt_thickness),
             walls: self.put(cases.iter().map(|i| i.wall), u32::to_ne_bytes),
             key: self.put(cases.iter().map(|i| i.key), u64::to_ne_bytes),
             seed: cases.first().map_or(0, |case| case.seed),
-            ..only(self.count, null())
+            ..impacts
         }
     }
 }
 
 /// Impacts with a speed only.
 fn only(count: usize, v_n: *const f64) -> nw_impacts {
-    nw_impacts {
-        struct_size: size_of::<nw_impacts>() as u32,
-        wall: 0,
-        count,
-        seed: 0,
-        walls: null(),
-        v_n,
-        v_t: null(),
-        d: null(),
-        T_p: null(),
-        T_w: null(),
-        conversion: null(),
-        layer_thickness: null(),
-        film_thickness: null(),
-        v_gas: null(),
-        roughness: null(),
-        omega: null(),
-        coverage: null(),
-        key: null(),
-        melt_thickness: null(),
-    }
+    nw_impacts { count, v_n, ..nw_impacts::default() }
 }
 
 /// No outcome wanted.
 fn nothing() -> nw_outcomes {
-    nw_outcomes {
-        struct_size: size_of::<nw_outcomes>() as u32,
-        e_n: null_mut(),
-        e_t: null_mut(),
-        p_stick: null_mut(),
-        omega: null_mut(),
-        regime: null_mut(),
-        stuck: null_mut(),
-        flags: null_mut(),
-    }
+    nw_outcomes::default()
 }
 
 /// Poisoned room for the outcomes, one entry more than asked for.
@@ -164,7 +126,7 @@ fn a_batch_is_one_by_one() {
         let end = cases.len();
         assert_eq!(room.row(end)[0], POISON, "one entry too many");
     }
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }
 
 #[test]
@@ -185,7 +147,7 @@ fn arrays_that_are_null_stand_for_the_defaults() {
     assert_eq!(unsafe { (calls.nw_resolve_batch)(model, &impacts, &some, null_mut()) }, NW_OK);
     assert!(e_t.iter().enumerate().all(|(i, e_t)| e_t.to_bits() == room.row(i)[1]));
     assert_eq!(unsafe { (calls.nw_resolve_batch)(model, &impacts, &nothing(), null_mut()) }, NW_OK);
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }
 
 #[test]
@@ -218,7 +180,7 @@ fn one_bad_impact_and_nothing_is_written() {
             assert!(found == status && room.untouched());
         }
     }
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }
 
 #[test]
@@ -251,5 +213,5 @@ fn counts_null_pointers_and_other_sizes() {
         assert_eq!(batch(model, &good, &nw_outcomes { struct_size, ..outcomes }), NW_STRUCT_SIZE);
     }
     assert!(room.untouched());
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }

@@ -1,4 +1,4 @@
-//! The functions of the shared library, and what the tests ask with them.
+//! `libnearwall.so` of this build, loaded at run time as a stranger loads it.
 
 use std::ffi::{CStr, c_char};
 
@@ -8,9 +8,10 @@ use nearwall::c_api::{
 };
 use nearwall::{Impact, ImpactRng, Outcome};
 
-use crate::common::library_path;
+use crate::common::compile::library_path;
+use crate::interface::for_each_function;
 
-macro_rules! calls {
+macro_rules! define_calls {
     ($($name:ident: $signature:ty,)*) => {
         /// Every function of `nearwall.h`.
         pub struct Calls {
@@ -36,40 +37,10 @@ macro_rules! calls {
     };
 }
 
-type Text = *const c_char;
-type Handle = *mut *mut nw_model;
-
-calls! {
-    nw_abi_version: unsafe extern "C" fn() -> u32,
-    nw_version: unsafe extern "C" fn() -> Text,
-    nw_status_text: unsafe extern "C" fn(i32) -> Text,
-    nw_regime_name: unsafe extern "C" fn(u32) -> Text,
-    nw_model_load: unsafe extern "C" fn(Text, Handle, *mut c_char, usize) -> i32,
-    nw_model_parse: unsafe extern "C" fn(Text, usize, Text, Handle, *mut c_char, usize) -> i32,
-    nw_model_free: unsafe extern "C" fn(*mut nw_model),
-    nw_model_find_wall: unsafe extern "C" fn(*const nw_model, Text, *mut u32) -> i32,
-    nw_impact_init: unsafe extern "C" fn(*mut nw_impact) -> i32,
-    nw_outcome_init: unsafe extern "C" fn(*mut nw_outcome) -> i32,
-    nw_resolve: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32,
-    nw_speeds: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64, *mut f64, *mut f64) -> i32,
-    nw_temperature_ranges:
-        unsafe extern "C" fn(*const nw_model, u32, *mut f64, *mut f64, *mut f64, *mut f64) -> i32,
-    nw_resolve_batch:
-        unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
-    nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
-    nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
-    nw_deposit_source_init: unsafe extern "C" fn(*mut nw_deposit_source) -> i32,
-    nw_deposit_source_add:
-        unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, f64, *mut nw_deposit_source) -> i32,
-    nw_deposit_add: unsafe extern "C" fn(*const nw_deposit_source, *mut nw_deposit) -> i32,
-    nw_deposit_apply:
-        unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *mut nw_impact) -> i32,
-    nw_film_velocity:
-        unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, *mut f64) -> i32,
-}
+for_each_function!(define_calls);
 
 impl Calls {
-    /// A model from text; free it with `nw_model_free`.
+    /// A model from text; `free` it.
     pub fn parse(&self, toml: &str) -> *mut nw_model {
         let mut model = std::ptr::null_mut();
         let (null, none) = (std::ptr::null(), std::ptr::null_mut());
@@ -77,6 +48,10 @@ impl Calls {
             unsafe { (self.nw_model_parse)(toml.as_ptr().cast(), toml.len(), null, &raw mut model, none, 0) };
         assert_eq!(status, NW_OK);
         model
+    }
+
+    pub fn free(&self, model: *mut nw_model) {
+        unsafe { (self.nw_model_free)(model) };
     }
 
     /// One impact; an outcome with `Ok`, the status with `Err`, and then nothing was written.
@@ -91,8 +66,16 @@ impl Calls {
         Err(status)
     }
 
+    /// Adhesive, yield and sticking velocity [m/s].
+    pub fn speeds(&self, model: *const nw_model, impact: &nw_impact) -> [f64; 3] {
+        let mut found = [0.0; 3];
+        let [a, b, c] = found.each_mut().map(std::ptr::from_mut);
+        assert_eq!(unsafe { (self.nw_speeds)(model, impact, a, b, c) }, NW_OK);
+        found
+    }
+
     /// A static text of the library.
-    pub fn text(&self, text: Text) -> &str {
+    pub fn text(&self, text: *const c_char) -> &str {
         unsafe { CStr::from_ptr(text) }.to_str().unwrap()
     }
 }

@@ -23,12 +23,12 @@ fn a_wall_grows_as_in_the_rust_library() {
         let impact = Impact { layer_thickness: 0.0, coverage: 0.0, melt_thickness: 0.0, ..impact };
         let (mass, density) = (0.1 * draw.uniform(1), 500.0 + 2000.0 * draw.uniform(2));
         let bare = nw_impact { wall: 1, ..nw_impact::from(&impact) };
-        let mut arrivals = nw_deposit_source::default();
+        let mut source = nw_deposit_source::default();
         let mut dressed = bare;
         unsafe {
             assert_eq!((calls.nw_deposit_apply)(model, &raw const deposit, 0.4, &raw mut dressed), NW_OK);
             let status =
-                (calls.nw_deposit_source_add)(model, &raw const dressed, mass, density, &raw mut arrivals);
+                (calls.nw_deposit_source_add)(model, &raw const dressed, mass, density, &raw mut source);
             assert_eq!(status, NW_OK);
         }
         let met = rust.apply_deposit(1, &expected, 0.4, &impact).unwrap();
@@ -36,13 +36,13 @@ fn a_wall_grows_as_in_the_rust_library() {
         assert_eq!(found, [met.layer_thickness, met.coverage, met.melt_thickness]);
         let stayed = rust.add_captured(1, &met, mass, density, DepositSource::default()).unwrap();
         both[usize::from(stayed.molten > 0.0)] += 1;
-        assert_eq!((arrivals.count, arrivals.molten, arrivals.powder), (1, stayed.molten, stayed.powder));
-        assert_eq!(unsafe { (calls.nw_deposit_add)(&raw const arrivals, &raw mut deposit) }, NW_OK);
+        assert_eq!((source.count, source.molten, source.powder), (1, stayed.molten, stayed.powder));
+        assert_eq!(unsafe { (calls.nw_deposit_add)(&raw const source, &raw mut deposit) }, NW_OK);
         expected = expected.with(&stayed);
         let nw_deposit { molten, powder, solid, cover, conversion, .. } = deposit;
         assert_eq!(Deposit { molten, powder, solid, cover, conversion }, expected);
     }
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
     assert!(both.iter().all(|count| *count > 20), "{both:?}");
 }
 
@@ -59,7 +59,7 @@ fn a_deposit_starts_from_its_wall() {
         (&raw mut (*deposit).struct_size).write_unaligned(size_of::<nw_deposit>() as u32);
         (&raw mut (*deposit).wall).write_unaligned(1);
         assert_eq!((calls.nw_deposit_initial)(model, 0.4, deposit), NW_OK);
-        (calls.nw_model_free)(model);
+        calls.free(model);
         deposit.read_unaligned()
     };
     assert_eq!(format!("{found:?}"), format!("{expected:?}"));
@@ -104,7 +104,7 @@ fn the_film_runs_as_nusselt_says() {
     assert_eq!(ask(&nowhere, 1600.0, 9.81, &raw mut kept), NW_UNKNOWN_WALL);
     assert_eq!(ask(&deposit, 1600.0, 9.81, null_mut()), NW_NULL_POINTER);
     assert_eq!(kept, -1.0);
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }
 
 #[test]
@@ -116,9 +116,9 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         let mut deposit = nw_deposit { wall: 9, molten: 9.0, ..nw_deposit::default() };
         assert_eq!((calls.nw_deposit_init)(&raw mut deposit), NW_OK);
         assert_eq!(format!("{deposit:?}"), format!("{:?}", nw_deposit::default()));
-        let mut arrivals = nw_deposit_source { count: 9, molten: 9.0, ..nw_deposit_source::default() };
-        assert_eq!((calls.nw_deposit_source_init)(&raw mut arrivals), NW_OK);
-        assert_eq!(format!("{arrivals:?}"), format!("{:?}", nw_deposit_source::default()));
+        let mut source = nw_deposit_source { count: 9, molten: 9.0, ..nw_deposit_source::default() };
+        assert_eq!((calls.nw_deposit_source_init)(&raw mut source), NW_OK);
+        assert_eq!(format!("{source:?}"), format!("{:?}", nw_deposit_source::default()));
         assert_eq!((calls.nw_deposit_init)(null_mut()), NW_NULL_POINTER);
         assert_eq!((calls.nw_deposit_source_init)(null_mut()), NW_NULL_POINTER);
 
@@ -134,9 +134,9 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         assert_eq!(format!("{start:?}"), kept);
 
         let mut add = |model, impact: *const nw_impact, mass, density| {
-            let before = format!("{arrivals:?}");
-            let status = (calls.nw_deposit_source_add)(model, impact, mass, density, &raw mut arrivals);
-            assert_eq!(format!("{arrivals:?}"), before);
+            let before = format!("{source:?}");
+            let status = (calls.nw_deposit_source_add)(model, impact, mass, density, &raw mut source);
+            assert_eq!(format!("{source:?}"), before);
             status
         };
         assert_eq!(add(null(), &raw const impact, 1.0, 1e3), NW_NULL_POINTER);
@@ -149,9 +149,9 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         let nowhere = nw_impact { wall: 77, ..impact };
         assert_eq!(add(model, &raw const nowhere, 1.0, 1e3), NW_UNKNOWN_WALL);
 
-        let mut grow = |arrivals: *const nw_deposit_source| {
+        let mut grow = |source: *const nw_deposit_source| {
             let before = format!("{deposit:?}");
-            let status = (calls.nw_deposit_add)(arrivals, &raw mut deposit);
+            let status = (calls.nw_deposit_add)(source, &raw mut deposit);
             assert_eq!(format!("{deposit:?}"), before);
             status
         };
@@ -173,7 +173,7 @@ fn what_cannot_be_is_refused_and_nothing_written() {
         }
         assert_eq!(dress(&nw_deposit { cover: f64::NAN, ..nw_deposit::default() }, 0.5), NW_BAD_STATE);
         assert_eq!(dress(&nw_deposit { struct_size: 0, ..nw_deposit::default() }, 0.5), NW_STRUCT_SIZE);
-        (calls.nw_model_free)(model);
+        calls.free(model);
     }
 }
 
@@ -186,20 +186,20 @@ fn what_overflows_is_refused_and_nothing_written() {
     let huge = nw_deposit { wall: 1, molten: f64::MAX, solid: f64::MAX, ..nw_deposit::default() };
     let many = nw_deposit_source { molten: f64::MAX, powder: 1e300, ..nw_deposit_source::default() };
     unsafe {
-        let (mut deposit, mut arrivals, mut dressed, mut velocity) = (huge, many, impact, -1.0);
+        let (mut deposit, mut source, mut dressed, mut velocity) = (huge, many, impact, -1.0);
         let found = [
             (calls.nw_deposit_add)(&raw const many, &raw mut deposit),
-            (calls.nw_deposit_source_add)(model, &raw const impact, f64::MAX, 1e-300, &raw mut arrivals),
+            (calls.nw_deposit_source_add)(model, &raw const impact, f64::MAX, 1e-300, &raw mut source),
             (calls.nw_deposit_apply)(model, &raw const huge, 0.5, &raw mut dressed),
             (calls.nw_film_velocity)(model, &raw const huge, 1600.0, 9.81, &raw mut velocity),
         ];
         assert_eq!(found, [NW_BAD_STATE; 4]);
-        assert_eq!(format!("{deposit:?}{arrivals:?}{dressed:?}"), format!("{huge:?}{many:?}{impact:?}"));
+        assert_eq!(format!("{deposit:?}{source:?}{dressed:?}"), format!("{huge:?}{many:?}{impact:?}"));
         assert_eq!(velocity, -1.0);
         let no_number = nw_deposit_source { converted: f64::NAN, ..nw_deposit_source::default() };
-        arrivals = no_number;
-        let status = (calls.nw_deposit_source_add)(model, &raw const impact, 1.0, 1e3, &raw mut arrivals);
-        assert_eq!((status, arrivals.count), (NW_BAD_STATE, 0));
-        (calls.nw_model_free)(model);
+        source = no_number;
+        let status = (calls.nw_deposit_source_add)(model, &raw const impact, 1.0, 1e3, &raw mut source);
+        assert_eq!((status, source.count), (NW_BAD_STATE, 0));
+        calls.free(model);
     }
 }

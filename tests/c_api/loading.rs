@@ -70,7 +70,7 @@ fn file_and_text_give_the_same_model() {
     let outcomes = [model, parsed].map(|model| crate::calls::bytes(&calls.resolve(model, &impact).unwrap()));
     assert_eq!(outcomes[0], outcomes[1]);
     unsafe {
-        (calls.nw_model_free)(model);
+        calls.free(model);
         (calls.nw_model_free)(parsed);
         (calls.nw_model_free)(null_mut());
     }
@@ -81,7 +81,7 @@ fn the_text_ends_where_its_size_says() {
     let calls = Calls::load();
     let text = format!("{EVERY_REGIME}this is no longer TOML");
     let model = calls.parse(&text[..EVERY_REGIME.len()]);
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }
 
 #[test]
@@ -122,7 +122,10 @@ fn texts_that_are_no_model() {
         "{message}"
     );
 
-    assert_eq!(parse_fault(&calls, b"x = \"\xC3\"", name), (NW_NOT_UTF8, "a text is not UTF-8".to_owned()));
+    assert_eq!(
+        parse_fault(&calls, b"x = \"\xC3\"", name),
+        (NW_NOT_UTF8, "a string is not valid UTF-8".to_owned())
+    );
     assert_eq!(parse_fault(&calls, b"x = 1\0y = 2", name).0, NW_MODEL);
     assert_eq!(parse_fault(&calls, &[0; 100], name).0, NW_MODEL);
     assert_eq!(parse_fault(&calls, b"", name).0, NW_MODEL);
@@ -222,13 +225,13 @@ fn statuses_and_regimes_have_words() {
     let texts: std::collections::HashSet<&str> = (NW_OK..=NW_PANIC).map(text).collect();
     assert_eq!(texts.len(), 10);
     for status in [-1, 10, i32::MIN, i32::MAX] {
-        assert_eq!(text(status), "not a status of this library");
+        assert_eq!(text(status), "unknown status");
     }
     let name = |regime| calls.text(unsafe { (calls.nw_regime_name)(regime) });
     for regime in nearwall::Regime::ALL {
         assert_eq!(name(regime as u32), regime.name());
     }
-    assert_eq!((name(4), name(u32::MAX)), ("not a regime", "not a regime"));
+    assert_eq!((name(4), name(u32::MAX)), ("unknown regime", "unknown regime"));
     assert_eq!(calls.text(unsafe { (calls.nw_version)() }), env!("CARGO_PKG_VERSION"));
     assert_eq!(unsafe { (calls.nw_abi_version)() }, NW_ABI_VERSION);
 }
@@ -251,5 +254,5 @@ fn walls_are_found() {
     assert_eq!(find(model, null()), Err(NW_NULL_POINTER));
     let status = unsafe { (calls.nw_model_find_wall)(model, c"slag".as_ptr(), null_mut()) };
     assert_eq!(status, NW_NULL_POINTER);
-    unsafe { (calls.nw_model_free)(model) };
+    calls.free(model);
 }

@@ -1,5 +1,5 @@
-//! The C library: every call and status, hostile input, threads, floating-point state, the shared library's file, the header,
-//! the binary interface and the dependencies.
+//! The C library: every call and status, hostile input, threads, floating-point state, the shared library's file and the
+//! dependencies. `tests/library/interface` tests the header.
 #![allow(unsafe_code, reason = "calling a C library")]
 #![allow(
     clippy::unwrap_used,
@@ -11,14 +11,13 @@
 #[path = "../common/mod.rs"]
 mod common;
 
-mod abi;
 mod allocations;
 mod batch;
 mod calls;
 mod dependencies;
 mod deposit;
-mod header;
 mod impacts;
+mod interface;
 mod library_file;
 mod loading;
 mod programs;

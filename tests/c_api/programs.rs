@@ -9,6 +9,7 @@ use crate::calls::{c_case, c_outcome};
 use crate::common::compile::{Build, Language, Program, compiles, next_version, shared_library};
 use crate::common::golden::{Golden, golden_cases};
 use crate::common::random::{Case, EVERY_REGIME, hostile_cases, random_cases, seed};
+use crate::interface::{for_each_number, for_each_struct};
 
 const BUILDS: [Build; 2] = [Build::Tested, Build::Lean];
 
@@ -125,23 +126,7 @@ macro_rules! constants {
 
 #[test]
 fn c_and_rust_agree_on_layout_and_numbers() {
-    let same = layout! {
-        nw_impact {
-            struct_size wall v_n v_t d T_p T_w conversion layer_thickness film_thickness v_gas roughness omega coverage
-            seed key melt_thickness
-        }
-        nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
-        nw_impacts {
-            struct_size wall count seed walls v_n v_t d T_p T_w conversion layer_thickness film_thickness v_gas
-            roughness omega coverage key melt_thickness
-        }
-        nw_deposit { struct_size wall molten powder solid cover conversion }
-        nw_deposit_source { struct_size count molten powder solid cover buried converted }
-        nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
-    } + &constants! {
-        NW_ABI_VERSION NW_OK NW_NULL_POINTER NW_STRUCT_SIZE NW_NOT_UTF8 NW_FILE NW_MODEL NW_UNKNOWN_WALL NW_BAD_STATE
-        NW_OUT_OF_RANGE NW_PANIC NW_NSP_NSW NW_NSP_SW NW_SP_NSW NW_SP_SW NW_OUTSIDE_VALID_RANGE
-    };
+    let same = for_each_struct!(layout) + &for_each_number!(constants);
     let text = |assert: &str, alignof: &str| {
         format!(
             "#include \"nearwall.h\"\n#define ALIGNOF(T) {alignof}(T)\n\

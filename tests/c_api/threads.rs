@@ -49,5 +49,5 @@ fn eight_threads_get_the_same_bits_in_any_order() {
             });
         }
     });
-    unsafe { (calls.nw_model_free)(owned) };
+    calls.free(owned);
 }

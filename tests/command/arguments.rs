@@ -2,53 +2,19 @@
 
 use std::io::Write;
 use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
-const WAX: &str = r#"
-[particle]
-material = "montan-wax"
-[walls.default]
-material = "pyrex"
-[normal]
-model = "thornton-ning"
-yield_ratio = 0.7
-[tangential]
-model = "constant"
-e_t = 0.76
-"#;
-
-pub fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
-}
+use crate::common::golden::{Golden, golden_cases};
+use crate::runner::{WAX, folder, nearwall, refused};
 
 fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }
 
-/// A folder with these files.
-pub fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    for (name, content) in files {
-        std::fs::write(folder.path().join(name), content).unwrap();
-    }
-    folder
-}
-
-/// Asserts exit 1 and that the message holds each of `parts`.
-pub fn refused(folder: &Path, arguments: &[&str], parts: &[&str]) {
-    let output = nearwall(folder, arguments);
-    let message = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "`{part}` is not in: {message}");
-    }
-    assert!(!message.contains("panicked"), "{message}");
-}
-
 #[test]
 fn predict_agrees_with_the_golden_table() {
-    let cases = crate::common::golden::golden_cases();
-    let worker = |chunk: &[crate::common::golden::Golden]| {
+    let cases = golden_cases();
+    let worker = |chunk: &[Golden]| {
         let folder = tempfile::tempdir().unwrap();
         for case in chunk {
             std::fs::write(folder.path().join("m.toml"), case.model()).unwrap();

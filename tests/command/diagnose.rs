@@ -3,33 +3,13 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use crate::arguments::{nearwall, refused};
 use crate::common::browser::{Seen, browse};
+use crate::runner::{WAX, done, refused};
 use nearwall::{Impact, ImpactRng, Model};
 use serde_json::Value;
 
-const WAX: &str = r#"
-[particle]
-material = "montan-wax"
-[walls.default]
-material = "pyrex"
-[normal]
-model = "thornton-ning"
-yield_ratio = 0.7
-[tangential]
-model = "constant"
-e_t = 0.76
-"#;
-
 /// Invalid rows with their lines.
 const BROKEN: [(usize, &str); 2] = [(8, "fast,0.5,7e-5,0,dry,0.3,0.7"), (21, "1.5,0.5,-7e-5,0,dry,0.3,0.7")];
-
-/// Asserts exit 0 and returns the standard output.
-fn done(folder: &Path, arguments: &[&str]) -> String {
-    let output = nearwall(folder, arguments);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).unwrap()
-}
 
 /// Approximately normal with mean 0 and deviation 1: the sum of twelve uniform draws.
 fn noise(draw: ImpactRng, first: u64) -> f64 {
@@ -79,7 +59,7 @@ fn rational(layer: f64) -> f64 {
 }
 
 fn folder(data: &str) -> tempfile::TempDir {
-    crate::arguments::folder(&[("wax.toml", WAX), ("lab.csv", data)])
+    crate::runner::folder(&[("wax.toml", WAX), ("lab.csv", data)])
 }
 
 const DIAGNOSE: [&str; 6] = ["diagnose", "lab.csv", "--model", "wax.toml", "--out", "out"];

@@ -7,20 +7,8 @@ use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use crate::runner::{WAX, is_refusal};
 use tempfile::TempDir;
-
-const WAX: &str = r#"
-[particle]
-material = "montan-wax"
-[walls.default]
-material = "pyrex"
-[normal]
-model = "thornton-ning"
-yield_ratio = 0.7
-[tangential]
-model = "constant"
-e_t = 0.76
-"#;
 
 const BINARY: &str = env!("CARGO_BIN_EXE_nearwall");
 const PRECIOUS: &str = "precious";
@@ -80,16 +68,6 @@ fn shell(folder: &Path, line: &str) -> Output {
     sh.output().unwrap()
 }
 
-/// Asserts exit 1, no panic, and that the message holds each of `parts`.
-fn refused(output: &Output, parts: &[&str]) {
-    let message = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(1), "{message}");
-    assert!(!message.contains("panicked"), "{message}");
-    for part in parts {
-        assert!(message.contains(part), "`{part}` is not in: {message}");
-    }
-}
-
 /// Puts something in the place of each result.
 fn precious(folder: &Path, results: &[&str]) {
     for result in results {
@@ -122,7 +100,7 @@ fn files_that_may_not_grow_leave_what_was_there() {
         precious(folder.path(), results);
         let before = tree(folder.path());
         let output = shell(folder.path(), &format!("trap '' XFSZ; ulimit -f 1; exec $nearwall {run}"));
-        refused(&output, &[results[0].split('/').next().unwrap(), "make room or write elsewhere"]);
+        is_refusal(&output, &[results[0].split('/').next().unwrap(), "make room or write elsewhere"]);
         assert!(tree(folder.path()) == before, "{run}");
     }
 }
@@ -155,7 +133,7 @@ fn a_full_disk_leaves_what_was_there() {
         if output.status.code() == Some(9) || said.contains("unshare") {
             return println!("SKIPPED, no disk can be mounted here: {said}");
         }
-        refused(&output, &["disk/out", "No space left", "make room or write elsewhere"]);
+        is_refusal(&output, &["disk/out", "No space left", "make room or write elsewhere"]);
     }
 }
 
@@ -163,13 +141,13 @@ fn a_full_disk_leaves_what_was_there() {
 fn standard_output_and_devices_that_are_full_are_named() {
     let folder = inputs();
     let predict = "$nearwall predict --model m.toml i.csv";
-    refused(&shell(folder.path(), &format!("{predict} > /dev/full")), &["standard output: No space left"]);
-    refused(
+    is_refusal(&shell(folder.path(), &format!("{predict} > /dev/full")), &["standard output: No space left"]);
+    is_refusal(
         &shell(folder.path(), &format!("{predict} -o /dev/full")),
         &["/dev/full: No space left", "elsewhere"],
     );
     for line in ["check m.toml", "materials", "predict --model m.toml i.csv --explain 2"] {
-        refused(&shell(folder.path(), &format!("$nearwall {line} > /dev/full")), &["No space left"]);
+        is_refusal(&shell(folder.path(), &format!("$nearwall {line} > /dev/full")), &["No space left"]);
     }
     assert!(shell(folder.path(), &format!("{predict} -o /dev/null")).status.success());
     let piped = shell(folder.path(), &format!("{predict} -o /dev/stdout | wc -l"));
@@ -195,7 +173,7 @@ fn folders_that_take_nothing_are_named() {
             copy.display()
         );
         let output = shell(folder.path(), &line);
-        refused(&output, &["out", "ermission denied", "allow writing there or write elsewhere"]);
+        is_refusal(&output, &["out", "ermission denied", "allow writing there or write elsewhere"]);
         assert!(tree(folder.path()) == before, "{run}");
     }
 }
@@ -209,10 +187,10 @@ fn folders_that_are_not_there_are_made_or_named() {
         if run.starts_with("simulate") || run.starts_with("diagnose") {
             assert!(output.status.success(), "{run} makes its folder");
         } else {
-            refused(&output, &["nowhere/at/all/out", "make the folder first"]);
+            is_refusal(&output, &["nowhere/at/all/out", "make the folder first"]);
         }
         let output = shell(folder.path(), &format!("$nearwall {}", run.replace(" out", " m.toml/out")));
-        refused(&output, &["m.toml/out", "ot a directory", "make the folder first"]);
+        is_refusal(&output, &["m.toml/out", "ot a directory", "make the folder first"]);
     }
 }
 
@@ -223,7 +201,7 @@ fn results_that_are_write_protected_stay() {
         precious(folder.path(), results);
         let before = tree(folder.path());
         let protect = format!("chmod a-w {}; exec $nearwall {run}", results[0]);
-        refused(&shell(folder.path(), &protect), &[results[0], "allow writing there"]);
+        is_refusal(&shell(folder.path(), &protect), &[results[0], "allow writing there"]);
         assert!(tree(folder.path()) == before, "{run}");
     }
 }
@@ -243,7 +221,7 @@ fn inputs_are_never_written_over() {
         std::fs::create_dir(at.join("out")).unwrap();
         std::fs::copy(at.join("m.toml"), at.join("out/extended.toml")).unwrap();
         let before = tree(at);
-        refused(&shell(at, &format!("$nearwall {line}")), &[name, "is read as an input", "elsewhere"]);
+        is_refusal(&shell(at, &format!("$nearwall {line}")), &[name, "is read as an input", "elsewhere"]);
         assert!(tree(at) == before, "{line}");
     }
 }
@@ -275,7 +253,7 @@ fn models_that_are_cut_off() {
             continue;
         }
         refusals += 1;
-        refused(&output, &["nearwall: cut.toml:"]);
+        is_refusal(&output, &["nearwall: cut.toml:"]);
     }
     assert!(refusals > 20, "{refusals}");
 }

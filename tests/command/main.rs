@@ -12,4 +12,5 @@ mod faults;
 mod pages;
 mod published;
 mod report;
+mod runner;
 mod simulate;

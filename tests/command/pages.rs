@@ -1,16 +1,9 @@
 //! The pages in a real browser: nothing loaded from elsewhere, no complaint on the console, every figure there.
 
 use std::path::Path;
-use std::process::Command;
 
 use crate::common::browser::{Seen, browse};
-
-fn nearwall(arguments: &[&str]) {
-    let root = env!("CARGO_MANIFEST_DIR");
-    let output =
-        Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(root).args(arguments).output().unwrap();
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-}
+use crate::runner::done;
 
 /// Asserts that the page stands alone and shows at least `figures` pictures, each with a heading and axes.
 fn looks_right(page: &Path, figures: usize) {
@@ -41,7 +34,7 @@ fn simulated(name: &str, count: &str) -> tempfile::TempDir {
     let model = format!("{name}.model.toml");
     std::fs::copy(examples.join(&model), folder.path().join(&model)).unwrap();
     let path = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
-    nearwall(&["simulate", &path("case.toml"), "-o", &path("out")]);
+    done(Path::new("."), &["simulate", &path("case.toml"), "-o", &path("out")]);
     folder
 }
 
@@ -71,6 +64,6 @@ fn page_of_a_table_of_runs() {
                 a,20,0.001,0,0.002,0,0.28,0.001,0.28\nb,120,0.99,0.98,0.995,>0.85,0,0,-\n";
     std::fs::write(&table, text).unwrap();
     let page = folder.path().join("page.html");
-    nearwall(&["report", table.to_str().unwrap(), "-o", page.to_str().unwrap()]);
+    done(Path::new("."), &["report", table.to_str().unwrap(), "-o", page.to_str().unwrap()]);
     looks_right(&page, 2);
 }

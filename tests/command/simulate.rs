@@ -446,7 +446,7 @@ fn the_command_writes_its_files_and_refuses_bad_cases() {
     assert_eq!(summary["runs"][1]["swept"]["value"], 380.0);
     assert!(
         read("impacts.csv")
-            .starts_with("time,wall,particle,hit,v_n,v_t,d,T_p,T_w,conversion,v_gas,omega,x,y,z,e_n")
+            .starts_with("time,wall,particle,hit,v_n,v_t,omega,d,T_p,conversion,T_w,v_gas,x,y,z,e_n")
     );
     assert!(read("report.html").contains("id=\"sweep-capture\""));
     assert_eq!(std::fs::read_dir(folder.path().join("rig")).unwrap().count(), 3, "no scratch files are left");

@@ -6,6 +6,12 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
+/// Where cargo puts the shared library that belongs to the running test.
+pub fn library_path() -> PathBuf {
+    let exe = std::env::current_exe().unwrap();
+    exe.parent().unwrap().join("libnearwall.so")
+}
+
 /// A language and its standard.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Language {
@@ -81,7 +87,7 @@ pub fn shared_library(build: Build) -> PathBuf {
         return other.into();
     }
     match build {
-        Build::Tested => super::library_path(),
+        Build::Tested => library_path(),
         Build::Lean => lean_library().to_owned(),
     }
 }

@@ -64,21 +64,23 @@ fn random_case(seed: u64, index: u64) -> Case {
         stream += 1;
         low + (high - low) * draw.uniform(stream)
     };
-    let impact = Impact {
-        normal_speed: 10_f64.powf(uniform(-3.0, 2.0)),
-        tangential_speed: 10_f64.powf(uniform(-3.0, 2.0)),
-        diameter: 10_f64.powf(uniform(-6.0, -3.0)),
-        particle_temperature: uniform(600.0, 2200.0),
-        wall_temperature: uniform(600.0, 1950.0),
-        conversion: uniform(0.5, 1.0),
-        layer_thickness: uniform(-3e-4, 1e-4).max(0.0),
-        film_thickness: uniform(-1e-3, 1e-3).max(0.0),
-        gas_speed: uniform(0.0, 30.0),
-        roughness: uniform(-1e-6, 1e-6).max(0.0),
-        spin: uniform(-1e4, 1e4),
-        coverage: uniform(-2.0, 1.0).max(0.0),
-        melt_thickness: uniform(-1e-4, 1e-4).max(0.0),
-    };
+    let mut impact = Impact::default();
+    for input in &INPUTS {
+        let value = match (input.name, input.unit) {
+            ("d", _) => 10_f64.powf(uniform(-6.0, -3.0)),
+            ("T_p", _) => uniform(600.0, 2200.0),
+            ("T_w", _) => uniform(600.0, 1950.0),
+            ("conversion", _) => uniform(0.5, 1.0),
+            ("omega", _) => uniform(-1e4, 1e4),
+            ("film_thickness", _) => uniform(-1e-3, 1e-3).max(0.0),
+            ("layer_thickness", _) => uniform(-3e-4, 1e-4).max(0.0),
+            ("roughness", _) => uniform(-1e-6, 1e-6).max(0.0),
+            (_, "m/s") => 10_f64.powf(uniform(-3.0, 2.0)),
+            (_, "m") => uniform(-1e-4, 1e-4).max(0.0),
+            _ => uniform(-2.0, 1.0).max(0.0),
+        };
+        (input.set)(&mut impact, value);
+    }
     ((uniform(0.0, 1.0) * WALLS as f64) as usize, impact, draw)
 }
 

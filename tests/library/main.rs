@@ -1,5 +1,5 @@
-//! The library: the golden table, independent oracles, effects, droplets, slag viscosity, the fuzzer's corpus, and the
-//! links in the documents.
+//! The library: the golden table, independent oracles, effects, droplets, slag viscosity, the fuzzer's corpus, the links
+//! in the documents, and the C header with everything that is generated from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "the C interface is compared and fuzzed too")]
 #![allow(missing_docs, reason = "the fuzz targets belong to another workspace")]
@@ -13,5 +13,6 @@ mod docs;
 mod droplet;
 mod effects;
 mod golden;
+mod interface;
 mod slag_viscosity;
 mod slag_viscosity_study;

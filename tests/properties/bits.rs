@@ -57,37 +57,16 @@ fn batch(model: &Shared, impacts: &[Impact], first: u64, seed: u64, offset: usiz
     let columns =
         INPUTS.map(|input| column(offset, impacts.iter().map(|impact| (input.value)(impact).to_ne_bytes())));
     let keys = column(offset, (first..first + count as u64).map(u64::to_ne_bytes));
-    let at = |name: &str| -> *const f64 {
-        let index = INPUTS.iter().position(|input| input.name == name).unwrap();
-        columns[index][offset..].as_ptr().cast()
-    };
-    let asked = nw_impacts {
-        struct_size: size_of::<nw_impacts>() as u32,
-        wall: 0,
-        count,
-        seed,
-        walls: null(),
-        v_n: at("v_n"),
-        v_t: at("v_t"),
-        d: at("d"),
-        T_p: at("T_p"),
-        T_w: at("T_w"),
-        conversion: at("conversion"),
-        layer_thickness: at("layer_thickness"),
-        film_thickness: at("film_thickness"),
-        v_gas: at("v_gas"),
-        roughness: at("roughness"),
-        omega: at("omega"),
-        coverage: at("coverage"),
-        key: keys[offset..].as_ptr().cast(),
-        melt_thickness: at("melt_thickness"),
-    };
+    let key = keys[offset..].as_ptr().cast();
+    let mut asked = nw_impacts { count, seed, key, ..nw_impacts::default() };
+    for (array, column) in asked.columns_mut().into_iter().zip(&columns) {
+        *array = column[offset..].as_ptr().cast();
+    }
     let mut numbers: [Vec<u8>; 4] = std::array::from_fn(|_| vec![0; offset + 8 * count]);
     let mut marks: [Vec<u8>; 2] = std::array::from_fn(|_| vec![0; offset + 4 * count]);
     let [e_n, e_t, p_stick, omega] = numbers.each_mut().map(|bytes| bytes[offset..].as_mut_ptr().cast());
     let [regime, stuck] = marks.each_mut().map(|bytes| bytes[offset..].as_mut_ptr().cast());
-    let struct_size = size_of::<nw_outcomes>() as u32;
-    let wanted = nw_outcomes { struct_size, e_n, e_t, p_stick, omega, regime, stuck, flags: null_mut() };
+    let wanted = nw_outcomes { e_n, e_t, p_stick, omega, regime, stuck, ..nw_outcomes::default() };
     // SAFETY: every array has `count` entries.
     assert_eq!(unsafe { nw_resolve_batch(model.0, &raw const asked, &raw const wanted, null_mut()) }, NW_OK);
     let word =

@@ -1,44 +1,49 @@
-//! What becomes of the impacts in a file, with the C library loaded at run time.
+//! Resolves the impacts of a file with the C library loaded at run time.
 //!
 //! ```sh
 //! cargo run -- nearWall.toml impacts.csv
 //! ```
 //!
-//! The library is the one that `NEARWALL_LIBRARY` names, else what the loader finds. The table has the columns
+//! It loads the library that `NEARWALL_LIBRARY` names, else the one on the loader's path. The table has the columns
 //! `v_n,v_t,d,T_p,T_w` (SI units) and one header line; more pairs of model and table may follow. Prints `e_n`, `e_t`,
-//! the probability of capture and 1 for captured of each impact.
+//! the capture probability and 1 (captured) or 0 for each impact.
 #![allow(unsafe_code, reason = "a C library")]
 #![allow(non_camel_case_types, non_snake_case, reason = "the names of nearwall.h")]
 
 use std::error::Error;
-use std::ffi::{CStr, CString, c_char, c_void};
+use std::ffi::{CStr, CString, c_char};
 use std::ptr::null_mut;
 
 use libloading::Library;
 
-/// `NW_ABI_VERSION` of the header that these structs were copied from.
-const ABI_VERSION: u32 = 1;
+// GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
+const NW_ABI_VERSION: u32 = 1;
+
+#[repr(C)]
+struct nw_model {
+    _opaque: [u8; 0],
+}
 
 #[repr(C)]
 #[derive(Default)]
 struct nw_impact {
     struct_size: u32,
     wall: u32,
-    v_n: f64,
-    v_t: f64,
-    d: f64,
-    T_p: f64,
-    T_w: f64,
-    conversion: f64,
-    layer_thickness: f64,
-    film_thickness: f64,
-    v_gas: f64,
-    roughness: f64,
-    omega: f64,
-    coverage: f64,
     seed: u64,
     key: u64,
+    v_n: f64,
+    v_t: f64,
+    omega: f64,
+    d: f64,
+    T_p: f64,
+    conversion: f64,
+    T_w: f64,
+    roughness: f64,
+    coverage: f64,
+    layer_thickness: f64,
+    film_thickness: f64,
     melt_thickness: f64,
+    v_gas: f64,
 }
 
 #[repr(C)]
@@ -54,17 +59,25 @@ struct nw_outcome {
     omega: f64,
 }
 
-type Handle = *mut c_void;
+type nw_abi_version = unsafe extern "C" fn() -> u32;
+type nw_status_text = unsafe extern "C" fn(i32) -> *const c_char;
+type nw_model_load = unsafe extern "C" fn(*const c_char, *mut *mut nw_model, *mut c_char, usize) -> i32;
+type nw_model_free = unsafe extern "C" fn(*mut nw_model);
+type nw_model_find_wall = unsafe extern "C" fn(*const nw_model, *const c_char, *mut u32) -> i32;
+type nw_impact_init = unsafe extern "C" fn(*mut nw_impact) -> i32;
+type nw_outcome_init = unsafe extern "C" fn(*mut nw_outcome) -> i32;
+type nw_resolve = unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32;
+// END GENERATED
 
-/// The functions that this program needs. The library stays loaded as long as they are there.
+/// The functions that this program needs, and the library that has them.
 struct Nearwall {
-    status_text: unsafe extern "C" fn(i32) -> *const c_char,
-    load: unsafe extern "C" fn(*const c_char, *mut Handle, *mut c_char, usize) -> i32,
-    free: unsafe extern "C" fn(Handle),
-    find_wall: unsafe extern "C" fn(Handle, *const c_char, *mut u32) -> i32,
-    impact_init: unsafe extern "C" fn(*mut nw_impact) -> i32,
-    outcome_init: unsafe extern "C" fn(*mut nw_outcome) -> i32,
-    resolve: unsafe extern "C" fn(Handle, *const nw_impact, *mut nw_outcome) -> i32,
+    status_text: nw_status_text,
+    load: nw_model_load,
+    free: nw_model_free,
+    find_wall: nw_model_find_wall,
+    impact_init: nw_impact_init,
+    outcome_init: nw_outcome_init,
+    resolve: nw_resolve,
     _library: Library,
 }
 
@@ -72,12 +85,14 @@ impl Nearwall {
     fn open() -> Result<Self, Box<dyn Error>> {
         let path = std::env::var_os("NEARWALL_LIBRARY").unwrap_or_else(|| "libnearwall.so.1".into());
         // SAFETY: the library's initialisers are the C and Rust runtimes'; names and types are those of nearwall.h, and
-        // the version is looked at before anything else is called.
+        // the version is checked before any other call.
         unsafe {
             let library = Library::new(path)?;
-            let version = library.get::<unsafe extern "C" fn() -> u32>(b"nw_abi_version")?();
-            if version != ABI_VERSION {
-                return Err(format!("libnearwall has interface version {version}, not {ABI_VERSION}").into());
+            let version = library.get::<nw_abi_version>(b"nw_abi_version")?();
+            if version != NW_ABI_VERSION {
+                return Err(
+                    format!("libnearwall has interface version {version}, not {NW_ABI_VERSION}").into()
+                );
             }
             Ok(Self {
                 status_text: *library.get(b"nw_status_text")?,
@@ -113,10 +128,10 @@ impl Nearwall {
     }
 }
 
-/// A loaded model, freed when it goes.
+/// A loaded model.
 struct Model<'a> {
     library: &'a Nearwall,
-    handle: Handle,
+    handle: *mut nw_model,
 }
 
 impl Drop for Model<'_> {
@@ -155,7 +170,7 @@ fn decide(library: &Nearwall, model_file: &str, table_file: &str) -> Result<(), 
         let cells: Vec<f64> = line.split(',').map(str::parse).collect::<Result<_, _>>()?;
         let [v_n, v_t, d, t_p, t_w] = cells[..] else { return Err(format!("five numbers: {line}").into()) };
         (impact.v_n, impact.v_t, impact.d, impact.T_p, impact.T_w) = (v_n, v_t, d, t_p, t_w);
-        impact.key = row as u64; // a number of its own for every impact: chance hangs on it alone
+        impact.key = row as u64; // unique: random draws depend only on seed and key
         let out = model.resolve(&impact)?;
         println!("{:.16e} {:.16e} {:.16e} {}", out.e_n, out.e_t, out.p_stick, out.stuck);
     }

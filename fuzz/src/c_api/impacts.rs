@@ -2,35 +2,23 @@
 
 use std::ptr::null;
 
+use nearwall::Impact;
 use nearwall::c_api::*;
+use nearwall::impact::INPUTS;
 
 use super::super::bytes::Bytes;
 use super::room::{Room, known};
 
 /// An impact of which most is ordinary.
 pub fn impact(bytes: &mut Bytes<'_>) -> nw_impact {
-    let mut impact = nw_impact { v_n: 1.0, v_t: 1.0, ..nw_impact::default() };
+    let mut inputs = Impact { normal_speed: 1.0, tangential_speed: 1.0, ..Impact::default() };
     let which = bytes.word();
-    let fields = [
-        &mut impact.v_n,
-        &mut impact.v_t,
-        &mut impact.d,
-        &mut impact.T_p,
-        &mut impact.T_w,
-        &mut impact.conversion,
-        &mut impact.layer_thickness,
-        &mut impact.film_thickness,
-        &mut impact.v_gas,
-        &mut impact.roughness,
-        &mut impact.omega,
-        &mut impact.coverage,
-        &mut impact.melt_thickness,
-    ];
-    for (bit, field) in fields.into_iter().enumerate() {
+    for (bit, input) in INPUTS.iter().enumerate() {
         if which >> bit & 1 == 1 {
-            *field = bytes.number();
+            (input.set)(&mut inputs, bytes.number());
         }
     }
+    let mut impact = nw_impact::from(&inputs);
     // Bits of their own: a hostile melt has to meet a wall that is there.
     if which >> 13 & 7 == 7 {
         impact.wall = bytes.word() as u32;
@@ -128,28 +116,15 @@ pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {
 pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let count = bytes.below(8);
     let cases: Vec<nw_impact> = (0..count).map(|_| impact(bytes)).collect();
-    let mut column = |value: fn(&nw_impact) -> f64| {
+    let columns = INPUTS.each_ref().map(|input| {
         let mut room = Room::new(bytes, 8 * count);
         let start: *mut f64 = room.start();
         for (index, case) in cases.iter().enumerate() {
             // SAFETY: room for `count` numbers.
-            unsafe { start.add(index).write_unaligned(value(case)) };
+            unsafe { start.add(index).write_unaligned((input.value)(&case.to_impact())) };
         }
         (room.perhaps::<f64>(bytes).cast_const(), room)
-    };
-    let (v_n, _keep_0) = column(|c| c.v_n);
-    let (v_t, _keep_1) = column(|c| c.v_t);
-    let (d, _keep_2) = column(|c| c.d);
-    let (t_p, _keep_3) = column(|c| c.T_p);
-    let (t_w, _keep_4) = column(|c| c.T_w);
-    let (conversion, _keep_5) = column(|c| c.conversion);
-    let (omega, _keep_6) = column(|c| c.omega);
-    let (coverage, _keep_7) = column(|c| c.coverage);
-    let (film_thickness, _keep_8) = column(|c| c.film_thickness);
-    let (layer_thickness, _keep_9) = column(|c| c.layer_thickness);
-    let (v_gas, _keep_10) = column(|c| c.v_gas);
-    let (roughness, _keep_11) = column(|c| c.roughness);
-    let (melt_thickness, _keep_12) = column(|c| c.melt_thickness);
+    });
     let keys: Vec<u64> = cases.iter().map(|case| case.key).collect();
     let walls: Vec<u32> = cases.iter().map(|case| case.wall).collect();
     let right = size_of::<nw_impacts>() as u32;
@@ -159,27 +134,18 @@ pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
         2 => usize::MAX / 8,
         _ => count,
     };
-    let asked = nw_impacts {
+    let mut asked = nw_impacts {
         struct_size: if bytes.byte() == 0 { bytes.word() as u32 } else { right },
         wall: bytes.below(3) as u32,
         count: claimed,
         seed: bytes.word(),
         walls: if bytes.below(2) == 0 { null() } else { walls.as_ptr() },
-        v_n,
-        v_t,
-        d,
-        T_p: t_p,
-        T_w: t_w,
-        conversion,
-        layer_thickness,
-        film_thickness,
-        v_gas,
-        roughness,
-        omega,
-        coverage,
         key: if bytes.below(2) == 0 { null() } else { keys.as_ptr() },
-        melt_thickness,
+        ..nw_impacts::default()
     };
+    for (array, (column, _room)) in asked.columns_mut().into_iter().zip(&columns) {
+        *array = *column;
+    }
     let mut numbers: [Room; 4] = std::array::from_fn(|_| Room::new(bytes, 8 * count));
     let mut marks: [Room; 3] = std::array::from_fn(|_| Room::new(bytes, 4 * count));
     let [e_n, e_t, p_stick, omega] = numbers.each_mut().map(|room| room.perhaps(bytes));
@@ -216,32 +182,21 @@ pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
 fn alike(model: *const nw_model, asked: *const nw_impacts, found: &mut [Room; 4], wanted: [*mut f64; 4]) {
     // SAFETY: a batch that was accepted.
     let asked = unsafe { asked.read_unaligned() };
-    let usual = nw_impact::default();
     for index in 0..asked.count {
-        // SAFETY: each array is null or has `count` entries.
-        let at = |array: *const f64, usual| unsafe {
-            if array.is_null() { usual } else { array.add(index).read_unaligned() }
-        };
+        let mut inputs = Impact::default();
+        for (array, input) in asked.columns().into_iter().zip(&INPUTS) {
+            if !array.is_null() {
+                // SAFETY: the array has `count` entries.
+                (input.set)(&mut inputs, unsafe { array.add(index).read_unaligned() });
+            }
+        }
         let one = nw_impact {
             // SAFETY: as above.
             wall: if asked.walls.is_null() { asked.wall } else { unsafe { *asked.walls.add(index) } },
-            v_n: at(asked.v_n, usual.v_n),
-            v_t: at(asked.v_t, usual.v_t),
-            d: at(asked.d, usual.d),
-            T_p: at(asked.T_p, usual.T_p),
-            T_w: at(asked.T_w, usual.T_w),
-            conversion: at(asked.conversion, usual.conversion),
-            layer_thickness: at(asked.layer_thickness, usual.layer_thickness),
-            film_thickness: at(asked.film_thickness, usual.film_thickness),
-            roughness: at(asked.roughness, usual.roughness),
-            v_gas: at(asked.v_gas, usual.v_gas),
-            omega: at(asked.omega, usual.omega),
-            coverage: at(asked.coverage, usual.coverage),
-            melt_thickness: at(asked.melt_thickness, usual.melt_thickness),
             seed: asked.seed,
             // SAFETY: as above.
             key: if asked.key.is_null() { index as u64 } else { unsafe { *asked.key.add(index) } },
-            ..usual
+            ..nw_impact::from(&inputs)
         };
         let mut outcome = nw_outcome::default();
         // SAFETY: all on the stack.

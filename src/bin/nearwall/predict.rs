@@ -6,17 +6,14 @@ use std::path::{Path, PathBuf};
 
 use nearwall::atomic_file::{AtomicFile, of_csv, refused};
 use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
+use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
 
 use crate::{CommandResult, progress};
 
 /// Adds the model's e_n, e_t, p_stick and regime to each impact
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n\n\
-    impacts.csv needs a column v_n [m/s]; v_t [m/s], d [m], T_p [K], T_w [K], conversion, layer_thickness [m],\n\
-    film_thickness [m], v_gas [m/s], roughness [m], omega [rad/s], coverage, melt_thickness [m] and wall are optional.\n\
-    Every other column is kept. A row that cannot be used is reported on standard error and left out. The command fails\n\
-    only if no row can be used.")]
+#[command(after_help = after_help())]
 pub struct Arguments {
     /// The impacts, one per row
     impacts: PathBuf,
@@ -32,6 +29,18 @@ pub struct Arguments {
     /// Print the effect of each term on the impact on this line of the file, instead of the table
     #[arg(long, value_name = "LINE")]
     explain: Option<u64>,
+}
+
+fn after_help() -> String {
+    let inputs: Vec<String> =
+        INPUTS[1..].iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
+    format!(
+        "Example:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n\n\
+         impacts.csv needs a column v_n [m/s]. Optional columns are wall and the other inputs:\n{}.\n\
+         Every other column is kept. A row that cannot be used is reported on standard error and left out. The command\n\
+         fails only if no row can be used.",
+        inputs.join(", ")
+    )
 }
 
 /// The columns that are added.

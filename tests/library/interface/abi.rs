@@ -6,94 +6,59 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::common::compile::{Build, run, shared_library};
+use super::c_header::{Header, Struct};
+use crate::common::compile::{Build, library_path, run, shared_library};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// `nearwall.h` without comments.
-fn header() -> String {
-    let text = std::fs::read_to_string(root().join("cpp_shim/nearwall.h")).unwrap();
-    let code = text.lines().map(|line| line.split("//").next().unwrap());
-    code.collect::<Vec<_>>().join("\n")
-}
-
-/// What the C compiler makes of every struct and number of the header.
-fn layout(header: &str) -> String {
+/// Numbers and structs of the header as the C compiler sees them.
+fn layout(header: &Header) -> String {
     let mut program = String::from(
         "#include \"nearwall.h\"\n#include <stdio.h>\n#define SIZE(x) (unsigned)sizeof(x)\nint main(void) {\n",
     );
     let mut line = |format: &str, values: &str| {
         writeln!(program, "printf(\"{format}\\n\", {values});").unwrap();
     };
-    for words in header.lines().map(|line| line.split_whitespace().collect::<Vec<_>>()) {
-        if let ["#define", name, _] = words[..] {
-            line(&format!("number {name} %lld"), &format!("(long long){name}"));
-        }
+    for (name, _) in &header.numbers {
+        line(&format!("number {name} %lld"), &format!("(long long){name}"));
     }
-    for (name, fields) in structs(header) {
-        line(
-            &format!("struct {name} size %u align %u"),
-            &format!("SIZE({name}), (unsigned)_Alignof({name})"),
-        );
-        for field in fields {
-            line(
-                &format!("field {name}.{field} at %u size %u"),
-                &format!("(unsigned)offsetof({name}, {field}), SIZE((({name} *)0)->{field})"),
-            );
+    for Struct { name, fields } in &header.structs {
+        let values = format!("SIZE({name}), (unsigned)_Alignof({name})");
+        line(&format!("struct {name} size %u align %u"), &values);
+        for field in fields.iter().map(|field| &field.name) {
+            let values = format!("(unsigned)offsetof({name}, {field}), SIZE((({name} *)0)->{field})");
+            line(&format!("field {name}.{field} at %u size %u"), &values);
         }
     }
     program.push_str("return 0; }\n");
     let folder = tempfile::tempdir().unwrap();
     let [source, built] = ["abi.c", "abi"].map(|name| folder.path().join(name));
+    std::fs::write(folder.path().join("nearwall.h"), &header.text).unwrap();
     std::fs::write(&source, program).unwrap();
-    let compiler = std::env::var_os("CC").unwrap_or_else(|| "cc".into());
-    let mut compiler = Command::new(compiler);
-    compiler.args(["-std=c11", "-Wall", "-Werror", "-I"]).arg(root().join("cpp_shim"));
+    let mut compiler = Command::new(std::env::var_os("CC").unwrap_or_else(|| "cc".into()));
+    compiler.args(["-std=c11", "-Wall", "-Werror"]);
     run(compiler.arg(source).arg("-o").arg(&built));
     run(&mut Command::new(built))
 }
 
-/// Every struct of the header and the names of its fields.
-fn structs(header: &str) -> Vec<(&str, Vec<&str>)> {
-    let bodies = header.split("typedef struct ").skip(1).filter_map(|part| {
-        let (name, rest) = part.split_once(" {")?;
-        if name.contains(';') { None } else { Some((name, rest.split_once('}')?.0)) }
-    });
-    let fields = |body| -> Vec<&str> {
-        let statements = str::split(body, ';').map(str::trim).filter(|field| !field.is_empty());
-        statements.map(|field| field.rsplit([' ', '*']).next().unwrap()).collect()
-    };
-    bodies.map(|(name, body)| (name, fields(body))).collect()
-}
-
 /// Every type and function of the header, without the names of arguments: those may change.
-fn prototypes(header: &str) -> String {
+fn prototypes(header: &Header) -> String {
     let mut found = String::new();
-    for statement in header.split(';') {
-        // What stands before a function or type on lines of its own: the end of a struct, `extern "C" {`, numbers.
-        let code =
-            statement.lines().filter(|line| !line.starts_with(['#', '}']) && !line.contains("extern \"C\""));
-        let words = code.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ");
-        if words.starts_with("typedef") && !words.contains('{') {
-            writeln!(found, "type {}", &words["typedef ".len()..]).unwrap();
-        } else if let Some((name, arguments)) =
-            words.strip_suffix(')').and_then(|words| words.split_once('('))
-        {
-            let types = arguments.split(", ").map(|argument| match argument.rfind([' ', '*']) {
-                Some(end) => argument[..=end].trim(),
-                None => argument,
-            });
-            writeln!(found, "function {name}({})", types.collect::<Vec<_>>().join(", ")).unwrap();
-        }
+    for alias in &header.types {
+        writeln!(found, "type {} {}", alias.kind, alias.name).unwrap();
+    }
+    for function in &header.functions {
+        let kinds: Vec<&str> = function.arguments.iter().map(|argument| argument.kind.as_str()).collect();
+        writeln!(found, "function {} {}({})", function.result, function.name, kinds.join(", ")).unwrap();
     }
     found
 }
 
 /// What the shared library of this build exports, and its soname.
 fn symbols() -> String {
-    let library = crate::common::library_path();
+    let library = library_path();
     let printed = run(Command::new("nm").args(["--dynamic", "--defined-only"]).arg(&library));
     let names: BTreeSet<&str> = printed.lines().map(|line| line.rsplit(' ').next().unwrap()).collect();
     let dynamic = run(Command::new("readelf").args(["--dynamic", "--wide"]).arg(&library).env("LC_ALL", "C"));
@@ -103,7 +68,7 @@ fn symbols() -> String {
 }
 
 fn fresh() -> String {
-    let header = header();
+    let header = Header::generate();
     symbols() + &layout(&header) + &prototypes(&header)
 }
 
@@ -126,7 +91,7 @@ fn may_follow(kept: &str, fresh: &str) -> Result<(), String> {
     let come = new.difference(&old).map(|line| format!("  + {line}\n"));
     Err(format!(
         "the binary interface changed, but NW_ABI_VERSION did not rise:\n{}raise it in src/c_api and the soname in build.rs; \
-         then `NEARWALL_BLESS=1 cargo test --test c_api abi`",
+         then `NEARWALL_BLESS=1 cargo test --test library interface`",
         gone.chain(come).collect::<String>()
     ))
 }
@@ -149,7 +114,7 @@ fn no_change_without_another_version() {
     }
     assert!(
         kept == fresh,
-        "cpp_shim/abi.txt is of another version; `NEARWALL_BLESS=1 cargo test --test c_api abi` writes it"
+        "cpp_shim/abi.txt is of another version; `NEARWALL_BLESS=1 cargo test --test library interface` writes it"
     );
 }
 

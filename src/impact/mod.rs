@@ -1,0 +1,174 @@
+//! What arrives at a wall and what leaves it.
+
+mod inputs;
+
+pub(crate) use inputs::for_each_input;
+pub use inputs::{Bounds, INPUTS, Impact, Input};
+
+/// Why an impact cannot be resolved.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ImpactError {
+    /// A number of the impact is missing its physical meaning.
+    #[error("{quantity} = {value}: {reason}")]
+    Unusable {
+        /// The input's name as in the data file, for instance `v_n`.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it has to be.
+        reason: &'static str,
+    },
+    /// A property is not known at the temperature of the impact.
+    #[error("{material}: {property} is given for {low} to {high} K, asked for {temperature} K")]
+    OutOfRange {
+        /// The material's name.
+        material: String,
+        /// The property's key.
+        property: &'static str,
+        /// The temperature that was asked for [K].
+        temperature: f64,
+        /// Lower end of the table [K].
+        low: f64,
+        /// Upper end of the table [K].
+        high: f64,
+    },
+    /// The model has no wall with this index.
+    #[error("the model has no wall number {0}")]
+    NoSuchWall(usize),
+}
+
+impl Impact {
+    /// Checks that every input is finite and has a physical meaning.
+    ///
+    /// # Errors
+    /// [`ImpactError::Unusable`] naming the first input that is not.
+    #[inline(always)]
+    pub fn check(&self) -> Result<(), ImpactError> {
+        if self.is_allowed() { Ok(()) } else { self.first_fault() }
+    }
+
+    #[cold]
+    fn first_fault(&self) -> Result<(), ImpactError> {
+        for Input { name: quantity, bounds, value, .. } in &INPUTS {
+            let value = value(self);
+            if !bounds.allow(value) {
+                return Err(ImpactError::Unusable { quantity, value, reason: bounds.reason });
+            }
+        }
+        Ok(())
+    }
+
+    /// Impact speed `v` [m/s].
+    pub fn speed(&self) -> f64 {
+        self.normal_speed.hypot(self.tangential_speed)
+    }
+
+    /// Angle between path and surface, `alpha` [rad], 0 glancing to pi/2 head-on.
+    pub fn angle_from_surface(&self) -> f64 {
+        // A negative zero, which counts as a speed, would turn the angle round.
+        self.normal_speed.abs().atan2(self.tangential_speed.abs())
+    }
+}
+
+/// Which of particle and wall is sticky: the four regimes of Troiano et al.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(u32)]
+pub enum Regime {
+    /// Non-sticky particle on a non-sticky wall.
+    NspNsw = 0,
+    /// Non-sticky particle on a sticky wall.
+    NspSw = 1,
+    /// Sticky particle on a non-sticky wall.
+    SpNsw = 2,
+    /// Sticky particle on a sticky wall.
+    SpSw = 3,
+}
+
+impl Regime {
+    /// All regimes in the order of their numbers.
+    pub const ALL: [Self; 4] = [Self::NspNsw, Self::NspSw, Self::SpNsw, Self::SpSw];
+
+    /// The regime of a particle and a wall.
+    pub fn of(particle_sticky: bool, wall_sticky: bool) -> Self {
+        Self::ALL[2 * usize::from(particle_sticky) + usize::from(wall_sticky)]
+    }
+
+    /// Short name, for instance `NSP-SW`.
+    pub fn name(self) -> &'static str {
+        ["NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW"][self as usize]
+    }
+}
+
+/// What leaves the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Outcome {
+    /// Normal restitution `e_n` [1] of a particle that rebounds.
+    pub normal_restitution: f64,
+    /// Tangential restitution `e_t` [1] of a particle that rebounds.
+    pub tangential_restitution: f64,
+    /// Probability of capture [1].
+    pub sticking_probability: f64,
+    /// Whether this particle is captured, drawn from the probability.
+    pub stuck: bool,
+    /// Spin after a rebound, `omega` [rad/s].
+    pub spin: f64,
+    /// Which of particle and wall is sticky.
+    pub regime: Regime,
+    /// Whether the impact lies outside the range that a fitted term or a constant property is valid for.
+    pub outside_range: bool,
+}
+
+/// Global restitution `e_g = sqrt(e_n² sin²alpha + e_t² cos²alpha)` [1]: rebound speed over impact speed
+/// (Troiano et al., Eq. 9).
+///
+/// `angle_from_surface` is `alpha` [rad]; both restitutions [1].
+pub fn global_restitution(
+    normal_restitution: f64,
+    tangential_restitution: f64,
+    angle_from_surface: f64,
+) -> f64 {
+    let (sine, cosine) = angle_from_surface.sin_cos();
+    (normal_restitution * sine).hypot(tangential_restitution * cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn global_restitution_tends_to_its_parts() {
+        assert_relative_eq!(global_restitution(0.31, 0.76, 0.0), 0.76);
+        assert_relative_eq!(
+            global_restitution(0.31, 0.76, std::f64::consts::FRAC_PI_2),
+            0.31,
+            epsilon = 1e-15
+        );
+    }
+
+    #[test]
+    fn a_negative_zero_does_not_turn_the_angle_round() {
+        let impact = Impact { tangential_speed: -0.0, ..Impact::default() };
+        assert_eq!(Impact { normal_speed: -0.0, ..impact }.angle_from_surface(), 0.0);
+        assert_eq!(Impact { normal_speed: 1.0, ..impact }.angle_from_surface(), std::f64::consts::FRAC_PI_2);
+    }
+
+    #[test]
+    fn every_unusable_number_is_named() {
+        let good = Impact { normal_speed: 1.0, ..Impact::default() };
+        assert_eq!(good.check(), Ok(()));
+        let bad = Impact { diameter: 0.0, ..good };
+        assert_eq!(bad.check().unwrap_err().to_string(), "d = 0: must be positive and finite");
+        let bad = Impact { particle_temperature: f64::NAN, ..good };
+        assert!(bad.check().unwrap_err().to_string().starts_with("T_p = NaN"));
+        let bad = Impact { spin: f64::INFINITY, ..good };
+        assert!(bad.check().is_err());
+    }
+
+    #[test]
+    fn regimes_have_their_numbers_and_names() {
+        assert_eq!(Regime::of(false, true), Regime::NspSw);
+        assert_eq!(Regime::of(true, false).name(), "SP-NSW");
+        assert_eq!(Regime::SpSw as u32, 3);
+    }
+}

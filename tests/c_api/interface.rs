@@ -1,0 +1,67 @@
+//! What `nearwall.h` declares, for macros of the tests. Generated: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
+
+macro_rules! for_each_function {
+    ($define:ident) => {
+        $define! {
+            nw_abi_version: unsafe extern "C" fn() -> u32,
+            nw_version: unsafe extern "C" fn() -> *const c_char,
+            nw_status_text: unsafe extern "C" fn(i32) -> *const c_char,
+            nw_regime_name: unsafe extern "C" fn(u32) -> *const c_char,
+            nw_model_load: unsafe extern "C" fn(*const c_char, *mut *mut nw_model, *mut c_char, usize) -> i32,
+            nw_model_parse: unsafe extern "C" fn(*const c_char, usize, *const c_char, *mut *mut nw_model, *mut c_char, usize) -> i32,
+            nw_model_free: unsafe extern "C" fn(*mut nw_model),
+            nw_model_find_wall: unsafe extern "C" fn(*const nw_model, *const c_char, *mut u32) -> i32,
+            nw_impact_init: unsafe extern "C" fn(*mut nw_impact) -> i32,
+            nw_outcome_init: unsafe extern "C" fn(*mut nw_outcome) -> i32,
+            nw_resolve: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32,
+            nw_speeds: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64, *mut f64, *mut f64) -> i32,
+            nw_temperature_ranges: unsafe extern "C" fn(*const nw_model, u32, *mut f64, *mut f64, *mut f64, *mut f64) -> i32,
+            nw_resolve_batch: unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
+            nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
+            nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
+            nw_deposit_source_init: unsafe extern "C" fn(*mut nw_deposit_source) -> i32,
+            nw_deposit_source_add: unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, f64, *mut nw_deposit_source) -> i32,
+            nw_deposit_add: unsafe extern "C" fn(*const nw_deposit_source, *mut nw_deposit) -> i32,
+            nw_deposit_apply: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *mut nw_impact) -> i32,
+            nw_film_velocity: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, *mut f64) -> i32,
+        }
+    };
+}
+
+macro_rules! for_each_struct {
+    ($define:ident) => {
+        $define! {
+            nw_impact { struct_size wall seed key v_n v_t omega d T_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
+            nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
+            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
+            nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
+            nw_deposit { struct_size wall molten powder solid cover conversion }
+            nw_deposit_source { struct_size count molten powder solid cover buried converted }
+        }
+    };
+}
+
+macro_rules! for_each_number {
+    ($define:ident) => {
+        $define! {
+            NW_ABI_VERSION
+            NW_OUTSIDE_VALID_RANGE
+            NW_OK
+            NW_NULL_POINTER
+            NW_STRUCT_SIZE
+            NW_NOT_UTF8
+            NW_FILE
+            NW_MODEL
+            NW_UNKNOWN_WALL
+            NW_BAD_STATE
+            NW_OUT_OF_RANGE
+            NW_PANIC
+            NW_NSP_NSW
+            NW_NSP_SW
+            NW_SP_NSW
+            NW_SP_SW
+        }
+    };
+}
+
+pub(crate) use {for_each_function, for_each_number, for_each_struct};
