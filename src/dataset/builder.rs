@@ -101,11 +101,12 @@ impl<'a> Builder<'a> {
     /// The measurements of `file`.
     ///
     /// # Errors
-    /// [`DatasetError::NoRows`].
+    /// [`DatasetError::Unreadable`] without rows.
     fn finish(self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
         let read = self.rows.len() + self.rejected.len();
         if read == 0 {
-            return Err(DatasetError::NoRows { file: file.to_owned() });
+            let reason = "there is no row under the header; write one row per impact".to_owned();
+            return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
         }
         let given: Vec<&'static str> =
             INPUTS.iter().map(|input| input.name).filter(|name| self.gives(name)).collect();

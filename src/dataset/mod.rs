@@ -32,12 +32,12 @@ pub use wall_choice::{WallChoice, WallError};
 /// Why a file cannot be read as impacts.
 #[derive(Debug, thiserror::Error)]
 pub enum DatasetError {
-    /// The file cannot be opened or read.
+    /// The file cannot be read, or has no rows.
     #[error("{file}: {reason}")]
     Unreadable {
         /// The name of the file.
         file: String,
-        /// The error of the operating system or the CSV reader.
+        /// The reason.
         reason: String,
     },
     /// The header has an error.
@@ -49,12 +49,6 @@ pub enum DatasetError {
         line: u64,
         /// The error and the remedy.
         problem: String,
-    },
-    /// There is only a header.
-    #[error("{file}: there is no row under the header; write one row per impact")]
-    NoRows {
-        /// The name of the file.
-        file: String,
     },
     /// The wall is undetermined.
     #[error(transparent)]

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::contact::{Body, Contact, Tangential};
-use crate::dice::Dice;
+use crate::set_rng::SetRng;
 use crate::world::{Inputs, World};
 
 /// Particles and target.
@@ -154,16 +154,16 @@ pub struct Series {
 
 impl Series {
     /// An angle with the stated mean, between the ends.
-    fn angle(&self, dice: &mut Dice) -> f64 {
+    fn angle(&self, rng: &mut SetRng) -> f64 {
         let (low, mean, high) = self.theta;
-        low + (high - low) * dice.unit().powf((high - low) / (mean - low) - 1.0)
+        low + (high - low) * rng.unit().powf((high - low) / (mean - low) - 1.0)
     }
 
     /// One impact of the series.
-    fn inputs(&self, group: usize, common: Inputs, dice: &mut Dice) -> Inputs {
-        let v_n = dice.log_uniform(self.v_n);
-        let v_t = v_n * self.angle(dice).max(0.5).to_radians().tan();
-        Inputs { v_n, v_t, d: dice.uniform(self.d), t_p: self.t_p, t_w: 1000.0, group, ..common }
+    fn inputs(&self, group: usize, common: Inputs, rng: &mut SetRng) -> Inputs {
+        let v_n = rng.log_uniform(self.v_n);
+        let v_t = v_n * self.angle(rng).max(0.5).to_radians().tan();
+        Inputs { v_n, v_t, d: rng.uniform(self.d), t_p: self.t_p, t_w: 1000.0, group, ..common }
     }
 }
 
@@ -188,20 +188,20 @@ pub const FOREIGN: [&str; 12] = [
 
 impl Campaign {
     /// A campaign on this system, with irrelevant inputs chosen at random.
-    pub fn new(system: System, law: Tangential, dice: &mut Dice) -> Self {
+    pub fn new(system: System, law: Tangential, rng: &mut SetRng) -> Self {
         let (v_n, d, t_p) = match system {
             System::Wax => ((0.3, 5.0), (50e-6, 120e-6), (290.0, 320.0)),
             System::Tungsten => ((0.5, 13.0), (5e-6, 20e-6), (290.0, 320.0)),
             System::HotTungsten => ((0.5, 13.0), (8e-6, 16e-6), (2900.0, 3000.0)),
             System::Char => ((0.5, 6.0), (40e-6, 120e-6), (1500.0, 1700.0)),
         };
-        let noise_e_n = dice.uniform((0.02, 0.08));
-        let columns = KNOWN.into_iter().filter(|_| dice.chance(0.6)).collect();
-        let extras = FOREIGN[2..].iter().copied().filter(|_| dice.chance(0.25)).collect();
+        let noise_e_n = rng.uniform((0.02, 0.08));
+        let columns = KNOWN.into_iter().filter(|_| rng.chance(0.6)).collect();
+        let extras = FOREIGN[2..].iter().copied().filter(|_| rng.chance(0.25)).collect();
         Self {
             system,
             law,
-            rows: 250 + dice.below(751),
+            rows: 250 + rng.below(751),
             v_n,
             theta: (5.0, 70.0),
             d,
@@ -216,7 +216,7 @@ impl Campaign {
             extras,
             decoy: None,
             noise_e_n,
-            noise_e_t: noise_e_n * dice.uniform((0.6, 1.0)),
+            noise_e_t: noise_e_n * rng.uniform((0.6, 1.0)),
             spread: Spread::Even,
             outliers: 0.0,
             blanks: 0.0,
@@ -234,34 +234,34 @@ impl Campaign {
     }
 
     /// Draws the inputs of one impact.
-    pub fn inputs(&self, dice: &mut Dice) -> Inputs {
-        let v_n = dice.log_uniform(self.v_n);
-        let v_t = v_n * dice.uniform(self.theta).to_radians().tan();
+    pub fn inputs(&self, rng: &mut SetRng) -> Inputs {
+        let v_n = rng.log_uniform(self.v_n);
+        let v_t = v_n * rng.uniform(self.theta).to_radians().tan();
         let mut x = Inputs {
             v_n,
             v_t,
-            d: dice.log_uniform(self.d),
-            t_p: dice.uniform(self.t_p),
-            t_w: dice.uniform(self.t_w),
-            v_gas: dice.uniform(self.v_gas),
-            layer: sometimes(dice, self.layer),
-            film: sometimes(dice, self.film),
-            roughness: sometimes(dice, self.roughness),
-            conversion: dice.uniform(self.conversion),
-            foreign: dice.uniform((10.0, 90.0)),
-            group: dice.below(4),
+            d: rng.log_uniform(self.d),
+            t_p: rng.uniform(self.t_p),
+            t_w: rng.uniform(self.t_w),
+            v_gas: rng.uniform(self.v_gas),
+            layer: sometimes(rng, self.layer),
+            film: sometimes(rng, self.film),
+            roughness: sometimes(rng, self.roughness),
+            conversion: rng.uniform(self.conversion),
+            foreign: rng.uniform((10.0, 90.0)),
+            group: rng.below(4),
         };
         if let Some(decoy) = self.decoy {
             let part = (x.value(decoy.input) - decoy.mean) / decoy.deviation;
-            let own = (1.0 - CORRELATION * CORRELATION).sqrt() * dice.normal();
+            let own = (1.0 - CORRELATION * CORRELATION).sqrt() * rng.normal();
             x.foreign = 50.0 + 10.0 * (CORRELATION * part + own);
         }
         x
     }
 
-    /// Makes the foreign number follow an input.
-    pub fn follow(&mut self, input: &'static str, dice: &mut Dice) {
-        let values: Vec<f64> = (0..4000).map(|_| self.inputs(dice).value(input)).collect();
+    /// Correlates the foreign number with an input.
+    pub fn follow(&mut self, input: &'static str, rng: &mut SetRng) {
+        let values: Vec<f64> = (0..4000).map(|_| self.inputs(rng).value(input)).collect();
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let deviation = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
@@ -269,44 +269,44 @@ impl Campaign {
     }
 
     /// Measures one impact.
-    pub fn measure(&self, world: &World, x: Inputs, dice: &mut Dice) -> Row {
-        let r = world.truth(&x, [dice.unit(), dice.unit()]);
-        let stuck = dice.chance(r.stick);
+    pub fn measure(&self, world: &World, x: Inputs, rng: &mut SetRng) -> Row {
+        let r = world.truth(&x, [rng.unit(), rng.unit()]);
+        let stuck = rng.chance(r.stick);
         let size = match self.spread {
             Spread::Even => 1.0,
-            Spread::Random => dice.log_uniform((0.3, 2.5)),
+            Spread::Random => rng.log_uniform((0.3, 2.5)),
             Spread::WithSpeed => 0.3 + 1.7 * (x.v_n / self.v_n.0).ln() / (self.v_n.1 / self.v_n.0).ln(),
             Spread::WithForeign => 0.3 + 1.7 * (x.foreign - 10.0) / 80.0,
         };
-        let mut e_n = r.e_n + dice.noise(r.e_n, size * self.noise_e_n);
-        let mut e_t = r.e_t + dice.noise(r.e_t, size * self.noise_e_t);
-        if dice.chance(self.outliers) {
-            e_n = outlier(e_n, dice);
-            e_t = outlier(e_t, dice);
+        let mut e_n = r.e_n + rng.noise(r.e_n, size * self.noise_e_n);
+        let mut e_t = r.e_t + rng.noise(r.e_t, size * self.noise_e_t);
+        if rng.chance(self.outliers) {
+            e_n = outlier(e_n, rng);
+            e_t = outlier(e_t, rng);
         }
-        let mut shown = |value: f64| (!stuck && !dice.chance(self.blanks)).then_some(value);
+        let mut shown = |value: f64| (!stuck && !rng.chance(self.blanks)).then_some(value);
         let (e_n, e_t) = (shown(e_n), shown(e_t));
-        Row { x, stuck, e_n, e_t, outcome: e_n.is_none() || !dice.chance(self.blanks) }
+        Row { x, stuck, e_n, e_t, outcome: e_n.is_none() || !rng.chance(self.blanks) }
     }
 
     /// Draws all impacts.
-    pub fn impacts(&self, dice: &mut Dice) -> Vec<Inputs> {
+    pub fn impacts(&self, rng: &mut SetRng) -> Vec<Inputs> {
         if self.series.is_empty() {
-            return (0..self.rows).map(|_| self.inputs(dice)).collect();
+            return (0..self.rows).map(|_| self.inputs(rng)).collect();
         }
         let mut all = vec![];
         for (group, series) in self.series.iter().enumerate() {
             for _ in 0..series.rows {
-                let common = self.inputs(dice);
-                all.push(series.inputs(group, common, dice));
+                let common = self.inputs(rng);
+                all.push(series.inputs(group, common, rng));
             }
         }
         all
     }
 
     /// Measures the whole campaign.
-    pub fn run(&self, world: &World, dice: &mut Dice) -> Vec<Row> {
-        self.impacts(dice).into_iter().map(|x| self.measure(world, x, dice)).collect()
+    pub fn run(&self, world: &World, rng: &mut SetRng) -> Vec<Row> {
+        self.impacts(rng).into_iter().map(|x| self.measure(world, x, rng)).collect()
     }
 
     /// The names of the input columns, in order.
@@ -320,21 +320,21 @@ impl Campaign {
 
     /// The file of inputs alone.
     pub fn inputs_csv(&self, inputs: &[Inputs]) -> String {
-        let mut dice = Dice::new(0, "cells");
+        let mut rng = SetRng::new(0, "cells");
         let mut text = self.header().join(",");
         for x in inputs {
-            let cells: Vec<_> = self.header().iter().map(|column| cell(column, x, &mut dice)).collect();
+            let cells: Vec<_> = self.header().iter().map(|column| cell(column, x, &mut rng)).collect();
             write!(text, "\n{}", cells.join(",")).unwrap();
         }
         text + "\n"
     }
 
-    /// The file of a campaign, and the lines on which broken rows stand.
-    pub fn csv(&self, rows: &[Row], dice: &mut Dice) -> (String, Vec<usize>) {
-        let mut lines: Vec<_> = rows.iter().map(|row| (self.line(row, dice), false)).collect();
+    /// The file of a campaign, and the lines of its invalid rows.
+    pub fn csv(&self, rows: &[Row], rng: &mut SetRng) -> (String, Vec<usize>) {
+        let mut lines: Vec<_> = rows.iter().map(|row| (self.line(row, rng), false)).collect();
         for kind in 0..self.broken {
-            let at = dice.below(lines.len());
-            let line = self.broken_line(&rows[at % rows.len()], kind, dice);
+            let at = rng.below(lines.len());
+            let line = self.broken_line(&rows[at % rows.len()], kind, rng);
             lines.insert(at, (line, true));
         }
         let mut text = format!("{},e_n,e_t,outcome", self.header().join(","));
@@ -345,8 +345,8 @@ impl Campaign {
         (text + "\n", broken)
     }
 
-    fn line(&self, row: &Row, dice: &mut Dice) -> String {
-        let mut cells: Vec<_> = self.header().iter().map(|column| cell(column, &row.x, dice)).collect();
+    fn line(&self, row: &Row, rng: &mut SetRng) -> String {
+        let mut cells: Vec<_> = self.header().iter().map(|column| cell(column, &row.x, rng)).collect();
         let number = |value: Option<f64>| value.map(|value| format!("{value:.4}")).unwrap_or_default();
         cells.extend([number(row.e_n), number(row.e_t)]);
         let outcome = if row.stuck { "stick" } else { "rebound" };
@@ -355,9 +355,9 @@ impl Campaign {
     }
 
     /// A row that cannot be used, of one of six kinds.
-    fn broken_line(&self, row: &Row, kind: usize, dice: &mut Dice) -> String {
+    fn broken_line(&self, row: &Row, kind: usize, rng: &mut SetRng) -> String {
         let rebound = Row { stuck: false, e_n: Some(0.3), e_t: Some(0.7), outcome: true, ..*row };
-        let line = self.line(&rebound, dice);
+        let line = self.line(&rebound, rng);
         let mut cells: Vec<String> = line.split(',').map(String::from).collect();
         let (e_n, outcome) = (cells.len() - 3, cells.len() - 1);
         match kind % 6 {
@@ -372,23 +372,23 @@ impl Campaign {
     }
 }
 
-/// Nothing in four of ten cases, else log-uniform.
-fn sometimes(dice: &mut Dice, range: Range) -> f64 {
-    if dice.chance(0.4) { 0.0 } else { dice.log_uniform(range) }
+/// 0 in four of ten cases, else log-uniform.
+fn sometimes(rng: &mut SetRng, range: Range) -> f64 {
+    if rng.chance(0.4) { 0.0 } else { rng.log_uniform(range) }
 }
 
 /// A slipped decimal point, a wrong particle, or anything.
-fn outlier(value: f64, dice: &mut Dice) -> f64 {
-    match dice.below(4) {
+fn outlier(value: f64, rng: &mut SetRng) -> f64 {
+    match rng.below(4) {
         0 => value * 10.0,
         1 => value / 10.0,
-        _ => dice.uniform((0.02, 1.2)),
+        _ => rng.uniform((0.02, 1.2)),
     }
 }
 
 /// A cell of an input column.
-fn cell(column: &str, x: &Inputs, dice: &mut Dice) -> String {
-    let pick = |names: &[&str], dice: &mut Dice| names[dice.below(names.len())].to_string();
+fn cell(column: &str, x: &Inputs, rng: &mut SetRng) -> String {
+    let pick = |names: &[&str], rng: &mut SetRng| names[rng.below(names.len())].to_string();
     match column {
         "v_n" => format!("{:e}", x.v_n),
         "v_t" => format!("{:e}", x.v_t),
@@ -403,13 +403,13 @@ fn cell(column: &str, x: &Inputs, dice: &mut Dice) -> String {
         "humidity" => format!("{:.3}", x.foreign),
         "series" => format!("set{}", x.group + 1),
         "batch" => format!("lot-{}", ["K", "M", "Q", "T"][x.group]),
-        "operator" => pick(&["anna", "bo", "chen"], dice),
-        "note" => pick(&["", "", "", "ok", "blurred"], dice),
-        "plate_id" => pick(&["P1", "P2", "P3", "P4", "P5", "P6"], dice),
-        "day" => (1 + dice.below(5)).to_string(),
-        "lens" => pick(&["50", "85", "105"], dice),
-        "frame" => dice.below(100_000).to_string(),
-        _ => format!("{:.4}", 10.0 + dice.normal()),
+        "operator" => pick(&["anna", "bo", "chen"], rng),
+        "note" => pick(&["", "", "", "ok", "blurred"], rng),
+        "plate_id" => pick(&["P1", "P2", "P3", "P4", "P5", "P6"], rng),
+        "day" => (1 + rng.below(5)).to_string(),
+        "lens" => pick(&["50", "85", "105"], rng),
+        "frame" => rng.below(100_000).to_string(),
+        _ => format!("{:.4}", 10.0 + rng.normal()),
     }
 }
 

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use crate::campaign::{Campaign, KNOWN, System};
 use crate::contact::{Body, Contact, Tangential};
-use crate::dice::Dice;
 use crate::plant::Hook;
 use crate::score::{Verdict, at_most, judge};
+use crate::set_rng::SetRng;
 use crate::sets::{Design, EFFECTS, Kind, Recipe, Set, recipes};
 use crate::world::{Inputs, normal};
 use crate::{random, runner};
@@ -41,8 +41,8 @@ fn planted(name: &str, seed: u64) -> Set {
 
 /// A set of no effect on this base.
 fn plain(system: System, law: Tangential, name: &str) -> Set {
-    let recipe = Recipe::new(name.into(), Kind::Null, move |dice| {
-        let mut campaign = Campaign::new(system, law, dice);
+    let recipe = Recipe::new(name.into(), Kind::Null, move |rng| {
+        let mut campaign = Campaign::new(system, law, rng);
         campaign.columns = KNOWN.to_vec();
         campaign.v_n.0 /= 5.0;
         campaign.theta = (1.0, 85.0);
@@ -79,27 +79,27 @@ fn with_nothing_planted_the_command_says_the_same() {
 
 #[test]
 fn noise_has_the_stated_deviation_and_no_bias() {
-    let mut dice = Dice::new(random::seed(), "noise");
+    let mut rng = SetRng::new(random::seed(), "noise");
     let (mean, deviation, count) = (0.4, 0.05, 20_000);
-    let noise: Vec<_> = (0..count).map(|_| dice.noise(mean, deviation)).collect();
+    let noise: Vec<_> = (0..count).map(|_| rng.noise(mean, deviation)).collect();
     let average = noise.iter().sum::<f64>() / f64::from(count);
     let spread = (noise.iter().map(|n| n * n).sum::<f64>() / f64::from(count)).sqrt();
     close(average, 0.0, 0.0, 5.0 * deviation / f64::from(count).sqrt());
     close(spread, deviation, 0.03, 0.0);
-    assert!((0..10_000).all(|_| dice.noise(0.01, deviation) > -0.01));
+    assert!((0..10_000).all(|_| rng.noise(0.01, deviation) > -0.01));
 }
 
 #[test]
 fn tilts_are_normal() {
-    let mut dice = Dice::new(random::seed(), "tilts");
+    let mut rng = SetRng::new(random::seed(), "tilts");
     let count = 40_000;
-    let all: Vec<_> = (0..count).map(|_| normal([dice.unit(), dice.unit()])).collect();
+    let all: Vec<_> = (0..count).map(|_| normal([rng.unit(), rng.unit()])).collect();
     let share = |from: f64| all.iter().filter(|z| **z > from).count() as f64 / f64::from(count);
     close(share(0.0), 0.5, 0.0, 0.015);
     close(share(1.959_964), 0.025, 0.0, 0.005);
 }
 
-/// The measured rows lie about the truth as the noise says.
+/// The residuals of the measured rows have the deviation of the noise.
 #[test]
 fn residuals_of_a_set_are_its_noise() {
     for recipe in recipes(1).iter().filter(|recipe| recipe.kind == Kind::Planted) {
@@ -144,11 +144,11 @@ fn a_plant_depends_on_its_own_inputs() {
     for effect in EFFECTS {
         let name = format!("{effect}:2");
         let set = planted(&name, seed);
-        let mut dice = Dice::new(seed, "inputs");
+        let mut rng = SetRng::new(seed, "inputs");
         let draws = [0.37, 0.02];
         let mut moved = vec![];
         for row in &set.rows {
-            let other = set.campaign.inputs(&mut dice);
+            let other = set.campaign.inputs(&mut rng);
             for name in
                 ["T_p", "T_w", "v_gas", "layer_thickness", "film_thickness", "roughness", "conversion"]
             {
@@ -233,8 +233,8 @@ fn every_planted_set_can_be_told() {
 /// For Gaussian noise alone, the gain equals the textbook's.
 #[test]
 fn the_gain_of_a_known_shift() {
-    let recipe = Recipe::new("known-shift".into(), Kind::Planted, |dice| {
-        let mut campaign = Campaign::new(System::Wax, Tangential::Constant(0.7), dice);
+    let recipe = Recipe::new("known-shift".into(), Kind::Planted, |rng| {
+        let mut campaign = Campaign::new(System::Wax, Tangential::Constant(0.7), rng);
         campaign.v_n = (2.0, 5.0);
         Design { campaign, plants: vec![crate::plant::yield_ratio(1.2)] }
     });
@@ -339,14 +339,6 @@ fn the_demands_can_be_met_and_missed() {
     assert!(score(&|_| answer(&[])).len() >= 2);
     let always = json!({ "cause": "agglomerates", "indistinguishable_from": [] });
     assert!(score(&|_| answer(std::slice::from_ref(&always))).len() >= 3);
-}
-
-#[test]
-fn the_level_in_a_model_file() {
-    let model = |line: &str| format!("[normal]\ne_t = 3\n[tangential]\nmodel = \"constant\"\n{line}\n[x]\n");
-    assert_eq!(runner::tangential_level(&model("e_t = 0.81 # fitted")), Some(0.81));
-    assert_eq!(runner::tangential_level(&model("e_t = { value = 0.79, low = 0.7, high = 0.8 }")), Some(0.79));
-    assert_eq!(runner::tangential_level(&model("friction = 0.2")), None);
 }
 
 /// The error of the base model is far above the attainable one; that of the truth equals it.

@@ -14,7 +14,6 @@
 mod campaign;
 mod check;
 mod contact;
-mod dice;
 mod gain;
 mod migraine;
 mod plant;
@@ -22,6 +21,7 @@ mod plant;
 mod random;
 mod runner;
 mod score;
+mod set_rng;
 mod sets;
 mod world;
 

@@ -3,8 +3,8 @@
 
 use crate::campaign::{Campaign, Series, System};
 use crate::contact::Tangential;
-use crate::dice::Dice;
 use crate::plant;
+use crate::set_rng::SetRng;
 use crate::sets::Design;
 
 /// The yield ratio to be found.
@@ -32,13 +32,13 @@ fn series(index: usize) -> Series {
 }
 
 /// The campaign over a base with yield ratio 2.8 and e_t = 1.
-pub fn plan(dice: &mut Dice) -> Design {
-    let mut campaign = Campaign::new(System::HotTungsten, Tangential::Constant(1.0), dice);
+pub fn plan(rng: &mut SetRng) -> Design {
+    let mut campaign = Campaign::new(System::HotTungsten, Tangential::Constant(1.0), rng);
     campaign.columns = vec!["T_w"];
     campaign.extras = vec!["series"];
     campaign.series = (0..SETS.len()).map(series).collect();
     campaign.rows = SETS.iter().map(|set| set.0).sum();
-    campaign.noise_e_n = dice.uniform((0.03, 0.06));
+    campaign.noise_e_n = rng.uniform((0.03, 0.06));
     campaign.noise_e_t = 1.2 * campaign.noise_e_n;
     let plants = vec![
         plant::yield_ratio(YIELD_RATIO),

@@ -6,8 +6,8 @@ use std::time::Instant;
 
 use serde_json::{Value, json};
 
-use crate::dice::Dice;
-use crate::score::{HeldOut, Interval, Judgement, Verdict, judge};
+use crate::score::{HeldOut, Judgement, Verdict, judge};
+use crate::set_rng::SetRng;
 use crate::sets::{Kind, Set};
 use crate::world::{Inputs, Response};
 
@@ -37,7 +37,7 @@ pub fn run(set: &Set, seed: u64) -> Judgement {
             let held_out = held_out(set, folder.path(), seed, &diagnosis);
             Judgement { seconds, held_out, ..judge(set, &diagnosis) }
         }
-        Err(message) => crashed(set, message, seconds),
+        Err(message) => crashed(set, &message, seconds),
     }
 }
 
@@ -47,42 +47,23 @@ fn answer(folder: &Path, output: &Output) -> Result<Value, String> {
         return Err(format!("{}: {}", output.status, String::from_utf8_lossy(&output.stderr)));
     }
     let text = std::fs::read_to_string(folder.join("out/diagnosis.json")).map_err(|e| e.to_string())?;
-    let mut diagnosis: Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
-    if diagnosis["calibration"].is_null() {
-        let model = std::fs::read_to_string(folder.join("out/extended.toml")).unwrap_or_default();
-        let levels: Vec<_> = tangential_level(&model)
-            .map(|value| json!({ "key": "tangential.e_t", "value": value }))
-            .into_iter()
-            .collect();
-        diagnosis["calibration"] = levels.into();
+    let diagnosis: Value = serde_json::from_str(&text).map_err(|e| e.to_string())?;
+    let complete = diagnosis["findings"].is_array()
+        && diagnosis["rows"]["rejected"].is_array()
+        && diagnosis["calibration"].is_array();
+    if complete {
+        Ok(diagnosis)
+    } else {
+        Err("diagnosis.json lacks findings, rows.rejected or calibration".into())
     }
-    let whole = diagnosis["findings"].is_array() && diagnosis["rows"]["rejected"].is_array();
-    if whole { Ok(diagnosis) } else { Err("diagnosis.json lacks findings or rows.rejected".into()) }
 }
 
-/// `e_t` of the section `[tangential]`, plain or as `{ value = .. }`.
-pub fn tangential_level(model: &str) -> Option<f64> {
-    let section = model.split("[tangential]").nth(1)?.split("\n[").next()?;
-    let line = section.lines().find(|line| line.trim_start().starts_with("e_t"))?;
-    let text = line.rsplit_once("value =").or_else(|| line.split_once('='))?.1;
-    text.split([',', '}', '#']).next()?.trim().parse().ok()
-}
-
-/// The judgement where there is no answer.
-fn crashed(set: &Set, message: String, seconds: f64) -> Judgement {
-    Judgement {
-        name: set.name.clone(),
-        family: set.family().into(),
-        kind: set.kind,
-        verdict: Verdict::False,
-        exact: false,
-        trap_passed: false,
-        intervals: Vec::<Interval>::new(),
-        held_out: vec![],
-        findings: vec![],
-        seconds,
-        crash: Some(format!("{}: {message}", set.name)),
-    }
+/// The judgement where there is no diagnosis.
+fn crashed(set: &Set, message: &str, seconds: f64) -> Judgement {
+    let empty = json!({ "findings": [], "rows": { "rejected": [] } });
+    let crash = Some(format!("{}: {message}", set.name));
+    let verdict = Verdict::False;
+    Judgement { verdict, exact: false, trap_passed: false, seconds, crash, ..judge(set, &empty) }
 }
 
 /// Reached and attainable errors, for sets without hidden draws.
@@ -100,8 +81,8 @@ fn held_out(set: &Set, folder: &Path, seed: u64, diagnosis: &Value) -> Vec<HeldO
 
 /// New impacts of the same campaign.
 pub fn fresh_impacts(set: &Set, seed: u64) -> Vec<Inputs> {
-    let mut dice = Dice::new(seed, &format!("{}:fresh", set.name));
-    (0..FRESH).map(|_| set.campaign.inputs(&mut dice)).collect()
+    let mut rng = SetRng::new(seed, &format!("{}:fresh", set.name));
+    (0..FRESH).map(|_| set.campaign.inputs(&mut rng)).collect()
 }
 
 /// The predictions of a model for these impacts, through the command.

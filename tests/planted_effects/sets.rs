@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 
 use crate::campaign::{Campaign, FOREIGN, Row, Spread, System};
 use crate::contact::{Tangential, critical_slope};
-use crate::dice::Dice;
 use crate::gain::{Gain, gain};
 use crate::plant::{self, Plant};
+use crate::set_rng::SetRng;
 use crate::world::World;
 
 /// What a set is for.
@@ -54,22 +54,26 @@ pub struct Design {
 pub struct Recipe {
     pub name: String,
     pub kind: Kind,
-    plan: Box<dyn Fn(&mut Dice) -> Design + Send + Sync>,
+    plan: Box<dyn Fn(&mut SetRng) -> Design + Send + Sync>,
 }
 
 /// Least gain of the data [nats].
 const LEAST: Gain = Gain { over_base: 30.0, over_refitted: 20.0, least_plant: 30.0 };
 
 impl Recipe {
-    pub fn new(name: String, kind: Kind, plan: impl Fn(&mut Dice) -> Design + Send + Sync + 'static) -> Self {
+    pub fn new(
+        name: String,
+        kind: Kind,
+        plan: impl Fn(&mut SetRng) -> Design + Send + Sync + 'static,
+    ) -> Self {
         Self { name, kind, plan: Box::new(plan) }
     }
 
     /// The set of this seed: redrawn until the data are informative.
     pub fn make(&self, seed: u64) -> Set {
-        let mut dice = Dice::new(seed, &self.name);
+        let mut rng = SetRng::new(seed, &self.name);
         for _ in 0..200 {
-            let set = self.draw(&mut dice);
+            let set = self.draw(&mut rng);
             if self.is_informative(&set) {
                 return set;
             }
@@ -77,13 +81,13 @@ impl Recipe {
         panic!("{}: no draw can be distinguished from its base", self.name);
     }
 
-    fn draw(&self, dice: &mut Dice) -> Set {
-        let Design { campaign, plants } = (self.plan)(dice);
+    fn draw(&self, rng: &mut SetRng) -> Set {
+        let Design { campaign, plants } = (self.plan)(rng);
         let plants = plants.into_iter().map(Arc::new).collect();
         let world = World { contact: campaign.system.contact(), tangential: campaign.law, plants };
-        let rows = campaign.run(&world, dice);
+        let rows = campaign.run(&world, rng);
         let gain = gain(&campaign, &world, &rows);
-        let (csv, broken_lines) = campaign.csv(&rows, dice);
+        let (csv, broken_lines) = campaign.csv(&rows, rng);
         Set { name: self.name.clone(), kind: self.kind, campaign, world, rows, csv, broken_lines, gain }
     }
 
@@ -196,16 +200,16 @@ pub fn recipes(repeats: usize) -> Vec<Recipe> {
 
 fn planted(repeats: usize) -> Vec<Recipe> {
     let one = |effect: &'static str, index: usize| {
-        Recipe::new(format!("{effect}:{index}"), Kind::Planted, move |dice| plan(effect, index % 3, dice))
+        Recipe::new(format!("{effect}:{index}"), Kind::Planted, move |rng| plan(effect, index % 3, rng))
     };
     EFFECTS.iter().flat_map(|effect| (0..3 * repeats).map(move |index| one(effect, index))).collect()
 }
 
 /// No effect, a dozen nuisance columns, a different kind of noise in each.
 fn null(index: usize) -> Recipe {
-    Recipe::new(format!("null:{index}"), Kind::Null, move |dice| {
+    Recipe::new(format!("null:{index}"), Kind::Null, move |rng| {
         let system = [System::Wax, System::Tungsten][index % 2];
-        let mut campaign = Campaign::new(system, any_law(system, dice), dice);
+        let mut campaign = Campaign::new(system, any_law(system, rng), rng);
         campaign.extras = FOREIGN.to_vec();
         campaign.spread =
             [Spread::Even, Spread::Random, Spread::WithSpeed, Spread::WithForeign][index / 2 % 4];
@@ -223,7 +227,7 @@ fn traps(repeat: usize) -> Vec<Recipe> {
     all
 }
 
-/// Effect and the input that the decoy follows.
+/// Effect, and the input that the decoy is correlated with.
 const DECOYS: [(&str, &str); 4] = [
     ("thermal-softening", "T_p"),
     ("powder-layer", "layer_thickness"),
@@ -240,239 +244,240 @@ const PAIRS: [(&str, &str); 4] = [
 ];
 
 fn decoy(effect: &'static str, input: &'static str, repeat: usize) -> Recipe {
-    Recipe::new(format!("decoy-{effect}:{repeat}"), Kind::Decoy, move |dice| {
-        let mut plan = plan(effect, 1, dice);
+    Recipe::new(format!("decoy-{effect}:{repeat}"), Kind::Decoy, move |rng| {
+        let mut plan = plan(effect, 1, rng);
         plan.campaign.needs("humidity");
-        plan.campaign.follow(input, dice);
+        plan.campaign.follow(input, rng);
         plan
     })
 }
 
 /// Both effects at full strength, in a campaign that has the ranges of both.
 fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
-    Recipe::new(format!("pair-{one}-{other}:{repeat}"), Kind::Pair, move |dice| {
+    Recipe::new(format!("pair-{one}-{other}:{repeat}"), Kind::Pair, move |rng| {
         let system = if other == "oblique-angle" { System::Tungsten } else { System::Wax };
-        let law = law_for(other, system, dice);
-        let mut campaign = Campaign::new(system, law, dice);
-        campaign.rows = 600 + dice.below(401);
+        let law = law_for(other, system, rng);
+        let mut campaign = Campaign::new(system, law, rng);
+        campaign.rows = 600 + rng.below(401);
         campaign.noise_e_n = campaign.noise_e_n.min(0.05);
-        let plants = [one, other].into_iter().map(|effect| sow(effect, 0.9, &mut campaign, dice)).collect();
+        let plants =
+            [one, other].into_iter().map(|effect| plant_effect(effect, 0.9, &mut campaign, rng)).collect();
         Design { campaign, plants }
     })
 }
 
 fn unknown_number(index: usize) -> Recipe {
-    Recipe::new(format!("unknown-humidity:{index}"), Kind::Unknown, move |dice| {
-        let system = any_system(dice);
-        let mut campaign = Campaign::new(system, any_law(system, dice), dice);
+    Recipe::new(format!("unknown-humidity:{index}"), Kind::Unknown, move |rng| {
+        let system = any_system(rng);
+        let mut campaign = Campaign::new(system, any_law(system, rng), rng);
         campaign.needs("humidity");
-        Design { plants: vec![plant::unknown_number(dice.uniform((0.3, 0.6)))], campaign }
+        Design { plants: vec![plant::unknown_number(rng.uniform((0.3, 0.6)))], campaign }
     })
 }
 
 fn unknown_group(index: usize) -> Recipe {
-    Recipe::new(format!("unknown-batch:{index}"), Kind::Unknown, move |dice| {
-        let system = any_system(dice);
-        let mut campaign = Campaign::new(system, any_law(system, dice), dice);
+    Recipe::new(format!("unknown-batch:{index}"), Kind::Unknown, move |rng| {
+        let system = any_system(rng);
+        let mut campaign = Campaign::new(system, any_law(system, rng), rng);
         campaign.needs("batch");
-        let size = dice.uniform((0.2, 0.4));
+        let size = rng.uniform((0.2, 0.4));
         Design { plants: vec![plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size])], campaign }
     })
 }
 
-/// One effect, blanks, and rows that have to be rejected by line.
+/// One effect, blanks, and invalid rows.
 fn broken(index: usize) -> Recipe {
-    Recipe::new(format!("broken:{index}"), Kind::Broken, move |dice| {
-        let effect = ["powder-layer", "yield-ratio", "oblique-angle", "melting-transition"][dice.below(4)];
-        let mut plan = plan(effect, 2, dice);
+    Recipe::new(format!("broken:{index}"), Kind::Broken, move |rng| {
+        let effect = ["powder-layer", "yield-ratio", "oblique-angle", "melting-transition"][rng.below(4)];
+        let mut plan = plan(effect, 2, rng);
         plan.campaign.blanks = 0.12;
-        plan.campaign.broken = 6 + dice.below(7);
+        plan.campaign.broken = 6 + rng.below(7);
         plan
     })
 }
 
 /// Too few rows.
 fn few(index: usize) -> Recipe {
-    Recipe::new(format!("few:{index}"), Kind::Few, move |dice| {
-        let mut plan = plan(EFFECTS[dice.below(EFFECTS.len())], 0, dice);
-        plan.campaign.rows = 15 + dice.below(6);
+    Recipe::new(format!("few:{index}"), Kind::Few, move |rng| {
+        let mut plan = plan(EFFECTS[rng.below(EFFECTS.len())], 0, rng);
+        plan.campaign.rows = 15 + rng.below(6);
         plan
     })
 }
 
-/// One effect at level 0, 1 or 2, in a campaign in which it shows.
-fn plan(effect: &'static str, level: usize, dice: &mut Dice) -> Design {
-    let strength = (level as f64 / 2.0 + dice.uniform((-0.2, 0.2))).clamp(0.0, 1.0);
-    let system = system_for(effect, dice);
-    let law = law_for(effect, system, dice);
-    let mut campaign = Campaign::new(system, law, dice);
-    let plants = vec![sow(effect, strength, &mut campaign, dice)];
+/// One effect at level 0, 1 or 2, in a campaign in which it is visible.
+fn plan(effect: &'static str, level: usize, rng: &mut SetRng) -> Design {
+    let strength = (level as f64 / 2.0 + rng.uniform((-0.2, 0.2))).clamp(0.0, 1.0);
+    let system = system_for(effect, rng);
+    let law = law_for(effect, system, rng);
+    let mut campaign = Campaign::new(system, law, rng);
+    let plants = vec![plant_effect(effect, strength, &mut campaign, rng)];
     Design { campaign, plants }
 }
 
-fn any_system(dice: &mut Dice) -> System {
-    [System::Wax, System::Tungsten][dice.below(2)]
+fn any_system(rng: &mut SetRng) -> System {
+    [System::Wax, System::Tungsten][rng.below(2)]
 }
 
-/// The system in which the effect has its place.
-fn system_for(effect: &str, dice: &mut Dice) -> System {
+/// The system in which the effect occurs.
+fn system_for(effect: &str, rng: &mut SetRng) -> System {
     match effect {
         "gas-lift" | "powder-layer" | "liquid-film" | "melting-transition" | "viscoelastic-loss" => {
             System::Wax
         }
         "conversion-transition" => System::Char,
-        _ => any_system(dice),
+        _ => any_system(rng),
     }
 }
 
-fn any_law(system: System, dice: &mut Dice) -> Tangential {
-    let e_t = rounded(dice.uniform(if system == System::Tungsten { (0.75, 0.95) } else { (0.65, 0.85) }));
-    let friction = rounded(dice.uniform((0.1, 0.35)));
-    [Tangential::Constant(e_t), Tangential::SlidingRolling { friction }][dice.below(2)]
+fn any_law(system: System, rng: &mut SetRng) -> Tangential {
+    let e_t = rounded(rng.uniform(if system == System::Tungsten { (0.75, 0.95) } else { (0.65, 0.85) }));
+    let friction = rounded(rng.uniform((0.1, 0.35)));
+    [Tangential::Constant(e_t), Tangential::SlidingRolling { friction }][rng.below(2)]
 }
 
-/// To three places, so that the model file holds it exactly.
+/// Rounded to three places, so that the model file contains it exactly.
 fn rounded(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
 
 /// The base law on which the effect can be planted.
-fn law_for(effect: &str, system: System, dice: &mut Dice) -> Tangential {
-    let friction = rounded(dice.uniform((0.12, 0.35)));
+fn law_for(effect: &str, system: System, rng: &mut SetRng) -> Tangential {
+    let friction = rounded(rng.uniform((0.12, 0.35)));
     match effect {
-        "sliding-to-rolling" if dice.chance(0.5) => Tangential::Sliding { friction },
-        "sliding-to-rolling" => Tangential::Constant(rounded(dice.uniform((0.65, 0.85)))),
-        "tangential-compliance" if dice.chance(0.7) => Tangential::SlidingRolling { friction },
-        "tangential-compliance" => Tangential::Constant(rounded(dice.uniform((0.65, 0.8)))),
-        _ => any_law(system, dice),
+        "sliding-to-rolling" if rng.chance(0.5) => Tangential::Sliding { friction },
+        "sliding-to-rolling" => Tangential::Constant(rounded(rng.uniform((0.65, 0.85)))),
+        "tangential-compliance" if rng.chance(0.7) => Tangential::SlidingRolling { friction },
+        "tangential-compliance" => Tangential::Constant(rounded(rng.uniform((0.65, 0.8)))),
+        _ => any_law(system, rng),
     }
 }
 
 /// Friction of the law, or one of this campaign's own.
-fn friction_of(law: Tangential, dice: &mut Dice) -> f64 {
+fn friction_of(law: Tangential, rng: &mut SetRng) -> f64 {
     match law {
         Tangential::Sliding { friction } | Tangential::SlidingRolling { friction } => friction,
-        Tangential::Constant(_) => dice.uniform((0.12, 0.35)),
+        Tangential::Constant(_) => rng.uniform((0.12, 0.35)),
     }
 }
 
-/// Sets the campaign's ranges so that the effect shows, and plants it.
-fn sow(effect: &'static str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
-    in_the_solids(effect, strength, campaign, dice)
-        .or_else(|| in_the_scatter(effect, strength, campaign, dice))
-        .or_else(|| on_the_surface(effect, strength, campaign, dice))
-        .or_else(|| in_the_particle(effect, strength, campaign, dice))
-        .or_else(|| along_the_wall(effect, strength, campaign, dice))
+/// Sets the campaign's ranges so that the effect is visible, and plants it.
+fn plant_effect(effect: &'static str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Plant {
+    solid_effect(effect, strength, campaign, rng)
+        .or_else(|| scatter_effect(effect, strength, campaign, rng))
+        .or_else(|| surface_effect(effect, strength, campaign, rng))
+        .or_else(|| particle_effect(effect, strength, campaign, rng))
+        .or_else(|| oblique_effect(effect, strength, campaign, rng))
         .unwrap_or_else(|| panic!("{effect} is no effect"))
 }
 
-/// Other numbers of the solids.
-fn in_the_solids(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+/// Effects on the solids.
+fn solid_effect(effect: &str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Option<Plant> {
     let tungsten = campaign.system == System::Tungsten;
     let contact = campaign.system.contact();
     let plant = match effect {
         "yield-ratio" => {
             let factor = 1.15 + 0.85 * strength;
-            plant::yield_ratio(contact.yield_ratio * if dice.chance(0.7) { factor } else { 1.0 / factor })
+            plant::yield_ratio(contact.yield_ratio * if rng.chance(0.7) { factor } else { 1.0 / factor })
         }
         "adhesion-energy" => {
-            let factor = if dice.chance(0.7) { 0.85 - 0.7 * strength } else { 1.2 + 1.5 * strength };
+            let factor = if rng.chance(0.7) { 0.85 - 0.7 * strength } else { 1.2 + 1.5 * strength };
             slow_down(campaign, factor.max(1.0));
             plant::adhesion_energy(contact.adhesion * factor)
         }
-        "thermal-softening" => softening(strength, campaign, dice),
+        "thermal-softening" => softening(strength, campaign, rng),
         "size-dependent-yield" => {
             campaign.d = if tungsten { (4e-6, 24e-6) } else { (35e-6, 180e-6) };
             let middle = (campaign.d.0 * campaign.d.1).sqrt();
-            plant::size_dependent_yield(strength, dice.log_uniform((middle, campaign.d.1)))
+            plant::size_dependent_yield(strength, rng.log_uniform((middle, campaign.d.1)))
         }
         "strain-rate-hardening" => plant::strain_rate_hardening(
             strength,
-            dice.uniform(if tungsten { (4.0, 8.0) } else { (1.5, 3.5) }),
+            rng.uniform(if tungsten { (4.0, 8.0) } else { (1.5, 3.5) }),
         ),
         _ => return None,
     };
     Some(plant)
 }
 
-/// What makes equal impacts come out differently.
-fn in_the_scatter(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+/// Effects with hidden draws.
+fn scatter_effect(effect: &str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Option<Plant> {
     let plant = match effect {
         "nano-roughness" => {
             slow_down(campaign, 1.0);
-            plant::nano_roughness(strength, dice.uniform((0.5, 1.2)))
+            plant::nano_roughness(strength, rng.uniform((0.5, 1.2)))
         }
         "micro-roughness" => {
             campaign.theta = (15.0, 80.0);
             plant::micro_roughness(0.03 + 0.09 * strength)
         }
         "agglomerates" => {
-            let low = dice.uniform((0.6, 0.66));
-            plant::agglomerates(0.05 + 0.25 * strength, low, dice.uniform((0.85, 0.97)))
+            let low = rng.uniform((0.6, 0.66));
+            plant::agglomerates(0.05 + 0.25 * strength, low, rng.uniform((0.85, 0.97)))
         }
         _ => return None,
     };
     Some(plant)
 }
 
-/// What lies on the wall or flows along it.
-fn on_the_surface(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+/// Effects of layers, films and gas.
+fn surface_effect(effect: &str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Option<Plant> {
     let plant = match effect {
         "gas-lift" => {
             campaign.needs("v_gas");
             campaign.theta = (5.0, 80.0);
             campaign.v_gas = (0.0, 30.0);
-            plant::gas_lift(strength, dice.uniform((10.0, 20.0)), dice.uniform((0.2, 0.4)))
+            plant::gas_lift(strength, rng.uniform((10.0, 20.0)), rng.uniform((0.2, 0.4)))
         }
         "powder-layer" => {
             campaign.needs("layer_thickness");
             campaign.layer = (2e-5, 1.5e-3);
-            plant::powder_layer(strength, dice.uniform((0.08e-3, 0.25e-3)), dice.uniform((0.8, 1.6)))
+            plant::powder_layer(strength, rng.uniform((0.08e-3, 0.25e-3)), rng.uniform((0.8, 1.6)))
         }
         "liquid-film" => {
             campaign.needs("film_thickness");
             campaign.film = (2e-6, 2e-4);
             let viscosity = 0.3e-3 * 8_f64.powf(strength);
-            plant::liquid_film(viscosity, campaign.system.contact().density, dice.uniform((1e-6, 3e-6)))
+            plant::liquid_film(viscosity, campaign.system.contact().density, rng.uniform((1e-6, 3e-6)))
         }
         _ => return None,
     };
     Some(plant)
 }
 
-/// What the particle's state and speed do.
-fn in_the_particle(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+/// Effects of the particle's state and speed.
+fn particle_effect(effect: &str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Option<Plant> {
     let plant = match effect {
-        "melting-transition" => melting(strength, campaign, dice),
+        "melting-transition" => melting(strength, campaign, rng),
         "conversion-transition" => {
             campaign.needs("conversion");
-            let (threshold, width) = (dice.uniform((0.84, 0.91)), dice.uniform((0.02, 0.08)));
+            let (threshold, width) = (rng.uniform((0.84, 0.91)), rng.uniform((0.02, 0.08)));
             campaign.conversion = (0.4, (threshold + 0.02 + 0.14 * strength).min(1.0));
             plant::conversion_transition(threshold, width)
         }
-        "viscoelastic-loss" => plant::viscoelastic_loss(strength, dice.uniform((3.0, 6.0))),
+        "viscoelastic-loss" => plant::viscoelastic_loss(strength, rng.uniform((3.0, 6.0))),
         _ => return None,
     };
     Some(plant)
 }
 
-/// What the angle does, and the tangential law.
-fn along_the_wall(effect: &str, strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Option<Plant> {
+/// Effects of the angle, and on the tangential law.
+fn oblique_effect(effect: &str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Option<Plant> {
     let tungsten = campaign.system == System::Tungsten;
     let plant = match effect {
         "oblique-angle" | "oblique-angle-rise" => {
-            campaign.theta = (3.0, dice.uniform((70.0, 80.0)));
+            campaign.theta = (3.0, rng.uniform((70.0, 80.0)));
             let sign = if effect == "oblique-angle" { -1.0 } else { 1.0 };
             plant::oblique_angle(strength, sign, if tungsten { 3.0 } else { 1.0 })
         }
         "sliding-to-rolling" => {
-            let friction = friction_of(campaign.law, dice);
+            let friction = friction_of(campaign.law, rng);
             let stiffness_ratio = campaign.system.contact().stiffness_ratio();
             let end = critical_slope(friction, 0.35, stiffness_ratio).atan().to_degrees();
             campaign.theta = (end * (0.75 - 0.65 * strength), 75.0);
-            plant::sliding_to_rolling(friction, dice.uniform((0.02, 0.08)))
+            plant::sliding_to_rolling(friction, rng.uniform((0.02, 0.08)))
         }
-        "tangential-compliance" => compliance(strength, campaign, dice),
+        "tangential-compliance" => compliance(strength, campaign, rng),
         _ => return None,
     };
     Some(plant)
@@ -486,27 +491,27 @@ fn slow_down(campaign: &mut Campaign, factor: f64) {
     campaign.v_n = (0.6 * speed, 4.5 * speed);
 }
 
-/// On a constant law, only impacts that do not slide, so that nothing else is missing.
-fn compliance(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+/// On a constant law, only impacts that do not slide, so that no other effect is missing.
+fn compliance(strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Plant {
     let constant = matches!(campaign.law, Tangential::Constant(_));
-    let friction = if constant { dice.uniform((0.3, 0.45)) } else { friction_of(campaign.law, dice) };
+    let friction = if constant { rng.uniform((0.3, 0.45)) } else { friction_of(campaign.law, rng) };
     let critical = critical_slope(friction, 0.3, campaign.system.contact().stiffness_ratio());
     let top = critical.atan().to_degrees();
     campaign.theta = if constant { (2.0, 0.9 * top) } else { (2.0, (1.8 * top).min(75.0)) };
-    plant::tangential_compliance(strength, friction, dice.uniform((0.88, 0.97)))
+    plant::tangential_compliance(strength, friction, rng.uniform((0.88, 0.97)))
 }
 
-fn melting(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
-    let half = dice.uniform((348.0, 362.0));
+fn melting(strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Plant {
+    let half = rng.uniform((348.0, 362.0));
     campaign.t_p = (290.0, (half + 4.0 + 40.0 * strength).min(400.0));
-    plant::melting_transition(half, half - 32.0, dice.uniform((3.0, 6.0)), dice.uniform((0.4, 0.9)))
+    plant::melting_transition(half, half - 32.0, rng.uniform((3.0, 6.0)), rng.uniform((0.4, 0.9)))
 }
 
-fn softening(strength: f64, campaign: &mut Campaign, dice: &mut Dice) -> Plant {
+fn softening(strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Plant {
     if campaign.system == System::Tungsten {
         campaign.t_p = (300.0, 2800.0);
-        return plant::thermal_softening(strength, dice.uniform((350.0, 900.0)), 2900.0);
+        return plant::thermal_softening(strength, rng.uniform((350.0, 900.0)), 2900.0);
     }
     campaign.t_p = (288.0, 342.0);
-    plant::thermal_softening(strength, dice.uniform((292.0, 305.0)), 344.0)
+    plant::thermal_softening(strength, rng.uniform((292.0, 305.0)), 344.0)
 }

@@ -1,15 +1,15 @@
-//! Draws of the generator: one independent stream for each set, from the run's seed and the set's name.
+//! The random numbers of the generator: an independent stream for each set, from the run's seed and the set's name.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 
 /// The random stream of one set.
-pub struct Dice {
+pub struct SetRng {
     stream: ChaCha8Rng,
 }
 
-impl Dice {
+impl SetRng {
     /// The stream that belongs to `seed` and `name`, whatever other sets are made.
     pub fn new(seed: u64, name: &str) -> Self {
         let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
