@@ -115,11 +115,10 @@ impl<'a> Builder<'a> {
         let mut columns = Vec::new();
         for (_, cells) in self.causes {
             let (column, invalid) = cells.finish(|cell| self.map.parse(cell));
-            let line = invalid.as_ref().and_then(|invalid| self.rows.get(invalid.row)).map(|row| row.line);
-            if let (Some(invalid), Some(line)) = (invalid, line) {
+            if let Some((row, cell)) = invalid {
+                let (name, line) = (&column.name, self.rows[row].line);
                 notes.push(format!(
-                    "column `{}` is read as text because `{}` on line {line} is not a number",
-                    column.name, invalid.cell
+                    "column `{name}` is read as text because `{cell}` on line {line} is not a number"
                 ));
             }
             if is_possible_cause(&column) {

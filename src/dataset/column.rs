@@ -39,15 +39,6 @@ pub(super) struct Cells {
     ends: Vec<usize>,
 }
 
-/// A cell that is not a number in a column of numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct InvalidCell {
-    /// Its row, from 0.
-    pub(super) row: usize,
-    /// Its text.
-    pub(super) cell: String,
-}
-
 impl Cells {
     /// An empty column.
     pub(super) fn new(name: &str, as_labels: bool) -> Self {
@@ -65,8 +56,9 @@ impl Cells {
         starts.zip(&self.ends).map(|(start, end)| self.text.get(start..*end).unwrap_or(""))
     }
 
-    /// The column, and the first cell that is not a number if most are; `parse` reads one number.
-    pub(super) fn finish(self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<InvalidCell>) {
+    /// The column; and if most cells are numbers, the row and the text of the first one that is not. `parse` reads one
+    /// number.
+    pub(super) fn finish(self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<(usize, String)>) {
         let (values, invalid) = match (!self.as_labels).then(|| self.numbers(&parse)) {
             Some(Ok(numbers)) => (Values::Numbers(numbers), None),
             Some(Err(row)) => (self.labels(), self.invalid(row, &parse)),
@@ -87,12 +79,12 @@ impl Cells {
         self.cells().enumerate().map(number).collect()
     }
 
-    fn invalid(&self, row: usize, parse: &impl Fn(&str) -> Option<f64>) -> Option<InvalidCell> {
+    fn invalid(&self, row: usize, parse: &impl Fn(&str) -> Option<f64>) -> Option<(usize, String)> {
         let filled = self.cells().filter(|cell| !cell.is_empty());
         let (numbers, all) = filled
             .fold((0, 0), |(numbers, all), cell| (numbers + usize::from(parse(cell).is_some()), all + 1));
         let cell = self.cells().nth(row)?.to_owned();
-        (2 * numbers > all).then_some(InvalidCell { row, cell })
+        (2 * numbers > all).then_some((row, cell))
     }
 
     fn labels(&self) -> Values {
@@ -131,7 +123,7 @@ impl Column {
 mod tests {
     use super::*;
 
-    fn finish(cells: &[&str], labels: bool) -> (Values, Option<InvalidCell>) {
+    fn finish(cells: &[&str], labels: bool) -> (Values, Option<(usize, String)>) {
         let mut column = Cells::new("c", labels);
         cells.iter().for_each(|cell| column.push(cell));
         let (column, invalid) = column.finish(|cell| cell.parse().ok().filter(|n: &f64| n.is_finite()));
@@ -163,6 +155,6 @@ mod tests {
     #[test]
     fn the_cell_that_makes_labels_of_numbers_is_returned() {
         let (_, invalid) = finish(&["1", "2", "<0.1", "4", "inf"], false);
-        assert_eq!(invalid, Some(InvalidCell { row: 2, cell: "<0.1".to_owned() }));
+        assert_eq!(invalid, Some((2, "<0.1".to_owned())));
     }
 }

@@ -1,8 +1,7 @@
 //! Writes the record of a diagnosis and its verdict.
 
-use std::collections::BTreeMap;
-
 use super::candidate::{Addition, ScoredCandidate};
+use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
 use super::hypothesis::Hypothesis;
@@ -19,26 +18,21 @@ const MISFITS: usize = 12;
 /// With fewer rows the verdict warns that effects may go undetected.
 const MANY_ROWS: usize = 60;
 
-/// The misfits of the base model: the best curve of the first round over each column, for each observable.
+/// The misfits of the base model: the significant curves of the first round.
 pub(super) fn misfit(
     hypothesis: &Hypothesis<'_>,
     first_round: &[ScoredCandidate],
     level: f64,
 ) -> Vec<Misfit> {
-    let mut best: BTreeMap<(String, &'static str), Misfit> = BTreeMap::new();
-    for scored in first_round.iter().filter(|c| c.q_value <= level) {
-        let Addition::Curve(curve) = &scored.addition else { continue };
-        let column = hypothesis.data.covariates[curve.form.covariate].name.clone();
-        let observable = curve.form.observable.name();
-        let key = (column.clone(), observable);
-        let one = Misfit { column, observable, gain: scored.own_gain, q_value: scored.q_value };
-        let kept = best.entry(key).or_insert_with(|| one.clone());
-        if one.gain > kept.gain {
-            *kept = one;
-        }
-    }
-    let mut all: Vec<Misfit> = best.into_values().collect();
-    all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let one = |scored: &ScoredCandidate| {
+        let Addition::Curve(ColumnCurve { form, .. }) = &scored.addition else { return None };
+        let column = hypothesis.data.covariates[form.covariate].name.clone();
+        let (gain, q_value) = (scored.own_gain, scored.q_value);
+        (q_value <= level).then(|| Misfit { column, observable: form.observable.name(), gain, q_value })
+    };
+    let mut all: Vec<Misfit> = first_round.iter().filter_map(one).collect();
+    let name = |misfit: &Misfit| (misfit.column.clone(), misfit.observable);
+    all.sort_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| name(a).cmp(&name(b))));
     all.truncate(MISFITS);
     all
 }

@@ -65,37 +65,25 @@ pub fn run(arguments: &Arguments) -> CommandResult {
             DiagnosisError::Unextendable(_) => format!("{}: {error}", arguments.model.display()),
         })?;
     bar.finish_and_clear();
-    write(open(arguments)?, arguments, &diagnosis, &extended)?;
+    write(arguments, &diagnosis, &extended)?;
     crate::print(&summary(&diagnosis, &arguments.out))
 }
 
-/// The output files, in the order of writing.
-const RESULTS: [&str; 3] = ["extended.toml", "diagnosis.json", "report.html"];
-
-/// Opens all output files before any is written.
-fn open(arguments: &Arguments) -> Result<[AtomicFile; 3], String> {
-    let folder = &arguments.out;
-    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
-    let columns = arguments.columns.as_deref();
-    let inputs: Vec<&Path> =
-        [arguments.data.as_path(), &arguments.model].into_iter().chain(columns).collect();
-    let [model, json, page] = RESULTS.map(|name| AtomicFile::new(&folder.join(name), &inputs));
-    Ok([model?, json?, page?])
-}
-
-fn write(
-    mut results: [AtomicFile; 3],
-    arguments: &Arguments,
-    diagnosis: &Diagnosis,
-    extended: &str,
-) -> CommandResult {
-    let names = [arguments.data.display().to_string(), arguments.model.display().to_string()];
-    let page = diagnosis_page(diagnosis, &names, extended)?;
+/// Writes all output files, or none.
+fn write(arguments: &Arguments, diagnosis: &Diagnosis, extended: &str) -> CommandResult {
+    let Arguments { data, model, out, columns, .. } = arguments;
+    let page = diagnosis_page(diagnosis, &[data, model].map(|path| path.display().to_string()), extended)?;
     let json = serde_json::to_string_pretty(diagnosis)? + "\n";
-    for (result, text) in results.iter_mut().zip([extended, &json, &page]) {
-        result.put(text)?;
-    }
-    Ok(AtomicFile::commit(results.into())?)
+    std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
+    let inputs: Vec<&Path> = [data, model].into_iter().chain(columns).map(PathBuf::as_path).collect();
+    let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
+    let write = |(name, text): (&str, &str)| {
+        let mut file = AtomicFile::new(&out.join(name), &inputs)?;
+        file.put(text)?;
+        Ok::<_, String>(file)
+    };
+    let files = results.into_iter().map(write).collect::<Result<Vec<_>, _>>()?;
+    Ok(AtomicFile::commit(files)?)
 }
 
 fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
