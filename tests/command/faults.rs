@@ -363,7 +363,7 @@ fn no_text_in_a_model_writes_or_runs_anything() {
     assert!(tree(at) == before, "something was written");
 }
 
-/// The one file that writes is `src/aside.rs`; folders are made where a result asks for one; nothing runs other programs.
+/// The one file that writes is `src/atomic_file.rs`; folders are made where a result asks for one; nothing runs other programs.
 #[test]
 fn the_source_writes_in_one_place() {
     const WRITES: [&str; 10] = [
@@ -380,12 +380,12 @@ fn the_source_writes_in_one_place() {
     ];
     let leave = |file: &str, word: &str| match word {
         "create_dir" => file.ends_with("diagnose.rs") || file.ends_with("simulate/output.rs"),
-        "File::options" | "NamedTempFile" => file == "aside.rs",
+        "File::options" | "NamedTempFile" => file == "atomic_file.rs",
         _ => false,
     };
     let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let files = tree(&source);
-    assert!(files.len() > 100 && files.contains_key("aside.rs"));
+    assert!(files.len() > 100 && files.contains_key("atomic_file.rs"));
     for (file, bytes) in files {
         let text = String::from_utf8(bytes).unwrap();
         let shipped = text.split("#[cfg(test)]").next().unwrap();

@@ -1,17 +1,17 @@
-//! One statement of a source beside what the library says of it.
+//! Claims: a statement of a source, the library's number, and the verdict.
 
 use nearwall::report::number;
 
-/// What a source prints about a quantity.
+/// A published quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Published {
-    /// A value that holds between two ends: its stated uncertainty, or half a digit of a number as it is printed.
+    /// A value with an interval: its stated uncertainty, or half of the last printed digit.
     Value {
         /// As printed.
         value: f64,
-        /// Smallest value that still agrees.
+        /// Lower end of the interval.
         low: f64,
-        /// Largest value that still agrees.
+        /// Upper end of the interval.
         high: f64,
     },
     /// Below this.
@@ -23,12 +23,12 @@ pub enum Published {
 }
 
 impl Published {
-    /// A number that is right to `tolerance` (same unit): a stated uncertainty, or half of its last digit.
+    /// A value with a symmetric interval of half-width `tolerance` (same unit).
     pub fn within(value: f64, tolerance: f64) -> Self {
         Self::Value { value, low: value - tolerance, high: value + tolerance }
     }
 
-    /// Whether a number agrees.
+    /// Whether a number agrees with it.
     pub fn holds(self, ours: f64) -> bool {
         match self {
             Self::Value { low, high, .. } | Self::Between(low, high) => (low..=high).contains(&ours),
@@ -54,19 +54,19 @@ impl Published {
     }
 }
 
-/// A number that a source does not print but whose counts imply: three digits say enough.
+/// Rounded to three digits, for numbers that follow from published counts.
 fn short(value: f64) -> String {
     number(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
-/// Where our number comes from.
+/// Origin of the computed number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Basis {
-    /// From the model and the source's inputs; the number itself was not used.
+    /// Computed from the model and the source's inputs; the published number was not used.
     Predicted,
-    /// A parameter of the model was set so that it comes out: agreement proves little.
+    /// A parameter of the model was fitted to the published number, so agreement proves little.
     Fitted,
-    /// Follows from equations alone, without a material's numbers.
+    /// Follows from equations alone, without material data.
     Derived,
 }
 
@@ -79,16 +79,34 @@ impl Basis {
             Self::Derived => "derived",
         }
     }
+
+    /// A claim that compares a computed number with a published one; the verdict follows from the two.
+    pub fn number(self, place: &str, what: &str, published: Published, ours: f64) -> Claim {
+        self.statement(place, what, &published.text(), &number(ours), published.holds(ours))
+    }
+
+    /// A claim in words that holds or does not.
+    pub fn statement(self, place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Claim {
+        Claim {
+            place: place.to_owned(),
+            what: what.to_owned(),
+            published: published.to_owned(),
+            ours: ours.to_owned(),
+            basis: self,
+            verdict: if holds { Verdict::Agrees } else { Verdict::Differs },
+            why: String::new(),
+        }
+    }
 }
 
-/// How a statement stands.
+/// Result of a comparison.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
-    /// Our number lies where the source says.
+    /// The computed number lies in the published interval.
     Agrees,
-    /// It does not; the claim says why.
+    /// It does not; the claim gives the reason.
     Differs,
-    /// The source does not give what it takes to compare; the claim says what is missing.
+    /// The source lacks data for a comparison; the claim says which.
     Unchecked,
 }
 
@@ -103,79 +121,38 @@ impl Verdict {
     }
 }
 
-/// A statement of a source and what the library says of it.
+/// A statement of a source and the library's result.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
-    /// Where in the source: `Fig 6`, `Table 4`.
+    /// Place in the source: `Fig 6`, `Table 4`.
     pub place: String,
-    /// What it is about, in words, with the unit.
+    /// The quantity, with its unit.
     pub what: String,
-    /// What the source says.
+    /// The published value.
     pub published: String,
-    /// What the library says.
+    /// The library's value.
     pub ours: String,
-    /// Where our number comes from.
+    /// Origin of the library's value.
     pub basis: Basis,
-    /// How it stands.
+    /// Result of the comparison.
     pub verdict: Verdict,
-    /// Why it differs or cannot be checked; where it agrees, what one has to know about it. May be empty where it agrees.
+    /// Reason for a difference, or a remark. May be empty only if the claim agrees.
     pub why: String,
 }
 
 impl Claim {
-    /// Compares a number of ours with a published one; the verdict follows from the two.
-    pub fn number(place: &str, what: &str, published: Published, ours: f64, basis: Basis) -> Self {
-        let verdict = if published.holds(ours) { Verdict::Agrees } else { Verdict::Differs };
-        Self {
-            place: place.to_owned(),
-            what: what.to_owned(),
-            published: published.text(),
-            ours: number(ours),
-            basis,
-            verdict,
-            why: String::new(),
-        }
-    }
-
-    /// A statement in words, which holds or does not.
-    pub fn statement(
-        place: &str,
-        what: &str,
-        published: &str,
-        ours: &str,
-        holds: bool,
-        basis: Basis,
-    ) -> Self {
-        Self {
-            place: place.to_owned(),
-            what: what.to_owned(),
-            published: published.to_owned(),
-            ours: ours.to_owned(),
-            basis,
-            verdict: if holds { Verdict::Agrees } else { Verdict::Differs },
-            why: String::new(),
-        }
-    }
-
-    /// A statement that nothing can be held against; `why` says what is missing.
+    /// A claim that cannot be checked; `why` says what is missing.
     pub fn unchecked(place: &str, what: &str, published: &str, why: &str) -> Self {
-        Self {
-            place: place.to_owned(),
-            what: what.to_owned(),
-            published: published.to_owned(),
-            ours: "–".to_owned(),
-            basis: Basis::Predicted,
-            verdict: Verdict::Unchecked,
-            why: why.to_owned(),
-        }
+        let claim = Basis::Predicted.statement(place, what, published, "–", false);
+        Self { verdict: Verdict::Unchecked, ..claim }.because(why)
     }
 
-    /// Where our number comes from, in a word for a table.
+    /// Origin of the library's value, in one word for a table.
     pub fn basis_name(&self) -> &'static str {
         if self.verdict == Verdict::Unchecked { "–" } else { self.basis.name() }
     }
 
-    /// Why it stands as it stands.
+    /// Adds the reason or remark.
     #[must_use]
     pub fn because(mut self, why: &str) -> Self {
         why.clone_into(&mut self.why);
@@ -189,8 +166,7 @@ mod tests {
 
     #[test]
     fn the_verdict_follows_from_the_numbers() {
-        let claim =
-            |ours| Claim::number("Fig 1", "e_n", Published::within(0.28, 0.005), ours, Basis::Predicted);
+        let claim = |ours| Basis::Predicted.number("Fig 1", "e_n", Published::within(0.28, 0.005), ours);
         assert_eq!(claim(0.284).verdict, Verdict::Agrees);
         assert_eq!(claim(0.286).verdict, Verdict::Differs);
         assert_eq!(claim(0.284).published, "0.28 ± 0.005");

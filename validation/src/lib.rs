@@ -1,10 +1,10 @@
-//! Both source papers and independent checks, reproduced.
+//! Validation: comparison with both source papers and with independent computations.
 //!
-//! A [`Study`] holds what a source says, what the library says of the same, and why they differ where they do. Each
-//! statement is a [`Claim`]; [`STUDIES`] lists them all, [`page`] shows them. `validation/run` is the command.
+//! A [`Study`] compares one source with the library. Each comparison is a [`Claim`], which gives a reason where the two differ.
+//! [`STUDIES`] lists all studies, [`page`] writes the page. `validation/run` is the command.
 //!
-//! [`oracle`] computes the same things another way (numerical integration of a contact, of an impulse, of an energy); it shares
-//! no code with the library, so that it can disagree with it.
+//! [`oracle`] computes the same quantities independently (numerical integration of a contact, an impulse, an energy) and shares
+//! no code with the library.
 
 pub mod checks;
 pub mod claim;
@@ -19,4 +19,15 @@ pub mod terms;
 pub mod troiano;
 
 pub use claim::{Basis, Claim, Published, Verdict};
-pub use study::{Extent, Part, STUDIES, Study};
+pub use study::{Extent, Part, Study};
+
+/// Result of a study: any error ends the run.
+pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+/// Every study in the order of the page: its name and the function that makes it.
+pub const STUDIES: [(&str, fn(Extent) -> Result<Study>); 4] = [
+    ("migraine", migraine::study),
+    ("troiano", troiano::study),
+    ("checks", checks::study),
+    ("materials", materials::study),
+];

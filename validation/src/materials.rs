@@ -1,7 +1,6 @@
 //! Where every number of the material library comes from.
 
-use std::error::Error;
-
+use crate::Result;
 use nearwall::material::{Library, Material, Property};
 use nearwall::report::{BarChart, Figure, Table, number};
 
@@ -47,7 +46,7 @@ impl Origin {
 ///
 /// # Errors
 /// When the built-in library cannot be read.
-pub fn study(_: Extent) -> Result<Study, Box<dyn Error>> {
+pub fn study(_: Extent) -> Result<Study> {
     let library = Library::built_in()?;
     let materials: Vec<&Material> = library.names().iter().filter_map(|name| library.get(name)).collect();
     let part = Part {
@@ -103,13 +102,12 @@ fn named(materials: &[&Material]) -> Claim {
     let nameless = properties()
         .filter(|(_, unit, p)| unit.is_empty() || p.valid().is_none() || p.source().is_none_or(str::is_empty))
         .count();
-    Claim::statement(
+    Basis::Derived.statement(
         "library",
         "every number names unit, range of temperature and source, or says \"assumed\"",
         "all",
         &format!("{} of {all}", all - nameless),
         nameless == 0,
-        Basis::Derived,
     )
 }
 
@@ -136,7 +134,7 @@ fn table(materials: &[&Material]) -> Table {
     study::table(
         "Values at both ends of their range of temperature where they depend on it.",
         5,
-        &["material", "property", "value", "range [K]", "origin"],
+        "material | property | value | range [K] | origin",
         rows.collect(),
     )
 }

@@ -66,9 +66,8 @@ fn summary(page: &mut Page, studies: &[Study]) {
 
 /// The studies with their verdicts.
 pub fn overview(studies: &[Study]) -> Table {
-    let mut header = vec!["study"];
-    header.extend(VERDICTS.map(|(verdict, _)| verdict.name()));
-    header.push("in short");
+    let [agree, differ, open] = VERDICTS.map(|(verdict, _)| verdict.name());
+    let header = format!("study | {agree} | {differ} | {open} | in short");
     let row = |study: &Study| {
         let mut row = vec![study.title.clone()];
         row.extend(VERDICTS.map(|(verdict, _)| study.count(verdict).to_string()));
@@ -108,7 +107,7 @@ pub fn row(claim: &Claim) -> [&str; 7] {
 }
 
 fn claims(claims: &[Claim]) -> Table {
-    table("", 7, &HEADER, claims.iter().map(|claim| row(claim).map(plain).to_vec()).collect())
+    table("", 7, &HEADER.join(" | "), claims.iter().map(|claim| row(claim).map(plain).to_vec()).collect())
 }
 
 /// Without the marks of code, which only Markdown knows.

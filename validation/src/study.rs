@@ -1,20 +1,20 @@
-//! A source and all that is compared with it.
+//! Studies: a source, its parts, and their claims.
 
 use nearwall::report::{Figure, Table};
 
 use crate::claim::{Claim, Verdict};
 
-/// How much is computed.
+/// Amount of computation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
-    /// Everything, as published on the page.
+    /// As published on the page.
     Full,
-    /// Fewer draws and coarser steps: for every run of the tests.
+    /// Fewer random draws and coarser steps, for the tests.
     Short,
 }
 
 impl Extent {
-    /// A number of draws or steps: `full` of them, or a tenth.
+    /// Number of draws or steps: `full`, or a tenth of it.
     pub fn count(self, full: usize) -> usize {
         match self {
             Self::Full => full,
@@ -23,22 +23,22 @@ impl Extent {
     }
 }
 
-/// What a study says about one thing: text, inputs, pictures and claims.
+/// One subject of a study: text, inputs, figures and claims.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Part {
     /// Its heading.
     pub heading: String,
-    /// Paragraphs: what is compared, what comes out.
+    /// Paragraphs: the comparison and its result.
     pub text: Vec<String>,
-    /// The inputs as published, and other tables.
+    /// Published inputs and other tables.
     pub tables: Vec<Table>,
-    /// Pictures.
+    /// Figures.
     pub figures: Vec<Figure>,
-    /// Statements of the source beside ours.
+    /// Published and computed values.
     pub claims: Vec<Claim>,
 }
 
-/// A source and all that is compared with it.
+/// A source and the comparisons with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     /// Short name, for the overview.
@@ -47,7 +47,7 @@ pub struct Study {
     pub source: String,
     /// The result in two short sentences.
     pub lead: String,
-    /// What it consists of.
+    /// Its parts.
     pub parts: Vec<Part>,
 }
 
@@ -57,30 +57,19 @@ impl Study {
         self.parts.iter().flat_map(|part| &part.claims)
     }
 
-    /// How many of its claims stand so.
+    /// Number of claims with this verdict.
     pub fn count(&self, verdict: Verdict) -> usize {
         self.claims().filter(|claim| claim.verdict == verdict).count()
     }
 
-    /// Claims that differ or cannot be checked and do not say why.
+    /// Claims that differ or cannot be checked and give no reason.
     pub fn unexplained(&self) -> impl Iterator<Item = &Claim> {
         self.claims().filter(|claim| claim.verdict != Verdict::Agrees && claim.why.is_empty())
     }
 }
 
-/// A table of the page; of its columns the first `text_columns` are words.
-pub fn table(caption: &str, text_columns: usize, header: &[&str], rows: Vec<Vec<String>>) -> Table {
-    let header = header.iter().map(|&head| head.to_owned()).collect();
+/// A table of the page. `header` holds the columns' names, separated by ` | `; the first `text_columns` contain text.
+pub fn table(caption: &str, text_columns: usize, header: &str, rows: Vec<Vec<String>>) -> Table {
+    let header = header.split(" | ").map(str::to_owned).collect();
     Table { caption: caption.to_owned(), header, rows, text_columns }
 }
-
-/// One study: its name on the command line and what makes it.
-pub type Maker = (&'static str, fn(Extent) -> Result<Study, Box<dyn std::error::Error>>);
-
-/// Every study, in the order of the page.
-pub const STUDIES: [Maker; 4] = [
-    ("migraine", crate::migraine::study),
-    ("troiano", crate::troiano::study),
-    ("checks", crate::checks::study),
-    ("materials", crate::materials::study),
-];

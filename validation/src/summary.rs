@@ -75,9 +75,7 @@ mod tests {
         let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
         let read = |name: &str| std::fs::read_to_string(format!("{root}/{name}")).unwrap();
         let (summary, readme) = (read("docs/validation.md"), read("README.md"));
-        for (study, paper) in
-            [("| Tungsten dust", "| the tungsten paper"), ("| Wax on targets", "| the wax paper")]
-        {
+        for (study, paper) in [("| Tungsten dust", "| tungsten paper"), ("| Wax on targets", "| wax paper")] {
             let row = summary.lines().find(|line| line.starts_with(study)).unwrap();
             let counts: Vec<&str> = row.split('|').skip(2).take(3).map(str::trim).collect();
             let line = readme.lines().find(|line| line.starts_with(paper)).unwrap();

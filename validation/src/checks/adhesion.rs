@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use nearwall::normal::{Contact, adhesive_velocity, restitution};
 use nearwall::report::{Chart, Figure, Table, number};
 
-use super::{DIAMETER, Outcome, wax_on_pyrex};
+use super::{DIAMETER, Result, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::jkr::{Cycle, Jkr};
 use crate::steps::{even, even_in_logarithm};
@@ -16,7 +16,7 @@ const PLACE: &str = "Thornton & Ning 1998";
 /// Quadrature in double precision: what is left of sixteen digits after some thousand operations.
 const QUADRATURE: f64 = 1e-10;
 
-pub fn part() -> Outcome<Part> {
+pub fn part() -> Result<Part> {
     Ok(Part {
         heading: "Adhesion: the energy of JKR's cycle".to_owned(),
         text: text(),
@@ -41,19 +41,17 @@ fn text() -> Vec<String> {
     ]
 }
 
-fn claims() -> Outcome<Vec<Claim>> {
+fn claims() -> Result<Vec<Claim>> {
     let closed = 3f64.sqrt() / 2.0 * PI.cbrt() * ((1.0 + 6.0 * 4f64.cbrt()) / 5.0).sqrt();
     let factor = Jkr::UNIT.adhesive_velocity(Cycle::FixedGrips);
-    let none = |what: &str, ours| {
-        Claim::number(PLACE, what, Published::within(0.0, QUADRATURE), ours, Basis::Derived)
-    };
+    let none =
+        |what: &str, ours| Basis::Derived.number(PLACE, what, Published::within(0.0, QUADRATURE), ours);
     Ok(vec![
-        Claim::number(
+        Basis::Derived.number(
             PLACE,
             "factor C1 of the adhesive velocity, from the work of the JKR force by quadrature",
             Published::within(1.84, 0.005),
             factor,
-            Basis::Derived,
         ),
         none(
             "C1 by quadrature over its closed form (√3/2) π^(1/3) √((1+6·2^(2/3))/5), less 1",
@@ -78,7 +76,7 @@ fn conventions() -> Table {
     table(
         "C1 in v_adh = C1 (W⁵/(rho³ E*² R⁵))^(1/6), and the energy lost in units of (W⁵ R⁴/E*²)^(1/3)",
         1,
-        &["cycle", "C1", "lost"],
+        "cycle | C1 | lost",
         vec![
             row("forms without work, opens at fixed grips (Thornton & Ning)", Cycle::FixedGrips),
             row("forms without work, opens at the largest pull (dead weight)", Cycle::FixedLoad),
@@ -88,7 +86,7 @@ fn conventions() -> Table {
 }
 
 /// Wax on Pyrex, with each of size, stiffness, density and adhesion a thousandth and a thousandfold of it.
-fn worst_adhesive_velocity() -> Outcome<f64> {
+fn worst_adhesive_velocity() -> Result<f64> {
     let wax = wax_on_pyrex()?;
     let factors = [1e-3, 1.0, 1e3];
     let mut worst = 0.0;

@@ -6,7 +6,7 @@ use nearwall::normal::Contact;
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{ImpactKinematics, Rebound, critical_angle};
 
-use super::{DIAMETER, FRICTION, Outcome, wax_on_pyrex};
+use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::compliant_sphere::{CompliantSphere, Left};
 use crate::steps::{even, even_in_logarithm};
@@ -69,7 +69,7 @@ fn lowest(points: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// `e_t` of the library's effect for an elastic impact without spin.
-fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Outcome<f64> {
+fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Result<f64> {
     let term = term("tangential-compliance", &[FRICTION, near_normal, exponent])?;
     let (normal_speed, tangential_speed) = degrees.to_radians().sin_cos();
     let glance = ImpactKinematics {
@@ -93,7 +93,7 @@ struct Fit {
 impl Fit {
     /// Least squares over evenly spaced angles: `near_normal` enters linearly, the exponent is looked for on a fine ladder within its
     /// bounds (0.05 to 20).
-    fn new(k: f64, points: &[[f64; 2]]) -> Outcome<Self> {
+    fn new(k: f64, points: &[[f64; 2]]) -> Result<Self> {
         let mut best: Option<Self> = None;
         for exponent in even_in_logarithm([0.05, 20.0], 300) {
             // e_t = a + near_normal b at each angle.
@@ -113,7 +113,7 @@ impl Fit {
     }
 
     /// How far these parameters are from the theory.
-    fn of(k: f64, parameters: [f64; 2], points: &[[f64; 2]]) -> Outcome<Self> {
+    fn of(k: f64, parameters: [f64; 2], points: &[[f64; 2]]) -> Result<Self> {
         let (mut sum, mut largest) = (0.0, 0.0f64);
         for [degrees, e_t] in points {
             let off = effect(k, parameters, *degrees)? - e_t;
@@ -138,7 +138,7 @@ struct Compared {
 }
 
 impl Compared {
-    fn new(extent: Extent) -> Outcome<Self> {
+    fn new(extent: Extent) -> Result<Self> {
         let wax = wax_on_pyrex()?;
         let k = wax.stiffness_ratio;
         let theory = Theory::new(k, extent);
@@ -155,7 +155,7 @@ impl Compared {
     }
 }
 
-pub fn part(extent: Extent) -> Outcome<Part> {
+pub fn part(extent: Extent) -> Result<Part> {
     let compared = Compared::new(extent)?;
     Ok(Part {
         heading: HEADING.to_owned(),
@@ -203,45 +203,42 @@ fn text(compared: &Compared) -> Vec<String> {
     ]
 }
 
-fn gross_slip(compared: &Compared) -> Outcome<Claim> {
-    Ok(Claim::number(
+fn gross_slip(compared: &Compared) -> Result<Claim> {
+    Ok(Basis::Derived.number(
         THEORY,
         "the effect up to the critical angle (gross slip): largest difference in e_t",
         Published::within(0.0, ACCURACY),
         Fit::of(compared.k, compared.fit.parameters, &compared.glancing)?.largest,
-        Basis::Derived,
     ))
 }
 
 fn all_friction(compared: &Compared) -> Claim {
     let critical = compared.critical;
-    Claim::number(
+    Basis::Derived.number(
         THEORY,
         "share of the friction that acts at the critical angle of Eq. 11, e_n = 1 (below it all acts)",
         Published::within(1.0, ACCURACY),
         compared.theory.at(critical).impulse / (critical.to_radians().tan() * 2.0 * FRICTION),
-        Basis::Derived,
     )
 }
 
-fn below_rolling(compared: &Compared) -> Outcome<Claim> {
+fn below_rolling(compared: &Compared) -> Result<Claim> {
     let just_past = compared.critical + 2.0;
     let by_theory = compared.theory.e_t(just_past);
     let by_effect = effect(compared.k, compared.fit.parameters, just_past)?;
-    Ok(Claim::statement(
+    Ok(Basis::Derived.statement(
         THEORY,
         "e_t lies below rolling (5/7) just past the transition",
         &format!("{} at {just_past:.0}°", number(by_theory)),
         &number(by_effect),
         by_effect < ROLLING && by_theory < ROLLING,
-        Basis::Derived,
     ))
 }
 
 fn nearest(compared: &Compared) -> Claim {
     let Fit { parameters: [near_normal, exponent], rms, largest } = compared.fit;
     let [lowest_at, lowest] = lowest(&compared.past);
-    Claim::number(
+    Basis::Fitted.number(
         THEORY,
         &format!(
             "the effect past the critical angle with the parameters nearest to the theory (near_normal {}, exponent {}): \
@@ -250,9 +247,7 @@ fn nearest(compared: &Compared) -> Claim {
             number(exponent)
         ),
         Published::within(0.0, GOOD),
-        largest,
-        Basis::Fitted,
-    )
+        largest)
     .because(&format!(
         "elastic theory falls on from {} at the transition to {} at {lowest_at:.0}° before it rises; a power of the angle can only \
          rise or fall. rms {}. The band of {GOOD} is assumed",
@@ -262,18 +257,16 @@ fn nearest(compared: &Compared) -> Claim {
     ))
 }
 
-fn with_the_papers_number(compared: &Compared) -> Outcome<Claim> {
+fn with_the_papers_number(compared: &Compared) -> Result<Claim> {
     let [near_normal, exponent] = MEETING_TROIANO;
-    Ok(Claim::number(
+    Ok(Basis::Fitted.number(
         THEORY,
         &format!(
             "the effect past the critical angle with the parameters that meet Troiano's {TROIANO_AT_80} (near_normal {near_normal}, \
              exponent {exponent}): largest difference in e_t"
         ),
         Published::within(0.0, GOOD),
-        Fit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest,
-        Basis::Fitted,
-    )
+        Fit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest)
     .because(
         "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung through about three \
          quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do not change), so that little of the \
@@ -283,13 +276,11 @@ fn with_the_papers_number(compared: &Compared) -> Outcome<Claim> {
 
 fn the_papers_number(compared: &Compared) -> Claim {
     let highest = compared.past.iter().map(|point| point[1]).fold(0.0, f64::max);
-    Claim::number(
+    Basis::Predicted.number(
         "Troiano Fig 6",
         "e_t of wax on Pyrex at 80°: here elastic theory, not the library",
         Published::within(TROIANO_AT_80, 0.005),
-        compared.theory.e_t(80.0),
-        Basis::Predicted,
-    )
+        compared.theory.e_t(80.0))
     .because(&format!(
         "elastic compliance of a sphere that comes without spin cannot give it: the theory stays below {} past the \
          transition. Open: wax yields (e_n near 0.3 to 0.4); incoming spin (a rigid sphere leaves with {TROIANO_AT_80} when its \
@@ -328,21 +319,13 @@ fn table(extent: Extent) -> Table {
     study::table(
         &format!("Elastic theory over k, f = {FRICTION}, without spin; Poisson's ratio of two equal solids"),
         0,
-        &[
-            "k [1]",
-            "Poisson's ratio [1]",
-            "critical [°]",
-            "e_t there",
-            "lowest e_t",
-            "e_t at 80°",
-            "e_t head-on",
-        ],
+        "k [1] | Poisson's ratio [1] | critical [°] | e_t there | lowest e_t | e_t at 80° | e_t head-on",
         [[2.0 / 3.0, 0.5], [0.75, 0.4], [0.7 / 0.85, 0.3], [0.8 / 0.9, 0.2], [1.0, 0.0]].map(row).to_vec(),
     )
 }
 
-fn chart(compared: &Compared) -> Outcome<Figure> {
-    let curve = |parameters: [f64; 2]| -> Outcome<Vec<[f64; 2]>> {
+fn chart(compared: &Compared) -> Result<Figure> {
+    let curve = |parameters: [f64; 2]| -> Result<Vec<[f64; 2]>> {
         even([3.0, 89.9], 300)
             .map(|degrees| Ok([degrees, effect(compared.k, parameters, degrees)?]))
             .collect()

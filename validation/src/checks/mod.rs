@@ -7,15 +7,11 @@ mod properties;
 mod spin;
 mod viscosity;
 
-use std::error::Error;
-
+use crate::Result;
 use nearwall::material::Library;
 use nearwall::normal::Contact;
 
 use crate::study::{Extent, Study};
-
-/// What one of its parts may stumble over.
-type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// Friction of wax on Pyrex [1] (Troiano et al., Fig 7), used wherever one is needed.
 const FRICTION: f64 = 0.28;
@@ -27,7 +23,7 @@ const DIAMETER: f64 = 75e-6;
 ///
 /// # Errors
 /// When a material or the measured table cannot be read.
-pub fn study(extent: Extent) -> Outcome<Study> {
+pub fn study(extent: Extent) -> Result<Study> {
     let parts = vec![
         adhesion::part()?,
         normal_contact::part(extent)?,
@@ -52,14 +48,14 @@ pub fn study(extent: Extent) -> Outcome<Study> {
 }
 
 /// Wax on Pyrex at room temperature, with Troiano's yield ratio.
-fn wax_on_pyrex() -> Outcome<Contact> {
+fn wax_on_pyrex() -> Result<Contact> {
     wax_on("pyrex")
 }
 
 /// The same on another material.
-fn wax_on(target: &str) -> Outcome<Contact> {
+fn wax_on(target: &str) -> Result<Contact> {
     let library = Library::built_in()?;
-    let solid = |name: &str| -> Outcome<_> {
+    let solid = |name: &str| -> Result<_> {
         let material = library.get(name).ok_or_else(|| format!("no material {name}"))?;
         Ok(material.mechanical(293.15)?)
     };

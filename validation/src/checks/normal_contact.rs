@@ -3,7 +3,7 @@
 use nearwall::normal::{Contact, NormalLaw};
 use nearwall::report::{Chart, Figure, number};
 
-use super::{DIAMETER as WAX, Outcome, wax_on};
+use super::{DIAMETER as WAX, Result, wax_on};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::normal_contact::{Impact, follow};
 use crate::steps::even_in_logarithm;
@@ -100,7 +100,7 @@ impl Curves {
 }
 
 /// The part.
-pub fn part(extent: Extent) -> Outcome<Part> {
+pub fn part(extent: Extent) -> Result<Part> {
     let steps = extent.count(120).max(25);
     let curves = RATIOS.map(|ratio| Curves::new(ratio, steps));
     Ok(Part {
@@ -142,7 +142,7 @@ fn adhesion_over_yield(contact: &Contact, diameter: f64) -> f64 {
     speeds.adhesive / speeds.yielding
 }
 
-fn ratios(extent: Extent) -> Outcome<Figure> {
+fn ratios(extent: Extent) -> Result<Figure> {
     let ratios = even_in_logarithm([0.05, 100.0], extent.count(80).max(20));
     let line: Vec<[f64; 2]> = ratios
         .map(|ratio| {
@@ -175,28 +175,22 @@ fn claims(worst: f64) -> Vec<Claim> {
     let source = "Thornton & Ning 1998";
     let what = "v_s of ammonium fluorescein, 4.9 µm [m/s]";
     vec![
-        Claim::number(
+        Basis::Derived.number(
             "oracle",
             "e_n of raised pull-off less that of the followed impact, largest for v_adh/v_y = 0.3, 3 and 30 [1]",
             Published::Below(1e-8),
-            worst,
-            Basis::Derived,
-        )
+            worst)
         .because("400 further cases, all branches: cargo test --test library contact_integration"),
-        Claim::number(
+        Basis::Predicted.number(
             source,
             &format!("{what}, closed form"),
             Published::within(0.69, 0.005),
-            sticking(NormalLaw::ThorntonNing),
-            Basis::Predicted,
-        ),
-        Claim::number(
+            sticking(NormalLaw::ThorntonNing)),
+        Basis::Predicted.number(
             source,
             &format!("{what}, their numerical solution"),
             Published::within(1.6, 0.05),
-            sticking(NormalLaw::PlasticJkr),
-            Basis::Predicted,
-        )
+            sticking(NormalLaw::PlasticJkr))
         .because(&format!(
             "{} % low. How adhesion enters after yield is read differently: here the pressure is cut at p_y all the time; a \
              stiffness after yield as we recall it of the paper (not at hand) gives 1.82. The default law gives {}",

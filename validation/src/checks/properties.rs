@@ -39,7 +39,7 @@ pub fn part() -> Part {
              oblique-angle, which is counted; polynomials and the viscosity fits of slags, which are relations between numbers."
                 .to_owned(),
         ],
-        tables: vec![table("", 2, &["group", "property"], PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec())],
+        tables: vec![table("", 2, "group | property", PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec())],
         ..Part::default()
     }
 }

@@ -3,7 +3,7 @@
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{ImpactKinematics, Rebound, TangentialLaw, critical_angle};
 
-use super::{DIAMETER, FRICTION, Outcome, wax_on_pyrex};
+use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
 use crate::claim::{Basis, Claim, Published};
 use crate::oracle::rigid_sphere::{Left, RigidSphere};
 use crate::steps::even;
@@ -113,7 +113,7 @@ fn stiff(case: &Case) -> Rebound {
 }
 
 /// The effect after some other rebound, which it has to replace.
-fn by_effect(case: &Case) -> Outcome<Rebound> {
+fn by_effect(case: &Case) -> Result<Rebound> {
     let before = Rebound { restitution: 0.1, spin: 7.0 };
     Ok(term("sliding-to-rolling", &[case.friction])?.effect().tangential(&case.glance, before))
 }
@@ -122,7 +122,7 @@ fn largest(off: impl Iterator<Item = f64>) -> f64 {
     off.fold(0.0, f64::max)
 }
 
-pub fn part(extent: Extent) -> Outcome<Part> {
+pub fn part(extent: Extent) -> Result<Part> {
     let k = wax_on_pyrex()?.stiffness_ratio;
     let cases = cases(k, extent);
     let (window, plain): (Vec<&Case>, Vec<&Case>) = cases.iter().partition(|case| in_window(case, k));
@@ -164,9 +164,8 @@ fn window_text(k: f64, ends: &Ends, window: usize) -> String {
 }
 
 /// What is the same as the rigid sphere's; `plain` are the cases outside the window.
-fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Outcome<Vec<Claim>> {
-    let none =
-        |what: &str, ours| Claim::number(PLACE, what, Published::within(0.0, ROUNDING), ours, Basis::Derived);
+fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Result<Vec<Claim>> {
+    let none = |what: &str, ours| Basis::Derived.number(PLACE, what, Published::within(0.0, ROUNDING), ours);
     let mut effect = 0.0f64;
     for case in plain {
         effect = effect.max(case.off(by_effect(case)?));
@@ -191,13 +190,11 @@ fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Outcome<Vec<Claim>> {
 }
 
 fn end_of_sliding(ends: &Ends) -> Claim {
-    Claim::number(
+    Basis::Derived.number(
         PLACE,
         "angle from the surface at which sliding ends for k → ∞, acot(7/2 f (1+e_n)) [°]; here k = 10⁹ in Eq. 11",
         Published::within(ends.rigid, 1e-6),
-        critical_angle(FRICTION, E_N, RIGID).to_degrees(),
-        Basis::Derived,
-    )
+        critical_angle(FRICTION, E_N, RIGID).to_degrees())
     .because("found for the rigid sphere by bisection")
 }
 
@@ -205,36 +202,32 @@ fn within_the_window(k: f64) -> Claim {
     let off = |case: &Case| {
         (sliding_rolling(case).restitution - case.rigid.tangential_speed / case.glance.tangential_speed).abs()
     };
-    Claim::number(
+    Basis::Derived.number(
         PLACE,
         "`sliding-rolling` within the window, without spin: largest difference in e_t, 2k/(7k-1) - 2/7",
         Published::within(jump(k), 1e-3),
         largest(window_without_spin(k).iter().map(off)),
-        Basis::Derived,
     )
 }
 
 fn reversals(cases: &[Case]) -> Claim {
     let reversals: u32 = cases.iter().map(|case| case.rigid.reversals).sum();
-    Claim::statement(
+    Basis::Derived.statement(
         PLACE,
         "the slip of a sphere never reverses: its normal and tangential motion are not coupled",
         "0 reversals",
         &format!("{reversals} in {} impacts", cases.len()),
         reversals == 0,
-        Basis::Derived,
     )
 }
 
 fn energy(cases: &[Case]) -> Claim {
     let gains = |case: &Case| [sliding(case), sliding_rolling(case)].map(|rebound| gain(case, rebound));
-    Claim::number(
+    Basis::Derived.number(
         "energy",
         "largest gain of energy of motion and spin along the wall, `sliding` and `sliding-rolling` [m²/s² per mass]",
         Published::Below(1e-12),
-        largest(cases.iter().flat_map(gains)),
-        Basis::Derived,
-    )
+        largest(cases.iter().flat_map(gains)))
     .because(
         "`sliding` is bounded where it is used beyond the end of slip; before that bound it made energy at steep angles and \
          with forward spin",
@@ -282,7 +275,7 @@ fn windows() -> Table {
             "The window for f = {FRICTION}, e_n = {E_N}, over Mindlin's k (Poisson's ratio 1/2, 0.3 and 0)"
         ),
         0,
-        &["k [1]", "rigid [°]", "library [°]", "window [°]", "largest difference in e_t [1]"],
+        "k [1] | rigid [°] | library [°] | window [°] | largest difference in e_t [1]",
         [2.0 / 3.0, 0.7 / 0.85, 1.0].map(row).to_vec(),
     )
 }

@@ -1,9 +1,9 @@
 //! The viscosity laws of slags beside measured melts.
 
+use crate::Result;
 use nearwall::report::{Chart, Figure, number};
 use nearwall::slag::{SlagViscosity, ViscosityLaw};
 
-use super::Outcome;
 use crate::claim::{Basis, Claim, Published};
 use crate::study::{Part, table};
 
@@ -23,7 +23,7 @@ const STATED: [(ViscosityLaw, f64, f64); 3] = [
 ];
 
 /// Measured and predicted log10 viscosity [Pa s] of each row.
-fn pairs(law: ViscosityLaw, rows: &[&Measured]) -> Outcome<Vec<[f64; 2]>> {
+fn pairs(law: ViscosityLaw, rows: &[&Measured]) -> Result<Vec<[f64; 2]>> {
     let pair = |row: &&Measured| {
         let slag = SlagViscosity::new(law, &row.composition())?;
         Ok([row.log10_viscosity, slag.at(row.temperature).log10()])
@@ -58,14 +58,16 @@ impl Found {
     fn claim(&self) -> Claim {
         let [stated, tolerance] = self.stated;
         let (name, rows) = (self.law.name(), self.all.len());
-        Claim::number(
-            PLACE,
-            &format!("rms error in log10 of `{name}`, all {rows} rows of the ash window"),
-            Published::within(stated, tolerance),
-            error(&self.all)[0],
-            Basis::Predicted,
-        )
-        .because("the rows behind the stated figure are not listed in full; the band is the one it came with")
+        Basis::Predicted
+            .number(
+                PLACE,
+                &format!("rms error in log10 of `{name}`, all {rows} rows of the ash window"),
+                Published::within(stated, tolerance),
+                error(&self.all)[0],
+            )
+            .because(
+                "the rows behind the stated figure are not listed in full; the band is the one it came with",
+            )
     }
 }
 
@@ -74,7 +76,7 @@ pub fn melts() -> usize {
     measured().iter().filter(|row| row.in_ash_window).count()
 }
 
-pub fn part() -> Outcome<Part> {
+pub fn part() -> Result<Part> {
     let all = measured();
     let rows: Vec<&Measured> = all.iter().filter(|row| row.in_ash_window).collect();
     let iron_free: Vec<&Measured> = rows.iter().copied().filter(|row| row.iron() == 0.0).collect();
@@ -95,7 +97,7 @@ pub fn part() -> Outcome<Part> {
         tables: vec![table(
             "Error in log10",
             1,
-            &["law", "stated rms", "rms", "mean", "rms of rows without iron"],
+            "law | stated rms | rms | mean | rms of rows without iron",
             found.iter().map(Found::row).collect(),
         )],
         figures: found.iter().map(|found| figure(found.law, &found.all)).collect(),

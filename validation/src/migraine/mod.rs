@@ -26,8 +26,7 @@ mod roughness;
 mod sample;
 mod statistics;
 
-use std::error::Error;
-
+use crate::Result;
 use nearwall::{Impact, Model};
 
 use crate::study::{Extent, Study};
@@ -47,7 +46,7 @@ const MEASURED_ADHESION: f64 = 0.13;
 ///
 /// # Errors
 /// When a model cannot be read or an impact not be resolved.
-pub fn study(extent: Extent) -> Result<Study, Box<dyn Error>> {
+pub fn study(extent: Extent) -> Result<Study> {
     let (campaigns, gain) = campaigns::part(extent)?;
     let parts = vec![
         curves::part()?,
@@ -72,12 +71,12 @@ pub fn study(extent: Extent) -> Result<Study, Box<dyn Error>> {
     })
 }
 
-fn model(text: &str) -> Result<Model, Box<dyn Error>> {
+fn model(text: &str) -> Result<Model> {
     Ok(Model::from_toml("validation/migraine", text)?)
 }
 
 /// The model with further effects, each with its parameters in the order of its file.
-fn with(model: &Model, effects: &[(&str, &[f64])]) -> Result<Model, Box<dyn Error>> {
+fn with(model: &Model, effects: &[(&str, &[f64])]) -> Result<Model> {
     let mut terms = model.terms().to_vec();
     for (id, values) in effects {
         terms.push(term(id, values)?);
@@ -98,7 +97,7 @@ fn impact(diameter: f64, normal_speed: f64, tangential_speed: f64) -> Impact {
 }
 
 /// `e_n` of a head-on impact; 0 where it sticks. Chance, if the model has any, is at `uniform`.
-fn e_n(model: &Model, diameter: f64, speed: f64, uniform: f64) -> Result<f64, Box<dyn Error>> {
+fn e_n(model: &Model, diameter: f64, speed: f64, uniform: f64) -> Result<f64> {
     let outcome = model.resolve_with(0, &impact(diameter, speed, 0.0), |_| uniform)?;
     Ok(if outcome.stuck { 0.0 } else { outcome.normal_restitution })
 }

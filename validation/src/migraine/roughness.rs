@@ -1,7 +1,5 @@
 //! MIGRAINE's two probabilistic models: adhesion at random (nanometres), geometry at random (micrometres).
 
-use std::error::Error;
-
 use nearwall::normal::{NormalLaw, restitution};
 use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::{ImpactRng, Model};
@@ -10,7 +8,7 @@ use super::curves::contact;
 use super::published::{PARTING, RATIO, SETS};
 use super::sample::{Sampler, Spread};
 use super::statistics::{mean, quantile};
-use super::{MEASURED_ADHESION, PLAIN, e_n, impact, model, with};
+use super::{MEASURED_ADHESION, PLAIN, Result, e_n, impact, model, with};
 use crate::claim::{Basis, Claim, Published};
 use crate::steps::even;
 use crate::study::{Extent, Part, table};
@@ -23,7 +21,7 @@ const FAST: f64 = 8.0;
 /// Tilt of the facets in the picture [rad]: assumed, for show.
 const SHOWN_TILT: f64 = 0.1;
 
-pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
+pub fn part(extent: Extent) -> Result<Part> {
     let plain = model(PLAIN)?;
     let nano = with(&plain, &[("nano-roughness", &[1.0])])?;
     let measured = with(&plain, &[("adhesion-energy", &[MEASURED_ADHESION]), ("nano-roughness", &[1.0])])?;
@@ -50,21 +48,21 @@ pub fn part(extent: Extent) -> Result<Part, Box<dyn Error>> {
 }
 
 /// `p_y` of the paper's model [Pa].
-fn limiting_pressure(model: &Model) -> Result<f64, Box<dyn Error>> {
+fn limiting_pressure(model: &Model) -> Result<f64> {
     Ok(contact(model, RATIO[0], None)?.limiting_pressure())
 }
 
 /// `e_n` at three places of the draw: 5, 50 and 95 %. It falls as adhesion grows, which falls with the draw.
-fn quantiles(model: &Model, speed: f64) -> Result<[f64; 3], Box<dyn Error>> {
+fn quantiles(model: &Model, speed: f64) -> Result<[f64; 3]> {
     Ok([e_n(model, SIZE, speed, 0.05)?, e_n(model, SIZE, speed, 0.5)?, e_n(model, SIZE, speed, 0.95)?])
 }
 
-fn width(model: &Model, speed: f64) -> Result<f64, Box<dyn Error>> {
+fn width(model: &Model, speed: f64) -> Result<f64> {
     let [low, _, high] = quantiles(model, speed)?;
     Ok(high - low)
 }
 
-fn nano_figure(nano: &Model, measured: &Model) -> Result<Figure, Box<dyn Error>> {
+fn nano_figure(nano: &Model, measured: &Model) -> Result<Figure> {
     let speeds: Vec<f64> = even([0.3, 13.0], 160).collect();
     let mut chart =
         Chart::new("Adhesion at random: e_n of 90 % of impacts", "normal speed v_n [m/s]", "e_n [1]")
@@ -89,7 +87,7 @@ fn nano_figure(nano: &Model, measured: &Model) -> Result<Figure, Box<dyn Error>>
 }
 
 /// Quantiles of `e_n` under a tilt of the facets at an angle from the normal [degrees].
-fn tilted(model: &Model, speed: f64, angle: f64, draws: usize) -> Result<[f64; 3], Box<dyn Error>> {
+fn tilted(model: &Model, speed: f64, angle: f64, draws: usize) -> Result<[f64; 3]> {
     let arriving = impact(SIZE, speed, speed * angle.to_radians().tan());
     let mut found = Vec::new();
     for place in 0..draws {
@@ -99,7 +97,7 @@ fn tilted(model: &Model, speed: f64, angle: f64, draws: usize) -> Result<[f64; 3
     Ok([0.05, 0.5, 0.95].map(|share| quantile(&found, share)))
 }
 
-fn micro_figure(plain: &Model, draws: usize) -> Result<Figure, Box<dyn Error>> {
+fn micro_figure(plain: &Model, draws: usize) -> Result<Figure> {
     let rough =
         with(plain, &[("adhesion-energy", &[MEASURED_ADHESION]), ("micro-roughness", &[SHOWN_TILT])])?;
     let speeds: Vec<f64> = even([0.5, 13.0], 40).collect();
@@ -126,7 +124,7 @@ fn micro_figure(plain: &Model, draws: usize) -> Result<Figure, Box<dyn Error>> {
 }
 
 /// Mean and 5 to 95 % of `e_n` of the rebounds, and the share that sticks, when `v_adh` or when `W` is drawn evenly.
-fn by_draw(plain: &Model, speed: f64, power: f64) -> Result<[f64; 4], Box<dyn Error>> {
+fn by_draw(plain: &Model, speed: f64, power: f64) -> Result<[f64; 4]> {
     let speeds = NormalLaw::ThorntonNing.speeds(&contact(plain, RATIO[0], None)?, SIZE);
     let count = 2000;
     let all: Vec<f64> = (0..count)
@@ -141,7 +139,7 @@ fn by_draw(plain: &Model, speed: f64, power: f64) -> Result<[f64; 4], Box<dyn Er
 /// `v_adh` goes with this power of `W`.
 const VELOCITY_POWER: f64 = 5.0 / 6.0;
 
-fn draw_table(plain: &Model) -> Result<Table, Box<dyn Error>> {
+fn draw_table(plain: &Model) -> Result<Table> {
     let mut rows = Vec::new();
     for speed in [0.4, 0.6, 0.8, 1.0, 1.5, 2.0, 4.0] {
         let mut row = vec![number(speed)];
@@ -158,13 +156,13 @@ fn draw_table(plain: &Model) -> Result<Table, Box<dyn Error>> {
             "Drawing the adhesive velocity (MIGRAINE) against drawing the work of adhesion (nano-roughness): 9 µm, clean metal, p_y = {pressure} GPa; mean e_n of the rebounds with its 5 and 95 %."
         ),
         0,
-        &["v_n [m/s]", "v_adh drawn: stuck [%]", "e_n", "W drawn: stuck [%]", "e_n"],
+        "v_n [m/s] | v_adh drawn: stuck [%] | e_n | W drawn: stuck [%] | e_n",
         rows,
     ))
 }
 
 /// Largest tilt [rad] with which half of campaigns like set 1 keep every e_t above 0.61, of some tried.
-fn largest_tilt(plain: &Model, replicates: usize) -> Result<f64, Box<dyn Error>> {
+fn largest_tilt(plain: &Model, replicates: usize) -> Result<f64> {
     let sampler = Sampler::new(SETS[0], Spread::Even)?;
     let least_allowed = SETS[0].least_e_t.unwrap_or(0.0);
     let count = SETS[0].rebounds() as u64;
@@ -188,26 +186,22 @@ fn largest_tilt(plain: &Model, replicates: usize) -> Result<f64, Box<dyn Error>>
 }
 
 /// How wide the scatter is, slow and fast, with clean metal and with the measured adhesion.
-fn scatter(nano: &Model, measured: &Model) -> Result<[Claim; 2], Box<dyn Error>> {
+fn scatter(nano: &Model, measured: &Model) -> Result<[Claim; 2]> {
     let [slow, fast, bare] = [width(nano, SLOW)?, width(nano, FAST)?, width(measured, SLOW)?];
     Ok([
-        Claim::statement(
+        Basis::Predicted.statement(
             "section 3 (iv)",
             "nano-roughness is probably responsible for the strong fluctuations at low speed: width of the 90 % band at 1 m/s over that at 8 m/s",
             "fluctuations in the low speed range",
             &format!("{slow:.2} against {fast:.4}: {:.0} times", slow / fast),
-            slow > 5.0 * fast,
-            Basis::Predicted,
-        )
+            slow > 5.0 * fast)
         .because("\"Strong at low speed\" is taken as five times. Holds with clean-metal adhesion."),
-        Claim::statement(
+        Basis::Predicted.statement(
             "section 3 (iv)",
             &format!("the same with the measured {MEASURED_ADHESION} J/m²: a width at {SLOW} m/s that one could see (0.05)"),
             "strong fluctuations",
             &format!("{bare:.4}"),
-            bare > 0.05,
-            Basis::Predicted,
-        )
+            bare > 0.05)
         .because(
             "The fluctuations need clean-metal adhesion, the absence of sticking in set 4 and its rarity in sets 3 and 5 a small one: not both come from one W. Spin and agglomerates scatter, too.",
         ),
@@ -215,21 +209,19 @@ fn scatter(nano: &Model, measured: &Model) -> Result<[Claim; 2], Box<dyn Error>>
 }
 
 /// Whether less adhesion makes the quarter above 0.6.
-fn lifted(plain: &Model) -> Result<Claim, Box<dyn Error>> {
+fn lifted(plain: &Model) -> Result<Claim> {
     let bare = with(plain, &[("adhesion-energy", &[0.0])])?;
     let mut most = 0f64;
     for set in SETS.iter().filter(|set| set.number != 4) {
         most = most.max(e_n(&bare, set.size[2] * 1e-6, set.normal[0], 0.5)?);
     }
     let pressure = limiting_pressure(plain)?;
-    Ok(Claim::statement(
+    Ok(Basis::Predicted.statement(
         "section 4, mechanisms",
         "nano-roughness, which reduces adhesive work, can lift a quarter of the rebounds above 0.6",
         "one of three speculations",
         &format!("without any adhesion at most {most:.2}, at the slowest impact"),
-        most > PARTING,
-        Basis::Predicted,
-    )
+        most > PARTING)
     .because(&format!(
         "With p_y = {} GPa plastic loss alone keeps e_n below 0.6 at every printed speed. Of the three mechanisms this one is out unless p_y is larger.",
         number(pressure / 1e9)
@@ -237,32 +229,28 @@ fn lifted(plain: &Model) -> Result<Claim, Box<dyn Error>> {
 }
 
 /// Whether it matters what is drawn.
-fn either_draw(plain: &Model) -> Result<Claim, Box<dyn Error>> {
+fn either_draw(plain: &Model) -> Result<Claim> {
     const BAND: f64 = 0.01;
     let [of_velocity, of_work] = [by_draw(plain, SLOW, 1.0)?[1], by_draw(plain, SLOW, VELOCITY_POWER)?[1]];
-    Ok(Claim::number(
+    Ok(Basis::Derived.number(
         "section 3 (iv)",
         "mean e_n at 1 m/s, both computed here: v_adh drawn as MIGRAINE does (left), W drawn as nano-roughness does (right)",
         Published::within(of_velocity, BAND),
-        of_work,
-        Basis::Derived,
-    )
+        of_work)
     .because(&format!(
         "Not the paper's number: it prints none. {BAND} is far below anything the experiment resolves."
     )))
 }
 
 /// How much the facets may tilt.
-fn polished(plain: &Model, replicates: usize) -> Result<Claim, Box<dyn Error>> {
+fn polished(plain: &Model, replicates: usize) -> Result<Claim> {
     let tilt = largest_tilt(plain, replicates)?;
-    Ok(Claim::statement(
+    Ok(Basis::Predicted.statement(
         "section 3, targets; set 1",
         "polishing made normal and tangential directions the same for all impacts: tilt with which set 1 keeps e_t above 0.61",
         "no tilt",
         &format!("at most some {} rad in half of the campaigns", number(tilt)),
-        tilt < 0.01,
-        Basis::Predicted,
-    )
+        tilt < 0.01)
     .because(&format!(
         "v_t is printed from 0 on; an impact with v_t of some cm/s feels any tilt. A bound on the camera's error of direction as well. Steps of half a decade; seed {SEED}."
     )))

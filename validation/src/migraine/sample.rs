@@ -1,8 +1,7 @@
 //! Impacts drawn as a set's printed ranges allow. The paper prints ranges, a mean angle and most probable sizes, no distributions: two
 //! assumptions stand side by side, so that a reader sees what they are worth.
 
-use std::error::Error;
-
+use crate::Result;
 use nearwall::{Impact, ImpactRng};
 
 use super::published::{Set, TEMPERATURES};
@@ -39,7 +38,7 @@ const TRIAL: u64 = 1000;
 
 impl Sampler {
     /// A sampler whose mean angle, after impacts outside the printed `v_t` are thrown away, is the printed one.
-    pub fn new(set: Set, spread: Spread) -> Result<Self, Box<dyn Error>> {
+    pub fn new(set: Set, spread: Spread) -> Result<Self> {
         let with = |lean| Self { set, spread, lean };
         let mean = |lean| {
             let sampler = with(lean);

@@ -1,11 +1,10 @@
 //! Intervals of counts, and quantiles.
 
-use std::error::Error;
-
+use crate::Result;
 use statrs::distribution::{Beta, ContinuousCDF};
 
 /// Clopper and Pearson's interval of a probability [1] after `hits` of `trials`: each end leaves `tail` outside.
-pub fn binomial(hits: usize, trials: usize, tail: f64) -> Result<[f64; 2], Box<dyn Error>> {
+pub fn binomial(hits: usize, trials: usize, tail: f64) -> Result<[f64; 2]> {
     let (hits, misses) = (hits as f64, (trials - hits) as f64);
     let low = if hits > 0.0 { Beta::new(hits, misses + 1.0)?.inverse_cdf(tail) } else { 0.0 };
     let high = if misses > 0.0 { Beta::new(hits + 1.0, misses)?.inverse_cdf(1.0 - tail) } else { 1.0 };

@@ -8,7 +8,7 @@ use super::published::{
     DIAMETER, E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_LEAST, E_T_STEEP, FRICTION, GLANCING,
     NEARLY_STEEP, SHALLOW, SLIDING_END, SLIDING_END_ANGLE, SOLIDS, STEEP, YIELD_RATIO,
 };
-use super::{Answer, arriving, contact, decide, model, passes, thornton_ning};
+use super::{Result, arriving, contact, decide, model, passes, thornton_ning};
 use crate::oracle::carried::{Air, terminal_speed};
 use crate::steps::{even, through};
 use crate::{Basis, Claim, Part, Published};
@@ -55,44 +55,44 @@ struct Models {
 type Least = [f64; 2];
 
 impl Models {
-    fn new() -> Answer<Self> {
+    fn new() -> Result<Self> {
         Ok(Self { plain: model!("wax-on-pyrex.toml")?, refined: model!("angle.toml")? })
     }
 
     /// At `v_n = 1 m/s`, without the air.
-    fn plain(&self, angle: f64) -> Answer<Outcome> {
+    fn plain(&self, angle: f64) -> Result<Outcome> {
         at(&self.plain, angle, 0.0)
     }
 
     /// With the air along the wall [m/s].
-    fn refined(&self, angle: f64, gas_speed: f64) -> Answer<Outcome> {
+    fn refined(&self, angle: f64, gas_speed: f64) -> Result<Outcome> {
         at(&self.refined, angle, gas_speed)
     }
 
     /// `e_t` of the plain laws over the angle.
-    fn plain_e_t(&self) -> Answer<Vec<[f64; 2]>> {
+    fn plain_e_t(&self) -> Result<Vec<[f64; 2]>> {
         over_angles(|angle| Ok(self.plain(angle)?.tangential_restitution))
     }
 
-    fn least(&self) -> Answer<Least> {
+    fn least(&self) -> Result<Least> {
         let points = self.plain_e_t()?.into_iter();
         Ok(points.min_by(|a, b| a[1].total_cmp(&b[1])).unwrap_or([f64::NAN; 2]))
     }
 
     /// The `p_y/sigma_y` that Fig. 6 asks for, without lift.
-    fn yield_ratio(&self) -> Answer<f64> {
+    fn yield_ratio(&self) -> Result<f64> {
         let stated = contact(&self.plain, "default", YIELD_RATIO.value, |_| {})?;
         let e_n = |c| thornton_ning(&Contact { yield_ratio: c, ..stated }, DIAMETER, 1.0);
         Ok(passes(e_n, E_N_NEAR_NORMAL.value, [0.3, 1.0]))
     }
 }
 
-fn at(model: &Model, angle: f64, gas_speed: f64) -> Answer<Outcome> {
+fn at(model: &Model, angle: f64, gas_speed: f64) -> Result<Outcome> {
     let impact = Impact { gas_speed, ..arriving(1.0, angle) };
     decide(model, "default", &impact)
 }
 
-fn over_angles(of: impl Fn(f64) -> Answer<f64>) -> Answer<Vec<[f64; 2]>> {
+fn over_angles(of: impl Fn(f64) -> Result<f64>) -> Result<Vec<[f64; 2]>> {
     even([5.0, 89.5], 340).map(|angle| Ok([angle, of(angle)?])).collect()
 }
 
@@ -123,7 +123,7 @@ impl Lift {
 }
 
 /// The part on the angle.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let models = Models::new()?;
     let lift = Lift::new();
     Ok(Part {
@@ -142,7 +142,7 @@ pub(super) fn part() -> Answer<Part> {
     })
 }
 
-fn effects_text(models: &Models) -> Answer<String> {
+fn effects_text(models: &Models) -> Result<String> {
     Ok(format!(
         "Plain laws: e_n depends on v_n alone, which Fig. 6 keeps at 1 m/s, so it is {:.3} at \
          every angle; e_t slides down to {:.2} and jumps to 5/7. The paper names what is missing: air \
@@ -175,7 +175,7 @@ fn lift_text(lift: &Lift) -> String {
     )
 }
 
-fn sliding_text(models: &Models) -> Answer<String> {
+fn sliding_text(models: &Models) -> Result<String> {
     let (f, stated) = (FRICTION.value, E_T_GLANCING.value);
     let ratio = (1.0 + E_N_GLANCING.value) * SHALLOW.to_radians().tan();
     let intercept = stated + f * ratio;
@@ -192,7 +192,7 @@ fn sliding_text(models: &Models) -> Answer<String> {
     ))
 }
 
-fn normal_chart(models: &Models, lift: &Lift) -> Answer<Figure> {
+fn normal_chart(models: &Models, lift: &Lift) -> Result<Figure> {
     let as_the_tube = |angle: f64| {
         let gas = tube_air(angle) * lift.by_tube / lift.by_four;
         Ok(models.refined(angle, gas)?.normal_restitution)
@@ -214,7 +214,7 @@ fn normal_chart(models: &Models, lift: &Lift) -> Answer<Figure> {
         ))
 }
 
-fn tangential_chart(models: &Models, lift: &Lift) -> Answer<Figure> {
+fn tangential_chart(models: &Models, lift: &Lift) -> Result<Figure> {
     let compliant = |angle: f64| Ok(models.refined(angle, lift.four)?.tangential_restitution);
     let end = [SLIDING_END_ANGLE.value, 1.0 - FRICTION.value * SLIDING_END.value];
     let stated = [[SHALLOW, E_T_GLANCING.value], end, [NEARLY_STEEP, E_T_STEEP.value]];
@@ -232,7 +232,7 @@ fn tangential_chart(models: &Models, lift: &Lift) -> Answer<Figure> {
 }
 
 /// Of `e_n` at both ends.
-fn normal_claims(models: &Models, lift: &Lift) -> Answer<Vec<Claim>> {
+fn normal_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     let steep = models.refined(STEEP, lift.four / FASTER)?.normal_restitution;
     let [(_, _, _, strength), ..] = SOLIDS;
     let [strength, deviation] = strength.map(|pascals| pascals / 1e6);
@@ -257,30 +257,26 @@ fn normal_claims(models: &Models, lift: &Lift) -> Answer<Vec<Claim>> {
 }
 
 /// Of the air.
-fn air_claims(models: &Models, lift: &Lift) -> Answer<Vec<Claim>> {
+fn air_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     let [glancing, shallow] = [GLANCING, SHALLOW].map(|angle| tube_air(angle) / tube_air(90.0));
     Ok(vec![
-        Claim::number(
+        Basis::Predicted.number(
             "Fig 6",
             "e_n at 13° by the lift that fits 35°; \"the largest value\" was 0.41",
             Published::Below(E_N_GLANCING.value + E_N_GLANCING.tolerance),
-            lift.at_shallow(),
-            Basis::Predicted,
-        )
+            lift.at_shallow())
         .because(&format!(
             "Air as fast as each angle needs. With four times the air of normal impacts at {GLANCING}° and {SHALLOW}° alike \
              it is {:.2}. A gain that is proportional to the air along the wall cannot stop at \
              {GLANCING}°.",
             models.refined(SHALLOW, lift.four)?.normal_restitution
         )),
-        Claim::statement(
+        Basis::Derived.statement(
             "Sec 4.1",
             "air at small angles over air at normal impact, v_n = 1 m/s [1]",
             "around 4",
             &format!("{glancing:.1} at {GLANCING}°, {shallow:.1} at {SHALLOW}°"),
-            (3.5..4.5).contains(&glancing),
-            Basis::Derived,
-        )
+            (3.5..4.5).contains(&glancing))
         .because(&format!(
             "Follows from v_i = 1/sin(alpha) less terminal velocity; {FASTER} is right between the two, not at {GLANCING}°, \
              where e_n was {}.",
@@ -290,7 +286,7 @@ fn air_claims(models: &Models, lift: &Lift) -> Answer<Vec<Claim>> {
 }
 
 /// Of `e_t` while the contact slides.
-fn sliding_claims(models: &Models) -> Answer<Vec<Claim>> {
+fn sliding_claims(models: &Models) -> Result<Vec<Claim>> {
     let end = models.plain(SLIDING)?;
     let ratio = (1.0 + end.normal_restitution) * SLIDING.to_radians().tan();
     Ok(vec![
@@ -312,7 +308,7 @@ fn sliding_claims(models: &Models) -> Answer<Vec<Claim>> {
 }
 
 /// Of where sliding ends.
-fn end_claims(models: &Models) -> Answer<Vec<Claim>> {
+fn end_claims(models: &Models) -> Result<Vec<Claim>> {
     let [least, _] = models.least()?;
     let e_n = models.plain(SLIDING)?.normal_restitution;
     let end = SLIDING_END.value;
@@ -329,14 +325,12 @@ fn end_claims(models: &Models) -> Answer<Vec<Claim>> {
              {between:.2}.",
             stated_end(between)
         )),
-        Claim::statement(
+        Basis::Derived.statement(
             "Fig 7",
             "\"1.31, corresponding to 45°\": the e_n that this takes",
             "Fig. 6: 0.41 at 35°, 0.28 near normal",
             &format!("{implied:.2}"),
-            (low..=high).contains(&implied),
-            Basis::Derived,
-        )
+            (low..=high).contains(&implied))
         .because(&format!(
             "It is the best-fit mean of all angles, not a value between {high} at {GLANCING}° and {low} (some {:.2} at \
              {angle}°), for which {end} lies at {:.1}°. Within the scatter the two cannot be told apart.",
@@ -350,7 +344,7 @@ fn end_claims(models: &Models) -> Answer<Vec<Claim>> {
 }
 
 /// Of `e_t` near the normal.
-fn steep_claims(models: &Models, lift: &Lift) -> Answer<Vec<Claim>> {
+fn steep_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     Ok(vec![
         E_T_STEEP
             .beside(models.plain(NEARLY_STEEP)?.tangential_restitution, Basis::Predicted)

@@ -5,7 +5,7 @@ use nearwall::{Impact, Model};
 use super::published::{
     DENSITY, DIAMETER, E_N_GLANCING, E_N_NEAR_NORMAL, GLANCING, STEEP, TARGETS, YIELD_RATIO,
 };
-use super::{Answer, arriving, decide, model};
+use super::{Result, arriving, decide, model};
 use crate::oracle::carried::{Air, Flight, Law, Place, Sphere};
 use crate::{Basis, Claim, Part};
 
@@ -27,12 +27,12 @@ fn reach(speed: f64) -> f64 {
 /// Temperature [K] of the hot particles: 105 °C.
 const HOT: f64 = 378.15;
 
-fn e_n(model: &Model, wall: &str, speed: f64, angle: f64) -> Answer<f64> {
+fn e_n(model: &Model, wall: &str, speed: f64, angle: f64) -> Result<f64> {
     Ok(decide(model, wall, &arriving(speed, angle))?.normal_restitution)
 }
 
 /// The part on the conclusions.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     Ok(Part {
         heading: "What the abstract concludes".to_owned(),
         text: vec![
@@ -46,7 +46,7 @@ pub(super) fn part() -> Answer<Part> {
 }
 
 /// The stated e_n that the model meets or does not: name, whether.
-fn met() -> Answer<Vec<(&'static str, bool)>> {
+fn met() -> Result<Vec<(&'static str, bool)>> {
     let model = model!("targets.toml")?;
     let within = |ours: f64, stated: f64| (ours / stated - 1.0).abs() < 0.15;
     let mut cases = Vec::new();
@@ -57,46 +57,46 @@ fn met() -> Answer<Vec<(&'static str, bool)>> {
     Ok(cases)
 }
 
-fn adequate() -> Answer<Claim> {
+fn adequate() -> Result<Claim> {
     let cases = met()?;
     let named = |met: bool| {
         let names: Vec<&str> = cases.iter().filter(|case| case.1 == met).map(|case| case.0).collect();
         names.join(", ")
     };
     let (count, all) = (cases.iter().filter(|case| case.1).count(), cases.len());
-    Ok(Claim::statement(
-        "Abstract",
-        &format!(
-            "\"the elastic–plastic adhesive model provides an adequate representation\": stated e_n met \
+    Ok(Basis::Predicted
+        .statement(
+            "Abstract",
+            &format!(
+                "\"the elastic–plastic adhesive model provides an adequate representation\": stated e_n met \
              within 15 % with c = {}",
-            YIELD_RATIO.value
-        ),
-        "adequate",
-        &format!("{count} of {all}: {}; not {}", named(true), named(false)),
-        count == all,
-        Basis::Predicted,
-    )
-    .because(&format!(
-        "See the parts on targets and angle. {} on all targets, {} at {GLANCING}°; Teflon and steel by \
+                YIELD_RATIO.value
+            ),
+            "adequate",
+            &format!("{count} of {all}: {}; not {}", named(true), named(false)),
+            count == all,
+        )
+        .because(&format!(
+            "See the parts on targets and angle. {} on all targets, {} at {GLANCING}°; Teflon and steel by \
          \"negligible influence\". 15 % taken for \"adequate\".",
-        E_N_NEAR_NORMAL.value, E_N_GLANCING.value
-    )))
+            E_N_NEAR_NORMAL.value, E_N_GLANCING.value
+        )))
 }
 
-fn accumulation() -> Answer<Claim> {
+fn accumulation() -> Result<Claim> {
     let model = model!("layers.toml")?;
-    let far = |wall: &str| -> Answer<f64> { Ok(reach(e_n(&model, wall, 1.0, STEEP)?)) };
+    let far = |wall: &str| -> Result<f64> { Ok(reach(e_n(&model, wall, 1.0, STEEP)?)) };
     let (bare, thin, thick) = (far("bare")?, far("thin")?, far("thick")?);
-    Ok(Claim::statement(
-        "Abstract",
-        "powder \"favours accumulation of particles close to the surface\": how far a rebound at 1 \
+    Ok(Basis::Fitted
+        .statement(
+            "Abstract",
+            "powder \"favours accumulation of particles close to the surface\": how far a rebound at 1 \
          m/s carries over bare glass, 0.25 mm and 1.4 mm of powder [mm]",
-        "closer",
-        &format!("{bare:.1}, {thin:.1}, {thick:.1}"),
-        bare > thin && thin > thick,
-        Basis::Fitted,
-    )
-    .because("75 µm in still air without gravity; follows from the fitted e_n."))
+            "closer",
+            &format!("{bare:.1}, {thin:.1}, {thick:.1}"),
+            bare > thin && thin > thick,
+        )
+        .because("75 µm in still air without gravity; follows from the fitted e_n."))
 }
 
 fn dense_phase() -> Claim {
@@ -109,17 +109,17 @@ fn dense_phase() -> Claim {
     )
 }
 
-fn hot_particles() -> Answer<Claim> {
+fn hot_particles() -> Result<Claim> {
     let impact = Impact { particle_temperature: HOT, wall_temperature: HOT, ..arriving(2.0, STEEP) };
     let hot = decide(&model!("melting.toml")?, "default", &impact)?;
-    Ok(Claim::statement(
-        "Abstract",
-        "hot particles: restitution \"vanishingly small\", deposition prevails: e_n, capture at 105 \
+    Ok(Basis::Fitted
+        .statement(
+            "Abstract",
+            "hot particles: restitution \"vanishingly small\", deposition prevails: e_n, capture at 105 \
          °C",
-        "near 0; prevails",
-        &format!("{:.2}, {:.2}", hot.normal_restitution, hot.sticking_probability),
-        hot.normal_restitution < 0.05 && hot.sticking_probability > 0.5,
-        Basis::Fitted,
-    )
-    .because("Capture is set at this temperature; e_n follows."))
+            "near 0; prevails",
+            &format!("{:.2}, {:.2}", hot.normal_restitution, hot.sticking_probability),
+            hot.normal_restitution < 0.05 && hot.sticking_probability > 0.5,
+        )
+        .because("Capture is set at this temperature; e_n follows."))
 }

@@ -6,7 +6,7 @@ use nearwall::report::{Chart, Figure, number};
 use nearwall::{Impact, Model};
 
 use super::published::CAPTURE_120;
-use super::{Answer, decide, model};
+use super::{Result, decide, model};
 use crate::steps::{even, range};
 use crate::{Basis, Claim, Part, Published};
 
@@ -23,7 +23,7 @@ const MIDDLE: [f64; 2] = [2.0, 90.0];
 struct Trend([f64; 2]);
 
 impl Trend {
-    fn of(models: [&Model; 2], angle: f64) -> Answer<Self> {
+    fn of(models: [&Model; 2], angle: f64) -> Result<Self> {
         let [mut by_melting, mut by_droplet] = [0.0; 2];
         for (model, gain) in models.into_iter().zip([&mut by_melting, &mut by_droplet]) {
             let at = |speed: f64| decide(model, "default", &molten(speed, angle, SIZES[1]));
@@ -64,7 +64,7 @@ fn impacts() -> Vec<Impact> {
 }
 
 /// Least capture [%] over the impacts of Fig. 14.
-fn least_capture(model: &Model, impacts: &[Impact]) -> Answer<f64> {
+fn least_capture(model: &Model, impacts: &[Impact]) -> Result<f64> {
     let mut least = f64::INFINITY;
     for impact in impacts {
         least = least.min(100.0 * decide(model, "default", impact)?.sticking_probability);
@@ -93,7 +93,7 @@ struct Found {
 }
 
 impl Found {
-    fn new() -> Answer<Self> {
+    fn new() -> Result<Self> {
         let [melting, droplet] = [model!("melting.toml")?, model!("droplet.toml")?];
         let melt = droplet.particle().molten(HOT)?;
         let impacts = impacts();
@@ -146,7 +146,7 @@ impl Found {
     fn captures(&self) -> [Claim; 2] {
         let least = |by: &str, ours| {
             let what = format!("least capture at 120 °C by {by} [%]");
-            Claim::number("Fig 14", &what, Published::Above(CAPTURE_120), ours, Basis::Predicted)
+            Basis::Predicted.number("Fig 14", &what, Published::Above(CAPTURE_120), ours)
         };
         [
             least("melting", self.by_melting)
@@ -159,12 +159,12 @@ impl Found {
         ]
     }
 
-    fn trends(&self) -> Answer<[Claim; 2]> {
+    fn trends(&self) -> Result<[Claim; 2]> {
         let models = [&self.melting, &self.droplet];
         let (shallow, straight) = (Trend::of(models, ANGLES[0])?, Trend::of(models, ANGLES[1])?);
         let trend = |what: &str, published: &str, ours: &Trend, points| {
             let (text, holds) = (ours.text(), ours.beyond(points));
-            Claim::statement("Fig 14", what, published, &text, holds, Basis::Predicted)
+            Basis::Predicted.statement("Fig 14", what, published, &text, holds)
         };
         Ok([
             trend("capture falls with speed at small angles", "\"slightly decreases\"", &shallow, -1.0).because(
@@ -177,7 +177,7 @@ impl Found {
         ])
     }
 
-    fn mechanics(&self) -> Answer<[Claim; 2]> {
+    fn mechanics(&self) -> Result<[Claim; 2]> {
         let [speed, angle] = MIDDLE;
         let outcome = decide(&self.melting, "default", &molten(speed, angle, SIZES[1]))?;
         Ok([
@@ -192,24 +192,24 @@ impl Found {
                     self.reynolds
                 ),
             ),
-            Claim::statement(
-                "Sec 4.3",
-                "\"the coefficients of restitution are zero\"",
-                "0",
-                &number(outcome.normal_restitution),
-                outcome.normal_restitution < 0.01,
-                Basis::Predicted,
-            )
-            .because(&format!(
-                "e_n of the {:.0} % that rebounds in the model, {speed} m/s straight on.",
-                100.0 * (1.0 - outcome.sticking_probability)
-            )),
+            Basis::Predicted
+                .statement(
+                    "Sec 4.3",
+                    "\"the coefficients of restitution are zero\"",
+                    "0",
+                    &number(outcome.normal_restitution),
+                    outcome.normal_restitution < 0.01,
+                )
+                .because(&format!(
+                    "e_n of the {:.0} % that rebounds in the model, {speed} m/s straight on.",
+                    100.0 * (1.0 - outcome.sticking_probability)
+                )),
         ])
     }
 }
 
 /// The part on droplets.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let found = Found::new()?;
     let claims = [found.captures(), found.trends()?, found.mechanics()?];
     Ok(Part {

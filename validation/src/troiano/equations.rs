@@ -9,7 +9,7 @@ use nearwall::normal::{
 use nearwall::report::number;
 
 use super::published::{DIAMETER, PYREX, SOLIDS, TARGETS, YIELD_RATIO};
-use super::{Answer, contact, model};
+use super::{Result, contact, model};
 use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
@@ -35,7 +35,7 @@ fn equation_6(w: f64, inner: f64) -> f64 {
 }
 
 /// The part on the normal impact.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let model = model!("targets.toml")?;
     let on = |wall: &str| contact(&model, wall, YIELD_RATIO.value, |_| {});
     let (pyrex, teflon) = (on("pyrex")?, on("teflon")?);
@@ -66,28 +66,28 @@ pub(super) fn part() -> Answer<Part> {
 
 /// An equation over what the library has in its place [1]: to rounding.
 fn same(place: &str, what: &str, ratio: f64) -> Claim {
-    Claim::number(place, what, Published::within(1.0, 1e-9), ratio, Basis::Derived)
+    Basis::Derived.number(place, what, Published::within(1.0, 1e-9), ratio)
 }
 
 /// Eq 1.
 fn sticking_velocity(pyrex: &Contact) -> Claim {
     let ratio = |factor| equation_1(factor, pyrex, DIAMETER) / adhesive_velocity(pyrex, DIAMETER);
-    Claim::statement(
-        "Eq 1",
-        "number under the sixth root, with K = 4E*/3",
-        "4/3",
-        &format!("16/9; as printed v_s is {} of Thornton and Ning's", number(ratio(AS_PRINTED))),
-        (ratio(AS_PRINTED) - 1.0).abs() < 0.005,
-        Basis::Derived,
-    )
-    .because(&format!(
-        "K² = 16 E*²/9 in the denominator needs 16/9 in the numerator; with it the ratio is {}.",
-        number(ratio(MENDED))
-    ))
+    Basis::Derived
+        .statement(
+            "Eq 1",
+            "number under the sixth root, with K = 4E*/3",
+            "4/3",
+            &format!("16/9; as printed v_s is {} of Thornton and Ning's", number(ratio(AS_PRINTED))),
+            (ratio(AS_PRINTED) - 1.0).abs() < 0.005,
+        )
+        .because(&format!(
+            "K² = 16 E*²/9 in the denominator needs 16/9 in the numerator; with it the ratio is {}.",
+            number(ratio(MENDED))
+        ))
 }
 
 /// Eq 2.
-fn modulus(model: &Model) -> Answer<Claim> {
+fn modulus(model: &Model) -> Result<Claim> {
     let pyrex = model.find_wall("pyrex").ok_or("no wall pyrex")?;
     let wax = model.particle().mechanical(293.15)?;
     let glass = model.walls()[pyrex].material().mechanical(293.15)?;
@@ -114,21 +114,21 @@ fn yielding(pyrex: &Contact) -> Claim {
 fn sticking(pyrex: &Contact) -> Claim {
     let printed = equation_1(AS_PRINTED, pyrex, DIAMETER);
     let speeds = NormalLaw::ThorntonNing.speeds(pyrex, DIAMETER);
-    Claim::statement(
-        "Eq 4",
-        "wax on Pyrex, c = 0.7: the speed up to which e_n is 0 [m/s]",
-        &format!("v_s of Eq. 1: {}", number(printed)),
-        &format!("{}, where Eq. 6 vanishes", number(speeds.sticking)),
-        (speeds.sticking / speeds.adhesive - 1.0).abs() < 0.05,
-        Basis::Derived,
-    )
-    .because(&format!(
-        "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than \
+    Basis::Derived
+        .statement(
+            "Eq 4",
+            "wax on Pyrex, c = 0.7: the speed up to which e_n is 0 [m/s]",
+            &format!("v_s of Eq. 1: {}", number(printed)),
+            &format!("{}, where Eq. 6 vanishes", number(speeds.sticking)),
+            (speeds.sticking / speeds.adhesive - 1.0).abs() < 0.05,
+        )
+        .because(&format!(
+            "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than \
          v_s, so the loss by yielding adds to adhesion and the sticking velocity grows {:.1} times. No test \
          of the paper was so slow.",
-        printed / speeds.yielding,
-        speeds.sticking / printed
-    ))
+            printed / speeds.yielding,
+            speeds.sticking / printed
+        ))
 }
 
 /// Eq 5.
@@ -149,17 +149,17 @@ fn plastic() -> Claim {
     let largest_gap = even([0.001, 1.0], 1000)
         .map(|w| (equation_6(w, 1.2 - w * w / 5.0) - plastic_term(w)).abs())
         .fold(0.0, f64::max);
-    Claim::statement(
-        "Eq 6",
-        "inner root: e_n at v_y without adhesion (1 if the branches join)",
-        "no sign between 6/5 and 1/5 (v_y/v_i)²",
-        &format!("1 with a minus; {} with a plus, {} as a product", number(plus), number(product)),
-        (plus - 1.0).abs() < 0.005 || (product - 1.0).abs() < 0.005,
-        Basis::Derived,
-    )
-    .because(&format!(
-        "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With it \
+    Basis::Derived
+        .statement(
+            "Eq 6",
+            "inner root: e_n at v_y without adhesion (1 if the branches join)",
+            "no sign between 6/5 and 1/5 (v_y/v_i)²",
+            &format!("1 with a minus; {} with a plus, {} as a product", number(plus), number(product)),
+            (plus - 1.0).abs() < 0.005 || (product - 1.0).abs() < 0.005,
+        )
+        .because(&format!(
+            "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With it \
          Eq. 6 is the library's plastic term within {}.",
-        number(largest_gap)
-    ))
+            number(largest_gap)
+        ))
 }

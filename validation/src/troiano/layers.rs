@@ -6,7 +6,7 @@ use nearwall::{Impact, Model, Outcome, global_restitution};
 use super::published::{
     CAMERA, DENSITY, DIAMETER, E_N_MEAN, E_N_SYRUP, E_N_THICK, E_N_THIN, SPEEDS, STEEP, Stated, YIELD_RATIO,
 };
-use super::{Answer, arriving, decide, model};
+use super::{Result, arriving, decide, model};
 use crate::steps::even;
 use crate::study::table;
 use crate::terms::first_value;
@@ -50,7 +50,7 @@ impl Layer {
 }
 
 /// Mean `e_n` and `e_g` over the speeds of Fig. 10.
-fn means(outcome: &dyn Fn(f64) -> Answer<Outcome>) -> Answer<[f64; 2]> {
+fn means(outcome: &dyn Fn(f64) -> Result<Outcome>) -> Result<[f64; 2]> {
     let speeds: Vec<f64> = even(SPEEDS, 51).collect();
     let (mut e_n, mut e_g) = (0.0, 0.0);
     for speed in &speeds {
@@ -66,19 +66,19 @@ fn means(outcome: &dyn Fn(f64) -> Answer<Outcome>) -> Answer<[f64; 2]> {
 }
 
 /// Means on each of [`LAYERS`].
-fn means_on_layers(model: &Model) -> Answer<Vec<[f64; 2]>> {
+fn means_on_layers(model: &Model) -> Result<Vec<[f64; 2]>> {
     let on = |layer: &Layer| means(&|speed| decide(model, layer.wall, &arriving(speed, STEEP)));
     LAYERS.iter().map(on).collect()
 }
 
 /// How many impacts of the speeds of Fig. 10 are held for certain.
-fn held(outcome: impl Fn(f64) -> Answer<Outcome>) -> Answer<usize> {
-    let outcomes = even(SPEEDS, COUNTED).map(outcome).collect::<Answer<Vec<_>>>()?;
+fn held(outcome: impl Fn(f64) -> Result<Outcome>) -> Result<usize> {
+    let outcomes = even(SPEEDS, COUNTED).map(outcome).collect::<Result<Vec<_>>>()?;
     Ok(outcomes.iter().filter(|outcome| outcome.sticking_probability == 1.0).count())
 }
 
 /// The part on layers.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let model = model!("layers.toml")?;
     let syrup = model!("syrup.toml")?;
     let means = means_on_layers(&model)?;
@@ -133,13 +133,13 @@ fn layers(means: &[[f64; 2]]) -> Table {
     table(
         "wax of 75 µm at 84°, mean over 0.5 to 3 m/s",
         1,
-        &["target", "e_n, stated", "e_n", "e_g"],
+        "target | e_n, stated | e_n | e_g",
         LAYERS.iter().zip(means).map(row).collect(),
     )
 }
 
-fn chart(model: &Model) -> Answer<Figure> {
-    let over = |thickness: f64| -> Answer<f64> {
+fn chart(model: &Model) -> Result<Figure> {
+    let over = |thickness: f64| -> Result<f64> {
         let [e_n, _] = means(&|speed| {
             decide(model, "bare", &Impact { layer_thickness: thickness, ..arriving(speed, STEEP) })
         })?;
@@ -147,7 +147,7 @@ fn chart(model: &Model) -> Answer<Figure> {
     };
     let curve = even([0.0, 1.5e-3], 76)
         .map(|thickness| Ok([1e3 * thickness, over(thickness)?]))
-        .collect::<Answer<Vec<_>>>()?;
+        .collect::<Result<Vec<_>>>()?;
     let [bare, thin, thick, syrup] = LAYERS.each_ref().map(Layer::point);
     Ok(Chart::new(
         "Normal restitution over powder",
@@ -180,7 +180,7 @@ fn dry(means: &[[f64; 2]]) -> Vec<Claim> {
 }
 
 /// Of the powder on syrup, where e_n is `mean`.
-fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Answer<Vec<Claim>> {
+fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Result<Vec<Claim>> {
     let bare = held(|speed| {
         let impact = Impact { film_thickness: FILM, ..arriving(speed, STEEP) };
         decide(syrup, "default", &impact)
@@ -196,7 +196,7 @@ fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Answer<Vec<Cla
             LAYERS[3].thickness,
             (mean - E_N_SYRUP.value).abs()
         )),
-        Claim::statement(
+        Basis::Predicted.statement(
             "Fig 10",
             &format!(
                 "powder on syrup rebounds as on a dry target; syrup without powder: particles held, of {COUNTED} \
@@ -204,9 +204,7 @@ fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Answer<Vec<Cla
             ),
             "\"the same regardless\"",
             &format!("{bare} held by bare syrup, {under_powder} under powder"),
-            bare == COUNTED,
-            Basis::Predicted,
-        )
+            bare == COUNTED)
         .because(&format!(
             "{} mm of syrup and asperities of 1 µm assumed; the film's law is beyond its range (film \
              thicker than the particle), but by orders of magnitude.",
@@ -216,34 +214,34 @@ fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Answer<Vec<Cla
 }
 
 /// Of `e_g`, and of the speed.
-fn beside_the_mean(model: &Model, means: &[[f64; 2]]) -> Answer<Vec<Claim>> {
+fn beside_the_mean(model: &Model, means: &[[f64; 2]]) -> Result<Vec<Claim>> {
     let [bare, thin, thick] = [0, 1, 2].map(|layer| means[layer][1]);
     let end = |speed: f64| decide(model, LAYERS[0].wall, &arriving(speed, STEEP));
     let [slow, fast] = [end(SPEEDS[0])?.normal_restitution, end(SPEEDS[1])?.normal_restitution];
     Ok(vec![
-        Claim::statement(
-            "Fig 11",
-            "e_g falls like e_n: e_g on bare Pyrex, thin and thick layer",
-            "\"a similar result\"; no numbers in the text",
-            &format!("{bare:.2}, {thin:.2}, {thick:.2}"),
-            bare > thin && thin > thick,
-            Basis::Predicted,
-        )
-        .because(
-            "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none over \
+        Basis::Predicted
+            .statement(
+                "Fig 11",
+                "e_g falls like e_n: e_g on bare Pyrex, thin and thick layer",
+                "\"a similar result\"; no numbers in the text",
+                &format!("{bare:.2}, {thin:.2}, {thick:.2}"),
+                bare > thin && thin > thick,
+            )
+            .because(
+                "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none over \
              powder.",
-        ),
-        Claim::statement(
-            "Sec 4.1",
-            "e_n and e_g on Pyrex \"about constant with the impact velocity\": e_n at 0.5 and 3 m/s",
-            "about constant",
-            &format!("{slow:.2}, {fast:.2}"),
-            fast / slow > 0.75,
-            Basis::Predicted,
-        )
-        .because(
-            "Less than a quarter over a sixfold range is taken for it; it would be more than a third \
+            ),
+        Basis::Predicted
+            .statement(
+                "Sec 4.1",
+                "e_n and e_g on Pyrex \"about constant with the impact velocity\": e_n at 0.5 and 3 m/s",
+                "about constant",
+                &format!("{slow:.2}, {fast:.2}"),
+                fast / slow > 0.75,
+            )
+            .because(
+                "Less than a quarter over a sixfold range is taken for it; it would be more than a third \
              with the printed v_s (Fig. 8).",
-        ),
+            ),
     ])
 }

@@ -3,14 +3,13 @@
 use nearwall::material::Library;
 use nearwall::report::{Table, number};
 
-use super::Answer;
 use super::published::{
     CAMERA, COAL_SLAG, DENSITY, MELTING, MOLTEN_WAX, Melt, SLAG, SOLIDS, Solid, TARGETS, TUBE_SPEED,
     VISCOSITY_AT,
 };
 use crate::steps::range;
 use crate::study::table;
-use crate::{Basis, Claim, Part, Published};
+use crate::{Basis, Claim, Part, Published, Result};
 
 const ROOM: f64 = 293.15;
 
@@ -19,7 +18,7 @@ struct Shelf(Library);
 
 impl Shelf {
     /// A property at a temperature [K].
-    fn value(&self, material: &str, key: &str, temperature: f64) -> Answer<f64> {
+    fn value(&self, material: &str, key: &str, temperature: f64) -> Result<f64> {
         let found = self.0.get(material).and_then(|material| material.property(key));
         let found = found.ok_or_else(|| format!("{material} has no {key}"))?;
         found
@@ -34,7 +33,7 @@ impl Shelf {
 }
 
 /// The part on materials.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let shelf = Shelf(Library::built_in()?);
     let (rows, same) = table_1(&shelf)?;
     Ok(Part {
@@ -66,17 +65,17 @@ fn solids(rows: Vec<Vec<String>>) -> Table {
     table(
         "Table 1 beside the library, MPa",
         2,
-        &["printed as", "material", "E, printed", "E, library", "strength, printed", "strength, library"],
+        "printed as | material | E, printed | E, library | strength, printed | strength, library",
         rows,
     )
 }
 
 /// Table 1 row by row, and how many rows are the library's.
-fn table_1(shelf: &Shelf) -> Answer<(Vec<Vec<String>>, u32)> {
+fn table_1(shelf: &Shelf) -> Result<(Vec<Vec<String>>, u32)> {
     let (mut rows, mut same) = (Vec::new(), 0);
     for (name, material, modulus, strength) in SOLIDS {
         let read =
-            |key| -> Answer<_> { Ok((shelf.value(material, key, ROOM)?, shelf.spread(material, key))) };
+            |key| -> Result<_> { Ok((shelf.value(material, key, ROOM)?, shelf.spread(material, key))) };
         let (e, e_spread) = read("youngs_modulus")?;
         let (y, y_spread) = read("yield_strength")?;
         let ours = [[Some(e), e_spread], [Some(y), y_spread]];
@@ -97,31 +96,30 @@ fn table_1(shelf: &Shelf) -> Answer<(Vec<Vec<String>>, u32)> {
 /// Of the solids; `same` rows of Table 1 are the library's.
 fn as_printed(same: u32) -> Claim {
     let all = SOLIDS.len();
-    Claim::number(
-        "Table 1",
-        &format!("materials whose modulus, strength and their deviations are the printed ones, of {all}"),
-        Published::within(all as f64, 0.0),
-        f64::from(same),
-        Basis::Derived,
-    )
-    .because(
-        "Inputs, not results. Coal 801's ± 41.37 MPa is a tenth of what the others have; it is kept as \
+    Basis::Derived
+        .number(
+            "Table 1",
+            &format!("materials whose modulus, strength and their deviations are the printed ones, of {all}"),
+            Published::within(all as f64, 0.0),
+            f64::from(same),
+        )
+        .because(
+            "Inputs, not results. Coal 801's ± 41.37 MPa is a tenth of what the others have; it is kept as \
          printed.",
-    )
+        )
 }
 
-fn slag_modulus(shelf: &Shelf) -> Answer<Claim> {
+fn slag_modulus(shelf: &Shelf) -> Result<Claim> {
     let mut same = true;
     for [temperature, modulus] in SLAG {
         same &= shelf.value("coal-slag", "youngs_modulus", temperature)? == modulus;
     }
-    Ok(Claim::statement(
+    Ok(Basis::Derived.statement(
         "Table 1",
         "modulus of slag at 1000 and 1450 °C",
         "20000–5000 MPa",
         "the same",
         same,
-        Basis::Derived,
     ))
 }
 
@@ -133,21 +131,21 @@ fn resemblance() -> Claim {
     let span = |[low, high]: [f64; 2]| format!("{} to {} MPa", number(low / 1e6), number(high / 1e6));
     // To ten.
     let fold = 10.0 * (0.1 * modulus[1] / modulus[0]).round();
-    Claim::statement(
-        "Table 1",
-        "\"the mechanical properties of the wax agree quite well\" with coal and char",
-        "700 MPa, 9.5 MPa",
-        &format!("inside {} and {}", span(modulus), span(strength)),
-        within(modulus, wax_modulus[0]) && within(strength, wax_strength[0]),
-        Basis::Derived,
-    )
-    .because(&format!(
-        "The range is {fold:.0}-fold in E. By Eq. 3, v_y goes with sigma_y^(5/2)/E² and spreads over far \
+    Basis::Derived
+        .statement(
+            "Table 1",
+            "\"the mechanical properties of the wax agree quite well\" with coal and char",
+            "700 MPa, 9.5 MPa",
+            &format!("inside {} and {}", span(modulus), span(strength)),
+            within(modulus, wax_modulus[0]) && within(strength, wax_strength[0]),
+        )
+        .because(&format!(
+            "The range is {fold:.0}-fold in E. By Eq. 3, v_y goes with sigma_y^(5/2)/E² and spreads over far \
          more."
-    ))
+        ))
 }
 
-fn surface_energies(shelf: &Shelf) -> Answer<Claim> {
+fn surface_energies(shelf: &Shelf) -> Result<Claim> {
     let mut same = true;
     for target in &TARGETS {
         let read = |key| shelf.value(target.material, key, ROOM);
@@ -155,97 +153,95 @@ fn surface_energies(shelf: &Shelf) -> Answer<Claim> {
             && read("youngs_modulus")? == target.modulus
             && read("poisson_ratio")? == target.poisson;
     }
-    Ok(Claim::statement(
+    Ok(Basis::Derived.statement(
         "Tables 2, 4",
         "surface energy, modulus and Poisson's ratio of the four targets",
         "as printed",
         "the same in the library",
         same,
-        Basis::Derived,
     ))
 }
 
-fn wax_melt(shelf: &Shelf) -> Answer<Claim> {
+fn wax_melt(shelf: &Shelf) -> Result<Claim> {
     let density = shelf.value("montan-wax", "density", 373.15)?;
     let tension = shelf.value("montan-wax", "surface_tension", 373.15)?;
     let melting = shelf.value("montan-wax", "melting_point", 353.15)? - 273.15;
     let same = density == DENSITY
         && tension == MOLTEN_WAX.tension[0]
         && (MELTING[0]..=MELTING[1]).contains(&melting);
-    Ok(Claim::statement(
-        "Sec 3.1",
-        "wax: density [kg/m³], surface tension [N/m], melting [°C]",
-        "around 1000; 0.03; 75 to 85",
-        &format!("{}; {}; {}", number(density), number(tension), number(melting)),
-        same,
-        Basis::Derived,
-    )
-    .because("Inputs: what the library's wax has."))
+    Ok(Basis::Derived
+        .statement(
+            "Sec 3.1",
+            "wax: density [kg/m³], surface tension [N/m], melting [°C]",
+            "around 1000; 0.03; 75 to 85",
+            &format!("{}; {}; {}", number(density), number(tension), number(melting)),
+            same,
+        )
+        .because("Inputs: what the library's wax has."))
 }
 
-fn slag_melt(shelf: &Shelf) -> Answer<Claim> {
+fn slag_melt(shelf: &Shelf) -> Result<Claim> {
     let density = shelf.value("coal-slag", "density", 1673.15)?;
     let tension = shelf.value("coal-slag", "surface_tension", 1673.15)?;
     let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
-    Ok(Claim::statement(
-        "Sec 3.1",
-        "slag: density [kg/m³], surface tension [N/m]",
-        "2500 to 3000; 0.4 to 0.7",
-        &format!("{}; {}", number(density), number(tension)),
-        within(COAL_SLAG.density, density) && within(COAL_SLAG.tension, tension),
-        Basis::Derived,
-    )
-    .because("Inputs: what the library's coal slag has, the middles."))
+    Ok(Basis::Derived
+        .statement(
+            "Sec 3.1",
+            "slag: density [kg/m³], surface tension [N/m]",
+            "2500 to 3000; 0.4 to 0.7",
+            &format!("{}; {}", number(density), number(tension)),
+            within(COAL_SLAG.density, density) && within(COAL_SLAG.tension, tension),
+        )
+        .because("Inputs: what the library's coal slag has, the middles."))
 }
 
 /// Of the camera.
 fn pixel() -> Claim {
     let (speed, exposure) = (TUBE_SPEED.value, 1e6 * CAMERA.exposure);
-    Claim::number(
-        "Sec 3.2",
-        "width of a pixel, 0.028 m over 1024 [µm], \"about\"",
-        Published::within(27.0, 0.5),
-        CAMERA.pixel(),
-        Basis::Derived,
-    )
-    .because(&format!(
-        "The shutter of {exposure:.0} µs smears {speed} m/s over {:.0} µm: three pixels, one particle.",
-        speed * exposure
-    ))
+    Basis::Derived
+        .number(
+            "Sec 3.2",
+            "width of a pixel, 0.028 m over 1024 [µm], \"about\"",
+            Published::within(27.0, 0.5),
+            CAMERA.pixel(),
+        )
+        .because(&format!(
+            "The shutter of {exposure:.0} µs smears {speed} m/s over {:.0} µm: three pixels, one particle.",
+            speed * exposure
+        ))
 }
 
 /// Of the wax at one of the paper's two temperatures [°C].
-fn viscosity(shelf: &Shelf, celsius: &str, place: usize, tolerance: f64) -> Answer<Claim> {
-    Ok(Claim::number(
+fn viscosity(shelf: &Shelf, celsius: &str, place: usize, tolerance: f64) -> Result<Claim> {
+    Ok(Basis::Fitted.number(
         "Sec 3.1",
         &format!("viscosity of the wax at {celsius} °C [Pa s]"),
         Published::within(MOLTEN_WAX.viscosity[place], tolerance),
         shelf.value("montan-wax", "viscosity", VISCOSITY_AT[place])?,
-        Basis::Fitted,
     ))
 }
 
-fn kinematic_viscosity(shelf: &Shelf) -> Answer<Claim> {
+fn kinematic_viscosity(shelf: &Shelf) -> Result<Claim> {
     let [thin, thick] = VISCOSITY_AT.map(|temperature| shelf.value("montan-wax", "viscosity", temperature));
     let wax = [thin? / DENSITY, thick? / DENSITY];
     let Melt { viscosity, density, .. } = COAL_SLAG;
     let slag = [viscosity[0] / density[1], viscosity[1] / density[0]];
     let span = |[low, high]: [f64; 2]| format!("{} to {}", number(low), number(high));
-    Ok(Claim::statement(
-        "Sec 3.1",
-        "kinematic viscosity of wax \"consistent\" with that of slag [m²/s]",
-        "both 1e-5 to 1e-4",
-        &format!("wax {}; slag {}", span(wax), span(slag)),
-        slag[0] > 0.5e-5 && slag[1] < 1.5e-4,
-        Basis::Derived,
-    )
-    .because(&format!(
-        "The slag's own numbers of the same sentence ({} Pa s, {} kg/m³) span two \
+    Ok(Basis::Derived
+        .statement(
+            "Sec 3.1",
+            "kinematic viscosity of wax \"consistent\" with that of slag [m²/s]",
+            "both 1e-5 to 1e-4",
+            &format!("wax {}; slag {}", span(wax), span(slag)),
+            slag[0] > 0.5e-5 && slag[1] < 1.5e-4,
+        )
+        .because(&format!(
+            "The slag's own numbers of the same sentence ({} Pa s, {} kg/m³) span two \
          decades, {:.0} times below and {:.0} times above those of the wax. The wax covers the \
          middle.",
-        span(viscosity),
-        span(density),
-        wax[0] / slag[0],
-        slag[1] / wax[1]
-    )))
+            span(viscosity),
+            span(density),
+            wax[0] / slag[0],
+            slag[1] / wax[1]
+        )))
 }

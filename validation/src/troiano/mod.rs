@@ -20,22 +20,17 @@ mod temperature;
 mod tube;
 mod velocities;
 
-use std::error::Error;
-
 use nearwall::normal::{Contact, NormalLaw};
 use nearwall::{Impact, ImpactError, Model, Outcome};
 
 use crate::steps::even;
-use crate::{Extent, Study};
-
-/// What a part returns.
-type Answer<T> = Result<T, Box<dyn Error>>;
+use crate::{Extent, Result, Study};
 
 /// The study.
 ///
 /// # Errors
 /// A model or case file that cannot be read, an impact that cannot be decided.
-pub fn study(extent: Extent) -> Answer<Study> {
+pub fn study(extent: Extent) -> Result<Study> {
     let mut parts = vec![
         equations::part()?,
         oblique::part()?,
@@ -65,7 +60,7 @@ pub fn study(extent: Extent) -> Answer<Study> {
     })
 }
 
-fn lead() -> Answer<String> {
+fn lead() -> Result<String> {
     Ok(format!(
         "Near the normal on stiff targets (mean e_n {:.2} against {}), over the temperature and in the tube the library \
          meets the paper. It meets neither the equal rebound on soft targets nor, without a term set to them, glancing \
@@ -97,7 +92,7 @@ fn arriving(normal_speed: f64, angle: f64) -> Impact {
 }
 
 /// Decides an impact on the wall of this name, what is left to chance at its median.
-fn decide(model: &Model, wall: &str, impact: &Impact) -> Answer<Outcome> {
+fn decide(model: &Model, wall: &str, impact: &Impact) -> Result<Outcome> {
     let wall = model.find_wall(wall).ok_or_else(|| format!("no wall {wall}"))?;
     Ok(model.resolve_with(wall, impact, |_| 0.5)?)
 }
@@ -108,11 +103,12 @@ fn contact(
     wall: &str,
     yield_ratio: f64,
     change: impl Fn(&mut nearwall::material::Mechanical),
-) -> Answer<Contact> {
+) -> Result<Contact> {
     let wall = model.find_wall(wall).ok_or_else(|| format!("no wall {wall}"))?;
     let room = Impact::default().particle_temperature;
-    let solid =
-        |material: &nearwall::material::Material| -> Result<_, ImpactError> { material.mechanical(room) };
+    let solid = |material: &nearwall::material::Material| -> std::result::Result<_, ImpactError> {
+        material.mechanical(room)
+    };
     let mut wax = solid(model.particle())?;
     change(&mut wax);
     Ok(Contact::new(&wax, &solid(model.walls()[wall].material())?, yield_ratio, None))

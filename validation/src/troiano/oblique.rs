@@ -9,7 +9,7 @@ use super::published::{
     CRITICAL_ANGLE, E_N_GLANCING, E_N_NEAR_NORMAL, FIT_E_N, FIT_E_T, FRICTION, GLANCING, ROLLING,
     SLIDING_END, SLIDING_END_ANGLE, STEEP, TARGETS, YIELD_RATIO,
 };
-use super::{Answer, arriving, contact, decide, model, passes};
+use super::{Result, arriving, contact, decide, model, passes};
 use crate::steps::range;
 use crate::{Basis, Claim, Part, Published};
 
@@ -24,12 +24,12 @@ fn rigid(e_n: f64) -> f64 {
 }
 
 /// Mindlin's tangential over normal stiffness of wax on a target [1].
-fn stiffness_ratio(wall: &str) -> Answer<f64> {
+fn stiffness_ratio(wall: &str) -> Result<f64> {
     Ok(contact(&model!("targets.toml")?, wall, YIELD_RATIO.value, |_| {})?.stiffness_ratio)
 }
 
 /// The part on the oblique impact.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let k = stiffness_ratio("pyrex")?;
     let mut claims = vec![right_hand_side()?, middle_expression()];
     claims.extend(sliding_and_rolling()?);
@@ -80,7 +80,7 @@ fn stiffness_text(k: f64) -> String {
 }
 
 /// Eqs 7 to 9: the right-hand side.
-fn right_hand_side() -> Answer<Claim> {
+fn right_hand_side() -> Result<Claim> {
     let impact = arriving(1.0, 50.0);
     let bounce = decide(&model!("wax-on-pyrex.toml")?, "default", &impact)?;
     let back = (bounce.normal_restitution * impact.normal_speed)
@@ -90,12 +90,11 @@ fn right_hand_side() -> Answer<Claim> {
         bounce.tangential_restitution,
         impact.angle_from_surface(),
     );
-    Ok(Claim::number(
+    Ok(Basis::Derived.number(
         "Eqs 7, 8, 9",
         "e_g by the right-hand side over rebound speed by impact speed, from e_n and e_t at 50° [1]",
         Published::within(1.0, 1e-12),
         e_g / (back / impact.speed()),
-        Basis::Derived,
     ))
 }
 
@@ -113,33 +112,32 @@ fn middle_expression() -> Claim {
     let (e_n, e_t) = (FIT_E_N.value, FIT_E_T.value);
     let right = |angle: f64| global_restitution(e_n, e_t, angle.to_radians());
     let all = |of: &dyn Fn(f64) -> f64| ANGLES.map(|angle| number(of(angle))).join(", ");
-    Claim::statement(
-        "Eq 9",
-        &format!("middle expression, for e_n = {e_n} and e_t = {e_t} at 20°, 45°, 80°"),
-        "equal to the root on the right",
-        &format!("{} against {}", all(&printed_middle), all(&right)),
-        (printed_middle(ANGLES[0]) - right(ANGLES[0])).abs() < 0.01,
-        Basis::Derived,
-    )
-    .because(
-        "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out and \
+    Basis::Derived
+        .statement(
+            "Eq 9",
+            &format!("middle expression, for e_n = {e_n} and e_t = {e_t} at 20°, 45°, 80°"),
+            "equal to the root on the right",
+            &format!("{} against {}", all(&printed_middle), all(&right)),
+            (printed_middle(ANGLES[0]) - right(ANGLES[0])).abs() < 0.01,
+        )
+        .because(
+            "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out and \
          has no root: it is (e_n² + e_t²)/2 at every angle. What is meant is the root of (v_n,r² + \
          v_t,r²)/(v_n,i² + v_t,i²); the right-hand side is right and is what the library computes.",
-    )
+        )
 }
 
 /// Eq 10, and beyond it.
-fn sliding_and_rolling() -> Answer<[Claim; 2]> {
+fn sliding_and_rolling() -> Result<[Claim; 2]> {
     let model = model!("wax-on-pyrex.toml")?;
     let at = |angle: f64| decide(&model, "default", &arriving(1.0, angle));
     let slid = at(30.0)?;
     Ok([
-        Claim::number(
+        Basis::Derived.number(
             "Eq 10",
             "e_t at 30°, formula over library [1]",
             Published::within(1.0, 1e-9),
             sliding(slid.normal_restitution, 30.0) / slid.tangential_restitution,
-            Basis::Derived,
         ),
         ROLLING.beside(at(70.0)?.tangential_restitution, Basis::Derived),
     ])
@@ -148,19 +146,19 @@ fn sliding_and_rolling() -> Answer<[Claim; 2]> {
 /// Eq 11 as the text calls it.
 fn rigid_body() -> Claim {
     let [low, high] = [E_N_GLANCING.value, E_N_NEAR_NORMAL.value].map(rigid);
-    Claim::statement(
-        "Eq 11",
-        "\"rigid body theory\": the angle at which a rigid sphere begins to roll [°], e_n 0.28 to 0.41",
-        "43",
-        &format!("{low:.1} to {high:.1}"),
-        (low..=high).contains(&CRITICAL_ANGLE.value),
-        Basis::Derived,
-    )
-    .because(
-        "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it is \
+    Basis::Derived
+        .statement(
+            "Eq 11",
+            "\"rigid body theory\": the angle at which a rigid sphere begins to roll [°], e_n 0.28 to 0.41",
+            "43",
+            &format!("{low:.1} to {high:.1}"),
+            (low..=high).contains(&CRITICAL_ANGLE.value),
+        )
+        .because(
+            "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it is \
          the limit of gross sliding of an elastic sphere. That the data leave the line near 43° to \
          45° supports elastic contact, not rigid-body theory.",
-    )
+        )
 }
 
 /// Eq 11 as it is; `k` is that of Pyrex.
@@ -181,25 +179,25 @@ fn critical_claim(k: f64) -> Claim {
 }
 
 /// Eq 12; `k` is that of Pyrex.
-fn stiffness(k: f64) -> Answer<Claim> {
-    let all = TARGETS.iter().map(|target| stiffness_ratio(target.wall)).collect::<Answer<Vec<_>>>()?;
+fn stiffness(k: f64) -> Result<Claim> {
+    let all = TARGETS.iter().map(|target| stiffness_ratio(target.wall)).collect::<Result<Vec<_>>>()?;
     let [least, most] = range(all.into_iter());
-    Ok(Claim::statement(
-        "Eq 12",
-        "tangential over normal stiffness k",
-        "numerator and denominator the same: k = 1",
-        &format!("Mindlin: {k:.3} for Pyrex, {least:.3} to {most:.3} over the four targets"),
-        (k - 1.0).abs() < 0.005,
-        Basis::Derived,
-    )
-    .because(
-        "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print or in the \
+    Ok(Basis::Derived
+        .statement(
+            "Eq 12",
+            "tangential over normal stiffness k",
+            "numerator and denominator the same: k = 1",
+            &format!("Mindlin: {k:.3} for Pyrex, {least:.3} to {most:.3} over the four targets"),
+            (k - 1.0).abs() < 0.005,
+        )
+        .because(
+            "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print or in the \
              scan.",
-    ))
+        ))
 }
 
 /// Eq 14, by counting.
-fn counting() -> Answer<Claim> {
+fn counting() -> Result<Claim> {
     let melting = model!("melting.toml")?;
     let warm = Impact { particle_temperature: 343.15, wall_temperature: 343.15, ..arriving(2.0, 84.0) };
     let probability = melting.resolve(0, &warm, ImpactRng::new(1, 0))?.sticking_probability;
@@ -207,12 +205,11 @@ fn counting() -> Answer<Claim> {
     for number in 0..4000 {
         counted += f64::from(u8::from(melting.resolve(0, &warm, ImpactRng::new(1, number))?.stuck));
     }
-    Ok(Claim::number(
+    Ok(Basis::Derived.number(
         "Eq 14",
         "captured over all, 4000 impacts drawn at 70 °C (seed 1) [%]; the model's probability ± three \
                  standard errors",
         Published::within(100.0 * probability, 300.0 * (probability * (1.0 - probability) / 4000.0).sqrt()),
         counted / 40.0,
-        Basis::Derived,
     ))
 }

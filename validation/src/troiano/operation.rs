@@ -68,7 +68,7 @@ fn speeds() -> Table {
     table(
         "Table 3, and the speed that follows",
         1,
-        &["regime", "air [°C]", "flow [m³/h]", "d [µm]", "v_i, printed [m/s]", "v_i from the flow [m/s]"],
+        "regime | air [°C] | flow [m³/h] | d [µm] | v_i, printed [m/s] | v_i from the flow [m/s]",
         OPERATIONS.iter().map(row).collect(),
     )
 }
@@ -77,7 +77,7 @@ fn speeds() -> Table {
 fn air_flow(operation: &Operation) -> Claim {
     let [low, high] = operation.ends();
     let holds = low <= operation.speed[0] && operation.speed[1] <= high;
-    let claim = Claim::statement(
+    let claim = Basis::Predicted.statement(
         "Table 3",
         &format!(
             "{}: impact speeds that the air flow gives, air plus terminal velocity [m/s]",
@@ -86,7 +86,6 @@ fn air_flow(operation: &Operation) -> Claim {
         &span(operation.speed),
         &format!("{low:.2} to {high:.2}"),
         holds,
-        Basis::Predicted,
     );
     if holds {
         let [cold, hot] = operation.air;
@@ -115,14 +114,12 @@ fn smallest_angle() -> Claim {
     let lowest = |speed: f64| (1.0 / speed).asin().to_degrees();
     let speed = |angle: f64| 1.0 / angle.to_radians().sin();
     let fastest = cold.ends()[1];
-    Claim::statement(
+    Basis::Derived.statement(
         "Table 3, Fig 6",
         "smallest angle with v_n = 1 m/s and v_i up to 3 m/s [°]",
         "10 (e_t is stated at 13)",
         &format!("{:.1}", lowest(limit)),
-        lowest(limit) <= LEAST_ANGLE,
-        Basis::Derived,
-    )
+        lowest(limit) <= LEAST_ANGLE)
     .because(&format!(
         "v_n = 1 m/s at {SHALLOW}° is v_i = {:.1} m/s and at {LEAST_ANGLE}° {:.1} m/s, above the table's {limit} m/s; the \
          largest air flow, {} m³/h, gives {fastest:.1} m/s and {:.0}°. Either v_n was less at the smallest angles \
@@ -138,13 +135,15 @@ fn smallest_angle() -> Claim {
 /// Whether the drops of Fig. 14 are of the sizes that were fed.
 fn batches() -> Claim {
     let [.., hot] = &OPERATIONS;
-    Claim::statement(
-        "Table 3, Sec 3.1",
-        "sizes of Fig. 14 [µm] inside the batches that were fed",
-        "50 to 100",
-        "120 ± 20",
-        hot.diameter <= FEED[1],
-        Basis::Derived,
-    )
-    .because("The paper contradicts itself, or fed other batches to the tests at 120 °C. Table 3 is used.")
+    Basis::Derived
+        .statement(
+            "Table 3, Sec 3.1",
+            "sizes of Fig. 14 [µm] inside the batches that were fed",
+            "50 to 100",
+            "120 ± 20",
+            hot.diameter <= FEED[1],
+        )
+        .because(
+            "The paper contradicts itself, or fed other batches to the tests at 120 °C. Table 3 is used.",
+        )
 }

@@ -6,7 +6,7 @@ use nearwall::simulate::Hit;
 
 use super::published::{CAMERA, DIAMETER, E_N_MEAN, TUBE_SPEED, YIELD_RATIO};
 use super::tube::{AIR_SPEED, ROOM, hits, read, wax};
-use super::{Answer, contact, mean_over_speeds, model, passes, thornton_ning};
+use super::{Result, contact, mean_over_speeds, model, passes, thornton_ning};
 use crate::oracle::carried::{Flight, Law, Place, relaxation_time, terminal_speed};
 use crate::steps::even;
 use crate::study::table;
@@ -57,7 +57,7 @@ impl Frames {
 }
 
 /// The `c` with which wax on Pyrex has the stated mean `e_n`, if the frames show such a share of it.
-fn yield_ratio(share: f64) -> Answer<f64> {
+fn yield_ratio(share: f64) -> Result<f64> {
     let pyrex = contact(&model!("wax-on-pyrex.toml")?, "default", YIELD_RATIO.value, |_| {})?;
     let mean = |c: f64| {
         let contact = Contact { yield_ratio: c, ..pyrex };
@@ -74,7 +74,7 @@ fn speed_at_plate(hits: &[Hit]) -> [f64; 2] {
 }
 
 /// The part on the plate.
-pub(super) fn part(extent: Extent) -> Answer<Part> {
+pub(super) fn part(extent: Extent) -> Result<Part> {
     let mut case = read("validation/troiano/rig.toml", include_str!("../../troiano/rig.toml"))?;
     case.injection.count = extent.count(case.injection.count as usize) as u64;
     let hits = hits(&mut case)?;
@@ -102,7 +102,7 @@ fn plate_text([speed, deviation]: [f64; 2]) -> String {
     )
 }
 
-fn frames_text(frames: &Frames) -> Answer<String> {
+fn frames_text(frames: &Frames) -> Result<String> {
     let e_n = E_N_MEAN.value;
     Ok(format!(
         "Those frames are {} ms apart, and the relaxation time of {:.0} µm is {:.0} ms. The pair of frames \
@@ -131,7 +131,7 @@ fn frames_table(frames: &Frames) -> Table {
     table(
         "e_n = 0.28 as two frames 1 ms apart show it, air as fast as the particle (assumed)",
         0,
-        &["v_n at the wall [m/s]", "seen over true", "the same in still air"],
+        "v_n at the wall [m/s] | seen over true | the same in still air",
         SPEEDS.iter().zip(frames.moving.iter().zip(&frames.still)).map(row).collect(),
     )
 }

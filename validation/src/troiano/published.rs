@@ -19,7 +19,7 @@ impl Stated {
     /// The statement beside our number.
     pub fn beside(self, ours: f64, basis: Basis) -> Claim {
         let published = Published::within(self.value, self.tolerance);
-        Claim::number(self.place, self.what, published, ours, basis)
+        basis.number(self.place, self.what, published, ours)
     }
 }
 

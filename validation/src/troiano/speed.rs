@@ -8,7 +8,7 @@ use super::published::{
     DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, HARD_SPHERE, MODULUS_SPREAD, PYREX, SOLIDS, SPEEDS,
     STEEP, STRENGTH_SPREAD, YIELD_RATIO,
 };
-use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
+use super::{Result, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
 use crate::steps::even;
 use crate::{Basis, Claim, Part, Published};
 
@@ -18,7 +18,7 @@ const MIDDLE: f64 = 1.25;
 const RATIOS: [f64; 2] = [0.3, 1.5];
 
 /// The contact of wax and Pyrex with strength [Pa] and modulus [Pa] off by so much, and `c`.
-fn wax(model: &Model, strength: f64, modulus: f64, c: f64) -> Answer<Contact> {
+fn wax(model: &Model, strength: f64, modulus: f64, c: f64) -> Result<Contact> {
     contact(model, "default", c, |wax| {
         wax.yield_strength += strength;
         wax.youngs_modulus += modulus;
@@ -31,7 +31,7 @@ fn mean(contact: &Contact) -> f64 {
 }
 
 /// Mean `e_n` on Pyrex with the paper's inputs.
-pub(super) fn mean_on_pyrex() -> Answer<f64> {
+pub(super) fn mean_on_pyrex() -> Result<f64> {
     Ok(mean(&wax(&model!("wax-on-pyrex.toml")?, 0.0, 0.0, YIELD_RATIO.value)?))
 }
 
@@ -82,7 +82,7 @@ impl Centre {
 struct Moved([[Contact; 2]; 2]);
 
 impl Moved {
-    fn new(model: &Model) -> Answer<Self> {
+    fn new(model: &Model) -> Result<Self> {
         let moved = |strength: f64, modulus: f64| wax(model, strength, modulus, YIELD_RATIO.value);
         Ok(Self([
             [moved(STRENGTH_SPREAD, 0.0)?, moved(-STRENGTH_SPREAD, 0.0)?],
@@ -101,7 +101,7 @@ impl Moved {
 }
 
 /// The part on speed.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let model = model!("wax-on-pyrex.toml")?;
     let centre = Centre(wax(&model, 0.0, 0.0, YIELD_RATIO.value)?);
     let moved = Moved::new(&model)?;
@@ -165,7 +165,7 @@ fn slip_text(centre: &Centre) -> String {
     )
 }
 
-fn chart(model: &Model, centre: &Centre, moved: &Moved) -> Answer<Figure> {
+fn chart(model: &Model, centre: &Centre, moved: &Moved) -> Result<Figure> {
     let speeds: Vec<f64> = even([0.1, 3.5], 171).collect();
     let ends: Vec<[f64; 2]> = speeds
         .iter()
@@ -192,7 +192,7 @@ fn chart(model: &Model, centre: &Centre, moved: &Moved) -> Answer<Figure> {
 }
 
 /// Of the fit of `c`.
-fn fit_claims(model: &Model, centre: &Centre) -> Answer<Vec<Claim>> {
+fn fit_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
     let mean_of = |c: f64| mean(&centre.with(c));
     let least_hard = mean(&wax(model, -STRENGTH_SPREAD, MODULUS_SPREAD, HARD_SPHERE[0])?);
     let c = YIELD_RATIO;
@@ -208,14 +208,12 @@ fn fit_claims(model: &Model, centre: &Centre) -> Answer<Vec<Claim>> {
         E_N_FIG_8.beside(mean(&centre.0), Basis::Fitted),
         c.beside(centre.best(), Basis::Fitted)
             .because(&format!("c for a mean e_n of {} with the mended v_s.", E_N_MEAN.value)),
-        Claim::statement(
+        Basis::Predicted.statement(
             "Fig 8",
             "c = 2.6 to 3 (hard sphere) does not fit: mean e_n",
             "about 0.3",
             &format!("{:.2} to {:.2}", mean_of(HARD_SPHERE[0]), mean_of(HARD_SPHERE[1])),
-            least_hard > 0.4,
-            Basis::Predicted,
-        )
+            least_hard > 0.4)
         .because(&format!("Not even with sigma_y and E at the ends of their deviations: {least_hard:.2}.")),
     ])
 }
@@ -231,30 +229,24 @@ fn plastic_claims(centre: &Centre) -> Vec<Claim> {
         .max_by(|a, b| a[1].total_cmp(&b[1]))
         .unwrap_or([0.0; 2]);
     vec![
-        Claim::statement(
+        Basis::Predicted.statement(
             "Sec 4.1",
             "\"v_y < v_s\", so every impact from 0.5 m/s on is plastic",
             "6.8e-3 < 1.15e-2 m/s",
             &format!("{yielding:.4} < {adhesive:.3} m/s"),
-            yielding < adhesive,
-            Basis::Predicted,
-        ),
-        Claim::number(
+            yielding < adhesive),
+        Basis::Predicted.number(
             "Sec 4.1",
             "largest e_n at any speed, \"less than 1\"",
             Published::Below(1.0),
-            top[1],
-            Basis::Predicted,
-        )
+            top[1])
         .because(&format!("At {:.2} m/s.", top[0])),
-        Claim::statement(
+        Basis::Predicted.statement(
             "Sec 4.1",
             "e_n falls less steeply with speed in the plastic regime: e_n at 3 over e_n at 0.5 m/s",
             "\"less pronounced\"",
             &format!("{kept:.2}; without adhesion {kept_without:.2}"),
-            kept > 0.6,
-            Basis::Predicted,
-        )
+            kept > 0.6)
         .because(&format!(
             "Far above v_y the law tends to v^(-1/4): six times the speed lowers e_n to {:.2} at the least.",
             (fast / slow).powf(-0.25)
@@ -263,32 +255,28 @@ fn plastic_claims(centre: &Centre) -> Vec<Claim> {
 }
 
 /// Of adhesion, and of the door that users take.
-fn adhesion_claims(model: &Model, centre: &Centre) -> Answer<Vec<Claim>> {
+fn adhesion_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
     let [slow, fast] = SPEEDS;
     let over = |speed: f64| centre.without_adhesion(speed) / centre.e_n(speed);
     let added = [slow, MIDDLE, fast].map(|speed| format!("{:.0}", 100.0 * (over(speed) - 1.0)));
     let by_door = decide(model, "default", &arriving(MIDDLE, STEEP))?.normal_restitution;
     Ok(vec![
-        Claim::statement(
+        Basis::Predicted.statement(
             "Sec 4.1",
             "e_n \"is a function of the yield velocity only\": what leaving adhesion out adds to e_n at 0.5, \
              1.25, 3 m/s [%]",
             "nothing",
             &added.join(", "),
-            over(slow) < 1.05,
-            Basis::Predicted,
-        )
+            over(slow) < 1.05)
         .because(&format!(
             "At {slow} m/s adhesion takes {:.0} % of the energy that plasticity leaves; with the printed v_s, ten times \
              too small, it would not be seen.",
             100.0 * (1.0 - (centre.e_n(slow) / centre.without_adhesion(slow)).powi(2))
         )),
-        Claim::number(
+        Basis::Derived.number(
             "Fig 8",
             "e_n at 1.25 m/s: `Model::resolve` over the law with the contact of this part [1]",
             Published::within(1.0, 1e-12),
-            by_door / centre.e_n(MIDDLE),
-            Basis::Derived,
-        ),
+            by_door / centre.e_n(MIDDLE)),
     ])
 }

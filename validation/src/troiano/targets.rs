@@ -5,7 +5,7 @@ use nearwall::report::{BarChart, Figure, Table};
 use nearwall::{Model, global_restitution};
 
 use super::published::{DIAMETER, E_N_MEAN, E_N_MEAN_WAX, STEEP, TARGETS, Target, YIELD_RATIO};
-use super::{Answer, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
+use super::{Result, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
 use crate::steps::range;
 use crate::study::table;
 use crate::{Basis, Claim, Part};
@@ -29,7 +29,7 @@ struct Found {
 }
 
 impl Found {
-    fn on(model: &Model, target: &'static Target) -> Answer<Self> {
+    fn on(model: &Model, target: &'static Target) -> Result<Self> {
         let normal = normal_speed();
         let outcome = decide(model, target.wall, &arriving(normal, STEEP))?;
         Ok(Self {
@@ -81,7 +81,7 @@ struct Four {
 }
 
 impl Four {
-    fn new(model: &Model) -> Answer<Self> {
+    fn new(model: &Model) -> Result<Self> {
         let [teflon, wax, steel, pyrex] = TARGETS.each_ref().map(|target| Found::on(model, target));
         Ok(Self { teflon: teflon?, wax: wax?, steel: steel?, pyrex: pyrex? })
     }
@@ -98,7 +98,7 @@ impl Four {
 }
 
 /// The part on targets.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let four = Four::new(&model!("targets.toml")?)?;
     Ok(Part {
         heading: "Fig 9: the target".to_owned(),
@@ -142,15 +142,7 @@ fn overview(four: &Four) -> Table {
     table(
         "v_i = 1.25 m/s at 84°, 75 µm",
         1,
-        &[
-            "target",
-            "E* [GPa]",
-            "v_y [m/s]",
-            "e_n",
-            "e_g",
-            "e_n with Table 4 as printed",
-            "mean e_n, 0.5–3 m/s",
-        ],
+        "target | E* [GPa] | v_y [m/s] | e_n | e_g | e_n with Table 4 as printed | mean e_n, 0.5–3 m/s",
         four.all().map(Found::row).to_vec(),
     )
 }
@@ -173,7 +165,7 @@ fn same_restitution(four: &Four) -> Vec<Claim> {
     let [steel, wax, teflon] = [&four.steel, &four.wax, &four.teflon].map(|found| four.over_pyrex(found));
     let yielding = |found: &Found| yield_velocity(&found.contact) / yield_velocity(&four.pyrex.contact);
     let same = |what: &str, ours: &str, holds| {
-        Claim::statement("Fig 9", what, "negligible difference", ours, holds, Basis::Predicted)
+        Basis::Predicted.statement("Fig 9", what, "negligible difference", ours, holds)
     };
     vec![
         same(
@@ -199,14 +191,12 @@ fn same_speeds(four: &Four) -> Vec<Claim> {
     let [on_pyrex, on_wax] = [&four.pyrex, &four.wax].map(|found| yield_velocity(&found.contact));
     let without = restitution(normal_speed(), 0.0, on_pyrex) / four.pyrex.e_n;
     vec![
-        Claim::statement(
+        Basis::Predicted.statement(
             "Sec 4.1",
             "\"the elastic yield limit velocity was the same in each case\" [m/s]",
             "6.8e-3 on all four",
             &format!("{on_pyrex:.4} on Pyrex, {on_wax:.4} on wax"),
-            (on_wax / on_pyrex - 1.0).abs() < 0.05,
-            Basis::Predicted,
-        )
+            (on_wax / on_pyrex - 1.0).abs() < 0.05)
         .because(
             "A slip of Table 4: Pyrex's value stands for all. The inference from equal e_n to equal v_y is \
              right only within the law.",
@@ -215,15 +205,13 @@ fn same_speeds(four: &Four) -> Vec<Claim> {
             "As above for soft targets; c was fitted on Pyrex, where the mean is {:.2}.",
             four.pyrex.mean()
         )),
-        Claim::statement(
+        Basis::Predicted.statement(
             "Sec 4.1",
             "\"the target surface energy does not affect\" e_n at 1.25 m/s: e_n on Pyrex without adhesion \
              over with",
             "1",
             &format!("{without:.3}"),
-            without < 1.06,
-            Basis::Predicted,
-        )
+            without < 1.06)
         .because(&format!("Within {:.0} % at this speed; not at 0.5 m/s (Fig. 8).", 100.0 * (without - 1.0))),
     ]
 }

@@ -6,7 +6,7 @@ use nearwall::{Impact, Model, Outcome};
 use super::published::{
     CAPTURE_70, CAPTURE_105, CONVERSION, E_N_MEAN, FLOW_TEST, IMPACTS, MELTING, STEEP, TUBE_SPEED,
 };
-use super::{Answer, arriving, decide, model, passes};
+use super::{Result, arriving, decide, model, passes};
 use crate::steps::{even, through};
 use crate::{Basis, Claim, Part, Published};
 
@@ -21,17 +21,17 @@ fn hot(diameter: f64, kelvin: f64) -> Impact {
 }
 
 /// Wax of 80 µm at a temperature [°C].
-fn warm(model: &Model, celsius: f64) -> Answer<Outcome> {
+fn warm(model: &Model, celsius: f64) -> Result<Outcome> {
     decide(model, "default", &hot(80e-6, celsius + 273.15))
 }
 
 /// `e_n` of what rebounds.
-fn e_n(model: &Model, celsius: f64) -> Answer<f64> {
+fn e_n(model: &Model, celsius: f64) -> Result<f64> {
     Ok(warm(model, celsius)?.normal_restitution)
 }
 
 /// Capture [%].
-fn capture(model: &Model, celsius: f64) -> Answer<f64> {
+fn capture(model: &Model, celsius: f64) -> Result<f64> {
     Ok(100.0 * warm(model, celsius)?.sticking_probability)
 }
 
@@ -58,12 +58,12 @@ fn half(model: &Model) -> f64 {
     passes(|celsius| capture(model, celsius).unwrap_or(f64::NAN), 50.0, [70.0, 105.0])
 }
 
-fn over_temperatures(of: impl Fn(f64) -> Answer<f64>) -> Answer<Vec<[f64; 2]>> {
+fn over_temperatures(of: impl Fn(f64) -> Result<f64>) -> Result<Vec<[f64; 2]>> {
     even([20.0, 120.0], 201).map(|celsius| Ok([celsius, of(celsius)?])).collect()
 }
 
 /// The part on melting.
-pub(super) fn melting() -> Answer<Part> {
+pub(super) fn melting() -> Result<Part> {
     let model = model!("melting.toml")?;
     let flow = model!("flow-test.toml")?;
     Ok(Part {
@@ -110,7 +110,7 @@ fn error_text() -> String {
     )
 }
 
-fn flow_text(model: &Model, flow: &Model) -> Answer<String> {
+fn flow_text(model: &Model, flow: &Model) -> Result<String> {
     let [[start, first], [middle, second], [last, third]] = FLOW_TEST;
     // To five degrees.
     let later = 5.0 * ((half(model) - middle) / 5.0).round();
@@ -135,14 +135,14 @@ fn flow_text(model: &Model, flow: &Model) -> Answer<String> {
 const OPENFOAM: &str = include_str!("../../../tutorials/waxImpactor/README.md");
 
 /// Capture [%] that the rig in OpenFOAM has at a temperature [°C], as its table prints it.
-fn in_openfoam(celsius: u32) -> Answer<&'static str> {
+fn in_openfoam(celsius: u32) -> Result<&'static str> {
     let head = format!("| {celsius} | ");
     let row = OPENFOAM.lines().find_map(|line| line.strip_prefix(&head));
     let cell = row.and_then(|row| row.split('|').nth(1)).and_then(|cell| cell.split_whitespace().next());
     Ok(cell.ok_or_else(|| format!("tutorials/waxImpactor/README.md has no capture at {celsius} °C"))?)
 }
 
-fn openfoam_text() -> Answer<String> {
+fn openfoam_text() -> Result<String> {
     Ok(format!(
         "The same rig in OpenFOAM, flow and spread of sizes included, gives {} % at 50, {} % at 70 and \
          {} % at 105 °C (`tutorials/waxImpactor/Allrun`; its README has the table).",
@@ -152,7 +152,7 @@ fn openfoam_text() -> Answer<String> {
     ))
 }
 
-fn capture_chart(model: &Model, flow: &Model) -> Answer<Figure> {
+fn capture_chart(model: &Model, flow: &Model) -> Result<Figure> {
     let stated = [[20.0, 0.0], [50.0, 0.0], [70.0, CAPTURE_70.value], [105.0, CAPTURE_105.value]];
     Ok(Chart::new("Capture over the temperature", "temperature [°C]", "captured [%]")
         .x_range(20.0, 120.0)
@@ -166,7 +166,7 @@ fn capture_chart(model: &Model, flow: &Model) -> Answer<Figure> {
         .figure("troiano-capture", "80 µm, 2 m/s, 84°. Two numbers set to the captures at 70 and 105 °C."))
 }
 
-fn rebound_chart(model: &Model, flow: &Model) -> Answer<Figure> {
+fn rebound_chart(model: &Model, flow: &Model) -> Result<Figure> {
     let bare = E_N_MEAN.value;
     Ok(Chart::new("Normal restitution over the temperature", "temperature [°C]", "e_n of rebounds [1]")
         .x_range(20.0, 120.0)
@@ -178,10 +178,10 @@ fn rebound_chart(model: &Model, flow: &Model) -> Answer<Figure> {
 }
 
 /// Of the captures.
-fn captures_claims(model: &Model) -> Answer<Vec<Claim>> {
-    let none = |what: &str, celsius: f64| -> Answer<Claim> {
+fn captures_claims(model: &Model) -> Result<Vec<Claim>> {
+    let none = |what: &str, celsius: f64| -> Result<Claim> {
         let ours = capture(model, celsius)?;
-        Ok(Claim::number("Fig 12", what, Published::Below(1.0), ours, Basis::Predicted))
+        Ok(Basis::Predicted.number("Fig 12", what, Published::Below(1.0), ours))
     };
     Ok(vec![
         none("capture at 50 °C, \"practically zero\" [%]", 50.0)?
@@ -193,11 +193,11 @@ fn captures_claims(model: &Model) -> Answer<Vec<Claim>> {
 }
 
 /// Of the flow test.
-fn flow_claims(flow: &Model) -> Answer<Vec<Claim>> {
+fn flow_claims(flow: &Model) -> Result<Vec<Claim>> {
     let [[start, first], [middle, second], [end, last]] = FLOW_TEST;
-    let beside = |what: &str, stated: [f64; 2], celsius: f64| -> Answer<Claim> {
+    let beside = |what: &str, stated: [f64; 2], celsius: f64| -> Result<Claim> {
         let published = Published::within(stated[0], stated[1]);
-        Ok(Claim::number("Sec 4.2", what, published, capture(flow, celsius)?, Basis::Predicted))
+        Ok(Basis::Predicted.number("Sec 4.2", what, published, capture(flow, celsius)?))
     };
     Ok(vec![
         beside(
@@ -230,23 +230,19 @@ fn flow_claims(flow: &Model) -> Answer<Vec<Claim>> {
 }
 
 /// Of the restitution.
-fn rebound_claims(model: &Model) -> Answer<Vec<Claim>> {
+fn rebound_claims(model: &Model) -> Result<Vec<Claim>> {
     Ok(vec![
-        Claim::number(
+        Basis::Predicted.number(
             "Fig 13",
             "e_n at 55 °C over e_n at 20 °C, \"constant\" [1]",
             Published::within(1.0, 0.02),
-            e_n(model, 55.0)? / e_n(model, 20.0)?,
-            Basis::Predicted,
-        )
+            e_n(model, 55.0)? / e_n(model, 20.0)?)
         .because("± 0.02 taken for \"constant\"."),
-        Claim::number(
+        Basis::Predicted.number(
             "Fig 13",
             "e_n at 105 °C, \"vanishingly small\"",
             Published::Below(0.05),
-            e_n(model, 105.0)?,
-            Basis::Predicted,
-        )
+            e_n(model, 105.0)?)
         .because(
             "Of those that rebound; below 0.05 taken for \"vanishingly\". The effect takes the rebound by \
              the same share that it captures (softening 1), a choice that this confirms.",
@@ -262,13 +258,13 @@ fn rebound_claims(model: &Model) -> Answer<Vec<Claim>> {
 }
 
 /// Capture [%] of coal of 53 µm over its conversion [1].
-fn captured_char(model: &Model, conversion: f64) -> Answer<f64> {
+fn captured_char(model: &Model, conversion: f64) -> Result<f64> {
     let impact = Impact { conversion, ..hot(53e-6, 1573.15) };
     Ok(100.0 * decide(model, "default", &impact)?.sticking_probability)
 }
 
 /// The part on coal conversion.
-pub(super) fn conversion() -> Answer<Part> {
+pub(super) fn conversion() -> Result<Part> {
     let model = model!("char.toml")?;
     let [low, high] = CONVERSION;
     Ok(Part {
@@ -285,11 +281,11 @@ pub(super) fn conversion() -> Answer<Part> {
     })
 }
 
-fn conversion_chart(model: &Model) -> Answer<Figure> {
+fn conversion_chart(model: &Model) -> Result<Figure> {
     let [low, high] = CONVERSION;
     let curve = even([0.7, 1.0], 301)
         .map(|conversion| Ok([conversion, captured_char(model, conversion)?]))
-        .collect::<Answer<Vec<_>>>()?;
+        .collect::<Result<Vec<_>>>()?;
     Ok(Chart::new("Capture over the conversion", "carbon conversion [1]", "captured [%]")
         .x_range(0.7, 1.0)
         .y_range(0.0, 100.0)
@@ -303,7 +299,7 @@ fn conversion_chart(model: &Model) -> Answer<Figure> {
         ))
 }
 
-fn conversion_claims(model: &Model) -> Answer<Vec<Claim>> {
+fn conversion_claims(model: &Model) -> Result<Vec<Claim>> {
     let [low, high] = CONVERSION;
     let mut captured = Vec::new();
     for conversion in [0.85, low, high, 0.95] {
@@ -311,13 +307,12 @@ fn conversion_claims(model: &Model) -> Answer<Vec<Claim>> {
     }
     let shown: Vec<String> = captured.iter().map(|percent| format!("{percent:.0}")).collect();
     Ok(vec![
-        Claim::statement(
+        Basis::Fitted.statement(
             "Fig 12",
             "capture at conversions of 0.85, 0.88, 0.90 and 0.95 [%]",
             "small below 0.88, \"sharply increased\" above, sticky above 0.90",
             &shown.join(", "),
             captured[1] < 20.0 && captured[2] > 80.0,
-            Basis::Fitted,
         ),
         Claim::unchecked(
             "Fig 12",

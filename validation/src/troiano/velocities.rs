@@ -6,7 +6,7 @@ use nearwall::report::Table;
 
 use super::equations::{AS_PRINTED, equation_1};
 use super::published::{DIAMETER, TARGETS, Target, YIELD_RATIO};
-use super::{Answer, contact, model};
+use super::{Result, contact, model};
 use crate::study::table;
 use crate::{Basis, Claim, Part, Published};
 
@@ -21,7 +21,7 @@ struct Found {
 }
 
 impl Found {
-    fn on(model: &Model, target: &'static Target) -> Answer<Self> {
+    fn on(model: &Model, target: &'static Target) -> Result<Self> {
         let contact = contact(model, target.wall, YIELD_RATIO.value, |_| {})?;
         Ok(Self {
             target,
@@ -60,7 +60,7 @@ impl Found {
         };
         let what = format!("v_y on {} [m/s]", self.target.name);
         let published = Published::within(value, half);
-        Claim::number("Table 4", &what, published, self.yielding, Basis::Predicted).because(&why)
+        Basis::Predicted.number("Table 4", &what, published, self.yielding).because(&why)
     }
 
     fn sticking_claim(&self) -> Claim {
@@ -83,14 +83,14 @@ impl Found {
         };
         let what = format!("v_s on {} by Eq. 1 as printed [m/s]", self.target.name);
         let published = Published::within(value, half);
-        Claim::number("Table 4", &what, published, self.printed, Basis::Predicted).because(&why)
+        Basis::Predicted.number("Table 4", &what, published, self.printed).because(&why)
     }
 }
 
 /// The part on the velocities.
-pub(super) fn part() -> Answer<Part> {
+pub(super) fn part() -> Result<Part> {
     let model = model!("targets.toml")?;
-    let found = TARGETS.iter().map(|target| Found::on(&model, target)).collect::<Answer<Vec<_>>>()?;
+    let found = TARGETS.iter().map(|target| Found::on(&model, target)).collect::<Result<Vec<_>>>()?;
     Ok(Part {
         heading: "Table 4: yield and sticking velocities".to_owned(),
         text: vec![
@@ -113,17 +113,7 @@ fn velocities(found: &[Found]) -> Table {
     table(
         "wax of 75 µm, c = 0.7; speeds in m/s",
         1,
-        &[
-            "target",
-            "E* [GPa]",
-            "W [J/m²]",
-            "v_y, printed",
-            "v_y, Eq. 3",
-            "v_s, printed",
-            "Eq. 1 as printed",
-            "Thornton–Ning",
-            "sticks below",
-        ],
+        "target | E* [GPa] | W [J/m²] | v_y, printed | v_y, Eq. 3 | v_s, printed | Eq. 1 as printed | Thornton–Ning | sticks below",
         found.iter().map(Found::row).collect(),
     )
 }
