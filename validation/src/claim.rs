@@ -141,9 +141,39 @@ pub struct Claim {
 }
 
 impl Claim {
+    /// A comparison of numbers. The published number was not used.
+    pub fn predicted(place: &str, what: &str, published: Published, ours: f64) -> Self {
+        Basis::Predicted.number(place, what, published, ours)
+    }
+
+    /// A statement in words. The published number was not used.
+    pub fn predicted_statement(place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Self {
+        Basis::Predicted.statement(place, what, published, ours, holds)
+    }
+
+    /// A comparison of numbers. A parameter was fitted to the number.
+    pub fn fitted(place: &str, what: &str, published: Published, ours: f64) -> Self {
+        Basis::Fitted.number(place, what, published, ours)
+    }
+
+    /// A statement in words. A parameter was fitted to the number.
+    pub fn fitted_statement(place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Self {
+        Basis::Fitted.statement(place, what, published, ours, holds)
+    }
+
+    /// A comparison of numbers. It follows from equations alone.
+    pub fn derived(place: &str, what: &str, published: Published, ours: f64) -> Self {
+        Basis::Derived.number(place, what, published, ours)
+    }
+
+    /// A statement in words. It follows from equations alone.
+    pub fn derived_statement(place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Self {
+        Basis::Derived.statement(place, what, published, ours, holds)
+    }
+
     /// A claim that cannot be checked; `why` says what is missing.
     pub fn unchecked(place: &str, what: &str, published: &str, why: &str) -> Self {
-        let claim = Basis::Predicted.statement(place, what, published, "–", false);
+        let claim = Self::predicted_statement(place, what, published, "–", false);
         Self { verdict: Verdict::Unchecked, ..claim }.because(why)
     }
 
@@ -166,7 +196,7 @@ mod tests {
 
     #[test]
     fn the_verdict_follows_from_the_numbers() {
-        let claim = |ours| Basis::Predicted.number("Fig 1", "e_n", Published::within(0.28, 0.005), ours);
+        let claim = |ours| Claim::predicted("Fig 1", "e_n", Published::within(0.28, 0.005), ours);
         assert_eq!(claim(0.284).verdict, Verdict::Agrees);
         assert_eq!(claim(0.286).verdict, Verdict::Differs);
         assert_eq!(claim(0.284).published, "0.28 ± 0.005");

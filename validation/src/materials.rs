@@ -4,7 +4,7 @@ use crate::Result;
 use nearwall::material::{Library, Material, Property};
 use nearwall::report::{BarChart, Figure, Table, number};
 
-use crate::claim::{Basis, Claim};
+use crate::claim::Claim;
 use crate::study::{self, Extent, Part, Study};
 
 /// Where a number comes from.
@@ -50,7 +50,7 @@ pub fn study(_: Extent) -> Result<Study> {
     let library = Library::built_in()?;
     let materials: Vec<&Material> = library.names().iter().filter_map(|name| library.get(name)).collect();
     let part = Part {
-        text: vec!["The same as nearwall materials NAME prints.".to_owned()],
+        text: vec!["`nearwall materials NAME` prints the same values.".to_owned()],
         figures: vec![origins(&materials)],
         claims: vec![named(&materials)],
         tables: vec![table(&materials)],
@@ -75,23 +75,23 @@ fn lead(materials: &[&Material]) -> String {
     let all: usize = Origin::ALL.map(total).iter().sum();
     let assumed = total(Origin::Assumed);
     format!(
-        "Of {all} property values {} are published, in part or from sources not read again here, and {assumed} are assumed. The assumed ones \
-         that matter most are the yield strength of hot tungsten and every mechanical number of char, ash and slag above 1000 K.",
+        "Of {all} property values {} are published, in part or from sources that were not re-read, and \
+         {assumed} are assumed. The most important assumed values are the yield strength of hot tungsten \
+         and every mechanical number of char, ash and slag above 1000 K.",
         all - assumed
     )
 }
 
 fn origins(materials: &[&Material]) -> Figure {
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
-    let mut bars = BarChart::new("Where the numbers come from", "property values", &names).stacked();
+    let mut bars = BarChart::new("Origin of the values", "property values", &names).stacked();
     for origin in Origin::ALL {
         let counts: Vec<f64> = materials.iter().map(|material| count(material, origin) as f64).collect();
         bars = bars.series(origin.name(), &counts);
     }
     bars.figure(
         "materials-origin",
-        "One bar a material. A calculation stands on firm ground where the bars are published, and is a study of assumptions where \
-         they are not.",
+        "One bar per material. A calculation with mostly assumed properties is a study of assumptions.",
     )
 }
 
@@ -102,7 +102,7 @@ fn named(materials: &[&Material]) -> Claim {
     let nameless = properties()
         .filter(|(_, unit, p)| unit.is_empty() || p.valid().is_none() || p.source().is_none_or(str::is_empty))
         .count();
-    Basis::Derived.statement(
+    Claim::derived_statement(
         "library",
         "every number names unit, range of temperature and source, or says \"assumed\"",
         "all",
@@ -132,7 +132,7 @@ fn table(materials: &[&Material]) -> Table {
         material.properties().map(|(key, unit, property)| row(material, key, unit, property))
     });
     study::table(
-        "Values at both ends of their range of temperature where they depend on it.",
+        "Temperature-dependent properties are given at both ends of their range.",
         5,
         "material | property | value | range [K] | origin",
         rows.collect(),

@@ -12,23 +12,26 @@ const VERDICTS: [(Verdict, RowStatus); 3] = [
     (Verdict::Unchecked, RowStatus::Open),
 ];
 
-const TRUST: &str = "Trust it for: the normal rebound of solid, dry particles from a harder wall once the limiting pressure p_y is \
-    known (Thornton and Ning's law to rounding, wax on Pyrex within the scatter of its measured strength); the mechanics of sliding and \
-    rolling with any spin, once the friction is known; silicate viscosities within their stated errors; that the molten drops of both \
-    papers stay on the wall.";
-const CALIBRATE: &str = "Calibrate before use: yield strength of hot dust, char and ash (a factor of 3 and more is open, and a rebound \
-    shows only p_y); work of adhesion; the reference viscosity; melting and conversion thresholds; agglomerates, powder layers and \
-    gas lift, which describe what was seen and do not explain it.";
-const DOUBT: &str = "Do not expect: who sticks in Pilot-PSI (no adhesion explains all sets); equal rebound from soft and hard walls, as \
-    measured with wax (the law says clearly more from soft ones); the sticking of small, soft, adhesive particles by the default law \
-    (it lets go what the flattened contact holds; thornton-ning-raised-pull-off does not); trends of droplet capture with speed and angle.";
+const TRUST: &str = "Reliable: the normal rebound of solid, dry particles from a harder wall, if the \
+    limiting pressure p_y is known (Thornton and Ning's law to rounding, wax on Pyrex within the scatter of \
+    its measured strength); sliding and rolling with any spin, if the friction is known; silicate \
+    viscosities within their stated errors; the capture of the molten drops of both papers.";
+const CALIBRATE: &str = "Calibrate before use: yield strength of hot dust, char and ash (uncertain by a \
+    factor of 3 or more; a rebound depends only on p_y); work of adhesion; the reference viscosity; melting \
+    and conversion thresholds; agglomerates, powder layers and gas lift, which describe observations \
+    without explaining them.";
+const DOUBT: &str = "Not predicted: which particles stick in Pilot-PSI (no work of adhesion fits all sets); \
+    equal rebound from soft and hard walls, as measured with wax (the law gives clearly more from soft \
+    walls); the sticking of small, soft, adhesive particles by the default law (it omits the larger \
+    pull-off of the flattened contact, which thornton-ning-raised-pull-off includes); trends of droplet \
+    capture with speed and angle.";
 
 /// What the studies come to, for someone who decides whether to use it.
 pub const ADVICE: [&str; 3] = [TRUST, CALIBRATE, DOUBT];
 
 /// The page of all studies.
 pub fn page(studies: &[Study]) -> Page {
-    let mut page = Page::new("nearwall: where it agrees with its sources, and where it does not");
+    let mut page = Page::new("nearwall: comparison with its sources");
     summary(&mut page, studies);
     for study in studies {
         page.heading(study.title.clone());
@@ -36,7 +39,7 @@ pub fn page(studies: &[Study]) -> Page {
         page.lead(study.lead.clone());
         study.parts.iter().for_each(|part| add_part(&mut page, part));
     }
-    page.foot("Made by validation/run; the published numbers and their sources stand in validation/.");
+    page.foot("Written by validation/run. The published numbers and their sources are in validation/.");
     page
 }
 
@@ -50,9 +53,9 @@ fn summary(page: &mut Page, studies: &[Study]) {
             total(Verdict::Differs),
             total(Verdict::Unchecked)
         ),
-        "A statement agrees when our number lies within the uncertainty that the source states, or within half of its last \
-         printed digit where it states none. \"Fitted\" marks numbers that a parameter was set to, so that their agreement \
-         proves little; \"predicted\" and \"derived\" ones were not used."
+        "A statement agrees when the library's number lies within the stated uncertainty, or within half of \
+         the last printed digit where none is stated. \"Fitted\" marks numbers to which a parameter was \
+         fitted, so agreement proves little. \"Predicted\" and \"derived\" numbers were not used."
             .to_owned(),
     ]);
     for text in ADVICE {
@@ -67,7 +70,7 @@ fn summary(page: &mut Page, studies: &[Study]) {
 /// The studies with their verdicts.
 pub fn overview(studies: &[Study]) -> Table {
     let [agree, differ, open] = VERDICTS.map(|(verdict, _)| verdict.name());
-    let header = format!("study | {agree} | {differ} | {open} | in short");
+    let header = format!("study | {agree} | {differ} | {open} | summary");
     let row = |study: &Study| {
         let mut row = vec![study.title.clone()];
         row.extend(VERDICTS.map(|(verdict, _)| study.count(verdict).to_string()));
@@ -98,7 +101,7 @@ fn mark(verdict: Verdict) -> RowStatus {
 }
 
 /// Columns of the statements.
-pub const HEADER: [&str; 7] = ["", "where", "what", "source", "here", "basis", "why, or what to know"];
+pub const HEADER: [&str; 7] = ["", "where", "what", "source", "here", "basis", "reason or remark"];
 
 /// One statement.
 pub fn row(claim: &Claim) -> [&str; 7] {

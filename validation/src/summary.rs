@@ -9,10 +9,11 @@ pub fn summary(studies: &[Study]) -> String {
     let all: usize = studies.iter().map(|study| study.claims().count()).sum();
     let total = |verdict| studies.iter().map(|study| study.count(verdict)).sum::<usize>();
     let mut text = format!(
-        "# Validation\n\nWritten by `validation/run`, which also makes the page with the pictures, `target/validation/report.html`; \
-         `tests/run` fails when the two differ.\n\nOf {all} statements {} agree, {} differ and {} cannot be checked. A statement \
-         agrees when our number lies within the uncertainty that the source states, or half of its last printed digit where it \
-         states none. \"Fitted\": a parameter was set to that number, so its agreement proves little.\n",
+        "# Validation\n\nWritten by `validation/run`, which also writes the page with figures, \
+         `target/validation/report.html`. `tests/run` fails when this file and a run differ.\n\nOf {all} \
+         statements {} agree, {} differ and {} cannot be checked. A statement agrees when the library's \
+         number lies within the stated uncertainty, or within half of the last printed digit where none is \
+         stated. \"Fitted\": a parameter was fitted to that number, so agreement proves little.\n",
         total(Verdict::Agrees),
         total(Verdict::Differs),
         total(Verdict::Unchecked)

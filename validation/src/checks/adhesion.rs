@@ -6,7 +6,7 @@ use nearwall::normal::{Contact, adhesive_velocity, restitution};
 use nearwall::report::{Chart, Figure, Table, number};
 
 use super::{DIAMETER, Result, wax_on_pyrex};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::oracle::jkr::{Cycle, Jkr};
 use crate::steps::{even, even_in_logarithm};
 use crate::study::{Part, table};
@@ -18,7 +18,7 @@ const QUADRATURE: f64 = 1e-10;
 
 pub fn part() -> Result<Part> {
     Ok(Part {
-        heading: "Adhesion: the energy of JKR's cycle".to_owned(),
+        heading: "Adhesion: energy of the JKR cycle".to_owned(),
         text: text(),
         tables: vec![conventions()],
         figures: vec![curve(), restitutions()],
@@ -28,14 +28,15 @@ pub fn part() -> Result<Part> {
 
 fn text() -> Vec<String> {
     vec![
-        "The force of Johnson, Kendall & Roberts is integrated over the displacement: contact forms at zero separation, where \
-         the force snaps to -8/9 of the largest pull without doing work; in and out along the same curve; past zero load and past \
-         the largest pull to where the contact opens although the displacement is held (5/9 of the largest pull). What is lost \
-         equals m v_adh²/2."
+        "The force of Johnson, Kendall & Roberts is integrated over the displacement: contact forms at zero \
+         separation, where the force snaps to -8/9 of the largest pull without doing work; in and out along \
+         the same curve; past zero load and past the largest pull to where the contact opens although the \
+         displacement is held (5/9 of the largest pull). What is lost equals m v_adh²/2."
             .to_owned(),
         format!(
-            "Other conventions give other constants: Thornton and Ning's is the first row. Energy that is free when the \
-             contact forms counts as lost in it; if it sped the particle up instead, only {} of the energy would be lost.",
+            "Other conventions give other constants: Thornton and Ning's is the first row. Energy that is \
+             free when the contact forms counts as lost in it; if it sped the particle up instead, only {} \
+             of the energy would be lost.",
             number(Jkr::UNIT.lost(Cycle::SnapInCounted) / Jkr::UNIT.lost(Cycle::FixedGrips))
         ),
     ]
@@ -44,10 +45,9 @@ fn text() -> Vec<String> {
 fn claims() -> Result<Vec<Claim>> {
     let closed = 3f64.sqrt() / 2.0 * PI.cbrt() * ((1.0 + 6.0 * 4f64.cbrt()) / 5.0).sqrt();
     let factor = Jkr::UNIT.adhesive_velocity(Cycle::FixedGrips);
-    let none =
-        |what: &str, ours| Basis::Derived.number(PLACE, what, Published::within(0.0, QUADRATURE), ours);
+    let none = |what: &str, ours| Claim::derived(PLACE, what, Published::within(0.0, QUADRATURE), ours);
     Ok(vec![
-        Basis::Derived.number(
+        Claim::derived(
             PLACE,
             "factor C1 of the adhesive velocity, from the work of the JKR force by quadrature",
             Published::within(1.84, 0.005),
@@ -62,7 +62,8 @@ fn claims() -> Result<Vec<Claim>> {
             worst_adhesive_velocity()?,
         ),
         none(
-            "e_n of an elastic impact, library less whole cycle in and out: largest for v = 1.001 to 10⁴ v_adh",
+            "e_n of an elastic impact, library less whole cycle in and out: largest for v = 1.001 to 10⁴ \
+             v_adh",
             worst_restitution(),
         ),
     ])

@@ -7,13 +7,13 @@ use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{ImpactKinematics, Rebound, critical_angle};
 
 use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::oracle::compliant_sphere::{CompliantSphere, Left};
 use crate::steps::{even, even_in_logarithm};
 use crate::study::{self, Extent, Part};
 use crate::terms::term;
 
-pub const HEADING: &str = "Tangential compliance: elastic theory beside an assumed power law";
+pub const HEADING: &str = "Tangential compliance: elastic theory and an assumed power law";
 
 const THEORY: &str = "Maw, Barber & Fawcett 1976 (integrated here)";
 
@@ -177,26 +177,28 @@ fn text(compared: &Compared) -> Vec<String> {
     let Compared { wax, k, theory, critical, .. } = compared;
     let [lowest_at, lowest] = lowest(&compared.past);
     vec![
-        "A sphere on Hertz's contact with Mindlin's tangential stiffness and Coulomb friction at each point, so that a ring \
-         slips while the middle sticks (Cattaneo and Mindlin, any history of loads); integrated over time. Tests of the oracle: \
-         shear at rest is Mindlin's; gross slip begins at psi = k s/(f v_n) = 7k-1; no friction, no stiffness and infinite \
-         stiffness (rolling) come out; energy is never made; only k and psi count."
+        "A sphere on Hertz's contact with Mindlin's tangential stiffness and Coulomb friction at each \
+         point, so that a ring slips while the middle sticks (Cattaneo and Mindlin, any history of loads); \
+         integrated over time. Tests of the oracle: shear at rest is Mindlin's; gross slip begins at psi = \
+         k s/(f v_n) = 7k-1; no friction, no stiffness and infinite stiffness (rolling) come out; energy is \
+         never made; only k and psi count."
             .to_owned(),
         format!(
-            "For k = {} (wax on Pyrex), f = {FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° with {}, falls to {} at \
-             {lowest_at:.0}° and comes back to {} head-on. It rises above rolling only for stiffer tangential contacts: to the values \
-             in the table.",
+            "For k = {} (wax on Pyrex), f = {FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° \
+             with {}, falls to {} at {lowest_at:.0}° and comes back to {} head-on. It rises above rolling \
+             only for stiffer tangential contacts: to the values in the table.",
             number(*k),
             number(compared.first()),
             number(lowest),
             number(theory.e_t(HEAD_ON))
         ),
         format!(
-            "The theory is elastic; wax yields. Fully plastic loading (F = 2 pi R p_y delta, a² = 2 R delta) is soft along the normal \
-             while the contact along the wall stays elastic, so the tangential swing is fast: Omega²/omega² = 7 k E* a/(2 pi R p_y), {} \
-             for wax at 1 m/s when it is deepest, against 7k/2 = {} for a linear elastic contact. An estimate, not an integration: it \
-             points to the stiff limit, rolling (5/7), not to {TROIANO_AT_80}. How a flattened contact gives up its stretch on the way out, \
-             and whether friction stays Coulomb's there, is left open.",
+            "The theory is elastic; wax yields. Fully plastic loading (F = 2 pi R p_y delta, a² = 2 R \
+             delta) is soft along the normal while the contact along the wall stays elastic, so the \
+             tangential swing is fast: Omega²/omega² = 7 k E* a/(2 pi R p_y), {} for wax at 1 m/s when it \
+             is deepest, against 7k/2 = {} for a linear elastic contact. An estimate, not an integration: \
+             it points to the stiff limit, rolling (5/7), not to {TROIANO_AT_80}. How a flattened contact \
+             gives up its stretch on the way out, and whether friction stays Coulomb's there, is left open.",
             number(plastic_swing(wax)),
             number(3.5 * k)
         ),
@@ -204,7 +206,7 @@ fn text(compared: &Compared) -> Vec<String> {
 }
 
 fn gross_slip(compared: &Compared) -> Result<Claim> {
-    Ok(Basis::Derived.number(
+    Ok(Claim::derived(
         THEORY,
         "the effect up to the critical angle (gross slip): largest difference in e_t",
         Published::within(0.0, ACCURACY),
@@ -214,7 +216,7 @@ fn gross_slip(compared: &Compared) -> Result<Claim> {
 
 fn all_friction(compared: &Compared) -> Claim {
     let critical = compared.critical;
-    Basis::Derived.number(
+    Claim::derived(
         THEORY,
         "share of the friction that acts at the critical angle of Eq. 11, e_n = 1 (below it all acts)",
         Published::within(1.0, ACCURACY),
@@ -226,7 +228,7 @@ fn below_rolling(compared: &Compared) -> Result<Claim> {
     let just_past = compared.critical + 2.0;
     let by_theory = compared.theory.e_t(just_past);
     let by_effect = effect(compared.k, compared.fit.parameters, just_past)?;
-    Ok(Basis::Derived.statement(
+    Ok(Claim::derived_statement(
         THEORY,
         "e_t lies below rolling (5/7) just past the transition",
         &format!("{} at {just_past:.0}°", number(by_theory)),
@@ -238,19 +240,20 @@ fn below_rolling(compared: &Compared) -> Result<Claim> {
 fn nearest(compared: &Compared) -> Claim {
     let Fit { parameters: [near_normal, exponent], rms, largest } = compared.fit;
     let [lowest_at, lowest] = lowest(&compared.past);
-    Basis::Fitted.number(
+    Claim::fitted(
         THEORY,
         &format!(
-            "the effect past the critical angle with the parameters nearest to the theory (near_normal {}, exponent {}): \
-             largest difference in e_t",
+            "the effect past the critical angle with the parameters nearest to the theory (near_normal {}, \
+             exponent {}): largest difference in e_t",
             number(near_normal),
             number(exponent)
         ),
         Published::within(0.0, GOOD),
-        largest)
+        largest,
+    )
     .because(&format!(
-        "elastic theory falls on from {} at the transition to {} at {lowest_at:.0}° before it rises; a power of the angle can only \
-         rise or fall. rms {}. The band of {GOOD} is assumed",
+        "elastic theory decreases further from {} at the transition to {} at {lowest_at:.0}° before it \
+         rises; a power law is monotonic. rms {}. The band of {GOOD} is assumed",
         number(compared.first()),
         number(lowest),
         number(rms)
@@ -259,32 +262,34 @@ fn nearest(compared: &Compared) -> Claim {
 
 fn with_the_papers_number(compared: &Compared) -> Result<Claim> {
     let [near_normal, exponent] = MEETING_TROIANO;
-    Ok(Basis::Fitted.number(
+    Ok(Claim::fitted(
         THEORY,
         &format!(
-            "the effect past the critical angle with the parameters that meet Troiano's {TROIANO_AT_80} (near_normal {near_normal}, \
-             exponent {exponent}): largest difference in e_t"
+            "the effect past the critical angle with the parameters that meet Troiano's {TROIANO_AT_80} \
+             (near_normal {near_normal}, exponent {exponent}): largest difference in e_t"
         ),
         Published::within(0.0, GOOD),
-        Fit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest)
+        Fit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest,
+    )
     .because(
-        "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung through about three \
-         quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do not change), so that little of the \
-         slip is given back",
+        "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung \
+         through about three quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do \
+         not change), so that little of the slip is given back",
     ))
 }
 
 fn the_papers_number(compared: &Compared) -> Claim {
     let highest = compared.past.iter().map(|point| point[1]).fold(0.0, f64::max);
-    Basis::Predicted.number(
+    Claim::predicted(
         "Troiano Fig 6",
         "e_t of wax on Pyrex at 80°: here elastic theory, not the library",
         Published::within(TROIANO_AT_80, 0.005),
-        compared.theory.e_t(80.0))
+        compared.theory.e_t(80.0),
+    )
     .because(&format!(
-        "elastic compliance of a sphere that comes without spin cannot give it: the theory stays below {} past the \
-         transition. Open: wax yields (e_n near 0.3 to 0.4); incoming spin (a rigid sphere leaves with {TROIANO_AT_80} when its \
-         rim runs forward at {} v_t); the scatter of the reading",
+        "elastic compliance of a sphere without initial spin cannot give it: the theory stays below {} past \
+         the transition. Open: wax yields (e_n near 0.3 to 0.4); incoming spin (a rigid sphere leaves with \
+         {TROIANO_AT_80} when its rim runs forward at {} v_t); the scatter of the reading",
         number(highest + 0.0005),
         number((TROIANO_AT_80 * 7.0 - 5.0) / 2.0)
     ))
@@ -338,7 +343,11 @@ fn chart(compared: &Compared) -> Result<Figure> {
         .mark_x(compared.critical, "")
         .x_range(0.0, 90.0)
         .y_range(0.4, 1.0)
-        .figure("checks-compliance", "The thin vertical line is the critical angle. Elastic theory falls on past it and does not rise above rolling."))
+        .figure(
+            "checks-compliance",
+            "The thin vertical line is the critical angle. Elastic theory falls on past it and does not \
+             rise above rolling.",
+        ))
 }
 
 #[cfg(test)]

@@ -35,14 +35,17 @@ pub fn study(extent: Extent) -> Result<Study> {
     Ok(Study {
         title: "Independent checks".to_owned(),
         source: format!(
-            "No paper: the same quantities computed another way (validation/src/oracle, which uses nothing of the library), \
-             measured viscosities of {} melts, and properties that hold for every model.",
+            "Not a paper: independent computation of the same quantities (validation/src/oracle, without \
+             code of the library), measured viscosities of {} melts, and properties that hold for every \
+             model.",
             viscosity::melts()
         ),
-        lead: "The laws of adhesion, yielding, sliding and rolling are those of the integrated contact, and the viscosity laws \
-               meet their stated errors. Known differences: the default law under-predicts sticking once adhesion rivals \
-               yield, and tangential-compliance is not elastic theory's curve."
-            .to_owned(),
+        lead:
+            "The laws of adhesion, yielding, sliding and rolling agree with the integrated contact, and the \
+             viscosity laws with their stated errors. Known differences: the default law under-predicts \
+             sticking where adhesion is as strong as yield, and tangential-compliance differs from elastic \
+             theory."
+                .to_owned(),
         parts,
     })
 }

@@ -4,7 +4,7 @@ use nearwall::normal::{Contact, NormalLaw};
 use nearwall::report::{Chart, Figure, number};
 
 use super::{DIAMETER as WAX, Result, wax_on};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::oracle::normal_contact::{Impact, follow};
 use crate::steps::even_in_logarithm;
 use crate::study::{Extent, Part};
@@ -62,7 +62,7 @@ fn restitution(law: NormalLaw, contact: &Contact, diameter: f64, speed: f64) -> 
 }
 
 /// Heading of the part.
-pub(super) const HEADING: &str = "Normal impact, followed through time";
+pub(super) const HEADING: &str = "Normal impact, integrated in time";
 
 /// `v_adh/v_y` [1] for which impacts are followed.
 const RATIOS: [f64; 3] = [0.3, 3.0, 30.0];
@@ -106,9 +106,10 @@ pub fn part(extent: Extent) -> Result<Part> {
     Ok(Part {
         heading: HEADING.to_owned(),
         text: vec![
-            "The closed form of Thornton & Ning adds what adhesion and yielding take. Yielding also flattens the contact, and a \
-             flatter contact is harder to part: the law thornton-ning-raised-pull-off has that, the default has not. The oracle \
-             integrates the motion and uses neither formula; law and oracle share the assumptions of Thornton & Ning's contact, \
+            "The closed form of Thornton & Ning adds what adhesion and yielding take. Yielding also \
+             flattens the contact, and a flatter contact is harder to part: the law \
+             thornton-ning-raised-pull-off has that, the default has not. The oracle integrates the motion \
+             and uses neither formula; law and oracle share the assumptions of Thornton & Ning's contact, \
              so their agreement proves the algebra, not the physics."
                 .to_owned(),
         ],
@@ -131,8 +132,9 @@ fn chart(curves: &[Curves]) -> Figure {
     }
     chart.figure(
         "checks-normal-contact",
-        "Points: an impact followed through time, JKR in, pressure cut at p_y, JKR out with the flattened radius. The closed form \
-         lets particles go that the flattened contact still holds, the more the larger v_adh/v_y.",
+        "Points: an impact followed through time, JKR in, pressure cut at p_y, JKR out with the flattened \
+         radius. The closed form lets particles go that the flattened contact still holds, the more the \
+         larger v_adh/v_y.",
     )
 }
 
@@ -164,8 +166,8 @@ fn ratios(extent: Extent) -> Result<Figure> {
     .mark_x(adhesion_over_yield(&wax_on("pyrex")?, WAX), "")
     .figure(
         "checks-normal-ratio",
-        "Below v_adh/v_y = 0.5 both say the same. Beyond, adhesion alone begins to yield the contact. Thin lines from the left: wax on \
-         wax, ammonium fluorescein, wax on Pyrex.",
+        "Below v_adh/v_y = 0.5 both say the same. Beyond, adhesion alone begins to yield the contact. Thin \
+         lines from the left: wax on wax, ammonium fluorescein, wax on Pyrex.",
     ))
 }
 
@@ -175,25 +177,30 @@ fn claims(worst: f64) -> Vec<Claim> {
     let source = "Thornton & Ning 1998";
     let what = "v_s of ammonium fluorescein, 4.9 µm [m/s]";
     vec![
-        Basis::Derived.number(
+        Claim::derived(
             "oracle",
-            "e_n of raised pull-off less that of the followed impact, largest for v_adh/v_y = 0.3, 3 and 30 [1]",
+            "e_n by thornton-ning-raised-pull-off minus that of the integrated impact, largest for \
+             v_adh/v_y = 0.3, 3 and 30 [1]",
             Published::Below(1e-8),
-            worst)
+            worst,
+        )
         .because("400 further cases, all branches: cargo test --test library contact_integration"),
-        Basis::Predicted.number(
+        Claim::predicted(
             source,
             &format!("{what}, closed form"),
             Published::within(0.69, 0.005),
-            sticking(NormalLaw::ThorntonNing)),
-        Basis::Predicted.number(
+            sticking(NormalLaw::ThorntonNing),
+        ),
+        Claim::predicted(
             source,
             &format!("{what}, their numerical solution"),
             Published::within(1.6, 0.05),
-            sticking(NormalLaw::PlasticJkr))
+            sticking(NormalLaw::PlasticJkr),
+        )
         .because(&format!(
-            "{} % low. How adhesion enters after yield is read differently: here the pressure is cut at p_y all the time; a \
-             stiffness after yield as we recall it of the paper (not at hand) gives 1.82. The default law gives {}",
+            "{} % low. The treatment of adhesion after yield differs: here the pressure is limited to p_y \
+             throughout; the stiffness after yield, as recalled from the paper (not available), gives 1.82. \
+             The default law gives {}",
             number((100.0 * (1.0 - sticking(NormalLaw::PlasticJkr) / 1.6)).round()),
             number(sticking(NormalLaw::ThorntonNing))
         )),

@@ -29,17 +29,24 @@ pub fn part() -> Part {
     Part {
         heading: "Properties that hold for every model".to_owned(),
         text: vec![
-            "Random models (laws, effects and their parameters) and impacts; a case that fails is cut down to the smallest one, and \
-             the seed is printed, so that NEARWALL_TEST_SEED repeats it. All run with cargo test --test properties; add the word of \
-             the first column to run one group."
+            "Random models (laws, effects and their parameters) and impacts; a case that fails is cut down \
+             to the smallest one, and the seed is printed, so that NEARWALL_TEST_SEED repeats it. All run \
+             with cargo test --test properties; add the word of the first column to run one group."
                 .to_owned(),
-            "Exceptions by design: (1) micro-roughness, agglomerates, gas-lift and a negative oblique-angle, which may raise e_n above 1, \
-             near_normal above 1, and e_t with incoming spin. (2) gas-lift and agglomerates, into which energy comes from elsewhere; \
-             a negative oblique-angle, which raises e_n and leaves e_t as it is; near_normal outside 3/7 to 1. (3) the 1 m/s in \
-             oblique-angle, which is counted; polynomials and the viscosity fits of slags, which are relations between numbers."
+            "Exceptions by design: (1) micro-roughness, agglomerates, gas-lift and a negative \
+             oblique-angle, which may raise e_n above 1, near_normal above 1, and e_t with incoming spin. \
+             (2) gas-lift and agglomerates, into which energy comes from elsewhere; a negative \
+             oblique-angle, which raises e_n and leaves e_t as it is; near_normal outside 3/7 to 1. (3) the \
+             1 m/s in oblique-angle, which is counted; polynomials and the viscosity fits of slags, which \
+             are relations between numbers."
                 .to_owned(),
         ],
-        tables: vec![table("", 2, "group | property", PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec())],
+        tables: vec![table(
+            "",
+            2,
+            "group | property",
+            PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec(),
+        )],
         ..Part::default()
     }
 }

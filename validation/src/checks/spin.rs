@@ -4,7 +4,7 @@ use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{ImpactKinematics, Rebound, TangentialLaw, critical_angle};
 
 use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::oracle::rigid_sphere::{Left, RigidSphere};
 use crate::steps::even;
 use crate::study::{Extent, Part, table};
@@ -140,8 +140,9 @@ pub fn part(extent: Extent) -> Result<Part> {
 
 fn cases_text(cases: &[Case]) -> String {
     format!(
-        "{} impacts: angles 0.5° to 89.5°, rim speeds up to five times the speed, both ways round, friction 0.02 to 1, \
-         e_n 0 to 1. The friction follows the slip s = u - omega d/2 of the contact point as the normal impulse grows.",
+        "{} impacts: angles 0.5° to 89.5°, rim speeds up to five times the speed, both ways round, friction \
+         0.02 to 1, e_n 0 to 1. The friction follows the slip s = u - omega d/2 of the contact point as the \
+         normal impulse grows.",
         cases.len()
     )
 }
@@ -149,12 +150,12 @@ fn cases_text(cases: &[Case]) -> String {
 /// `window` impacts lie in it.
 fn window_text(k: f64, ends: &Ends, window: usize) -> String {
     format!(
-        "The rigid sphere sticks where |s| <= 7/2 f (1+e_n) v_n. The library takes (7k-1)/(2k) in place of 7/2, as the \
-         paper does, which allows for an elastic contact. Between the two the library slides on where the rigid sphere \
-         already rolls: for wax on Pyrex without spin (k = {}, f = {FRICTION}, e_n = {E_N}) from {:.1}° to \
-         {:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. {window} of the impacts lie in it. That is no fault: \
-         an elastic contact (e_n = 1) slips throughout from (7k-1)/(2k) on (next part); only the rolling \
-         above it is the rigid sphere's.",
+        "The rigid sphere sticks where |s| <= 7/2 f (1+e_n) v_n. The library takes (7k-1)/(2k) in place of \
+         7/2, as the paper does, which allows for an elastic contact. Between the two the library slides on \
+         where the rigid sphere already rolls: for wax on Pyrex without spin (k = {}, f = {FRICTION}, e_n = \
+         {E_N}) from {:.1}° to {:.1}°, a window of {:.1}°, in which e_t falls to {} in place of 5/7. \
+         {window} of the impacts lie in it. That is no fault: an elastic contact (e_n = 1) slips throughout \
+         from (7k-1)/(2k) on (next part); only the rolling above it is the rigid sphere's.",
         number(k),
         ends.rigid,
         ends.library,
@@ -165,7 +166,7 @@ fn window_text(k: f64, ends: &Ends, window: usize) -> String {
 
 /// What is the same as the rigid sphere's; `plain` are the cases outside the window.
 fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Result<Vec<Claim>> {
-    let none = |what: &str, ours| Basis::Derived.number(PLACE, what, Published::within(0.0, ROUNDING), ours);
+    let none = |what: &str, ours| Claim::derived(PLACE, what, Published::within(0.0, ROUNDING), ours);
     let mut effect = 0.0f64;
     for case in plain {
         effect = effect.max(case.off(by_effect(case)?));
@@ -174,7 +175,8 @@ fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Result<Vec<Claim>> {
     let away = cases.iter().filter(|case| (case.slip() - STICKS).abs() > 1e-6);
     Ok(vec![
         none(
-            "`sliding` while the contact slips throughout: largest difference of speed and rim speed [impact speeds]",
+            "`sliding` while the contact slips throughout: largest difference of speed and rim speed \
+             [impact speeds]",
             largest(slips.map(|case| case.off(sliding(case)))),
         ),
         none(
@@ -190,11 +192,13 @@ fn rigid_sphere(cases: &[Case], plain: &[&Case]) -> Result<Vec<Claim>> {
 }
 
 fn end_of_sliding(ends: &Ends) -> Claim {
-    Basis::Derived.number(
+    Claim::derived(
         PLACE,
-        "angle from the surface at which sliding ends for k → ∞, acot(7/2 f (1+e_n)) [°]; here k = 10⁹ in Eq. 11",
+        "angle from the surface at which sliding ends for k → ∞, acot(7/2 f (1+e_n)) [°]; here k = 10⁹ in \
+         Eq. 11",
         Published::within(ends.rigid, 1e-6),
-        critical_angle(FRICTION, E_N, RIGID).to_degrees())
+        critical_angle(FRICTION, E_N, RIGID).to_degrees(),
+    )
     .because("found for the rigid sphere by bisection")
 }
 
@@ -202,7 +206,7 @@ fn within_the_window(k: f64) -> Claim {
     let off = |case: &Case| {
         (sliding_rolling(case).restitution - case.rigid.tangential_speed / case.glance.tangential_speed).abs()
     };
-    Basis::Derived.number(
+    Claim::derived(
         PLACE,
         "`sliding-rolling` within the window, without spin: largest difference in e_t, 2k/(7k-1) - 2/7",
         Published::within(jump(k), 1e-3),
@@ -212,7 +216,7 @@ fn within_the_window(k: f64) -> Claim {
 
 fn reversals(cases: &[Case]) -> Claim {
     let reversals: u32 = cases.iter().map(|case| case.rigid.reversals).sum();
-    Basis::Derived.statement(
+    Claim::derived_statement(
         PLACE,
         "the slip of a sphere never reverses: its normal and tangential motion are not coupled",
         "0 reversals",
@@ -223,14 +227,16 @@ fn reversals(cases: &[Case]) -> Claim {
 
 fn energy(cases: &[Case]) -> Claim {
     let gains = |case: &Case| [sliding(case), sliding_rolling(case)].map(|rebound| gain(case, rebound));
-    Basis::Derived.number(
+    Claim::derived(
         "energy",
-        "largest gain of energy of motion and spin along the wall, `sliding` and `sliding-rolling` [m²/s² per mass]",
+        "largest gain of energy of motion and spin along the wall, `sliding` and `sliding-rolling` [m²/s² \
+         per mass]",
         Published::Below(1e-12),
-        largest(cases.iter().flat_map(gains)))
+        largest(cases.iter().flat_map(gains)),
+    )
     .because(
-        "`sliding` is bounded where it is used beyond the end of slip; before that bound it made energy at steep angles and \
-         with forward spin",
+        "`sliding` is bounded beyond the end of slip; without the bound it would create energy at steep \
+         angles and with forward spin",
     )
 }
 
@@ -321,7 +327,8 @@ fn over_spin(k: f64) -> Figure {
         .y_range(0.5, 1.5)
         .figure(
             "checks-spin",
-            "At 1 (thin line) it rolls as it comes. Positive spin rolls forward: fast forward spin drives the particle on (e_t above 1), backspin brakes it. The jumps of \
-             the library are the two ends of its window.",
+            "At 1 (thin line) it rolls as it comes. Positive spin rolls forward: fast forward spin drives \
+             the particle on (e_t above 1), backspin brakes it. The jumps of the library are the two ends \
+             of its window.",
         )
 }

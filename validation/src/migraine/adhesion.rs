@@ -9,7 +9,7 @@ use super::published::{RATIO, SETS, Set};
 use super::sample::{Sampler, Spread};
 use super::statistics::binomial;
 use super::{MEASURED_ADHESION, PLAIN, Result, model};
-use crate::claim::{Basis, Claim};
+use crate::claim::Claim;
 use crate::steps::{even, even_in_logarithm};
 use crate::study::{Extent, Part, table};
 
@@ -33,24 +33,28 @@ fn text(clean: &Contact) -> Vec<String> {
     let [first, second, third, fourth, fifth] = SETS.each_ref().map(Set::stuck_percent);
     vec![
         format!(
-            "Two works of adhesion are on offer: 2 gamma of clean tungsten, {} J/m², and {MEASURED_ADHESION} J/m², measured between tungsten and steel. \
-             Thornton & Ning hold every impact slower than v_s and none faster, v_s growing with W^(10/9) p_y^(-5/6) R^(-10/9) where v_adh \
-             is far above v_y.",
+            "Two works of adhesion are known: 2 gamma of clean tungsten, {} J/m², and {MEASURED_ADHESION} \
+             J/m², measured between tungsten and steel. In the law of Thornton & Ning every impact slower \
+             than v_s sticks and no faster one. v_s grows with W^(10/9) p_y^(-5/6) R^(-10/9) where v_adh is \
+             far above v_y.",
             number(clean.work_of_adhesion)
         ),
         format!(
-            "By this closed form nothing of set 1 can stick with either of them: its slowest impact, {} m/s, is faster than v_s. But yielding flattens the contact, and a flattened contact holds more: \
-             by thornton-ning-raised-pull-off v_s of 9 µm is {} m/s with clean metal and {} m/s with {MEASURED_ADHESION} J/m². The paper and the other parts of this study use the closed form.",
+            "By this closed form no impact of set 1 can stick with either of them: its slowest impact, {} \
+             m/s, is faster than v_s. But yielding flattens the contact, which raises the pull-off: by \
+             thornton-ning-raised-pull-off v_s of 9 µm is {} m/s with clean metal and {} m/s with \
+             {MEASURED_ADHESION} J/m². The paper and the other parts of this study use the closed form.",
             SETS[0].normal[0],
             number(Hold::raised(*clean).sticking(9e-6)),
             number(Hold::raised(measured).sticking(9e-6))
         ),
         format!(
-            "One can ask for the W (or the p_y) with which the \
-             {first:.0} % of set 1 stick; the table shows what this W says of the other sets, which had the same dust but for set 5. What differs \
-             between the sets is the plasma, and the order is suggestive: sets 1, 2, 3 and 4 stuck {first:.0}, {second:.0}, {third:.1} and {fourth:.0} %, in the order in which the text calls the plasma \
-             weaker (set 3 ran at 130 to 150 A). Hotter dust is softer, and v_s goes with p_y^(-5/6); but its temperature is not published, and set 5, \
-             larger dust in the plasma of set 1, stuck {fifth:.0} %."
+            "A W (or a p_y) can be found with which {first:.0} % of set 1 stick; the table shows the result \
+             of this W for the other sets, which had the same dust except set 5. The sets differ in the \
+             plasma, and the order is suggestive: sets 1, 2, 3 and 4 stuck {first:.0}, {second:.0}, \
+             {third:.1} and {fourth:.0} %, in the order in which the text calls the plasma weaker (set 3 \
+             ran at 130 to 150 A). Hotter dust is softer, and v_s goes with p_y^(-5/6); but its temperature \
+             is not published, and set 5, larger dust in the plasma of set 1, stuck {fifth:.0} %."
         ),
     ]
 }
@@ -116,7 +120,8 @@ fn speeds_table(clean: &Contact) -> Table {
     }
     table(
         &format!(
-            "Adhesive and sticking velocity at 3000 K on 1000 K. Slowest impacts of sets 1 to 5: {} m/s; 9 µm, in set 5 14 µm.",
+            "Adhesive and sticking velocity at 3000 K on 1000 K. Slowest impacts of sets 1 to 5: {} m/s; 9 \
+             µm, in set 5 14 µm.",
             SETS.map(|set| number(set.normal[0])).join(", ")
         ),
         0,
@@ -137,8 +142,8 @@ fn figure(clean: &Contact) -> Figure {
         .collect();
     let [slowest, fastest] = SETS[0].normal;
     let caption = format!(
-        "Set 1 stuck {} of {} between {slowest} and {fastest} m/s. By the closed form its slowest impact alone asks more than clean metal can give; \
-         with the raised pull-off it holds the slower ones.",
+        "Set 1 stuck {} of {} between {slowest} and {fastest} m/s. By the closed form even its slowest \
+         impact exceeds the adhesion of clean metal; with the raised pull-off the slower ones stick.",
         SETS[0].stuck, SETS[0].impacts
     );
     Chart::new("Sticking velocity against work of adhesion", "work of adhesion W [J/m²]", "v_s [m/s]")
@@ -261,8 +266,9 @@ impl Cases {
             row
         }));
         table(
-            "Expected captures, with v_n spread evenly / evenly in its logarithm over the printed range (both assumed; seed 11). Only v_s decides, and W and p_y shift it alike, so a fit of either says \
-             the same of every set.",
+            "Expected captures, with v_n spread evenly / evenly in its logarithm over the printed range \
+             (both assumed; seed 11). Only v_s decides, and W and p_y shift it alike, so a fit of either \
+             gives the same result for every set.",
             1,
             "contact | v_s 9 µm [m/s] | set 1 | set 2 | set 3 | set 4 | set 5",
             rows,
@@ -295,10 +301,10 @@ impl Cases {
     fn raised(&self, clean: &Contact, stuck: &[String]) -> Result<Claim> {
         let hold = Hold::raised(*clean);
         let shares = self.shares(hold);
-        Ok(Basis::Predicted.statement(
+        Ok(Claim::predicted_statement(
             "sets 1 to 5",
-            "clean metal with the pull-off that yielding raises (thornton-ning-raised-pull-off, c = 4): every set's captures within \
-             their 95 % interval",
+            "clean metal by thornton-ning-raised-pull-off, c = 4: captures of every set within their 95 % \
+             interval",
             &stuck.join(", "),
             &format!(
                 "v_s = {} m/s (9 µm); {} in set 1, {} in set 3",
@@ -306,10 +312,12 @@ impl Cases {
                 Self::expected(&shares, 0),
                 Self::expected(&shares, 2)
             ),
-            fits(&shares)?)
+            fits(&shares)?,
+        )
         .because(
-            "The flattened contact holds many times more than the closed form says: set 1 alone could be that, sets 3 and 4 could \
-             not. Whether dust sticks hangs on the law and on W, and neither is known to the factor that it takes.",
+            "The flattened contact captures many times more than the closed form: it could explain set 1 \
+             alone, but not sets 3 and 4. Capture depends on the law and on W, and neither is known well \
+             enough.",
         ))
     }
 
@@ -332,10 +340,10 @@ impl Cases {
             .enumerate()
             .map(|(spread, case)| format!("{:.0}", case.shares[2][spread] * SETS[2].impacts as f64))
             .collect();
-        let claim = Basis::Fitted.statement(
+        let claim = Claim::fitted_statement(
             "sets 1 to 5",
-            "one W (0.1 to 300 J/m²), or one p_y (a hundredth to ten times 1.2 GPa), by either law, puts every set's captures within \
-             their 95 % interval",
+            "one W (0.1 to 300 J/m²), or one p_y (a hundredth to ten times 1.2 GPa), by either law, gives \
+             captures within the 95 % interval of every set",
             &stuck.join(", "),
             &format!(
                 "fitted to set 1 (W = {} J/m², closed form) it says {} of {} in set 3",
@@ -343,11 +351,12 @@ impl Cases {
                 third.join(" or "),
                 SETS[2].impacts
             ),
-            any);
+            any,
+        );
         Ok(claim.because(&format!(
-            "Set 3 has the same dust and slower impacts, yet {} stuck: no law in which the slower of two equal particles sticks \
-             first can have both. What differs (plasma, dust temperature, target history) is not in the inputs. The calibrated model \
-             uses no fit to captures.",
+            "Set 3 has the same dust and slower impacts, yet {} stuck: no law in which the slower of two \
+             equal particles sticks first can have both. What differs (plasma, dust temperature, target \
+             history) is not in the inputs. The calibrated model uses no fit to captures.",
             stuck[2]
         )))
     }
@@ -357,15 +366,16 @@ impl Cases {
 fn closed_form(clean: &Contact, stuck: &[String]) -> Claim {
     let softest = Contact { yield_ratio: RATIO[1], ..*clean };
     let strongest = Hold::closed(softest).sticking(8e-6);
-    Basis::Predicted.statement(
+    Claim::predicted_statement(
         "set 1",
-        "adhesion after Thornton & Ning can hold impacts of set 1",
+        "adhesion by Thornton & Ning can capture impacts of set 1",
         &format!("{} stuck, v_n from {} m/s", stuck[0], SETS[0].normal[0]),
         &format!("v_s at most {} m/s (8 µm, c = {}, clean metal)", number(strongest), RATIO[1]),
-        strongest > SETS[0].normal[0])
+        strongest > SETS[0].normal[0],
+    )
     .because(
-        "By the closed form, which the paper uses, too, even the largest adhesion that two clean metals can have is not enough. \
-         It leaves out that yielding flattens the contact; see the next row.",
+        "With the closed form, which the paper also uses, even the largest adhesion of two clean metals is \
+         not sufficient. It omits the flattening of the contact by yielding; see the next row.",
     )
 }
 

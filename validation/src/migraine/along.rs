@@ -9,7 +9,7 @@ use super::published::{E_T, RATIO, SETS, Set};
 use super::sample::{Sampler, Spread, angle};
 use super::statistics::{mean, quantile};
 use super::{PLAIN, Result, impact, model, with};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::steps::even_in_logarithm;
 use crate::study::{Extent, Part, table};
 
@@ -30,16 +30,19 @@ pub fn part(extent: Extent) -> Result<Part> {
         heading: "Tangential restitution (Fig 2, Eq. 4)".to_owned(),
         text: vec![
             format!(
-                "Eq. 4, e_t = 1 - mu (v_n/v_t)(1 + e_n), takes much where v_t is small and little where it is large. The sets print the opposite: the oblique set 4, \
-                 with the largest v_t, keeps least ({}). The mu that gives set 4 its mean is {}; over the angles of sets 1, 2, 3 and 5 the same mu stops most of \
-                 the motion along the wall if it goes on sliding, and leaves rolling's 5/7 = 0.714 if it does not.",
+                "Eq. 4, e_t = 1 - mu (v_n/v_t)(1 + e_n), takes much where v_t is small and little where it \
+                 is large. The sets print the opposite: the oblique set 4, with the largest v_t, keeps \
+                 least ({}). The mu that gives set 4 its mean is {}; over the angles of sets 1, 2, 3 and 5 \
+                 the same mu stops most of the motion along the wall if it goes on sliding, and leaves \
+                 rolling's 5/7 = 0.714 if it does not.",
                 SETS[3].e_t,
                 number(friction)
             ),
             format!(
-                "Rolling would be independent of both speeds, as printed, for near-normal impacts, and 5/7 lies close to {} to {}; but {} and {} lie above \
-             it. tangential-compliance can lie above 5/7 near head-on (its `near_normal`), with a shape that is assumed. No law with friction explains minima of {} and {}: \
-             sliding ends where 1 - 2k/(7k-1) = {:.2} is left.",
+                "Rolling would be independent of both speeds, as printed, for near-normal impacts, and 5/7 \
+                 lies close to {} to {}; but {} and {} lie above it. tangential-compliance can lie above \
+                 5/7 near head-on (its `near_normal`), with a shape that is assumed. No law with friction \
+                 explains minima of {} and {}: sliding ends where 1 - 2k/(7k-1) = {:.2} is left.",
                 SETS[3].e_t,
                 SETS[4].e_t,
                 SETS[2].e_t,
@@ -135,8 +138,9 @@ fn means_table(plain: &Model, drawn: &Drawn, friction: f64) -> Result<Table> {
         rows.push(row);
     }
     Ok(table(
-        "Mean and least e_t over each set's angles (v_n spread evenly, assumed; seed 12; clean-metal adhesion). mu is set to the mean of set 4. Sliding is stopped at 0 here; Eq. 4 itself \
-         goes below. The compliance has wax's 1 and 2.2, which are not fitted to tungsten.",
+        "Mean and least e_t over each set's angles (v_n spread evenly, assumed; seed 12; clean-metal \
+         adhesion). mu is set to the mean of set 4. Sliding is stopped at 0 here; Eq. 4 itself goes below. \
+         The compliance has wax's 1 and 2.2, which are not fitted to tungsten.",
         1,
         "law | set 1 | set 2 | set 3 | set 4 | set 5",
         rows,
@@ -164,7 +168,8 @@ fn figure(plain: &Model, friction: f64) -> Result<Figure> {
     let points: Vec<[f64; 2]> = SETS.iter().map(at_mean).collect();
     Ok(chart.reference("published mean e_t at each set's mean angle", &points).figure(
         "migraine-e-t",
-        "v_n = 4 m/s, 9 µm. Set 4 is the point on the left. A law with friction rises to the left; the printed means do not.",
+        "v_n = 4 m/s, 9 µm. Set 4 is the point on the left. A law with friction rises to the left; the \
+         printed means do not.",
     ))
 }
 
@@ -174,13 +179,13 @@ fn constant() -> [Claim; 2] {
     let all: f64 = SETS.iter().map(|set| set.e_t * set.rebounds() as f64).sum::<f64>() / rebounds;
     let off = |constant: f64| mean(&SETS.map(|set| (set.e_t - constant).abs()));
     [
-        Basis::Derived.number(
+        Claim::derived(
             "section 4, 5 (ii)",
             "mean e_t of all rebounds, from the sets' means",
             Published::within(E_T, 0.05),
             all,
         ),
-        Basis::Fitted.statement(
+        Claim::fitted_statement(
             "section 4",
             "0.8 is more accurate than 1",
             "yes",
@@ -195,42 +200,50 @@ fn order(plain: &Model, drawn: &Drawn) -> Result<Claim> {
     let bound = friction_bound(plain, drawn)?;
     let sliding = law(plain, TangentialLaw::Sliding { friction: bound });
     let [near_normal, oblique] = [mean(&e_t(&sliding, &drawn[0])?), mean(&e_t(&sliding, &drawn[3])?)];
-    Ok(Basis::Derived.statement(
+    Ok(Claim::derived_statement(
         "section 2, Eq. 4; sets 1 and 4",
-        "the theory of e_t can be deemed oversimplified: no mu > 0 in Eq. 4 gives the printed order of sets 1 and 4",
+        "the theory of e_t can be deemed oversimplified: no mu > 0 in Eq. 4 gives the printed order of sets \
+         1 and 4",
         "0.86 near normal, 0.74 oblique",
         &format!(
-            "mu = {} (largest with which set 1 stays above 0.61): {near_normal:.3} near normal, {oblique:.3} oblique",
+            "mu = {} (largest with which set 1 stays above 0.61): {near_normal:.3} near normal, \
+             {oblique:.3} oblique",
             number(bound)
         ),
-        near_normal < oblique && oblique > SETS[3].e_t + 0.1)
+        near_normal < oblique && oblique > SETS[3].e_t + 0.1,
+    )
     .because(
-        "d e_t/d(v_t/v_n) > 0 for every mu > 0, so the oblique set must keep more. It keeps less. Independence of both speeds holds exactly for mu = 0 only, with which \
-         nothing is lost.",
+        "d e_t/d(v_t/v_n) > 0 for every mu > 0, so the oblique set should have a larger e_t. It has a \
+         smaller one. Independence of both speeds holds exactly for mu = 0 only, with which nothing is \
+         lost.",
     ))
 }
 
 /// Set 1 by the friction of set 4.
 fn rolling(plain: &Model, drawn: &Drawn, friction: f64) -> Result<Claim> {
     let rolling = law(plain, TangentialLaw::SlidingRolling { friction });
-    Ok(Basis::Predicted
-        .number(
-            "set 1",
-            "mean e_t of set 1 by sliding or rolling, with the mu of set 4",
-            Published::within(SETS[0].e_t, 0.005),
-            mean(&e_t(&rolling, &drawn[0])?),
-        )
-        .because(&format!("A rigid sphere rolls (5/7) where set 1 keeps {}.", SETS[0].e_t)))
+    Ok(Claim::predicted(
+        "set 1",
+        "mean e_t of set 1 by sliding or rolling, with the mu of set 4",
+        Published::within(SETS[0].e_t, 0.005),
+        mean(&e_t(&rolling, &drawn[0])?),
+    )
+    .because(&format!("A rigid sphere rolls (5/7) where set 1 has {}.", SETS[0].e_t)))
 }
 
 /// The least of a set against the least that a law leaves.
 fn least(plain: &Model, set: &Set) -> Result<Claim> {
-    Ok(Basis::Derived.number(
+    Ok(Claim::derived(
         &set.name(),
-        "least e_t (\"always exceeded\", taken as the least), against the least that sliding, rolling or compliance leave above the critical angle",
+        "least e_t (\"always exceeded\", taken as the least), against the least that sliding, rolling or \
+         compliance leave above the critical angle",
         Published::within(set.least_e_t.unwrap_or(f64::NAN), 0.005),
-        end_of_sliding(plain)?)
-    .because("Scatter of single impacts (spin before the impact, agglomerates, measurement) is in no law of a sphere that arrives without spin."))
+        end_of_sliding(plain)?,
+    )
+    .because(
+        "Scatter of single impacts (spin before the impact, agglomerates, measurement) is not described by \
+         any law of a sphere without initial spin.",
+    ))
 }
 
 /// `e_t` at the critical angle, where an elastic contact ceases to slide all through the impact.
@@ -253,18 +266,18 @@ fn dissipation(plain: &Model, drawn: &Drawn) -> Result<Vec<Claim>> {
         }
         let angles: Vec<f64> = impacts.iter().map(angle).collect();
         claims.push(
-            Basis::Predicted.number(
+            Claim::predicted(
                 &format!("section 4, {}", set.name()),
-                &format!(
-                    "energy lost along the wall over energy lost towards it (mean angle {:.0}°)",
-                    mean(&angles)
-                ),
+                &format!("tangential over normal energy loss (mean angle {:.0}°)", mean(&angles)),
                 Published::Below(1.0 / 3.0),
-                along / towards)
+                along / towards,
+            )
             .because(if set.number == 4 {
-                "\"Much less\" is taken as below a third. The oblique set 4 has most of its speed along the wall; what friction can put into spin is left out."
+                "\"Much less\" is taken as below a third. The oblique set 4 has mostly tangential speed; \
+                 energy transferred to spin is not counted."
             } else {
-                "\"Much less\" is taken as below a third. Little speed lies along the wall, so little can be lost there."
+                "\"Much less\" is taken as below a third. The tangential speed is small, so its loss is \
+                 small."
             }),
         );
     }

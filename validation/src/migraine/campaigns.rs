@@ -83,8 +83,9 @@ fn lead(gains: &[Gain]) -> String {
     let ([below_before, below_after], _) = gains[1];
     let ([e_t_before, e_t_after], _) = gains[2];
     format!(
-        "On the sets 2, 3 and 5, which nothing was set to, the calibrated model errs by {} in the share of rebounds with e_n below 0.6 \
-         (before: {}) and by {} in the mean e_t (before: {}).",
+        "On the sets 2, 3 and 5, which were not used for calibration, the error of the calibrated model is \
+         {} in the share of rebounds with e_n below 0.6 (before: {}) and by {} in the mean e_t (before: \
+         {}).",
         percent(below_after),
         percent(below_before),
         hundredths(e_t_after),
@@ -98,19 +99,28 @@ fn text(calibrated: &Model, replicates: usize) -> Result<Vec<String>> {
     let [least, most] = range(unseen.map(|set| 100.0 * set.below as f64 / set.rebounds() as f64));
     Ok(vec![
         format!(
-            "Each set is drawn {replicates} times with its published number of impacts, ranges and mean angle, and sent through Model::resolve (validation/migraine/old.toml and calibrated.toml). Distributions within the \
-             ranges are assumed: v_n even, or even in its logarithm (slower impacts); the text names which. Brackets: 5 to 95 % of the campaigns. Seed {SEED}."
+            "Each set is drawn {replicates} times with its published number of impacts, ranges and mean \
+             angle, and sent through Model::resolve (validation/migraine/old.toml and calibrated.toml). \
+             Distributions within the ranges are assumed: v_n even, or even in its logarithm (slower \
+             impacts); the text names which. Brackets: 5 to 95 % of the campaigns. Seed {SEED}."
         ),
         format!(
-            "Set to data: e_t ({e_t}) to the means of sets 1 and 4, the fraction of agglomerates ({fraction}) to set 1, the strength of oblique-angle ({strength}) to \"all below 0.6\" of set 4, and p_y = {} sigma_y, which the paper read off all near-normal sets, \
-             so that it is not unseen; it moves none of the three observables by itself, because the 0.6 is crossed by agglomerates only. Predicted: sets 2, 3 and 5. Not predictable: who sticks ({:.0} % and {:.1} % with the same \
-             dust), as neither plasma nor dust temperature is an input; and the scatter of e_t, which has no term here. As the sets below 0.6 differ little among each other ({least:.0} to {most:.0} %), a model that knows set 1 does well on the others whatever its physics: the gain shows that the quarter is there in \
-             every set, not why.",
+            "Set to data: e_t ({e_t}) to the means of sets 1 and 4, the fraction of agglomerates \
+             ({fraction}) to set 1, the strength of oblique-angle ({strength}) to \"all below 0.6\" of set \
+             4, and p_y = {} sigma_y, which the paper read off all near-normal sets, so that it is not \
+             unseen; it moves none of the three observables by itself, because the 0.6 is crossed by \
+             agglomerates only. Predicted: sets 2, 3 and 5. Not predictable: who sticks ({:.0} % and {:.1} \
+             % with the same dust), as neither plasma nor dust temperature is an input; and the scatter of \
+             e_t, which has no term here. As the sets below 0.6 differ little among each other ({least:.0} \
+             to {most:.0} %), a model that knows set 1 does well on the others whatever its physics: the \
+             gain shows that the quarter is there in every set, not why.",
             RATIO[0],
             SETS[0].stuck_percent(),
             SETS[2].stuck_percent()
         ),
-        "Both models leave sticking out almost wholly, so its error neither falls nor rises. Fitting W to set 1 would make it worse for sets 3 to 5 (see \"Work of adhesion and who sticks\"), so the calibrated model does not."
+        "Both models leave sticking out almost wholly, so its error neither falls nor rises. Fitting W to \
+         set 1 would make it worse for sets 3 to 5 (see \"Work of adhesion and who sticks\"), so the \
+         calibrated model does not."
             .to_owned(),
     ])
 }
@@ -180,7 +190,8 @@ fn table_of(both: &Both) -> Table {
     table(
         "Before and after, with both assumed spreads of v_n.",
         2,
-        "set | observable | published | old, v_n even | old, log-even | calibrated, v_n even | calibrated, log-even | calibrated on",
+        "set | observable | published | old, v_n even | old, log-even | calibrated, v_n even | calibrated, \
+         log-even | calibrated on",
         rows,
     )
 }
@@ -262,8 +273,9 @@ fn steps(both: &Both, models: &[Model; 2], replicates: usize) -> Result<Table> {
         [&both[0][1], &both[1][1]],
     ));
     Ok(table(
-        "Error on the unseen sets step by step. oblique-angle, which set 4 asks for, acts on the oblique tail of the near-normal sets, too, and makes these worse. Without agglomerates in set 4 it would not be needed; the \
-         published counts do not choose.",
+        "Error on the unseen sets step by step. oblique-angle, which set 4 asks for, acts on the oblique \
+         tail of the near-normal sets, too, and makes these worse. Without agglomerates in set 4 it would \
+         not be needed; the published counts do not choose.",
         1,
         "model | stuck | rebounds below 0.6 | mean e_t",
         rows,
@@ -288,7 +300,9 @@ fn gain_table(gains: &[Gain]) -> Table {
         row
     };
     table(
-        "Error on the unseen sets 2, 3 and 5: mean distance of the expected share (or mean e_t) from the published one, both spreads; gain with 5 to 95 % over campaigns and published counts drawn anew (e_t: neither model scatters, and the printed means have no stated uncertainty).",
+        "Error on the unseen sets 2, 3 and 5: mean distance of the expected share (or mean e_t) from the \
+         published one, both spreads; gain with 5 to 95 % over campaigns and published counts drawn anew \
+         (e_t: neither model scatters, and the printed means have no stated uncertainty).",
         1,
         "observable | before | after | gain",
         OBSERVABLES.iter().zip(gains).map(row).collect(),
@@ -353,20 +367,19 @@ fn expected(set: &Set, counts: &[Counts], observable: &Observable) -> Result<Cla
 
 fn least_claim(set: &Set, counts: &[Counts], least: f64) -> Claim {
     let [expected, ..] = interval(counts, |counts| counts.least_e_t);
-    Basis::Predicted
-        .number(
-            &set.name(),
-            "least e_t (\"always exceeded\", taken as the least), calibrated model",
-            Published::within(least, 0.005),
-            expected,
-        )
-        .because(
-            "A constant e_t has no scatter. The cause of the scatter is open: camera, spin, agglomerates.",
-        )
+    Claim::predicted(
+        &set.name(),
+        "least e_t (\"always exceeded\", taken as the least), calibrated model",
+        Published::within(least, 0.005),
+        expected,
+    )
+    .because(
+        "A constant e_t has no scatter. The cause of the scatter is unknown: camera, spin or agglomerates.",
+    )
 }
 
 fn gain_claim((observable, (errors, gain)): (&Observable, &Gain)) -> Claim {
-    Basis::Predicted.statement(
+    Claim::predicted_statement(
         "sets 2, 3 and 5",
         &format!("gain on the unseen sets: {}", observable.name),
         "the calibration improves the model (section 5)",
@@ -374,9 +387,11 @@ fn gain_claim((observable, (errors, gain)): (&Observable, &Gain)) -> Claim {
             "error {:.3} → {:.3}, gain {:.3} [{:.3}, {:.3}]",
             errors[0], errors[1], gain[0], gain[1], gain[2]
         ),
-        gain[1] > 0.0)
+        gain[1] > 0.0,
+    )
     .because(if observable.name == "stuck" {
-        "Neither model has what decides who sticks; the old one, with weaker yielding and clean-metal adhesion, holds a few slow impacts."
+        "Neither model contains what decides capture. The old one, with a lower p_y and clean-metal \
+         adhesion, captures a few slow impacts."
     } else {
         "Agrees when the lower end of the 90 % interval is above zero."
     })
@@ -386,17 +401,18 @@ fn gain_claim((observable, (errors, gain)): (&Observable, &Gain)) -> Claim {
 fn reason(observable: &Observable, [low, high]: [f64; 2], low_by: f64) -> String {
     let drawn = format!("5 to 95 % of campaigns: {low:.3} to {high:.3}.");
     match observable.name {
-        "stuck" => format!("Band: 95 % binomial. {drawn} What decides who sticks is not among the inputs."),
+        "stuck" => format!("Band: 95 % binomial. {drawn} The inputs do not contain what decides capture."),
         "mean e_t" => {
             let [least, most] = range(SETS.iter().map(|set| set.e_t));
             let apart = most - least;
             format!(
-                "One constant for all sets; the sets' means differ by up to {apart:.2} and the paper gives no cause."
+                "One constant for all sets; the sets' means differ by up to {apart:.2} and the paper gives \
+                 no cause."
             )
         }
         _ if low_by > 0.05 => format!(
-            "Band: 95 % binomial. {drawn} Low, because oblique-angle takes part of set 1's agglomerates below 0.6, so that more of them are needed there, and this \
-             set has fewer oblique impacts to lose them again."
+            "Band: 95 % binomial. {drawn} Low, because oblique-angle lowers part of set 1's agglomerates \
+             below 0.6, so that set 1 needs a larger fraction, and this set has fewer oblique impacts."
         ),
         _ => format!("Band: 95 % binomial. {drawn}"),
     }

@@ -9,7 +9,7 @@ use super::published::{
     near_normal,
 };
 use super::{PLAIN, Result, e_n, model, with};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::steps::even;
 use crate::study::{Part, table};
 
@@ -42,28 +42,31 @@ pub fn part() -> Result<Part> {
 fn text(plain: &Model) -> Result<Vec<String>> {
     let wall = plain.walls().first().ok_or("no wall")?.material().mechanical(TEMPERATURES[1])?;
     Ok(vec![
-            "Bands lie between the smallest and the largest dust of a set (R = 4 and 5 µm, in set 5 6 and 8 µm), as in the paper; \
-             dust at 3000 K, target at 1000 K; work of adhesion of clean metal, 2 gamma, since the paper does not print the one \
-             it used. Above some 2 m/s size and adhesion hardly matter and e_n goes with p_y^(5/8) v_n^(-1/4)."
-                .to_owned(),
-            format!(
-                "Thornton & Ning know the yield strength only as p_y = c sigma_y. Nobody has measured sigma_y of tungsten dust of \
-                 9 µm at 3000 K; the library assumes {} MPa, a factor {} either way. So the experiment calibrates p_y, and c = {} holds \
-                 for the sigma_y that MIGRAINE has, which the paper does not print. (The target at {} K is assumed at {:.0} MPa \
-                 and would yield first above that.)",
-                ASSUMED_STRENGTH / 1e6,
-                STRENGTH_FACTOR,
-                RATIO[0],
-                TEMPERATURES[1],
-                wall.yield_strength / 1e6
-            ),
-            format!(
-                "Colder, harder dust is no way to the quarter above 0.6 either: at 4 m/s and c = 4 dust of 1500 K has e_n {:.2} and dust of 300 K {:.2} (assumed table of sigma_y); \
-                 below some 1000 K it is the target that yields.",
-                e_n_of_dust_at(plain, 1500.0)?,
-                e_n_of_dust_at(plain, 300.0)?
-            ),
-        ])
+        "Bands lie between the smallest and the largest dust of a set (R = 4 and 5 µm, in set 5 6 and 8 \
+         µm), as in the paper; dust at 3000 K, target at 1000 K; work of adhesion of clean metal, 2 gamma, \
+         since the paper does not print the one it used. Above some 2 m/s size and adhesion hardly matter \
+         and e_n goes with p_y^(5/8) v_n^(-1/4)."
+            .to_owned(),
+        format!(
+            "In the law of Thornton & Ning the yield strength occurs only in p_y = c sigma_y. No \
+             measurement exists of sigma_y of tungsten dust of 9 µm at 3000 K; the library assumes {} MPa, \
+             a factor {} either way. The experiment therefore calibrates p_y, and c = {} holds for the \
+             sigma_y that MIGRAINE has, which the paper does not print. (The target at {} K is assumed at \
+             {:.0} MPa and would yield first above that.)",
+            ASSUMED_STRENGTH / 1e6,
+            STRENGTH_FACTOR,
+            RATIO[0],
+            TEMPERATURES[1],
+            wall.yield_strength / 1e6
+        ),
+        format!(
+            "Colder, harder dust does not explain the quarter above 0.6 either: at 4 m/s and c = 4 dust of \
+             1500 K has e_n {:.2} and dust of 300 K {:.2} (assumed table of sigma_y); below some 1000 K the \
+             target yields.",
+            e_n_of_dust_at(plain, 1500.0)?,
+            e_n_of_dust_at(plain, 300.0)?
+        ),
+    ])
 }
 
 /// The contact of the model's solids at the paper's temperatures.
@@ -88,7 +91,8 @@ fn figure(plain: &Model, set: &Set) -> Result<Figure> {
         chart = chart.line(&format!("p_y = {ratio} sigma_y"), &line);
     }
     let caption = format!(
-        "Thornton & Ning over the set's speeds; band: diameter {} to {} µm, line: {} µm. Printed: {} of {} rebounds below 0.6.",
+        "Thornton & Ning over the set's speeds; band: diameter {} to {} µm, line: {} µm. Printed: {} of {} \
+         rebounds below 0.6.",
         set.size[0],
         set.size[2],
         set.size[1],
@@ -102,7 +106,7 @@ fn figure(plain: &Model, set: &Set) -> Result<Figure> {
 fn counts() -> Vec<Claim> {
     let mut claims = Vec::new();
     let all: usize = SETS.iter().map(|set| set.impacts).sum::<usize>() + MOLTEN[0];
-    claims.push(Basis::Derived.number(
+    claims.push(Claim::derived(
         "section 4",
         "impacts of all sets, from the sets",
         Published::within(ALL_IMPACTS as f64, 0.5),
@@ -110,26 +114,26 @@ fn counts() -> Vec<Claim> {
     ));
     for set in &SETS {
         claims.push(
-            Basis::Derived
-                .number(
-                    &format!("section 4, {}", set.name()),
-                    "rebounds with e_n < 0.6 [%], from the printed counts",
-                    Published::within(set.below_percent, 0.5),
-                    100.0 * set.below as f64 / set.rebounds() as f64,
-                )
-                .because("Consistency of the source."),
+            Claim::derived(
+                &format!("section 4, {}", set.name()),
+                "rebounds with e_n < 0.6 [%], from the printed counts",
+                Published::within(set.below_percent, 0.5),
+                100.0 * set.below as f64 / set.rebounds() as f64,
+            )
+            .because("Consistency of the source."),
         );
     }
     let [below, rebounds] = near_normal();
     claims.push(
-        Basis::Derived.number(
+        Claim::derived(
             "section 4, normal restitution",
             "near-normal rebounds with strong dissipation [%], sets 1, 2, 3 and 5 together",
             Published::within(STRONG_PERCENT, 1.0),
-            100.0 * below as f64 / rebounds as f64)
+            100.0 * below as f64 / rebounds as f64,
+        )
         .because(
-            "\"~\" is taken as one per cent, as the same paper means it in \"~71 %\" of set 1. Here it means three quarters; \
-             nothing hangs on the difference.",
+            "\"~\" is taken as one per cent, as in \"~71 %\" of set 1. Here it means three quarters; the \
+             difference has no consequence.",
         ),
     );
     claims
@@ -201,16 +205,17 @@ fn window_table(plain: &Model) -> Result<nearwall::report::Table> {
     };
     let ours = contact(plain, RATIO[0], None)?.limiting_pressure();
     let caption = format!(
-        "Limiting pressures at which Thornton & Ning keep every rebound of a set below 0.6 (upper ends; without adhesion set by \
-         the slowest impact), and at which the slowest impact rebounds at all against the adhesion of clean metal (lower end). The library's \
-         {} sigma_y is {} GPa.",
+        "Limiting pressures at which Thornton & Ning keep every rebound of a set below 0.6 (upper ends; \
+         without adhesion set by the slowest impact), and at which the slowest impact rebounds at all \
+         against the adhesion of clean metal (lower end). The library's {} sigma_y is {} GPa.",
         RATIO[0],
         giga(ours)
     );
     Ok(table(
         &caption,
         1,
-        "set | slowest v_n [m/s] | p_y below, no adhesion [GPa] | p_y above, 2 gamma [GPa] | p_y below, 2 gamma [GPa]",
+        "set | slowest v_n [m/s] | p_y below, no adhesion [GPa] | p_y above, 2 gamma [GPa] | p_y below, 2 \
+         gamma [GPa]",
         SETS.iter().map(row).collect(),
     ))
 }
@@ -237,8 +242,8 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table> {
         }
     }
     let caption = format!(
-        "What the range of the yield strength does, 9 µm, clean-metal adhesion. Last column: the sigma_y with which each c would give the \
-         curve of {} x {} MPa.",
+        "Influence of the range of the yield strength, 9 µm, clean-metal adhesion. Last column: the sigma_y \
+         with which each c would give the curve of {} x {} MPa.",
         RATIO[0],
         ASSUMED_STRENGTH / 1e6
     );
@@ -246,7 +251,8 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table> {
         &caption,
         0,
         &format!(
-            "sigma_y [MPa] | c | p_y [GPa] | v_y [m/s] | v_s [m/s] | e_n at {slowest} m/s | at 5 m/s | at {fastest} m/s | sigma_y for 1.2 GPa [MPa]"
+            "sigma_y [MPa] | c | p_y [GPa] | v_y [m/s] | v_s [m/s] | e_n at {slowest} m/s | at 5 m/s | at \
+             {fastest} m/s | sigma_y for 1.2 GPa [MPa]"
         ),
         rows,
     ))
@@ -254,10 +260,13 @@ fn strength_table(plain: &Model) -> Result<nearwall::report::Table> {
 
 fn strength_figure(plain: &Model) -> Result<Figure> {
     let speeds: Vec<f64> = even([0.5, 13.0], 120).collect();
-    let mut chart =
-        Chart::new("What the yield strength does at c = 4 and c = 2.8", "normal speed v_n [m/s]", "e_n [1]")
-            .y_range(0.0, 1.0)
-            .y_step(0.2);
+    let mut chart = Chart::new(
+        "Influence of the yield strength at c = 4 and c = 2.8",
+        "normal speed v_n [m/s]",
+        "e_n [1]",
+    )
+    .y_range(0.0, 1.0)
+    .y_step(0.2);
     for ratio in RATIO {
         let curve = |factor: f64| -> Result<Vec<f64>> {
             let model = with(plain, &[("yield-ratio", &[ratio * factor])])?;
@@ -269,8 +278,8 @@ fn strength_figure(plain: &Model) -> Result<Figure> {
     }
     let [found, before] = RATIO;
     let caption = format!(
-        "Bands: sigma_y from {:.0} to {:.0} MPa. They overlap nearly everywhere: an e_n does not tell {found} from {before} unless sigma_y is known to \
-         better than the factor {:.2} between them.",
+        "Bands: sigma_y from {:.0} to {:.0} MPa. They overlap nearly everywhere: e_n does not distinguish \
+         {found} from {before} unless sigma_y is known to better than the factor {:.2} between them.",
         ASSUMED_STRENGTH / STRENGTH_FACTOR / 1e6,
         ASSUMED_STRENGTH * STRENGTH_FACTOR / 1e6,
         found / before
@@ -286,13 +295,16 @@ fn largest_of_curve(plain: &Model, set: &Set) -> Result<Claim> {
             most = most.max(e_n(plain, size * 1e-6, speed, 0.5)?);
         }
     }
-    Ok(Basis::Predicted.number(
+    Ok(Claim::predicted(
         set.figure,
-        "largest e_n of the curve for p_y = 4 sigma_y over the set's speeds and sizes, where the paper draws the rebounds below 0.6",
+        "largest e_n of the curve for p_y = 4 sigma_y over the set's speeds and sizes, where the paper \
+         draws the rebounds below 0.6",
         Published::Below(PARTING),
-        most)
+        most,
+    )
     .because(&format!(
-        "A weak test: the points are not printed, and the library's {} MPa is assumed and was looked at beside this paper.",
+        "A weak test: the points are not printed, and the library's {} MPa is assumed and was chosen with \
+         knowledge of this paper.",
         ASSUMED_STRENGTH / 1e6
     )))
 }
@@ -305,20 +317,14 @@ fn overestimate(plain: &Model) -> Result<Claim> {
     };
     let [found, before] = RATIO;
     let ratio = e_n(found)? / e_n(before)?;
-    Ok(Basis::Derived
-        .statement(
-            "section 4, normal restitution",
-            "2.8 overestimates the dissipation where 4 is right: e_n(4)/e_n(2.8) at 5 m/s without adhesion",
-            "appears to overestimate",
-            &format!(
-                "{ratio:.3}; far above v_y ({found}/{before})^(5/8) = {:.3}",
-                (found / before).powf(0.625)
-            ),
-            ratio > 1.0,
-        )
-        .because(
-            "A quarter in e_n is what the calibration changes, far less than a factor 3 in sigma_y does.",
-        ))
+    Ok(Claim::derived_statement(
+        "section 4, normal restitution",
+        "2.8 overestimates the dissipation where 4 is right: e_n(4)/e_n(2.8) at 5 m/s without adhesion",
+        "appears to overestimate",
+        &format!("{ratio:.3}; far above v_y ({found}/{before})^(5/8) = {:.3}", (found / before).powf(0.625)),
+        ratio > 1.0,
+    )
+    .because("The calibration changes e_n by a quarter, far less than a factor of 3 in sigma_y."))
 }
 
 fn agreement() -> Claim {
@@ -326,7 +332,8 @@ fn agreement() -> Claim {
         "section 4 and 5 (i)",
         "agreement with the T&N model is reasonable provided p_y ≈ 4 sigma_y",
         "p_y/sigma_y ≈ 4",
-        "Neither the points of Figs 1, 3, 4 and 6 nor sigma_y(T, d) are printed. Only the product is seen in a rebound.",
+        "Neither the points of Figs 1, 3, 4 and 6 nor sigma_y(T, d) are printed. A rebound depends only on \
+         the product.",
     )
 }
 
@@ -335,10 +342,11 @@ fn one_pressure(plain: &Model) -> Result<Claim> {
     let [bare, low, high] = window(plain)?;
     let needs = RATIOS.map(|c| number(bare / c / 1e6));
     let assumed = ASSUMED_STRENGTH / 1e6;
-    Ok(Basis::Predicted.statement(
+    Ok(Claim::predicted_statement(
         "section 4, sets 1, 2, 3, 5",
         &format!(
-            "a p_y exists that keeps every strong rebound below 0.6 in all near-normal sets, and {} x {assumed} MPa is one",
+            "a p_y exists that keeps every strongly dissipative rebound below 0.6 in all near-normal sets; \
+             {} x {assumed} MPa is one",
             RATIO[0]
         ),
         "rebounds below 0.6 follow T&N",
@@ -348,10 +356,11 @@ fn one_pressure(plain: &Model) -> Result<Claim> {
             number(low / 1e9),
             number(high / 1e9)
         ),
-        RATIO[0] * ASSUMED_STRENGTH < bare && low < high)
+        RATIO[0] * ASSUMED_STRENGTH < bare && low < high,
+    )
     .because(&format!(
-        "Without adhesion this asks sigma_y below {} MPa of c = {}, {} of {} and {} of {}: all inside {assumed} MPa times or by \
-         {STRENGTH_FACTOR}, so the counts choose no c.",
+        "Without adhesion this asks sigma_y below {} MPa of c = {}, {} of {} and {} of {}: all inside \
+         {assumed} MPa times or by {STRENGTH_FACTOR}, so the counts choose no c.",
         needs[0], RATIOS[0], needs[1], RATIOS[1], needs[2], RATIOS[2]
     )))
 }
@@ -360,7 +369,7 @@ fn one_pressure(plain: &Model) -> Result<Claim> {
 fn equal_curves() -> Claim {
     let equal = RATIOS.map(|c| RATIO[0] * ASSUMED_STRENGTH / c);
     let range = ASSUMED_STRENGTH / STRENGTH_FACTOR..=ASSUMED_STRENGTH * STRENGTH_FACTOR;
-    Basis::Derived.statement(
+    Claim::derived_statement(
         "5 (i)",
         "an empirical value is determined for p_y/sigma_y",
         "4, not 2.8",
@@ -369,10 +378,11 @@ fn equal_curves() -> Claim {
             RATIOS.map(|c| c.to_string()).join(", "),
             equal.map(|strength| number(strength / 1e6)).join(", ")
         ),
-        !equal.iter().all(|strength| range.contains(strength)))
+        !equal.iter().all(|strength| range.contains(strength)),
+    )
     .because(
-        "All three lie within the range of sigma_y. What is determined is p_y; c = 4 belongs to MIGRAINE's sigma_y(T, d) and must not be \
-         carried to another.",
+        "All three lie within the range of sigma_y. The experiment determines p_y; c = 4 holds for \
+         MIGRAINE's sigma_y(T, d) only.",
     )
 }
 
@@ -383,14 +393,16 @@ fn temperature(plain: &Model) -> Result<Claim> {
         Ok(plain.particle().mechanical(temperature)?.yield_strength / 1e6)
     };
     let [hot, _] = TEMPERATURES;
-    Ok(Basis::Predicted.number(
+    Ok(Claim::predicted(
         "section 3 (iii)",
-        "above 1500 K the temperature hardly matters: e_n at 1500 K over e_n at 3000 K, 4 m/s",
+        "above 1500 K the temperature has little influence: e_n at 1500 K over e_n at 3000 K, 4 m/s",
         Published::Between(0.9, 1.1),
-        e_n_of_dust_at(plain, COLD)? / e_n_of_dust_at(plain, hot)?)
+        e_n_of_dust_at(plain, COLD)? / e_n_of_dust_at(plain, hot)?,
+    )
     .because(&format!(
-        "\"Very small\" is taken as 10 %. Here sigma_y falls from {:.0} to {:.0} MPa between the two (assumed table), and e_n with it; MIGRAINE's \
-         sigma_y must be flat above {COLD} K for the paper's statement to hold. One more reason why {} cannot be carried over.",
+        "\"Very small\" is taken as 10 %. Here sigma_y falls from {:.0} to {:.0} MPa between the two \
+         (assumed table), and e_n with it; the paper's statement requires a constant sigma_y above {COLD} K \
+         in MIGRAINE, another reason not to transfer c = {}.",
         strength(COLD)?,
         strength(hot)?,
         RATIO[0]
@@ -404,14 +416,13 @@ fn duration(plain: &Model) -> Result<Claim> {
     let mass = solid.density * 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3);
     let duration = 2.87 * (mass * mass / (radius * solid.reduced_modulus.powi(2) * 5.0)).powf(0.2);
     let nanoseconds = DURATION * 1e9;
-    Ok(Basis::Derived
-        .number(
-            "section 3",
-            "duration of an impact [ns], elastic (Hertz), 9 µm at 5 m/s",
-            Published::Between(nanoseconds / 10f64.sqrt(), nanoseconds * 10f64.sqrt()),
-            duration * 1e9,
-        )
-        .because("\"~10 ns\" is taken as an order of magnitude, half a decade either way."))
+    Ok(Claim::derived(
+        "section 3",
+        "duration of an impact [ns], elastic (Hertz), 9 µm at 5 m/s",
+        Published::Between(nanoseconds / 10f64.sqrt(), nanoseconds * 10f64.sqrt()),
+        duration * 1e9,
+    )
+    .because("\"~10 ns\" is taken as an order of magnitude, half a decade either way."))
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use super::published::{PARTING, RATIO, near_normal};
 use super::rigid_doublet::{DoubletMotion, DoubletRebound, contact_restitution, rebound};
 use super::statistics::{mean, quantile};
 use super::{MEASURED_ADHESION, PLAIN, Result, model};
-use crate::claim::{Basis, Claim};
+use crate::claim::Claim;
 use crate::steps::even;
 use crate::study::{Extent, Part, table};
 
@@ -66,15 +66,21 @@ fn text(solid: &Contact, fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], s
     let half = SPINS.iter().zip(fixed).find(|(_, sample)| sample.above(PARTING) >= 0.5);
     vec![
         format!(
-            "A rigid doublet (validation/src/migraine/rigid_doublet.rs) arrives in a random orientation and hits with one end, then perhaps the other, until it leaves. The contact is Thornton & Ning's with p_y = \
-             {} GPa and {MEASURED_ADHESION} J/m², seen with the effective mass at the contact; no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed {SEED}.",
+            "A rigid doublet (validation/src/migraine/rigid_doublet.rs) arrives in a random orientation and \
+             hits with one end, then perhaps the other, until it leaves. The contact is Thornton & Ning's \
+             with p_y = {} GPa and {MEASURED_ADHESION} J/m², seen with the effective mass at the contact; \
+             no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed \
+             {SEED}.",
             number(solid.limiting_pressure() / 1e9)
         ),
         format!(
-            "Without spin a doublet rebounds on average about as fast as a grain, mean {:.2}, and {:.1} % above 0.6: the first hit alone would leave it slower, the second end's hit gives some back. What the centre does not return turns the doublet. A doublet that hit the vessel before arrives \
-             with that spin: after {HISTORY} hits at the same speed (orientation forgotten in between, spin kept) it arrives with R omega/v_n = {:.2} on average, the mean e_n is {:.2}, and \
-             {:.1} % lie above 0.6. With earlier hits {} times as fast it is {:.2} and {:.0} %; half lie above 0.6 \
-             only from R omega/v_n = {} on.",
+            "Without spin a doublet rebounds on average about as fast as a grain, mean {:.2}, and {:.1} % \
+             above 0.6: the first hit alone would leave it slower, the second end's hit gives some back. \
+             What the centre does not return turns the doublet. A doublet that hit the vessel before \
+             arrives with that spin: after {HISTORY} hits at the same speed (orientation forgotten in \
+             between, spin kept) it arrives with R omega/v_n = {:.2} on average, the mean e_n is {:.2}, and \
+             {:.1} % lie above 0.6. With earlier hits {} times as fast it is {:.2} and {:.0} %; half lie \
+             above 0.6 only from R omega/v_n = {} on.",
             mean(&still.restitution),
             percent_above(still),
             mean(&travelled.arriving_spin),
@@ -164,11 +170,14 @@ fn spin_table(fixed: &[Sample], travelled: &[Sample], single: f64) -> Table {
     let quarter = 100.0 * published();
     table(
         &format!(
-            "Centre-of-mass restitution over random orientations at {SPEED} m/s, against the spin before (in units of v_n/R, its mean). \"Doublets needed\": share of the rebounds that would have to be doublets, the rest grains, for {quarter:.1} % above 0.6. \
-             Last column: what agglomerates' restitution and spread stand for then, its fraction being the {quarter:.1} %."
+            "Centre-of-mass restitution over random orientations at {SPEED} m/s, against the spin before \
+             (in units of v_n/R, its mean). \"Doublets needed\": share of the rebounds that would have to \
+             be doublets, the rest grains, for {quarter:.1} % above 0.6. Last column: what agglomerates' \
+             restitution and spread stand for then, its fraction being the {quarter:.1} %."
         ),
         1,
-        "population | spin | mean e_n | deviation | 5 to 95 % | above 0.6 [%] | above 1 [%] | doublets needed | hits | spin after | mean, deviation above 0.6",
+        "population | spin | mean e_n | deviation | 5 to 95 % | above 0.6 [%] | above 1 [%] | doublets \
+         needed | hits | spin after | mean, deviation above 0.6",
         rows,
     )
 }
@@ -236,7 +245,8 @@ fn angle_figure(solid: &Contact) -> Figure {
     chart = chart.line("e = 1, all hits", &followed(Some(1.0)));
     chart.mark_y(PARTING, "0.6").figure(
         "migraine-doublet-angle",
-        "Where the first hit leaves the centre moving on towards the wall, the other end hits and throws it back. Half of all orientations lie above 60°.",
+        "Where the first hit leaves the centre moving on towards the wall, the other end hits and throws it \
+         back. Half of all orientations lie above 60°.",
     )
 }
 
@@ -290,63 +300,70 @@ fn share(needed: f64) -> String {
 
 fn off_the_curve(travelled: &Sample, single: f64) -> Claim {
     let deviation = spread(&travelled.restitution);
-    Basis::Predicted.statement(
+    Claim::predicted_statement(
         "section 3 (i)",
-        "agglomerates do not abide by the T&N curve, by their shape and by spinning: deviation of e_n over orientations, spin kept from earlier hits",
+        "agglomerates deviate from the T&N curve by shape and spin: deviation of e_n over orientations, \
+         spin kept from earlier hits",
         "off the curve",
         &format!(
             "deviation {deviation:.2} around {:.2}, where a grain has {single:.2}",
             mean(&travelled.restitution)
         ),
-        deviation > 0.1)
+        deviation > 0.1,
+    )
 }
 
 fn without_spin(still: &Sample) -> Claim {
-    Basis::Predicted
-        .statement(
-            "section 4, mechanisms",
-            &format!("doublets without spin are the {:.1} % of rebounds above 0.6", 100.0 * published()),
-            "speculation",
-            &format!(
-                "{:.1} % of them lie above 0.6; mean {:.2}, largest {:.2}",
-                percent_above(still),
-                mean(&still.restitution),
-                quantile(&still.restitution, 1.0)
-            ),
-            still.above(PARTING) > published(),
-        )
-        .because("Second hits are counted. Even if all dust were doublets the quarter would be missing.")
+    Claim::predicted_statement(
+        "section 4, mechanisms",
+        &format!("doublets without spin are the {:.1} % of rebounds above 0.6", 100.0 * published()),
+        "speculation",
+        &format!(
+            "{:.1} % of them lie above 0.6; mean {:.2}, largest {:.2}",
+            percent_above(still),
+            mean(&still.restitution),
+            quantile(&still.restitution, 1.0)
+        ),
+        still.above(PARTING) > published(),
+    )
+    .because("Second impacts are included. Even if all dust were doublets, the quarter would not be reached.")
 }
 
 fn by_spin(still: &Sample, spinning: &Sample) -> Claim {
     let [spun, unspun] = [spinning, still].map(|sample| mean(&sample.restitution));
-    Basis::Predicted.statement(
+    Claim::predicted_statement(
         "section 4, mechanisms [21]",
-        "spinning transfers energy from rotation to translation: mean e_n at R omega/v_n = 1.5 above that without spin",
+        "spinning transfers energy from rotation to translation: mean e_n at R omega/v_n = 1.5 above that \
+         without spin",
         "enables",
         &format!(
             "{spun:.2} against {unspun:.2}; {:.1} % above 0.6, {:.1} % above 1",
             percent_above(spinning),
             100.0 * spinning.above(1.0)
         ),
-        spun > unspun + 0.05)
-    .because("It takes a rim that turns faster than the doublet flies.")
+        spun > unspun + 0.05,
+    )
+    .because("This requires a rim speed above the speed of the doublet.")
 }
 
 fn injection(travelled: &Sample, fast: &Sample) -> Claim {
-    Basis::Predicted.statement(
+    Claim::predicted_statement(
         "section 5 (iv)",
-        "a major source of systematic deviations is agglomerate injection: a small share of doublets explains the rebounds above 0.6",
+        "a major source of systematic deviations is agglomerate injection: a small share of doublets \
+         explains the rebounds above 0.6",
         "suggested; \"a small fraction\" of the stuck were doublets",
         &format!(
             "{:.1} % of travelled doublets lie above 0.6, so {} of the rebounds would have to be doublets",
             percent_above(travelled),
             share(needed(travelled))
         ),
-        needed(travelled) < 0.5)
+        needed(travelled) < 0.5,
+    )
     .because(&format!(
-        "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such hits leave are not enough; even at R omega/v_n = {}, from elsewhere (glancing hits, plasma), {:.0} % of the \
-         rebounds would have to be doublets. The effect agglomerates describes the quarter, it does not explain it.",
+        "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such \
+         hits leave are not sufficient; even at R omega/v_n = {}, from another source (glancing impacts, \
+         plasma), {:.0} % of the rebounds would have to be doublets. The effect agglomerates describes the \
+         quarter without explaining it.",
         SPINS[5],
         100.0 * needed(fast)
     ))

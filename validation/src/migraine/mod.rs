@@ -60,12 +60,13 @@ pub fn study(extent: Extent) -> Result<Study> {
     ];
     Ok(Study {
         title: "Tungsten dust in Pilot-PSI (MIGRAINE)".to_owned(),
-        source: "\"Experimental validation of the analytical model for tungsten dust - wall mechanical impacts incorporated in \
-                 the MIGRAINE dust dynamics code\" (Pilot-PSI, 520 impacts in six sets). Its figures' points are not printed; \
-                 compared is what the text says."
+        source: "\"Experimental validation of the analytical model for tungsten dust - wall mechanical \
+            impacts incorporated in the MIGRAINE dust dynamics code\" (Pilot-PSI, 520 impacts in six sets). \
+            The data points of its figures are not printed, so only statements in the text are compared."
             .to_owned(),
         lead: format!(
-            "{gain} It does not say who sticks, and what the experiment calibrates is p_y, not p_y/sigma_y."
+            "{gain} It does not predict which particles stick. The experiment calibrates p_y, not \
+             p_y/sigma_y."
         ),
         parts,
     })

@@ -9,7 +9,7 @@ use super::published::{MOLTEN, MOLTEN_SIZE, MOLTEN_TEMPERATURES, RATIO, SETS};
 use super::sample::{Sampler, Spread};
 use super::statistics::binomial;
 use super::{MOLYBDENUM, Result, model};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::study::{Part, table};
 
 const SEED: u64 = 16;
@@ -77,11 +77,14 @@ pub fn part() -> Result<Part> {
     Ok(Part {
         heading: "Molten molybdenum sticks (set 6, Fig 7b)".to_owned(),
         text: vec![format!(
-            "[capture] model = \"droplet\" calls a particle above the melting point of its material a droplet and keeps it unless K = We^½ Re^¼ exceeds {SPLASH_K}. Molybdenum's surface tension and viscosity are \
-             of the library; speeds of set 6 are not printed and those of set 5 stand in. {stuck} of {impacts} says that p lies above {low:.3} (95 %, one-sided), not that it is 1."
+            "[capture] model = \"droplet\" calls a particle above the melting point of its material a \
+             droplet and keeps it unless K = We^½ Re^¼ exceeds {SPLASH_K}. Molybdenum's surface tension and \
+             viscosity are of the library; speeds of set 6 are not printed and those of set 5 stand in. \
+             {stuck} of {impacts} says that p lies above {low:.3} (95 %, one-sided), not that it is 1."
         )],
         tables: vec![table(
-            "16 µm molybdenum on tungsten at 1000 K; 50 and 150 m/s lie far outside the experiment and show where the criterion changes its mind.",
+            "16 µm molybdenum on tungsten at 1000 K; 50 and 150 m/s lie far outside the experiment and show \
+             where the criterion changes its mind.",
             0,
             "T_p [K] | v_n [m/s] | We [1] | Re [1] | K [1] | p_stick [1]",
             tried.iter().map(Tried::row).collect(),
@@ -95,15 +98,17 @@ pub fn part() -> Result<Part> {
 fn capture(low: f64, least: f64, splash: f64) -> Claim {
     let [slowest, fastest] = SETS[4].normal;
     let [_, coolest, hottest] = TEMPERATURES;
-    Basis::Predicted.number(
+    Claim::predicted(
         "set 6",
         &format!(
-            "probability of capture, {} of {} (95 % lower bound), smallest over {slowest} to {fastest} m/s and {coolest} to {hottest} K",
+            "probability of capture, {} of {} (95 % lower bound), smallest over {slowest} to {fastest} m/s \
+             and {coolest} to {hottest} K",
             MOLTEN[1], MOLTEN[0]
         ),
         Published::Between(low, 1.0),
-        least)
-    .because(&format!("K is at most {splash:.1}: nothing is fitted, and there is much room."))
+        least,
+    )
+    .because(&format!("K is at most {splash:.1}: nothing is fitted, and the margin is large."))
 }
 
 /// Whether droplets are consistent with the counts, and solid grains, too.
@@ -113,7 +118,7 @@ fn droplets(model: &Model, least: f64) -> Result<Claim> {
     let raised = [solid_share(&flattened, Spread::Even)?, solid_share(&flattened, Spread::Slow)?];
     let [solid_at, ..] = TEMPERATURES;
     let [impacts, stuck] = MOLTEN;
-    let claim = Basis::Predicted.statement(
+    let claim = Claim::predicted_statement(
         "section 4, sticking events (iii)",
         "droplets are consistent with all 13 sticking",
         "formation of droplets is consistent with the observation",
@@ -121,8 +126,11 @@ fn droplets(model: &Model, least: f64) -> Result<Claim> {
         least == 1.0,
     );
     Ok(claim.because(&format!(
-        "It does not exclude solid grains: at {solid_at} K and the speeds of set 5 adhesion holds {:.0} to {:.0} % of them by the closed form ({stuck} of {impacts} then has a chance of at most {:.2}), but {:.0} % with the pull-off that \
-         yielding raises. Clean metal, {} x {:.0} MPa, v_n even or even in its logarithm (all assumed, seed {SEED}). The SEM images of re-solidified grains are the strong evidence.",
+        "It does not exclude solid grains: at {solid_at} K and the speeds of set 5 adhesion holds {:.0} to \
+         {:.0} % of them by the closed form ({stuck} of {impacts} then has a probability of at most {:.2}), \
+         but {:.0} % with the pull-off that yielding raises. Clean metal, {} x {:.0} MPa, v_n even or even \
+         in its logarithm (all assumed, seed {SEED}). The SEM images of re-solidified grains are the strong \
+         evidence.",
         100.0 * solid[0],
         100.0 * solid[1],
         solid[1].powi(stuck as i32),
@@ -137,7 +145,7 @@ fn shape() -> Claim {
         "Fig 7b",
         "flattening, recoil and freezing from below",
         "described in words",
-        "No droplet law here has a shape; the criterion leaves out freezing, which acts towards capture.",
+        "The droplet criterion has no shape and omits freezing, which favours capture.",
     )
 }
 

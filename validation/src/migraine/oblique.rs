@@ -8,7 +8,7 @@ use super::published::{PARTING, RATIO, SETS, Set, near_normal};
 use super::sample::{Sampler, Spread};
 use super::statistics::{binomial, mean};
 use super::{MEASURED_ADHESION, PLAIN, Result, impact, model, with};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::steps::even;
 use crate::study::{Extent, Part, table};
 
@@ -37,12 +37,16 @@ fn text() -> Vec<String> {
     let oblique = SETS[3].rebounds();
     vec![
         format!(
-            "The paper fixes three things: T&N overestimates e_n at {least:.0} to {largest:.0}°; more so as v_n grows; below about 45° e_n depends on v_n alone (other works). It prints no e_n but \"all below 0.6\". The \
-             form of oblique-angle, exp(-a sin⁴(theta) (v_n/1 m/s)^p), is assumed; of its parameters the words fix the signs of a and p and nothing else."
+            "The paper fixes three things: T&N overestimates e_n at {least:.0} to {largest:.0}°; more so as \
+             v_n grows; below about 45° e_n depends on v_n alone (other works). The only e_n it prints is \
+             \"all below 0.6\". The form of oblique-angle, exp(-a sin⁴(theta) (v_n/1 m/s)^p), is assumed; \
+             the paper's words fix only the signs of its parameters a and p."
         ),
         format!(
-            "\"All below 0.6\" is no evidence against T&N by itself: its curve for {} sigma_y lies below 0.6 there. What it does say is that the quarter of weak dissipation is missing: {} of {oblique}, where \
-             the near-normal sets have {} of {rebounds}. Either obliquity lowers those impacts, too, or there were no agglomerates in that run.",
+            "\"All below 0.6\" is no evidence against T&N by itself: its curve for {} sigma_y lies below \
+             0.6 there. It does show that the quarter of weak dissipation is missing: {} of {oblique}, \
+             where the near-normal sets have {} of {rebounds}. Either obliquity also lowers those impacts, \
+             or that run had no agglomerates.",
             RATIO[0],
             oblique - SETS[3].below,
             rebounds - below
@@ -69,7 +73,8 @@ fn figure(plain: &Model) -> Result<Figure> {
     }
     Ok(chart.mark_y(1.0, "T&N").figure(
         "migraine-oblique",
-        "The ratio must exceed 1 and grow with v_n: so a > 0 and p > 0. Size and curvature are free, as no e_n of set 4 is printed.",
+        "The ratio must exceed 1 and grow with v_n: so a > 0 and p > 0. Size and curvature are free, as no \
+         e_n of set 4 is printed.",
     ))
 }
 
@@ -86,16 +91,19 @@ fn strengths(plain: &Model, extent: Extent) -> Result<Table> {
         rows.push(row);
     }
     let caption = format!(
-        "Both numbers at once: fraction of agglomerates (restitution {}, spread {}, assumed) with which set 1 has {} % below 0.6 although obliquity lowers agglomerates, too, and with it the share of campaigns \
-         like set 4 that have all {} below 0.6, and their mean e_n, against the strength a (p = {}, assumed; seed {SEED}). The calibrated model takes the weakest a, in quarters, that keeps most campaigns below.",
+        "Both parameters: fraction of agglomerates (restitution {}, spread {}, assumed) with which set 1 \
+         has {} % below 0.6 although obliquity also lowers agglomerates, the resulting share of campaigns \
+         like set 4 that have all {} below 0.6, and their mean e_n, against the strength a (p = {}, \
+         assumed; seed {SEED}). The calibrated model takes the weakest a, in quarters, that keeps most \
+         campaigns below.",
         AGGLOMERATES[0],
         AGGLOMERATES[1],
         SETS[0].below_percent,
         SETS[3].rebounds(),
         CHOSEN[1]
     );
-    let header = "strength a [1] | v_n even: fraction | all below | mean e_n of set 4 | v_n log-even: fraction | all below | \
-                  mean e_n of set 4";
+    let header = "strength a [1] | v_n even: fraction | all below | mean e_n of set 4 | v_n log-even: \
+        fraction | all below | mean e_n of set 4";
     Ok(table(&caption, 0, header, rows))
 }
 
@@ -162,36 +170,48 @@ fn differs_from_near_normal() -> Result<Claim> {
     let oblique = SETS[3].rebounds();
     let chance = Hypergeometric::new((rebounds + oblique) as u64, above as u64, oblique as u64)?.pmf(0);
     let at_most = binomial(0, oblique, 0.05)?[1];
-    Ok(Basis::Derived.statement(
+    Ok(Claim::derived_statement(
         "set 4 against sets 1, 2, 3, 5",
-        &format!("oblique impacts differ from near-normal ones: chance of 0 of {oblique} above 0.6 where the others have {above} of {rebounds}"),
+        &format!(
+            "oblique impacts differ from near-normal ones: probability of 0 of {oblique} above 0.6 when the \
+             others have {above} of {rebounds}"
+        ),
         "e_n depends on the angle, too",
         &format!("{chance:.1e} (exact test); at most {:.1} % above 0.6 in set 4 (95 %)", 100.0 * at_most),
-        chance < 0.01)
-    .because("The test says that the sets differ, not that the angle is why: set 4 also had weaker plasma and another target."))
+        chance < 0.01,
+    )
+    .because(
+        "The test shows that the sets differ, not that the angle is the cause: set 4 also had a weaker \
+         plasma and another target.",
+    ))
 }
 
 fn overestimate(oblique: &Model) -> Result<Claim> {
     let ([slow, fast], angle) = (SETS[3].normal, SETS[3].angle[1]);
     let (at_slow, at_fast) = (ratio(oblique, slow, angle)?, ratio(oblique, fast, angle)?);
-    Ok(Basis::Fitted.statement(
+    Ok(Claim::fitted_statement(
         "section 4, near-tangential",
         &format!(
             "T&N overestimates e_n, the more the higher v_n: e_n(0)/e_n({angle}°) at {slow} and {fast} m/s"
         ),
         "> 1 and rising",
         &format!("{at_slow:.2} and {at_fast:.2}"),
-        at_slow > 1.0 && at_fast > at_slow)
-    .because("By the signs of a and p, which were chosen for it."))
+        at_slow > 1.0 && at_fast > at_slow,
+    )
+    .because("The signs of a and p were chosen for it."))
 }
 
 fn below_45(oblique: &Model) -> Result<Claim> {
-    Ok(Basis::Predicted.number(
+    Ok(Claim::predicted(
         "section 4, near-tangential",
         "up to about 45° e_n depends on v_n alone: e_n(0)/e_n(30°) at 3 m/s",
         Published::Between(0.95, 1.25),
-        ratio(oblique, 3.0, 30.0)?)
-    .because("\"Alone\" is taken as within 25 % of e_n, far inside the scatter; sin⁴ leaves 1/16 of a at 30° but a quarter at 45°, where the effect is no longer small."))
+        ratio(oblique, 3.0, 30.0)?,
+    )
+    .because(
+        "\"Alone\" is taken as within 25 % of e_n, far inside the scatter; sin⁴ leaves 1/16 of a at 30° but \
+         a quarter at 45°, where the effect is not small.",
+    ))
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use super::published::{PARTING, RATIO, SETS};
 use super::sample::{Sampler, Spread};
 use super::statistics::{mean, quantile};
 use super::{MEASURED_ADHESION, PLAIN, Result, e_n, impact, model, with};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, Published};
 use crate::steps::even;
 use crate::study::{Extent, Part, table};
 
@@ -31,18 +31,18 @@ pub fn part(extent: Extent) -> Result<Part> {
     Ok(Part {
         heading: "Roughness: adhesion and geometry at random".to_owned(),
         text: vec![
-            "MIGRAINE draws the adhesive velocity between zero and its JKR value; the effect nano-roughness (spread 1) draws the work of adhesion, from which v_adh follows with the \
-             power 5/6. Both have the same ends; the mean v_adh is 1/2 of JKR's in one and 6/11 in the other. The table shows that this is all the difference there is."
+            "MIGRAINE draws the adhesive velocity between zero and its JKR value; the effect nano-roughness \
+             (spread 1) draws the work of adhesion, from which v_adh follows with the power 5/6. Both have \
+             the same ends; the mean v_adh is 1/2 of JKR's in one and 6/11 in the other. The table shows \
+             that this is all the difference there is."
                 .to_owned(),
-            "micro-roughness tilts the facet that is hit. On these mirror-polished targets (R_q 27 to 40 nm) the paper takes both directions as given, and its e_t says the same: with v_t down to \
-             0, any tilt throws e_t far off."
+            "micro-roughness tilts the facet that is hit. On these mirror-polished targets (R_q 27 to 40 \
+             nm) the paper takes both directions as given, and its e_t says the same: with v_t down to 0, \
+             any tilt throws e_t far off."
                 .to_owned(),
         ],
         tables: vec![draw_table(&plain)?],
-        figures: vec![
-            nano_figure(&nano, &measured)?,
-            micro_figure(&plain, draws)?,
-        ],
+        figures: vec![nano_figure(&nano, &measured)?, micro_figure(&plain, draws)?],
         claims,
     })
 }
@@ -79,8 +79,9 @@ fn nano_figure(nano: &Model, measured: &Model) -> Result<Figure> {
         chart = chart.band(&speeds, &column(0), &column(2)).line(name, &line);
     }
     let caption = format!(
-        "nano-roughness, spread 1, 9 µm, p_y = {} GPa. Clean-metal adhesion scatters below 2 m/s and nowhere else; with {MEASURED_ADHESION} J/m² there is nothing to scatter. Neither \
-         passes the curve without adhesion.",
+        "nano-roughness, spread 1, 9 µm, p_y = {} GPa. Clean-metal adhesion scatters below 2 m/s and \
+         nowhere else; with {MEASURED_ADHESION} J/m² there is nothing to scatter. Neither passes the curve \
+         without adhesion.",
         number(limiting_pressure(nano)? / 1e9)
     );
     Ok(chart.mark_y(PARTING, "0.6").figure("migraine-nano", &caption))
@@ -118,7 +119,9 @@ fn micro_figure(plain: &Model, draws: usize) -> Result<Figure> {
         chart = chart.band(&speeds, &column(0), &column(2)).line(&format!("{angle}° from the normal"), &line);
     }
     let caption = format!(
-        "micro-roughness, tilt of {SHOWN_TILT} rad (assumed, for show), W = {MEASURED_ADHESION} J/m². The band is as wide at high as at low speed, and widest for oblique impacts: not the scatter that the paper reports."
+        "micro-roughness, tilt of {SHOWN_TILT} rad (assumed, for show), W = {MEASURED_ADHESION} J/m². The \
+         band is as wide at high as at low speed, and widest for oblique impacts: not the scatter that the \
+         paper reports."
     );
     Ok(chart.mark_y(PARTING, "0.6").figure("migraine-micro", &caption))
 }
@@ -153,7 +156,9 @@ fn draw_table(plain: &Model) -> Result<Table> {
     let pressure = number(limiting_pressure(plain)? / 1e9);
     Ok(table(
         &format!(
-            "Drawing the adhesive velocity (MIGRAINE) against drawing the work of adhesion (nano-roughness): 9 µm, clean metal, p_y = {pressure} GPa; mean e_n of the rebounds with its 5 and 95 %."
+            "Drawing the adhesive velocity (MIGRAINE) against drawing the work of adhesion \
+             (nano-roughness): 9 µm, clean metal, p_y = {pressure} GPa; mean e_n of the rebounds with its 5 \
+             and 95 %."
         ),
         0,
         "v_n [m/s] | v_adh drawn: stuck [%] | e_n | W drawn: stuck [%] | e_n",
@@ -189,21 +194,28 @@ fn largest_tilt(plain: &Model, replicates: usize) -> Result<f64> {
 fn scatter(nano: &Model, measured: &Model) -> Result<[Claim; 2]> {
     let [slow, fast, bare] = [width(nano, SLOW)?, width(nano, FAST)?, width(measured, SLOW)?];
     Ok([
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "section 3 (iv)",
-            "nano-roughness is probably responsible for the strong fluctuations at low speed: width of the 90 % band at 1 m/s over that at 8 m/s",
+            "nano-roughness is probably responsible for the strong fluctuations at low speed: width of the \
+             90 % band at 1 m/s over that at 8 m/s",
             "fluctuations in the low speed range",
             &format!("{slow:.2} against {fast:.4}: {:.0} times", slow / fast),
-            slow > 5.0 * fast)
+            slow > 5.0 * fast,
+        )
         .because("\"Strong at low speed\" is taken as five times. Holds with clean-metal adhesion."),
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "section 3 (iv)",
-            &format!("the same with the measured {MEASURED_ADHESION} J/m²: a width at {SLOW} m/s that one could see (0.05)"),
+            &format!(
+                "the same with the measured {MEASURED_ADHESION} J/m²: a visible width (0.05) at {SLOW} m/s"
+            ),
             "strong fluctuations",
             &format!("{bare:.4}"),
-            bare > 0.05)
+            bare > 0.05,
+        )
         .because(
-            "The fluctuations need clean-metal adhesion, the absence of sticking in set 4 and its rarity in sets 3 and 5 a small one: not both come from one W. Spin and agglomerates scatter, too.",
+            "The fluctuations need the adhesion of clean metal; the absence of sticking in set 4 and its \
+             rarity in sets 3 and 5 need a small one. One W cannot give both. Spin and agglomerates also \
+             cause scatter.",
         ),
     ])
 }
@@ -216,14 +228,16 @@ fn lifted(plain: &Model) -> Result<Claim> {
         most = most.max(e_n(&bare, set.size[2] * 1e-6, set.normal[0], 0.5)?);
     }
     let pressure = limiting_pressure(plain)?;
-    Ok(Basis::Predicted.statement(
+    Ok(Claim::predicted_statement(
         "section 4, mechanisms",
         "nano-roughness, which reduces adhesive work, can lift a quarter of the rebounds above 0.6",
         "one of three speculations",
         &format!("without any adhesion at most {most:.2}, at the slowest impact"),
-        most > PARTING)
+        most > PARTING,
+    )
     .because(&format!(
-        "With p_y = {} GPa plastic loss alone keeps e_n below 0.6 at every printed speed. Of the three mechanisms this one is out unless p_y is larger.",
+        "With p_y = {} GPa plastic loss alone keeps e_n below 0.6 at every printed speed. This mechanism is \
+         excluded unless p_y is larger.",
         number(pressure / 1e9)
     )))
 }
@@ -232,26 +246,29 @@ fn lifted(plain: &Model) -> Result<Claim> {
 fn either_draw(plain: &Model) -> Result<Claim> {
     const BAND: f64 = 0.01;
     let [of_velocity, of_work] = [by_draw(plain, SLOW, 1.0)?[1], by_draw(plain, SLOW, VELOCITY_POWER)?[1]];
-    Ok(Basis::Derived.number(
+    Ok(Claim::derived(
         "section 3 (iv)",
-        "mean e_n at 1 m/s, both computed here: v_adh drawn as MIGRAINE does (left), W drawn as nano-roughness does (right)",
+        "mean e_n at 1 m/s, both computed here: v_adh drawn as MIGRAINE does (left), W drawn as \
+         nano-roughness does (right)",
         Published::within(of_velocity, BAND),
-        of_work)
-    .because(&format!(
-        "Not the paper's number: it prints none. {BAND} is far below anything the experiment resolves."
-    )))
+        of_work,
+    )
+    .because(&format!("The paper prints no number. {BAND} is far below the resolution of the experiment.")))
 }
 
 /// How much the facets may tilt.
 fn polished(plain: &Model, replicates: usize) -> Result<Claim> {
     let tilt = largest_tilt(plain, replicates)?;
-    Ok(Basis::Predicted.statement(
+    Ok(Claim::predicted_statement(
         "section 3, targets; set 1",
-        "polishing made normal and tangential directions the same for all impacts: tilt with which set 1 keeps e_t above 0.61",
+        "polishing made normal and tangential directions the same for all impacts: tilt with which set 1 \
+         keeps e_t above 0.61",
         "no tilt",
         &format!("at most some {} rad in half of the campaigns", number(tilt)),
-        tilt < 0.01)
+        tilt < 0.01,
+    )
     .because(&format!(
-        "v_t is printed from 0 on; an impact with v_t of some cm/s feels any tilt. A bound on the camera's error of direction as well. Steps of half a decade; seed {SEED}."
+        "v_t is printed from 0; an impact with v_t of some cm/s is sensitive to any tilt. This also bounds \
+         the direction error of the camera. Steps of half a decade; seed {SEED}."
     )))
 }

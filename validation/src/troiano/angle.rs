@@ -144,10 +144,10 @@ pub(super) fn part() -> Result<Part> {
 
 fn effects_text(models: &Models) -> Result<String> {
     Ok(format!(
-        "Plain laws: e_n depends on v_n alone, which Fig. 6 keeps at 1 m/s, so it is {:.3} at \
-         every angle; e_t slides down to {:.2} and jumps to 5/7. The paper names what is missing: air \
-         that lifts particles at glancing angles, and tangential compliance. Both are effects here. \
-         Each has one number set to one of the paper's (e_n at {GLANCING}°, e_t at {NEARLY_STEEP}°), and c is lowered so \
+        "Plain laws: e_n depends on v_n alone, which Fig. 6 keeps at 1 m/s, so it is {:.3} at every angle; \
+         e_t slides down to {:.2} and jumps to 5/7. The paper names what is missing: air that lifts \
+         particles at glancing angles, and tangential compliance. Both are effects here. Each has one \
+         number set to one of the paper's (e_n at {GLANCING}°, e_t at {NEARLY_STEEP}°), and c is lowered so \
          that e_n is {} near the normal at 1 m/s ({:.2} without lift).",
         models.plain(STEEP)?.normal_restitution,
         models.least()?[1],
@@ -158,12 +158,12 @@ fn effects_text(models: &Models) -> Result<String> {
 
 fn lift_text(lift: &Lift) -> String {
     format!(
-        "What lift would have to be: e_n a factor {:.2} at {GLANCING}°, that is strength {:.2} s/m if \
-         the air was four times as fast as the {:.2} m/s of normal impacts. But at v_n = 1 m/s the \
-         impact speed at {GLANCING}° is only {:.2} times that of a normal impact; four times belongs to \
-         {:.1}°. With the air that {GLANCING}° needs the strength is {:.2} s/m, and e_n at {SHALLOW}° would \
-         be {:.2}. The paper has no e_n above {}. Its explanation and its data agree \
-         only if lift saturates, or if the cause at {GLANCING}° is another.",
+        "Required lift: e_n a factor {:.2} at {GLANCING}°, that is strength {:.2} s/m if the air was four \
+         times as fast as the {:.2} m/s of normal impacts. But at v_n = 1 m/s the impact speed at \
+         {GLANCING}° is only {:.2} times that of a normal impact; four times belongs to {:.1}°. With the \
+         air that {GLANCING}° needs the strength is {:.2} s/m, and e_n at {SHALLOW}° would be {:.2}. The \
+         paper has no e_n above {}. Its explanation and its data agree only if lift saturates, or if the \
+         cause at {GLANCING}° is a different one.",
         1.0 + lift.gain,
         lift.by_four,
         tube_air(90.0),
@@ -181,10 +181,10 @@ fn sliding_text(models: &Models) -> Result<String> {
     let intercept = stated + f * ratio;
     Ok(format!(
         "The paper's numbers for e_t do not agree among themselves: the line e_t = 1 - {f} (1+e_n) \
-         tan(alpha) gives {:.2} at {SHALLOW}°, Fig. 6 says {stated}. Sliding holds this whatever the spin, so \
-         rotation does not explain it; it would take f = {:.2}. A line of the same slope that is not \
-         forced through e_t = 1 would meet {stated} with an intercept of {intercept:.2}, and then falls \
-         to {:.2} at {}; the paper does not say which line it drew.",
+         tan(alpha) gives {:.2} at {SHALLOW}°, Fig. 6 says {stated}. This holds for sliding with any spin, \
+         so rotation does not explain it; it would require f = {:.2}. A line of the same slope that is not \
+         forced through e_t = 1 would meet {stated} with an intercept of {intercept:.2}, and then falls to \
+         {:.2} at {}; the paper does not say which line it drew.",
         models.plain(SHALLOW)?.tangential_restitution,
         (1.0 - stated) / ratio,
         intercept - f * SLIDING_END.value,
@@ -226,8 +226,8 @@ fn tangential_chart(models: &Models, lift: &Lift) -> Result<Figure> {
         .reference("stated", &stated)
         .figure(
             "troiano-angle-tangential",
-            "The point at 45° is the end of the stated sliding line (1.31); compliance is set to the one \
-             at 80°.",
+            "The point at 45° is the end of the stated sliding line (1.31); compliance is set to the one at \
+             80°.",
         ))
 }
 
@@ -238,21 +238,21 @@ fn normal_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     let [strength, deviation] = strength.map(|pascals| pascals / 1e6);
     Ok(vec![
         E_N_NEAR_NORMAL.beside(models.plain(STEEP)?.normal_restitution, Basis::Predicted).because(&format!(
-            "With c = {}, which the paper fitted to Fig. 8. Fig. 6 alone asks for c = {:.2}. The \
-             deviation is within what sigma_y = {strength} ± {deviation} MPa leaves open (part on speed).",
+            "With c = {}, which the paper fitted to Fig. 8. Fig. 6 alone requires c = {:.2}. The deviation \
+             is within the uncertainty of sigma_y = {strength} ± {deviation} MPa (part on speed).",
             YIELD_RATIO.value,
             models.yield_ratio()?
         )),
         E_N_NEAR_NORMAL.beside(steep, Basis::Fitted).because(&format!(
-            "c set to it; lift adds {:.1} % at {STEEP}°.",
+            "c is fitted to it; lift adds {:.1} % at {STEEP}°.",
             100.0 * (steep / models.refined(STEEP, 0.0)?.normal_restitution - 1.0)
         )),
         E_N_GLANCING
             .beside(models.plain(GLANCING)?.normal_restitution, Basis::Predicted)
-            .because("The plain law knows no angle."),
+            .because("The plain law does not depend on the angle."),
         E_N_GLANCING
             .beside(models.refined(GLANCING, lift.four)?.normal_restitution, Basis::Fitted)
-            .because("Lift set to it."),
+            .because("The lift is fitted to it."),
     ])
 }
 
@@ -260,26 +260,28 @@ fn normal_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
 fn air_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     let [glancing, shallow] = [GLANCING, SHALLOW].map(|angle| tube_air(angle) / tube_air(90.0));
     Ok(vec![
-        Basis::Predicted.number(
+        Claim::predicted(
             "Fig 6",
             "e_n at 13° by the lift that fits 35°; \"the largest value\" was 0.41",
             Published::Below(E_N_GLANCING.value + E_N_GLANCING.tolerance),
-            lift.at_shallow())
+            lift.at_shallow(),
+        )
         .because(&format!(
-            "Air as fast as each angle needs. With four times the air of normal impacts at {GLANCING}° and {SHALLOW}° alike \
-             it is {:.2}. A gain that is proportional to the air along the wall cannot stop at \
-             {GLANCING}°.",
+            "With the air speed that each angle needs. With four times the air of normal impacts at \
+             {GLANCING}° and {SHALLOW}° alike it is {:.2}. A gain that is proportional to the air along the \
+             wall cannot stop at {GLANCING}°.",
             models.refined(SHALLOW, lift.four)?.normal_restitution
         )),
-        Basis::Derived.statement(
+        Claim::derived_statement(
             "Sec 4.1",
             "air at small angles over air at normal impact, v_n = 1 m/s [1]",
             "around 4",
             &format!("{glancing:.1} at {GLANCING}°, {shallow:.1} at {SHALLOW}°"),
-            (3.5..4.5).contains(&glancing))
+            (3.5..4.5).contains(&glancing),
+        )
         .because(&format!(
-            "Follows from v_i = 1/sin(alpha) less terminal velocity; {FASTER} is right between the two, not at {GLANCING}°, \
-             where e_n was {}.",
+            "Follows from v_i = 1/sin(alpha) less terminal velocity; {FASTER} is right between the two, not \
+             at {GLANCING}°, where e_n was {}.",
             E_N_GLANCING.value
         )),
     ])
@@ -292,11 +294,10 @@ fn sliding_claims(models: &Models) -> Result<Vec<Claim>> {
     Ok(vec![
         FRICTION
             .beside((1.0 - end.tangential_restitution) / ratio, Basis::Fitted)
-            .because("The law's own parameter; checks only that 10° to 45° is sliding."),
+            .because("The parameter of the law; this checks only that the contact slides from 10° to 45°."),
         E_T_GLANCING.beside(models.plain(SHALLOW)?.tangential_restitution, Basis::Predicted).because(
             &format!(
-                "The paper contradicts itself here: its own f = {} in its own Eq. 10 gives {:.2} (e_n {}) to \
-                 {:.2} ({}).",
+                "The paper contradicts itself: its f = {} in its Eq. 10 gives {:.2} (e_n {}) to {:.2} ({}).",
                 FRICTION.value,
                 sliding(E_N_GLANCING.value, SHALLOW),
                 E_N_GLANCING.value,
@@ -319,21 +320,22 @@ fn end_claims(models: &Models) -> Result<Vec<Claim>> {
     Ok(vec![
         E_T_LEAST
             .beside(least, Basis::Predicted)
-            .because("Where sliding ends. ± 5°, for it is read off points that lie some 5° to 10° apart."),
+            .because("The end of sliding. ± 5°, because the points are 5° to 10° apart."),
         SLIDING_END.beside((1.0 + e_n) * least.to_radians().tan(), Basis::Predicted).because(&format!(
-            "For finite k the law ends at 2/(7 - 1/k)/f at any e_n; {end} is {:.1}° for e_n = \
-             {between:.2}.",
+            "For finite k the law ends at 2/(7 - 1/k)/f at any e_n; {end} is {:.1}° for e_n = {between:.2}.",
             stated_end(between)
         )),
-        Basis::Derived.statement(
+        Claim::derived_statement(
             "Fig 7",
-            "\"1.31, corresponding to 45°\": the e_n that this takes",
+            "\"1.31, corresponding to 45°\": the e_n that this requires",
             "Fig. 6: 0.41 at 35°, 0.28 near normal",
             &format!("{implied:.2}"),
-            (low..=high).contains(&implied))
+            (low..=high).contains(&implied),
+        )
         .because(&format!(
-            "It is the best-fit mean of all angles, not a value between {high} at {GLANCING}° and {low} (some {:.2} at \
-             {angle}°), for which {end} lies at {:.1}°. Within the scatter the two cannot be told apart.",
+            "It is the best-fit mean of all angles, not a value between {high} at {GLANCING}° and {low} \
+             (some {:.2} at {angle}°), for which {end} lies at {:.1}°. Within the scatter the two cannot be \
+             told apart.",
             stated_e_n(angle),
             stated_end(stated_e_n(angle))
         )),
@@ -348,9 +350,11 @@ fn steep_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     Ok(vec![
         E_T_STEEP
             .beside(models.plain(NEARLY_STEEP)?.tangential_restitution, Basis::Predicted)
-            .because("Rigid rolling gives 5/7, as the paper says; compliance is what it leaves out."),
+            .because("Rigid rolling gives 5/7, as the paper says; it omits compliance."),
         E_T_STEEP
             .beside(models.refined(NEARLY_STEEP, lift.four / FASTER)?.tangential_restitution, Basis::Fitted)
-            .because("The exponent of tangential-compliance is set to it, with e_t = 1 assumed head-on."),
+            .because(
+                "The exponent of tangential-compliance is fitted to it; e_t = 1 at normal impact is assumed.",
+            ),
     ])
 }

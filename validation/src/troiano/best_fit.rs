@@ -82,14 +82,14 @@ pub(super) fn part() -> Part {
         figures: vec![chart()],
         claims: vec![
             FIT_E_N.beside(points[0], Basis::Predicted).because(&format!(
-                "From stated values at five angles in place of the figure's points. Other points move it: every 10° in place \
-                 of 5° by {:.3}, the sliding line by {:.3}.",
+                "From stated values at five angles instead of the figure's points. Sensitivity to the \
+                 points: every 10° in place of 5° by {:.3}, the sliding line by {:.3}.",
                 (fitted(stated_e_t, 10.0)[0] - points[0]).abs(),
                 (slid[0] - points[0]).abs()
             )),
             FIT_E_T.beside(points[1], Basis::Predicted).because(&format!(
-                "As above. With the line f = {} it would be {:.2}: the paper's fit goes with {} at {SHALLOW}°, not with \
-                 Fig. 7's line.",
+                "As above. With the line f = {} it would be {:.2}: the paper's fit agrees with {} at \
+                 {SHALLOW}°, not with Fig. 7's line.",
                 FRICTION.value, slid[1], E_T_GLANCING.value
             )),
         ],
@@ -104,13 +104,13 @@ fn text(points: [f64; 2], slid: [f64; 2]) -> String {
         even(ANGLES, 161).map(|angle| (paper(angle) - e_g(stated_e_t, angle)).abs()).fold(0.0, f64::max);
     let [low, high] = ANGLES;
     format!(
-        "The paper fits e_g over all angles with two constants. Its points are in a figure only; here \
-         e_n and e_t are drawn straight through the values that the text states ({} up to {GLANCING}°, falling \
-         to {} at {STEEP}°; {e_t} up to {SHALLOW}°, {:.3} at {end}°, {} from {NEARLY_STEEP}° on) and Eq. 9 is fitted to the e_g \
-         that follow, every 5° from {low}° to {high}°. Through the stated points: {:.3} and {:.3}; every 10°: \
-         {:.3} and {:.3}. With the sliding line up to {end}° in place of {e_t} at {SHALLOW}°: {:.3} and {:.3}. The \
-         paper's pair fits the stated points, not the line of its Fig. 7, and never misses their e_g by \
-         more than {offset:.2}.",
+        "The paper fits e_g over all angles with two constants. Its points are in a figure only; here e_n \
+         and e_t are drawn straight through the values that the text states ({} up to {GLANCING}°, falling \
+         to {} at {STEEP}°; {e_t} up to {SHALLOW}°, {:.3} at {end}°, {} from {NEARLY_STEEP}° on) and Eq. 9 \
+         is fitted to the e_g that follow, every 5° from {low}° to {high}°. Through the stated points: \
+         {:.3} and {:.3}; every 10°: {:.3} and {:.3}. With the sliding line up to {end}° in place of {e_t} \
+         at {SHALLOW}°: {:.3} and {:.3}. The paper's pair fits the stated points, not the line of its Fig. \
+         7, and never misses their e_g by more than {offset:.2}.",
         E_N_GLANCING.value,
         E_N_NEAR_NORMAL.value,
         end_of_sliding(),

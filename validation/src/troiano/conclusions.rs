@@ -7,7 +7,7 @@ use super::published::{
 };
 use super::{Result, arriving, decide, model};
 use crate::oracle::carried::{Air, Flight, Law, Place, Sphere};
-use crate::{Basis, Claim, Part};
+use crate::{Claim, Part};
 
 /// How far a particle flies off the wall [mm] in still air without gravity, until 1 % of its rebound speed [m/s] is left.
 fn reach(speed: f64) -> f64 {
@@ -34,10 +34,11 @@ fn e_n(model: &Model, wall: &str, speed: f64, angle: f64) -> Result<f64> {
 /// The part on the conclusions.
 pub(super) fn part() -> Result<Part> {
     Ok(Part {
-        heading: "What the abstract concludes".to_owned(),
+        heading: "Conclusions of the abstract".to_owned(),
         text: vec![
-            "Four sentences carry the paper. The first holds for stiff targets near the normal, which is where \
-             its parameter was fitted; the one on gasifiers cannot be tested with the paper's data."
+            "Four sentences summarise the paper. The first holds for stiff targets near the normal, which \
+             is where its parameter was fitted; the one on gasifiers cannot be tested with the paper's \
+             data."
                 .to_owned(),
         ],
         claims: vec![adequate()?, accumulation()?, dense_phase(), hot_particles()?],
@@ -64,39 +65,37 @@ fn adequate() -> Result<Claim> {
         names.join(", ")
     };
     let (count, all) = (cases.iter().filter(|case| case.1).count(), cases.len());
-    Ok(Basis::Predicted
-        .statement(
-            "Abstract",
-            &format!(
-                "\"the elastic–plastic adhesive model provides an adequate representation\": stated e_n met \
+    Ok(Claim::predicted_statement(
+        "Abstract",
+        &format!(
+            "\"the elastic–plastic adhesive model provides an adequate representation\": stated e_n met \
              within 15 % with c = {}",
-                YIELD_RATIO.value
-            ),
-            "adequate",
-            &format!("{count} of {all}: {}; not {}", named(true), named(false)),
-            count == all,
-        )
-        .because(&format!(
-            "See the parts on targets and angle. {} on all targets, {} at {GLANCING}°; Teflon and steel by \
-         \"negligible influence\". 15 % taken for \"adequate\".",
-            E_N_NEAR_NORMAL.value, E_N_GLANCING.value
-        )))
+            YIELD_RATIO.value
+        ),
+        "adequate",
+        &format!("{count} of {all}: {}; not {}", named(true), named(false)),
+        count == all,
+    )
+    .because(&format!(
+        "See the parts on targets and angle. {} on all targets, {} at {GLANCING}°; Teflon and steel by \
+         \"negligible influence\". \"Adequate\" is taken as 15 %.",
+        E_N_NEAR_NORMAL.value, E_N_GLANCING.value
+    )))
 }
 
 fn accumulation() -> Result<Claim> {
     let model = model!("layers.toml")?;
     let far = |wall: &str| -> Result<f64> { Ok(reach(e_n(&model, wall, 1.0, STEEP)?)) };
     let (bare, thin, thick) = (far("bare")?, far("thin")?, far("thick")?);
-    Ok(Basis::Fitted
-        .statement(
-            "Abstract",
-            "powder \"favours accumulation of particles close to the surface\": how far a rebound at 1 \
-         m/s carries over bare glass, 0.25 mm and 1.4 mm of powder [mm]",
-            "closer",
-            &format!("{bare:.1}, {thin:.1}, {thick:.1}"),
-            bare > thin && thin > thick,
-        )
-        .because("75 µm in still air without gravity; follows from the fitted e_n."))
+    Ok(Claim::fitted_statement(
+        "Abstract",
+        "powder \"favours accumulation of particles close to the surface\": distance of a rebound at 1 m/s \
+         over bare glass, 0.25 mm and 1.4 mm of powder [mm]",
+        "closer",
+        &format!("{bare:.1}, {thin:.1}, {thick:.1}"),
+        bare > thin && thin > thick,
+    )
+    .because("75 µm in still air without gravity; follows from the fitted e_n."))
 }
 
 fn dense_phase() -> Claim {
@@ -104,22 +103,20 @@ fn dense_phase() -> Claim {
         "Abstract",
         "\"promotes the establishment of a dense-dispersed phase\" in gasifiers",
         "promotes",
-        "Needs a gasifier: many particles, their feedback on the gas and on each other. No such \
-         measurement is in the paper.",
+        "Needs a gasifier: many particles, their feedback on the gas and on each other. No such measurement \
+         is in the paper.",
     )
 }
 
 fn hot_particles() -> Result<Claim> {
     let impact = Impact { particle_temperature: HOT, wall_temperature: HOT, ..arriving(2.0, STEEP) };
     let hot = decide(&model!("melting.toml")?, "default", &impact)?;
-    Ok(Basis::Fitted
-        .statement(
-            "Abstract",
-            "hot particles: restitution \"vanishingly small\", deposition prevails: e_n, capture at 105 \
-         °C",
-            "near 0; prevails",
-            &format!("{:.2}, {:.2}", hot.normal_restitution, hot.sticking_probability),
-            hot.normal_restitution < 0.05 && hot.sticking_probability > 0.5,
-        )
-        .because("Capture is set at this temperature; e_n follows."))
+    Ok(Claim::fitted_statement(
+        "Abstract",
+        "hot particles: restitution \"vanishingly small\", deposition prevails: e_n, capture at 105 °C",
+        "near 0; prevails",
+        &format!("{:.2}, {:.2}", hot.normal_restitution, hot.sticking_probability),
+        hot.normal_restitution < 0.05 && hot.sticking_probability > 0.5,
+    )
+    .because("Capture is fitted at this temperature; e_n follows."))
 }

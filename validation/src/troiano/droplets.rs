@@ -8,7 +8,7 @@ use nearwall::{Impact, Model};
 use super::published::CAPTURE_120;
 use super::{Result, decide, model};
 use crate::steps::{even, range};
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, Part, Published};
 
 const HOT: f64 = 393.15;
 /// Fig. 14: impact speeds [m/s], angles [degrees], diameters [m].
@@ -113,13 +113,14 @@ impl Found {
         let Self { by_melting, by_droplet, weber, reynolds, splash, .. } = self;
         vec![
             format!(
-                "Two ways to pose it, both predictions. Melting as set at 70 and 105 °C says {by_melting:.1} % or more \
-                 at 120 °C. The droplet criterion says {by_droplet:.0} %: over Fig. 14 We is {weber}, Re {reynolds} and \
-                 K = We^½ Re^¼ {splash}, and nothing splashes below {SPLASH_K}. Both meet \"above {CAPTURE_120} %\"."
+                "Two predictions. Melting, fitted at 70 and 105 °C, gives {by_melting:.1} % or more at 120 \
+                 °C. The droplet criterion gives {by_droplet:.0} %: over Fig. 14 We is {weber}, Re \
+                 {reynolds} and K = We^½ Re^¼ {splash}, and nothing splashes below {SPLASH_K}. Both meet \
+                 \"above {CAPTURE_120} %\"."
             ),
-            "Neither has the slight trends, falling with speed at small angles and rising at large ones. No \
-             numbers are printed to hold a law against. The droplet criterion excludes splashing as their \
-             cause; a melt that slides off or bounces whole is not in it."
+            "Neither has the slight trends, falling with speed at small angles and rising at large ones. \
+             The paper prints no numbers for a comparison. The droplet criterion excludes splashing as \
+             their cause; it does not include a melt that slides off or rebounds as a whole."
                 .to_owned(),
         ]
     }
@@ -133,7 +134,7 @@ impl Found {
                 })
                 .collect()
         };
-        Chart::new("How far from splashing", "impact speed [m/s]", "K = We^½ Re^¼ [1]")
+        Chart::new("Distance from splashing", "impact speed [m/s]", "K = We^½ Re^¼ [1]")
             .x_range(0.0, 5.0)
             .y_range(0.0, 60.0)
             .line("90°", &splash_at(90.0))
@@ -146,14 +147,14 @@ impl Found {
     fn captures(&self) -> [Claim; 2] {
         let least = |by: &str, ours| {
             let what = format!("least capture at 120 °C by {by} [%]");
-            Basis::Predicted.number("Fig 14", &what, Published::Above(CAPTURE_120), ours)
+            Claim::predicted("Fig 14", &what, Published::Above(CAPTURE_120), ours)
         };
         [
             least("melting", self.by_melting)
-                .because("Extrapolated from 105 °C; the curve cannot say otherwise."),
+                .because("Extrapolated from 105 °C; the form of the curve implies it."),
             least("the droplet criterion", self.by_droplet).because(&format!(
-                "Nothing of the wax tests entered but density, viscosity and surface tension. The 0 to {} % \
-                 that did not stick are not explained.",
+                "Of the wax tests only density, viscosity and surface tension were used. The 0 to {} % that \
+                 did not stick are not explained.",
                 100.0 - CAPTURE_120
             )),
         ]
@@ -164,13 +165,13 @@ impl Found {
         let (shallow, straight) = (Trend::of(models, ANGLES[0])?, Trend::of(models, ANGLES[1])?);
         let trend = |what: &str, published: &str, ours: &Trend, points| {
             let (text, holds) = (ours.text(), ours.beyond(points));
-            Basis::Predicted.statement("Fig 14", what, published, &text, holds)
+            Claim::predicted_statement("Fig 14", what, published, &text, holds)
         };
         Ok([
             trend("capture falls with speed at small angles", "\"slightly decreases\"", &shallow, -1.0).because(
-                "For 120 µm. Smaller particles at 0.7 m/s and 15° lie below the solid's sticking velocity and are held \
-                 for certain, which has the stated sign but not the stated cause. Sliding of a molten particle \
-                 along the wall, the paper's cause, is not modelled.",
+                "For 120 µm. Smaller particles at 0.7 m/s and 15° are below the solid's sticking velocity \
+                 and always stick, which has the stated sign but not the stated cause. Sliding of a molten \
+                 particle along the wall, the paper's cause, is not modelled.",
             ),
             trend("capture rises with speed at large angles", "\"slightly increased\"", &straight, 1.0)
                 .because("As above."),
@@ -186,24 +187,23 @@ impl Found {
                 "\"at larger impact velocities the viscous dissipation overtakes the inertial energy\"",
                 "cause of the rise",
                 &format!(
-                    "Re, inertia over viscous force, grows with speed ({}), so it cannot be meant literally; \
-                     that less of the energy is left in the surface to throw the drop back (it goes with \
-                     1/We) could. Needs the contact angle of wax on glass.",
+                    "Re, inertia over viscous force, grows with speed ({}), so the statement cannot hold \
+                     literally; a decreasing share of surface energy for the recoil (proportional to 1/We) \
+                     could be meant. Needs the contact angle of wax on glass.",
                     self.reynolds
                 ),
             ),
-            Basis::Predicted
-                .statement(
-                    "Sec 4.3",
-                    "\"the coefficients of restitution are zero\"",
-                    "0",
-                    &number(outcome.normal_restitution),
-                    outcome.normal_restitution < 0.01,
-                )
-                .because(&format!(
-                    "e_n of the {:.0} % that rebounds in the model, {speed} m/s straight on.",
-                    100.0 * (1.0 - outcome.sticking_probability)
-                )),
+            Claim::predicted_statement(
+                "Sec 4.3",
+                "\"the coefficients of restitution are zero\"",
+                "0",
+                &number(outcome.normal_restitution),
+                outcome.normal_restitution < 0.01,
+            )
+            .because(&format!(
+                "e_n of the {:.0} % that rebounds in the model, {speed} m/s at normal impact.",
+                100.0 * (1.0 - outcome.sticking_probability)
+            )),
         ])
     }
 }

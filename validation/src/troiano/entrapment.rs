@@ -7,7 +7,7 @@ use nearwall::report::{Table, number};
 use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, Melt, TUBE_SPEED};
 use crate::steps::{even, range};
 use crate::study::table;
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, Part, Published};
 
 /// Speed [m/s] of the impacts.
 const SPEED: f64 = TUBE_SPEED.value;
@@ -60,7 +60,7 @@ impl Wall {
         all
     }
 
-    /// Largest kinetic energy over the work of going under [1] at the paper's speed.
+    /// Largest kinetic energy over the work of immersion [1] at the paper's speed.
     fn inertia(&self, degrees: f64, drag: bool) -> f64 {
         range(self.judged(degrees, SPEED, drag).iter().map(|judged| judged.inertia))[1]
     }
@@ -100,21 +100,21 @@ fn text() -> Vec<String> {
     vec![
         format!(
             "The paper says of slag and of wax that the criteria of entrapment and over-layering are not \
-             met, and does not write them down. The forms here are derived from surface energy, Stokes \
-             drag and a balance of fresh slag (`docs/physics.md`), so the claim is tested by criteria of \
-             the same names, not by the same criteria. From the paper: tension, viscosity and density, {SPEED} \
-             m/s, {:.0} to {:.0} µm. Assumed: contact angle, {SLAG_FLUX} kg/(m² s) of slag, {BURN} s to burn \
-             off, char density.",
+             met, and does not write them down. The forms here are derived from surface energy, Stokes drag \
+             and a balance of fresh slag (`docs/physics.md`), so the claim is tested by criteria of the \
+             same names, not by the same criteria. From the paper: tension, viscosity and density, {SPEED} \
+             m/s, {:.0} to {:.0} µm. Assumed: contact angle, {SLAG_FLUX} kg/(m² s) of slag, {BURN} s to \
+             burn off, char density.",
             1e6 * FEED[0],
             1e6 * FEED[1]
         ),
         format!(
             "Largest value over all corners of these ranges; 1 or more entraps or buries. For slag the \
-             statement on entrapment is robust: the surface alone holds char at {SPEED} m/s from 90° on, drag \
-             aside. For wax it is not: the surface is some twenty times weaker, drag alone stops the \
-             particle, and wax on its own melt has a small contact angle, at which it goes under. \
-             Over-layering hangs on the flux of slag and the time of stay, neither of which the paper \
-             gives."
+             statement on entrapment is robust: the surface alone stops char at {SPEED} m/s from 90° on, \
+             drag aside. For wax it is not: the surface is some twenty times weaker, drag alone stops the \
+             particle, and wax on its own melt has a small contact angle, at which it is immersed. \
+             Over-layering depends on the flux of slag and the residence time, which the paper does not \
+             give."
         ),
     ]
 }
@@ -139,7 +139,8 @@ fn corners() -> Table {
         &format!("at {SPEED} m/s; the last column is the flux of slag that would bury"),
         1,
         &format!(
-            "wall | contact angle [°] | inertia | inertia without drag | speed that entraps [m/s] | burial | burying flux in {BURN} s [kg/(m² s)]"
+            "wall | contact angle [°] | inertia | inertia without drag | speed that entraps [m/s] | burial \
+             | burying flux in {BURN} s [kg/(m² s)]"
         ),
         cells.map(row).collect(),
     )
@@ -147,22 +148,23 @@ fn corners() -> Table {
 
 /// A ratio [1] that section 3.1 has below one.
 fn below_one(what: &str, ours: f64) -> Claim {
-    Basis::Predicted.number("Sec 3.1", what, Published::Below(1.0), ours)
+    Claim::predicted("Sec 3.1", what, Published::Below(1.0), ours)
 }
 
 fn slag(slag: &Wall) -> Vec<Claim> {
     let burial = slag.burial(90.0);
     vec![
         below_one(
-            "slag: kinetic energy over the work of going under, 90° to 160° [1]",
+            "slag: kinetic energy over the work of immersion, 90° to 160° [1]",
             slag.most_inertia(true),
         )
         .because(&format!(
-            "Without any drag {}. The contact angle is assumed.",
+            "Without drag {}. The contact angle is assumed.",
             number(slag.most_inertia(false))
         )),
         below_one("slag: fresh slag over what buries, 90° [1]", burial).because(&format!(
-            "Hangs on the assumed flux and burn-off: a gasifier with {} kg/(m² s) would bury the smallest.",
+            "Depends on the assumed flux and burn-off time: a gasifier with {} kg/(m² s) would bury the \
+             smallest.",
             number(SLAG_FLUX / burial)
         )),
     ]
@@ -171,26 +173,26 @@ fn slag(slag: &Wall) -> Vec<Claim> {
 fn wax(wax: &Wall) -> Vec<Claim> {
     vec![
         below_one(
-            "wax: kinetic energy over the work of going under, 90° to 160° [1]",
+            "wax: kinetic energy over the work of immersion, 90° to 160° [1]",
             wax.most_inertia(true),
         )
         .because(&format!(
-            "Drag alone: without it {} at 90°, and the statement fails. Drag in full is generous for a \
-                 particle that is only half immersed.",
+            "Drag alone: without it {} at 90°, and the statement fails. Full drag is an overestimate for a \
+             half-immersed particle.",
             number(wax.inertia(90.0, false))
         )),
         Claim::unchecked(
             "Sec 3.1",
             "wax: entrapment by wetting",
             "not met",
-            "The contact angle of molten wax on solid wax is not given; near 0°, as for most melts on \
-             their own solid, the particle goes under at any speed.",
+            "The contact angle of molten wax on solid wax is not given; near 0°, as for most melts on their \
+             own solid, the particle is immersed at any speed.",
         ),
         Claim::unchecked(
             "Sec 3.1",
             "wax: over-layering",
             "not met",
-            "The flux of molten wax on the wall belongs to another rig (refs. 17, 18) and is not given.",
+            "The flux of molten wax on the wall is that of another rig (refs. 17, 18) and is not given.",
         ),
     ]
 }

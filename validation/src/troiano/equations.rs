@@ -11,7 +11,7 @@ use nearwall::report::number;
 use super::published::{DIAMETER, PYREX, SOLIDS, TARGETS, YIELD_RATIO};
 use super::{Result, contact, model};
 use crate::steps::even;
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, Part, Published};
 
 /// Number under the root of Eq. 1: as printed, and as it has to be.
 pub(super) const AS_PRINTED: f64 = 4.0 / 3.0;
@@ -42,14 +42,14 @@ pub(super) fn part() -> Result<Part> {
     Ok(Part {
         heading: "Equations 1 to 6: the normal impact".to_owned(),
         text: vec![
-            "Each equation was computed as it is printed and held against Thornton and Ning's closed form, \
-             which the library uses and which the study of independent checks integrates numerically. Two of \
-             six carry a slip. Neither changes a conclusion of the paper by itself; the one in Eq. 6 cannot \
+            "Each equation was computed as printed and compared with Thornton and Ning's closed form, which \
+             the library uses and which the study of independent checks integrates numerically. Two of six \
+             contain an error. Neither changes a conclusion of the paper by itself; the one in Eq. 6 cannot \
              have been in the authors' calculation, since e_n would jump at v_y."
                 .to_owned(),
-            "A third point is no slip but a gap: Eq. 4 lets particles rebound from v_s on, while Eq. 6 with \
-             the same v_s is negative up to about twice that speed when v_y < v_s, as it is here. The speed \
-             at which wax really sticks on Pyrex by these equations is where Eq. 6 vanishes."
+            "A third point is a gap, not an error: Eq. 4 lets particles rebound from v_s on, while Eq. 6 \
+             with the same v_s is negative up to about twice that speed when v_y < v_s, as it is here. By \
+             these equations wax sticks on Pyrex up to the speed at which Eq. 6 vanishes."
                 .to_owned(),
         ],
         claims: vec![
@@ -66,24 +66,23 @@ pub(super) fn part() -> Result<Part> {
 
 /// An equation over what the library has in its place [1]: to rounding.
 fn same(place: &str, what: &str, ratio: f64) -> Claim {
-    Basis::Derived.number(place, what, Published::within(1.0, 1e-9), ratio)
+    Claim::derived(place, what, Published::within(1.0, 1e-9), ratio)
 }
 
 /// Eq 1.
 fn sticking_velocity(pyrex: &Contact) -> Claim {
     let ratio = |factor| equation_1(factor, pyrex, DIAMETER) / adhesive_velocity(pyrex, DIAMETER);
-    Basis::Derived
-        .statement(
-            "Eq 1",
-            "number under the sixth root, with K = 4E*/3",
-            "4/3",
-            &format!("16/9; as printed v_s is {} of Thornton and Ning's", number(ratio(AS_PRINTED))),
-            (ratio(AS_PRINTED) - 1.0).abs() < 0.005,
-        )
-        .because(&format!(
-            "K² = 16 E*²/9 in the denominator needs 16/9 in the numerator; with it the ratio is {}.",
-            number(ratio(MENDED))
-        ))
+    Claim::derived_statement(
+        "Eq 1",
+        "number under the sixth root, with K = 4E*/3",
+        "4/3",
+        &format!("16/9; as printed v_s is {} of Thornton and Ning's", number(ratio(AS_PRINTED))),
+        (ratio(AS_PRINTED) - 1.0).abs() < 0.005,
+    )
+    .because(&format!(
+        "K² = 16 E*²/9 in the denominator needs 16/9 in the numerator; with it the ratio is {}.",
+        number(ratio(MENDED))
+    ))
 }
 
 /// Eq 2.
@@ -114,21 +113,20 @@ fn yielding(pyrex: &Contact) -> Claim {
 fn sticking(pyrex: &Contact) -> Claim {
     let printed = equation_1(AS_PRINTED, pyrex, DIAMETER);
     let speeds = NormalLaw::ThorntonNing.speeds(pyrex, DIAMETER);
-    Basis::Derived
-        .statement(
-            "Eq 4",
-            "wax on Pyrex, c = 0.7: the speed up to which e_n is 0 [m/s]",
-            &format!("v_s of Eq. 1: {}", number(printed)),
-            &format!("{}, where Eq. 6 vanishes", number(speeds.sticking)),
-            (speeds.sticking / speeds.adhesive - 1.0).abs() < 0.05,
-        )
-        .because(&format!(
-            "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than \
-         v_s, so the loss by yielding adds to adhesion and the sticking velocity grows {:.1} times. No test \
-         of the paper was so slow.",
-            printed / speeds.yielding,
-            speeds.sticking / printed
-        ))
+    Claim::derived_statement(
+        "Eq 4",
+        "wax on Pyrex, c = 0.7: the speed up to which e_n is 0 [m/s]",
+        &format!("v_s of Eq. 1: {}", number(printed)),
+        &format!("{}, where Eq. 6 vanishes", number(speeds.sticking)),
+        (speeds.sticking / speeds.adhesive - 1.0).abs() < 0.05,
+    )
+    .because(&format!(
+        "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than v_s, \
+         so the loss by yielding adds to adhesion and the sticking velocity grows {:.1} times. No test of \
+         the paper had such low speeds.",
+        printed / speeds.yielding,
+        speeds.sticking / printed
+    ))
 }
 
 /// Eq 5.
@@ -149,17 +147,16 @@ fn plastic() -> Claim {
     let largest_gap = even([0.001, 1.0], 1000)
         .map(|w| (equation_6(w, 1.2 - w * w / 5.0) - plastic_term(w)).abs())
         .fold(0.0, f64::max);
-    Basis::Derived
-        .statement(
-            "Eq 6",
-            "inner root: e_n at v_y without adhesion (1 if the branches join)",
-            "no sign between 6/5 and 1/5 (v_y/v_i)²",
-            &format!("1 with a minus; {} with a plus, {} as a product", number(plus), number(product)),
-            (plus - 1.0).abs() < 0.005 || (product - 1.0).abs() < 0.005,
-        )
-        .because(&format!(
-            "A minus sign is lost, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With it \
-         Eq. 6 is the library's plastic term within {}.",
-            number(largest_gap)
-        ))
+    Claim::derived_statement(
+        "Eq 6",
+        "inner root: e_n at v_y without adhesion (1 if the branches join)",
+        "no sign between 6/5 and 1/5 (v_y/v_i)²",
+        &format!("1 with a minus; {} with a plus, {} as a product", number(plus), number(product)),
+        (plus - 1.0).abs() < 0.005 || (product - 1.0).abs() < 0.005,
+    )
+    .because(&format!(
+        "A minus sign is missing, in print or in the scan: only 6/5 - (v_y/v_i)²/5 joins Eq. 5. With it Eq. \
+         6 is the library's plastic term within {}.",
+        number(largest_gap)
+    ))
 }

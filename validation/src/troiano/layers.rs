@@ -99,24 +99,25 @@ fn text(viscosity: f64) -> Vec<String> {
     let gravity = 9.81;
     let [low, high] = SPEEDS;
     vec![
-        "`powder-layer` has two numbers, set on the two dry layers; their e_n follows and proves \
-         nothing. Three points of a curve in two numbers do not test its form: any law that falls fast \
-         and levels off would do. The row on syrup was not used, but its thickness lies between points \
-         that were, so what it tests is that the liquid below does nothing."
+        "`powder-layer` has two parameters, fitted to the two dry layers, so their e_n proves nothing. \
+         Three points of a curve in two numbers do not test its form: any law that decreases fast and \
+         levels off would fit. The row on syrup was not used, but its thickness lies between points that \
+         were, so it tests that the liquid below has no influence."
             .to_owned(),
         format!(
-            "That is a real test against the film's own law: bare syrup of {viscosity} Pa s would hold every \
-             particle of {diameter} µm at {low} to {high} m/s (Stokes number at most {stokes:.2}, some 10 to 25 \
-             needed). The measured {} says that particles never reach it. The library does not switch \
-             `liquid-film` off under powder by itself: a wall with both has to be given no film.",
+            "That is a real test against the film's own law: bare syrup of {viscosity} Pa s would hold \
+             every particle of {diameter} µm at {low} to {high} m/s (Stokes number at most {stokes:.2}, \
+             some 10 to 25 needed). The measured {} shows that particles never reach it. The library does \
+             not switch `liquid-film` off under powder by itself: a wall with both must have no film in the \
+             model.",
             E_N_SYRUP.value
         ),
         format!(
             "The paper explains the loss by a softer, wider contact with more adhesion. Neither the effect \
              nor the paper's data (means of restitution) can tell that from the work of pushing powder \
              aside. At the low end the data are at the limit of the rig: e_n = {} at {low} m/s is a rebound \
-             of {slow:.3} m/s, {:.1} pixels a frame ({:.0} µm, {} ms), that rises by {:.2} mm, less than the particle's \
-             diameter.",
+             of {slow:.3} m/s, {:.1} pixels a frame ({:.0} µm, {} ms), that rises by {:.2} mm, less than \
+             the particle's diameter.",
             E_N_THICK.value,
             1e6 * slow * CAMERA.frame / CAMERA.pixel(),
             CAMERA.pixel(),
@@ -159,7 +160,7 @@ fn chart(model: &Model) -> Result<Figure> {
     .line("powder-layer", &curve)
     .reference("stated, dry", &[bare, thin, thick])
     .reference("stated, on syrup", &[syrup])
-    .figure("troiano-layers", "Set through the two dry layers; the point on syrup was not used."))
+    .figure("troiano-layers", "Fitted to the two dry layers; the point on syrup was not used."))
 }
 
 /// Of the two dry layers.
@@ -167,15 +168,15 @@ fn dry(means: &[[f64; 2]]) -> Vec<Claim> {
     let [bare, thin, thick] = [0, 1, 2].map(|layer| means[layer][0]);
     vec![
         E_N_THIN.beside(thin, Basis::Fitted).because(&format!(
-            "One of the effect's two numbers set to it. With c = {} the bare e_n is {bare:.3}, {:.0} % above {} (Fig. \
-             8), and so are the layers. Band: {}, as {} beside it has two decimals.",
+            "One of the effect's two parameters is fitted to it. With c = {} the bare e_n is {bare:.3}, \
+             {:.0} % above {} (Fig. 8), and so are the layers. Band: {}, as {} beside it has two decimals.",
             YIELD_RATIO.value,
             100.0 * (bare / E_N_MEAN.value - 1.0),
             E_N_MEAN.value,
             E_N_THIN.tolerance,
             E_N_THICK.value
         )),
-        E_N_THICK.beside(thick, Basis::Fitted).because("The other number set to it."),
+        E_N_THICK.beside(thick, Basis::Fitted).because("The other parameter is fitted to it."),
     ]
 }
 
@@ -191,23 +192,24 @@ fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Result<Vec<Cla
     };
     Ok(vec![
         E_N_SYRUP.beside(mean, Basis::Predicted).because(&format!(
-            "{} mm lies where the curve set to the other two is steep. \"The same regardless\" is not a number; \
-             within ± {:.2} the two agree.",
+            "{} mm lies where the curve fitted to the other two is steep. \"The same regardless\" gives no \
+             number; within ± {:.2} the two agree.",
             LAYERS[3].thickness,
             (mean - E_N_SYRUP.value).abs()
         )),
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "Fig 10",
             &format!(
-                "powder on syrup rebounds as on a dry target; syrup without powder: particles held, of {COUNTED} \
-                 speeds"
+                "powder on syrup rebounds as on a dry target; syrup without powder: particles held, of \
+                 {COUNTED} speeds"
             ),
             "\"the same regardless\"",
             &format!("{bare} held by bare syrup, {under_powder} under powder"),
-            bare == COUNTED)
+            bare == COUNTED,
+        )
         .because(&format!(
-            "{} mm of syrup and asperities of 1 µm assumed; the film's law is beyond its range (film \
-             thicker than the particle), but by orders of magnitude.",
+            "{} mm of syrup and asperities of 1 µm assumed; the film law is outside its range (film thicker \
+             than the particle), but the margin is orders of magnitude.",
             1e3 * FILM
         )),
     ])
@@ -219,29 +221,27 @@ fn beside_the_mean(model: &Model, means: &[[f64; 2]]) -> Result<Vec<Claim>> {
     let end = |speed: f64| decide(model, LAYERS[0].wall, &arriving(speed, STEEP));
     let [slow, fast] = [end(SPEEDS[0])?.normal_restitution, end(SPEEDS[1])?.normal_restitution];
     Ok(vec![
-        Basis::Predicted
-            .statement(
-                "Fig 11",
-                "e_g falls like e_n: e_g on bare Pyrex, thin and thick layer",
-                "\"a similar result\"; no numbers in the text",
-                &format!("{bare:.2}, {thin:.2}, {thick:.2}"),
-                bare > thin && thin > thick,
-            )
-            .because(
-                "With e_t = 5/7 throughout: the effect leaves e_t alone, and the paper gives none over \
+        Claim::predicted_statement(
+            "Fig 11",
+            "e_g falls like e_n: e_g on bare Pyrex, thin and thick layer",
+            "\"a similar result\"; no numbers in the text",
+            &format!("{bare:.2}, {thin:.2}, {thick:.2}"),
+            bare > thin && thin > thick,
+        )
+        .because(
+            "With e_t = 5/7 throughout: the effect does not change e_t, and the paper gives no e_t over \
              powder.",
-            ),
-        Basis::Predicted
-            .statement(
-                "Sec 4.1",
-                "e_n and e_g on Pyrex \"about constant with the impact velocity\": e_n at 0.5 and 3 m/s",
-                "about constant",
-                &format!("{slow:.2}, {fast:.2}"),
-                fast / slow > 0.75,
-            )
-            .because(
-                "Less than a quarter over a sixfold range is taken for it; it would be more than a third \
-             with the printed v_s (Fig. 8).",
-            ),
+        ),
+        Claim::predicted_statement(
+            "Sec 4.1",
+            "e_n and e_g on Pyrex \"about constant with the impact velocity\": e_n at 0.5 and 3 m/s",
+            "about constant",
+            &format!("{slow:.2}, {fast:.2}"),
+            fast / slow > 0.75,
+        )
+        .because(
+            "Taken as a change below a quarter over a sixfold range; with the printed v_s it would be more \
+             than a third (Fig. 8).",
+        ),
     ])
 }

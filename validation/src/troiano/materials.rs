@@ -9,7 +9,7 @@ use super::published::{
 };
 use crate::steps::range;
 use crate::study::table;
-use crate::{Basis, Claim, Part, Published, Result};
+use crate::{Claim, Part, Published, Result};
 
 const ROOM: f64 = 293.15;
 
@@ -96,17 +96,16 @@ fn table_1(shelf: &Shelf) -> Result<(Vec<Vec<String>>, u32)> {
 /// Of the solids; `same` rows of Table 1 are the library's.
 fn as_printed(same: u32) -> Claim {
     let all = SOLIDS.len();
-    Basis::Derived
-        .number(
-            "Table 1",
-            &format!("materials whose modulus, strength and their deviations are the printed ones, of {all}"),
-            Published::within(all as f64, 0.0),
-            f64::from(same),
-        )
-        .because(
-            "Inputs, not results. Coal 801's ± 41.37 MPa is a tenth of what the others have; it is kept as \
+    Claim::derived(
+        "Table 1",
+        &format!("materials whose modulus, strength and their deviations are the printed ones, of {all}"),
+        Published::within(all as f64, 0.0),
+        f64::from(same),
+    )
+    .because(
+        "Inputs, not results. Coal 801's ± 41.37 MPa is a tenth of what the others have; it is kept as \
          printed.",
-        )
+    )
 }
 
 fn slag_modulus(shelf: &Shelf) -> Result<Claim> {
@@ -114,7 +113,7 @@ fn slag_modulus(shelf: &Shelf) -> Result<Claim> {
     for [temperature, modulus] in SLAG {
         same &= shelf.value("coal-slag", "youngs_modulus", temperature)? == modulus;
     }
-    Ok(Basis::Derived.statement(
+    Ok(Claim::derived_statement(
         "Table 1",
         "modulus of slag at 1000 and 1450 °C",
         "20000–5000 MPa",
@@ -131,18 +130,17 @@ fn resemblance() -> Claim {
     let span = |[low, high]: [f64; 2]| format!("{} to {} MPa", number(low / 1e6), number(high / 1e6));
     // To ten.
     let fold = 10.0 * (0.1 * modulus[1] / modulus[0]).round();
-    Basis::Derived
-        .statement(
-            "Table 1",
-            "\"the mechanical properties of the wax agree quite well\" with coal and char",
-            "700 MPa, 9.5 MPa",
-            &format!("inside {} and {}", span(modulus), span(strength)),
-            within(modulus, wax_modulus[0]) && within(strength, wax_strength[0]),
-        )
-        .because(&format!(
-            "The range is {fold:.0}-fold in E. By Eq. 3, v_y goes with sigma_y^(5/2)/E² and spreads over far \
+    Claim::derived_statement(
+        "Table 1",
+        "\"the mechanical properties of the wax agree quite well\" with coal and char",
+        "700 MPa, 9.5 MPa",
+        &format!("inside {} and {}", span(modulus), span(strength)),
+        within(modulus, wax_modulus[0]) && within(strength, wax_strength[0]),
+    )
+    .because(&format!(
+        "The range is {fold:.0}-fold in E. By Eq. 3, v_y goes with sigma_y^(5/2)/E² and spreads over far \
          more."
-        ))
+    ))
 }
 
 fn surface_energies(shelf: &Shelf) -> Result<Claim> {
@@ -153,7 +151,7 @@ fn surface_energies(shelf: &Shelf) -> Result<Claim> {
             && read("youngs_modulus")? == target.modulus
             && read("poisson_ratio")? == target.poisson;
     }
-    Ok(Basis::Derived.statement(
+    Ok(Claim::derived_statement(
         "Tables 2, 4",
         "surface energy, modulus and Poisson's ratio of the four targets",
         "as printed",
@@ -169,51 +167,48 @@ fn wax_melt(shelf: &Shelf) -> Result<Claim> {
     let same = density == DENSITY
         && tension == MOLTEN_WAX.tension[0]
         && (MELTING[0]..=MELTING[1]).contains(&melting);
-    Ok(Basis::Derived
-        .statement(
-            "Sec 3.1",
-            "wax: density [kg/m³], surface tension [N/m], melting [°C]",
-            "around 1000; 0.03; 75 to 85",
-            &format!("{}; {}; {}", number(density), number(tension), number(melting)),
-            same,
-        )
-        .because("Inputs: what the library's wax has."))
+    Ok(Claim::derived_statement(
+        "Sec 3.1",
+        "wax: density [kg/m³], surface tension [N/m], melting [°C]",
+        "around 1000; 0.03; 75 to 85",
+        &format!("{}; {}; {}", number(density), number(tension), number(melting)),
+        same,
+    )
+    .because("Inputs: properties of the library's wax."))
 }
 
 fn slag_melt(shelf: &Shelf) -> Result<Claim> {
     let density = shelf.value("coal-slag", "density", 1673.15)?;
     let tension = shelf.value("coal-slag", "surface_tension", 1673.15)?;
     let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
-    Ok(Basis::Derived
-        .statement(
-            "Sec 3.1",
-            "slag: density [kg/m³], surface tension [N/m]",
-            "2500 to 3000; 0.4 to 0.7",
-            &format!("{}; {}", number(density), number(tension)),
-            within(COAL_SLAG.density, density) && within(COAL_SLAG.tension, tension),
-        )
-        .because("Inputs: what the library's coal slag has, the middles."))
+    Ok(Claim::derived_statement(
+        "Sec 3.1",
+        "slag: density [kg/m³], surface tension [N/m]",
+        "2500 to 3000; 0.4 to 0.7",
+        &format!("{}; {}", number(density), number(tension)),
+        within(COAL_SLAG.density, density) && within(COAL_SLAG.tension, tension),
+    )
+    .because("Inputs: properties of the library's coal slag, the middles of the ranges."))
 }
 
 /// Of the camera.
 fn pixel() -> Claim {
     let (speed, exposure) = (TUBE_SPEED.value, 1e6 * CAMERA.exposure);
-    Basis::Derived
-        .number(
-            "Sec 3.2",
-            "width of a pixel, 0.028 m over 1024 [µm], \"about\"",
-            Published::within(27.0, 0.5),
-            CAMERA.pixel(),
-        )
-        .because(&format!(
-            "The shutter of {exposure:.0} µs smears {speed} m/s over {:.0} µm: three pixels, one particle.",
-            speed * exposure
-        ))
+    Claim::derived(
+        "Sec 3.2",
+        "width of a pixel, 0.028 m over 1024 [µm], \"about\"",
+        Published::within(27.0, 0.5),
+        CAMERA.pixel(),
+    )
+    .because(&format!(
+        "The shutter of {exposure:.0} µs smears {speed} m/s over {:.0} µm: three pixels, one particle.",
+        speed * exposure
+    ))
 }
 
 /// Of the wax at one of the paper's two temperatures [°C].
 fn viscosity(shelf: &Shelf, celsius: &str, place: usize, tolerance: f64) -> Result<Claim> {
-    Ok(Basis::Fitted.number(
+    Ok(Claim::fitted(
         "Sec 3.1",
         &format!("viscosity of the wax at {celsius} °C [Pa s]"),
         Published::within(MOLTEN_WAX.viscosity[place], tolerance),
@@ -227,21 +222,19 @@ fn kinematic_viscosity(shelf: &Shelf) -> Result<Claim> {
     let Melt { viscosity, density, .. } = COAL_SLAG;
     let slag = [viscosity[0] / density[1], viscosity[1] / density[0]];
     let span = |[low, high]: [f64; 2]| format!("{} to {}", number(low), number(high));
-    Ok(Basis::Derived
-        .statement(
-            "Sec 3.1",
-            "kinematic viscosity of wax \"consistent\" with that of slag [m²/s]",
-            "both 1e-5 to 1e-4",
-            &format!("wax {}; slag {}", span(wax), span(slag)),
-            slag[0] > 0.5e-5 && slag[1] < 1.5e-4,
-        )
-        .because(&format!(
-            "The slag's own numbers of the same sentence ({} Pa s, {} kg/m³) span two \
-         decades, {:.0} times below and {:.0} times above those of the wax. The wax covers the \
-         middle.",
-            span(viscosity),
-            span(density),
-            wax[0] / slag[0],
-            slag[1] / wax[1]
-        )))
+    Ok(Claim::derived_statement(
+        "Sec 3.1",
+        "kinematic viscosity of wax \"consistent\" with that of slag [m²/s]",
+        "both 1e-5 to 1e-4",
+        &format!("wax {}; slag {}", span(wax), span(slag)),
+        slag[0] > 0.5e-5 && slag[1] < 1.5e-4,
+    )
+    .because(&format!(
+        "The slag's own numbers of the same sentence ({} Pa s, {} kg/m³) span two decades, {:.0} times \
+         below and {:.0} times above those of the wax. The wax covers the middle.",
+        span(viscosity),
+        span(density),
+        wax[0] / slag[0],
+        slag[1] / wax[1]
+    )))
 }

@@ -50,10 +50,10 @@ pub fn study(extent: Extent) -> Result<Study> {
     Ok(Study {
         title: "Wax on targets (Troiano et al.)".to_owned(),
         source: "M. Troiano, R. Solimene, P. Salatino, F. Montagnaro: Multiphase flow patterns in \
-         entrained-flow slagging gasifiers: physical modelling of particle–wall impact at near-ambient \
-         conditions. Read from a scan: what looks like a slip of print may be one of the copy. Tolerances: \
-         the stated uncertainty, else half of the last digit; where the paper says \"around\" or \"about\", \
-         one unit of that digit unless the row says otherwise."
+            entrained-flow slagging gasifiers: physical modelling of particle–wall impact at near-ambient \
+            conditions. Read from a scan: what looks like a slip of print may be one of the copy. \
+            Tolerances: the stated uncertainty, else half of the last digit; where the paper says \
+            \"around\" or \"about\", one unit of that digit unless the row says otherwise."
             .to_owned(),
         lead: lead()?,
         parts,
@@ -62,9 +62,9 @@ pub fn study(extent: Extent) -> Result<Study> {
 
 fn lead() -> Result<String> {
     Ok(format!(
-        "Near the normal on stiff targets (mean e_n {:.2} against {}), over the temperature and in the tube the library \
-         meets the paper. It meets neither the equal rebound on soft targets nor, without a term set to them, glancing \
-         angles; most other differences are slips of print.",
+        "Near the normal on stiff targets (mean e_n {:.2} against {}), over the temperature and in the tube \
+         the library agrees with the paper. It does not reproduce the equal rebound on soft targets, nor \
+         glancing angles without a fitted term. Most other differences are printing errors.",
         speed::mean_on_pyrex()?,
         published::E_N_MEAN.value
     ))

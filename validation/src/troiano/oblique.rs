@@ -45,11 +45,11 @@ pub(super) fn part() -> Result<Part> {
 fn rolling_text(k: f64) -> String {
     let between = stated_e_n(CRITICAL_ANGLE.value);
     format!(
-        "Eq. 9's middle expression and Eq. 12 are slips; Eq. 11 is not what the text calls it. A \
-         sphere that is rigid rolls from the angle at which sliding reaches e_t = 5/7, which is \
-         {:.1}° for e_n = {} and {:.1}° for {between:.2}. Eq. 11 with k is where an elastic contact ceases \
-         to slide all through the impact, later; at that angle sliding has brought e_t down to \
-         {:.3}, below 5/7, and a law of Eqs 10, 11 and 5/7 jumps there.",
+        "Eq. 9's middle expression and Eq. 12 are slips; Eq. 11 is not what the text calls it. A sphere \
+         that is rigid rolls from the angle at which sliding reaches e_t = 5/7, which is {:.1}° for e_n = \
+         {} and {:.1}° for {between:.2}. Eq. 11 with k is where an elastic contact ceases to slide all \
+         through the impact, later; at that angle sliding has brought e_t down to {:.3}, below 5/7, and a \
+         law of Eqs 10, 11 and 5/7 jumps there.",
         rigid(FIT_E_N.value),
         FIT_E_N.value,
         rigid(between),
@@ -63,11 +63,11 @@ fn stiffness_text(k: f64) -> String {
     let end = |k: f64| 2.0 / ((7.0 - 1.0 / k) * FRICTION.value);
     format!(
         "What Eq. 12 was in the authors' calculation cannot be told from {angle}°: with Mindlin's k = \
-         {k:.3} Eq. 11 gives {angle}° for e_n = {:.3}, with k = 1, which the equation as printed gives \
-         for any two materials, for e_n = {:.3}. The first lies between Fig. 6's {} at {GLANCING}° and \
-         {} near the normal, the second is the mean of Fig. 10. The data of Fig. 7 tell more: \
-         where (1+e_n) tan(alpha) ends sliding does not depend on e_n, and is {:.2} with Mindlin's \
-         k, {:.2} with k = 1 and {:.2} for a rigid sphere. The paper reads {}.",
+         {k:.3} Eq. 11 gives {angle}° for e_n = {:.3}, with k = 1, which the equation as printed gives for \
+         any two materials, for e_n = {:.3}. The first lies between Fig. 6's {} at {GLANCING}° and {} near \
+         the normal, the second is the mean of Fig. 10. The data of Fig. 7 tell more: where (1+e_n) \
+         tan(alpha) ends sliding does not depend on e_n, and is {:.2} with Mindlin's k, {:.2} with k = 1 \
+         and {:.2} for a rigid sphere. The paper reads {}.",
         e_n_for(k),
         e_n_for(1.0),
         E_N_GLANCING.value,
@@ -90,7 +90,7 @@ fn right_hand_side() -> Result<Claim> {
         bounce.tangential_restitution,
         impact.angle_from_surface(),
     );
-    Ok(Basis::Derived.number(
+    Ok(Claim::derived(
         "Eqs 7, 8, 9",
         "e_g by the right-hand side over rebound speed by impact speed, from e_n and e_t at 50° [1]",
         Published::within(1.0, 1e-12),
@@ -112,19 +112,18 @@ fn middle_expression() -> Claim {
     let (e_n, e_t) = (FIT_E_N.value, FIT_E_T.value);
     let right = |angle: f64| global_restitution(e_n, e_t, angle.to_radians());
     let all = |of: &dyn Fn(f64) -> f64| ANGLES.map(|angle| number(of(angle))).join(", ");
-    Basis::Derived
-        .statement(
-            "Eq 9",
-            &format!("middle expression, for e_n = {e_n} and e_t = {e_t} at 20°, 45°, 80°"),
-            "equal to the root on the right",
-            &format!("{} against {}", all(&printed_middle), all(&right)),
-            (printed_middle(ANGLES[0]) - right(ANGLES[0])).abs() < 0.01,
-        )
-        .because(
-            "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out and \
-         has no root: it is (e_n² + e_t²)/2 at every angle. What is meant is the root of (v_n,r² + \
+    Claim::derived_statement(
+        "Eq 9",
+        &format!("middle expression, for e_n = {e_n} and e_t = {e_t} at 20°, 45°, 80°"),
+        "equal to the root on the right",
+        &format!("{} against {}", all(&printed_middle), all(&right)),
+        (printed_middle(ANGLES[0]) - right(ANGLES[0])).abs() < 0.01,
+    )
+    .because(
+        "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out and has \
+         no root: it is (e_n² + e_t²)/2 at every angle. The intended expression is the root of (v_n,r² + \
          v_t,r²)/(v_n,i² + v_t,i²); the right-hand side is right and is what the library computes.",
-        )
+    )
 }
 
 /// Eq 10, and beyond it.
@@ -133,7 +132,7 @@ fn sliding_and_rolling() -> Result<[Claim; 2]> {
     let at = |angle: f64| decide(&model, "default", &arriving(1.0, angle));
     let slid = at(30.0)?;
     Ok([
-        Basis::Derived.number(
+        Claim::derived(
             "Eq 10",
             "e_t at 30°, formula over library [1]",
             Published::within(1.0, 1e-9),
@@ -146,19 +145,18 @@ fn sliding_and_rolling() -> Result<[Claim; 2]> {
 /// Eq 11 as the text calls it.
 fn rigid_body() -> Claim {
     let [low, high] = [E_N_GLANCING.value, E_N_NEAR_NORMAL.value].map(rigid);
-    Basis::Derived
-        .statement(
-            "Eq 11",
-            "\"rigid body theory\": the angle at which a rigid sphere begins to roll [°], e_n 0.28 to 0.41",
-            "43",
-            &format!("{low:.1} to {high:.1}"),
-            (low..=high).contains(&CRITICAL_ANGLE.value),
-        )
-        .because(
-            "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it is \
-         the limit of gross sliding of an elastic sphere. That the data leave the line near 43° to \
-         45° supports elastic contact, not rigid-body theory.",
-        )
+    Claim::derived_statement(
+        "Eq 11",
+        "\"rigid body theory\": the angle at which a rigid sphere begins to roll [°], e_n 0.28 to 0.41",
+        "43",
+        &format!("{low:.1} to {high:.1}"),
+        (low..=high).contains(&CRITICAL_ANGLE.value),
+    )
+    .because(
+        "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it is the \
+         limit of gross sliding of an elastic sphere. That the data leave the line near 43° to 45° supports \
+         elastic contact, not rigid-body theory.",
+    )
 }
 
 /// Eq 11 as it is; `k` is that of Pyrex.
@@ -169,9 +167,9 @@ fn critical_claim(k: f64) -> Claim {
     let implied = end / end_angle.to_radians().tan() - 1.0;
     let near_normal = E_N_NEAR_NORMAL.value;
     CRITICAL_ANGLE.beside(critical(between, k), Basis::Predicted).because(&format!(
-        "Takes Mindlin's k and e_n = {between:.2} at {angle}°, drawn straight between Fig. 6's {} at {GLANCING}° and \
-         {near_normal} at {STEEP}°. With e_n = {implied:.2}, which {end} at {end_angle}° implies, it is {:.1}°; with {near_normal}, \
-         {:.1}°.",
+        "With Mindlin's k and e_n = {between:.2} at {angle}°, drawn straight between Fig. 6's {} at \
+         {GLANCING}° and {near_normal} at {STEEP}°. With e_n = {implied:.2}, which {end} at {end_angle}° \
+         implies, it is {:.1}°; with {near_normal}, {:.1}°.",
         E_N_GLANCING.value,
         critical(implied, k),
         critical(near_normal, k)
@@ -182,18 +180,17 @@ fn critical_claim(k: f64) -> Claim {
 fn stiffness(k: f64) -> Result<Claim> {
     let all = TARGETS.iter().map(|target| stiffness_ratio(target.wall)).collect::<Result<Vec<_>>>()?;
     let [least, most] = range(all.into_iter());
-    Ok(Basis::Derived
-        .statement(
-            "Eq 12",
-            "tangential over normal stiffness k",
-            "numerator and denominator the same: k = 1",
-            &format!("Mindlin: {k:.3} for Pyrex, {least:.3} to {most:.3} over the four targets"),
-            (k - 1.0).abs() < 0.005,
-        )
-        .because(
-            "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are lost, in print or in the \
-             scan.",
-        ))
+    Ok(Claim::derived_statement(
+        "Eq 12",
+        "tangential over normal stiffness k",
+        "numerator and denominator the same: k = 1",
+        &format!("Mindlin: {k:.3} for Pyrex, {least:.3} to {most:.3} over the four targets"),
+        (k - 1.0).abs() < 0.005,
+    )
+    .because(
+        "The denominator has to be (1-nu1/2)/G1 + (1-nu2/2)/G2; the halves are missing, in print or in the \
+         scan.",
+    ))
 }
 
 /// Eq 14, by counting.
@@ -205,10 +202,10 @@ fn counting() -> Result<Claim> {
     for number in 0..4000 {
         counted += f64::from(u8::from(melting.resolve(0, &warm, ImpactRng::new(1, number))?.stuck));
     }
-    Ok(Basis::Derived.number(
+    Ok(Claim::derived(
         "Eq 14",
         "captured over all, 4000 impacts drawn at 70 °C (seed 1) [%]; the model's probability ± three \
-                 standard errors",
+         standard errors",
         Published::within(100.0 * probability, 300.0 * (probability * (1.0 - probability) / 4000.0).sqrt()),
         counted / 40.0,
     ))

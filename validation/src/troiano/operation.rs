@@ -8,7 +8,7 @@ use super::passes;
 use super::published::{FEED, LEAST_ANGLE, OPERATIONS, Operation, SHALLOW, TUBE};
 use crate::oracle::carried::{Air, terminal_speed};
 use crate::study::table;
-use crate::{Basis, Claim, Part};
+use crate::{Claim, Part};
 
 impl Operation {
     /// Speed [m/s] that an air flow [m³/h at 273 K] of a temperature [°C] gives its particles: air plus terminal velocity.
@@ -77,7 +77,7 @@ fn speeds() -> Table {
 fn air_flow(operation: &Operation) -> Claim {
     let [low, high] = operation.ends();
     let holds = low <= operation.speed[0] && operation.speed[1] <= high;
-    let claim = Basis::Predicted.statement(
+    let claim = Claim::predicted_statement(
         "Table 3",
         &format!(
             "{}: impact speeds that the air flow gives, air plus terminal velocity [m/s]",
@@ -90,8 +90,8 @@ fn air_flow(operation: &Operation) -> Claim {
     if holds {
         let [cold, hot] = operation.air;
         claim.because(&format!(
-            "{} m/s needs {:.1} m³/h at {cold} °C and {:.1} at {hot} °C: the lower temperatures take more than \
-             the stated {}.",
+            "{} m/s needs {:.1} m³/h at {cold} °C and {:.1} at {hot} °C: the lower temperatures take more \
+             than the stated {}.",
             operation.speed[1],
             operation.needed(cold),
             operation.needed(hot),
@@ -100,8 +100,8 @@ fn air_flow(operation: &Operation) -> Claim {
     } else {
         claim.because(&format!(
             "Plug flow in {:.0} mm. A laminar profile carries particles near the axis up to twice as fast, \
-             which would reach the upper end, and the air that turns aside at the target slows them \
-             (last part), which may reach the lower; the paper counts neither.",
+             which would reach the upper end, and the air that turns aside at the target slows them (last \
+             part), which may reach the lower; the paper counts neither.",
             1e3 * TUBE[0]
         ))
     }
@@ -114,17 +114,19 @@ fn smallest_angle() -> Claim {
     let lowest = |speed: f64| (1.0 / speed).asin().to_degrees();
     let speed = |angle: f64| 1.0 / angle.to_radians().sin();
     let fastest = cold.ends()[1];
-    Basis::Derived.statement(
+    Claim::derived_statement(
         "Table 3, Fig 6",
         "smallest angle with v_n = 1 m/s and v_i up to 3 m/s [°]",
         "10 (e_t is stated at 13)",
         &format!("{:.1}", lowest(limit)),
-        lowest(limit) <= LEAST_ANGLE)
+        lowest(limit) <= LEAST_ANGLE,
+    )
     .because(&format!(
-        "v_n = 1 m/s at {SHALLOW}° is v_i = {:.1} m/s and at {LEAST_ANGLE}° {:.1} m/s, above the table's {limit} m/s; the \
-         largest air flow, {} m³/h, gives {fastest:.1} m/s and {:.0}°. Either v_n was less at the smallest angles \
-         or the speeds were higher than the table says. The captions of Figs 6 and 7 say v_i = 1 m/s, which \
-         would suit the table; the text says v_n = 1 m/s with v_i rising as 1/sin(alpha), and is used here.",
+        "v_n = 1 m/s at {SHALLOW}° is v_i = {:.1} m/s and at {LEAST_ANGLE}° {:.1} m/s, above the table's \
+         {limit} m/s; the largest air flow, {} m³/h, gives {fastest:.1} m/s and {:.0}°. Either v_n was less \
+         at the smallest angles or the speeds were higher than the table says. The captions of Figs 6 and 7 \
+         say v_i = 1 m/s, which would suit the table; the text says v_n = 1 m/s with v_i rising as \
+         1/sin(alpha), and is used here.",
         speed(SHALLOW),
         speed(LEAST_ANGLE),
         cold.flow[1],
@@ -135,15 +137,14 @@ fn smallest_angle() -> Claim {
 /// Whether the drops of Fig. 14 are of the sizes that were fed.
 fn batches() -> Claim {
     let [.., hot] = &OPERATIONS;
-    Basis::Derived
-        .statement(
-            "Table 3, Sec 3.1",
-            "sizes of Fig. 14 [µm] inside the batches that were fed",
-            "50 to 100",
-            "120 ± 20",
-            hot.diameter <= FEED[1],
-        )
-        .because(
-            "The paper contradicts itself, or fed other batches to the tests at 120 °C. Table 3 is used.",
-        )
+    Claim::derived_statement(
+        "Table 3, Sec 3.1",
+        "sizes of Fig. 14 [µm] inside the batches that were fed",
+        "50 to 100",
+        "120 ± 20",
+        hot.diameter <= FEED[1],
+    )
+    .because(
+        "Either the paper contradicts itself, or the tests at 120 °C used other batches. Table 3 is used.",
+    )
 }

@@ -92,13 +92,13 @@ pub(super) fn part(extent: Extent) -> Result<Part> {
 fn plate_text([speed, deviation]: [f64; 2]) -> String {
     let stated = TUBE_SPEED.value;
     format!(
-        "`validation/troiano/rig.toml` is the same tube with the air turning aside in front of the \
-         target, 50 mm below its end (an inviscid stagnation flow, felt from one tube diameter on, \
-         assumed). Particles that leave the tube with {stated} m/s arrive with {speed:.2} ± {deviation:.2} \
-         m/s. OpenFOAM with a computed jet says 1.3 m/s, and that {stated} m/s at the plate take some 2.7 \
-         m/s of air (`tutorials/waxImpactor/Allrun`, README \"Impact speed and the air\"). The paper \
-         checked the speed at the exit of the tube; for the impacts it took frames before and after \
-         the wall, so its restitutions need not be wrong by this."
+        "`validation/troiano/rig.toml` is the same tube with the air turning aside in front of the target, \
+         50 mm below its end (an inviscid stagnation flow, felt from one tube diameter on, assumed). \
+         Particles that leave the tube with {stated} m/s arrive with {speed:.2} ± {deviation:.2} m/s. \
+         OpenFOAM with a computed jet says 1.3 m/s, and that {stated} m/s at the plate take some 2.7 m/s of \
+         air (`tutorials/waxImpactor/Allrun`, README \"Impact speed and the air\"). The paper checked the \
+         speed at the exit of the tube; for the impacts it took frames before and after the wall, so its \
+         restitutions need not be wrong by this."
     )
 }
 
@@ -106,11 +106,11 @@ fn frames_text(frames: &Frames) -> Result<String> {
     let e_n = E_N_MEAN.value;
     Ok(format!(
         "Those frames are {} ms apart, and the relaxation time of {:.0} µm is {:.0} ms. The pair of frames \
-         next to the wall shows the particle a millisecond before and after, on average: faster than \
-         it hits, slower than it leaves. An e_n of {e_n} would be seen as {:.2} of itself at {} m/s \
-         and {:.2} at {} m/s. If no correction was made, the contact's own e_n was some {:.2} where \
-         {e_n} was read, and c for the mean of Fig. 10 {:.2} in place of {:.2}. The paper \
-         says nothing of it; its own Fig. 5 calls the paths linear.",
+         next to the wall shows the particle a millisecond before and after, on average: faster than it \
+         hits, slower than it leaves. An e_n of {e_n} would be seen as {:.2} of itself at {} m/s and {:.2} \
+         at {} m/s. If no correction was made, the contact's own e_n was some {:.2} where {e_n} was read, \
+         and c for the mean of Fig. 10 {:.2} in place of {:.2}. The paper says nothing of it; its own Fig. \
+         5 calls the paths linear.",
         1e3 * CAMERA.frame,
         1e6 * DIAMETER,
         1e3 * relaxation_time(&wax(DIAMETER), &ROOM),
@@ -152,17 +152,17 @@ fn chart(hits: &[Hit]) -> Figure {
 fn claims(speed: f64, frames: &Frames) -> Vec<Claim> {
     vec![
         TUBE_SPEED.beside(speed, Basis::Predicted).because(
-            "At the plate, for 2 m/s at the tube's end. The plate's size and the flow around it are not \
-             given; a small plate brakes less. If 2 m/s were the tube's value, Figs 12 to 14 were made \
-             at less.",
+            "At the plate, for 2 m/s at the tube's end. The size of the plate and the flow around it are \
+             not given; a smaller plate decelerates less. If 2 m/s were the tube's value, Figs 12 to 14 \
+             were measured at lower speeds.",
         ),
         Claim::unchecked(
             "Sec 3.2",
             "restitution from frames 1 ms apart",
             "e_n, e_t as the contact's",
             &format!(
-                "How many frames were used, and whether drag was corrected, is not said. Uncorrected, \
-                 e_n reads {:.0} % low at 1 m/s.",
+                "The number of frames and a correction for drag are not stated. Without correction e_n is \
+                 {:.0} % low at 1 m/s.",
                 100.0 * (1.0 - frames.share())
             ),
         ),

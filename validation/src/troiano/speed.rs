@@ -122,12 +122,12 @@ fn inputs_text(centre: &Centre, moved: &Moved) -> String {
     let [(_, _, modulus, strength), ..] = SOLIDS;
     let sizes = [DIAMETER - DIAMETER_SPREAD, DIAMETER + DIAMETER_SPREAD].map(|diameter| 1e6 * diameter);
     format!(
-        "Thornton and Ning's law with the paper's inputs and c = {} has a mean e_n of {:.3} between \
-         {slow} and {fast} m/s, {:.3} at {slow}, {:.3} at 1 and {:.3} at {fast} m/s; the deviations of sigma_y ({:.0} \
-         %) and E ({:.0} %) alone, in quadrature, make that mean {low:.2} to {high:.2}. Sizes of {:.0} to \
-         {:.0} µm move it by {:.3} at {slow} m/s and {:.3} at {fast}. So c is known no better than sigma_y: \
-         only p_y = c sigma_y = {:.1} MPa enters, and the fit cannot tell a soft contact from a softer \
-         wax.",
+        "Thornton and Ning's law with the paper's inputs and c = {} has a mean e_n of {:.3} between {slow} \
+         and {fast} m/s, {:.3} at {slow}, {:.3} at 1 and {:.3} at {fast} m/s; the deviations of sigma_y \
+         ({:.0} %) and E ({:.0} %) alone, in quadrature, make that mean {low:.2} to {high:.2}. Sizes of \
+         {:.0} to {:.0} µm move it by {:.3} at {slow} m/s and {:.3} at {fast}. So c is known no better than \
+         sigma_y: only p_y = c sigma_y = {:.1} MPa enters, and the fit cannot tell a soft contact from a \
+         softer wax.",
         YIELD_RATIO.value,
         mean(&centre.0),
         centre.e_n(slow),
@@ -147,11 +147,11 @@ fn inputs_text(centre: &Centre, moved: &Moved) -> String {
 fn slip_text(centre: &Centre) -> String {
     let [slow, fast] = SPEEDS;
     format!(
-        "Table 4's slip of ten in v_s decides the form at the low end. With the mended {:.2} m/s \
-         adhesion lowers e_n at {slow} m/s from {:.2} to {:.2} and the curve is nearly flat, as the \
-         paper says of its data (\"about constant\"); with the printed {} it falls from {:.2} to \
-         {:.2} and its mean is {:.3}. Which of the two the authors drew cannot be read \
-         from the text. The best c for a mean of {} is {:.2} or {:.2}.",
+        "Table 4's slip of ten in v_s decides the form at the low end. With the mended {:.2} m/s adhesion \
+         lowers e_n at {slow} m/s from {:.2} to {:.2} and the curve is nearly flat, as the paper says of \
+         its data (\"about constant\"); with the printed {} it falls from {:.2} to {:.2} and its mean is \
+         {:.3}. Which of the two the authors drew cannot be read from the text. The best c for a mean of {} \
+         is {:.2} or {:.2}.",
         centre.adhesive_velocity(),
         centre.without_adhesion(slow),
         centre.e_n(slow),
@@ -199,22 +199,23 @@ fn fit_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
     let [low, high] = [c.value - c.tolerance, c.value + c.tolerance];
     Ok(vec![
         E_N_MEAN.beside(mean(&centre.0), Basis::Fitted).because(&format!(
-            "c = {} is the paper's fit and printed to one digit; {low:.2} to {high:.2} gives {:.3} to {:.3}. Of our \
-             making are even weights over the speeds.",
+            "c = {} is the paper's fit and printed to one digit; {low:.2} to {high:.2} gives {:.3} to \
+             {:.3}. Equal weights over the speeds are an assumption.",
             c.value,
             mean_of(low),
             mean_of(high)
         )),
         E_N_FIG_8.beside(mean(&centre.0), Basis::Fitted),
         c.beside(centre.best(), Basis::Fitted)
-            .because(&format!("c for a mean e_n of {} with the mended v_s.", E_N_MEAN.value)),
-        Basis::Predicted.statement(
+            .because(&format!("c for a mean e_n of {} with the corrected v_s.", E_N_MEAN.value)),
+        Claim::predicted_statement(
             "Fig 8",
             "c = 2.6 to 3 (hard sphere) does not fit: mean e_n",
             "about 0.3",
             &format!("{:.2} to {:.2}", mean_of(HARD_SPHERE[0]), mean_of(HARD_SPHERE[1])),
-            least_hard > 0.4)
-        .because(&format!("Not even with sigma_y and E at the ends of their deviations: {least_hard:.2}.")),
+            least_hard > 0.4,
+        )
+        .because(&format!("Also not with sigma_y and E at the ends of their uncertainty: {least_hard:.2}.")),
     ])
 }
 
@@ -229,24 +230,27 @@ fn plastic_claims(centre: &Centre) -> Vec<Claim> {
         .max_by(|a, b| a[1].total_cmp(&b[1]))
         .unwrap_or([0.0; 2]);
     vec![
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "Sec 4.1",
             "\"v_y < v_s\", so every impact from 0.5 m/s on is plastic",
             "6.8e-3 < 1.15e-2 m/s",
             &format!("{yielding:.4} < {adhesive:.3} m/s"),
-            yielding < adhesive),
-        Basis::Predicted.number(
+            yielding < adhesive,
+        ),
+        Claim::predicted(
             "Sec 4.1",
             "largest e_n at any speed, \"less than 1\"",
             Published::Below(1.0),
-            top[1])
+            top[1],
+        )
         .because(&format!("At {:.2} m/s.", top[0])),
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "Sec 4.1",
             "e_n falls less steeply with speed in the plastic regime: e_n at 3 over e_n at 0.5 m/s",
             "\"less pronounced\"",
             &format!("{kept:.2}; without adhesion {kept_without:.2}"),
-            kept > 0.6)
+            kept > 0.6,
+        )
         .because(&format!(
             "Far above v_y the law tends to v^(-1/4): six times the speed lowers e_n to {:.2} at the least.",
             (fast / slow).powf(-0.25)
@@ -261,22 +265,24 @@ fn adhesion_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
     let added = [slow, MIDDLE, fast].map(|speed| format!("{:.0}", 100.0 * (over(speed) - 1.0)));
     let by_door = decide(model, "default", &arriving(MIDDLE, STEEP))?.normal_restitution;
     Ok(vec![
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "Sec 4.1",
-            "e_n \"is a function of the yield velocity only\": what leaving adhesion out adds to e_n at 0.5, \
+            "e_n \"is a function of the yield velocity only\": increase of e_n without adhesion at 0.5, \
              1.25, 3 m/s [%]",
             "nothing",
             &added.join(", "),
-            over(slow) < 1.05)
+            over(slow) < 1.05,
+        )
         .because(&format!(
-            "At {slow} m/s adhesion takes {:.0} % of the energy that plasticity leaves; with the printed v_s, ten times \
-             too small, it would not be seen.",
+            "At {slow} m/s adhesion takes {:.0} % of the energy that plasticity leaves; with the printed \
+             v_s, ten times too small, the effect would be invisible.",
             100.0 * (1.0 - (centre.e_n(slow) / centre.without_adhesion(slow)).powi(2))
         )),
-        Basis::Derived.number(
+        Claim::derived(
             "Fig 8",
             "e_n at 1.25 m/s: `Model::resolve` over the law with the contact of this part [1]",
             Published::within(1.0, 1e-12),
-            by_door / centre.e_n(MIDDLE)),
+            by_door / centre.e_n(MIDDLE),
+        ),
     ])
 }

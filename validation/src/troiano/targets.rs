@@ -112,12 +112,11 @@ pub(super) fn part() -> Result<Part> {
 fn slip_text(four: &Four) -> String {
     let [low, high] = range(four.all().iter().map(|found| found.printed));
     format!(
-        "The paper measured the same e_n on Pyrex, steel, wax and Teflon, and explains it by one \
-         yield velocity, 6.8e-3 m/s. With that number for all four the law does give the same e_n \
-         within {:.1} %. But Eq. 3 does not give that number for the soft targets: half the \
-         stiffness means a quarter of E*² and four times v_y. The law then predicts \
-         e_n {:.0} and {:.0} % above Pyrex's. So the model does not agree with the measurement, and \
-         the paper's explanation rests on the slip in its Table 4.",
+        "The paper measured the same e_n on Pyrex, steel, wax and Teflon, and explains it by one yield \
+         velocity, 6.8e-3 m/s. With that number for all four the law does give the same e_n within {:.1} %. \
+         But Eq. 3 does not give that number for the soft targets: half the stiffness means a quarter of \
+         E*² and four times v_y. The law then predicts e_n {:.0} and {:.0} % above Pyrex's. So the model \
+         does not agree with the measurement, and the paper's explanation rests on the slip in its Table 4.",
         100.0 * (high / low - 1.0),
         100.0 * (four.over_pyrex(&four.wax) - 1.0),
         100.0 * (four.over_pyrex(&four.teflon) - 1.0)
@@ -126,12 +125,11 @@ fn slip_text(four: &Four) -> String {
 
 fn soft_text(four: &Four) -> String {
     format!(
-        "The data are the stronger side: at least 50 impacts a point. What the law lacks on soft \
-         targets is that they, too, dissipate. On wax both solids yield (the law's yield pressure \
-         belongs to one), and data sheets let PTFE yield from 1.5 to 23 MPa, perhaps below the wax. \
-         On wax the measured {} would take c = {:.2} in place of {}. A single p_y \
-         carried from target to target is therefore not tested by Fig. 9; it fails there unless only \
-         the stiff targets count.",
+        "The data are the stronger side: at least 50 impacts a point. What the law lacks on soft targets is \
+         that they, too, dissipate. On wax both solids yield (the law's yield pressure belongs to one), and \
+         data sheets let PTFE yield from 1.5 to 23 MPa, perhaps below the wax. On wax the measured {} would \
+         take c = {:.2} in place of {}. A single p_y carried from target to target is therefore not tested \
+         by Fig. 9; it fails there unless only the stiff targets count.",
         E_N_MEAN_WAX.value,
         four.wax.ratio_needed(),
         YIELD_RATIO.value
@@ -150,8 +148,7 @@ fn overview(four: &Four) -> Table {
 fn bars(four: &Four) -> Figure {
     let names = TARGETS.each_ref().map(|target| target.name.to_owned());
     let caption = format!(
-        "{SPEED} m/s at {STEEP}°. Measured: the same on all; the means stated are {} on Pyrex and on \
-         wax.",
+        "{SPEED} m/s at {STEEP}°. Measured: the same on all; the means stated are {} on Pyrex and on wax.",
         E_N_MEAN.value
     );
     BarChart::new("Normal restitution on four targets", "e_n [1]", &names)
@@ -165,7 +162,7 @@ fn same_restitution(four: &Four) -> Vec<Claim> {
     let [steel, wax, teflon] = [&four.steel, &four.wax, &four.teflon].map(|found| four.over_pyrex(found));
     let yielding = |found: &Found| yield_velocity(&found.contact) / yield_velocity(&four.pyrex.contact);
     let same = |what: &str, ours: &str, holds| {
-        Basis::Predicted.statement("Fig 9", what, "negligible difference", ours, holds)
+        Claim::predicted_statement("Fig 9", what, "negligible difference", ours, holds)
     };
     vec![
         same(
@@ -179,7 +176,8 @@ fn same_restitution(four: &Four) -> Vec<Claim> {
             (teflon - 1.0).abs() < 0.1,
         )
         .because(&format!(
-            "Eq. 3 makes v_y {:.1} and {:.1} times that on Pyrex and e_n goes with about v_y^(1/4); see the text.",
+            "Eq. 3 makes v_y {:.1} and {:.1} times that on Pyrex and e_n goes with about v_y^(1/4); see the \
+             text.",
             yielding(&four.wax),
             yielding(&four.teflon)
         )),
@@ -191,27 +189,29 @@ fn same_speeds(four: &Four) -> Vec<Claim> {
     let [on_pyrex, on_wax] = [&four.pyrex, &four.wax].map(|found| yield_velocity(&found.contact));
     let without = restitution(normal_speed(), 0.0, on_pyrex) / four.pyrex.e_n;
     vec![
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "Sec 4.1",
             "\"the elastic yield limit velocity was the same in each case\" [m/s]",
             "6.8e-3 on all four",
             &format!("{on_pyrex:.4} on Pyrex, {on_wax:.4} on wax"),
-            (on_wax / on_pyrex - 1.0).abs() < 0.05)
+            (on_wax / on_pyrex - 1.0).abs() < 0.05,
+        )
         .because(
-            "A slip of Table 4: Pyrex's value stands for all. The inference from equal e_n to equal v_y is \
-             right only within the law.",
+            "An error in Table 4: the value of Pyrex is given for all. Equal e_n implies equal v_y only \
+             within the law.",
         ),
         E_N_MEAN_WAX.beside(four.wax.mean(), Basis::Predicted).because(&format!(
             "As above for soft targets; c was fitted on Pyrex, where the mean is {:.2}.",
             four.pyrex.mean()
         )),
-        Basis::Predicted.statement(
+        Claim::predicted_statement(
             "Sec 4.1",
             "\"the target surface energy does not affect\" e_n at 1.25 m/s: e_n on Pyrex without adhesion \
              over with",
             "1",
             &format!("{without:.3}"),
-            without < 1.06)
+            without < 1.06,
+        )
         .because(&format!("Within {:.0} % at this speed; not at 0.5 m/s (Fig. 8).", 100.0 * (without - 1.0))),
     ]
 }

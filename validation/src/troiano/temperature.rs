@@ -77,9 +77,9 @@ pub(super) fn melting() -> Result<Part> {
 
 fn set_text(model: &Model) -> String {
     format!(
-        "A logistic curve in temperature has two numbers, set to the two captures that the text prints, \
-         {} % at 70 °C and {} % at 105 °C. What it then says below 55 °C and of e_n was not used. Half of \
-         the impacts stick at {:.0} °C, above the melting range of {} to {} °C.",
+        "A logistic curve in temperature has two numbers, set to the two captures that the text prints, {} \
+         % at 70 °C and {} % at 105 °C. What it then says below 55 °C and of e_n was not used. Half of the \
+         impacts stick at {:.0} °C, above the melting range of {} to {} °C.",
         CAPTURE_70.value,
         CAPTURE_105.value,
         half(model),
@@ -96,8 +96,8 @@ fn error_text() -> String {
         [share - errors[place], share + errors[place]]
     }));
     format!(
-        "With {IMPACTS} impacts a point, the least that the paper states, the two captures are {} ± {:.0} and {} \
-         ± {:.0} % by counting alone. Their corners put the half at {:.0} to {:.0} °C and the width \
+        "With {IMPACTS} impacts a point, the least that the paper states, the two captures are {} ± {:.0} \
+         and {} ± {:.0} % by counting alone. Their corners put the half at {:.0} to {:.0} °C and the width \
          between {:.1} and {:.1} K.",
         stated[0],
         100.0 * errors[0],
@@ -115,12 +115,12 @@ fn flow_text(model: &Model, flow: &Model) -> Result<String> {
     // To five degrees.
     let later = 5.0 * ((half(model) - middle) / 5.0).round();
     Ok(format!(
-        "The flow test that the paper calls \"in agreement\" is another curve: {:.0}, {:.0} and {:.0} % at {start}, \
-         {middle} and {last} °C. Taken as the share that sticks it gives {:.0} % at 70 °C ({:.0} % \
-         on a straight line between its points) where {} % were captured, and all at 105 °C where {} \
-         % were. It agrees in where the change begins, not in how it goes on: particles stick some \
-         {later} °C later than the wax flows. Part of that may be heat: in air of 85 °C an 80 µm particle \
-         has no time to melt in the tube (part on the tube).",
+        "The flow test that the paper calls \"in agreement\" is another curve: {:.0}, {:.0} and {:.0} % at \
+         {start}, {middle} and {last} °C. Taken as the share that sticks it gives {:.0} % at 70 °C ({:.0} % \
+         on a straight line between its points) where {} % were captured, and all at 105 °C where {} % \
+         were. It agrees in where the change begins, not in how it goes on: particles stick some {later} °C \
+         later than the wax flows. Part of that may be heat: in air of 85 °C an 80 µm particle has no time \
+         to melt in the tube (part on the tube).",
         100.0 * first,
         100.0 * second,
         100.0 * third,
@@ -144,8 +144,8 @@ fn in_openfoam(celsius: u32) -> Result<&'static str> {
 
 fn openfoam_text() -> Result<String> {
     Ok(format!(
-        "The same rig in OpenFOAM, flow and spread of sizes included, gives {} % at 50, {} % at 70 and \
-         {} % at 105 °C (`tutorials/waxImpactor/Allrun`; its README has the table).",
+        "The same rig in OpenFOAM, flow and spread of sizes included, gives {} % at 50, {} % at 70 and {} % \
+         at 105 °C (`tutorials/waxImpactor/Allrun`; its README has the table).",
         in_openfoam(50)?,
         in_openfoam(70)?,
         in_openfoam(105)?
@@ -181,7 +181,7 @@ fn rebound_chart(model: &Model, flow: &Model) -> Result<Figure> {
 fn captures_claims(model: &Model) -> Result<Vec<Claim>> {
     let none = |what: &str, celsius: f64| -> Result<Claim> {
         let ours = capture(model, celsius)?;
-        Ok(Basis::Predicted.number("Fig 12", what, Published::Below(1.0), ours))
+        Ok(Claim::predicted("Fig 12", what, Published::Below(1.0), ours))
     };
     Ok(vec![
         none("capture at 50 °C, \"practically zero\" [%]", 50.0)?
@@ -197,7 +197,7 @@ fn flow_claims(flow: &Model) -> Result<Vec<Claim>> {
     let [[start, first], [middle, second], [end, last]] = FLOW_TEST;
     let beside = |what: &str, stated: [f64; 2], celsius: f64| -> Result<Claim> {
         let published = Published::within(stated[0], stated[1]);
-        Ok(Basis::Predicted.number("Sec 4.2", what, published, capture(flow, celsius)?))
+        Ok(Claim::predicted("Sec 4.2", what, published, capture(flow, celsius)?))
     };
     Ok(vec![
         beside(
@@ -206,23 +206,24 @@ fn flow_claims(flow: &Model) -> Result<Vec<Claim>> {
             70.0,
         )?
         .because(
-            "Capture taken as the share of the flow test (`flow-test.toml`). The two measure different \
-             things: a wax that flows under its weight in minutes need not stick in microseconds.",
+            "Capture is taken as the share of the flow test (`flow-test.toml`). The two measure different \
+             things: a wax that flows under its weight in minutes does not necessarily stick in \
+             microseconds.",
         ),
         beside(
             "capture at 105 °C if the flow test's share stuck [%]",
             [CAPTURE_105.value, CAPTURE_105.tolerance],
             105.0,
         )?
-        .because("As above: its curve has ended long before."),
+        .because("As above: its curve reaches 1 at a lower temperature."),
         beside(
             "flow at 74.6 °C by the sharpest smooth curve through 1 % and 50 % [%]",
             [100.0 * last, 0.5],
             end,
         )?
         .because(&format!(
-            "The three points rise by {:.0} % and then by {:.0} % a degree: no Richards curve passes through all of \
-             them.",
+            "The three points rise by {:.0} % and then by {:.0} % a degree: no Richards curve passes \
+             through all of them.",
             100.0 * (second - first) / (middle - start),
             100.0 * (last - second) / (end - middle)
         )),
@@ -232,27 +233,29 @@ fn flow_claims(flow: &Model) -> Result<Vec<Claim>> {
 /// Of the restitution.
 fn rebound_claims(model: &Model) -> Result<Vec<Claim>> {
     Ok(vec![
-        Basis::Predicted.number(
+        Claim::predicted(
             "Fig 13",
             "e_n at 55 °C over e_n at 20 °C, \"constant\" [1]",
             Published::within(1.0, 0.02),
-            e_n(model, 55.0)? / e_n(model, 20.0)?)
+            e_n(model, 55.0)? / e_n(model, 20.0)?,
+        )
         .because("± 0.02 taken for \"constant\"."),
-        Basis::Predicted.number(
+        Claim::predicted(
             "Fig 13",
             "e_n at 105 °C, \"vanishingly small\"",
             Published::Below(0.05),
-            e_n(model, 105.0)?)
+            e_n(model, 105.0)?,
+        )
         .because(
-            "Of those that rebound; below 0.05 taken for \"vanishingly\". The effect takes the rebound by \
-             the same share that it captures (softening 1), a choice that this confirms.",
+            "Of those that rebound; below 0.05 taken for \"vanishingly\". The effect reduces the rebound by \
+             the share that it captures (softening 1); this confirms that choice.",
         ),
         Claim::unchecked(
             "Fig 13",
             "e_g between 55 and 105 °C",
             "decreases",
             "No values are printed, nor e_t over the temperature; the model lowers e_n only and keeps e_t, \
-                 so that e_g at 84° stays above e_t cos(84°).",
+             so that e_g at 84° stays above e_t cos(84°).",
         ),
     ])
 }
@@ -270,9 +273,9 @@ pub(super) fn conversion() -> Result<Part> {
     Ok(Part {
         heading: "Fig 12, coal: the conversion".to_owned(),
         text: vec![format!(
-            "Li et al.'s captures are in a figure, their numbers not in the text. What can be posed is where \
-             the rise lies: `conversion-transition` puts half of the captures at {:.2}, the middle of the \
-             stated {low:.2} to {high:.2}, with an assumed width. Nothing here is a test.",
+            "Li et al.'s captures are in a figure, their numbers not in the text. What can be posed is \
+             where the rise lies: `conversion-transition` puts half of the captures at {:.2}, the middle of \
+             the stated {low:.2} to {high:.2}, with an assumed width. Nothing here is a test.",
             0.5 * (low + high)
         )],
         figures: vec![conversion_chart(&model)?],
@@ -294,8 +297,7 @@ fn conversion_chart(model: &Model) -> Result<Figure> {
         .mark_x(high, &format!("{low:.2}–{high:.2}"))
         .figure(
             "troiano-conversion",
-            "43 to 63 µm coal at 1300 °C (assumed). The threshold is the paper's, the width \
-             assumed.",
+            "43 to 63 µm coal at 1300 °C (assumed). The threshold is the paper's, the width assumed.",
         ))
 }
 
@@ -307,7 +309,7 @@ fn conversion_claims(model: &Model) -> Result<Vec<Claim>> {
     }
     let shown: Vec<String> = captured.iter().map(|percent| format!("{percent:.0}")).collect();
     Ok(vec![
-        Basis::Fitted.statement(
+        Claim::fitted_statement(
             "Fig 12",
             "capture at conversions of 0.85, 0.88, 0.90 and 0.95 [%]",
             "small below 0.88, \"sharply increased\" above, sticky above 0.90",

@@ -209,11 +209,11 @@ pub(super) fn part(extent: Extent) -> Result<Part> {
 fn case_text() -> String {
     let area = std::f64::consts::FRAC_PI_4 * TUBE[0] * TUBE[0];
     format!(
-        "`validation/troiano/tube.toml` is the tube as a case of `nearwall simulate`: particles leave \
-         the inner tube, {} m down, at their speed of fall, air of {AIR_SPEED} m/s ({:.1} m³/h at 273 K) \
-         carries them to the end at {} m. Every speed and time was also computed by Runge and Kutta's \
-         method with drag and heat written anew, which was itself held against the closed form of \
-         Stokes' drag.",
+        "`validation/troiano/tube.toml` is the tube as a case of `nearwall simulate`: particles leave the \
+         inner tube, {} m down, at their speed of fall, air of {AIR_SPEED} m/s ({:.1} m³/h at 273 K) \
+         carries them to the end at {} m. Every speed and time was also computed by the Runge–Kutta method \
+         with independent code for drag and heat, which was itself compared with the closed form of Stokes' \
+         drag.",
         TUBE[2],
         3600.0 * area * AIR_SPEED * 273.15 / ROOM.temperature,
         TUBE[1]
@@ -226,9 +226,10 @@ fn length_text(tracks: &[Track]) -> String {
     let reached = stokes_closed_form(0.0, 2.0, ten, time)[0] / 2.0;
     let largest = &tracks[tracks.len() - 1];
     format!(
-        "Eq. 13's {length} m is that of 100 µm, the largest particle, at {} m/s in air of 0 °C. Ten relaxation times are indeed generous: {:.4} % of the speed is reached \
-         then, and 99 % after {:.2} τ v_i. What reaches {length} m has {:.1} % of it even at {:.0} µm, with \
-         {:.2} m to go in place of {length}.",
+        "Eq. 13's {length} m is that of 100 µm, the largest particle, at {} m/s in air of 0 °C. Ten \
+         relaxation times are indeed generous: {:.4} % of the speed is reached then, and 99 % after {:.2} τ \
+         v_i. What reaches {length} m has {:.1} % of it even at {:.0} µm, with {:.2} m to go in place of \
+         {length}.",
         TUBE_SPEED.value,
         100.0 * reached,
         way_until(0.01),
@@ -244,7 +245,8 @@ fn ways(tracks: &[Track]) -> Table {
     table(
         &format!("air {AIR_SPEED} m/s, 20 °C"),
         0,
-        "d [µm] | τ [ms] | 10 τ · 2 m/s [m] | terminal [m/s] | air + terminal [m/s] | at 0.65 m [m/s] | of it [%] | way to 99 % from rest, Stokes [m] | way to 99 % [m] | time [s]",
+        "d [µm] | τ [ms] | 10 τ · 2 m/s [m] | terminal [m/s] | air + terminal [m/s] | at 0.65 m [m/s] | of \
+         it [%] | way to 99 % from rest, Stokes [m] | way to 99 % [m] | time [s]",
         tracks.iter().map(Track::row).collect(),
     )
 }
@@ -272,15 +274,14 @@ fn length_claims(tracks: &[Track]) -> Vec<Claim> {
              \"Typical values\" are not given.",
             needed(293.15)
         )),
-        Basis::Predicted
-            .number(
-                "Eq 13",
-                "least share of the final speed at the end of the tube, 50 to 120 µm [1]",
-                Published::Above(0.99),
-                least,
-            )
-            .because("\"Conservatively\"; 0.99 taken for it."),
-        Basis::Predicted.number(
+        Claim::predicted(
+            "Eq 13",
+            "least share of the final speed at the end of the tube, 50 to 120 µm [1]",
+            Published::Above(0.99),
+            least,
+        )
+        .because("\"Conservatively\"; 0.99 taken for it."),
+        Claim::predicted(
             "Sec 3.1",
             "speed at the end, 80 µm, over air plus terminal velocity [1]",
             Published::within(1.0, 0.01),
@@ -293,18 +294,17 @@ fn length_claims(tracks: &[Track]) -> Vec<Claim> {
 fn speed_claims(tracks: &[Track]) -> Vec<Claim> {
     let [small, large] = [65e-6, 95e-6].map(|diameter| terminal_speed(diameter, &ROOM));
     vec![
-        TUBE_SPEED.beside(tracks[EIGHTY].speed, Basis::Fitted).because("The air's speed is chosen for it."),
-        Basis::Predicted
-            .number(
-                "Fig 12",
-                "spread of the impact speed from 80 ± 15 µm alone [m/s]",
-                Published::Below(TUBE_SPEED.tolerance),
-                0.5 * (large - small),
-            )
-            .because("At the tube's end; the stated ± 0.1 m/s holds. At the plate it is more, see below."),
+        TUBE_SPEED.beside(tracks[EIGHTY].speed, Basis::Fitted).because("The air speed is chosen for it."),
+        Claim::predicted(
+            "Fig 12",
+            "spread of the impact speed from 80 ± 15 µm alone [m/s]",
+            Published::Below(TUBE_SPEED.tolerance),
+            0.5 * (large - small),
+        )
+        .because("At the tube's end; the stated ± 0.1 m/s holds. At the plate it is more, see below."),
         RESIDENCE.beside(tracks[HUNDRED].time / FUSION_TIME, Basis::Predicted).because(&format!(
-            "100 µm from the inner tube's end; {} m at {} m/s would be {:.2} times. ± half a unit taken for \
-             \"about three\".",
+            "100 µm from the inner tube's end; {} m at {} m/s would be {:.2} times. \"About three\" is \
+             taken as ± half a unit.",
             TUBE_LENGTH.value,
             TUBE_SPEED.value,
             TUBE_LENGTH.value / TUBE_SPEED.value / FUSION_TIME
@@ -343,11 +343,11 @@ impl Fusion {
     fn text(&self) -> String {
         let Self { at_110, at_120, slow, .. } = self;
         format!(
-            "The fusion time {FUSION_TIME} s of 100 µm is stated without its air temperature or heat of fusion. With Nu = \
-             2, {HEAT} J/(kg K), melting at 80 °C and {:.0} to {:.0} kJ/kg (assumed) it is {:.2} to {:.2} s in \
-             air of 110 °C and {:.2} to {:.2} s at 120 °C; warming alone takes {:.2} s. So \"three \
-             times\" is {:.1} to {:.1} times at 120 °C. Just above the melting range it is not even one: in \
-             air of 85 °C an 80 µm particle needs {slow:.2} s and has {:.1}.",
+            "The fusion time {FUSION_TIME} s of 100 µm is stated without its air temperature or heat of \
+             fusion. With Nu = 2, {HEAT} J/(kg K), melting at 80 °C and {:.0} to {:.0} kJ/kg (assumed) it \
+             is {:.2} to {:.2} s in air of 110 °C and {:.2} to {:.2} s at 120 °C; warming alone takes {:.2} \
+             s. So \"three times\" is {:.1} to {:.1} times at 120 °C. Just above the melting range it is \
+             not even one: in air of 85 °C an 80 µm particle needs {slow:.2} s and has {:.1}.",
             LATENT[0] / 1e3,
             LATENT[1] / 1e3,
             at_110[0],
@@ -371,22 +371,24 @@ impl Fusion {
                 "fusion time of 100 µm [s]",
                 "about 0.11",
                 &format!(
-                    "Air temperature and heat of fusion are not given. {:.2} to {:.2} s with 100 to 200 kJ/kg at \
-                     120 °C, {:.2} to {:.2} at 110 °C: the right order, at its short end.",
+                    "Air temperature and heat of fusion are not given. {:.2} to {:.2} s with 100 to 200 \
+                     kJ/kg at 120 °C, {:.2} to {:.2} at 110 °C: the right order of magnitude, at the lower \
+                     end.",
                     at_120[0], at_120[1], at_110[0], at_110[1]
                 ),
             ),
-            Basis::Predicted.statement(
+            Claim::predicted_statement(
                 "Fig 12",
-                "\"temperature equal to that of the air\", taken as molten where the air is above the melting \
-                 range: 80 µm in air of 85 °C",
+                "\"temperature equal to that of the air\", taken as molten where the air is above the \
+                 melting range: 80 µm in air of 85 °C",
                 "time in the tube suffices",
                 &format!("{slow:.2} s to melt, {eighty:.2} s in the tube"),
-                slow < eighty)
+                slow < eighty,
+            )
             .because(&format!(
-                "Sensible heat takes five relaxation times, {:.2} s; the heat of fusion ({:.0} kJ/kg assumed) flows \
-                 at a difference of 5 K only. From 80 °C (melting assumed there) to {molten:.0} °C of \
-                 air, particles arrive partly molten.",
+                "Sensible heat takes five relaxation times, {:.2} s; the heat of fusion ({:.0} kJ/kg \
+                 assumed) flows at a difference of 5 K only. From 80 °C (melting assumed there) to \
+                 {molten:.0} °C of air, particles arrive partly molten.",
                 5.0 * heating_time(SIZES[EIGHTY], 358.15),
                 MIDDLE_LATENT / 1e3
             )),
@@ -400,19 +402,18 @@ fn air_temperature(warm: &Hit) -> Claim {
         fusion_time(SIZES[EIGHTY], WARM.temperature, latent)
             - fusion_time(SIZES[EIGHTY], WARM.temperature, 0.0)
     };
-    Basis::Predicted
-        .number(
-            "Fig 12",
-            "particle at the end of the tube, air of 105 °C: what it lacks in temperature [K]",
-            Published::Below(1.0),
-            WARM.temperature - warm.impact.particle_temperature,
-        )
-        .because(&format!(
-            "80 µm, without the heat of fusion, which costs {:.2} to {:.2} s more of its {:.1} s.",
-            costs(LATENT[0]),
-            costs(LATENT[1]),
-            warm.time
-        ))
+    Claim::predicted(
+        "Fig 12",
+        "particle at the end of the tube, air of 105 °C: temperature deficit [K]",
+        Published::Below(1.0),
+        WARM.temperature - warm.impact.particle_temperature,
+    )
+    .because(&format!(
+        "80 µm, without the heat of fusion, which costs {:.2} to {:.2} s more of its {:.1} s.",
+        costs(LATENT[0]),
+        costs(LATENT[1]),
+        warm.time
+    ))
 }
 
 /// Speed [m/s] of 80 µm at the end of the tube with the default tolerance.
@@ -434,21 +435,23 @@ fn checks(tracks: &[Track], usual: f64, warm: &Hit) -> Vec<Claim> {
     let other = integrated(SIZES[EIGHTY], ROOM, TUBE[1]).speed;
     let warmth = integrated(SIZES[EIGHTY], WARM, TUBE[1]).temperature;
     vec![
-        Basis::Derived.number(
+        Claim::derived(
             "check",
             "`simulate` against Runge–Kutta: largest relative difference of speed and time, 4 sizes along \
              the tube",
             Published::Below(1e-6),
-            tracks.iter().map(|track| track.apart).fold(0.0, f64::max))
+            tracks.iter().map(|track| track.apart).fold(0.0, f64::max),
+        )
         .because(&format!(
-            "Tolerance 1e-11; the difference is the library's and falls with it. At the default 1e-6 it is \
-             {} at the end.",
+            "Tolerance 1e-11; the difference is the error of the library and decreases with the tolerance. \
+             At the default 1e-6 it is {} at the end.",
             number(apart(usual, other))
         )),
-        Basis::Derived.number(
+        Claim::derived(
             "check",
             "`simulate` against Runge–Kutta: particle temperature at the end, air of 105 °C [K]",
             Published::Below(1e-3),
-            (warm.impact.particle_temperature - warmth).abs()),
+            (warm.impact.particle_temperature - warmth).abs(),
+        ),
     ]
 }

@@ -8,7 +8,7 @@ use super::equations::{AS_PRINTED, equation_1};
 use super::published::{DIAMETER, TARGETS, Target, YIELD_RATIO};
 use super::{Result, contact, model};
 use crate::study::table;
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, Part, Published};
 
 /// The velocities of a target.
 struct Found {
@@ -54,13 +54,13 @@ impl Found {
                 "The printed value is that of Pyrex; Eq. 3 with steel's modulus gives {:.1} % less.",
                 100.0 * (1.0 - self.yielding / value)
             ),
-            _ => "The printed value is that of Pyrex. Eq. 3 takes both moduli, and a soft target halves \
-                  E* or more: v_y goes with 1/E*²."
+            _ => "The printed value is that of Pyrex. Eq. 3 takes both moduli, and a soft target halves E* \
+                or more: v_y goes with 1/E*²."
                 .to_owned(),
         };
         let what = format!("v_y on {} [m/s]", self.target.name);
         let published = Published::within(value, half);
-        Basis::Predicted.number("Table 4", &what, published, self.yielding).because(&why)
+        Claim::predicted("Table 4", &what, published, self.yielding).because(&why)
     }
 
     fn sticking_claim(&self) -> Claim {
@@ -74,16 +74,16 @@ impl Found {
             ),
             // v_s goes with W^(5/6).
             "wax" => format!(
-                "{:.0} % more. Two equal solids give W = {work:.2} J/m²; the printed value needs {:.3}, for which \
-                 no input of the paper stands.",
+                "{:.0} % more. Two equal solids give W = {work:.2} J/m²; the printed value needs {:.3}, \
+                 which no input of the paper gives.",
                 100.0 * (ratio - 1.0),
                 work * ratio.powf(-1.2)
             ),
-            _ => format!("{ratio:.2} times: the exponent slipped."),
+            _ => format!("{ratio:.2} times: an error in the exponent."),
         };
         let what = format!("v_s on {} by Eq. 1 as printed [m/s]", self.target.name);
         let published = Published::within(value, half);
-        Basis::Predicted.number("Table 4", &what, published, self.printed).because(&why)
+        Claim::predicted("Table 4", &what, published, self.printed).because(&why)
     }
 }
 
@@ -94,13 +94,13 @@ pub(super) fn part() -> Result<Part> {
     Ok(Part {
         heading: "Table 4: yield and sticking velocities".to_owned(),
         text: vec![
-            "Work of adhesion W = 2√(γ1 γ2), which the paper does not state; Teflon's value confirms it, and \
-             so do Pyrex and steel once their exponents are mended. The last column is where the plastic branch \
-             vanishes: below it particles stick."
+            "Work of adhesion W = 2√(γ1 γ2), which the paper does not state; Teflon's value confirms it, \
+             and so do Pyrex and steel once their exponents are mended. The last column is where the \
+             plastic branch vanishes: below it particles stick."
                 .to_owned(),
             "What the slips did: v_y < v_s, from which the paper infers plastic impacts, holds for Pyrex, \
-             steel and wax also with the mended numbers, not for Teflon. All impacts from 0.5 m/s on are plastic \
-             in any case."
+             steel and wax also with the mended numbers, not for Teflon. All impacts from 0.5 m/s on are \
+             plastic in any case."
                 .to_owned(),
         ],
         tables: vec![velocities(&found)],
@@ -113,7 +113,8 @@ fn velocities(found: &[Found]) -> Table {
     table(
         "wax of 75 µm, c = 0.7; speeds in m/s",
         1,
-        "target | E* [GPa] | W [J/m²] | v_y, printed | v_y, Eq. 3 | v_s, printed | Eq. 1 as printed | Thornton–Ning | sticks below",
+        "target | E* [GPa] | W [J/m²] | v_y, printed | v_y, Eq. 3 | v_s, printed | Eq. 1 as printed | \
+         Thornton–Ning | sticks below",
         found.iter().map(Found::row).collect(),
     )
 }
