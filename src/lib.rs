@@ -51,6 +51,8 @@ pub mod model;
 pub mod normal;
 #[cfg(feature = "command")]
 pub mod report;
+#[cfg(feature = "command")]
+pub mod results;
 pub mod rng;
 #[cfg(feature = "command")]
 pub mod simulate;

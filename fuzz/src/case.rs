@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use nearwall::simulate::{Case, Run, page, run, summary};
+use nearwall::report::standalone_page;
+use nearwall::results::standalone::{Run, run, summary};
+use nearwall::simulate::Case;
 
 use super::bytes::file;
 use super::{place, whole};
@@ -56,10 +58,10 @@ pub fn case(bytes: &[u8]) {
     // A swept value that cannot be set is named.
     let Ok(runs) = runs else { return };
     for run in &runs {
-        let tally = &run.tally;
-        let ends = [&tally.stuck, &tally.escaped, &tally.airborne, &tally.given_up, &tally.unusable];
-        assert_eq!(ends.iter().map(|end| end.count).sum::<u64>(), tally.injected.count);
+        let totals = &run.totals;
+        let ends = [totals.captured, totals.escaped, totals.airborne, totals.given_up, totals.unusable];
+        assert_eq!(ends.iter().map(|end| end.count).sum::<u64>(), totals.injected.count);
     }
     let _ = summary(&case, &runs);
-    whole(&page(&case, &runs, 0).expect("a page"));
+    whole(&standalone_page(&case, &runs, 0).expect("a page"));
 }

@@ -5,8 +5,9 @@
 
 use std::path::Path;
 
-use nearwall::report::openfoam::{CloudResult, page, read};
-use nearwall::report::sweep;
+use nearwall::report::{openfoam_page, sweep};
+use nearwall::results::openfoam::read;
+use nearwall::results::{RunResults, WallModel};
 
 use super::whole;
 
@@ -80,15 +81,15 @@ fn words(said: &str, file: &str) {
 }
 
 /// The page of the case alone, and beside one with another wall model.
-fn pages(results: &[CloudResult]) {
-    whole(&page(results).expect("a page"));
-    let stock = results.iter().map(|result| CloudResult {
+fn pages(results: &[RunResults]) {
+    whole(&openfoam_page(results).expect("a page"));
+    let stock = results.iter().map(|result| RunResults {
         case: "stock".into(),
-        model: Some("localInteraction".into()),
+        wall_model: WallModel::Other("localInteraction".into()),
         ..result.clone()
     });
-    let beside: Vec<CloudResult> = results.iter().cloned().chain(stock).collect();
-    whole(&page(&beside).expect("a page"));
+    let beside: Vec<RunResults> = results.iter().cloned().chain(stock).collect();
+    whole(&openfoam_page(&beside).expect("a page"));
 }
 
 fn runs(folder: &Path, table: &[u8]) {

@@ -9,13 +9,15 @@ use super::gas::Gas;
 use super::geometry::vector;
 use super::injection::{Injection, SWEEPABLE};
 use super::profile::Profile;
-use super::surface::{Role, Surface};
-use super::trajectory::HIT_BITS;
+use super::surface::{Surface, SurfaceKind};
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Section};
 use crate::model::Model;
 
-/// Everything that a run depends on. Immutable once read, but for the sweep.
+/// Number of low bits of the key of random draws that count the hits of a particle.
+pub(super) const HIT_BITS: u32 = 24;
+
+/// Everything that a run depends on. Only a sweep changes it after reading.
 #[derive(Debug)]
 pub struct Case {
     /// What the page is called.
@@ -167,7 +169,7 @@ impl Case {
         }
         if everything || key == "wall_temperature" {
             for surface in &mut self.surfaces {
-                if let Role::Wall { temperature, .. } = &mut surface.role {
+                if let SurfaceKind::Wall { temperature, .. } = &mut surface.kind {
                     *temperature = Profile::constant(value);
                 }
             }

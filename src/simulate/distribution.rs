@@ -25,13 +25,13 @@ const TRIALS: usize = 1_000;
 /// One distribution, with the bounds that truncate it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
-    shape: Shape,
+    family: Family,
     min: f64,
     max: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Shape {
+enum Family {
     Fixed(f64),
     Uniform,
     Normal { mean: f64, deviation: f64 },
@@ -44,12 +44,12 @@ const NAMES: [&str; 5] = ["fixed", "uniform", "normal", "lognormal", "rosin-ramm
 impl Distribution {
     /// Always the same number.
     pub fn fixed(value: f64) -> Self {
-        Self { shape: Shape::Fixed(value), min: f64::NEG_INFINITY, max: f64::INFINITY }
+        Self { family: Family::Fixed(value), min: f64::NEG_INFINITY, max: f64::INFINITY }
     }
 
     /// Evenly between two numbers.
     pub fn uniform(min: f64, max: f64) -> Self {
-        Self { shape: Shape::Uniform, min, max }
+        Self { family: Family::Uniform, min, max }
     }
 
     /// Reads `key`, whose values have to lie in `low..=high`; `None` when it is absent.
@@ -66,13 +66,13 @@ impl Distribution {
         let table = section.required_section(key)?;
         let min = table.number_within("min", low, high)?;
         let max = table.number_within("max", low, high)?;
-        let shape = Shape::read(&table, low, high)?;
-        if shape == Shape::Uniform && (min.is_none() || max.is_none()) {
+        let family = Family::read(&table, low, high)?;
+        if family == Family::Uniform && (min.is_none() || max.is_none()) {
             let absent = if min.is_none() { "min" } else { "max" };
             return Err(table.missing(absent, "an end of the range"));
         }
         table.finish()?;
-        let read = Self { shape, min: min.unwrap_or(low), max: max.unwrap_or(high) };
+        let read = Self { family, min: min.unwrap_or(low), max: max.unwrap_or(high) };
         if read.min > read.max {
             return Err(section.fault(key, "`min` is above `max`"));
         }
@@ -86,12 +86,12 @@ impl Distribution {
 
     /// Draws one value.
     pub fn sample(&self, random: &mut ChaCha8Rng) -> f64 {
-        let mut value = self.shape.draw(self, random);
+        let mut value = self.family.draw(self, random);
         for _ in 0..ATTEMPTS {
             if (self.min..=self.max).contains(&value) {
                 return value;
             }
-            value = self.shape.draw(self, random);
+            value = self.family.draw(self, random);
         }
         value.clamp(self.min, self.max)
     }
@@ -101,16 +101,16 @@ impl Distribution {
     #[must_use]
     pub fn centred(&self, middle: f64) -> Self {
         let mut moved = self.clone();
-        match &mut moved.shape {
-            Shape::Fixed(value) => *value = middle,
-            Shape::Uniform => {
+        match &mut moved.family {
+            Family::Fixed(value) => *value = middle,
+            Family::Uniform => {
                 let shift = middle - 0.5 * (self.min + self.max);
                 moved.min += shift;
                 moved.max += shift;
             }
-            Shape::Normal { mean, .. } => *mean = middle,
-            Shape::LogNormal { median, .. } => *median = middle,
-            Shape::RosinRammler { scale, .. } => *scale = middle,
+            Family::Normal { mean, .. } => *mean = middle,
+            Family::LogNormal { median, .. } => *median = middle,
+            Family::RosinRammler { scale, .. } => *scale = middle,
         }
         moved
     }
@@ -118,11 +118,11 @@ impl Distribution {
     fn can_be_drawn(&self) -> bool {
         use rand_chacha::rand_core::SeedableRng;
         let mut random = ChaCha8Rng::seed_from_u64(0);
-        (0..TRIALS).any(|_| (self.min..=self.max).contains(&self.shape.draw(self, &mut random)))
+        (0..TRIALS).any(|_| (self.min..=self.max).contains(&self.family.draw(self, &mut random)))
     }
 }
 
-impl Shape {
+impl Family {
     fn read(table: &Section<'_>, low: f64, high: f64) -> Result<Self, InputError> {
         let name = table.choice("distribution", &NAMES)?;
         let needed = |key: &str, low: f64, high: f64| {

@@ -76,7 +76,7 @@ impl Body {
 
 /// A particle in a gas: the equations of its path.
 #[derive(Debug)]
-pub struct Motion<'a> {
+pub struct ParticleMotion<'a> {
     /// The gas it moves in.
     pub gas: &'a Gas,
     /// Gravity [m/s²].
@@ -85,7 +85,7 @@ pub struct Motion<'a> {
     pub body: Body,
 }
 
-impl ODE<f64, State> for Motion<'_> {
+impl ODE<f64, State> for ParticleMotion<'_> {
     fn diff(&self, _time: f64, y: &State, rate: &mut State) {
         let body = &self.body;
         let (temperature, conversion) = (y[TEMPERATURE], y[CONVERSION]);
@@ -115,7 +115,7 @@ impl ODE<f64, State> for Motion<'_> {
 
 /// Where a flight ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arrival {
+pub struct FlightEnd {
     /// Time [s].
     pub time: f64,
     /// State there.
@@ -126,7 +126,7 @@ pub struct Arrival {
 
 /// The flight could not be followed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Lost {
+pub enum FlightError {
     /// The path needs more steps than allowed.
     #[error("the path takes more than {STEP_LIMIT} integration steps")]
     TooManySteps,
@@ -148,18 +148,18 @@ const HALVINGS: u32 = 60;
 /// what starts behind a surface does not touch it.
 ///
 /// # Errors
-/// [`Lost`] when the path cannot be followed.
+/// [`FlightError`] when the path cannot be followed.
 pub fn fly(
-    motion: &Motion<'_>,
+    motion: &ParticleMotion<'_>,
     surfaces: &[Surface],
     time: f64,
     until: f64,
     start: &State,
     tolerance: f64,
-) -> Result<Arrival, Lost> {
+) -> Result<FlightEnd, FlightError> {
     let (mut now, mut here) = (time, *start);
     let mut steps = 0;
-    let finish = |time: f64, state: State| Ok(Arrival { time, state, surface: None });
+    let finish = |time: f64, state: State| Ok(FlightEnd { time, state, surface: None });
     'restart: loop {
         if now >= until {
             return finish(now, here);
@@ -168,7 +168,7 @@ pub fn fly(
             .rtol(tolerance)
             .atol(absolute_tolerances(tolerance, &motion.body))
             .max_steps(STEP_LIMIT);
-        solver.init(motion, now, until, &here).map_err(|_| Lost::NotFinite)?;
+        solver.init(motion, now, until, &here).map_err(|_| FlightError::NotFinite)?;
         loop {
             let left = until - solver.t();
             if left <= 1e-14 * until.abs() {
@@ -179,12 +179,12 @@ pub fn fly(
             }
             steps += 1;
             if steps > STEP_LIMIT {
-                return Err(Lost::TooManySteps);
+                return Err(FlightError::TooManySteps);
             }
             match solver.step(motion) {
                 Ok(_) if matches!(solver.status(), Status::RejectedStep) => {
                     if !solver.h().is_normal() {
-                        return Err(Lost::NotFinite);
+                        return Err(FlightError::NotFinite);
                     }
                     continue;
                 }
@@ -194,11 +194,11 @@ pub fn fly(
                     (now, here) = (solver.t(), *solver.y());
                     continue 'restart;
                 }
-                Err(Error::MaxSteps { .. }) => return Err(Lost::TooManySteps),
-                Err(_) => return Err(Lost::NotFinite),
+                Err(Error::MaxSteps { .. }) => return Err(FlightError::TooManySteps),
+                Err(_) => return Err(FlightError::NotFinite),
             }
             if !solver.y().iter().all(|value| value.is_finite()) {
-                return Err(Lost::NotFinite);
+                return Err(FlightError::NotFinite);
             }
             if let Some(arrival) = contact(&mut solver, surfaces, motion.body.diameter) {
                 return Ok(arrival);
@@ -215,7 +215,7 @@ fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
 }
 
 /// The first contact in the step that the solver has just taken.
-fn contact<S>(solver: &mut S, surfaces: &[Surface], diameter: f64) -> Option<Arrival>
+fn contact<S>(solver: &mut S, surfaces: &[Surface], diameter: f64) -> Option<FlightEnd>
 where
     S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
 {
@@ -223,7 +223,7 @@ where
     let (before, after) = (*solver.y_prev(), *solver.y());
     // How far from its start the particle can have come in this step, with a margin for a curved path.
     let reach = 2.0 * (to - from) * velocity(&before).norm().max(velocity(&after).norm());
-    let mut first: Option<Arrival> = None;
+    let mut first: Option<FlightEnd> = None;
     for (index, surface) in surfaces.iter().enumerate() {
         let gap = |state: &State| surface.gap(&position(state), diameter);
         let at_start = gap(&before);
@@ -235,7 +235,7 @@ where
             && surface.shape.covers(&position(&arrival.1))
             && first.as_ref().is_none_or(|earlier| arrival.0 < earlier.time)
         {
-            first = Some(Arrival { time: arrival.0, state: arrival.1, surface: Some(index) });
+            first = Some(FlightEnd { time: arrival.0, state: arrival.1, surface: Some(index) });
         }
     }
     first

@@ -39,18 +39,18 @@ pub struct Injection {
     /// Emissivity [1] and the temperature of what it sees [K].
     pub radiation: Option<(f64, f64)>,
     /// What all particles together weigh as they start [kg], and whether each stands for the same share of it.
-    pub load: Load,
+    pub weight: ParticleWeight,
     /// How carbon is used up.
     pub burning: Burning,
 }
 
 /// What one followed particle stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Load {
+pub enum ParticleWeight {
     /// One real particle: the size distribution counts particles.
     One,
     /// An equal share of this mass [kg]: the size distribution counts mass.
-    Share(f64),
+    EqualShare(f64),
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -61,7 +61,7 @@ enum Place {
 
 /// A particle as it starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Start {
+pub struct InitialState {
     /// Position [m].
     pub position: Vector3<f64>,
     /// Velocity [m/s], on top of the gas's where the case says so.
@@ -109,13 +109,13 @@ impl Injection {
             density: section.number_within("density", positive, 1e6)?,
             heat_capacity: section.number_within("heat_capacity", positive, 1e6)?,
             radiation: read_radiation(section)?,
-            load: read_load(section)?,
+            weight: read_weight(section)?,
             burning,
         })
     }
 
     /// Draws the start of the particle with this number.
-    pub fn draw(&self, seed: u64, number: u64) -> Start {
+    pub fn draw(&self, seed: u64, number: u64) -> InitialState {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(number);
         let random = &mut random;
@@ -126,7 +126,7 @@ impl Injection {
         let azimuth = self.azimuth.sample(random).to_radians();
         let [first, second] = across(&self.along);
         let sideways = first * azimuth.cos() + second * azimuth.sin();
-        Start {
+        InitialState {
             position,
             velocity: speed * (self.along * angle.sin() + sideways * angle.cos()),
             diameter,
@@ -195,12 +195,12 @@ fn read_radiation(section: &Section<'_>) -> Result<Option<(f64, f64)>, InputErro
     }
 }
 
-fn read_load(section: &Section<'_>) -> Result<Load, InputError> {
+fn read_weight(section: &Section<'_>) -> Result<ParticleWeight, InputError> {
     let mass = section.number_within("mass", f64::MIN_POSITIVE, f64::INFINITY)?;
     match (section.choice("sizes_count", &["particles", "mass"])?.as_deref(), mass) {
-        (Some("mass"), Some(mass)) => Ok(Load::Share(mass)),
+        (Some("mass"), Some(mass)) => Ok(ParticleWeight::EqualShare(mass)),
         (Some("mass"), None) => Err(section.missing("mass", "the mass of all particles [kg]")),
         (_, Some(_)) => Err(section.fault("mass", "needs `sizes_count = \"mass\"`")),
-        (_, None) => Ok(Load::One),
+        (_, None) => Ok(ParticleWeight::One),
     }
 }

@@ -109,12 +109,12 @@ pub struct Surface {
     /// Its form.
     pub shape: Shape,
     /// What it does to a particle.
-    pub role: Role,
+    pub kind: SurfaceKind,
 }
 
 /// What a surface does to a particle.
 #[derive(Debug)]
-pub enum Role {
+pub enum SurfaceKind {
     /// A wall: the model decides.
     Wall {
         /// Index of the model's wall.
@@ -129,7 +129,7 @@ pub enum Role {
 impl Surface {
     /// Distance at which a particle of this diameter touches, subtracted: 0 at contact [m].
     pub fn gap(&self, position: &Vector3<f64>, diameter: f64) -> f64 {
-        let reach = if matches!(self.role, Role::Exit) { 0.0 } else { 0.5 * diameter };
+        let reach = if matches!(self.kind, SurfaceKind::Exit) { 0.0 } else { 0.5 * diameter };
         self.shape.distance(position) - reach
     }
 
@@ -147,7 +147,7 @@ impl Surface {
             let exit = Self {
                 name: section.required_text("name")?,
                 shape: Shape::read(&section)?,
-                role: Role::Exit,
+                kind: SurfaceKind::Exit,
             };
             section.finish()?;
             surfaces.push(exit);
@@ -177,7 +177,7 @@ impl Surface {
             .ok_or_else(|| section.missing("temperature", "the wall's temperature [K]"))?;
         let shape = Shape::read(section)?;
         section.finish()?;
-        Ok(Self { name, shape, role: Role::Wall { model: index, temperature } })
+        Ok(Self { name, shape, kind: SurfaceKind::Wall { model: index, temperature } })
     }
 }
 

@@ -1,22 +1,21 @@
-//! The life of one particle: flights and hits, until it is stuck or gone.
+//! The trajectory of one particle: flights and hits until it is captured or gone.
 
 use nalgebra::Vector3;
 
-use super::case::Case;
+use super::case::{Case, HIT_BITS};
 use super::drag;
 use super::flight::{
-    Arrival, Body, CONVERSION, Lost, Motion, State, TEMPERATURE, fly, position, state, velocity,
+    Body, CONVERSION, FlightEnd, FlightError, ParticleMotion, State, TEMPERATURE, fly, position, state,
+    velocity,
 };
 use super::geometry::across;
-use super::injection::Load;
-use super::surface::{Role, Shape};
+use super::injection::ParticleWeight;
+use super::surface::{Shape, Surface, SurfaceKind};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::rng::ImpactRng;
 
 /// A rebound slower than this [m/s] leaves the particle lying on the wall.
 const REST: f64 = 1e-9;
-/// Hits of a particle are counted in so many low bits of its key for random draws.
-pub(super) const HIT_BITS: u32 = 24;
 
 /// How a particle ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,7 +69,7 @@ pub struct Trajectory {
 }
 
 /// Follows the particle with this number.
-pub(super) fn live(case: &Case, number: u64) -> Trajectory {
+pub(super) fn follow(case: &Case, number: u64) -> Trajectory {
     let start = case.injection.draw(case.seed, number);
     let (density, trouble) = match case.density(start.temperature) {
         Ok(density) => (density, None),
@@ -88,39 +87,41 @@ pub(super) fn live(case: &Case, number: u64) -> Trajectory {
         speed += case.gas.at(&start.position).velocity;
     }
     let first = state(&start.position, &speed, start.temperature, start.conversion);
-    let mut traveller = Traveller {
+    let mut tracker = Tracker {
         case,
         number,
-        motion: Motion { gas: &case.gas, gravity: case.gravity, body },
+        motion: ParticleMotion { gas: &case.gas, gravity: case.gravity, body },
         time: 0.0,
         state: first,
         spin: Vector3::zeros(),
-        weight: match case.injection.load {
-            Load::One => 1.0,
-            Load::Share(mass) => mass / (case.injection.count as f64 * body.mass_at(start.conversion)),
+        weight: match case.injection.weight {
+            ParticleWeight::One => 1.0,
+            ParticleWeight::EqualShare(mass) => {
+                mass / (case.injection.count as f64 * body.mass_at(start.conversion))
+            }
         },
         hits: Vec::new(),
     };
-    let mass = traveller.mass();
-    let fate = match trouble.or_else(|| traveller.misplaced()) {
+    let mass = tracker.mass();
+    let fate = match trouble.or_else(|| tracker.misplaced()) {
         Some(reason) => Fate::Unusable(reason),
-        None => traveller.travel(),
+        None => tracker.travel(),
     };
     Trajectory {
         fate,
         diameter: body.diameter,
-        mass: [mass, traveller.mass()],
-        position: position(&traveller.state),
-        temperature: traveller.state[TEMPERATURE],
-        conversion: traveller.state[CONVERSION].clamp(0.0, 1.0),
-        hits: traveller.hits,
+        mass: [mass, tracker.mass()],
+        position: position(&tracker.state),
+        temperature: tracker.state[TEMPERATURE],
+        conversion: tracker.state[CONVERSION].clamp(0.0, 1.0),
+        hits: tracker.hits,
     }
 }
 
-struct Traveller<'a> {
+struct Tracker<'a> {
     case: &'a Case,
     number: u64,
-    motion: Motion<'a>,
+    motion: ParticleMotion<'a>,
     time: f64,
     state: State,
     /// Angular velocity [rad/s].
@@ -130,7 +131,7 @@ struct Traveller<'a> {
     hits: Vec<Hit>,
 }
 
-impl Traveller<'_> {
+impl Tracker<'_> {
     fn mass(&self) -> f64 {
         self.weight * self.motion.body.mass_at(self.state[CONVERSION])
     }
@@ -138,9 +139,7 @@ impl Traveller<'_> {
     /// The wall that the particle starts in or behind, if it does.
     fn misplaced(&self) -> Option<String> {
         let here = position(&self.state);
-        let behind = |s: &&super::surface::Surface| {
-            s.shape.covers(&here) && s.gap(&here, self.motion.body.diameter) < 0.0
-        };
+        let behind = |s: &&Surface| s.shape.covers(&here) && s.gap(&here, self.motion.body.diameter) < 0.0;
         let wall = self.case.surfaces.iter().find(behind)?;
         Some(format!("starts in or behind `{}`; move the start or turn the normal", wall.name))
     }
@@ -150,9 +149,9 @@ impl Traveller<'_> {
             let case = self.case;
             let flight =
                 fly(&self.motion, &case.surfaces, self.time, case.time_limit, &self.state, case.tolerance);
-            let Arrival { time, state, surface } = match flight {
+            let FlightEnd { time, state, surface } = match flight {
                 Ok(arrival) => arrival,
-                Err(lost @ (Lost::TooManySteps | Lost::NotFinite)) => {
+                Err(lost @ (FlightError::TooManySteps | FlightError::NotFinite)) => {
                     return Fate::Unusable(lost.to_string());
                 }
             };
@@ -183,11 +182,11 @@ impl Traveller<'_> {
     /// What happens at the surface; `None` when the particle flies on.
     fn hit(&mut self, index: usize) -> Result<Option<Fate>, ImpactError> {
         let surface = &self.case.surfaces[index];
-        let Role::Wall { model: wall, temperature } = &surface.role else {
+        let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else {
             return Ok(Some(Fate::Escaped(index)));
         };
         let here = position(&self.state);
-        let frame = Frame::new(&surface.shape, &here, &velocity(&self.state));
+        let frame = WallFrame::new(&surface.shape, &here, &velocity(&self.state));
         let spin_axis = frame.normal.cross(&frame.along);
         let gas = self.case.gas.at(&here).velocity;
         let impact = Impact {
@@ -221,14 +220,14 @@ impl Traveller<'_> {
 }
 
 /// The wall at a hit: its normal into the gas, the direction of sliding, and the two speeds.
-struct Frame {
+struct WallFrame {
     normal: Vector3<f64>,
     along: Vector3<f64>,
     normal_speed: f64,
     tangential_speed: f64,
 }
 
-impl Frame {
+impl WallFrame {
     fn new(shape: &Shape, position: &Vector3<f64>, velocity: &Vector3<f64>) -> Self {
         let normal = shape.normal(position);
         let away = normal.dot(velocity);

@@ -379,7 +379,7 @@ fn the_source_writes_in_one_place() {
         "NamedTempFile",
     ];
     let leave = |file: &str, word: &str| match word {
-        "create_dir" => file.ends_with("diagnose.rs") || file.ends_with("simulate/output.rs"),
+        "create_dir" => file.ends_with("diagnose.rs") || file.ends_with("nearwall/simulate.rs"),
         "File::options" | "NamedTempFile" => file == "atomic_file.rs",
         _ => false,
     };

@@ -5,7 +5,10 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::common::browser::{Seen, browse};
-use nearwall::report::openfoam;
+use nearwall::report::openfoam_page;
+use nearwall::results::classes::{Quantity, together};
+use nearwall::results::openfoam::{self, deposit};
+use nearwall::results::{Amount, History, WallModel, WallTotals};
 
 const PATCHES: [&str; 2] = ["slagWall", "quenchWall"];
 
@@ -175,19 +178,32 @@ fn two_cases() -> tempfile::TempDir {
     folder
 }
 
+fn names(walls: &[History<WallTotals>]) -> Vec<&str> {
+    walls.iter().map(|wall| wall.wall.as_str()).collect()
+}
+
+fn times<T>(history: &History<T>) -> Vec<f64> {
+    history.rows.iter().map(|(time, _)| *time).collect()
+}
+
+/// The line "escaped" of the mass balance [kg].
+fn escaped_mass(results: &nearwall::results::RunResults) -> Option<f64> {
+    results.balance.iter().find(|line| line.what == "escaped").unwrap().mass
+}
+
 #[test]
 fn tables_of_a_restarted_run_are_joined() {
     let folder = two_cases();
     let results = openfoam::read(&folder.path().join("ours")).unwrap();
     let [result] = &results[..] else { panic!("one cloud") };
     assert!(result.is_ours() && result.case == "ours" && result.cloud == "coalCloud1");
-    let slag = result.patch("slagWall").unwrap();
-    // The row at 0.6 s belongs to a run that was taken up again at 0.5 s.
-    assert_eq!(slag.rows.iter().map(|row| row.time).collect::<Vec<_>>(), [0.1, 0.55, 1.0]);
+    let slag = result.wall("slagWall").unwrap();
+    // The row at 0.6 s belongs to a run that was restarted at 0.5 s.
+    assert_eq!(times(slag), [0.1, 0.55, 1.0]);
     let last = slag.at(1.0).unwrap();
-    assert_eq!((last.hits, last.sticks, last.stick_mass), (Some(100.0), 60.0, 6e-6));
-    assert_eq!(last.regimes, Some([0.0, 6e-6, 0.0, 0.0]));
-    assert_eq!(result.parcels.iter().filter(|parcel| !parcel.active).count(), 2);
+    assert_eq!((last.hits.unwrap().count, last.captured), (100, Amount::new(60.0, 6e-6)));
+    assert_eq!(last.regimes.unwrap().map(|amount| amount.mass()), [0.0, 6e-6, 0.0, 0.0]);
+    assert_eq!(result.captures.len(), 2);
     assert_eq!(result.wall_patches, PATCHES);
     assert_eq!(result.injected_at(1.0), Some(1e-4));
 }
@@ -197,14 +213,11 @@ fn distributions_of_a_restarted_run_are_joined() {
     let folder = two_cases();
     let result = &openfoam::read(&folder.path().join("ours")).unwrap()[0];
     // The tables of classes and of flux are not taken for patches.
-    assert_eq!(
-        result.patches.iter().map(|p| p.name.as_str()).collect::<Vec<_>>(),
-        ["quenchWall", "slagWall"]
-    );
-    let [slag] = &result.distributions[..] else { panic!("one patch") };
-    // What was written at 0.6 s belongs to a run that was taken up again at 0.5 s.
-    assert_eq!(slag.tables.iter().map(|(time, _)| *time).collect::<Vec<_>>(), [1.0]);
-    let classes = openfoam::distributions::together(slag.at(1.0), openfoam::distributions::Quantity::Angle);
+    assert_eq!(names(&result.walls), ["quenchWall", "slagWall"]);
+    let [slag] = &result.classes[..] else { panic!("one patch") };
+    // The rows at 0.6 s belong to a run that was restarted at 0.5 s.
+    assert_eq!(times(slag), [1.0]);
+    let classes = together(slag.at(1.0).unwrap(), Quantity::Angle);
     assert_eq!((classes.len(), classes[0].low, classes[0].sums.hits), (1, 60.0, 100.0));
     let [share, low, high] = classes[0].sums.captured().unwrap();
     // Wilson's interval for 60 of 100.
@@ -216,13 +229,13 @@ fn logs_and_arrivals_of_a_stock_model_are_read() {
     let folder = two_cases();
     let results = openfoam::read(&folder.path().join("stock")).unwrap();
     let result = &results[0];
-    assert_eq!(result.model.as_deref(), Some("localInteraction"));
+    assert_eq!(result.wall_model, WallModel::Other("localInteraction".into()));
     assert_eq!(result.injected, [[0.5, 5e-5], [1.0, 1e-4]]);
-    assert_eq!(result.patch("slagWall").unwrap().at(1.0).unwrap().stick_mass, 2e-6);
-    assert_eq!(result.patch("burnerWall").unwrap().name, "(quenchWall|burnerWall)");
+    assert_eq!(result.totals("slagWall", 1.0).unwrap().captured.mass(), 2e-6);
+    assert_eq!(result.wall("burnerWall").unwrap().wall, "(quenchWall|burnerWall)");
     assert_eq!(result.arrivals.len(), 3);
     // No patch counts an escape, the whole cloud does.
-    assert_eq!(result.escaped_mass(), Some(1e-5));
+    assert_eq!(escaped_mass(result), Some(1e-5));
     let first = &result.arrivals[0];
     let mass = std::f64::consts::PI / 6.0 * 1e-9;
     assert!((first.conversion.unwrap() - (1.0 - mass * 0.5 / (1e-9 * 0.504))).abs() < 1e-12);
@@ -291,14 +304,14 @@ fn escapes_that_no_log_counts_are_those_recorded_or_unknown() {
     );
     assert!(without.len() < log.len());
     write(&root, "log.coalChemistryFoam", &without);
-    assert_eq!(openfoam::read(&root).unwrap()[0].escaped_mass(), None);
+    assert_eq!(escaped_mass(&openfoam::read(&root).unwrap()[0]), None);
     write(
         &root,
         "postProcessing/lagrangian/coalCloud1/leaving/0.2/outlet.post",
         "# Time currentProc  (position0 position1 position2) active nParticle d (U0 U1 U2) rho\n\
          0.9 0 (0.2 0 -1.4) 1 10 1e-4 (3 0 4) 1000\n",
     );
-    let mass = openfoam::read(&root).unwrap()[0].escaped_mass().unwrap();
+    let mass = escaped_mass(&openfoam::read(&root).unwrap()[0]).unwrap();
     assert!((mass - 10.0 * 1000.0 * std::f64::consts::PI / 6.0 * 1e-12).abs() < 1e-20, "{mass}");
 }
 
@@ -320,20 +333,19 @@ fn walls_that_remember_show_their_history() {
     let nothing = "0.6 0 0 0 0 0 0 0 0 0 0 0\n";
     write(&root, &format!("{tables}/0.5/quenchWall.wall.dat"), &(header.to_owned() + nothing));
     let result = openfoam::read(&root).unwrap().remove(0);
-    let names: Vec<&str> = result.patches.iter().map(|patch| patch.name.as_str()).collect();
-    assert_eq!(names, ["quenchWall", "slagWall"]);
-    let slag = result.memory.iter().find(|history| history.patch == "slagWall").unwrap();
-    let powder = |row: &Vec<(String, f64)>| openfoam::tables::value(row, "powder_kg").unwrap();
-    assert_eq!(slag.rows.iter().map(powder).collect::<Vec<_>>(), [1e-7, 2e-7]);
-    let page = openfoam::page(&[result]).unwrap();
+    assert_eq!(names(&result.walls), ["quenchWall", "slagWall"]);
+    let slag = result.deposits.iter().find(|history| history.wall == "slagWall").unwrap();
+    let powder: Vec<f64> = slag.rows.iter().map(|(_, state)| deposit::value(state, "powder_kg")).collect();
+    assert_eq!(powder, [1e-7, 2e-7]);
+    let page = openfoam_page(&[result]).unwrap();
     for part in
-        ["What the walls remember", "What lies on slagWall", "<figure id=\"wall-coverage\"", "drained"]
+        ["What lies on the walls over time", "Deposit on slagWall", "<figure id=\"wall-coverage\"", "drained"]
     {
         assert!(page.contains(part), "`{part}` is not on the page");
     }
-    assert!(!page.contains("What lies on quenchWall"));
-    let stock = openfoam::page(&openfoam::read(&folder.path().join("stock")).unwrap()).unwrap();
-    assert!(!stock.contains("What the walls remember"));
+    assert!(!page.contains("Deposit on quenchWall"));
+    let stock = openfoam_page(&openfoam::read(&folder.path().join("stock")).unwrap()).unwrap();
+    assert!(!stock.contains("What lies on the walls over time"));
 }
 
 #[test]
@@ -343,7 +355,7 @@ fn two_clouds_of_a_case_are_told_apart() {
     ours(&root);
     let tables = "postProcessing/nearWallInteraction/limestone/0";
     write(&root, &format!("{tables}/slagWall.dat"), &table(&[[1.0, 20.0, 2e-6, 5.0, 5e-7]]));
-    let page = openfoam::page(&openfoam::read(&root).unwrap()).unwrap();
+    let page = openfoam_page(&openfoam::read(&root).unwrap()).unwrap();
     for part in [
         "Regime of capture, case coalCloud1",
         "Regime of capture, case limestone",

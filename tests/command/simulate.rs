@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use nalgebra::{Complex, Vector3};
+use nearwall::results::standalone::{ImpactRecorder, Run, run};
 use nearwall::simulate::{
-    Body, Burning, Case, Fate, ImpactRecorder, Motion, Run, Trajectory, fly, position, run, state, velocity,
+    Body, Burning, Case, Fate, ParticleMotion, Trajectory, fly, position, state, velocity,
 };
 
 /// A model with constant restitution, whose stickiness is a known number at each temperature.
@@ -46,13 +47,13 @@ fn case(text: &str) -> Case {
     Case::from_toml("case.toml", text, Path::new(".")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn lives(case: &mut Case) -> (Vec<Trajectory>, Vec<Run>) {
-    let mut lives = Vec::new();
-    let runs = run::<String>(case, |_, _, _, life| {
-        lives.push(life.clone());
+fn trajectories(case: &mut Case) -> (Vec<Trajectory>, Vec<Run>) {
+    let mut trajectories = Vec::new();
+    let runs = run::<String>(case, |_, _, _, trajectory| {
+        trajectories.push(trajectory.clone());
         Ok(())
     });
-    (lives, runs.unwrap())
+    (trajectories, runs.unwrap())
 }
 
 fn body(diameter: f64, density: f64) -> Body {
@@ -71,7 +72,7 @@ fn a_particle_in_thick_still_gas_relaxes_exponentially() {
     let gas = "field = \"uniform\"\nvelocity = [0, 0, 0]\ndensity = 1e-12\nviscosity = 1e-3\nconductivity = 1\n\
                heat_capacity = 1000";
     let case = case(&plane(gas, ONE, "", ""));
-    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: body(1e-4, 1000.0) };
+    let motion = ParticleMotion { gas: &case.gas, gravity: Vector3::zeros(), body: body(1e-4, 1000.0) };
     let tau: f64 = 1000.0 * 1e-8 / (18.0 * 1e-3);
     let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::new(3.0, 0.0, 0.0), 300.0, 1.0);
     for time in [0.2 * tau, tau, 5.0 * tau] {
@@ -90,7 +91,7 @@ fn terminal_velocity_balances_weight_and_drag() {
     let case = case(&plane(STILL_AIR, ONE, "", ""));
     let settled = |diameter: f64, time: f64| {
         let gravity = Vector3::new(0.0, 0.0, -9.81);
-        let motion = Motion { gas: &case.gas, gravity, body: body(diameter, 1000.0) };
+        let motion = ParticleMotion { gas: &case.gas, gravity, body: body(diameter, 1000.0) };
         let start = state(&Vector3::new(0.0, 0.0, 50.0), &Vector3::zeros(), 300.0, 1.0);
         -velocity(&fly(&motion, &case.surfaces, 0.0, time, &start, 1e-8).unwrap().state).z
     };
@@ -117,8 +118,8 @@ fn terminal_velocity_balances_weight_and_drag() {
 fn a_throw_hits_the_floor_as_newton_says() {
     let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
     let mut case = case(&plane(&gas, ONE, "", ""));
-    let (lives, _) = lives(&mut case);
-    let hit = &lives[0].hits[0];
+    let (trajectories, _) = trajectories(&mut case);
+    let hit = &trajectories[0].hits[0];
     let fall = 1.0 - 0.5e-4;
     near(hit.impact.normal_speed, (2.0f64 * 9.81 * fall).sqrt(), 1e-7);
     near(hit.impact.tangential_speed, 3.0, 1e-7);
@@ -132,12 +133,12 @@ fn a_throw_hits_the_floor_as_newton_says() {
 fn a_bouncing_ball_follows_the_geometric_series() {
     let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
     let mut case = case(&plane(&gas, ONE, "hit_limit = 12", ""));
-    let (lives, runs) = lives(&mut case);
-    assert_eq!(lives[0].fate, Fate::GivenUp);
-    assert_eq!((lives[0].hits.len(), runs[0].tally.given_up.count), (12, 1));
+    let (trajectories, runs) = trajectories(&mut case);
+    assert_eq!(trajectories[0].fate, Fate::GivenUp);
+    assert_eq!((trajectories[0].hits.len(), runs[0].totals.given_up.count), (12, 1));
     let first = (2.0f64 * 9.81 * (1.0 - 0.5e-4)).sqrt();
     let mut time = first / 9.81;
-    for (number, hit) in lives[0].hits.iter().enumerate() {
+    for (number, hit) in trajectories[0].hits.iter().enumerate() {
         let kept = 0.5f64.powi(number as i32);
         near(hit.impact.normal_speed, first * kept, 1e-5);
         near(hit.impact.tangential_speed, 3.0 * 0.8f64.powi(number as i32), 1e-6);
@@ -153,8 +154,8 @@ fn an_inclined_target_is_met_at_its_angle() {
     let wall = "[[walls]]\nname = \"target\"\nwall = \"default\"\nshape = \"plane\"\npoint = [2, 0, 1]\n\
                 normal = [-0.6, 0, 0.8]\nradius = 0.5\ntemperature = 300\n";
     let mut case = case(&plane(&gas, ONE, "gravity = [0, 0, 0]\nhit_limit = 1", wall));
-    let (lives, _) = lives(&mut case);
-    let hit = &lives[0].hits[0];
+    let (trajectories, _) = trajectories(&mut case);
+    let hit = &trajectories[0].hits[0];
     assert_eq!(case.surfaces[hit.surface].name, "target");
     near(hit.impact.angle_from_surface(), 0.6f64.asin(), 1e-9);
     // The centre stops half a diameter before the plane.
@@ -167,7 +168,7 @@ fn a_tracer_keeps_its_stream_function_in_front_of_a_wall() {
     let gas = "field = \"stagnation-jet\"\nspeed = 2\nheight = 0.03\ndensity = 1.2\nviscosity = 1.8e-5\n\
                conductivity = 0.026\nheat_capacity = 1005";
     let case = case(&plane(gas, ONE, "", ""));
-    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: body(3e-6, 1000.0) };
+    let motion = ParticleMotion { gas: &case.gas, gravity: Vector3::zeros(), body: body(3e-6, 1000.0) };
     let start_at = Vector3::new(0.001, 0.0005, 0.027);
     let start = state(&start_at, &case.gas.at(&start_at).velocity, 300.0, 1.0);
     let end = fly(&motion, &case.surfaces, 0.0, 0.03, &start, 1e-7).unwrap();
@@ -185,7 +186,7 @@ fn swirl_throws_a_particle_outwards_as_the_exact_solution_says() {
     let gas = "field = \"swirling-pipe\"\naxial_speed = 1\nswirl = 50\ndensity = 1e-12\nviscosity = 1.8e-5\n\
                conductivity = 0.026\nheat_capacity = 1005";
     let case = case(&plane(gas, ONE, "", ""));
-    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: body(20e-6, 1000.0) };
+    let motion = ParticleMotion { gas: &case.gas, gravity: Vector3::zeros(), body: body(20e-6, 1000.0) };
     let (tau, omega, time) = (1000.0 * 4e-10 / (18.0 * 1.8e-5), 50.0f64, 0.2f64);
     let i = Complex::new(0.0, 1.0);
     let root: Complex<f64> = (i * (4.0 * tau * omega) + 1.0).sqrt();
@@ -207,7 +208,7 @@ fn heating_and_burning_are_exponential() {
     let case = case(&plane(STILL_AIR, ONE, "", ""));
     let heat_capacity = Some(2000.0);
     let warm = Body { heat_capacity, ..body(1e-4, 1000.0) };
-    let motion = Motion { gas: &case.gas, gravity: Vector3::zeros(), body: warm };
+    let motion = ParticleMotion { gas: &case.gas, gravity: Vector3::zeros(), body: warm };
     let tau: f64 = 1000.0 * 1e-8 * 2000.0 / (12.0 * 0.026);
     let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::zeros(), 400.0, 0.0);
     let end = fly(&motion, &case.surfaces, 0.0, 1.5 * tau, &start, 1e-9).unwrap();
@@ -215,7 +216,7 @@ fn heating_and_burning_are_exponential() {
 
     let text = "[conversion]\nlaw = \"first-order\"\npre_exponential = 500\nactivation_energy = 20000\ncarbon = 0.9\n";
     let burning = case_with(text).injection.burning;
-    let motion = Motion { body: Body { burning, ..body(1e-4, 1000.0) }, ..motion };
+    let motion = ParticleMotion { body: Body { burning, ..body(1e-4, 1000.0) }, ..motion };
     let rate = 500.0 * (-20000.0f64 / (8.314_462_618 * 400.0)).exp();
     let end = fly(&motion, &case.surfaces, 0.0, 1.0 / rate, &start, 1e-9).unwrap();
     near(end.state[7], 1.0 - (-1.0f64).exp(), 1e-6);
@@ -233,8 +234,8 @@ fn spin_is_carried_to_the_next_hit() {
     let text = plane(&gas, ONE, "hit_limit = 2", "");
     let text =
         text.replace("model = \"constant\"\ne_t = 0.8", "model = \"sliding-rolling\"\nfriction = 0.28");
-    let (lives, _) = lives(&mut case(&text));
-    let [first, second] = &lives[0].hits[..] else { panic!("{:?}", lives[0].fate) };
+    let (trajectories, _) = trajectories(&mut case(&text));
+    let [first, second] = &trajectories[0].hits[..] else { panic!("{:?}", trajectories[0].fate) };
     assert!(first.outcome.spin > 1000.0 && first.impact.spin == 0.0);
     near(second.impact.spin, first.outcome.spin, 1e-6);
 }
@@ -262,20 +263,21 @@ fn what_goes_in_is_what_ends_somewhere() {
     let text = rig(300, 350.0, 3) + "[conversion]\nlaw = \"fixed-rate\"\nrate = 20\ncarbon = 0.5\n";
     let text = text.replace("density = 1000\n", "density = 1000\nconversion = 0.1\n");
     let mut case = case(&text);
-    let (lives, runs) = lives(&mut case);
-    let tally = &runs[0].tally;
-    let ends = [&tally.stuck, &tally.escaped, &tally.airborne, &tally.given_up, &tally.unusable];
-    assert_eq!(ends.iter().map(|share| share.count).sum::<u64>(), 300);
-    assert_eq!(tally.injected.count, 300);
-    assert!(tally.stuck.count > 50 && tally.escaped.count > 20 && tally.unusable.count == 0);
-    assert!(tally.reacted.total() > 0.1 * tally.injected.mass());
-    assert!(tally.balance_error().abs() < 1e-14, "{}", tally.balance_error());
+    let (trajectories, runs) = trajectories(&mut case);
+    let totals = &runs[0].totals;
+    let ends = [totals.captured, totals.escaped, totals.airborne, totals.given_up, totals.unusable];
+    assert_eq!(ends.iter().map(|amount| amount.count).sum::<u64>(), 300);
+    assert_eq!(totals.injected.count, 300);
+    assert!(totals.captured.count > 50 && totals.escaped.count > 20 && totals.unusable.count == 0);
+    assert!(totals.reacted.total() > 0.1 * totals.injected.mass());
+    assert!(totals.balance_error().abs() < 1e-14, "{}", totals.balance_error());
     // The same sums from the particles' own stories.
-    let stuck: f64 = lives.iter().filter(|l| matches!(l.fate, Fate::Stuck(_))).map(|l| l.mass[1]).sum();
-    near(tally.stuck.mass(), stuck, 1e-12);
-    let hits: usize = lives.iter().map(|life| life.hits.len()).sum();
-    assert_eq!(tally.walls[0].hits.count, hits as u64);
-    assert_eq!(tally.walls[0].regime_hits.iter().sum::<u64>(), hits as u64);
+    let stuck: f64 =
+        trajectories.iter().filter(|l| matches!(l.fate, Fate::Stuck(_))).map(|l| l.mass[1]).sum();
+    near(totals.captured.mass(), stuck, 1e-12);
+    let hits: usize = trajectories.iter().map(|trajectory| trajectory.hits.len()).sum();
+    assert_eq!(totals.walls[0].1.hits.unwrap().count, hits as u64);
+    assert_eq!(totals.walls[0].1.regime_hits.unwrap().iter().sum::<u64>(), hits as u64);
 }
 
 /// First hits stick with the logistic probability of the effect: the count is binomial.
@@ -284,8 +286,8 @@ fn capture_is_binomial() {
     let (count, temperature) = (2000, 355.0f64);
     let mut case = case(&rig(count, temperature, 11));
     case.hit_limit = 1;
-    let (_, runs) = lives(&mut case);
-    let [hits, stuck] = runs[0].tally.first_hits();
+    let (_, runs) = trajectories(&mut case);
+    let [hits, stuck] = runs[0].totals.first_hits();
     let probability = 1.0 / (1.0 + ((360.1 - temperature) / 6.96).exp());
     let (n, k) = (hits as f64, stuck as f64);
     assert_eq!(hits, u64::from(count));
@@ -295,8 +297,8 @@ fn capture_is_binomial() {
 
 fn recorded(case: &mut Case) -> Vec<u8> {
     let mut recorder = ImpactRecorder::new(Vec::new(), case).unwrap();
-    run::<String>(case, |case, value, number, life| {
-        recorder.record(case, value, number, life).map_err(|error| error.to_string())
+    run::<String>(case, |case, value, number, trajectory| {
+        recorder.record(case, value, number, trajectory).map_err(|error| error.to_string())
     })
     .unwrap();
     recorder.finish().unwrap()
@@ -342,18 +344,18 @@ fn the_wax_rig_meets_the_paper() {
     case.injection.count = 600;
     case.sweep.as_mut().unwrap().values = vec![293.15, 343.15, 378.15];
     case.hit_limit = 1;
-    let (lives, runs) = lives(&mut case);
+    let (trajectories, runs) = trajectories(&mut case);
     for (run, (capture, fitted)) in runs.iter().zip([(0.0, 7e-5), (0.08, 0.0805), (0.93, 0.9294)]) {
-        let [hits, stuck] = run.tally.first_hits();
+        let [hits, stuck] = run.totals.first_hits();
         let share = stuck as f64 / hits as f64;
         let deviation = (fitted * (1.0 - fitted) / hits as f64).sqrt();
         assert_eq!(hits, 600);
         assert!((share - capture).abs() < 4.0 * deviation + 0.002, "{share} against {capture}");
     }
-    let first = |life: &Trajectory| life.hits[0].impact.speed();
-    let speed = lives[..600].iter().map(first).sum::<f64>() / 600.0;
+    let first = |trajectory: &Trajectory| trajectory.hits[0].impact.speed();
+    let speed = trajectories[..600].iter().map(first).sum::<f64>() / 600.0;
     assert!((speed - 2.0).abs() < 0.05, "{speed} m/s");
-    let e_n = runs[0].tally.walls[0].e_n.mean;
+    let e_n = runs[0].totals.walls[0].1.e_n.mean;
     assert!((e_n - 0.28).abs() < 0.02, "{e_n}");
 }
 
@@ -365,11 +367,14 @@ fn every_example_runs() {
         if let Some(sweep) = &mut case.sweep {
             sweep.values.truncate(2);
         }
-        let (_, runs) = lives(&mut case);
+        let (_, runs) = trajectories(&mut case);
         for run in &runs {
-            assert_eq!(run.tally.unusable.count, 0, "{name}: {:?}", run.tally.first_trouble);
-            assert!(run.tally.balance_error().abs() < 1e-14);
-            assert!(run.tally.walls.iter().any(|wall| wall.hits.count > 0), "{name}: nothing hits a wall");
+            assert_eq!(run.totals.unusable.count, 0, "{name}: {:?}", run.totals.first_trouble);
+            assert!(run.totals.balance_error().abs() < 1e-14);
+            assert!(
+                run.totals.walls.iter().any(|(_, wall)| wall.hits.unwrap().count > 0),
+                "{name}: nothing hits a wall"
+            );
         }
     }
 }
@@ -425,8 +430,8 @@ fn errors_name_the_place_the_key_and_the_remedy() {
         assert!(text.starts_with("case.toml:") && text.contains(parts), "`{to}` gives: {text}");
     }
     let misplaced = good.replace("at = [0, 0, 1]", "at = [0, 0, -1]");
-    let (_, runs) = lives(&mut case(&misplaced));
-    assert!(runs[0].tally.first_trouble.as_ref().unwrap().contains("starts in or behind `floor`"));
+    let (_, runs) = trajectories(&mut case(&misplaced));
+    assert!(runs[0].totals.first_trouble.as_ref().unwrap().contains("starts in or behind `floor`"));
 }
 
 fn nearwall(folder: &Path, arguments: &[&str]) -> std::process::Output {

@@ -1,4 +1,4 @@
-//! `nearwall check`: whether a model file is accepted, and what it says.
+//! `nearwall check`: checks a model file and describes it.
 
 use std::path::PathBuf;
 
@@ -6,7 +6,7 @@ use nearwall::Model;
 
 use crate::CommandResult;
 
-/// Checks a model file and says what it contains
+/// Checks a model file and describes its content
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall check wax.toml")]
 pub struct Arguments {

@@ -1,4 +1,4 @@
-//! The command `nearwall`. One file a subcommand; this one finds the right one and turns errors into messages.
+//! The command `nearwall`: one file for each subcommand. This file selects it and prints errors.
 
 mod check;
 mod diagnose;
@@ -12,7 +12,7 @@ use std::io::Write;
 
 use clap::Parser;
 
-/// What a subcommand comes to: nothing, or an error whose text names file, line or key and the remedy.
+/// Result of a subcommand; the error's text names file, line or key and the remedy.
 type CommandResult = Result<(), Box<dyn std::error::Error>>;
 
 /// What happens when a particle hits a wall
@@ -27,7 +27,7 @@ enum Command {
     Check(check::Arguments),
 }
 
-/// Exit 0 done, 1 the input is at fault, 2 usage (clap's own).
+/// Exit status 0: done, 1: the input is at fault, 2: wrong usage (from clap).
 fn main() -> std::process::ExitCode {
     let done = match Command::parse() {
         Command::Predict(arguments) => predict::run(&arguments),
@@ -47,12 +47,12 @@ fn main() -> std::process::ExitCode {
     }
 }
 
-/// Prints a text; a reader that goes away early is an error here, not a panic.
+/// Prints a text; a closed pipe is an error, not a panic.
 fn print(text: &str) -> CommandResult {
     Ok(std::io::stdout().write_all(text.as_bytes())?)
 }
 
-/// Whether the reader of our output went away (`nearwall ... | head`): no fault of the input.
+/// Whether the reader of the output closed the pipe (`nearwall ... | head`), which is no fault of the input.
 fn is_broken_pipe(error: &(dyn std::error::Error + 'static)) -> bool {
     let mut cause = Some(error);
     while let Some(error) = cause {

@@ -1,4 +1,4 @@
-//! `nearwall materials`: the built-in materials, with where each number comes from.
+//! `nearwall materials`: the built-in materials with the source of each number.
 
 use nearwall::input::unknown;
 use nearwall::material::{Library, Material};

@@ -1,29 +1,25 @@
-//! Progress of long work: a bar on a terminal, nothing elsewhere.
+//! Progress bars of long work.
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A bar over a number of bytes; it shows itself on a terminal's standard error only.
+/// A bar over a number of bytes, shown only when standard error is a terminal.
 pub fn bytes(total: u64, what: &'static str) -> ProgressBar {
-    styled(total, what, "{msg} [{bar:40}] {bytes}/{total_bytes} {eta}")
+    styled(ProgressBar::new(total), what, "{msg} [{bar:40}] {bytes}/{total_bytes} {eta}")
 }
 
-/// A bar over a number of things; it shows itself on a terminal's standard error only.
+/// A bar over a number of items, shown only when standard error is a terminal.
 pub fn count(total: u64, what: &'static str) -> ProgressBar {
-    styled(total, what, "{msg} [{bar:40}] {pos}/{len} {eta}")
+    styled(ProgressBar::new(total), what, "{msg} [{bar:40}] {pos}/{len} {eta}")
 }
 
-fn styled(total: u64, what: &'static str, template: &str) -> ProgressBar {
-    let bar = ProgressBar::new(total).with_message(what);
-    match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
-    }
-}
-
-/// A count of things whose total is not known; it shows itself on a terminal's standard error only.
+/// A count of items whose total is unknown, shown only when standard error is a terminal.
 pub fn spinner(what: &'static str) -> ProgressBar {
-    let bar = ProgressBar::new_spinner().with_message(what);
-    match ProgressStyle::with_template("{spinner} {pos} {msg} {elapsed}") {
+    styled(ProgressBar::new_spinner(), what, "{spinner} {pos} {msg} {elapsed}")
+}
+
+fn styled(bar: ProgressBar, what: &'static str, template: &str) -> ProgressBar {
+    let bar = bar.with_message(what);
+    match ProgressStyle::with_template(template) {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
     }

@@ -1,9 +1,10 @@
-//! `nearwall report`: plots of finished OpenFOAM cases.
+//! `nearwall report`: the page of finished OpenFOAM cases.
 
 use std::path::{Path, PathBuf};
 
 use nearwall::atomic_file::AtomicFile;
-use nearwall::report::{openfoam, sweep};
+use nearwall::report::{openfoam_page, sweep};
+use nearwall::results::openfoam;
 
 use crate::CommandResult;
 
@@ -12,13 +13,13 @@ use crate::CommandResult;
 #[command(
     after_help = "Example:\n  nearwall report run/nearWall run/localInteraction run/standardWall -o report.html\n\n\
     Reads postProcessing/nearWallInteraction, log.* (the stock models' parcel fates), postProcessing/lagrangian\n\
-    (patchPostProcessing) and the parcels of the last time, as far as they are there; the page says what is missing."
+    (patchPostProcessing) and the parcels of the last time, as far as they exist; the page lists what is missing."
 )]
 pub struct Arguments {
-    /// Folders of finished cases; or one table of runs (.csv) with published numbers beside the simulated ones
+    /// Folders of finished cases, or one table of runs (.csv) with simulated and published numbers
     #[arg(required = true)]
     cases: Vec<PathBuf>,
-    /// Where to write; report.html in the folder of a single case, else in the current folder
+    /// Output file; by default report.html in the folder of a single case, else in the current folder
     #[arg(short, value_name = "FILE")]
     output: Option<PathBuf>,
 }
@@ -39,10 +40,10 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         (None, [case]) => case.join("report.html"),
         (None, _) => PathBuf::from("report.html"),
     };
-    write(&output, &[], &openfoam::page(&results)?)
+    write(&output, &[], &openfoam_page(&results)?)
 }
 
-/// The path from the root, as a browser wants it.
+/// The absolute path, for a browser.
 pub fn whole(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

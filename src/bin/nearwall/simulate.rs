@@ -2,19 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall::report::percent;
-use nearwall::simulate::{Case, Tally, write};
+use nearwall::atomic_file::{AtomicFile, of_csv, refused};
+use nearwall::report::{percent, standalone_page};
+use nearwall::results::share;
+use nearwall::results::standalone::{ImpactRecorder, Run, run as run_case, summary};
+use nearwall::simulate::Case;
 
 use crate::{CommandResult, progress};
 
-/// Follows particles through a prescribed gas until walls catch them or they are gone
+/// Follows particles through a prescribed gas until walls capture them or they leave
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall simulate tutorials/standalone/waxRig.toml -o waxRig\n\n\
     Writes impacts.csv (every hit, up to a number of rows), summary.json and report.html into the folder.")]
 pub struct Arguments {
     /// The case file
     case: PathBuf,
-    /// Where to write; the case file's name without its ending if not given
+    /// Output folder; the case file's name without its extension by default
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
 }
@@ -23,38 +26,53 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let mut case = Case::from_file(&arguments.case)?;
     let beside = || Path::new(arguments.case.file_stem().unwrap_or_default()).to_owned();
     let folder = arguments.output.clone().unwrap_or_else(beside);
-    let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len() as u64);
-    let bar = progress::count(runs * case.injection.count, "particles");
-    let results = write(&mut case, &folder, || bar.inc(1))?;
-    bar.finish_and_clear();
+    let runs = write(&mut case, &folder)?;
     let mut text = String::new();
-    for run in &results {
-        let tally = &run.tally;
+    for run in &runs {
+        let totals = &run.totals;
         let swept = case.sweep.as_ref().zip(run.value);
         text += &swept.map_or(String::new(), |(sweep, value)| format!("{} {value}: ", sweep.key));
+        let [hits, captured] = totals.first_hits();
         text += &format!(
             "{} injected = {} stuck + {} escaped + {} airborne + {} given up + {} unusable; first hits captured {}; balance of mass {:.1e}\n",
-            tally.injected.count,
-            tally.stuck.count,
-            tally.escaped.count,
-            tally.airborne.count,
-            tally.given_up.count,
-            tally.unusable.count,
-            first_capture(tally),
-            tally.balance_error()
+            totals.injected.count,
+            totals.captured.count,
+            totals.escaped.count,
+            totals.airborne.count,
+            totals.given_up.count,
+            totals.unusable.count,
+            percent(share(captured as f64, hits as f64)),
+            totals.balance_error()
         );
-        if let Some(trouble) = &tally.first_trouble {
-            eprintln!("nearwall: {} particles could not be used; the first: {trouble}", tally.unusable.count);
+        if let Some(trouble) = &totals.first_trouble {
+            eprintln!(
+                "nearwall: {} particles could not be used; the first: {trouble}",
+                totals.unusable.count
+            );
         }
     }
     let page = crate::report::whole(&folder.join("report.html"));
     crate::print(&format!("{text}open {}\n", page.display()))
 }
 
-/// What a rig that watches single impacts would see, beside what sticks after many.
-fn first_capture(tally: &Tally) -> String {
-    match tally.first_hits() {
-        [0, _] => "–".to_owned(),
-        [hits, stuck] => percent(stuck as f64 / hits as f64),
-    }
+/// Runs a case and writes its three files into a folder, which is created if it does not exist.
+fn write(case: &mut Case, folder: &Path) -> Result<Vec<Run>, Box<dyn std::error::Error>> {
+    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    let open = |name: &str| AtomicFile::new(&folder.join(name), &[]);
+    let (impacts, mut json, mut html) = (open("impacts.csv")?, open("summary.json")?, open("report.html")?);
+    let at_impacts = |error: csv::Error| refused(&folder.join("impacts.csv"), &of_csv(error));
+    let mut recorder = ImpactRecorder::new(impacts, case).map_err(at_impacts)?;
+    let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len() as u64);
+    let bar = progress::count(runs * case.injection.count, "particles");
+    let runs = run_case(case, |case, value, number, trajectory| {
+        bar.inc(1);
+        recorder.record(case, value, number, trajectory).map_err(at_impacts)
+    })?;
+    bar.finish_and_clear();
+    let left_out = recorder.left_out;
+    let impacts = recorder.finish().map_err(|error| at_impacts(error.into()))?;
+    json.put(&(serde_json::to_string_pretty(&summary(case, &runs))? + "\n"))?;
+    html.put(&standalone_page(case, &runs, left_out)?)?;
+    AtomicFile::commit(vec![impacts, json, html])?;
+    Ok(runs)
 }

@@ -18,7 +18,7 @@ use crate::input::{InputError, Limits, Section};
 use crate::material::Property;
 
 /// A steady velocity field.
-pub trait Field: Send + Sync + std::fmt::Debug {
+pub trait VelocityField: Send + Sync + std::fmt::Debug {
     /// Gas velocity [m/s] at a position [m]. It has to be finite everywhere, also behind a wall.
     fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64>;
 }
@@ -26,7 +26,7 @@ pub trait Field: Send + Sync + std::fmt::Debug {
 /// A gas: where it goes and what it is.
 #[derive(Debug)]
 pub struct Gas {
-    field: Box<dyn Field>,
+    field: Box<dyn VelocityField>,
     temperature: Profile,
     density: Property,
     viscosity: Property,
@@ -37,7 +37,7 @@ pub struct Gas {
 
 /// The gas at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Local {
+pub struct GasState {
     /// Velocity [m/s].
     pub velocity: Vector3<f64>,
     /// Temperature [K].
@@ -62,7 +62,7 @@ impl Gas {
     /// temperatures.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let name = section.choice("field", &["uniform", "stagnation-jet", "swirling-pipe"])?;
-        let field: Box<dyn Field> = match name.as_deref() {
+        let field: Box<dyn VelocityField> = match name.as_deref() {
             Some("uniform") => Box::new(Uniform::read(section)?),
             Some("stagnation-jet") => Box::new(StagnationJet::read(section)?),
             Some(_) => Box::new(SwirlingPipe::read(section)?),
@@ -91,11 +91,11 @@ impl Gas {
     }
 
     /// The gas at a position [m].
-    pub fn at(&self, position: &Vector3<f64>) -> Local {
+    pub fn at(&self, position: &Vector3<f64>) -> GasState {
         let temperature = self.temperature.at(position);
         // `check` made sure that every property is known at every temperature of the gas.
         let value = |property: &Property| property.at(temperature).unwrap_or(f64::NAN);
-        Local {
+        GasState {
             velocity: self.field.velocity(position),
             temperature,
             density: value(&self.density),

@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use nalgebra::Vector3;
 
-use super::Field;
+use super::VelocityField;
 use crate::input::{InputError, Section};
 use crate::simulate::geometry::required_within;
 
@@ -38,7 +38,7 @@ impl StagnationJet {
     }
 }
 
-impl Field for StagnationJet {
+impl VelocityField for StagnationJet {
     fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64> {
         let phase = FRAC_PI_2 * (position.z / self.height).clamp(0.0, 1.0);
         let (sine, cosine) = phase.sin_cos();

@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use super::Field;
+use super::VelocityField;
 use crate::input::{InputError, Section};
 use crate::simulate::geometry::required_within;
 
@@ -49,7 +49,7 @@ impl SwirlingPipe {
     }
 }
 
-impl Field for SwirlingPipe {
+impl VelocityField for SwirlingPipe {
     fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64> {
         let square = position.x * position.x + position.y * position.y;
         let axial = match self.parabola {

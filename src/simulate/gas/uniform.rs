@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::Field;
+use super::VelocityField;
 use crate::input::{InputError, Section};
 use crate::simulate::geometry::required_vector;
 
@@ -22,7 +22,7 @@ impl Uniform {
     }
 }
 
-impl Field for Uniform {
+impl VelocityField for Uniform {
     fn velocity(&self, _position: &Vector3<f64>) -> Vector3<f64> {
         self.velocity
     }

@@ -1,32 +1,20 @@
-//! The parcels of a cloud at the last written time: where they are and which of them are stuck.
+//! The captured parcels of a cloud at the last written time.
 //!
-//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and what `nearWallInteraction` deposited,
+//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and the deposit of `nearWallInteraction`,
 //! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, written as ASCII. Binary and compressed files are not
-//! read; the page then says so.
+//! read; the page then states it.
 
 use std::f64::consts::PI;
 use std::path::Path;
 
+use super::super::Capture;
 use super::time_folders;
 
-/// One parcel.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parcel {
-    /// Position [m].
-    pub position: [f64; 3],
-    /// Whether it still moves; a stuck one does not.
-    pub active: bool,
-    /// Mass of all its particles [kg].
-    pub mass: f64,
-    /// Diameter [m].
-    pub diameter: f64,
-}
-
-/// Reads the parcels of the last time that has them, in the cloud or in its deposit.
+/// Reads the parcels that lie still at the last time that has any parcels, in the cloud or in its deposit.
 ///
 /// # Errors
-/// Why there are none, in words for the page.
-pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Parcel>, String> {
+/// Why they cannot be read, for the page.
+pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Capture>, String> {
     let folders = time_folders(case).into_iter().rev().map(|(_, time)| {
         let lagrangian = time.join("lagrangian");
         (lagrangian.join(cloud), lagrangian.join(format!("{cloud}Deposit")))
@@ -34,7 +22,9 @@ pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Parcel>, String> {
     let Some((own, deposit)) = folders.into_iter().find(|(own, deposit)| own.is_dir() || deposit.is_dir())
     else {
         let hint = if case.join("processor0").is_dir() { " (run reconstructPar)" } else { "" };
-        return Err(format!("no parcels of {cloud} at a written time{hint}, so their places are not shown"));
+        return Err(format!(
+            "no parcels of {cloud} at a written time{hint}, so the places of captured parcels are unknown"
+        ));
     };
     // OpenFOAM writes no folder for a cloud that is empty
     let mut parcels = if own.is_dir() { read_cloud(&own)? } else { Vec::new() };
@@ -44,7 +34,7 @@ pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Parcel>, String> {
     Ok(parcels)
 }
 
-fn read_cloud(folder: &Path) -> Result<Vec<Parcel>, String> {
+fn read_cloud(folder: &Path) -> Result<Vec<Capture>, String> {
     let positions = positions(folder)?;
     let numbers = |name: &str| numbers(folder, name, positions.len());
     let (active, diameters, densities) = (numbers("active")?, numbers("d")?, numbers("rho")?);
@@ -52,24 +42,22 @@ fn read_cloud(folder: &Path) -> Result<Vec<Parcel>, String> {
     let parcels = positions.iter().enumerate().filter_map(|(index, position)| {
         let diameter = *diameters.get(index)?;
         let count = particles.get(index).copied().unwrap_or(1.0);
-        Some(Parcel {
-            position: *position,
-            active: *active.get(index)? != 0.0,
-            mass: count * PI / 6.0 * diameter.powi(3) * densities.get(index)?,
-            diameter,
-        })
+        let mass = count * PI / 6.0 * diameter.powi(3) * densities.get(index)?;
+        (*active.get(index)? == 0.0).then(|| capture(*position, mass, diameter))
     });
     Ok(parcels.collect())
 }
 
-fn read_deposit(folder: &Path) -> Result<Vec<Parcel>, String> {
+fn read_deposit(folder: &Path) -> Result<Vec<Capture>, String> {
     let positions = positions(folder)?;
     let numbers = |name: &str| numbers(folder, name, positions.len());
     let (diameters, masses) = (numbers("d")?, numbers("mass")?);
-    let parcels = positions.iter().copied().zip(diameters).zip(masses);
-    Ok(parcels
-        .map(|((position, diameter), mass)| Parcel { position, active: false, mass, diameter })
-        .collect())
+    let parcels = positions.iter().zip(diameters).zip(masses);
+    Ok(parcels.map(|((position, diameter), mass)| capture(*position, mass, diameter)).collect())
+}
+
+fn capture(position: [f64; 3], mass: f64, diameter: f64) -> Capture {
+    Capture { wall: None, position, mass, diameter, regime: None }
 }
 
 fn positions(folder: &Path) -> Result<Vec<[f64; 3]>, String> {
@@ -86,14 +74,15 @@ fn numbers(folder: &Path, name: &str, parcels: usize) -> Result<Vec<f64>, String
 
 fn entries(folder: &Path, name: &str, parcels: Option<usize>) -> Result<Vec<String>, String> {
     let path = folder.join(name);
-    let unreadable =
-        || format!("{} is not there or not ASCII, so places of parcels are not shown", path.display());
+    let unreadable = || {
+        format!("{} is absent or not ASCII, so the places of captured parcels are unknown", path.display())
+    };
     std::fs::read_to_string(&path).ok().and_then(|text| list(&text, parcels)).ok_or_else(unreadable)
 }
 
-/// The entries of an OpenFOAM list file: what stands between the brackets, an entry a line, or `n{value}`, which
-/// stands for as many entries as there are parcels at most, and for none where their number is not known: a few letters
-/// must not fill the memory.
+/// The entries of an OpenFOAM list file: one a line between brackets, or `n{value}` for `n` equal entries. More equal
+/// entries than parcels are cut off, and without a number of parcels such a list is refused: a short text must not fill
+/// the memory.
 fn list(text: &str, parcels: Option<usize>) -> Option<Vec<String>> {
     let body = text.split_once("// * *").map_or(text, |(_, rest)| rest);
     let body: Vec<&str> = body
@@ -136,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_in_the_deposit_is_stuck_also_when_the_cloud_is_empty() {
+    fn parcels_of_the_deposit_are_read_when_the_cloud_is_empty() {
         let case = std::env::temp_dir().join(format!("nearwall-parcels-{}", std::process::id()));
         let write = |path: &str, body: &str| {
             let path = case.join(path);
@@ -155,7 +144,7 @@ mod tests {
         }
         let parcels = read_last(&case, "coal");
         std::fs::remove_dir_all(&case).unwrap();
-        let lying = |z, mass| Parcel { position: [0.0, 0.0, z], active: false, mass, diameter: 1e-4 };
+        let lying = |z, mass| capture([0.0, 0.0, z], mass, 1e-4);
         assert_eq!(parcels.unwrap(), [lying(1.0, 3e-6), lying(2.0, 4e-6)]);
     }
 }

@@ -15,45 +15,51 @@
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::tables::{PatchHistory, PatchRow};
+use super::super::{Amount, History, WallTotals, history_of};
+use super::table::sorted_files;
 
-/// What the logs say of one cloud.
+/// What the logs state of one cloud.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Fates {
-    /// What happened at each patch.
-    pub patches: Vec<PatchHistory>,
+pub struct LogResults {
+    /// Totals of each patch or pattern.
+    pub walls: Vec<History<WallTotals>>,
     /// Time [s] and injected mass [kg].
     pub injected: Vec<[f64; 2]>,
     /// Time [s] and mass [kg] that left through any patch.
     pub escaped: Vec<[f64; 2]>,
 }
 
-/// Reads every `log.*` of a case.
-pub(super) fn read_all(case: &Path) -> BTreeMap<String, Fates> {
-    let entries = std::fs::read_dir(case).into_iter().flatten().flatten().map(|entry| entry.path());
-    let is_log = |path: &PathBuf| {
-        path.file_name()
-            .and_then(|n| n.to_str())
-            .is_some_and(|n| n.starts_with("log.") || n.ends_with(".log"))
-    };
-    let mut paths: Vec<PathBuf> = entries.filter(|path| path.is_file() && is_log(path)).collect();
-    paths.sort();
+/// Reads every `log.*` and `*.log` of a case.
+pub(super) fn read_all(case: &Path) -> BTreeMap<String, LogResults> {
     let mut clouds = BTreeMap::new();
-    for path in paths {
-        if let Ok(file) = std::fs::File::open(path) {
+    for path in sorted_files(case) {
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        if (name.starts_with("log.") || name.ends_with(".log"))
+            && let Ok(file) = std::fs::File::open(&path)
+        {
             read(BufReader::new(file), &mut clouds);
         }
     }
-    for fates in clouds.values_mut() {
-        sort(fates);
+    for results in clouds.values_mut() {
+        in_order(&mut results.injected, |row| row[0]);
+        in_order(&mut results.escaped, |row| row[0]);
+        results.walls.iter_mut().for_each(|wall| in_order(&mut wall.rows, |row| row.0));
     }
     clouds
 }
 
+/// Sorts the rows of several logs by time; of equal times the one read last stays.
+fn in_order<T>(rows: &mut Vec<T>, time: impl Fn(&T) -> f64) {
+    rows.sort_by(|a, b| time(a).total_cmp(&time(b)));
+    rows.reverse();
+    rows.dedup_by(|a, b| time(a) == time(b));
+    rows.reverse();
+}
+
 /// Reads one log.
-pub fn read(source: impl BufRead, clouds: &mut BTreeMap<String, Fates>) {
+pub fn read(source: impl BufRead, clouds: &mut BTreeMap<String, LogResults>) {
     let mut reader = Reader { clouds, time: 0.0, cloud: None, patch: None, of_system: false, injected: 0.0 };
     // A log may hold bytes that are no UTF-8 (paths, terminals); such a line is skipped.
     for line in source.split(b'\n').map_while(Result::ok) {
@@ -64,13 +70,13 @@ pub fn read(source: impl BufRead, clouds: &mut BTreeMap<String, Fates>) {
 }
 
 struct Reader<'a> {
-    clouds: &'a mut BTreeMap<String, Fates>,
+    clouds: &'a mut BTreeMap<String, LogResults>,
     time: f64,
     cloud: Option<String>,
     patch: Option<String>,
-    /// Whether the lines that come are those of the whole cloud.
+    /// Whether the next lines count the whole cloud.
     of_system: bool,
-    /// Injected by the injectors of this cloud that came so far in this step.
+    /// Mass [kg] injected by the injectors of this cloud that were read so far in this step.
     injected: f64,
 }
 
@@ -96,15 +102,11 @@ impl Reader<'_> {
     fn item(&mut self, item: &str) {
         let (Some(cloud), Some((what, value))) = (&self.cloud, item.split_once('=')) else { return };
         let what = what.trim();
-        let fates = self.clouds.entry(cloud.clone()).or_default();
+        let results = self.clouds.entry(cloud.clone()).or_default();
         if what == "mass introduced" {
             if let Ok(mass) = value.trim().parse::<f64>() {
                 self.injected += mass;
-                let now = [self.time, self.injected];
-                match fates.injected.last_mut() {
-                    Some(last) if last[0] == self.time => *last = now,
-                    _ => fates.injected.push(now),
-                }
+                row_at(&mut results.injected, self.time)[1] = self.injected;
             }
             return;
         }
@@ -112,27 +114,32 @@ impl Reader<'_> {
         let (Ok(count), Ok(mass)) = (count.trim().parse::<f64>(), mass.trim().parse::<f64>()) else { return };
         let Some(patch) = &self.patch else {
             if what == "escape" && self.of_system {
-                match fates.escaped.last_mut() {
-                    Some(last) if last[0] == self.time => last[1] += mass,
-                    _ => fates.escaped.push([self.time, mass]),
-                }
+                row_at(&mut results.escaped, self.time)[1] += mass;
             }
             return;
         };
-        let row = row_of(fates, patch, self.time);
-        // Later versions tell injectors apart by repeating the lines.
-        match what {
-            "escape" => {
-                row.escapes += count;
-                row.escape_mass += mass;
-            }
-            "stick" => {
-                row.sticks += count;
-                row.stick_mass += mass;
-            }
-            _ => {}
+        let rows = &mut history_of(&mut results.walls, patch).rows;
+        if rows.last().is_none_or(|(time, _)| *time != self.time) {
+            rows.push((self.time, WallTotals::default()));
         }
+        let Some((_, totals)) = rows.last_mut() else { return };
+        let amount = match what {
+            "escape" => &mut totals.escaped,
+            "stick" => &mut totals.captured,
+            _ => return,
+        };
+        // Later versions repeat the lines for each injector.
+        *amount = Amount::new(amount.count as f64 + count, amount.mass() + mass);
     }
+}
+
+/// The row of a time [s] at the end of a list, added when it is missing.
+fn row_at(rows: &mut Vec<[f64; 2]>, time: f64) -> &mut [f64; 2] {
+    if rows.last().is_none_or(|row| row[0] != time) {
+        rows.push([time, 0.0]);
+    }
+    let last = rows.len() - 1;
+    &mut rows[last]
 }
 
 /// The patch in `patch NAME (number, mass)` or `patch (number, mass) NAME`; none for `system`.
@@ -143,41 +150,11 @@ fn patch_name(rest: &str) -> Option<String> {
     (!name.is_empty()).then(|| name.to_owned())
 }
 
-/// The row of a patch at a time, made if need be. A time that comes again (a restart) begins anew.
-fn row_of<'a>(fates: &'a mut Fates, patch: &str, time: f64) -> &'a mut PatchRow {
-    let index = fates.patches.iter().position(|p| p.name == patch).unwrap_or_else(|| {
-        fates.patches.push(PatchHistory { name: patch.to_owned(), rows: Vec::new() });
-        fates.patches.len() - 1
-    });
-    let rows = &mut fates.patches[index].rows;
-    if rows.last().is_none_or(|row| row.time != time) {
-        rows.push(PatchRow { time, ..PatchRow::default() });
-    }
-    let last = rows.len() - 1;
-    &mut rows[last]
-}
-
-/// Brings several logs into the order of time; of equal times the one read last stays.
-fn sort(fates: &mut Fates) {
-    for list in [&mut fates.injected, &mut fates.escaped] {
-        list.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        list.reverse();
-        list.dedup_by(|a, b| a[0] == b[0]);
-        list.reverse();
-    }
-    for patch in &mut fates.patches {
-        patch.rows.sort_by(|a, b| a.time.total_cmp(&b.time));
-        patch.rows.reverse();
-        patch.rows.dedup_by(|a, b| a.time == b.time);
-        patch.rows.reverse();
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn parse(text: &str) -> BTreeMap<String, Fates> {
+    fn parse(text: &str) -> BTreeMap<String, LogResults> {
         let mut clouds = BTreeMap::new();
         read(text.as_bytes(), &mut clouds);
         clouds
@@ -197,10 +174,10 @@ mod tests {
         let coal = &clouds["coal"];
         assert_eq!(coal.injected, [[0.1, 0.002]]);
         assert_eq!(coal.escaped, [[0.1, 1e-5]]);
-        assert_eq!(coal.patches.len(), 2);
-        assert!(coal.patches[0].covers("a") && coal.patches[1].covers("slagWall"));
-        let row = &coal.patches[1].rows[0];
-        assert_eq!((row.sticks, row.stick_mass, row.escapes), (4.0, 5e-6, 0.0));
+        assert_eq!(coal.walls.len(), 2);
+        assert!(coal.walls[0].covers("a") && coal.walls[1].covers("slagWall"));
+        let (_, totals) = &coal.walls[1].rows[0];
+        assert_eq!((totals.captured, totals.escaped.count), (Amount::new(4.0, 5e-6), 0));
     }
 
     #[test]

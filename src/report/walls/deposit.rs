@@ -1,0 +1,59 @@
+//! What lies on walls that keep a deposit, over time.
+
+use super::Comparison;
+use super::captured::thinned;
+use crate::report::{Chart, Figure};
+use crate::results::History;
+use crate::results::openfoam::deposit::{DepositState, value};
+
+pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
+    let all = comparison.each().flat_map(|(label, run)| run.deposits.iter().map(move |wall| (label, wall)));
+    let walls: Vec<(&String, &History<DepositState>)> = all.filter(|(_, wall)| is_something(wall)).collect();
+    let mut figures: Vec<Figure> =
+        walls.iter().enumerate().map(|(index, (label, wall))| masses(index, label, wall)).collect();
+    if walls.is_empty() {
+        return figures;
+    }
+    let over_time = |title: &str, y_label: &str, [mean, most]: [&str; 2]| {
+        let chart = Chart::new(title, "time [s]", y_label);
+        walls.iter().fold(chart, |chart, (label, wall)| {
+            let name = &wall.wall;
+            chart
+                .line(&format!("{label}: {name}, mean"), &line(wall, mean))
+                .line(&format!("{label}: {name}, maximum"), &line(wall, most))
+        })
+    };
+    let coverage =
+        over_time("Share of the wall covered by powder", "coverage [1]", ["coverage_mean", "coverage_max"]);
+    figures.push(coverage.figure(
+        "wall-coverage",
+        "Mean over the area of the patch, and the face with the largest coverage. Covered area is not sticky.",
+    ));
+    let thickness = ["layer_thickness_mean_m", "layer_thickness_max_m"];
+    figures.push(over_time("Powder on the wall", "thickness of the layer [m]", thickness).figure(
+        "wall-layer",
+        "Mean over the area of the patch, and the thickest face, with the powder spread evenly on it. Powder damps \
+         rebounds.",
+    ));
+    figures
+}
+
+fn is_something(wall: &History<DepositState>) -> bool {
+    wall.rows.last().is_some_and(|(_, state)| value(state, "initial_kg") + value(state, "arrived_kg") > 0.0)
+}
+
+/// A column over time.
+fn line(wall: &History<DepositState>, column: &str) -> Vec<[f64; 2]> {
+    thinned(&wall.rows).map(|(time, state)| [*time, value(state, column)]).collect()
+}
+
+fn masses(index: usize, label: &str, wall: &History<DepositState>) -> Figure {
+    let title = format!("Deposit on {}, {label}", wall.wall);
+    let mut chart = Chart::new(&title, "time [s]", "mass [kg]");
+    for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg"), ("drained", "drained_kg")] {
+        chart = chart.line(name, &line(wall, column));
+    }
+    let caption = "Molten mass and powder in the deposit of the patch, with their mass at capture, and the mass that \
+                   drained from it as a film.";
+    chart.figure(&format!("wall-deposit-{}", index + 1), caption)
+}

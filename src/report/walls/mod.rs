@@ -1,0 +1,314 @@
+//! The page of wall results: of one run, of several runs side by side, or of a sweep.
+//!
+//! A figure or a column of a table is one function; it is shown when the results contain what it needs. [`SECTIONS`]
+//! lists the figures.
+
+mod arriving;
+mod balance;
+mod captured;
+mod conversion;
+mod deposit;
+mod places;
+mod rebound;
+mod sweep;
+mod verdict;
+
+use super::{Chart, Figure, Page, Table, number, percent};
+use crate::results::standalone::Run;
+use crate::results::{Moments, RunResults, WallModel, WallTotals};
+use crate::simulate::Case;
+
+/// The sections of a page: heading, figures, and the table under them.
+const SECTIONS: [PageSection; 8] = [
+    (
+        "Where material is captured",
+        &[captured::by_wall, captured::regimes, captured::hit_regimes, places::along, captured::history],
+        captured::table,
+    ),
+    ("At which carbon conversion", &[conversion::captured, conversion::arriving], nothing),
+    ("Which sizes are captured", &[captured::sizes], nothing),
+    ("What arrives at the walls", &[arriving::figures], arriving::table),
+    ("How particles rebound", &[rebound::normal, rebound::tangential], rebound::table),
+    ("Where captured particles lie", &[places::maps, places::scatter], nothing),
+    ("What lies on the walls over time", &[deposit::figures], nothing),
+    ("Balance", &[], balance::table),
+];
+
+type PageSection =
+    (&'static str, &'static [fn(&Comparison<'_>) -> Vec<Figure>], fn(&Comparison<'_>) -> Option<Table>);
+
+fn nothing(_: &Comparison<'_>) -> Option<Table> {
+    None
+}
+
+/// Makes the page of one or more finished OpenFOAM cases.
+///
+/// # Errors
+/// When the template cannot be filled.
+pub fn openfoam_page(runs: &[RunResults]) -> Result<String, askama::Error> {
+    let comparison = Comparison::new(runs);
+    let mut page = Page::new(&verdict::title(&comparison));
+    page.lead(verdict::lead(&comparison));
+    comparison.add_to(&mut page);
+    page.heading("Sources");
+    page.text("The tables of nearWallInteraction give its hits, captures, regimes, conversions and balance. The stock models \
+         write only counts and masses to the solver's log; the arrivals at their walls are those that the cloud \
+         function patchPostProcessing recorded. Where a stock model captures every arrival, its conversion at capture \
+         is that of the arrivals. A parcel that rebounds may arrive many times. Places are those of parcels that lie \
+         still at the last written time.");
+    for (label, run) in comparison.each() {
+        for missing in &run.missing {
+            page.note(format!("{label}: {missing}."));
+        }
+    }
+    page.html()
+}
+
+/// Makes the page of a standalone case. `left_out` is the number of hits that are not in `impacts.csv`.
+///
+/// # Errors
+/// When the template cannot be filled.
+pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<String, askama::Error> {
+    let mut page = Page::new(&case.title);
+    if let Some(about) = &case.about {
+        page.lead(about.clone());
+    }
+    match (&case.sweep, runs) {
+        (Some(sweep), _) => sweep::add_to(&mut page, case, sweep, runs),
+        (None, [run]) => {
+            let results = [run.totals.results(case)];
+            Comparison::new(&results).add_to(&mut page);
+        }
+        _ => {}
+    }
+    page.heading("How this was computed");
+    page.text("Particles move alone in a prescribed, steady gas: drag of Schiller and Naumann, weight, convective heat of Ranz \
+         and Marshall, and the stated law of carbon conversion. There is no turbulence and no action on the gas. A \
+         particle touches a wall with its surface, half a diameter from its centre. The impact model decides each hit; \
+         its random draw depends only on seed, particle and hit number.");
+    if left_out > 0 {
+        page.note(format!(
+            "impacts.csv contains all hits of the first particles (of each value of a sweep), at most {} rows; \
+             {left_out} hits of later particles are in the figures but not in the file (run.recorded_impacts).",
+            case.recorded
+        ));
+    }
+    page.foot(&format!("Seed {}, {} particles.", case.seed, case.injection.count));
+    page.html()
+}
+
+/// Runs side by side, with the walls and the time at which they are compared.
+struct Comparison<'a> {
+    runs: &'a [RunResults],
+    labels: Vec<String>,
+    walls: Vec<String>,
+    /// The last time that all runs have reached [s].
+    time: f64,
+}
+
+/// One series of a figure: a wall of a single run, or all walls of one of several runs.
+struct Series<'a> {
+    label: &'a str,
+    run: &'a RunResults,
+    walls: Vec<&'a str>,
+}
+
+impl<'a> Comparison<'a> {
+    fn new(runs: &'a [RunResults]) -> Self {
+        let time = runs.iter().map(RunResults::last_time).fold(f64::INFINITY, f64::min);
+        let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), time };
+        comparison.walls = comparison.find_walls();
+        comparison
+    }
+
+    /// The walls of a standalone case in its order. Of OpenFOAM cases those walls of the mesh, or, without a mesh, those
+    /// patches that captured something or let it rebound.
+    fn find_walls(&self) -> Vec<String> {
+        if let [run] = self.runs
+            && run.cloud.is_empty()
+        {
+            return run.walls.iter().map(|wall| wall.wall.clone()).collect();
+        }
+        let mut walls: Vec<String> = self.runs.iter().flat_map(|run| run.wall_patches.clone()).collect();
+        if walls.is_empty() {
+            let is_wall = |totals: &WallTotals| {
+                totals.captured.count > 0 || totals.hits.is_some_and(|hits| hits.count > totals.escaped.count)
+            };
+            let patches = self.runs.iter().flat_map(|run| &run.walls).filter(|patch| !patch.is_pattern());
+            let found = patches.filter(|patch| patch.at(self.time).is_some_and(is_wall));
+            walls = found.map(|patch| patch.wall.clone()).collect();
+        }
+        walls.sort();
+        walls.dedup();
+        walls.retain(|wall| {
+            self.runs.iter().any(|run| {
+                run.captured(wall, self.time).is_some_and(|amount| amount.count > 0)
+                    || run.arrived(wall, self.time).is_some_and(|(hits, _)| hits.count > 0)
+            })
+        });
+        walls
+    }
+
+    fn add_to(&self, page: &mut Page) {
+        page.verdict(verdict::lines(self));
+        for (label, run) in self.each() {
+            if let Some((count, reason)) = &run.trouble {
+                let of = if self.is_single() { String::new() } else { format!(" of {label}") };
+                let text = format!("{count} particles{of} could not be used. The first: {reason}.");
+                page.text(text);
+            }
+            page_later_captures(page, run);
+        }
+        for (heading, figures, table) in SECTIONS {
+            let figures: Vec<Figure> = figures.iter().flat_map(|figures| figures(self)).collect();
+            let table = table(self).filter(|table| !table.rows.is_empty());
+            if figures.is_empty() && table.is_none() {
+                continue;
+            }
+            page.heading(heading);
+            if let Some(table) = table {
+                page.table(table);
+            }
+            page.figures(figures);
+        }
+    }
+
+    fn is_single(&self) -> bool {
+        self.runs.len() == 1
+    }
+
+    fn each(&self) -> impl Iterator<Item = (&String, &'a RunResults)> {
+        self.labels.iter().zip(self.runs)
+    }
+
+    fn totals(&self, run: &'a RunResults, wall: &str) -> Option<&'a WallTotals> {
+        run.totals(wall, self.time)
+    }
+
+    fn injected(&self, run: &RunResults) -> f64 {
+        run.injected_at(self.time).unwrap_or(f64::NAN)
+    }
+
+    /// The series of a figure: the walls of a single run, or one for each of several runs.
+    fn series(&self) -> Vec<Series<'_>> {
+        let walls = self.walls.iter().map(String::as_str);
+        match self.runs {
+            [run] => walls.map(|wall| Series { label: wall, run, walls: vec![wall] }).collect(),
+            _ => self
+                .each()
+                .map(|(label, run)| Series { label, run, walls: walls.clone().collect() })
+                .collect(),
+        }
+    }
+
+    /// Adds a histogram of each series that has one; no figure when none has.
+    fn histogram(
+        &self,
+        [id, caption]: [&str; 2],
+        mut chart: Chart,
+        edges: &[f64],
+        heights: impl Fn(&Series<'_>) -> Option<Vec<f64>>,
+    ) -> Vec<Figure> {
+        let mut any = false;
+        for series in self.series() {
+            if let Some(heights) =
+                heights(&series).filter(|heights| heights.iter().any(|height| *height > 0.0))
+            {
+                chart = chart.histogram(series.label, edges, &heights);
+                any = true;
+            }
+        }
+        if any { vec![chart.figure(id, caption)] } else { Vec::new() }
+    }
+
+    /// A table with a row for each run and wall. A column without any value is left out, as is the run's name where
+    /// there is one run only.
+    fn wall_table(&self, caption: &str, columns: &[Column]) -> Option<Table> {
+        let places: Vec<(&String, &RunResults, &String)> = self
+            .each()
+            .flat_map(|(label, run)| self.walls.iter().map(move |wall| (label, run, wall)))
+            .collect();
+        let mut header = vec!["case".to_owned(), "wall".to_owned()];
+        let mut rows: Vec<Vec<String>> =
+            places.iter().map(|(label, _, wall)| vec![(*label).clone(), (*wall).clone()]).collect();
+        for (head, value) in columns {
+            let values: Vec<Option<String>> = places
+                .iter()
+                .map(|(_, run, wall)| value(self, run, wall).filter(|text| text != "–"))
+                .collect();
+            if values.iter().any(Option::is_some) {
+                header.push((*head).to_owned());
+                let cells = values.into_iter().map(|value| value.unwrap_or_else(|| "–".to_owned()));
+                rows.iter_mut().zip(cells).for_each(|(row, cell)| row.push(cell));
+            }
+        }
+        if self.is_single() {
+            header.remove(0);
+            rows.iter_mut().for_each(|row| drop(row.remove(0)));
+        }
+        let text_columns = if self.is_single() { 1 } else { 2 };
+        (header.len() > text_columns).then(|| Table {
+            caption: caption.to_owned(),
+            header,
+            rows,
+            text_columns,
+        })
+    }
+}
+
+/// Head of a column, and its value for a run and a wall.
+type Column = (&'static str, fn(&Comparison<'_>, &RunResults, &str) -> Option<String>);
+
+/// Explains why far more particles are captured in the end than at their first hit.
+fn page_later_captures(page: &mut Page, run: &RunResults) {
+    let totals = || run.walls.iter().filter_map(|wall| wall.rows.last()).map(|(_, totals)| totals);
+    let first = totals().filter_map(|totals| totals.first_hits);
+    let [hits, captured] = first.fold([0, 0], |[a, b], [c, d]| [a + c, b + d]);
+    let all: u64 = totals().map(|totals| totals.captured.count).sum();
+    if hits > 0 && (all - captured) as f64 > 0.1 * run.balance[0].count.unwrap_or(hits) as f64 {
+        page.text(later_captures([hits, captured], all, run.has_carbon));
+    }
+}
+
+/// Captures at first hits beside all captures.
+fn later_captures([hits, captured]: [u64; 2], all: u64, has_carbon: bool) -> String {
+    let burnt = if has_carbon { " and carbon is converted" } else { "" };
+    format!(
+        "Of the particles that reach a wall, {} are captured at their first hit and {} in the end: each rebound takes \
+         away speed{burnt}, so that particles which return after a few small hops are captured. A measurement of \
+         single impacts sees the first share.",
+        percent(captured as f64 / hits as f64),
+        percent(all as f64 / hits as f64),
+    )
+}
+
+/// Mean and standard deviation, the latter with two digits; a dash without values.
+fn spread(moments: &Moments) -> String {
+    let deviation = moments.deviation();
+    if moments.count == 0 {
+        return "–".to_owned();
+    }
+    if !deviation.is_finite() {
+        return number(moments.mean);
+    }
+    let unit = if deviation == 0.0 { 1.0 } else { 10f64.powf(deviation.log10().floor() - 1.0) };
+    format!("{} ± {}", number(moments.mean), number((deviation / unit).round() * unit))
+}
+
+/// The names of the cases, with the cloud where one case has several.
+fn labels(runs: &[RunResults]) -> Vec<String> {
+    let twice = |run: &RunResults| runs.iter().filter(|other| other.case == run.case).count() > 1;
+    let label =
+        |run: &RunResults| if twice(run) { format!("{} {}", run.case, run.cloud) } else { run.case.clone() };
+    runs.iter().map(label).collect()
+}
+
+/// Smallest and largest of some numbers.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+/// A name as the id of a figure: letters, digits and hyphens.
+fn identifier(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect()
+}

@@ -1,0 +1,164 @@
+//! The results of a standalone case over its sweep.
+
+use super::places::map_figures;
+use super::{later_captures, number, percent};
+use crate::report::{Chart, Figure, Page, Table};
+use crate::results::standalone::{Run, RunTotals};
+use crate::results::{Moments, WallTotals, share, wilson};
+use crate::simulate::{Case, Sweep, sweep_unit};
+
+/// How the figures label the swept quantity and show its values.
+struct SweepAxis {
+    label: String,
+    shown: fn(f64) -> f64,
+}
+
+impl SweepAxis {
+    fn of(key: &str) -> Self {
+        let words = key.trim_end_matches("_deg").replace('_', " ");
+        match sweep_unit(key) {
+            "K" => Self { label: format!("{words} [°C]"), shown: |value| value - 273.15 },
+            "m" => Self { label: format!("{words} [µm]"), shown: |value| 1e6 * value },
+            unit => Self { label: format!("{words} [{unit}]"), shown: |value| value },
+        }
+    }
+
+    fn value(&self, run: &Run) -> f64 {
+        run.value.map_or(f64::NAN, self.shown)
+    }
+}
+
+pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) {
+    let axis = SweepAxis::of(&sweep.key);
+    page.figures([capture(&axis, sweep, runs), restitution(&axis, sweep, runs)]);
+    page.heading("Numbers");
+    page.table(table(&axis, runs));
+    let later = |run: &&Run| run.totals.captured_later();
+    let most = runs.iter().max_by(|a, b| later(a).total_cmp(&later(b))).filter(|run| later(run) > 0.1);
+    if let Some(run) = most {
+        let totals = &run.totals;
+        let text = later_captures(totals.first_hits(), totals.captured.count, totals.has_carbon);
+        page.text(format!("At {} = {}: {text}", axis.label, number(axis.value(run))));
+    }
+    for reference in &sweep.references {
+        page.note(format!("{}: {}", reference.quantity, reference.source));
+    }
+    if let Some(trouble) = runs.iter().find_map(|run| run.totals.first_trouble.as_ref()) {
+        page.text(format!("Some particles could not be used. The first: {trouble}."));
+    }
+    let most = runs.iter().max_by_key(|run| run.totals.captured.count);
+    if let Some(run) = most.filter(|run| run.totals.captured.count > 0) {
+        let heading = format!("Where particles are captured at {} = {}", axis.label, number(axis.value(run)));
+        page.heading(heading);
+        page.figures(map_figures(&run.totals.results(case)));
+    }
+}
+
+/// Share of first hits that are captured, in percent, and its 95 % interval.
+fn first_capture(totals: &RunTotals) -> [f64; 3] {
+    let [hits, captured] = totals.first_hits();
+    let part = share(captured as f64, hits as f64);
+    let [low, high] = wilson(part, hits as f64);
+    [100.0 * part, 100.0 * low, 100.0 * high]
+}
+
+fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
+    let (mut first, mut errors, mut every) = (Vec::new(), Vec::new(), Vec::new());
+    for run in runs {
+        let [part, low, high] = first_capture(&run.totals);
+        first.push([axis.value(run), part]);
+        errors.push((part - low, high - part));
+        every.push([axis.value(run), 100.0 * captured_mass(&run.totals)]);
+    }
+    let chart = Chart::new("Capture", &axis.label, "captured [%]");
+    let chart = with_references(chart, axis, sweep, "capture", 100.0)
+        .points_with_errors("first hits", &first, &errors)
+        .line("particles, in the end", &every);
+    chart.y_range(0.0, 100.0).figure(
+        "sweep-capture",
+        "Captured share of first hits, with its 95 % interval, and captured share of all mass at the end.",
+    )
+}
+
+fn captured_mass(totals: &RunTotals) -> f64 {
+    share(totals.captured.mass(), totals.injected.mass())
+}
+
+fn restitution(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
+    let (mut points, mut errors, mut rebounds) = (Vec::new(), Vec::new(), Vec::new());
+    for run in runs {
+        let (mean, error) = merged(run, |wall| &wall.first_e_n);
+        points.push([axis.value(run), mean]);
+        errors.push((1.96 * error, 1.96 * error));
+        rebounds.push([axis.value(run), merged(run, |wall| &wall.e_n).0]);
+    }
+    let chart = Chart::new("Normal restitution", &axis.label, "e_n [1]");
+    let chart = with_references(chart, axis, sweep, "e_n", 1.0)
+        .points_with_errors("first hits, captured = 0", &points, &errors)
+        .line("rebounds, all hits", &rebounds);
+    chart.figure(
+        "sweep-restitution",
+        "Mean over first hits with its 95 % interval, where a captured particle counts as 0, and mean over the rebounds of \
+         all hits, first and later.",
+    )
+}
+
+fn with_references(mut chart: Chart, axis: &SweepAxis, sweep: &Sweep, quantity: &str, scale: f64) -> Chart {
+    for reference in sweep.references.iter().filter(|reference| reference.quantity == quantity) {
+        let at = reference.at.iter().map(|value| (axis.shown)(*value));
+        let points: Vec<[f64; 2]> = at.zip(&reference.value).map(|(x, y)| [x, scale * y]).collect();
+        // The first words of the source, up to a comma or colon.
+        let name = reference.source.split([',', ':', ';']).next().unwrap_or(&reference.source);
+        chart = chart.reference(name, &points);
+    }
+    chart
+}
+
+/// Mean over all walls, weighted by counts, and its standard error.
+fn merged(run: &Run, of: impl Fn(&WallTotals) -> &Moments) -> (f64, f64) {
+    let (mut count, mut sum, mut error) = (0.0, 0.0, 0.0);
+    for (_, wall) in &run.totals.walls {
+        let moments = of(wall);
+        let n = moments.count as f64;
+        count += n;
+        sum += n * moments.mean;
+        error += (n * moments.error()).powi(2);
+    }
+    if count == 0.0 { (f64::NAN, 0.0) } else { (sum / count, error.sqrt() / count) }
+}
+
+fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
+    let row = |run: &Run| {
+        let totals = &run.totals;
+        let [hits, captured] = totals.first_hits();
+        let [part, low, high] = first_capture(totals).map(|part| percent(0.01 * part));
+        vec![
+            number(axis.value(run)),
+            hits.to_string(),
+            captured.to_string(),
+            format!("{part} ({low} to {high})"),
+            percent(captured_mass(totals)),
+            number(merged(run, |wall| &wall.first_e_n).0),
+            number(merged(run, |wall| &wall.e_n).0),
+            number(merged(run, |wall| &wall.speed).0),
+            format!("{:.1e}", totals.balance_error()),
+        ]
+    };
+    let header = [
+        axis.label.as_str(),
+        "first hits",
+        "captured",
+        "captured at first hit (95 %)",
+        "captured at the end",
+        "e_n of first hits, captured = 0",
+        "e_n of rebounds, all hits",
+        "speed, all hits [m/s]",
+        "mass balance",
+    ];
+    Table {
+        caption: String::new(),
+        header: header.map(str::to_owned).to_vec(),
+        rows: runs.iter().map(row).collect(),
+        text_columns: 0,
+    }
+}

@@ -1,0 +1,309 @@
+//! Wall results of a run, from whichever program followed the particles.
+//!
+//! [`standalone`] sums up the trajectories of `nearwall simulate`, [`openfoam`] reads the files of a finished case.
+//! Both fill [`RunResults`], which [`crate::report`] draws. Masses are in kg; all numbers count from the start of the
+//! run. A new statistic is a field of [`WallTotals`] that the sources fill and a figure or column that shows it.
+
+pub mod classes;
+pub mod openfoam;
+pub mod standalone;
+mod statistics;
+
+use regex_lite::Regex;
+
+pub use statistics::{Amount, Mass, Moments, bin, share, wilson};
+
+use crate::impact::Regime;
+use classes::Class;
+use openfoam::deposit::DepositState;
+
+/// Number of equal classes of carbon conversion from 0 to 1.
+pub const CONVERSION_BINS: usize = 10;
+
+/// Mass by carbon conversion [kg].
+pub type ByConversion = [f64; CONVERSION_BINS];
+
+/// What happened at one wall up to a time. A source fills the statistics that it has.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WallTotals {
+    /// All hits; `None` when the source does not count them.
+    pub hits: Option<Amount>,
+    /// Hits that ended in capture, with the mass at capture.
+    pub captured: Amount,
+    /// Parcels that left here.
+    pub escaped: Amount,
+    /// Hits of particles that had not hit anything before, and how many of them were captured.
+    pub first_hits: Option<[u64; 2]>,
+    /// Hits in each regime, in the order of [`Regime::ALL`].
+    pub regime_hits: Option<[u64; 4]>,
+    /// Captures in each regime.
+    pub regimes: Option<[Amount; 4]>,
+    /// Captured mass by carbon conversion at capture [kg].
+    pub conversions: Option<ByConversion>,
+    /// Impact speed of all hits [m/s].
+    pub speed: Moments,
+    /// Angle of all hits from the surface [degrees].
+    pub angle: Moments,
+    /// Normal restitution of rebounds [1].
+    pub e_n: Moments,
+    /// Normal restitution of first hits [1]; a capture counts as 0.
+    pub first_e_n: Moments,
+    /// Tangential restitution of rebounds [1].
+    pub e_t: Moments,
+    /// Rebounds by normal and by tangential restitution, in bins of [`standalone::RESTITUTION_STEP`].
+    pub restitutions: [Vec<u64>; 2],
+    /// Carbon conversion of captured particles [1], each particle once.
+    pub captured_conversion: Moments,
+    /// Hits outside the range that a property or a term is stated for.
+    pub outside_range: Option<u64>,
+}
+
+/// Values of one wall over time, in the order of time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct History<T> {
+    /// Name of the wall or patch, or an OpenFOAM pattern of several.
+    pub wall: String,
+    /// Time [s] and the value then.
+    pub rows: Vec<(f64, T)>,
+}
+
+impl<T> History<T> {
+    /// The last value up to a time [s].
+    pub fn at(&self, time: f64) -> Option<&T> {
+        let after = self.rows.partition_point(|(t, _)| *t <= time * (1.0 + 1e-9));
+        after.checked_sub(1).map(|index| &self.rows[index].1)
+    }
+
+    /// Whether a wall belongs to this history, by name or by pattern.
+    pub fn covers(&self, wall: &str) -> bool {
+        self.wall == wall
+            || self.is_pattern()
+                && Regex::new(&format!("^(?:{})$", self.wall)).is_ok_and(|pattern| pattern.is_match(wall))
+    }
+
+    /// Whether the name stands for several patches.
+    pub fn is_pattern(&self) -> bool {
+        self.wall.contains(['(', '*', '|', '[', '.'])
+    }
+}
+
+/// The history of a wall, made when it does not exist.
+pub(crate) fn history_of<'a, T>(histories: &'a mut Vec<History<T>>, wall: &str) -> &'a mut History<T> {
+    let index = histories.iter().position(|history| history.wall == wall).unwrap_or_else(|| {
+        histories.push(History { wall: wall.to_owned(), rows: Vec::new() });
+        histories.len() - 1
+    });
+    &mut histories[index]
+}
+
+/// A particle or parcel that lies on a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Capture {
+    /// Index of the wall in [`RunResults::walls`], when the source tells it.
+    pub wall: Option<usize>,
+    /// Position [m].
+    pub position: [f64; 3],
+    /// Mass of all that it stands for [kg].
+    pub mass: f64,
+    /// Diameter [m].
+    pub diameter: f64,
+    /// Regime of the last hit, when the source tells it.
+    pub regime: Option<Regime>,
+}
+
+/// One arrival at a patch as OpenFOAM's own cloud function records it, before the wall model acts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordedArrival {
+    /// Name of the patch.
+    pub patch: String,
+    /// Time [s].
+    pub time: f64,
+    /// Mass of all particles of the parcel [kg].
+    pub mass: f64,
+    /// Speed [m/s].
+    pub speed: f64,
+    /// Carbon conversion [1], where the cloud has carbon.
+    pub conversion: Option<f64>,
+}
+
+/// Captured mass on the unrolled surface of a wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WallMap {
+    /// Name of the wall.
+    pub wall: String,
+    /// Labels of the two axes, with units.
+    pub axes: [&'static str; 2],
+    /// Ends of both axes [m].
+    pub ranges: [[f64; 2]; 2],
+    /// Place [m] and mass [kg] of each capture.
+    pub places: Vec<([f64; 2], f64)>,
+}
+
+/// Pipes about the z axis, along which captures are drawn.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PipeZones {
+    /// Indices of the pipes in [`RunResults::walls`].
+    pub walls: Vec<usize>,
+    /// Ends of the whole pipe along z [m].
+    pub range: [f64; 2],
+    /// Where a further part begins [m], and its name.
+    pub marks: Vec<(f64, String)>,
+}
+
+/// One line of a mass balance.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct BalanceLine {
+    /// What is counted.
+    pub what: String,
+    /// Number of particles, if it is counted.
+    pub count: Option<u64>,
+    /// Mass [kg], if it is known.
+    pub mass: Option<f64>,
+}
+
+/// The wall model of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum WallModel {
+    /// The case does not name it.
+    #[default]
+    Unknown,
+    /// The impact model of this crate.
+    Nearwall,
+    /// Another model of OpenFOAM, by its name, for instance `localInteraction`.
+    Other(String),
+}
+
+/// Results of one run: a standalone case at one value of its sweep, or one cloud of an OpenFOAM case.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunResults {
+    /// Name of the case.
+    pub case: String,
+    /// Name of the cloud; empty for a standalone case.
+    pub cloud: String,
+    /// What decided the hits.
+    pub wall_model: WallModel,
+    /// The key `stuck` of nearWallInteraction: what becomes of captured parcels.
+    pub stuck: Option<String>,
+    /// Totals of each wall or patch.
+    pub walls: Vec<History<WallTotals>>,
+    /// Patches of type `wall`; empty when the mesh is absent.
+    pub wall_patches: Vec<String>,
+    /// What arrived at each wall by speed, angle and size.
+    pub classes: Vec<History<Vec<Class>>>,
+    /// What lies on each wall that keeps a deposit.
+    pub deposits: Vec<History<DepositState>>,
+    /// Arrivals recorded by OpenFOAM's own cloud function, in the order of time.
+    pub arrivals: Vec<RecordedArrival>,
+    /// Time [s] and injected mass [kg].
+    pub injected: Vec<[f64; 2]>,
+    /// Time [s] and mass [kg] that left through any patch, where a log states it.
+    pub escaped: Vec<[f64; 2]>,
+    /// Mass balance at the last time, and its residual over the injected mass [1].
+    pub balance: Vec<BalanceLine>,
+    /// Injected minus all other terms, over injected [1]; `None` when the source keeps no balance.
+    pub residual: Option<f64>,
+    /// What lies on the walls at the last time.
+    pub captures: Vec<Capture>,
+    /// Maps of the walls whose surface can be unrolled.
+    pub maps: Vec<WallMap>,
+    /// The pipes of a standalone case.
+    pub pipe: Option<PipeZones>,
+    /// Whether the particles contain carbon.
+    pub has_carbon: bool,
+    /// Why the first unusable particle could not be used, with the number of such particles.
+    pub trouble: Option<(u64, String)>,
+    /// What could not be found.
+    pub missing: Vec<String>,
+}
+
+impl RunResults {
+    /// Whether the impact model of this crate decided the hits.
+    pub fn is_ours(&self) -> bool {
+        self.wall_model == WallModel::Nearwall
+    }
+
+    /// Injected mass [kg] up to a time [s].
+    pub fn injected_at(&self, time: f64) -> Option<f64> {
+        self.injected.iter().take_while(|[t, _]| *t <= time * (1.0 + 1e-9)).last().map(|[_, mass]| *mass)
+    }
+
+    /// The last time [s] of which anything is known.
+    pub fn last_time(&self) -> f64 {
+        let tables = self.walls.iter().filter_map(|wall| wall.rows.last()).map(|(time, _)| *time);
+        tables.chain(self.injected.iter().map(|[time, _]| *time)).fold(0.0, f64::max)
+    }
+
+    /// The wall of this name.
+    pub fn wall(&self, name: &str) -> Option<&History<WallTotals>> {
+        self.walls.iter().find(|wall| wall.covers(name))
+    }
+
+    /// Totals of a wall at a time [s].
+    pub fn totals(&self, wall: &str, time: f64) -> Option<&WallTotals> {
+        self.wall(wall)?.at(time)
+    }
+
+    /// Captures at a wall up to a time [s]; `None` when the source counts several patches together.
+    pub fn captured(&self, wall: &str, time: f64) -> Option<Amount> {
+        let history = self.wall(wall)?;
+        let captured = history.at(time)?.captured;
+        (!history.is_pattern() || captured.count == 0).then_some(captured)
+    }
+
+    /// Arrivals at a wall up to a time [s] and their speed: those that the source counts, else those recorded.
+    pub fn arrived(&self, wall: &str, time: f64) -> Option<(Amount, Moments)> {
+        let totals = self.totals(wall, time);
+        if let Some((totals, hits)) = totals.and_then(|totals| Some((totals, totals.hits?))) {
+            return Some((hits, totals.speed));
+        }
+        let (mut hits, mut speed) = (Amount::default(), Moments::default());
+        for arrival in self.recorded(time).filter(|arrival| arrival.patch == wall) {
+            hits.add(arrival.mass);
+            speed.add(arrival.speed);
+        }
+        (!self.arrivals.is_empty()).then_some((hits, speed))
+    }
+
+    /// Recorded arrivals up to a time [s].
+    pub fn recorded(&self, time: f64) -> impl Iterator<Item = &RecordedArrival> {
+        self.arrivals.iter().filter(move |arrival| arrival.time <= time)
+    }
+
+    /// Mass [kg] captured at all walls up to a time [s].
+    pub fn captured_mass(&self, time: f64) -> f64 {
+        self.walls.iter().filter_map(|wall| wall.at(time)).map(|totals| totals.captured.mass()).sum()
+    }
+
+    /// Whether a wall captures every parcel that arrives (a constant `stick`).
+    pub fn captures_all(&self, wall: &str, time: f64) -> bool {
+        match (self.captured(wall, time), self.arrived(wall, time)) {
+            (Some(captured), Some((hits, _))) => {
+                captured.count > 0 && captured.count as f64 >= 0.98 * hits.count as f64
+            }
+            _ => false,
+        }
+    }
+
+    /// Captured mass by conversion at some walls [kg]. For a stock model it is that of the recorded arrivals at walls
+    /// that capture all of them. `None` when nothing is known or nothing was captured.
+    pub fn captured_by_conversion(&self, walls: &[&str], time: f64) -> Option<ByConversion> {
+        let mut sums = ByConversion::default();
+        if self.is_ours() {
+            let covered = self.walls.iter().filter(|wall| walls.iter().any(|name| wall.covers(name)));
+            for totals in covered.filter_map(|wall| wall.at(time)) {
+                sums.iter_mut().zip(totals.conversions?).for_each(|(sum, mass)| *sum += mass);
+            }
+            // Particles without carbon count as fully converted.
+            if !self.has_carbon && sums[..CONVERSION_BINS - 1].iter().all(|sum| *sum == 0.0) {
+                return None;
+            }
+        } else {
+            for wall in walls.iter().filter(|wall| self.captures_all(wall, time)) {
+                for arrival in self.recorded(time).filter(|arrival| arrival.patch == **wall) {
+                    sums[bin(arrival.conversion?, 1.0, CONVERSION_BINS)] += arrival.mass;
+                }
+            }
+        }
+        (sums.iter().sum::<f64>() > 0.0).then_some(sums)
+    }
+}

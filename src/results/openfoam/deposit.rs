@@ -1,0 +1,22 @@
+//! What lies on a patch that keeps a deposit, by the columns of `<patch>.wall.dat`.
+
+/// The columns that are read, in the order of [`DepositState`].
+pub const COLUMNS: [&str; 9] = [
+    "initial_kg",
+    "arrived_kg",
+    "molten_kg",
+    "powder_kg",
+    "drained_kg",
+    "coverage_mean",
+    "coverage_max",
+    "layer_thickness_mean_m",
+    "layer_thickness_max_m",
+];
+
+/// Values of [`COLUMNS`]; NaN for a column that a table does not have.
+pub type DepositState = [f64; COLUMNS.len()];
+
+/// Value of a column; NaN when it is absent.
+pub fn value(state: &DepositState, column: &str) -> f64 {
+    COLUMNS.iter().position(|name| *name == column).map_or(f64::NAN, |index| state[index])
+}

@@ -1,0 +1,223 @@
+//! Results of finished OpenFOAM cases.
+//!
+//! Sources are the tables of nearWallInteraction ([`tables`], [`deposit`]), the counts of the stock models in the logs
+//! ([`log`]), the arrivals that the cloud function `patchPostProcessing` recorded ([`recorded`]), and the captured
+//! parcels of the last written time ([`parcels`]). What is missing is listed in [`RunResults::missing`].
+
+pub mod deposit;
+pub mod log;
+pub mod parcels;
+pub mod recorded;
+pub mod table;
+pub mod tables;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::{BalanceLine, RunResults, WallModel};
+
+/// A folder that holds no case.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CaseError {
+    /// There is no such folder.
+    #[error("{0}: there is no such folder; give the folder of a finished OpenFOAM case")]
+    NoFolder(String),
+    /// The folder is something else; the second text names the cases below it.
+    #[error(
+        "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in{1}"
+    )]
+    NotACase(String, String),
+    /// A case that has not run, or whose results are not where they are looked for; the second text as above.
+    #[error(
+        "{0}: no results found: neither postProcessing/nearWallInteraction nor a log.* with \"Parcel fate\" lines; run \
+         the case first and keep the solver's output in log.<solver>{1}"
+    )]
+    NoResults(String, String),
+}
+
+/// Reads a finished case: one result for each cloud with an injection or a hit.
+///
+/// # Errors
+/// [`CaseError`] when the folder is no case or holds no results.
+pub fn read(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
+    let shown = folder.display().to_string();
+    if !folder.is_dir() {
+        return Err(CaseError::NoFolder(shown));
+    }
+    if !folder.join("system/controlDict").is_file() {
+        return Err(CaseError::NotACase(shown, cases_below(folder)));
+    }
+    let whole = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+    let case = whole.file_name().map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
+    let mut clouds: BTreeMap<String, RunResults> = BTreeMap::new();
+    let tables = folder.join("postProcessing/nearWallInteraction");
+    for cloud in folders(&tables) {
+        tables::read_into(clouds.entry(cloud.clone()).or_default(), &tables.join(&cloud));
+    }
+    for (cloud, log) in log::read_all(folder) {
+        let results = clouds.entry(cloud).or_default();
+        if results.walls.is_empty() {
+            results.walls = log.walls;
+        }
+        if results.injected.is_empty() {
+            results.injected = log.injected;
+        }
+        results.escaped = log.escaped;
+    }
+    clouds.retain(|_, results| is_active(results));
+    if clouds.is_empty() {
+        return Err(CaseError::NoResults(shown, cases_below(folder)));
+    }
+    let names = |(cloud, results)| RunResults { case: case.clone(), cloud, ..results };
+    Ok(clouds.into_iter().map(names).map(|results| complete(folder, results)).collect())
+}
+
+fn is_active(results: &RunResults) -> bool {
+    let mut totals = results.walls.iter().filter_map(|wall| wall.rows.last());
+    results.injected.last().is_some_and(|[_, mass]| *mass > 0.0)
+        || totals.any(|(_, totals)| {
+            let hits = totals.hits.unwrap_or_default();
+            [hits, totals.captured, totals.escaped].iter().any(|amount| amount.count > 0)
+        })
+}
+
+/// A hint at the cases in a folder, one or two levels down; empty when there are none.
+fn cases_below(folder: &Path) -> String {
+    let is_case = |path: &PathBuf| path.join("system/controlDict").is_file();
+    let inside = |path: &Path| folders(path).into_iter().map(|name| path.join(name)).collect::<Vec<_>>();
+    let mut cases = Vec::new();
+    for path in inside(folder) {
+        if is_case(&path) {
+            cases.push(path);
+        } else {
+            cases.extend(inside(&path).into_iter().filter(is_case));
+        }
+    }
+    if cases.is_empty() {
+        return String::new();
+    }
+    let more = if cases.len() > 5 { format!(" and {} more", cases.len() - 5) } else { String::new() };
+    let shown: Vec<String> = cases.iter().take(5).map(|path| path.display().to_string()).collect();
+    format!(". Cases below it: {}{more}", shown.join(" "))
+}
+
+/// Adds what other files of the case state about the cloud.
+fn complete(folder: &Path, mut results: RunResults) -> RunResults {
+    let cloud = results.cloud.clone();
+    let properties = interaction_properties(folder, &cloud);
+    results.wall_model = match properties.as_deref().and_then(|text| entry(text, "patchInteractionModel")) {
+        Some("nearWallInteraction") => WallModel::Nearwall,
+        Some(name) => WallModel::Other(name.to_owned()),
+        None => WallModel::Unknown,
+    };
+    if results.is_ours() {
+        let stuck = properties.as_deref().and_then(|text| entry(text, "stuck"));
+        results.stuck = Some(stuck.unwrap_or("keep").to_owned());
+    }
+    results.wall_patches = wall_patches(folder);
+    let carbon = recorded::Carbon::of(folder, &cloud);
+    results.has_carbon = carbon.is_some();
+    results.arrivals = recorded::read_all(folder, &cloud, carbon.as_ref());
+    let counted =
+        results.walls.iter().any(|wall| wall.rows.last().is_some_and(|(_, row)| row.hits.is_some()));
+    if results.arrivals.is_empty() {
+        let unknown = if counted { "the conversion of arriving parcels is" } else { "arrivals are" };
+        let note =
+            format!("the cloud function patchPostProcessing recorded no arrivals, so {unknown} unknown");
+        results.missing.push(note);
+    } else if carbon.is_none() {
+        let note =
+            "the cloud's properties name no solid carbon, so the conversion of arriving parcels is unknown";
+        results.missing.push(note.to_owned());
+    }
+    match parcels::read_last(folder, &cloud) {
+        Ok(captures) => results.captures = captures,
+        Err(reason) => results.missing.push(reason),
+    }
+    if results.injected.is_empty() {
+        let note = "neither tables nor logs give the injected mass, so shares of it are unknown";
+        results.missing.push(note.to_owned());
+    }
+    complete_balance(&mut results);
+    results
+}
+
+/// Adds to the balance the captured mass and, for a stock model, the injected and the escaped mass.
+fn complete_balance(results: &mut RunResults) {
+    let line = |what: &str, mass| BalanceLine { what: what.to_owned(), count: None, mass };
+    if results.balance.is_empty() {
+        let injected = results.injected.last().map(|[_, mass]| *mass);
+        results.balance = vec![line("injected", injected), line("escaped", escaped_mass(results))];
+    }
+    let captured = results.captured_mass(f64::MAX);
+    results.balance.insert(1, line("captured, mass at capture", Some(captured)));
+}
+
+/// Mass [kg] that has left a case without a balance: what the patches count, else the log's sum over all patches, else
+/// what was recorded at patches that are no walls.
+fn escaped_mass(results: &RunResults) -> Option<f64> {
+    let rows = results.walls.iter().filter_map(|wall| wall.rows.last());
+    let counted: f64 = rows.map(|(_, totals)| totals.escaped.mass()).sum();
+    if counted > 0.0 || results.is_ours() {
+        return Some(counted);
+    }
+    if let Some([_, mass]) = results.escaped.last() {
+        return Some(*mass);
+    }
+    let leaving = results.arrivals.iter().filter(|arrival| !results.wall_patches.contains(&arrival.patch));
+    let recorded: f64 = leaving.map(|arrival| arrival.mass).sum();
+    (!results.wall_patches.is_empty() && recorded > 0.0).then_some(recorded)
+}
+
+/// The text of the file that names the cloud's `patchInteractionModel`: its own properties, else another file of
+/// `constant`.
+fn interaction_properties(folder: &Path, cloud: &str) -> Option<String> {
+    let own = folder.join(format!("constant/{cloud}Properties"));
+    let small = |path: &PathBuf| path.metadata().is_ok_and(|data| data.len() < 1 << 20);
+    let others = table::sorted_files(&folder.join("constant")).into_iter().filter(small);
+    std::iter::once(own).chain(others).find_map(|path| {
+        let text = std::fs::read_to_string(path).ok()?;
+        entry(&text, "patchInteractionModel").is_some_and(|model| model != "none").then_some(text)
+    })
+}
+
+/// The value of a dictionary entry `key value;`.
+fn entry<'a>(text: &'a str, key: &str) -> Option<&'a str> {
+    let mut words = text.split_whitespace().skip_while(|word| *word != key).skip(1);
+    words.next().map(|word| word.trim_end_matches(';')).filter(|word| !word.is_empty())
+}
+
+/// The patches of type `wall` in `constant/polyMesh/boundary`.
+fn wall_patches(folder: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(folder.join("constant/polyMesh/boundary")).unwrap_or_default();
+    let body = text.split_once('(').map_or("", |(_, body)| body);
+    let wall = |entry: &str| {
+        let (name, content) = entry.split_once('{')?;
+        let kind = content.split_whitespace().skip_while(|word| *word != "type").nth(1)?;
+        (kind.trim_end_matches(';') == "wall").then(|| name.trim().to_owned())
+    };
+    body.split('}').filter_map(wall).collect()
+}
+
+/// Sub-folders whose names are times, in the order of time.
+fn time_folders(folder: &Path) -> Vec<(f64, PathBuf)> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut times: Vec<(f64, PathBuf)> = entries
+        .filter(|path| path.is_dir())
+        .filter_map(|path| Some((path.file_name()?.to_str()?.parse::<f64>().ok()?, path)))
+        .filter(|(time, _)| time.is_finite())
+        .collect();
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    times
+}
+
+/// Names of the sub-folders, sorted.
+fn folders(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut names: Vec<String> = entries
+        .filter(|entry| entry.path().is_dir())
+        .map(|entry| entry.file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}

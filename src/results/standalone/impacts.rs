@@ -1,0 +1,108 @@
+//! `impacts.csv`: the hits of a run as a data file.
+
+use std::io::Write;
+
+use crate::impact::INPUTS;
+use crate::simulate::{Case, Hit, Trajectory};
+
+/// Columns before and after the inputs of the data file.
+const BEFORE: [&str; 4] = ["time", "wall", "particle", "hit"];
+const AFTER: [&str; 7] = ["x", "y", "z", "e_n", "e_t", "outcome", "regime"];
+/// Inputs that a standalone case does not set; the file has no column for them.
+const LEFT_OUT: [&str; 5] = ["layer_thickness", "film_thickness", "roughness", "coverage", "melt_thickness"];
+
+/// Writes impacts as a data file that `nearwall predict` and `nearwall diagnose` read, up to a number of rows.
+///
+/// The rows are all hits of the first particles: a fair sample, since particles are drawn alike. The first particle
+/// whose hits do not all fit ends the record. Each value of a sweep has an equal number of rows.
+pub struct ImpactRecorder<W: Write> {
+    writer: csv::Writer<W>,
+    /// Rows for each run of the case.
+    limit: u64,
+    /// Rows left in this run.
+    left: u64,
+    /// Value of the swept quantity in this run.
+    value: Option<f64>,
+    /// Hits that did not fit into the file.
+    pub left_out: u64,
+}
+
+impl<W: Write> ImpactRecorder<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// When the sink cannot be written to.
+    pub fn new(sink: W, case: &Case) -> csv::Result<Self> {
+        let mut writer = csv::Writer::from_writer(sink);
+        let swept = case.sweep.as_ref().map(|sweep| &sweep.key);
+        let inputs = inputs().map(|input| input.name);
+        let header = BEFORE.into_iter().chain(inputs).chain(AFTER).map(str::to_owned);
+        writer.write_record(header.chain(swept.map(|key| format!("swept_{key}"))))?;
+        let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len().max(1));
+        let limit = case.recorded / runs as u64;
+        Ok(Self { writer, limit, left: limit, value: None, left_out: 0 })
+    }
+
+    /// Writes the hits of a particle.
+    ///
+    /// # Errors
+    /// When the sink cannot be written to.
+    pub fn record(
+        &mut self,
+        case: &Case,
+        value: Option<f64>,
+        number: u64,
+        trajectory: &Trajectory,
+    ) -> csv::Result<()> {
+        if value != self.value {
+            (self.value, self.left) = (value, self.limit);
+        }
+        let rows = trajectory.hits.len() as u64;
+        if rows > self.left {
+            self.left_out += rows;
+            self.left = 0;
+            return Ok(());
+        }
+        self.left -= rows;
+        for (index, hit) in trajectory.hits.iter().enumerate() {
+            self.row(case, number, index, hit)?;
+        }
+        Ok(())
+    }
+
+    fn row(&mut self, case: &Case, number: u64, index: usize, hit: &Hit) -> csv::Result<()> {
+        let outcome = &hit.outcome;
+        let surface = case.surfaces[hit.surface].name.clone();
+        let mut cells = vec![text(hit.time), surface, number.to_string(), (index + 1).to_string()];
+        cells.extend(inputs().map(|input| text((input.value)(&hit.impact))));
+        cells.extend(hit.position.iter().map(|coordinate| text(*coordinate)));
+        for restitution in [outcome.normal_restitution, outcome.tangential_restitution] {
+            cells.push(if outcome.stuck { String::new() } else { text(restitution) });
+        }
+        cells.push(if outcome.stuck { "stick" } else { "rebound" }.to_owned());
+        cells.push(outcome.regime.name().to_owned());
+        cells.extend(self.value.map(text));
+        self.writer.write_record(&cells)
+    }
+
+    /// Writes the last rows and returns the sink.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn finish(self) -> Result<W, std::io::Error> {
+        self.writer.into_inner().map_err(|error| error.into_error())
+    }
+}
+
+fn inputs() -> impl Iterator<Item = &'static crate::impact::Input> {
+    INPUTS.iter().filter(|input| !LEFT_OUT.contains(&input.name))
+}
+
+/// The shortest text that reads back as the same number.
+fn text(number: f64) -> String {
+    if number != 0.0 && !(1e-3..1e6).contains(&number.abs()) {
+        format!("{number:e}")
+    } else {
+        number.to_string()
+    }
+}

@@ -1,0 +1,245 @@
+//! Sums over the trajectories of a run: per wall, per exit, and the mass balance.
+
+use super::summary::over;
+use crate::results::{
+    Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, PipeZones, RunResults, WallMap, WallModel,
+    WallTotals, bin,
+};
+use crate::simulate::{Case, Fate, Hit, Shape, Surface, SurfaceKind, Trajectory};
+
+/// Bins of the restitution histograms.
+const RESTITUTION_BINS: usize = 60;
+/// Width of a bin [1].
+pub const RESTITUTION_STEP: f64 = 0.025;
+
+impl WallTotals {
+    /// A wall without a hit, with every statistic that a standalone case has.
+    fn empty() -> Self {
+        Self {
+            hits: Some(Amount::default()),
+            first_hits: Some([0; 2]),
+            regime_hits: Some([0; 4]),
+            regimes: Some([Amount::default(); 4]),
+            conversions: Some([0.0; CONVERSION_BINS]),
+            restitutions: [vec![0; RESTITUTION_BINS], vec![0; RESTITUTION_BINS]],
+            outside_range: Some(0),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a hit; `first` is true for the first hit of a particle.
+    fn add(&mut self, hit: &Hit, first: bool) {
+        let outcome = &hit.outcome;
+        let regime = outcome.regime as usize;
+        self.hits.get_or_insert_default().add(hit.mass);
+        self.regime_hits.get_or_insert_default()[regime] += 1;
+        self.speed.add(hit.impact.speed());
+        self.angle.add(hit.impact.angle_from_surface().to_degrees());
+        *self.outside_range.get_or_insert_default() += u64::from(outcome.outside_range);
+        if first {
+            let [hits, captured] = self.first_hits.get_or_insert_default();
+            *hits += 1;
+            *captured += u64::from(outcome.stuck);
+            self.first_e_n.add(if outcome.stuck { 0.0 } else { outcome.normal_restitution });
+        }
+        if outcome.stuck {
+            self.captured.add(hit.mass);
+            self.regimes.get_or_insert_default()[regime].add(hit.mass);
+            self.captured_conversion.add(hit.impact.conversion);
+            let tenth = bin(hit.impact.conversion, 1.0, CONVERSION_BINS);
+            self.conversions.get_or_insert_default()[tenth] += hit.mass;
+        } else {
+            self.e_n.add(outcome.normal_restitution);
+            self.e_t.add(outcome.tangential_restitution);
+            let values = [outcome.normal_restitution, outcome.tangential_restitution];
+            for (counts, value) in self.restitutions.iter_mut().zip(values) {
+                counts[bin(value, RESTITUTION_STEP * RESTITUTION_BINS as f64, RESTITUTION_BINS)] += 1;
+            }
+        }
+    }
+}
+
+/// Sums over all particles of a run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunTotals {
+    /// Particles that started.
+    pub injected: Amount,
+    /// Mass that reacted away during the flights [kg].
+    pub reacted: Mass,
+    /// Captured, over all walls.
+    pub captured: Amount,
+    /// Left through exits, over all exits.
+    pub escaped: Amount,
+    /// In the gas at the time limit.
+    pub airborne: Amount,
+    /// Given up after too many hits, or at rest on a wall that does not capture them.
+    pub given_up: Amount,
+    /// Not decided or not followed.
+    pub unusable: Amount,
+    /// Why the first unusable particle could not be used.
+    pub first_trouble: Option<String>,
+    /// Index of each wall's surface, and its totals.
+    pub walls: Vec<(usize, WallTotals)>,
+    /// Index of each exit's surface, and what left there.
+    pub exits: Vec<(usize, Amount)>,
+    /// Every capture, in the order of the particles.
+    pub captures: Vec<Capture>,
+    /// Whether a captured particle had carbon left.
+    pub has_carbon: bool,
+}
+
+impl RunTotals {
+    pub(super) fn new(surfaces: &[Surface]) -> Self {
+        let mut totals = Self::default();
+        for (index, surface) in surfaces.iter().enumerate() {
+            match surface.kind {
+                SurfaceKind::Wall { .. } => totals.walls.push((index, WallTotals::empty())),
+                SurfaceKind::Exit => totals.exits.push((index, Amount::default())),
+            }
+        }
+        totals
+    }
+
+    pub(super) fn add(&mut self, trajectory: &Trajectory) {
+        let [before, after] = trajectory.mass;
+        self.injected.add(before);
+        self.reacted.add(before - after);
+        for (number, hit) in trajectory.hits.iter().enumerate() {
+            if let Some((_, wall)) = self.walls.iter_mut().find(|(surface, _)| *surface == hit.surface) {
+                wall.add(hit, number == 0);
+            }
+        }
+        match &trajectory.fate {
+            Fate::Stuck(surface) => {
+                self.captured.add(after);
+                self.has_carbon |= trajectory.conversion < 1.0;
+                if let Some(hit) = trajectory.hits.last() {
+                    self.captures.push(Capture {
+                        wall: self.walls.iter().position(|(index, _)| index == surface),
+                        position: hit.position.into(),
+                        mass: after,
+                        diameter: trajectory.diameter,
+                        regime: Some(hit.outcome.regime),
+                    });
+                }
+            }
+            Fate::Escaped(surface) => {
+                self.escaped.add(after);
+                if let Some((_, amount)) = self.exits.iter_mut().find(|(index, _)| index == surface) {
+                    amount.add(after);
+                }
+            }
+            Fate::Airborne => self.airborne.add(after),
+            Fate::GivenUp => self.given_up.add(after),
+            Fate::Unusable(reason) => {
+                self.unusable.add(after);
+                self.first_trouble.get_or_insert_with(|| reason.clone());
+            }
+        }
+    }
+
+    /// Injected - stuck - escaped - airborne - given up - unusable - reacted mass, over injected [1].
+    pub fn balance_error(&self) -> f64 {
+        let ends = [&self.captured, &self.escaped, &self.airborne, &self.given_up, &self.unusable];
+        let accounted = ends.iter().map(|amount| amount.mass()).sum::<f64>() + self.reacted.total();
+        over(self.injected.mass() - accounted, self.injected.mass())
+    }
+
+    /// First hits on any wall, and how many of them were captured.
+    pub fn first_hits(&self) -> [u64; 2] {
+        self.walls
+            .iter()
+            .filter_map(|(_, wall)| wall.first_hits)
+            .fold([0, 0], |[all, captured], [hits, stuck]| [all + hits, captured + stuck])
+    }
+
+    /// Share of all particles that were captured at a later hit than their first [1].
+    pub fn captured_later(&self) -> f64 {
+        let [_, first] = self.first_hits();
+        over(self.captured.count.saturating_sub(first) as f64, self.injected.count as f64)
+    }
+
+    /// The results for the page.
+    pub fn results(&self, case: &Case) -> RunResults {
+        let surface = |index: usize| &case.surfaces[index];
+        let end = case.time_limit;
+        let injected = self.injected.mass();
+        let history = |(index, totals): &(usize, WallTotals)| History {
+            wall: surface(*index).name.clone(),
+            rows: vec![(end, totals.clone())],
+        };
+        RunResults {
+            case: case.title.clone(),
+            wall_model: WallModel::Nearwall,
+            walls: self.walls.iter().map(history).collect(),
+            injected: vec![[end, injected]],
+            balance: self.balance(case),
+            residual: Some(self.balance_error()),
+            captures: self.captures.clone(),
+            maps: self.maps(case),
+            pipe: self.pipe(case),
+            has_carbon: self.has_carbon,
+            trouble: self.first_trouble.clone().map(|reason| (self.unusable.count, reason)),
+            ..RunResults::default()
+        }
+    }
+
+    fn balance(&self, case: &Case) -> Vec<BalanceLine> {
+        let line = |what: String, amount: &Amount| BalanceLine {
+            what,
+            count: Some(amount.count),
+            mass: Some(amount.mass()),
+        };
+        let mut lines =
+            vec![line("injected".into(), &self.injected), line("captured".into(), &self.captured)];
+        for (surface, amount) in &self.exits {
+            lines.push(line(format!("left through {}", case.surfaces[*surface].name), amount));
+        }
+        lines.push(line("airborne at the time limit".into(), &self.airborne));
+        lines.push(line(format!("given up (more than {} hits, or at rest)", case.hit_limit), &self.given_up));
+        lines.push(line("unusable".into(), &self.unusable));
+        let reacted = Some(self.reacted.total());
+        lines.push(BalanceLine { what: "reacted".into(), count: None, mass: reacted });
+        lines
+    }
+
+    fn maps(&self, case: &Case) -> Vec<WallMap> {
+        let map = |(number, (index, _)): (usize, &(usize, WallTotals))| {
+            let surface = &case.surfaces[*index];
+            let own = self.captures.iter().filter(|capture| capture.wall == Some(number));
+            let places: Vec<([f64; 2], f64)> =
+                own.map(|capture| (surface.shape.unrolled(&capture.position.into()), capture.mass)).collect();
+            let ranges = map_ranges(&surface.shape, &places);
+            WallMap { wall: surface.name.clone(), axes: surface.shape.axes(), ranges, places }
+        };
+        self.walls.iter().enumerate().map(map).filter(|map| !map.places.is_empty()).collect()
+    }
+
+    fn pipe(&self, case: &Case) -> Option<PipeZones> {
+        let mut pipe = PipeZones { range: [f64::INFINITY, f64::NEG_INFINITY], ..PipeZones::default() };
+        for (number, (index, _)) in self.walls.iter().enumerate() {
+            if let Shape::Pipe { zone, .. } = case.surfaces[*index].shape {
+                pipe.walls.push(number);
+                pipe.range = [pipe.range[0].min(zone[0]), pipe.range[1].max(zone[1])];
+                pipe.marks.push((zone[0], case.surfaces[*index].name.clone()));
+            }
+        }
+        let from = pipe.range[0];
+        pipe.marks.retain(|(begin, _)| *begin > from);
+        (!pipe.walls.is_empty()).then_some(pipe)
+    }
+}
+
+/// The part of a wall that its map shows: all of a pipe, the hit part of a plane [m].
+fn map_ranges(shape: &Shape, places: &[([f64; 2], f64)]) -> [[f64; 2]; 2] {
+    if let Shape::Pipe { radius, zone } = shape {
+        let half = std::f64::consts::PI * radius;
+        return [*zone, [-half, half]];
+    }
+    // The outermost hundredth would stretch the map over empty wall.
+    let mut reach: Vec<f64> = places.iter().map(|([a, b], _)| a.abs().max(b.abs())).collect();
+    reach.sort_by(f64::total_cmp);
+    let outer = reach.get((reach.len() * 99 / 100).min(reach.len().saturating_sub(1)));
+    let half = outer.map_or(1e-9, |reach| reach.max(1e-9));
+    [[-half, half]; 2]
+}
