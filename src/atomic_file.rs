@@ -1,5 +1,6 @@
-//! Results are written aside and moved into place when they are whole: a run that fails, or a disk that is full, leaves what
-//! stood there as it was, and nobody reads half a result.
+//! Writes result files atomically: to a temporary file, which replaces the result when it is complete.
+//!
+//! A run that fails or a full disk leaves the previous file unchanged, and no reader sees half a result.
 
 use std::fs::File;
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -7,26 +8,26 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-/// A result on its way.
+/// A result file that is being written.
 pub struct AtomicFile {
     place: PathBuf,
     sink: BufWriter<Sink>,
 }
 
 enum Sink {
-    /// Beside the result's place.
+    /// A temporary file in the folder of the result.
     Scratch(NamedTempFile),
-    /// A device or a pipe: there is nothing to move.
+    /// A device or a pipe, which is written directly.
     Direct(File),
 }
 
 impl AtomicFile {
-    /// Opens the result that is to stand at `place`, which must not be one of the `inputs`.
+    /// Opens the result `place`, which must not be one of the `inputs`.
     ///
     /// # Errors
-    /// Why nothing can be written there, with the place and what to do.
+    /// A message with the path, the cause and the remedy.
     pub fn new(place: &Path, inputs: &[&Path]) -> Result<Self, String> {
-        // A link stays a link: what it leads to is replaced.
+        // A link stays a link: its target is replaced.
         let target = place.canonicalize().unwrap_or_else(|_| place.to_owned());
         if inputs.iter().any(|input| input.canonicalize().is_ok_and(|input| input == target)) {
             return Err(format!(
@@ -38,25 +39,25 @@ impl AtomicFile {
         Ok(Self { place: target, sink: BufWriter::new(sink) })
     }
 
-    /// Puts the whole text there.
+    /// Writes a text.
     ///
     /// # Errors
-    /// As [`Write`], with the place and what to do.
+    /// A message with the path, the cause and the remedy.
     pub fn put(&mut self, text: &str) -> Result<(), String> {
         self.write_all(text.as_bytes()).map_err(|error| refused(&self.place, &error))
     }
 
-    /// Moves results into place once all of them are whole and on the disk.
+    /// Replaces the result files once all new ones are complete and on the disk.
     ///
     /// # Errors
-    /// What could not be written, with its place and what to do.
+    /// A message with the path, the cause and the remedy.
     pub fn commit(results: Vec<Self>) -> Result<(), String> {
         let mut whole = Vec::new();
         for result in results {
             let Self { place, sink } = result;
             let sink = sink.into_inner().map_err(|error| refused(&place, error.error()))?;
             if let Sink::Scratch(scratch) = &sink {
-                // Some file systems say only here that they are full.
+                // Some file systems report only here that they are full.
                 scratch.as_file().sync_all().map_err(|error| refused(&place, &error))?;
             }
             whole.push((place, sink));
@@ -83,7 +84,7 @@ impl Write for AtomicFile {
 impl Write for Sink {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            // The file alone: with its name the system's own error would be hidden.
+            // Directly to the file: the error of `NamedTempFile` hides that of the system.
             Self::Scratch(scratch) => scratch.as_file_mut().write(bytes),
             Self::Direct(file) => file.write(bytes),
         }
@@ -103,20 +104,20 @@ fn open(target: &Path) -> io::Result<Sink> {
         Ok(there) if !there.is_file() => {
             return File::options().write(true).open(target).map(Sink::Direct);
         }
-        // A move would not ask.
+        // Replacing the file would ignore its permissions.
         Ok(there) if there.permissions().readonly() => return Err(ErrorKind::PermissionDenied.into()),
         _ => {}
     }
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".nearwall-").suffix(".part");
-    // As for any new file: what the user's umask leaves of it.
+    // Permissions of any new file; the umask of the user applies.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     builder.tempfile_in(folder).map(Sink::Scratch)
 }
 
-/// The system's error in one of the CSV writer.
+/// The system error within an error of the CSV writer.
 pub fn of_csv(error: csv::Error) -> io::Error {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => error,
@@ -124,7 +125,7 @@ pub fn of_csv(error: csv::Error) -> io::Error {
     }
 }
 
-/// What went wrong at a place, and what to do.
+/// The message for an error at a path, with its remedy.
 pub fn refused(place: &Path, error: &io::Error) -> String {
     let remedy = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
@@ -140,7 +141,7 @@ pub fn refused(place: &Path, error: &io::Error) -> String {
     format!("{}: {}{remedy}", place.display(), reason(error))
 }
 
-/// The system's words where there are; without the path that [`tempfile`] adds: it is that of the scratch.
+/// The message of the system, if any, without the path of the temporary file that [`tempfile`] adds.
 fn reason(error: &io::Error) -> String {
     error
         .raw_os_error()

@@ -1,7 +1,7 @@
-//! Reads the TOML that users write: every key is checked, every error names file, line, column and key.
+//! Reads TOML files of users: every key is checked, every error names file, line, column and key.
 //!
-//! A [`Section`] is one table of the file. Asking it for a key marks the key as known, whether or not it is
-//! there; [`Section::finish`] then refuses whatever nobody asked for and proposes the nearest known key.
+//! A [`Section`] is one table of the file. Reading a key marks it as known, whether or not it is present;
+//! [`Section::finish`] then refuses every unknown key and proposes the nearest known one.
 
 use std::cell::RefCell;
 use std::io::Read;
@@ -11,18 +11,18 @@ use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What is wrong with a file that the user wrote, and what to do about it.
+/// An error in a file of the user, with its remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum InputError {
-    /// The file cannot be read at all.
+    /// The file cannot be read.
     #[error("{path}: cannot be read: {reason}")]
     Unreadable {
         /// The path as the user gave it.
         path: String,
-        /// What the operating system said.
+        /// The message of the operating system.
         reason: String,
     },
-    /// The file can be read, but something in it is at fault.
+    /// The content of the file has an error.
     #[error("{file}:{line}:{column}: {problem}")]
     Fault {
         /// The file's name as the user gave it.
@@ -31,40 +31,40 @@ pub enum InputError {
         line: usize,
         /// Column in characters, counted from 1.
         column: usize,
-        /// The key with its table, then what is wrong and the remedy.
+        /// The key with its table, the error and the remedy.
         problem: String,
     },
 }
 
-/// What a quantity can be: a number beyond it is a slip of the pen, a wrong exponent or unit.
+/// Limits of a quantity. A number outside them means a wrong exponent or unit.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     /// SI unit.
     pub unit: &'static str,
     /// Smallest allowed number.
     pub low: f64,
-    /// Largest allowed number; infinite where nothing is too large.
+    /// Largest allowed number; may be infinite.
     pub high: f64,
-    /// What is known near the ends, for the message; may be empty.
+    /// Known values near the limits, for the message; may be empty.
     pub known: &'static str,
 }
 
 impl Limits {
-    /// Whatever is positive.
+    /// Every positive number.
     pub const fn positive(unit: &'static str) -> Self {
         Self { unit, low: f64::MIN_POSITIVE, high: f64::INFINITY, known: "" }
     }
 
-    /// Whether a number lies within.
+    /// Whether a number lies within the limits.
     pub fn allow(&self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)
     }
 }
 
-/// Nothing larger is read [bytes]: a wrong path must not fill the memory.
+/// Largest file that is read [bytes]: a wrong path must not fill the memory.
 const LARGEST_FILE: u64 = 16 << 20;
 
-/// One user's file: its name for messages and its text.
+/// The text of a file, and its name for messages.
 #[derive(Debug, Clone)]
 pub struct Document {
     name: String,
@@ -72,7 +72,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Takes a text that is already in memory; `name` stands for the file in messages.
+    /// A text in memory; messages call the file `name`.
     pub fn new(name: impl Into<String>, text: impl Into<String>) -> Self {
         Self { name: name.into(), text: text.into() }
     }
@@ -96,7 +96,7 @@ impl Document {
         }
     }
 
-    /// The file's name as it stands in messages.
+    /// The name of the file in messages.
     pub fn name(&self) -> &str {
         &self.name
     }
@@ -106,10 +106,10 @@ impl Document {
         &self.text
     }
 
-    /// Parses the text and hands its top table to `read`, then refuses the keys that `read` did not ask for.
+    /// Parses the text, passes its top table to `read`, then refuses the keys that `read` did not read.
     ///
     /// # Errors
-    /// [`InputError::Fault`] for text that is not TOML, and whatever `read` returns.
+    /// [`InputError::Fault`] for text that is not TOML, and the errors of `read`.
     pub fn read<T>(&self, read: impl FnOnce(&Section<'_>) -> Result<T, InputError>) -> Result<T, InputError> {
         let table = DeTable::parse(&self.text).map_err(|error| {
             self.fault(error.span().unwrap_or(0..0), format!("not valid TOML: {}", error.message()))
@@ -150,17 +150,17 @@ impl<'a> Section<'a> {
         &self.path
     }
 
-    /// All keys that stand in the file, in its order.
+    /// The keys of the table, in the order of the file.
     pub fn keys(&self) -> Vec<String> {
         self.table.keys().map(|key| key.get_ref().to_string()).collect()
     }
 
-    /// Whether the key stands in the file.
+    /// Whether the table has the key.
     pub fn has(&self, key: &str) -> bool {
         self.find(key).is_some()
     }
 
-    /// An error at the place of `key`, or of the whole table when the key is absent.
+    /// An error at the position of `key`, or of the table when the key is absent.
     pub fn fault(&self, key: &str, problem: impl std::fmt::Display) -> InputError {
         let place = self.table.iter().find(|(name, _)| name.get_ref() == key);
         let span = place.map_or(self.span.clone(), |(name, _)| name.span());
@@ -175,7 +175,7 @@ impl<'a> Section<'a> {
         self.find(key).map(|value| self.to_number(key, value)).transpose()
     }
 
-    /// A finite number that must be there.
+    /// A required finite number.
     ///
     /// # Errors
     /// [`InputError::Fault`] when the key is absent or not a finite number.
@@ -207,7 +207,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// The error for a quantity beyond its limits, at a temperature [K] where it depends on that.
+    /// The error for a quantity outside its limits, with the temperature [K] where the quantity depends on it.
     pub fn outside(&self, key: &str, value: f64, temperature: Option<f64>, limits: &Limits) -> InputError {
         let Limits { unit, low, high, known } = *limits;
         let range = range_text(low, high);
@@ -232,7 +232,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A text that must be there.
+    /// A required text.
     ///
     /// # Errors
     /// [`InputError::Fault`] when the key is absent or not a text.
@@ -310,7 +310,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// A table that must be there.
+    /// A required table.
     ///
     /// # Errors
     /// [`InputError::Fault`] when it is absent or not a table.
@@ -356,7 +356,7 @@ impl<'a> Section<'a> {
         }
     }
 
-    /// Refuses the keys that nobody asked for.
+    /// Refuses the keys that were not read.
     ///
     /// # Errors
     /// [`InputError::Fault`] at the first unknown key, with the nearest known one.
@@ -372,7 +372,7 @@ impl<'a> Section<'a> {
         Ok(())
     }
 
-    /// The error for a key that has to be there; a misspelt one is named instead.
+    /// The error for a missing key. Where the table has a misspelt form of it, the error names that instead.
     pub fn missing(&self, key: &str, what: &str) -> InputError {
         let known = self.known.borrow();
         let misspelt = self
@@ -410,7 +410,7 @@ impl<'a> Section<'a> {
             other => return Err(self.wrong_type(key, "a number in SI units", other)),
         };
         match parsed {
-            // A negative zero is a zero: one over it is not to be the wrong infinity.
+            // Negative zero becomes zero, so that its reciprocal has the right sign.
             Some(number) if number.is_finite() => Ok(number + 0.0),
             _ => Err(self.fault(key, "the number is not finite")),
         }
@@ -421,13 +421,13 @@ impl<'a> Section<'a> {
     }
 }
 
-/// Whether one word is likely meant by the other: nearly the same letters, or the same but for case and underscores.
+/// Whether a word probably means another: nearly the same letters, or equal except for case and punctuation.
 pub fn alike(word: &str, meant: &str) -> bool {
     let plain = |w: &str| w.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_lowercase();
     plain(word) == plain(meant) || strsim::jaro_winkler(word, meant) > 0.85
 }
 
-/// "unknown key `x`; did you mean `y`? Known: ...".
+/// The message for an unknown word: "unknown key `x`; did you mean `y`? (known here: ...)".
 pub fn unknown(word: &str, what: &str, known: &[&str]) -> String {
     let likeness = |candidate: &str| strsim::jaro_winkler(word, candidate);
     let nearest = known.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
@@ -450,7 +450,7 @@ fn range_text(low: f64, high: f64) -> String {
     }
 }
 
-/// A number as one would write it: with an exponent where it would be long.
+/// A number, written with an exponent where it would be long otherwise.
 struct Short(f64);
 
 impl std::fmt::Display for Short {

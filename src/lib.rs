@@ -1,8 +1,8 @@
 //! What happens when a particle hits a wall.
 //!
-//! Codes that follow particles through a gas treat a wall hit with two constants. Real particles stick, bounce,
-//! slide or roll depending on speed, angle, size, temperature, melting, carbon conversion and what already lies on
-//! the wall. This crate decides it from physics:
+//! Codes that follow particles through a gas describe a wall impact with two constants. Real particles stick, rebound, slide
+//! or roll, depending on speed, angle, size, temperature, melting, carbon conversion and the deposit on the wall. This crate
+//! decides an impact from physics:
 //!
 //! ```
 //! use nearwall::{ImpactRng, Impact, Model};
@@ -25,11 +25,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What earlier particles left on a wall is a [`deposit`]; a code may keep it and tell the next impacts of it.
+//! # An impact, step by step
+//! All callers (OpenFOAM, the C library, the command) go through [`Model::resolve`]. It runs these steps; none looks back:
 //!
-//! The walk of an impact: [`Impact`] → [`material`] at temperature → [`normal`] law → [`tangential`] law →
-//! [`effect`]s → [`capture`] → [`Outcome`]. The one door is [`Model::resolve`]; OpenFOAM, the C library and the command
-//! all enter there.
+//! 1. [`impact`]: the caller's [`Impact`] holds speeds, size, temperatures and what lies on the wall. The wall adds the powder
+//!    and the covering of its entry in the model file.
+//! 2. [`material`]: the properties of particle and wall at their temperatures give the contact
+//!    ([`Contact`](normal::Contact)). Effects may change it, and may tilt the wall locally.
+//! 3. [`capture`]: how sticky the particle and the wall are, from viscosity ([`slag`]), melting or conversion.
+//! 4. [`normal`]: the normal law gives `e_n`, or says that adhesion holds the particle. Effects change `e_n`; a sticky particle
+//!    loses part of it.
+//! 5. [`tangential`]: the tangential law gives `e_t` and the spin. Effects change them.
+//! 6. [`capture`] again: the probability of capture and the random draw ([`rng`]) decide whether the particle stays.
+//! 7. [`Outcome`]: `e_n`, `e_t`, spin, probability, regime, and whether a law was used outside its stated range.
+//!
+//! An [`effect`] is a named, removable term that acts on some of these steps. `src/model/evaluation.rs` holds the order.
+//!
+//! # Around an impact
+//! [`input`] reads TOML files with errors that name line and key. A [`deposit`] is what earlier particles left on a piece of wall;
+//! a code may keep one for each face and pass it to later impacts. [`c_api`] is the C interface. With the feature `command`,
+//! `dataset` reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas
+//! flow, and `report` draws the pages.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]

@@ -1,21 +1,21 @@
-//! Random draws that are a pure function of a seed, a key and a stream number.
+//! Random numbers as a pure function of seed, key and stream number.
 //!
 //! Philox4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten
-//! rounds scramble a 128-bit counter under a 64-bit key. Nothing is carried from call to call, so the same
-//! impact draws the same number on any thread, rank or restart. It is written here, in twenty lines, because the
-//! bits are part of the C library's contract and must not change with a dependency's version.
+//! rounds scramble a 128-bit counter under a 64-bit key. The generator has no state, so an impact draws the same number on
+//! any thread, rank or restart. It is not taken from a crate: its bits are part of the contract of the C library and must
+//! not change with a dependency.
 
-/// The draws of one impact.
+/// The random numbers of one impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ImpactRng {
     /// The run's seed.
     pub seed: u64,
-    /// What tells this impact from all others of the run.
+    /// Unique key of this impact within the run.
     pub key: u64,
 }
 
 impl ImpactRng {
-    /// Draws for the impact `key` of the run `seed`.
+    /// Random numbers for the impact `key` of the run `seed`.
     pub fn new(seed: u64, key: u64) -> Self {
         Self { seed, key }
     }
@@ -27,8 +27,8 @@ impl ImpactRng {
             [low(self.key), high(self.key), low(stream), high(stream)],
             [low(self.seed), high(self.seed)],
         );
-        // The upper 53 bits `n` of both words as `(n + 1/2) / 2^53`. Numbers of 52 bits in the last bits of 2^84 and 2^52 are
-        // how a vector makes doubles of integers.
+        // The upper 53 bits `n` of both words give `(n + 1/2) / 2^53`. Integers are converted through the last bits of 2^84 and
+        // 2^52, which vector instructions can do.
         let upper = f64::from_bits(TWO_84.to_bits() | a >> 11) - (TWO_84 + TWO_52);
         let lower = f64::from_bits(TWO_52.to_bits() | (a << 21 & 0xFFFF_FFFF) | b >> 11);
         ((upper + lower) + 0.5) * (1.0 / (1u64 << 53) as f64)
@@ -50,7 +50,7 @@ fn high(word: u64) -> u64 {
     word >> 32
 }
 
-/// Words of 32 bits in 64, so that a vector of keys needs no change of width on the way.
+/// Words of 32 bits are kept in 64, so that vectors never change their width.
 #[inline(always)]
 fn philox(mut counter: [u64; 4], mut key: [u64; 2]) -> [u64; 4] {
     const MULTIPLIERS: [u64; 2] = [0xD251_1F53, 0xCD9E_8D57];

@@ -1,14 +1,14 @@
-//! Elementary functions of the impact walk, from plain arithmetic alone.
+//! Exponential and inverse cube root from plain arithmetic.
 //!
-//! A compiler turns them into vector instructions of any width and the bits stay the same: they have no branches and no
-//! tables, and neither fuse nor reorder operations. Those of a C library are other code on other machines.
+//! They have no branches and no tables and neither fuse nor reorder operations, so the compiler turns them into vector
+//! instructions of any width with the same bits. The functions of a C library differ between machines.
 
-/// `exp(x)`, for `x` held within -708 and 709, where the result is a normal number. Relative error below 3e-16.
+/// `exp(x)`, with `x` clamped to -708 to 709, where the result is a normal number. Relative error below 3e-16.
 ///
 /// `x = n ln 2 + r` with `|r| <= ln 2 / 2`, then Taylor's series to `r^13`, whose remainder is 4e-18, in pairs (Estrin).
 #[inline(always)]
 pub(crate) fn exponential(x: f64) -> f64 {
-    /// Added to a small number it leaves the nearest integer in the last bits.
+    /// Adding it to a small number leaves the nearest integer in the last bits.
     const ROUND: f64 = 6_755_399_441_055_744.0;
     /// `ln 2` in two parts (Cody & Waite): the products of the first with whole numbers are exact.
     const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
@@ -23,7 +23,7 @@ pub(crate) fn exponential(x: f64) -> f64 {
     let low = (pair(0) + pair(2) * square) + (pair(4) + pair(6) * square) * fourth;
     let high = (pair(8) + pair(10) * square) + pair(12) * fourth;
     let power = low + high * (fourth * fourth);
-    // The last bits of `shifted` are `n`: they go to the exponent.
+    // The last bits of `shifted` are `n` and are added to the exponent.
     f64::from_bits(power.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
@@ -39,9 +39,9 @@ const INVERSE_FACTORIALS: [f64; 14] = {
     list
 };
 
-/// `x^(-1/3)` for positive `x`, held within 1e-300 and 1e300. Relative error below 3e-16.
+/// `x^(-1/3)` for positive `x`, clamped to 1e-300 to 1e300. Relative error below 3e-16.
 ///
-/// A seed from the bits, good to 3.5 %, then two steps of Householder's method of fourth order: with `h = 1 - x y³`,
+/// A seed from the bits with an error of 3.5 %, then two steps of Householder's method of fourth order: with `h = 1 - x y³`,
 /// `y (1 - h)^(-1/3) = y (1 + h/3 + 2h²/9 + 14h³/81 + ...)`, which leave 1e-5 and then rounding.
 #[inline(always)]
 pub(crate) fn inverse_cube_root(x: f64) -> f64 {
@@ -49,7 +49,7 @@ pub(crate) fn inverse_cube_root(x: f64) -> f64 {
     const SEED: u64 = 0x553e_f0e8;
     let x = if x > 1e-300 { x } else { 1e-300 };
     let x = if x < 1e300 { x } else { 1e300 };
-    // A third of the upper half: a product of 32 bits each, which vectors have, in place of a division.
+    // A third of the upper half: a 32-bit product, which vectors have, instead of a division.
     let third = ((x.to_bits() >> 32) * 0x5555_5556) >> 32;
     let step = |y: f64| {
         let h = 1.0 - ((x * y) * y) * y;

@@ -63,7 +63,7 @@ pub struct CharOnSlag {
 
 /// What becomes of the char.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Fate {
+pub enum CharFate {
     /// It is drawn into the melt.
     Entrapment,
     /// Fresh slag buries it.
@@ -78,7 +78,7 @@ pub enum Fate {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
     /// What becomes of it.
-    pub fate: Fate,
+    pub fate: CharFate,
     /// Kinetic energy left after drag over the work of going under [1]: entrapped from 1 on.
     pub inertia: f64,
     /// Weight less buoyancy over the force that the surface can hold [1]: entrapped from 1 on; negative where it floats.
@@ -141,13 +141,13 @@ impl CharOnSlag {
         let burial = over(self.stay() * self.slag_flux, self.burying_slag());
         let coverage = char_coverage(self.char_flux * PI / 4.0 * self.diameter * self.diameter * self.stay());
         let fate = if inertia >= 1.0 || weight >= 1.0 || immersion >= 1.0 {
-            Fate::Entrapment
+            CharFate::Entrapment
         } else if burial >= 1.0 {
-            Fate::OverLayering
+            CharFate::OverLayering
         } else if coverage >= 0.5 {
-            Fate::SegregationCoverage
+            CharFate::SegregationCoverage
         } else {
-            Fate::Segregation
+            CharFate::Segregation
         };
         Judgement { fate, inertia, weight, immersion, burial, coverage }
     }
@@ -269,7 +269,7 @@ mod tests {
     fn limits() {
         // What the slag wets completely goes under at any speed; what it does not wet at all stands on it.
         let wetted = CharOnSlag { contact_angle: 0.0, normal_speed: 0.0, ..CHAR }.judge();
-        assert_eq!((wetted.fate, wetted.immersion), (Fate::Entrapment, 1.0));
+        assert_eq!((wetted.fate, wetted.immersion), (CharFate::Entrapment, 1.0));
         assert_eq!((wetted.inertia, wetted.weight), (0.0, 0.0));
         assert_eq!(CharOnSlag { contact_angle: PI, ..CHAR }.judge().immersion, 0.0);
         // Light char floats on a floor of slag; a heavy millimetre sinks, a heavy dust grain does not.
@@ -277,14 +277,14 @@ mod tests {
             CharOnSlag { density, diameter, gravity: 9.81, normal_speed: 0.0, ..CHAR }.judge()
         };
         assert!(on_floor(700.0, 75e-6).weight < 0.0);
-        assert_ne!(on_floor(7800.0, 75e-6).fate, Fate::Entrapment);
-        assert_eq!(on_floor(7800.0, 10e-3).fate, Fate::Entrapment);
+        assert_ne!(on_floor(7800.0, 75e-6).fate, CharFate::Entrapment);
+        assert_eq!(on_floor(7800.0, 10e-3).fate, CharFate::Entrapment);
         // No fresh slag, no burial; no other char, no coverage.
         let alone = CharOnSlag { slag_flux: 0.0, char_flux: 0.0, ..CHAR }.judge();
-        assert_eq!((alone.fate, alone.burial, alone.coverage), (Fate::Segregation, 0.0, 0.0));
-        assert_eq!(CharOnSlag { slag_flux: 1.0, ..CHAR }.judge().fate, Fate::OverLayering);
-        assert_eq!(CharOnSlag { char_flux: 1e9, ..CHAR }.judge().fate, Fate::SegregationCoverage);
-        assert_eq!(CharOnSlag { normal_speed: 100.0, ..CHAR }.judge().fate, Fate::Entrapment);
+        assert_eq!((alone.fate, alone.burial, alone.coverage), (CharFate::Segregation, 0.0, 0.0));
+        assert_eq!(CharOnSlag { slag_flux: 1.0, ..CHAR }.judge().fate, CharFate::OverLayering);
+        assert_eq!(CharOnSlag { char_flux: 1e9, ..CHAR }.judge().fate, CharFate::SegregationCoverage);
+        assert_eq!(CharOnSlag { normal_speed: 100.0, ..CHAR }.judge().fate, CharFate::Entrapment);
     }
 
     #[test]
@@ -383,7 +383,10 @@ mod tests {
             }
         }
         println!("largest inertia {}, burial {}", largest[0], largest[1]);
-        assert_eq!(fates.into_iter().collect::<Vec<_>>(), [Fate::Segregation, Fate::SegregationCoverage]);
+        assert_eq!(
+            fates.into_iter().collect::<Vec<_>>(),
+            [CharFate::Segregation, CharFate::SegregationCoverage]
+        );
     }
 
     /// How far that goes: over-layering is excluded while less than `rho_s d (1 - cos theta)/2` of slag arrives during the stay,
@@ -393,8 +396,8 @@ mod tests {
         let slag = Molten { density: 2500.0, ..CHAR.slag };
         let small = CharOnSlag { diameter: 50e-6, contact_angle: 0.5 * PI, burn_time: 5.0, slag, ..CHAR };
         let at = |slag_flux| CharOnSlag { slag_flux, ..small }.judge().fate;
-        assert_eq!(at(0.0624 / 5.0), Fate::Segregation);
-        assert_eq!(at(0.0626 / 5.0), Fate::OverLayering);
+        assert_eq!(at(0.0624 / 5.0), CharFate::Segregation);
+        assert_eq!(at(0.0626 / 5.0), CharFate::OverLayering);
     }
 
     /// The wax of the same section (0.03 N/m, 1000 kg/m³, 0.02 to 0.1 Pa s): drag alone stops it. The surface alone would not,
@@ -407,8 +410,8 @@ mod tests {
         };
         for (diameter, viscosity) in [(50e-6, 0.1), (100e-6, 0.1), (50e-6, 0.02), (100e-6, 0.02)] {
             let judged = wax(diameter, viscosity, 0.5 * PI);
-            assert_eq!((judged.fate, judged.inertia), (Fate::Segregation, 0.0));
-            assert_eq!(wax(diameter, viscosity, 0.0).fate, Fate::Entrapment);
+            assert_eq!((judged.fate, judged.inertia), (CharFate::Segregation, 0.0));
+            assert_eq!(wax(diameter, viscosity, 0.0).fate, CharFate::Entrapment);
         }
         // By hand: 1000 · 100e-6 · 4 / (3 · 0.03 · 1) = 4.44.
         assert_relative_eq!(wax(100e-6, 1e-12, 0.5 * PI).inertia, 4.444, max_relative = 1e-3);

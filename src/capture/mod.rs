@@ -8,7 +8,7 @@ mod criterion;
 mod droplet;
 mod viscosity;
 
-pub use char_on_slag::{CharOnSlag, Fate, Judgement, char_coverage, holding_force, submerging_work};
+pub use char_on_slag::{CharFate, CharOnSlag, Judgement, char_coverage, holding_force, submerging_work};
 pub use criterion::{Criterion, ParticleStickiness, Unsuitable};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
 pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};

@@ -8,7 +8,7 @@
 use crate::impact::ImpactError;
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, UnsuitableComposition, ViscosityLaw};
+use crate::slag::{SlagViscosity, UnsuitableComposition, VISCOSITY_LAWS, ViscosityLaw};
 
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
@@ -22,13 +22,13 @@ const REFERENCE: Limits =
 /// The viscosity criterion of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscosityCriterion {
-    law: ViscosityLaw,
+    law: &'static ViscosityLaw,
     reference: f64,
 }
 
 impl ViscosityCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let names: Vec<&str> = ViscosityLaw::ALL.iter().map(|law| law.name()).collect();
+        let names = VISCOSITY_LAWS.map(|law| law.name);
         let name = section.choice("law", &names)?;
         let law = match name.and_then(|name| ViscosityLaw::from_name(&name)) {
             Some(law) => law,
@@ -42,8 +42,8 @@ impl ViscosityCriterion {
     }
 
     pub(super) fn describe(self) -> String {
-        let range = self.law.stated_for().map_or_else(String::new, |range| format!(", stated for {range}"));
-        format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name(), self.reference)
+        let range = self.law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
+        format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name, self.reference)
     }
 
     /// How sticky a melt is as a function of temperature; `None` for a material with neither a viscosity of its own
@@ -53,8 +53,8 @@ impl ViscosityCriterion {
     /// [`UnsuitableComposition`] when the law cannot be applied to the composition.
     pub fn prepare(self, material: &Material) -> Result<Option<MeltStickiness>, UnsuitableComposition> {
         let melt = match (material.property("viscosity"), material.composition()) {
-            (Some(_), _) => Melt::Given(Box::new(material.clone())),
-            (None, Some(composition)) => Melt::Oxides(SlagViscosity::new(self.law, composition)?),
+            (Some(_), _) => MeltViscosity::Given(Box::new(material.clone())),
+            (None, Some(composition)) => MeltViscosity::Oxides(SlagViscosity::new(self.law, composition)?),
             (None, None) => return Ok(None),
         };
         Ok(Some(MeltStickiness { melt, reference: self.reference }))
@@ -64,12 +64,12 @@ impl ViscosityCriterion {
 /// The criterion for one melt.
 #[derive(Debug, Clone)]
 pub struct MeltStickiness {
-    melt: Melt,
+    melt: MeltViscosity,
     reference: f64,
 }
 
 #[derive(Debug, Clone)]
-enum Melt {
+enum MeltViscosity {
     Oxides(SlagViscosity),
     Given(Box<Material>),
 }
@@ -78,8 +78,8 @@ impl MeltStickiness {
     /// Temperatures [K] at which the viscosity is known.
     pub fn known_range(&self) -> [f64; 2] {
         match &self.melt {
-            Melt::Oxides(_) => [0.0, f64::INFINITY],
-            Melt::Given(material) => material.viscosity_range(),
+            MeltViscosity::Oxides(_) => [0.0, f64::INFINITY],
+            MeltViscosity::Given(material) => material.viscosity_range(),
         }
     }
 
@@ -87,8 +87,8 @@ impl MeltStickiness {
     /// judged: beyond [`Self::known_range`] it is an error.
     pub fn holds_at(&self, temperature: f64) -> bool {
         match &self.melt {
-            Melt::Oxides(law) => law.holds_at(temperature),
-            Melt::Given(_) => true,
+            MeltViscosity::Oxides(law) => law.holds_at(temperature),
+            MeltViscosity::Given(_) => true,
         }
     }
 
@@ -120,8 +120,8 @@ impl MeltStickiness {
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
     pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
         match &self.melt {
-            Melt::Oxides(law) => Ok(law.at(temperature)),
-            Melt::Given(material) => material.viscosity(temperature),
+            MeltViscosity::Oxides(law) => Ok(law.at(temperature)),
+            MeltViscosity::Given(material) => material.viscosity(temperature),
         }
     }
 }

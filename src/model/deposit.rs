@@ -1,4 +1,4 @@
-//! What a model says of a deposit: who is molten on a wall, what an impact meets there, how the melt flows.
+//! Deposits as a model sees them: which particles are molten on a wall, what an impact meets there, how the melt flows.
 
 use super::Model;
 use super::wall::Wall;
@@ -7,25 +7,25 @@ use crate::deposit::{CapturedParticles, Deposit, DepositSource, wetting};
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
 
-/// The melt on a wall.
+/// Properties of the melt on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Melt {
+pub struct WallMelt {
     /// Density [kg/m³].
     pub density: f64,
-    /// Viscosity [Pa s]; infinite where the model knows none, and below the temperatures of a measured one.
+    /// Viscosity [Pa s]; infinite where the model has none, and below the temperatures of a measured one.
     pub viscosity: f64,
 }
 
 impl Model {
-    /// What a particle of this impact adds to the wall when it stays: `mass` of it per area of wall [kg/m²] with the
-    /// particle's `density` [kg/m³].
+    /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²], with the particle's `density`
+    /// [kg/m³].
     ///
-    /// It is molten when it is as sticky at the temperature of the wall as counts for sticky; by the droplet criterion, when the
-    /// wall is hotter than its melting point. A model without a term that looks at the particle's temperature says what it
-    /// said at the impact.
+    /// They are molten when their stickiness at the temperature of the wall reaches [`Stickiness::THRESHOLD`]; by the droplet
+    /// criterion, when the wall is hotter than the melting point. In a model whose stickiness does not depend on the particle
+    /// temperature, their state is that of the impact.
     ///
     /// # Errors
-    /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or a wall that is not there.
+    /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or an unknown wall.
     pub fn add_captured(
         &self,
         wall: usize,
@@ -45,12 +45,12 @@ impl Model {
         Ok(arrivals.with(&CapturedParticles { mass, density, diameter, conversion, molten }))
     }
 
-    /// What the model file says lies on a wall, with a share `voidage` of voids in the powder [1]: where a memory begins. A
-    /// `coverage` alone has no mass, as the file does not tell it; a `layer_thickness` is powder of the particles' density and
-    /// covers as grains of 100 µm do (*assumed*).
+    /// The deposit on a wall according to the model file, with a share `voidage` of voids in the powder [1]: the initial and
+    /// minimum deposit. A `coverage` alone has no mass, which the file does not give; a `layer_thickness` is powder of the
+    /// particles' density and covers the wall as grains of 100 µm do (*assumed*).
     ///
     /// # Errors
-    /// [`ImpactError`] for a voidage without physical meaning, a wall that is not there, or a density that is not known.
+    /// [`ImpactError`] for a voidage without physical meaning, an unknown wall, or an unknown density.
     pub fn initial_deposit(&self, wall: usize, voidage: f64) -> Result<Deposit, ImpactError> {
         check_voidage(voidage)?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
@@ -61,11 +61,11 @@ impl Model {
         Ok(Deposit { powder, solid, cover, ..Deposit::default() })
     }
 
-    /// The impact on a wall with a deposit: its layer of powder with a `voidage` [1], the share that this covers, and the
-    /// thickness of its melt stand in the impact.
+    /// The impact with a deposit on the wall: sets the thickness of the powder layer with a `voidage` [1], the share that it
+    /// covers, and the thickness of the melt.
     ///
     /// # Errors
-    /// [`ImpactError`] for a deposit or a voidage without physical meaning, or a wall that is not there.
+    /// [`ImpactError`] for a deposit or a voidage without physical meaning, or an unknown wall.
     pub fn apply_deposit(
         &self,
         wall: usize,
@@ -88,12 +88,12 @@ impl Model {
         })
     }
 
-    /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the particles. Properties beyond the
-    /// temperatures of their table are those at its end.
+    /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the particles. Outside the temperatures of a
+    /// table, its value at the nearest end is used.
     ///
     /// # Errors
-    /// [`ImpactError::NoSuchWall`], or a density that is not known.
-    pub fn melt(&self, wall: usize, temperature: f64) -> Result<Melt, ImpactError> {
+    /// [`ImpactError::NoSuchWall`], or an unknown density.
+    pub fn melt(&self, wall: usize, temperature: f64) -> Result<WallMelt, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         let (material, viscosity) = match &wall.slag {
             Some(slag) => {
@@ -104,46 +104,46 @@ impl Model {
                 self.stickiness.as_ref().map(|s: &ParticleStickiness| s.film_viscosity(temperature)),
             ),
         };
-        Ok(Melt {
+        Ok(WallMelt {
             density: density_near(material, temperature)?,
             viscosity: viscosity.unwrap_or(f64::INFINITY),
         })
     }
 
-    /// How sticky the wall is [1]: the larger of what the wall says, and the melt that earlier particles left where it wets
+    /// Stickiness of the wall [1]: the larger of that of its slag and that of the melt from earlier particles, where the melt wets
     /// the wall and nothing covers it.
     pub(super) fn wall_stickiness(&self, wall: &Wall, impact: &Impact) -> Result<f64, ImpactError> {
         let own = wall.stickiness(impact)?;
-        if impact.melt_thickness == 0.0 || !self.knows_melting() {
+        if impact.melt_thickness == 0.0 || !self.stickiness_depends_on_temperature() {
             return Ok(own);
         }
         let wet = wetting::share(impact.melt_thickness, impact.diameter) * (1.0 - impact.coverage);
         Ok(own.max(wet * self.stickiness_as_melt(impact, 1.0)))
     }
 
-    /// Whether the melt that lies on the wall is used within the range that the capture criterion is stated for.
+    /// Whether the melt on the wall is within the range for which the capture criterion is stated.
     pub(super) fn melt_holds(&self, impact: &Impact) -> bool {
         let holds = |criterion: &ParticleStickiness| criterion.holds_at(impact.wall_temperature);
         impact.melt_thickness == 0.0 || self.stickiness.as_ref().is_none_or(holds)
     }
 
-    /// How sticky the particle would be with a conversion [1] where it lies on the wall, at the temperature of that: the
-    /// product of what the terms say, 0 when none speaks of it.
+    /// Stickiness [1] of the particle's material on the wall, at the wall's temperature and with a conversion [1]: the product of
+    /// what the capture criterion and the effects give, 0 without any.
     fn stickiness_as_melt(&self, impact: &Impact, conversion: f64) -> f64 {
-        let there = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
+        let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
         let criterion =
             self.stickiness.as_ref().map(|criterion| criterion.as_deposit(impact.wall_temperature));
-        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&there));
+        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&on_wall));
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
-    /// Whether the model says at which temperature its particles melt.
-    fn knows_melting(&self) -> bool {
-        let looks = |term: &crate::effect::Term| {
+    /// Whether the stickiness of the particles depends on their temperature.
+    fn stickiness_depends_on_temperature(&self) -> bool {
+        let depends = |term: &crate::effect::Term| {
             let sticky = term.effect().particle_stickiness(&Impact::default()).is_some();
             sticky && term.kind().inputs.contains(&"T_p")
         };
-        self.stickiness.is_some() || self.terms.iter().any(looks)
+        self.stickiness.is_some() || self.terms.iter().any(depends)
     }
 }
 
@@ -162,7 +162,7 @@ fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> 
     Err(ImpactError::Unusable { quantity, value, reason: "must be finite and not negative" })
 }
 
-/// Density [kg/m³] at a temperature [K], or at the nearest at which it is known.
+/// Density [kg/m³] at a temperature [K], or at the nearest temperature at which it is known.
 fn density_near(material: &Material, temperature: f64) -> Result<f64, ImpactError> {
     let [low, high] = material.density_range();
     material.density(temperature.clamp(low, high))
@@ -215,13 +215,13 @@ width = 0.01
     }
 
     fn captured(impact: &Impact) -> f64 {
-        // A dry particle: what is captured is captured by the wall.
+        // A dry particle: only the wall captures it.
         let dry = Impact { conversion: 0.2, ..*impact };
         model().resolve(0, &dry, ImpactRng::default()).unwrap().sticking_probability
     }
 
     #[test]
-    fn what_freezes_on_the_wall_or_still_has_its_carbon_is_powder() {
+    fn particles_that_freeze_or_contain_carbon_are_powder() {
         let arrive =
             |impact: &Impact| model().add_captured(0, impact, 1.0, 2000.0, DepositSource::default()).unwrap();
         assert_eq!(arrive(&at(1900.0)).molten, 1.0);
@@ -253,7 +253,7 @@ width = 0.01
     }
 
     #[test]
-    fn a_model_that_knows_no_melting_makes_no_wall_sticky() {
+    fn without_a_melting_temperature_no_wall_is_sticky() {
         let text = ASH
             .replace(
                 "[capture]",
@@ -285,9 +285,9 @@ model = "droplet"
 
     /// The wax melts at 80 °C, and its viscosity there is given from 80 to 130 °C.
     #[test]
-    fn by_the_droplet_criterion_what_lies_is_molten_above_the_melting_point() {
+    fn by_the_droplet_criterion_a_deposit_is_molten_above_the_melting_point() {
         let wax = Model::from_toml("m", WAX).unwrap();
-        // Fast enough to splash: it stayed all the same.
+        // Fast enough to splash; captured nevertheless.
         let at = |wall_temperature, particle_temperature| Impact {
             normal_speed: 30.0,
             diameter: 120e-6,
@@ -318,13 +318,13 @@ model = "droplet"
     }
 
     #[test]
-    fn an_impact_is_dressed_with_what_lies_there() {
+    fn a_deposit_sets_the_inputs_of_an_impact() {
         let deposit = Deposit { molten: 0.055, powder: 0.1, solid: 1e-4, cover: 2.0, conversion: 0.5 };
-        let dressed = model().apply_deposit(1, &deposit, 0.5, &at(1700.0)).unwrap();
-        assert_eq!(dressed.layer_thickness, 2e-4);
-        assert_relative_eq!(dressed.coverage, 1.0 - (-2.0_f64).exp(), max_relative = 1e-15);
+        let changed = model().apply_deposit(1, &deposit, 0.5, &at(1700.0)).unwrap();
+        assert_eq!(changed.layer_thickness, 2e-4);
+        assert_relative_eq!(changed.coverage, 1.0 - (-2.0_f64).exp(), max_relative = 1e-15);
         // The slag's 2750 kg/m³ on its wall, the ash's own 2300 elsewhere.
-        assert_relative_eq!(dressed.melt_thickness, 2e-5);
+        assert_relative_eq!(changed.melt_thickness, 2e-5);
         let elsewhere = model().apply_deposit(0, &deposit, 0.5, &at(1700.0)).unwrap();
         assert_relative_eq!(elsewhere.melt_thickness, 0.055 / 2300.0);
         let none = model().apply_deposit(0, &Deposit::default(), 0.5, &at(1700.0)).unwrap();
@@ -334,7 +334,7 @@ model = "droplet"
     /// 1 - exp(-A) = 0.4 for A = ln(1/0.6); 0.2 mm of powder with half voids, of the ash's 2300 kg/m³, covers like a hundred
     /// micrometre grains, 1.5 * 1e-4/1e-4.
     #[test]
-    fn a_memory_begins_with_what_the_file_says() {
+    fn the_initial_deposit_is_that_of_the_model_file() {
         let given = |text: &str| {
             let text = ASH.replace("slag = \"coal-slag\"", &format!("slag = \"coal-slag\"\n{text}"));
             Model::from_toml("m", &text).unwrap().initial_deposit(1, 0.5).unwrap()

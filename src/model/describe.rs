@@ -1,11 +1,11 @@
-//! What a model contains, in words: for `nearwall check`.
+//! The content of a model in words, for `nearwall check`.
 
 use super::Model;
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
 impl Model {
-    /// What the model contains, as pairs of a heading and its numbers with units, in the order of an impact's walk.
+    /// The content of the model as pairs of a heading and its numbers with units, in the order of the steps of an impact.
     pub fn describe(&self) -> Vec<(&'static str, String)> {
         let mut lines = vec![("particle", self.particle.name().to_owned())];
         for wall in &self.walls {

@@ -26,11 +26,11 @@ use crate::normal::{NormalLaw, Speeds};
 use crate::rng::ImpactRng;
 use crate::tangential::TangentialLaw;
 
-pub use deposit::Melt;
+pub use deposit::WallMelt;
 use prepared_wall::PreparedWall;
 pub use wall::Wall;
 
-/// Everything that decides what happens when a particle hits a wall. Immutable once read.
+/// Everything that decides an impact of a particle on a wall. Immutable after reading.
 #[derive(Debug, Clone)]
 pub struct Model {
     particle: Material,
@@ -56,7 +56,7 @@ pub struct TraceEntry {
     pub value: f64,
 }
 
-/// Lowest and highest temperature [K] at which every property is known: 0 and infinity where none has a table.
+/// Lowest and highest temperature [K] at which every property is known; 0 and infinity where no property has a table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TemperatureRanges {
     /// Of the particle.
@@ -74,7 +74,7 @@ impl Model {
         Self::read(&Document::from_file(path)?)
     }
 
-    /// Reads a model from TOML text; `name` stands for the file in messages.
+    /// Reads a model from TOML text; messages call the file `name`.
     ///
     /// # Errors
     /// [`InputError`] naming line, column and key.

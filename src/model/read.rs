@@ -1,4 +1,4 @@
-//! Reads a model from TOML: every key checked, nothing assumed silently.
+//! Reads a model from TOML: every key is checked, nothing is assumed silently.
 
 use regex_lite::Regex;
 
@@ -11,7 +11,7 @@ use crate::material::{Library, Material};
 use crate::normal::{Contact, NormalLaw};
 use crate::tangential::TangentialLaw;
 
-/// As the effect `adhesion-energy` has it.
+/// The limits of the effect `adhesion-energy`.
 const WORK_OF_ADHESION: Limits =
     Limits { unit: "J/m2", low: 0.0, high: 1e3, known: "diamond on diamond some 12" };
 
@@ -28,7 +28,7 @@ impl Model {
     /// # Errors
     /// [`InputError`] naming line, column and key.
     pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
-        // A misspelt table is named before what its absence leads to.
+        // A misspelt table name is reported before the errors that follow from it.
         for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "materials"] {
             top.has(key);
         }
@@ -93,7 +93,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
     Ok((law, Adhesion { yield_ratio, work }))
 }
 
-/// What the walls of a model share.
+/// What all walls of a model have in common.
 struct WallReader<'a> {
     library: &'a Library,
     of_slag: Option<ViscosityCriterion>,
@@ -153,7 +153,7 @@ impl WallReader<'_> {
     }
 }
 
-/// A name with regular-expression characters is one; it has to fit the whole patch name.
+/// A name with regular-expression characters is a regular expression; it has to match the whole patch name.
 fn read_pattern(name: &str, section: &Section<'_>) -> Result<Option<Regex>, InputError> {
     if !name.contains(['*', '+', '?', '|', '(', ')', '[', ']', '^', '$', '\\', '.', '{']) {
         return Ok(None);
@@ -259,7 +259,7 @@ e_t = 0.76
             "m.toml:15:1: capture.reference_viscosity: 7e91 is outside the allowed range 1e-7 to 1e20 \
              (literature 8 to 1e7; glass is solid above 1e12); check the exponent and the unit, Pa s"
         );
-        // No adhesion, however it is written: it used to be an endless one.
+        // A negative zero is no adhesion; it used to be an infinite one.
         let none = SMALLEST.replace("yield_ratio = 0.7", "yield_ratio = 0.7\nwork_of_adhesion = -0.0");
         let speeds = Model::from_toml("m", &none).unwrap().speeds(0, &Impact::default()).unwrap();
         assert_eq!(speeds.adhesive, 0.0);
@@ -291,7 +291,7 @@ e_t = 0.76
     }
 
     #[test]
-    fn a_fitted_viscosity_law_says_where_it_was_not_measured() {
+    fn a_fitted_viscosity_law_reports_where_it_was_not_measured() {
         let outside = |law: &str, silica: f64, temperature: f64| {
             let text = SMALLEST.replace("\"montan-wax\"", "\"own\"")
                 + &format!(
@@ -317,18 +317,18 @@ e_t = 0.76
     }
 
     #[test]
-    fn every_term_is_named_in_the_walk() {
+    fn the_trace_names_every_term() {
         let text = format!(
             "{SMALLEST}[[effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n"
         );
         let model = Model::from_toml("m.toml", &text).unwrap();
         let impact =
             Impact { normal_speed: 2.0, diameter: 80e-6, particle_temperature: 378.15, ..Impact::default() };
-        let (outcome, shares) = model.explain(0, &impact, ImpactRng::default()).unwrap();
+        let (outcome, trace) = model.explain(0, &impact, ImpactRng::default()).unwrap();
         assert_eq!(outcome.regime, Regime::SpNsw);
         assert!(outcome.outside_range, "the wax's solid properties do not hold at 105 °C");
-        let melting = shares.iter().find(|share| share.term == "melting-transition").unwrap();
+        let melting = trace.iter().find(|entry| entry.term == "melting-transition").unwrap();
         assert!((melting.value - 0.93).abs() < 0.01);
-        assert!(shares.iter().any(|share| share.term == "thornton-ning"));
+        assert!(trace.iter().any(|entry| entry.term == "thornton-ning"));
     }
 }

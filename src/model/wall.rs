@@ -1,4 +1,4 @@
-//! One wall of a model: what it is made of and what lies on it.
+//! One wall of a model: its material and what lies on it.
 
 use regex_lite::Regex;
 
@@ -7,13 +7,13 @@ use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
 use crate::normal::Contact;
 
-/// A `[walls.<name>]` table, ready for use.
+/// A `[walls.<name>]` table.
 #[derive(Debug, Clone)]
 pub struct Wall {
     pub(super) name: String,
     pub(super) pattern: Option<Regex>,
     pub(super) material: Material,
-    /// The slag that lies on it.
+    /// The slag on it.
     pub(super) slag: Option<Material>,
     pub(super) melt: Option<MeltStickiness>,
     pub(super) layer_thickness: f64,
@@ -23,7 +23,7 @@ pub struct Wall {
     pub(super) prepared: Option<Contact>,
 }
 
-/// What the model file says of the contact beyond the two materials.
+/// Keys of the model file that change the contact of the two materials.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Adhesion {
     /// `c = p_y / sigma_y` [1].
@@ -38,23 +38,23 @@ impl Wall {
         &self.name
     }
 
-    /// What it is made of.
+    /// Its material.
     pub fn material(&self) -> &Material {
         &self.material
     }
 
-    /// Whether the wall's name is a regular expression that fits the whole of `patch`.
+    /// Whether the name of the wall is a regular expression that matches the whole of `patch`.
     pub(super) fn fits(&self, patch: &str) -> bool {
         self.pattern.as_ref().is_some_and(|pattern| pattern.is_match(patch))
     }
 
-    /// The impact as this wall sees it: with the powder and the covering that the model file puts on the wall.
+    /// The impact with the powder and the covering that the model file puts on the wall.
     ///
     /// A powder layer also covers: one particle diameter of it hides the wall.
     pub(super) fn apply_deposit(&self, impact: &Impact) -> Impact {
         let layer_thickness = impact.layer_thickness.max(self.layer_thickness);
-        let hidden = (layer_thickness / impact.diameter).min(1.0);
-        let coverage = impact.coverage.max(self.coverage).max(hidden);
+        let by_layer = (layer_thickness / impact.diameter).min(1.0);
+        let coverage = impact.coverage.max(self.coverage).max(by_layer);
         Impact { layer_thickness, coverage, ..*impact }
     }
 
@@ -68,7 +68,7 @@ impl Wall {
         Ok(Contact::new(&particle, &wall, self.adhesion.yield_ratio, self.adhesion.work))
     }
 
-    /// How sticky the wall is [1]: that of its slag where no powder or char covers it, else 0.
+    /// Stickiness of the wall [1]: that of its slag where no powder or char covers it, else 0.
     pub(super) fn stickiness(&self, impact: &Impact) -> Result<f64, ImpactError> {
         match &self.melt {
             Some(melt) => Ok(melt.at(impact.wall_temperature)? * (1.0 - impact.coverage)),

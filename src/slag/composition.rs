@@ -19,20 +19,20 @@ pub enum Oxide {
     B2O3,
 }
 
-/// What an oxide does to the silicate network of a melt (Urbain's grouping).
+/// Role of an oxide in the silicate network of a melt (Urbain's grouping).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Role {
+pub enum OxideRole {
     /// Builds the network: more of it makes the melt stiffer.
     GlassFormer,
     /// Breaks the network.
     Modifier,
     /// Builds or breaks it, depending on how much modifier there is to balance its charge.
     Amphoteric,
-    /// Leaves as gas before the ash is a melt; counts in no viscosity law.
+    /// Leaves as gas before the ash melts; enters no viscosity law.
     Volatile,
 }
 
-/// Why a list of oxides is no composition.
+/// Why a list of oxides is not a composition.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CompositionError {
     /// The name is not one of [`Oxide::ALL`].
@@ -88,21 +88,7 @@ impl Oxide {
 
     /// The chemical formula, as files write it.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::SiO2 => "SiO2",
-            Self::Al2O3 => "Al2O3",
-            Self::Fe2O3 => "Fe2O3",
-            Self::FeO => "FeO",
-            Self::CaO => "CaO",
-            Self::MgO => "MgO",
-            Self::Na2O => "Na2O",
-            Self::K2O => "K2O",
-            Self::TiO2 => "TiO2",
-            Self::P2O5 => "P2O5",
-            Self::MnO => "MnO",
-            Self::SO3 => "SO3",
-            Self::B2O3 => "B2O3",
-        }
+        self.name_and_mass().0
     }
 
     /// The oxide of this formula, capitals as in chemistry.
@@ -112,32 +98,36 @@ impl Oxide {
 
     /// Molar mass [kg/mol], from the IUPAC abridged standard atomic weights.
     pub fn molar_mass(self) -> f64 {
+        self.name_and_mass().1
+    }
+
+    fn name_and_mass(self) -> (&'static str, f64) {
         match self {
-            Self::SiO2 => 60.083e-3,
-            Self::Al2O3 => 101.961e-3,
-            Self::Fe2O3 => 159.687e-3,
-            Self::FeO => 71.844e-3,
-            Self::CaO => 56.077e-3,
-            Self::MgO => 40.304e-3,
-            Self::Na2O => 61.979e-3,
-            Self::K2O => 94.195e-3,
-            Self::TiO2 => 79.865e-3,
-            Self::P2O5 => 141.943e-3,
-            Self::MnO => 70.937e-3,
-            Self::SO3 => 80.057e-3,
-            Self::B2O3 => 69.617e-3,
+            Self::SiO2 => ("SiO2", 60.083e-3),
+            Self::Al2O3 => ("Al2O3", 101.961e-3),
+            Self::Fe2O3 => ("Fe2O3", 159.687e-3),
+            Self::FeO => ("FeO", 71.844e-3),
+            Self::CaO => ("CaO", 56.077e-3),
+            Self::MgO => ("MgO", 40.304e-3),
+            Self::Na2O => ("Na2O", 61.979e-3),
+            Self::K2O => ("K2O", 94.195e-3),
+            Self::TiO2 => ("TiO2", 79.865e-3),
+            Self::P2O5 => ("P2O5", 141.943e-3),
+            Self::MnO => ("MnO", 70.937e-3),
+            Self::SO3 => ("SO3", 80.057e-3),
+            Self::B2O3 => ("B2O3", 69.617e-3),
         }
     }
 
-    /// What the oxide does to the network of a silicate melt.
-    pub fn role(self) -> Role {
+    /// Its role in the network of a silicate melt.
+    pub fn role(self) -> OxideRole {
         match self {
-            Self::SiO2 | Self::P2O5 => Role::GlassFormer,
-            Self::Al2O3 | Self::Fe2O3 | Self::B2O3 => Role::Amphoteric,
+            Self::SiO2 | Self::P2O5 => OxideRole::GlassFormer,
+            Self::Al2O3 | Self::Fe2O3 | Self::B2O3 => OxideRole::Amphoteric,
             Self::FeO | Self::CaO | Self::MgO | Self::Na2O | Self::K2O | Self::TiO2 | Self::MnO => {
-                Role::Modifier
+                OxideRole::Modifier
             }
-            Self::SO3 => Role::Volatile,
+            Self::SO3 => OxideRole::Volatile,
         }
     }
 

@@ -20,7 +20,22 @@
 //! The ratio is 0.815 [0.696, 0.964]; it hangs on few slags above 60 wt% SiO2: with one reference (MY1954) left out of
 //! the table the same search gains nothing that is certain, 0.951 [0.786, 1.182].
 
+use super::ViscosityLaw;
 use super::composition::{Composition, Oxide};
+use super::urbain::{KALMANOVITCH_FRANK, viscosity};
+
+/// The law.
+pub static SILICA_CORRECTED: ViscosityLaw = ViscosityLaw {
+    name: "kalmanovitch-frank-silica",
+    stated_for: Some("SiO2 30 to 70, Al2O3 9 to 40, iron oxides up to 22 wt%, 1523 to 2456 K"),
+    coefficients: |composition| {
+        let [factor_before, activation] = (KALMANOVITCH_FRANK.coefficients)(composition)?;
+        let factor = factor(composition).ok_or("it has no oxide that stays in the melt")?;
+        Ok([factor_before * factor, activation])
+    },
+    viscosity,
+    range: |composition| holds_for(composition).then_some(TEMPERATURES),
+};
 
 /// Correction at 40 wt% SiO2 [log10].
 pub const OFFSET: f64 = 0.062123384;

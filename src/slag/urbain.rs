@@ -34,22 +34,26 @@
 //! times too thick). Kalmanovitch–Frank is too thick below 40 wt% SiO2 and too thin above 50. Only 44 of the points
 //! carry iron; on them the errors are 0.30 and 0.42.
 
-use super::composition::{Composition, Oxide, Role};
+use super::composition::{Composition, Oxide, OxideRole};
+use super::{LARGEST_EXPONENT, ViscosityLaw, unlimited};
 
-/// The two numbers that tie `A` to `B`: `-ln A = slope B + intercept`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Constants {
-    /// Factor of `B` [1].
-    pub slope: f64,
-    /// `-ln A` at `B = 0`, `A` in poise/K [1].
-    pub intercept: f64,
-}
+/// Urbain, Cambier, Deletter and Anseau 1981.
+pub static URBAIN: ViscosityLaw = ViscosityLaw {
+    name: "urbain",
+    stated_for: None,
+    coefficients: |composition| weymann(0.2693, 11.6725, composition),
+    viscosity,
+    range: unlimited,
+};
 
-/// Constants of Urbain, Cambier, Deletter and Anseau 1981.
-pub const URBAIN: Constants = Constants { slope: 0.2693, intercept: 11.6725 };
-
-/// Constants of Kalmanovitch and Frank 1988, refitted to coal ash slags.
-pub const KALMANOVITCH_FRANK: Constants = Constants { slope: 0.2812, intercept: 11.8279 };
+/// Kalmanovitch and Frank 1988, refitted to coal ash slags.
+pub static KALMANOVITCH_FRANK: ViscosityLaw = ViscosityLaw {
+    name: "kalmanovitch-frank",
+    stated_for: None,
+    coefficients: |composition| weymann(0.2812, 11.8279, composition),
+    viscosity,
+    range: unlimited,
+};
 
 /// Shares of the three groups of oxides [1]; they add up to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,11 +73,11 @@ impl Groups {
         for (oxide, _) in composition.oxides() {
             let moles = composition.moles(oxide);
             match oxide.role() {
-                Role::GlassFormer => former += moles,
-                Role::Modifier if oxide == Oxide::TiO2 => modifier += 2.0 * moles,
-                Role::Modifier => modifier += moles,
-                Role::Amphoteric => amphoteric += moles,
-                Role::Volatile => {}
+                OxideRole::GlassFormer => former += moles,
+                OxideRole::Modifier if oxide == Oxide::TiO2 => modifier += 2.0 * moles,
+                OxideRole::Modifier => modifier += moles,
+                OxideRole::Amphoteric => amphoteric += moles,
+                OxideRole::Volatile => {}
             }
         }
         let total = former + modifier + amphoteric;
@@ -101,45 +105,19 @@ impl Groups {
     }
 }
 
-/// Weymann's form with the composition worked in: `mu = factor T exp(activation / T)`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Weymann {
-    /// `A` [Pa s/K].
-    factor: f64,
-    /// `1000 B` [K].
-    activation: f64,
-}
-
-impl Weymann {
-    /// `None` when the composition has nothing but volatiles.
-    pub(super) fn new(constants: Constants, composition: &Composition) -> Option<Self> {
-        const PASCAL_SECOND_PER_POISE: f64 = 0.1;
-        let b = Groups::of(composition)?.activation();
-        let factor = PASCAL_SECOND_PER_POISE * (-(constants.slope * b + constants.intercept)).exp();
-        Some(Self { factor, activation: 1000.0 * b })
-    }
-
-    /// The same with a viscosity that is larger by a factor [1] at every temperature.
-    pub(super) fn thickened(self, factor: f64) -> Self {
-        Self { factor: self.factor * factor, ..self }
-    }
-
-    /// Viscosity [Pa s] at a temperature [K] of 1 or more.
-    pub(super) fn at(self, temperature: f64) -> f64 {
-        let exponent = (self.activation / temperature).min(super::LARGEST_EXPONENT);
-        self.factor * temperature * exponent.exp()
-    }
-}
-
-/// Viscosity of the slag [Pa s] at a temperature [K].
+/// Coefficients of Weymann's form `mu = factor T exp(activation / T)`: `A` [Pa s/K] and `1000 B` [K].
 ///
-/// See [`super::SlagViscosity`] for many temperatures, and for a cold slag, where the number stops growing.
-/// Not a number when the temperature is not positive or the composition has nothing but volatiles.
-pub fn viscosity(constants: Constants, composition: &Composition, temperature: f64) -> f64 {
-    match Weymann::new(constants, composition) {
-        Some(law) => super::guarded(temperature, |t| law.at(t)),
-        None => f64::NAN,
-    }
+/// `slope` and `intercept` give `-ln A = slope B + intercept`, with `A` in poise/K.
+fn weymann(slope: f64, intercept: f64, composition: &Composition) -> Result<[f64; 2], &'static str> {
+    const PASCAL_SECOND_PER_POISE: f64 = 0.1;
+    let b = Groups::of(composition).ok_or("it has no oxide that stays in the melt")?.activation();
+    Ok([PASCAL_SECOND_PER_POISE * (-(slope * b + intercept)).exp(), 1000.0 * b])
+}
+
+/// Weymann's form: viscosity [Pa s] at a temperature [K] of 1 or more.
+pub(super) fn viscosity([factor, activation]: [f64; 2], temperature: f64) -> f64 {
+    let exponent = (activation / temperature).min(LARGEST_EXPONENT);
+    factor * temperature * exponent.exp()
 }
 
 #[cfg(test)]
@@ -159,9 +137,9 @@ mod tests {
         assert_relative_eq!(groups.modifier, 0.274033075395623, max_relative = 1e-13);
         assert_relative_eq!(groups.amphoteric, 0.16521759334484115, max_relative = 1e-13);
         assert_relative_eq!(groups.activation(), 30.64288116835506, max_relative = 1e-13);
-        let urbain = viscosity(URBAIN, &simple(), 1700.0);
+        let urbain = URBAIN.at(&simple(), 1700.0);
         assert_relative_eq!(urbain, 25.44183216877954, max_relative = 1e-12);
-        let kalmanovitch_frank = viscosity(KALMANOVITCH_FRANK, &simple(), 1700.0);
+        let kalmanovitch_frank = KALMANOVITCH_FRANK.at(&simple(), 1700.0);
         assert_relative_eq!(kalmanovitch_frank, 15.124931412384822, max_relative = 1e-12);
     }
 
@@ -190,7 +168,7 @@ mod tests {
             0.6080674231747297,
             max_relative = 1e-13
         );
-        let found = viscosity(KALMANOVITCH_FRANK, &slag, 1600.0);
+        let found = KALMANOVITCH_FRANK.at(&slag, 1600.0);
         assert_relative_eq!(found, 32.323808090446065, max_relative = 1e-12);
     }
 
@@ -220,7 +198,7 @@ mod tests {
         let with = |iron: &'static str, share: f64| {
             let oxides = [("SiO2", 45.0), ("Al2O3", 18.0), ("CaO", 7.0), (iron, share)];
             let slag = Composition::new(oxides).unwrap();
-            viscosity(KALMANOVITCH_FRANK, &slag, 1573.0)
+            KALMANOVITCH_FRANK.at(&slag, 1573.0)
         };
         let ratio = with("Fe2O3", 20.0) / with("FeO", 18.0);
         assert!((5.0..12.0).contains(&ratio), "{ratio}");

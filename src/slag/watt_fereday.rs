@@ -19,6 +19,7 @@
 //! Above 50 wt% SiO2 it is 0.18 to 0.30. The law has a pole at 150 °C; it says nothing about a slag that cold.
 
 use super::composition::{Composition, Oxide};
+use super::{LARGEST_EXPONENT, ViscosityLaw, unlimited};
 
 /// Mass of ferric oxide that holds the iron of 1 kg of ferrous oxide [kg].
 const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
@@ -26,52 +27,40 @@ const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
 /// Temperature at which the law has its pole [K].
 const POLE: f64 = 150.0 + 273.15;
 
-/// The law with the composition worked in.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Line {
-    /// `m` [1].
-    slope: f64,
-    /// `c` [1].
-    intercept: f64,
-}
+/// The law.
+pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
+    name: "watt-fereday",
+    stated_for: None,
+    coefficients: |composition| line(composition).ok_or("it has too little SiO2 and Al2O3"),
+    viscosity,
+    range: unlimited,
+};
 
-impl Line {
-    /// `None` when none of the five oxides is there, or when there is so little silica and alumina that `m` is
-    /// not positive: the viscosity would not fall with temperature.
-    pub(super) fn new(composition: &Composition) -> Option<Self> {
-        let share = |oxide| composition.weight_percent(oxide);
-        let iron = share(Oxide::Fe2O3) + FERRIC_PER_FERROUS * share(Oxide::FeO);
-        let (silica, alumina, lime) = (share(Oxide::SiO2), share(Oxide::Al2O3), share(Oxide::CaO));
-        let total = silica + alumina + iron + lime + share(Oxide::MgO);
-        if total <= 0.0 {
-            return None;
-        }
-        let scale = 100.0 / total;
-        let slope = scale * (0.00835 * silica + 0.00601 * alumina) - 0.109;
-        let intercept = scale * (0.0415 * silica + 0.0192 * alumina + 0.0276 * iron + 0.0160 * lime) - 3.92;
-        (slope > 0.0).then_some(Self { slope, intercept })
-    }
-
-    /// Viscosity [Pa s] at a temperature [K].
-    pub(super) fn at(self, temperature: f64) -> f64 {
-        use std::f64::consts::LN_10;
-        // One kelvin above the pole the exponent is far beyond its ceiling already.
-        let above = (temperature - POLE).max(1.0);
-        let log10 = 1e7 * self.slope / (above * above) + self.intercept - 1.0;
-        (LN_10 * log10).min(super::LARGEST_EXPONENT).exp()
-    }
-}
-
-/// Viscosity of the slag [Pa s] at a temperature [K].
+/// `m` and `c` [both 1].
 ///
-/// See [`super::SlagViscosity`] for many temperatures, and for a cold slag, where the number stops growing.
-/// Not a number when the temperature is not positive, when the composition holds none of the five oxides, or when
-/// its silica and alumina are so few that `m` is not positive.
-pub fn viscosity(composition: &Composition, temperature: f64) -> f64 {
-    match Line::new(composition) {
-        Some(law) => super::guarded(temperature, |t| law.at(t)),
-        None => f64::NAN,
+/// `None` when none of the five oxides is present, or when `m` is not positive for lack of silica and alumina: the viscosity
+/// would not fall with temperature.
+fn line(composition: &Composition) -> Option<[f64; 2]> {
+    let share = |oxide| composition.weight_percent(oxide);
+    let iron = share(Oxide::Fe2O3) + FERRIC_PER_FERROUS * share(Oxide::FeO);
+    let (silica, alumina, lime) = (share(Oxide::SiO2), share(Oxide::Al2O3), share(Oxide::CaO));
+    let total = silica + alumina + iron + lime + share(Oxide::MgO);
+    if total <= 0.0 {
+        return None;
     }
+    let scale = 100.0 / total;
+    let slope = scale * (0.00835 * silica + 0.00601 * alumina) - 0.109;
+    let intercept = scale * (0.0415 * silica + 0.0192 * alumina + 0.0276 * iron + 0.0160 * lime) - 3.92;
+    (slope > 0.0).then_some([slope, intercept])
+}
+
+/// Viscosity [Pa s] at a temperature [K].
+fn viscosity([slope, intercept]: [f64; 2], temperature: f64) -> f64 {
+    use std::f64::consts::LN_10;
+    // One kelvin above the pole the exponent is far beyond its ceiling already.
+    let above = (temperature - POLE).max(1.0);
+    let log10 = 1e7 * slope / (above * above) + intercept - 1.0;
+    (LN_10 * log10).min(LARGEST_EXPONENT).exp()
 }
 
 #[cfg(test)]
@@ -84,10 +73,10 @@ mod tests {
     #[test]
     fn three_oxides_by_hand() {
         let slag = Composition::new([("SiO2", 50.0), ("Al2O3", 30.0), ("CaO", 20.0)]).unwrap();
-        let line = Line::new(&slag).unwrap();
-        assert_relative_eq!(line.slope, 0.4888, max_relative = 1e-13);
-        assert_relative_eq!(line.intercept, -0.949, max_relative = 1e-13);
-        let found = viscosity(&slag, 1350.0 + 273.15);
+        let [slope, intercept] = line(&slag).unwrap();
+        assert_relative_eq!(slope, 0.4888, max_relative = 1e-13);
+        assert_relative_eq!(intercept, -0.949, max_relative = 1e-13);
+        let found = WATT_FEREDAY.at(&slag, 1350.0 + 273.15);
         assert_relative_eq!((10.0 * found).log10(), 2.445444444444444, max_relative = 1e-12);
     }
 
@@ -104,14 +93,14 @@ mod tests {
             ("TiO2", 5.0),
         ])
         .unwrap();
-        assert_relative_eq!(viscosity(&slag, 1600.0), 17.648111303620798, max_relative = 1e-12);
+        assert_relative_eq!(WATT_FEREDAY.at(&slag, 1600.0), 17.648111303620798, max_relative = 1e-12);
     }
 
     #[test]
     fn compositions_without_a_slope_have_no_viscosity() {
         let alkali = Composition::new([("Na2O", 1.0), ("K2O", 1.0)]).unwrap();
-        assert!(viscosity(&alkali, 1600.0).is_nan());
+        assert!(WATT_FEREDAY.at(&alkali, 1600.0).is_nan());
         let lime = Composition::new([("CaO", 95.0), ("SiO2", 5.0)]).unwrap();
-        assert!(viscosity(&lime, 1600.0).is_nan());
+        assert!(WATT_FEREDAY.at(&lime, 1600.0).is_nan());
     }
 }

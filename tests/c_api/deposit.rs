@@ -76,7 +76,7 @@ fn the_film_runs_as_nusselt_says() {
         (calls.nw_film_velocity)(model, deposit, t_w, g, out)
     };
     assert_eq!(ask(&deposit, 1600.0, 9.81, &raw mut velocity), NW_OK);
-    let law = nearwall::slag::ViscosityLaw::KalmanovitchFrank;
+    let law = &nearwall::slag::urbain::KALMANOVITCH_FRANK;
     let oxides = [
         ("SiO2", 45.0),
         ("Al2O3", 18.0),
@@ -88,7 +88,7 @@ fn the_film_runs_as_nusselt_says() {
         ("TiO2", 1.0),
         ("P2O5", 0.2),
     ];
-    let viscosity = law.viscosity(&nearwall::slag::Composition::new(oxides).unwrap(), 1600.0);
+    let viscosity = law.at(&nearwall::slag::Composition::new(oxides).unwrap(), 1600.0);
     let by_hand = 2750.0 * 9.81 * 1e-6 / (3.0 * viscosity);
     assert!((velocity / by_hand - 1.0).abs() < 1e-12, "{velocity} {by_hand}");
     assert_eq!(ask(&deposit, 1600.0, 0.0, &raw mut velocity), NW_OK);

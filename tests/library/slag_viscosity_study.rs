@@ -21,12 +21,14 @@
 
 use crate::common::measured_slags::{Measured, measured};
 use nalgebra::{DMatrix, DVector};
-use nearwall::slag::{SlagViscosity, ViscosityLaw, silica_corrected};
+use nearwall::slag::silica_corrected::{self, SILICA_CORRECTED};
+use nearwall::slag::urbain::{KALMANOVITCH_FRANK, URBAIN};
+use nearwall::slag::watt_fereday::WATT_FEREDAY;
+use nearwall::slag::{SlagViscosity, ViscosityLaw};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-const LAWS: [ViscosityLaw; 3] =
-    [ViscosityLaw::WattFereday, ViscosityLaw::Urbain, ViscosityLaw::KalmanovitchFrank];
+const LAWS: [&ViscosityLaw; 3] = [&WATT_FEREDAY, &URBAIN, &KALMANOVITCH_FRANK];
 
 /// Squared ratio of the error between references (0.2 in log10) to the effect that is expected of a term (0.5).
 const RIDGE: f64 = 0.16;
@@ -87,7 +89,7 @@ struct Block {
 }
 
 impl Block {
-    fn new(rows: &[&Measured], columns: &[Column], law: ViscosityLaw) -> Self {
+    fn new(rows: &[&Measured], columns: &[Column], law: &'static ViscosityLaw) -> Self {
         let share = 1.0 / rows.len() as f64;
         let x = DMatrix::from_fn(rows.len(), columns.len(), |i, j| columns[j].1(rows[i]));
         let y = DVector::from_iterator(rows.len(), rows.iter().map(|row| residual(row, law)));
@@ -105,7 +107,7 @@ impl Block {
     }
 }
 
-fn residual(row: &Measured, law: ViscosityLaw) -> f64 {
+fn residual(row: &Measured, law: &'static ViscosityLaw) -> f64 {
     let slag = SlagViscosity::new(law, &row.composition()).unwrap();
     slag.at(row.temperature).log10() - row.log10_viscosity
 }
@@ -229,7 +231,7 @@ fn by_reference(rows: &[Measured], copies: bool) -> Groups<'_> {
     sources.into_iter().map(|source| (source, own(source))).collect()
 }
 
-fn blocks(groups: &Groups, columns: &[Column], law: ViscosityLaw) -> Vec<Block> {
+fn blocks(groups: &Groups, columns: &[Column], law: &'static ViscosityLaw) -> Vec<Block> {
     groups.iter().map(|(_, rows)| Block::new(rows, columns, law)).collect()
 }
 
@@ -247,8 +249,8 @@ fn laws_by_reference() {
     let groups = by_reference(&rows, false);
     assert_eq!(groups.len(), 12);
     assert_eq!(groups.iter().map(|(_, rows)| rows.len()).sum::<usize>(), 1117);
-    let laws: Vec<ViscosityLaw> = LAWS.into_iter().chain([ViscosityLaw::SilicaCorrected]).collect();
-    println!("{:36} rows {:?}", "reference", laws.iter().map(|law| law.name()).collect::<Vec<_>>());
+    let laws: Vec<&'static ViscosityLaw> = LAWS.into_iter().chain([&SILICA_CORRECTED]).collect();
+    println!("{:36} rows {:?}", "reference", laws.iter().map(|law| law.name).collect::<Vec<_>>());
     let columns = dictionary(false);
     let found: Vec<Vec<Block>> = laws.iter().map(|law| blocks(&groups, &columns, *law)).collect();
     for (i, (source, own)) in groups.iter().enumerate() {
@@ -265,7 +267,7 @@ fn laws_by_reference() {
         let [low, high] = interval(raw.len(), rms);
         println!(
             "{}: rms by reference {:.3} [{low:.3}, {high:.3}], bias {bias:+.3}, by row {:.3}",
-            law.name(),
+            law.name,
             mean(&raw).sqrt(),
             by_row(&blocks.iter().collect::<Vec<_>>(), &raw)
         );
@@ -286,7 +288,7 @@ fn the_oxide_to_blame() {
         let base = held_out(&all, &[OFFSET, TAU]);
         println!(
             "{}: raw {:.3}, offset {:.3}, offset and tau {:.3}",
-            law.name(),
+            law.name,
             mean(&raw).sqrt(),
             mean(&offset).sqrt(),
             mean(&base).sqrt()
@@ -316,7 +318,7 @@ fn the_oxide_to_blame() {
         println!(
             "{:20} {name:6} in {carriers:2} references: rms {:.3} -> {:.3}, ratio {ratio:.3} [{low:.3}, {high:.3}], \
              better on {better}, p {:.4}{}",
-            law.name(),
+            law.name,
             mean(before).sqrt(),
             mean(after).sqrt(),
             p[i],
@@ -396,12 +398,12 @@ fn the_extension_on_references_held_out_whole() {
         let blocks = blocks(&groups, &columns, law);
         let all: Vec<&Block> = blocks.iter().collect();
         let unseen = extended(&all, columns.len());
-        println!("--- {}", law.name());
+        println!("--- {}", law.name);
         for ((source, _), fold) in groups.iter().zip(&unseen) {
             let (before, after) = (fold.before.sqrt(), fold.after.sqrt());
             println!("{source:36} {before:.3} -> {after:.3}  {}", names(&columns, &fold.terms));
         }
-        let [_, high] = gain(law.name(), &all, &unseen);
+        let [_, high] = gain(law.name, &all, &unseen);
         let base = held_out(&all, &[OFFSET, TAU]);
         let after: Vec<f64> = unseen.iter().map(|fold| fold.after).collect();
         let (against, [low, upper]) = ratio(&after, &base);
@@ -412,7 +414,7 @@ fn the_extension_on_references_held_out_whole() {
             let [low, high] = interval(all.len(), |draw| fit(draw.iter().map(|d| all[*d]), &terms)[i]);
             println!("    {:12} {:+.9} [{low:+.3}, {high:+.3}]", columns[*term].0, beta[i]);
         }
-        if law == ViscosityLaw::KalmanovitchFrank {
+        if law == &KALMANOVITCH_FRANK {
             let held = |number: &str| unseen.iter().filter(|f| names(&columns, &f.terms) == number).count();
             println!("    silica alone in {} folds", held("1, SiO2"));
             assert_eq!(names(&columns, &terms), "1, SiO2");
@@ -427,7 +429,7 @@ fn the_extension_on_references_held_out_whole() {
 
 /// The 44 rows with iron, each corrected with what other references say.
 fn rows_with_iron(groups: &Groups, columns: &[Column], unseen: &[Unseen]) {
-    let law = ViscosityLaw::KalmanovitchFrank;
+    let law = &KALMANOVITCH_FRANK;
     let (mut count, mut before, mut after) = (0, 0.0, 0.0);
     for ((_, rows), fold) in groups.iter().zip(unseen) {
         let mut left = 0.0;
@@ -451,7 +453,7 @@ fn rows_with_iron(groups: &Groups, columns: &[Column], unseen: &[Unseen]) {
 fn other_choices() {
     let rows = measured();
     let columns = dictionary(true);
-    let law = ViscosityLaw::KalmanovitchFrank;
+    let law = &KALMANOVITCH_FRANK;
     let run = |what: &str, groups: Groups, columns: &[Column]| {
         let blocks = blocks(&groups, columns, law);
         let all: Vec<&Block> = blocks.iter().collect();
@@ -499,7 +501,7 @@ fn other_choices() {
 fn the_stated_range_is_that_of_the_table() {
     let rows = measured();
     for row in &rows {
-        let slag = SlagViscosity::new(ViscosityLaw::SilicaCorrected, &row.composition()).unwrap();
+        let slag = SlagViscosity::new(&SILICA_CORRECTED, &row.composition()).unwrap();
         assert!(slag.holds_at(row.temperature), "{} at {} K", row.source, row.temperature);
     }
     for (oxide, low, high) in silica_corrected::RANGES {
@@ -519,11 +521,11 @@ const BINS: [f64; 9] = [30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.1];
 fn residuals_along_silica() {
     let rows = measured();
     let groups = by_reference(&rows, false);
-    let laws: Vec<ViscosityLaw> = LAWS.into_iter().chain([ViscosityLaw::SilicaCorrected]).collect();
+    let laws: Vec<&'static ViscosityLaw> = LAWS.into_iter().chain([&SILICA_CORRECTED]).collect();
     let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new(); laws.len()];
     println!(
         "SiO2 [wt%], references, rows: mean residual of {:?}",
-        laws.iter().map(|l| l.name()).collect::<Vec<_>>()
+        laws.iter().map(|l| l.name).collect::<Vec<_>>()
     );
     for bin in BINS.windows(2) {
         let inside: Vec<Vec<&Measured>> = groups
@@ -534,7 +536,7 @@ fn residuals_along_silica() {
             })
             .filter(|rows| !rows.is_empty())
             .collect();
-        let bias = |law: ViscosityLaw| {
+        let bias = |law: &'static ViscosityLaw| {
             let of = |rows: &Vec<&Measured>| mean(&rows.iter().map(|r| residual(r, law)).collect::<Vec<_>>());
             mean(&inside.iter().map(of).collect::<Vec<_>>())
         };
@@ -559,13 +561,13 @@ fn keep(figure: &nearwall::report::Figure) {
 }
 
 #[cfg(feature = "command")]
-fn draw_residuals(laws: &[ViscosityLaw], lines: &[Vec<[f64; 2]>]) {
+fn draw_residuals(laws: &[&'static ViscosityLaw], lines: &[Vec<[f64; 2]>]) {
     let chart = nearwall::report::Chart::new(
         "Where the viscosity laws are wrong",
         "SiO2 [wt%]",
         "log10(law) - log10(measured)",
     );
-    let chart = laws.iter().zip(lines).fold(chart, |chart, (law, line)| chart.line(law.name(), line));
+    let chart = laws.iter().zip(lines).fold(chart, |chart, (law, line)| chart.line(law.name, line));
     keep(&chart.x_range(30.0, 70.0).mark_y(0.0, "").figure("slag-viscosity-silica", ""));
 }
 
@@ -585,7 +587,7 @@ fn draw_gain(groups: &Groups, unseen: &[Unseen]) {
 }
 
 #[cfg(not(feature = "command"))]
-fn draw_residuals(_: &[ViscosityLaw], _: &[Vec<[f64; 2]>]) {}
+fn draw_residuals(_: &[&'static ViscosityLaw], _: &[Vec<[f64; 2]>]) {}
 
 #[cfg(not(feature = "command"))]
 fn draw_gain(_: &Groups, _: &[Unseen]) {}

@@ -2,6 +2,8 @@
 
 use crate::Result;
 use nearwall::report::{Chart, Figure, number};
+use nearwall::slag::urbain::{KALMANOVITCH_FRANK, URBAIN};
+use nearwall::slag::watt_fereday::WATT_FEREDAY;
 use nearwall::slag::{SlagViscosity, ViscosityLaw};
 
 use crate::claim::{Claim, Published};
@@ -16,14 +18,11 @@ use measured_slags::{Measured, measured};
 const PLACE: &str = "this project's first reading of the data";
 
 /// Law, the rms error in log10 that was stated for it on the ash window, and the largest difference from it.
-const STATED: [(ViscosityLaw, f64, f64); 3] = [
-    (ViscosityLaw::KalmanovitchFrank, 0.17, 0.02),
-    (ViscosityLaw::Urbain, 0.27, 0.02),
-    (ViscosityLaw::WattFereday, 0.39, 0.02),
-];
+const STATED: [(&ViscosityLaw, f64, f64); 3] =
+    [(&KALMANOVITCH_FRANK, 0.17, 0.02), (&URBAIN, 0.27, 0.02), (&WATT_FEREDAY, 0.39, 0.02)];
 
 /// Measured and predicted log10 viscosity [Pa s] of each row.
-fn pairs(law: ViscosityLaw, rows: &[&Measured]) -> Result<Vec<[f64; 2]>> {
+fn pairs(law: &'static ViscosityLaw, rows: &[&Measured]) -> Result<Vec<[f64; 2]>> {
     let pair = |row: &&Measured| {
         let slag = SlagViscosity::new(law, &row.composition())?;
         Ok([row.log10_viscosity, slag.at(row.temperature).log10()])
@@ -39,7 +38,7 @@ fn error(pairs: &[[f64; 2]]) -> [f64; 2] {
 
 /// A law beside the measured melts.
 struct Found {
-    law: ViscosityLaw,
+    law: &'static ViscosityLaw,
     /// Stated rms error in log10, and how far ours may be off.
     stated: [f64; 2],
     /// Measured and predicted, of all rows and of those without iron.
@@ -52,12 +51,12 @@ impl Found {
         let [rms, bias] = error(&self.all);
         let [without, _] = error(&self.iron_free);
         let [stated, _] = self.stated;
-        vec![self.law.name().to_owned(), number(stated), number(rms), number(bias), number(without)]
+        vec![self.law.name.to_owned(), number(stated), number(rms), number(bias), number(without)]
     }
 
     fn claim(&self) -> Claim {
         let [stated, tolerance] = self.stated;
-        let (name, rows) = (self.law.name(), self.all.len());
+        let (name, rows) = (self.law.name, self.all.len());
         Claim::predicted(
             PLACE,
             &format!("rms error in log10 of `{name}`, all {rows} rows of the ash window"),
@@ -106,10 +105,10 @@ pub fn part() -> Result<Part> {
     })
 }
 
-fn figure(law: ViscosityLaw, found: &[[f64; 2]]) -> Figure {
+fn figure(law: &'static ViscosityLaw, found: &[[f64; 2]]) -> Figure {
     let axes = ["measured log10 viscosity [Pa s]", "predicted log10 viscosity [Pa s]"];
-    let id = format!("checks-viscosity-{}", law.name());
-    Chart::new(law.name(), axes[0], axes[1])
+    let id = format!("checks-viscosity-{}", law.name);
+    Chart::new(law.name, axes[0], axes[1])
         .cloud("melts", found)
         .line("equal", &[[-2.0, -2.0], [5.0, 5.0]])
         .x_range(-2.0, 5.0)

@@ -1,6 +1,6 @@
 //! Section 3.1: what becomes of particles that slag, or molten wax, has caught.
 
-use nearwall::capture::{CharOnSlag, Fate, Judgement};
+use nearwall::capture::{CharFate, CharOnSlag, Judgement};
 use nearwall::material::Molten;
 use nearwall::report::{Table, number};
 
@@ -76,7 +76,7 @@ impl Wall {
     }
 
     fn entrapped(&self, degrees: f64, speed: f64, drag: bool) -> bool {
-        self.judged(degrees, speed, drag).iter().any(|judged| judged.fate == Fate::Entrapment)
+        self.judged(degrees, speed, drag).iter().any(|judged| judged.fate == CharFate::Entrapment)
     }
 
     /// Speed [m/s] at which the first corner is entrapped.
