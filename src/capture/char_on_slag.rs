@@ -1,36 +1,36 @@
-//! What becomes of a char particle that has reached a molten slag layer: the four fates of Montagnaro & Salatino, Combust.
-//! Flame 157 (2010) 874, whose words these are. Their criteria were not at hand: the forms below are derived here, *assumed*.
+//! Fate of a char particle on a molten slag layer: the four fates of Montagnaro & Salatino, Combust. Flame 157 (2010) 874,
+//! in their words. Their criteria were not available: the forms below are derived here, *assumed*.
 //!
 //! *Entrapment*, drawn into the melt. A sphere of radius `R = d/2` crosses a flat surface with the free energy
 //! `F(h) = pi sigma (h² - 2 R h (1 + cos theta))`, `h` [m] the depth to which it is wetted and `theta` [rad] the contact angle
-//! through the slag. It rests at `h = R (1 + cos theta)`; from there, going under costs `W = pi R² sigma (1 - cos theta)²`.
-//! On the way Stokes' drag along one diameter takes `18 mu/(rho_c d)` of speed. So
-//! - by inertia: `m (v_n - 18 mu/(rho_c d))² / 2 >= W`. What wetting gives up to the rest position counts as lost;
+//! through the slag. It rests at `h = R (1 + cos theta)`; from there, submerging takes `W = pi R² sigma (1 - cos theta)²`.
+//! Stokes' drag along one diameter reduces the speed by `18 mu/(rho_c d)`. Therefore, entrapment
+//! - by inertia: `m (v_n - 18 mu/(rho_c d))² / 2 >= W`. The energy released by wetting up to the rest position counts as lost;
 //! - by weight: `(rho_c - rho_s) g` times the sphere's volume against the most the surface can hold, `pi R sigma (1 - cos theta)`;
 //!   only what is denser than the slag sinks, and `g` is the gravity into the layer (0 at a vertical wall);
-//! - by wetting: at `theta = 0` it goes under by itself.
+//! - by wetting: at `theta = 0` it submerges by itself.
 //!
-//! *Over-layering*, buried while it sits there: the height that stands out, `d (1 - cos theta)/2`, is laid down as fresh slag
-//! before the char has burned off or the layer has carried it away. That slag does not lift it is assumed: a particle that rides
-//! on the rising surface is buried later or never.
+//! *Over-layering*, burial on the surface: fresh slag as high as the char stands out, `d (1 - cos theta)/2`, arrives before the
+//! char has burned off or the layer has carried it away. Assumed: slag does not lift the char; a particle that rises with the
+//! surface is buried later or never.
 //!
-//! *Segregation*, it stays on the surface and burns there. *Segregation–coverage*, so much char lies there that the next one
+//! *Segregation*: it stays on the surface and burns there. *Segregation–coverage*: so much char lies there that the next one
 //! hits char rather than slag: with `N = n pi d²/4 t` (`n` char particles a second and area [1/(m² s)], `t` [s] their stay)
-//! the covered share is `N/(1 + N)`, because char that falls on char is not held and covers nothing. The limit is a share of
+//! the covered share is `N/(1 + N)`, because char that hits char is not held and covers nothing. The limit is a share of
 //! one half, as for [`Stickiness::THRESHOLD`](super::Stickiness::THRESHOLD). Discs that overlap make it somewhat smaller: a
 //! simulation of falling discs (in the tests) gives 0.47 where it says 0.5.
 //!
 //! Symbols: `d` [m], `rho_c` [kg/m³], `v_n` [m/s] and `m` [kg] of the char; `sigma` [N/m], `mu` [Pa s] and `rho_s` [kg/m³] of the
 //! slag. Valid for smooth spheres that are small against the capillary
-//! length `sqrt(sigma/(rho_s g))`, some 4 mm for slag, and against the layer's thickness. Left out: porous char soaking up slag,
-//! the contact angle falling by reaction, added mass, solid slag.
+//! length `sqrt(sigma/(rho_s g))`, some 4 mm for slag, and against the layer's thickness. Neglected: slag entering
+//! porous char, a contact angle that falls by reaction, added mass, solid slag.
 //!
-//! `theta` decides much and is known badly: slag is called highly non-wetting on char (AIChE J. 62 (2016) 659, abstract),
+//! The result depends strongly on `theta`, which is poorly known: slag is called highly non-wetting on char (AIChE J. 62 (2016) 659, abstract),
 //! and wets graphite poorly at first, better as it reacts (Mater. Chem. Phys. 2009, a Mn-Ti-silicate slag, abstract).
 //! 90 to 160° is assumed.
 //!
-//! [`Model::resolve`](crate::Model::resolve) does not ask this file: it decides whether a particle stays, and has no memory of
-//! what lies on the wall. What is covered reaches it as the input `coverage`, which [`Judgement::coverage`] can give.
+//! [`Model::resolve`](crate::Model::resolve) does not use this file. The covered share is its input `coverage`, which
+//! [`Judgement::coverage`] can provide.
 
 use std::f64::consts::PI;
 
@@ -61,10 +61,10 @@ pub struct CharOnSlag {
     pub drain_time: f64,
 }
 
-/// What becomes of the char.
+/// Fate of the char.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum CharFate {
-    /// It is drawn into the melt.
+    /// The melt draws it in.
     Entrapment,
     /// Fresh slag buries it.
     OverLayering,
@@ -74,12 +74,12 @@ pub enum CharFate {
     SegregationCoverage,
 }
 
-/// The fate of a char particle and the numbers that decided, in the order in which they are asked.
+/// The fate of a char particle and the numbers that decide it, in the order of their tests.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
-    /// What becomes of it.
+    /// The fate.
     pub fate: CharFate,
-    /// Kinetic energy left after drag over the work of going under [1]: entrapped from 1 on.
+    /// Kinetic energy left after drag over the work of submerging [1]: entrapped from 1 on.
     pub inertia: f64,
     /// Weight less buoyancy over the force that the surface can hold [1]: entrapped from 1 on; negative where it floats.
     pub weight: f64,
@@ -91,7 +91,7 @@ pub struct Judgement {
     pub coverage: f64,
 }
 
-/// Work [J] of pushing a floating sphere under, `pi R² sigma (1 - cos theta)²`, from its diameter [m], the surface tension
+/// Work [J] to submerge a floating sphere, `pi R² sigma (1 - cos theta)²`, from its diameter [m], the surface tension
 /// [N/m] and the contact angle [rad].
 pub fn submerging_work(diameter: f64, surface_tension: f64, contact_angle: f64) -> f64 {
     PI / 4.0 * diameter * diameter * surface_tension * (1.0 - contact_angle.cos()).powi(2)
@@ -108,13 +108,13 @@ pub fn char_coverage(arriving: f64) -> f64 {
     if arriving.is_infinite() { 1.0 } else { arriving / (1.0 + arriving) }
 }
 
-/// A quotient in which nothing over nothing is nothing.
+/// A quotient with 0/0 = 0.
 fn over(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
 impl CharOnSlag {
-    /// How long it stays on the wall unless it is buried, `t` [s].
+    /// Time on the wall without burial, `t` [s].
     pub fn stay(&self) -> f64 {
         self.burn_time.min(self.drain_time)
     }
@@ -124,12 +124,12 @@ impl CharOnSlag {
         (self.normal_speed - 18.0 * self.slag.viscosity / (self.density * self.diameter)).max(0.0)
     }
 
-    /// Fresh slag [kg/m²] that buries it: as high as the char stands out.
+    /// Fresh slag [kg/m²] that buries it, as high as the char stands out.
     pub fn burying_slag(&self) -> f64 {
         0.5 * self.diameter * (1.0 - self.contact_angle.cos()) * self.slag.density
     }
 
-    /// What becomes of it, and why.
+    /// Its fate and the numbers that decide it.
     pub fn judge(&self) -> Judgement {
         let volume = PI / 6.0 * self.diameter.powi(3);
         let energy = 0.5 * self.density * volume * self.speed_left().powi(2);

@@ -1,6 +1,6 @@
-//! The `[capture]` table: which criterion says how sticky the particle is.
+//! The `[capture]` table: the criterion for the stickiness of a particle.
 //!
-//! `viscosity` also judges the slag on a wall. `droplet` judges the particle alone: what lies on a wall has no speed, and is
+//! `viscosity` also applies to the slag on a wall. `droplet` applies to the particle alone: a deposit has no speed and is
 //! sticky when it is molten.
 
 use super::droplet::{Droplet, DropletCriterion};
@@ -13,19 +13,19 @@ use crate::slag::UnsuitableComposition;
 /// The criterion of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Criterion {
-    /// A melt thin enough sticks.
+    /// A melt of low viscosity sticks.
     Viscosity(ViscosityCriterion),
     /// A droplet that does not splash stays.
     Droplet(DropletCriterion),
 }
 
-/// Why a criterion cannot judge a material.
+/// Why a criterion does not apply to a material.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Unsuitable {
-    /// The viscosity law does not know its composition.
+    /// The viscosity law does not apply to its composition.
     #[error(transparent)]
     Composition(#[from] UnsuitableComposition),
-    /// A droplet needs more of it.
+    /// The droplet criterion needs properties that it lacks.
     #[error(
         "`{material}` has no {}, which [capture] model = \"droplet\" needs; give it to the material in [materials.{material}]",
         .lacking.join(", no ")
@@ -59,7 +59,7 @@ impl Criterion {
         }
     }
 
-    /// The criterion that judges slag on a wall, if this one does.
+    /// The criterion for slag on a wall, if this one applies to it.
     pub fn of_slag(self) -> Option<ViscosityCriterion> {
         match self {
             Self::Viscosity(criterion) => Some(criterion),
@@ -67,10 +67,10 @@ impl Criterion {
         }
     }
 
-    /// How sticky particles of a material are; `None` when the criterion has nothing to say of it.
+    /// The criterion for particles of a material; `None` when it does not apply to that.
     ///
     /// # Errors
-    /// [`Unsuitable`] when the criterion needs something that the material does not have.
+    /// [`Unsuitable`] when the material lacks what the criterion needs.
     pub fn of_particle(self, material: &Material) -> Result<Option<ParticleStickiness>, Unsuitable> {
         match self {
             Self::Viscosity(criterion) => Ok(criterion.prepare(material)?.map(ParticleStickiness::Melt)),
@@ -100,10 +100,10 @@ impl ParticleStickiness {
         }
     }
 
-    /// How sticky the particle is [1].
+    /// Stickiness of the particle [1].
     ///
     /// # Errors
-    /// [`ImpactError::OutOfRange`] where a property that counts is not known.
+    /// [`ImpactError::OutOfRange`] where a required property is not known.
     pub fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
         match self {
             Self::Melt(melt) => melt.at(impact.particle_temperature),
@@ -111,8 +111,8 @@ impl ParticleStickiness {
         }
     }
 
-    /// How sticky the material is when it lies on a wall of a temperature [K], [1]. By the droplet criterion what is hotter
-    /// than its melting point is sticky, and nothing else.
+    /// Stickiness [1] of the material on a wall at a temperature [K]. By the droplet criterion it is 1 above the melting point and
+    /// 0 below.
     pub fn as_deposit(&self, temperature: f64) -> f64 {
         match self {
             Self::Melt(melt) => melt.as_deposit(temperature),
@@ -120,7 +120,7 @@ impl ParticleStickiness {
         }
     }
 
-    /// Viscosity [Pa s] of the material as it lies on a wall of a temperature [K]; infinite where it is frozen.
+    /// Viscosity [Pa s] of the material on a wall at a temperature [K]; infinite where it is frozen.
     pub fn film_viscosity(&self, temperature: f64) -> f64 {
         match self {
             Self::Melt(melt) => melt.film_viscosity(temperature),
@@ -128,7 +128,7 @@ impl ParticleStickiness {
         }
     }
 
-    /// Whether a particle of a temperature [K] is a droplet, which splashes or stays whatever wets the wall.
+    /// Whether a particle at a temperature [K] is a droplet, whose capture does not depend on the wall.
     pub fn is_droplet(&self, temperature: f64) -> bool {
         match self {
             Self::Melt(_) => false,
@@ -136,7 +136,7 @@ impl ParticleStickiness {
         }
     }
 
-    /// Temperatures [K] at which a particle can be judged.
+    /// Temperatures [K] at which the criterion can be evaluated.
     pub fn known_range(&self) -> [f64; 2] {
         match self {
             Self::Melt(melt) => melt.known_range(),

@@ -1,4 +1,4 @@
-//! Droplet criterion: a molten particle is deposited where it does not splash (Mundo, Sommerfeld & Tropea 1995).
+//! Droplet criterion: a molten particle is deposited when it does not splash (Mundo, Sommerfeld & Tropea 1995).
 //!
 //! `We = rho v_n² d/sigma`, `Re = rho v_n d/mu`, `K = We^½ Re^¼ = Oh Re^1.25` with `Oh = We^½/Re`. Up to `K_cr` all of the
 //! droplet stays, above it a share of its mass splashes. `rho` density [kg/m³], `sigma` surface tension [N/m] and `mu` viscosity
@@ -10,16 +10,16 @@
 //!
 //! Splashed share of the mass: `min(0.75, 1.8e-4 (K² - K_cr²))`, after O'Rourke & Amsden, SAE 2000-01-0271 (not re-read). They
 //! write `E² = We/(h/d + Re^-½)` with the film's thickness `h`, which is `K²` on a dry wall, and `E_cr = 57.7`; the share meets
-//! its bound at their `E² = 7500`. The codes that are served cannot split a parcel, so the deposited share is taken as the
-//! probability that all of it stays (assumed).
+//! its bound at their `E² = 7500`. Solvers cannot split a parcel, so the deposited share is taken as the probability that all
+//! of it stays (assumed).
 //!
-//! Valid for dry walls. `K_cr` is no constant of nature: water drops of 12 to 100 µm at up to 100 m/s did not splash at all (Visser
-//! et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the highest speed): there `splash_K` has to be larger.
-//! Roughness promotes prompt splashing: there it has to be smaller. Left out: freezing on a cold wall (it flattens and pins the
+//! Valid for dry walls. `K_cr` is not universal: water drops of 12 to 100 µm at up to 100 m/s did not splash at all (Visser
+//! et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the highest speed): in such cases use a larger `splash_K`.
+//! Roughness promotes prompt splashing: use a smaller one. Neglected: freezing on a cold wall (it flattens and pins the
 //! drop, towards capture); a liquid film; the gas, without which drops splash less (arXiv 1203.2718, abstract, as for roughness).
 //! A droplet that does not splash can bounce off whole where it does not wet the wall: aqueous drops of 30 to 50 µm did so on
-//! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion calls them deposited, for
-//! the contact angle is not among the inputs.
+//! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion counts them as deposited,
+//! for the contact angle is not an input.
 
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
@@ -116,8 +116,8 @@ impl Droplet {
         self.material.is_molten(temperature).unwrap_or(false)
     }
 
-    /// Viscosity [Pa s] of what lies on a wall of a temperature [K]: infinite for a solid and where it is colder than a measured
-    /// one, and as at the end of its table where it is hotter.
+    /// Viscosity [Pa s] of a deposit on a wall at a temperature [K]: infinite for a solid and below a measured table, and that at
+    /// the end of the table above it.
     pub fn film_viscosity(&self, temperature: f64) -> f64 {
         let [low, high] = self.material.viscosity_range();
         let liquid = self.is_molten(temperature) && temperature >= low;
@@ -125,7 +125,7 @@ impl Droplet {
         known.flatten().unwrap_or(f64::INFINITY)
     }
 
-    /// Temperatures [K] at which a particle can be judged.
+    /// Temperatures [K] at which the criterion can be evaluated.
     pub fn known_range(&self) -> [f64; 2] {
         let [low, high] = self.material.molten_range();
         // A solid needs no property of the melt.

@@ -1,7 +1,7 @@
 //! Capture: whether a particle stays on the wall. One criterion a file.
 //!
-//! A particle is held in one of two ways, each able to do it alone: adhesion holds it because it is too slow to
-//! leave (the normal law says so), or particle and wall are sticky (melting, conversion, viscosity, a droplet that does not splash).
+//! Either of two mechanisms captures a particle: adhesion holds one that is too slow (see the normal law), or particle and
+//! wall are sticky (melting, conversion, viscosity, a droplet that does not splash).
 
 mod char_on_slag;
 mod criterion;
@@ -13,7 +13,7 @@ pub use criterion::{Criterion, ParticleStickiness, Unsuitable};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
 pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};
 
-/// How sticky the two are, each 0 to 1.
+/// Stickiness of particle and wall, each 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stickiness {
     /// Of the particle, `P_p` [1].
@@ -41,7 +41,7 @@ impl Stickiness {
     /// Probability that a sticky particle or a sticky wall holds the particle [1]:
     /// `P = (P_p + sqrt(P_p² + 4 (1 - P_p) P_s)) / 2`, as in an open solver for slagging gasifiers (Uintah).
     ///
-    /// One sticky partner is enough: `P = 1` for `P_p = 1` or `P_s = 1`; a wall that is not sticky leaves `P = P_p`.
+    /// One sticky surface is enough: `P = 1` for `P_p = 1` or `P_s = 1`; a wall that is not sticky leaves `P = P_p`.
     #[inline(always)]
     pub fn probability(self) -> f64 {
         let Self { particle, wall } = self;

@@ -2,8 +2,8 @@
 //!
 //! `P = min(1, mu_ref / mu(T))`, with `mu` the viscosity of ash or slag [Pa s] at its own temperature and `mu_ref` the
 //! viscosity [Pa s] at and below which every impact sticks. The literature's `mu_ref` spans 8 to 1e7 Pa s: it has no
-//! default. Valid for glassy silicate melts above their critical viscosity temperature; residual carbon is not in it
-//! (that is what `conversion-transition` adds).
+//! default. Valid for glassy silicate melts above their critical viscosity temperature; it does not include residual carbon
+//! (see the effect `conversion-transition`).
 
 use crate::impact::ImpactError;
 use crate::input::{InputError, Limits, Section};
@@ -15,7 +15,7 @@ pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
     (reference / viscosity).min(1.0)
 }
 
-/// From a tenth of the thinnest liquid up to far beyond where a melt counts as a solid glass.
+/// From a tenth of the thinnest liquid to far above the viscosity of a solid glass.
 const REFERENCE: Limits =
     Limits { unit: "Pa s", low: 1e-7, high: 1e20, known: "literature 8 to 1e7; glass is solid above 1e12" };
 
@@ -46,8 +46,8 @@ impl ViscosityCriterion {
         format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name, self.reference)
     }
 
-    /// How sticky a melt is as a function of temperature; `None` for a material with neither a viscosity of its own
-    /// nor an oxide composition. Its own viscosity comes first.
+    /// The criterion for a material; `None` for one with neither a viscosity of its own nor an oxide composition. Its own
+    /// viscosity has priority.
     ///
     /// # Errors
     /// [`UnsuitableComposition`] when the law cannot be applied to the composition.
@@ -83,8 +83,8 @@ impl MeltStickiness {
         }
     }
 
-    /// Whether the viscosity law is stated for this melt at a temperature [K]. A material's own viscosity is not
-    /// judged: beyond [`Self::known_range`] it is an error.
+    /// Whether the viscosity law is stated for this melt at a temperature [K]. A material's own viscosity always holds within
+    /// [`Self::known_range`]; beyond that it is an error.
     pub fn holds_at(&self, temperature: f64) -> bool {
         match &self.melt {
             MeltViscosity::Oxides(law) => law.holds_at(temperature),
@@ -100,14 +100,13 @@ impl MeltStickiness {
         Ok(sticking_probability(self.viscosity(temperature)?, self.reference))
     }
 
-    /// Probability of sticking [1] of melt that lies on a wall of a temperature [K]: frozen where it is colder than a
-    /// measured viscosity, and as at the end of its table where it is hotter.
+    /// Probability of sticking [1] of melt on a wall at a temperature [K], from [`Self::film_viscosity`].
     pub fn as_deposit(&self, temperature: f64) -> f64 {
         sticking_probability(self.film_viscosity(temperature), self.reference)
     }
 
-    /// Viscosity [Pa s] of melt that lies on a wall of a temperature [K]: infinite where it is colder than a measured one,
-    /// and as at the end of its table where it is hotter.
+    /// Viscosity [Pa s] of melt on a wall at a temperature [K]: infinite below a measured table (frozen), and that at the end of
+    /// the table above it.
     pub fn film_viscosity(&self, temperature: f64) -> f64 {
         let [low, high] = self.known_range();
         let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());

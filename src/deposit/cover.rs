@@ -1,16 +1,16 @@
-//! How much of a wall is covered by what does not stick: landing and burying at random.
+//! Share of a wall that non-sticky particles cover: random landing and burial.
 //!
 //! `c = 1 - exp(-A)`, with `c` the covered share [1] and `A` the projected area of the particles per area of wall [1]: each
-//! lands at a random place, overlaps included (a Poisson process of discs). Molten particles bury what they land on: over a
+//! lands at a random place, overlaps included (a Poisson process of discs). Molten particles bury what they hit: over a
 //! step in which a projected area `a` of powder and `b` of melt arrive, evenly mixed, `dA = a ds - b c(A) ds` for `s` from 0
 //! to 1, so with `x = a - b`
 //!
 //! `A(1) = ln(exp(A + x) + b (exp(x) - 1)/x)`.
 //!
-//! A thin cover (`A << 1`) fades as `exp(-b)`, by a factor e for each particle height (`2 d/3`, volume over projected area) of
-//! fresh melt; a thick one goes particle for particle. *Assumed*: that melt covers its own projected area, and that char
+//! A thin cover (`A << 1`) decays as `exp(-b)`, by a factor e for each particle height (`2 d/3`, volume over projected area) of
+//! fresh melt; a thick one disappears particle for particle. *Assumed*: that melt covers its own projected area, and that char
 //! does not float up through melt, sink into it or drift together. Segregation and coverage: Troiano et al., section 1 and
-//! the regimes they cite; they give no law for it.
+//! the regimes they cite; they give no law.
 
 /// Covered share [1] by a projected area of particles per area of wall [1].
 pub fn share(cover: f64) -> f64 {
@@ -25,7 +25,7 @@ pub fn after(before: f64, landed: f64, buried: f64) -> f64 {
     let x = landed - buried;
     let end = before + x;
     let growth = if x == 0.0 { 1.0 } else { x.exp_m1() / x };
-    // The same equation thrice: to the last digit of a thin cover, and without overflow for a thick one.
+    // The same equation in three forms: accurate for a thin cover, and without overflow for a thick one.
     if before <= 30.0 && x <= 30.0 {
         (x.exp() * before.exp_m1() + landed * growth).ln_1p()
     } else if end > 0.0 {

@@ -1,12 +1,12 @@
-//! The deposit: what earlier particles left on a piece of wall, and how it grows.
+//! The deposit: what earlier particles left on a piece of wall, and its growth.
 //!
-//! A code that follows many particles keeps one [`Deposit`] for each piece of wall. Within a step it sums what stays
-//! there in [`DepositSource`] ([`Model::add_captured`]), and adds them at the step's end ([`Deposit::with`]); sums do not depend on the
-//! order of the particles. Each impact is told of the deposit before it is decided ([`Model::apply_deposit`]).
+//! A solver keeps one [`Deposit`] for each piece of wall. Within a time step it sums captured particles in a [`DepositSource`]
+//! ([`Model::add_captured`]) and adds the sum at the end of the step ([`Deposit::with`]); the sum does not depend on the order
+//! of the particles. [`Model::apply_deposit`] sets the inputs of an impact from the deposit.
 //!
 //! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
-//! droplet, or char whose ash does not show. Powder does not melt again and does not burn here; melt that meets a cold wall
-//! later is stiff, by its viscosity.
+//! droplet, or char that encloses its ash. Powder neither melts again nor burns; melt on a wall that cools later is stiff by its
+//! viscosity.
 //!
 //! [`Model::add_captured`]: crate::Model::add_captured
 //! [`Model::apply_deposit`]: crate::Model::apply_deposit
@@ -14,7 +14,7 @@
 pub mod cover;
 pub mod wetting;
 
-/// What lies on a piece of wall, per area of that wall.
+/// Deposit on a piece of wall, per area of that wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deposit {
     /// Molten mass [kg/m²].
@@ -25,11 +25,11 @@ pub struct Deposit {
     pub solid: f64,
     /// Projected area of the powder's particles [1], overlaps counted.
     pub cover: f64,
-    /// Carbon conversion of all that lies there, its mean by mass [1].
+    /// Mean carbon conversion by mass [1].
     pub conversion: f64,
 }
 
-/// What arrived on a piece of wall and stayed, summed, per area of that wall.
+/// Sum of captured particles on a piece of wall, per area of that wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DepositSource {
     /// Molten mass [kg/m²].
@@ -46,10 +46,10 @@ pub struct DepositSource {
     pub converted: f64,
 }
 
-/// One kind of particle that stays.
+/// Captured particles of one kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CapturedParticles {
-    /// Its mass on an area of wall [kg/m²].
+    /// Their mass per area of wall [kg/m²].
     pub mass: f64,
     /// Density of the particles [kg/m³].
     pub density: f64,
@@ -62,7 +62,7 @@ pub struct CapturedParticles {
 }
 
 impl DepositSource {
-    /// With one more arrival. Spheres of diameter `d`, density `rho` and mass `m` on an area have a projected area of
+    /// The sum with further particles. Spheres of diameter `d`, density `rho` and mass `m` on an area have a projected area of
     /// `3 m/(2 rho d)` on it.
     #[must_use]
     pub fn with(self, arrival: &CapturedParticles) -> Self {
@@ -84,7 +84,7 @@ impl Deposit {
         self.molten + self.powder
     }
 
-    /// The deposit after arrivals, in whatever order they came. Powder that melt buries becomes part of the melt.
+    /// The deposit after captured particles were added. Powder that melt buries becomes part of the melt.
     #[must_use]
     pub fn with(self, arrivals: &DepositSource) -> Self {
         let mass = self.mass() + arrivals.molten + arrivals.powder;
@@ -111,7 +111,7 @@ impl Deposit {
     }
 
     /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it: 0.5 is a usual assumption, between
-    /// 0.4 of a dense random packing and what loose cohesive powder shows.
+    /// 0.4 of a dense random packing and the higher values of loose cohesive powder.
     pub fn layer_thickness(&self, voidage: f64) -> f64 {
         self.solid / (1.0 - voidage)
     }

@@ -1,10 +1,10 @@
-//! `adhesion-energy`: the work of adhesion is another than the surface energies say.
+//! `adhesion-energy`: the work of adhesion differs from that of the surface energies.
 //!
 //! `W -> work_of_adhesion` [J/m²], in place of `2 sqrt(gamma_1 gamma_2)` or of the model's own `work_of_adhesion`. The
-//! adhesive velocity goes with `W^(5/6)`. It replaces what effects before it in the file made of `W`.
+//! adhesive velocity is proportional to `W^(5/6)`. It overrides changes of `W` by effects before it in the file.
 //!
-//! Seen with tungsten on steel: 0.13 J/m² measured, far below what clean metals have; oxide, gas and roughness come
-//! between. Valid with `thornton-ning`, whose adhesion is that of JKR: for contacts soft and wide against the range of the
+//! Observed with tungsten on steel: 0.13 J/m² measured, far below the value of clean metals; oxide, gas and roughness separate
+//! the solids. Valid with `thornton-ning`, whose adhesion is that of JKR: for contacts soft and wide against the range of the
 //! surface forces. Slow impacts determine it; fast ones do not.
 
 use super::{Effect, EffectInfo, Parameter, Precomputed, Search};

@@ -1,18 +1,18 @@
-//! `liquid-film`: a liquid film on the wall brakes the particle on its way in and out.
+//! `liquid-film`: a liquid film on the wall slows the particle on approach and on rebound.
 //!
-//! `e_n -> e_n (1 - St_c/St)` and held where `St <= St_c`, with `St = rho d v_n/(9 mu)` and
+//! `e_n -> e_n (1 - St_c/St)`, and the particle is held where `St <= St_c`, with `St = rho d v_n/(9 mu)` and
 //! `St_c = (1 + 1/e_n) ln(h/h_a)` for a film thicker than `h_a`, 0 otherwise. `rho` particle density [kg/m³], `d` diameter [m],
 //! `mu` the film's `viscosity` [Pa s], `h` its thickness [m], `h_a` the `asperity` [m] at which the solids touch, `e_n` the dry
 //! restitution.
 //!
-//! It follows from the lubrication force `6 pi mu R² v/x` on a sphere at a distance `x` from a plane: crossing the film costs
+//! Derived from the lubrication force `6 pi mu R² v/x` on a sphere at a distance `x` from a plane: crossing the film costs
 //! `9 mu/(rho d) ln(h/h_a)` of speed, once each way. The critical Stokes number is that of Ennis, Tardos & Pfeffer (Powder
 //! Technology 65 (1991) 257) for granules; Davis, Rager & Good (J. Fluid Mech. 468 (2002) 107) measured spheres on a wetted
-//! plane and saw the same law. Meant for walls covered with slag.
+//! plane and observed the same law. Meant for walls covered with slag.
 //!
-//! Valid for films thin against `d` and slow flow within them; it leaves out capillary and inertial forces, cavitation on the
-//! way out and deformation by the film's pressure, which lowers `St_c`. The film's temperature enters by the value of
-//! `viscosity` alone. Under a powder layer the film does not act: give such a wall no film (Troiano et al., Fig 10, found
+//! Valid for films thin against `d` and slow flow within them; it neglects capillary and inertial forces, cavitation on
+//! rebound and deformation by the pressure of the film, which lowers `St_c`. The temperature of the film enters only through
+//! `viscosity`. Under a powder layer the film does not act: give such a wall no film (Troiano et al., Fig 10, found
 //! powder on syrup like powder on a dry target).
 
 use super::{Effect, EffectInfo, Parameter, Search};

@@ -1,16 +1,16 @@
 //! `melting-transition`: a particle becomes sticky as it melts.
 //!
-//! Particle stickiness `S = (1 + (2^(1/a) - 1) exp((T_50 - T_p) / width))^-a`, with the asymmetry `a` = 1, unless given, the
+//! Particle stickiness `S = (1 + (2^(1/a) - 1) exp((T_50 - T_p) / width))^-a`, with the default asymmetry `a` = 1 the
 //! logistic `1 / (1 + exp((T_50 - T_p) / width))`: capture rises with it and `e_n` falls, to
 //! `e_n (1 - softening S)`; `softening` [1] is 1 unless given.
 //! `T_50` [K] is the particle temperature at which half of head-on impacts stick, `width` [K] the sharpness.
 //! Valid around the melting range of one material.
 //!
-//! Seen with wax on Pyrex (Troiano et al., Figs 12 and 13): capture practically 0 below 50 °C, 8 % at 70 °C and 93 % at
+//! Observed with wax on Pyrex (Troiano et al., Figs 12 and 13): capture practically 0 below 50 °C, 8 % at 70 °C and 93 % at
 //! 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce. The flow test of the same wax (1, 50 and 70 %
 //! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
 
-use super::transition::{ASYMMETRY, Variable, rise};
+use super::transition::{ASYMMETRY, Variable, transition};
 use super::{EffectInfo, Parameter, Search};
 
 pub(super) const INFO: EffectInfo = EffectInfo {
@@ -45,7 +45,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
         },
         ASYMMETRY,
     ],
-    build: |values| rise(Variable::Temperature, values),
+    build: |values| transition(Variable::Temperature, values),
 };
 
 #[cfg(test)]

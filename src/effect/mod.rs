@@ -1,7 +1,7 @@
-//! Effects: named, removable terms that change what the plain laws say. One effect a file.
+//! Effects: named, removable terms that change the results of the laws. One effect a file.
 //!
-//! A new effect is one file with a [`EffectInfo`] and one line in [`EFFECTS`]; the model file, the C library, OpenFOAM and
-//! the documentation then know it.
+//! A new effect is one file with an [`EffectInfo`] and one line in [`EFFECTS`]; the model file, the C library and OpenFOAM then
+//! know it, and tests demand its line in the documents.
 
 mod adhesion_energy;
 mod agglomerates;
@@ -30,7 +30,7 @@ use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
 
-/// Every effect there is.
+/// Every effect.
 pub const EFFECTS: [&EffectInfo; 17] = [
     &yield_ratio::INFO,
     &adhesion_energy::INFO,
@@ -51,24 +51,24 @@ pub const EFFECTS: [&EffectInfo; 17] = [
     &viscoelastic_loss::INFO,
 ];
 
-/// The streams of [`ImpactRng`](crate::ImpactRng): each effect with chance has its own, so that no two draw the same number.
+/// Streams of [`ImpactRng`](crate::ImpactRng). Each random effect has its own, so that no two draw the same number.
 pub(crate) mod stream {
     /// Whether a particle is captured (no effect).
     pub const CAPTURE: u64 = 0;
     /// How much of the work of adhesion is left.
     pub const NANO_ROUGHNESS: u64 = 1;
-    /// How far the facet is tilted.
+    /// Tilt of the local wall.
     pub const MICRO_ROUGHNESS: u64 = 2;
     /// Whether a particle is an agglomerate, and how it rebounds.
     pub const AGGLOMERATES: u64 = 3;
 }
 
-/// A named term of a model. Each method is one step of an impact's walk; an effect overrides those it acts on.
+/// A named term of a model. Each method belongs to one step of an impact; an effect overrides those on which it acts.
 ///
-/// `chance` is a uniform random number in (0, 1), drawn anew for every impact and every effect with a [`EffectInfo::stream`]; the
-/// others get zero.
+/// `chance` is a uniform random number in (0, 1), drawn for each impact and each effect with an [`EffectInfo::stream`]; other
+/// effects receive zero.
 pub trait Effect: Send + Sync + std::fmt::Debug {
-    /// How far the wall is tilted towards the particle where it is hit [rad]; tilts of several effects add.
+    /// Tilt of the local wall towards the particle [rad]; tilts of several effects add.
     fn tilt(&self, _impact: &Impact, _chance: f64) -> f64 {
         0.0
     }
@@ -78,7 +78,7 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         contact
     }
 
-    /// How sticky the particle is, 0 to 1; the effects that answer are multiplied.
+    /// Stickiness of the particle, 0 to 1; that of several effects is multiplied. `None` for an effect that does not act on it.
     fn particle_stickiness(&self, _impact: &Impact) -> Option<f64> {
         None
     }
@@ -88,8 +88,8 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         0.0
     }
 
-    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall. The contact is
-    /// the one that the normal law saw.
+    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall. `contact` is that of
+    /// the normal law.
     fn normal_restitution(
         &self,
         _impact: &Impact,
@@ -100,23 +100,23 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         Some(restitution)
     }
 
-    /// What the effect comes down to where it needs no walk; `None` for one that does.
+    /// The precomputed form of the effect, if any.
     fn precompute(&self) -> Option<Precomputed> {
         None
     }
 
-    /// Changes what the tangential law says.
-    fn tangential(&self, _glance: &ImpactKinematics, rebound: Rebound) -> Rebound {
+    /// Changes the result of the tangential law.
+    fn tangential(&self, _kinematics: &ImpactKinematics, rebound: Rebound) -> Rebound {
         rebound
     }
 }
 
-/// An effect that can be prepared before an impact is known.
+/// An effect that is computed when the model is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Precomputed {
-    /// It changes the contact, all impacts alike, and nothing else.
+    /// It changes only the contact, equally for all impacts.
     Contact,
-    /// It makes the particle sticky by one input, and takes up its rebound.
+    /// It makes the particle sticky by one input, and reduces its rebound.
     Transition(Transition),
 }
 
@@ -129,45 +129,45 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
-    /// Its value where a model file does not give it; `None` where it has to.
+    /// Value where the model file does not give it; `None` for a required parameter.
     pub default: Option<f64>,
-    /// Where a fit looks for it.
+    /// Range of a fit.
     pub search: Search,
-    /// One line on what it is.
+    /// One line of explanation.
     pub about: &'static str,
 }
 
-/// Where a fit looks for a parameter.
+/// Range in which a fit searches a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Search {
-    /// Evenly between two values.
+    /// Uniform between two values.
     Linear(f64, f64),
-    /// Evenly in the logarithm between two positive values.
+    /// Uniform in the logarithm between two positive values.
     Log(f64, f64),
-    /// Within the range that the data have of an input, evenly.
+    /// Uniform within the range of an input in the data.
     InputRange(&'static str),
-    /// From a fiftieth of the range that the data have of an input to four times it, evenly in the logarithm.
+    /// Uniform in the logarithm, from a fiftieth of the range of an input in the data to four times that range.
     InputWidth(&'static str),
 }
 
-/// What an effect is called, what it does and which parameters it has.
+/// Id, description and parameters of an effect.
 #[derive(Debug)]
 pub struct EffectInfo {
     /// The id in model files and diagnoses.
     pub id: &'static str,
-    /// One line on what it does.
+    /// One line of description.
     pub about: &'static str,
-    /// The inputs (names of [`INPUTS`]) that it turns on, beyond what the plain laws use.
+    /// Names of the [`INPUTS`] on which it depends.
     pub inputs: &'static [&'static str],
-    /// The stream of random numbers that it draws from, its own; `None` for an effect without chance.
+    /// Its own stream of random numbers; `None` for an effect without random draws.
     pub stream: Option<u64>,
     /// Its parameters; those without a default must be given.
     pub parameters: &'static [Parameter],
-    /// Makes the effect from its parameters, in their order.
+    /// Builds the effect from the values of its parameters, in their order.
     pub build: fn(&[f64]) -> Box<dyn Effect>,
 }
 
-/// An effect of a model, with the range it was fitted on.
+/// An effect of a model with its parameters and the range of the data to which it was fitted.
 #[derive(Debug, Clone)]
 pub struct Term {
     kind: &'static EffectInfo,
@@ -213,7 +213,7 @@ impl Term {
         &self.values
     }
 
-    /// The range of each of [`INPUTS`] that the term was fitted on.
+    /// The ranges of [`INPUTS`] to which the term was fitted, by place in that list.
     pub fn valid(&self) -> &[(usize, [f64; 2])] {
         &self.valid
     }
@@ -223,12 +223,12 @@ impl Term {
         self.effect.as_ref()
     }
 
-    /// What it draws for one impact, from a source that gives each stream's number.
+    /// The random number of the effect for one impact; `uniform` gives the number of each stream.
     pub fn chance(&self, uniform: &impl Fn(u64) -> f64) -> f64 {
         self.kind.stream.map_or(0.0, uniform)
     }
 
-    /// Whether the impact lies in the range the term was fitted on.
+    /// Whether the impact lies in the range to which the term was fitted.
     pub fn holds_for(&self, impact: &Impact) -> bool {
         let inside =
             |&(input, [low, high]): &(usize, [f64; 2])| (low..=high).contains(&(INPUTS[input].value)(impact));
@@ -236,7 +236,7 @@ impl Term {
     }
 }
 
-/// A number, or `{ value, low, high }` of a fit.
+/// Reads a number, or `{ value, low, high }` of a fit.
 fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, InputError> {
     let Parameter { name, unit, bounds: (low, high), default, about, .. } = *parameter;
     let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
@@ -253,7 +253,7 @@ fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, I
     Ok(value)
 }
 
-/// `valid = { v_n = [0.5, 3], ... }`: the range of each input that a fit saw.
+/// Reads `valid = { v_n = [0.5, 3], ... }`: the range of each input in the data of a fit.
 fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputError> {
     let mut valid = Vec::new();
     for (index, input) in INPUTS.iter().enumerate() {
@@ -265,12 +265,12 @@ fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputErro
     Ok(valid)
 }
 
-/// A factor on a strength, kept within twelve decades either way: beyond, a solid is none, and numbers would overflow.
+/// A factor on a strength, clamped to twelve decades either way; beyond, numbers would overflow.
 fn bounded(factor: f64) -> f64 {
     factor.clamp(1e-12, 1e12)
 }
 
-/// What the tests of several effects share.
+/// Helpers for the tests of effects.
 #[cfg(test)]
 mod testing {
     use crate::material::Library;
@@ -297,7 +297,7 @@ mod testing {
         }
     }
 
-    /// Numbers spread evenly over (0, 1).
+    /// Evenly spaced numbers in (0, 1).
     pub fn even(count: u32) -> impl Iterator<Item = f64> {
         (0..count).map(move |index| (f64::from(index) + 0.5) / f64::from(count))
     }

@@ -1,12 +1,12 @@
-//! `size-dependent-yield`: small particles yield later.
+//! `size-dependent-yield`: small particles are stronger.
 //!
 //! `sigma_y -> sigma_y (d0/d)^m` with `d` the particle's diameter [m], `d0` the `diameter` [m] for which the material's
-//! strength holds and `m` the `exponent` [1]. The yield velocity goes with `d^(-5m/2)`. Strength changes by twelve decades at
+//! strength holds and `m` the `exponent` [1]. The yield velocity is proportional to `d^(-5m/2)`. Strength changes by twelve decades at
 //! most.
 //!
 //! That metals of few micrometres are stronger is known (fewer sources of dislocations, finer grains: Hall–Petch has
 //! `m = 1/2` in the grain size), and the MIGRAINE dust study lets tungsten's strength depend on size without giving the
-//! law: the power is assumed. Valid over the sizes it was fitted on. With one size in the data `d0` and `m` are one number.
+//! law: the power is assumed. Valid over the fitted sizes. With one size in the data `d0` and `m` are one number.
 
 use super::{Effect, EffectInfo, Parameter, Search, bounded};
 use crate::impact::Impact;

@@ -1,13 +1,12 @@
-//! `thermal-softening`: a hot particle yields earlier and is softer.
+//! `thermal-softening`: a hot particle is weaker and softer.
 //!
 //! `sigma_y -> sigma_y s` and `E* -> E* sqrt(s)` with `s = exp(-max(0, T_p - onset)/scale)`; `T_p` particle temperature [K],
-//! `onset` [K], `scale` [K]. The yield velocity goes with `s^(3/2)`. Strength changes by twelve decades at most.
+//! `onset` [K], `scale` [K]. The yield velocity is proportional to `s^(3/2)`. Strength changes by twelve decades at most.
 //!
-//! The exponential is assumed, and so is that the modulus falls more slowly than the strength (`sqrt(s)`). That both fall is
-//! known of tungsten (the MIGRAINE dust study lets them depend on temperature, without giving the laws) and expected of hot
-//! ash. Valid below melting; beyond it `melting-transition` says what happens. Where a material has tables over temperature
-//! this acts on top of them. It softens the contact as a whole: it means a particle that yields before the wall does and
-//! holds most of the compliance.
+//! Assumed: the exponential, and that the modulus falls more slowly than the strength (`sqrt(s)`). Both are known to fall
+//! for tungsten (the MIGRAINE dust study lets them depend on temperature, without giving the laws) and expected of hot
+//! ash. Valid below melting; beyond it use `melting-transition`. It multiplies the temperature tables of a material, if any.
+//! It softens the whole contact: the particle is assumed to yield before the wall and to contribute most of the compliance.
 
 use super::{Effect, EffectInfo, Parameter, Search, bounded};
 use crate::impact::Impact;

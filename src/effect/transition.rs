@@ -1,4 +1,4 @@
-//! What `melting-transition` and `conversion-transition` share: stickiness that rises over one input (Richards' curve).
+//! Stickiness that rises over one input (Richards' curve), for `melting-transition` and `conversion-transition`.
 //!
 //! `S = (1 + (2^(1/a) - 1) exp((x_50 - x) / width))^-a`, one half at `x_50`; with the asymmetry `a` = 1 the logistic
 //! `1 / (1 + exp((x_50 - x) / width))`. A particle that still rebounds leaves with `e_n (1 - softening S)`.
@@ -8,7 +8,7 @@ use super::{Effect, Parameter, Precomputed, Search};
 use crate::impact::Impact;
 use crate::vector_math::exponential;
 
-/// The last parameter of both effects.
+/// Last parameter of both effects.
 pub(super) const ASYMMETRY: Parameter = Parameter {
     name: "asymmetry",
     unit: "1",
@@ -37,10 +37,10 @@ impl Variable {
     }
 }
 
-/// A symmetric rise, ready for many impacts.
+/// A symmetric transition.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transition {
-    over: Variable,
+    variable: Variable,
     middle: f64,
     /// One over the width.
     sharpness: f64,
@@ -50,12 +50,12 @@ impl Transition {
     /// Stickiness [1] at a particle temperature [K] and carbon conversion [1].
     #[inline(always)]
     pub(crate) fn at(&self, particle_temperature: f64, conversion: f64) -> f64 {
-        let value = self.over.value(particle_temperature, conversion);
+        let value = self.variable.value(particle_temperature, conversion);
         1.0 / (1.0 + exponential((self.middle - value) * self.sharpness))
     }
 }
 
-/// The effect that both kinds build.
+/// Both effects.
 #[derive(Debug)]
 struct RichardsCurve {
     symmetric: Transition,
@@ -65,8 +65,8 @@ struct RichardsCurve {
 }
 
 /// The effect with the parameters `x_50`, `width`, `softening` and `a`.
-pub(super) fn rise(over: Variable, values: &[f64]) -> Box<dyn Effect> {
-    let symmetric = Transition { over, middle: values[0], sharpness: values[1].recip() };
+pub(super) fn transition(variable: Variable, values: &[f64]) -> Box<dyn Effect> {
+    let symmetric = Transition { variable, middle: values[0], sharpness: values[1].recip() };
     Box::new(RichardsCurve { symmetric, width: values[1], softening: values[2], asymmetry: values[3] })
 }
 
@@ -77,7 +77,7 @@ impl Effect for RichardsCurve {
             return Some(self.symmetric.at(temperature, conversion));
         }
         let distance =
-            (self.symmetric.middle - self.symmetric.over.value(temperature, conversion)) / self.width;
+            (self.symmetric.middle - self.symmetric.variable.value(temperature, conversion)) / self.width;
         let lead = self.asymmetry.recip().exp2() - 1.0;
         Some((1.0 + lead * distance.exp()).powf(-self.asymmetry))
     }
@@ -86,7 +86,7 @@ impl Effect for RichardsCurve {
         self.softening
     }
 
-    /// The power of an asymmetric rise has no plain arithmetic.
+    /// Only the symmetric curve: the power of an asymmetric one is not plain arithmetic.
     fn precompute(&self) -> Option<Precomputed> {
         (self.asymmetry == 1.0).then_some(Precomputed::Transition(self.symmetric))
     }

@@ -11,26 +11,25 @@ use crate::slag::Composition;
 
 pub use property::{OutOfRange, Property};
 
-/// A property's key in files, what it can be and whether every material needs it.
-struct Field {
+/// Key of a property in files, its limits, and whether it is required.
+struct PropertyField {
     key: &'static str,
     limits: Limits,
     required: bool,
 }
 
-const fn field(key: &'static str, required: bool, limits: Limits) -> Field {
-    Field { key, limits, required }
+const fn field(key: &'static str, required: bool, limits: Limits) -> PropertyField {
+    PropertyField { key, limits, required }
 }
 
 const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) -> Limits {
     Limits { unit, low, high, known }
 }
 
-/// Every property a material may have, in the order in which it is shown. The limits lie about a factor of ten beyond the most
-/// extreme materials known, which their texts name (round numbers as commonly tabulated, not re-read); a rigid wall, or one that never
-/// yields, has room within them. Viscosity has no upper one: a formula that is continued into the cold rises without end, and means a
-/// solid.
-const FIELDS: [Field; 8] = [
+/// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
+/// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
+/// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
+const FIELDS: [PropertyField; 8] = [
     field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
     field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
     field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
@@ -102,12 +101,12 @@ impl Material {
         Ok(Self { name: name.to_owned(), about, properties, composition })
     }
 
-    /// The name it is called by in model files.
+    /// The name in model files.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// One line on what it is, or the user's own source.
+    /// One line of description, or the source that the user gives.
     pub fn about(&self) -> Option<&str> {
         self.about.as_deref()
     }
@@ -132,7 +131,7 @@ impl Material {
     /// Viscosity [Pa s] of the melt at a temperature [K].
     ///
     /// # Errors
-    /// [`ImpactError::OutOfRange`] outside what is known; a material without a viscosity knows it nowhere.
+    /// [`ImpactError::OutOfRange`] outside the known range, and for a material without a viscosity.
     pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
         self.value(VISCOSITY, temperature)
     }
@@ -179,7 +178,7 @@ impl Material {
     /// The properties of its melt at a temperature [K].
     ///
     /// # Errors
-    /// [`ImpactError::OutOfRange`] outside what is known; a material without one of them knows it nowhere.
+    /// [`ImpactError::OutOfRange`] outside the known range, and for a material without one of them.
     pub fn molten(&self, temperature: f64) -> Result<Molten, ImpactError> {
         Ok(Molten {
             density: self.density(temperature)?,
@@ -188,7 +187,7 @@ impl Material {
         })
     }
 
-    /// Whether it is hotter than its melting point at a temperature [K].
+    /// Whether a temperature [K] is above the melting point.
     ///
     /// # Errors
     /// As [`Material::molten`].
@@ -236,7 +235,7 @@ impl Material {
     }
 }
 
-/// What all ranges have in common; everything where there is none.
+/// The intersection of all ranges; all temperatures without any.
 pub(crate) fn overlap(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     ranges.fold([0.0, f64::INFINITY], |[low, high], [l, h]| [low.max(l), high.min(h)])
 }
@@ -265,15 +264,15 @@ pub struct Library {
 }
 
 impl Library {
-    /// The materials that come with the crate.
+    /// The built-in materials.
     ///
     /// # Errors
-    /// [`InputError`] if the data that was compiled in is broken (a test makes sure it is not).
+    /// [`InputError`] for an error in the built-in data (a test excludes it).
     pub fn built_in() -> Result<Self, InputError> {
         BUILT_IN.clone()
     }
 
-    /// Adds every table of `section`; a name that is already there is replaced.
+    /// Adds every table of `section`; a material of the same name is replaced.
     ///
     /// # Errors
     /// [`InputError::Fault`] for a material that cannot be read.

@@ -1,16 +1,16 @@
-//! One material property and how it depends on temperature.
+//! A material property and its dependence on temperature.
 
 use crate::input::{InputError, Limits, Section};
 
-/// Between the ends of its `valid` range a formula is looked at in so many steps.
+/// Number of steps at which the limits of a formula are checked within its `valid` range.
 const STEPS: u32 = 200;
 
-/// How a property follows temperature.
+/// Dependence of a property on temperature.
 #[derive(Debug, Clone, PartialEq)]
 enum Form {
     /// The same number at every temperature.
     Constant(f64),
-    /// Linear between the points of a table, nothing beyond its ends.
+    /// Linear between the points of a table, unknown beyond its ends.
     Table { temperatures: Vec<f64>, values: Vec<f64> },
     /// `sum c_i (T - T0)^i`.
     Polynomial { coefficients: Vec<f64>, origin: f64 },
@@ -18,23 +18,23 @@ enum Form {
     Arrhenius { factor: f64, temperature: f64 },
 }
 
-/// A property with where it comes from and where it holds.
+/// A property with its source and its valid range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Property {
     form: Form,
     valid: Option<[f64; 2]>,
     uncertainty: Option<f64>,
     source: Option<String>,
-    /// What takes over above the upper end, where the solid has melted.
+    /// The property of the melt, above the upper end of the solid.
     melt: Option<Box<Property>>,
 }
 
-/// A temperature at which a property is not known.
+/// A temperature outside the known range of a property.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutOfRange {
-    /// Lower end of what is known [K].
+    /// Lower end of the known range [K].
     pub low: f64,
-    /// Upper end of what is known [K].
+    /// Upper end of the known range [K].
     pub high: f64,
 }
 
@@ -46,7 +46,7 @@ impl Property {
 
     /// Reads `key`: a number, `{ value }`, `{ T, value }`, `{ polynomial, T0 }` or `{ arrhenius }`, each with
     /// `valid` (the last two need it), and optional `uncertainty`, `unit`, `source` and `melt`. `unit` has to be the SI unit of the
-    /// key; `melt` is written like the property itself and takes over above its upper end.
+    /// key; `melt` is written like the property itself and applies above its upper end.
     ///
     /// # Errors
     /// [`InputError::Fault`] for anything else, and for values outside the limits.
@@ -113,7 +113,7 @@ impl Property {
         })
     }
 
-    /// Whether the number is stated to hold at this temperature [K].
+    /// Whether the source states the value for this temperature [K].
     pub fn holds_at(&self, temperature: f64) -> bool {
         if let Some(melt) = self.melt_at(temperature) {
             return melt.holds_at(temperature);
@@ -121,7 +121,7 @@ impl Property {
         self.valid.is_none_or(|[low, high]| (low..=high).contains(&temperature))
     }
 
-    /// Range of temperature that the source states [K].
+    /// Temperature range of the source [K].
     pub fn valid(&self) -> Option<[f64; 2]> {
         let solid = self.valid.or(self.solid_range());
         match self.melt.as_deref().and_then(Self::valid) {
@@ -135,7 +135,7 @@ impl Property {
         self.uncertainty
     }
 
-    /// Where the number comes from; a text that starts with "assumed" says it has no source.
+    /// Source of the number; a text that starts with "assumed" means that there is none.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()
     }
@@ -145,7 +145,7 @@ impl Property {
         matches!(self.form, Form::Constant(_)) && self.melt.is_none()
     }
 
-    /// Temperatures [K] at which [`Property::at`] answers; `None` for all of them.
+    /// Temperatures [K] at which the value is known; `None` for all.
     pub fn known_range(&self) -> Option<[f64; 2]> {
         let solid = self.solid_range();
         let Some(melt) = &self.melt else { return solid };
@@ -158,7 +158,7 @@ impl Property {
         self.melt.as_deref().filter(|_| temperature > self.solid_end())
     }
 
-    /// Temperature [K] at which the form ends; infinite where nothing says so.
+    /// Temperature [K] at which the property of the solid ends; infinite where it has no end.
     fn solid_end(&self) -> f64 {
         self.solid_range().or(self.valid).map_or(f64::INFINITY, |[_, high]| high)
     }
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn the_melt_takes_over_where_the_solid_ends() {
+    fn the_melt_applies_above_the_end_of_the_solid() {
         let text = "p = { polynomial = [1, 2], T0 = 300, valid = [300, 400], \
                     melt = { polynomial = [50, 1], T0 = 400, valid = [400, 500] } }";
         let both = property(text).unwrap();

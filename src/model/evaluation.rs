@@ -8,7 +8,7 @@
 //! over the block: short loops keep a processor's divider busy, while in one long loop each impact waits for its own chain of
 //! results. The functions are the same, so both give the same bits.
 //!
-//! A new quantity of an impact is a field of [`State`]; a new step is a method of [`Steps`] and a line of [`evaluate`].
+//! A new quantity of an impact is a field of [`ImpactState`]; a new step is a method of [`Steps`] and a line of [`evaluate`].
 
 use crate::capture::Stickiness;
 use crate::impact::{Impact, Outcome, Regime};
@@ -65,7 +65,7 @@ impl NormalRebound {
 
 /// What is known of an impact between two steps. `C` is the contact of particle and wall.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct State<C> {
+pub(super) struct ImpactState<C> {
     /// The impact with regard to the local, tilted wall.
     pub impact: Impact,
     pub outside_range: bool,
@@ -85,7 +85,7 @@ pub(super) struct State<C> {
     pub captured: bool,
 }
 
-impl<C: Default> State<C> {
+impl<C: Default> ImpactState<C> {
     /// An impact before the first step.
     #[inline(always)]
     pub fn new(impact: Impact) -> Self {
@@ -199,7 +199,7 @@ pub(super) trait Steps {
 pub(super) fn evaluate<S: Steps>(
     steps: &mut S,
     stages: Stages,
-    state: &mut State<S::Contact>,
+    state: &mut ImpactState<S::Contact>,
 ) -> Result<(), S::Fault> {
     if stages.has(Stages::RANGE) {
         state.outside_range = steps.outside_range(&state.impact);

@@ -1,6 +1,6 @@
 //! The steps of an impact on any wall: properties over temperature, slag, every law and effect, draws and a trace.
 
-use super::evaluation::{NormalRebound, Stages, State, Steps, evaluate};
+use super::evaluation::{ImpactState, NormalRebound, Stages, Steps, evaluate};
 use super::tilted_frame::TiltedFrame;
 use super::{Model, Wall};
 use crate::capture::{ParticleStickiness, Stickiness};
@@ -33,7 +33,7 @@ impl Model {
         let (wall, arriving) = self.at_wall(wall, impact)?;
         let frame = TiltedFrame { tilt: 0.0 };
         let mut steps = GeneralWall { model: self, wall, arriving, frame, uniform, trace };
-        let mut state = State::new(arriving);
+        let mut state = ImpactState::new(arriving);
         evaluate(&mut steps, Stages::ALL, &mut state)?;
         Ok(state.outcome())
     }

@@ -10,7 +10,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::Model;
 use super::block::{BLOCK, Block, Outcomes};
-use super::evaluation::{NormalRebound, Stages, State, Steps, evaluate};
+use super::evaluation::{ImpactState, NormalRebound, Stages, Steps, evaluate};
 use super::wall::Wall;
 use crate::capture::Stickiness;
 use crate::effect::{Precomputed, Term, Transition, stream};
@@ -105,7 +105,7 @@ impl PreparedWall {
     pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
         // First: no number has to be kept over the call.
         let holds = self.valid.is_empty() || self.terms_hold_for(impact);
-        let mut state = State::new(*impact);
+        let mut state = ImpactState::new(*impact);
         let Ok(()) = evaluate(&mut PreparedImpact { wall: &self.constants, rng }, Stages::ALL, &mut state);
         let outcome = state.outcome();
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
@@ -186,7 +186,7 @@ fn normal_and_draw(wall: &Constants, block: &Block, seed: u64, outcomes: &mut Ou
 }
 
 /// Runs some steps on each impact of a block. Between two loops the columns of the outcomes hold the quantities of the
-/// [`State`].
+/// [`ImpactState`].
 #[inline(always)]
 fn run(stages: Stages, wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
     for i in 0..block.length.min(BLOCK) {
@@ -199,15 +199,15 @@ fn run(stages: Stages, wall: &Constants, block: &Block, seed: u64, outcomes: &mu
 
 /// The state of the impact `i` before a loop.
 #[inline(always)]
-fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> State<()> {
+fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> ImpactState<()> {
     let input = |input: usize| block.inputs[input][i];
     let normal = outcomes.normal_restitution[i];
-    State {
+    ImpactState {
         adhesion: normal,
         sticky: Stickiness { particle: outcomes.sticking_probability[i], wall: 0.0 },
         normal: wall.normal_rebound(normal),
         chance: outcomes.spin[i],
-        ..State::new(Impact {
+        ..ImpactState::new(Impact {
             normal_speed: input(Impact::NORMAL_SPEED),
             tangential_speed: input(Impact::TANGENTIAL_SPEED),
             diameter: input(Impact::DIAMETER),
@@ -222,7 +222,7 @@ fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> State
 
 /// Stores what the steps of `stages` have set for the impact `i`.
 #[inline(always)]
-fn store(i: usize, stages: Stages, state: &State<()>, outcomes: &mut Outcomes) {
+fn store(i: usize, stages: Stages, state: &ImpactState<()>, outcomes: &mut Outcomes) {
     if stages.has(Stages::STICKINESS) {
         outcomes.sticking_probability[i] = state.sticky.particle;
     }

@@ -1,6 +1,6 @@
-//! Constant normal restitution: what a wall hit is in most codes.
+//! Constant normal restitution, as in most codes; for comparison.
 //!
-//! `e_n` is one number, 0 to 1, whatever the impact; nothing sticks by adhesion. It is here to compare with.
+//! `e_n` is one number, 0 to 1, for every impact; adhesion holds no particle.
 
 use crate::input::{InputError, Section};
 

@@ -2,7 +2,7 @@
 
 use crate::material::Mechanical;
 
-/// What the impact laws need to know of the two solids.
+/// Properties of the two solids that the impact laws use.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Contact {
     /// Particle density `rho` [kg/m³].
@@ -11,7 +11,7 @@ pub struct Contact {
     pub reduced_modulus: f64,
     /// Work of adhesion `W` [J/m²].
     pub work_of_adhesion: f64,
-    /// Yield strength `sigma_y` of the softer solid [Pa].
+    /// Yield strength `sigma_y` of the weaker solid [Pa].
     pub yield_strength: f64,
     /// `c = p_y / sigma_y` [1].
     pub yield_ratio: f64,
@@ -22,7 +22,7 @@ pub struct Contact {
 impl Contact {
     /// The contact of two solids.
     ///
-    /// `yield_ratio` is `c = p_y / sigma_y` [1]; the softer solid yields first. `work_of_adhesion` [J/m²]
+    /// `yield_ratio` is `c = p_y / sigma_y` [1]; the weaker solid yields first. `work_of_adhesion` [J/m²]
     /// replaces the default `W = 2 sqrt(gamma_1 gamma_2)`.
     pub fn new(
         particle: &Mechanical,

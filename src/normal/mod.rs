@@ -1,4 +1,4 @@
-//! Normal impact: how much of the speed towards the wall comes back. One law a file.
+//! Normal restitution: the share of the speed towards the wall that a particle keeps. One law a file.
 
 mod constant;
 mod contact;
@@ -12,7 +12,7 @@ pub use thornton_ning::{
 
 use crate::input::{InputError, Section};
 
-/// The speeds that divide sticking, elastic and plastic impacts.
+/// The speeds that separate sticking, elastic and plastic impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Speeds {
     /// Adhesive velocity `v_adh` [m/s].
@@ -26,11 +26,11 @@ pub struct Speeds {
 /// The law that gives the normal restitution of a dry impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NormalLaw {
-    /// Elastic–perfectly plastic with adhesion.
+    /// Thornton–Ning: elastic–perfectly plastic with adhesion.
     ThorntonNing,
-    /// The same contact with the pull-off that its yielding raises.
+    /// The same contact with its pull-off raised by yielding; `thornton-ning-raised-pull-off` in model files.
     PlasticJkr,
-    /// The same number for every impact that does not stick.
+    /// The same restitution for every impact.
     Constant {
         /// Normal restitution `e_n` [1].
         restitution: f64,
@@ -76,8 +76,7 @@ impl NormalLaw {
         (e_n > 0.0).then_some(e_n)
     }
 
-    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m]. The law of constant restitution has none
-    /// of its own: it gives those of Thornton–Ning.
+    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m]; for the constant law those of Thornton–Ning.
     pub fn speeds(self, contact: &Contact, diameter: f64) -> Speeds {
         let plain = thornton_ning::speeds(contact, diameter);
         match self {

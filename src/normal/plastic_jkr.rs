@@ -1,13 +1,14 @@
-//! Thornton–Ning with the pull-off that yielding raises: the energy balance of a JKR contact of limited pressure.
+//! `thornton-ning-raised-pull-off` (its name in model files): a plastic JKR contact, that is Thornton–Ning with the pull-off
+//! raised by yielding.
 //!
-//! Yielding flattens the contact: it parts along the JKR curve of a larger radius of curvature `R_p`, with a larger
-//! pull-off and more adhesive work than the way in had (Thornton & Ning, Powder Technology 99 (1998) 154, who follow
-//! such a contact numerically). This law is the exact balance of that contact, from three assumptions:
+//! Yielding flattens the contact: it separates along the JKR curve of a larger radius of curvature `R_p`, with a larger
+//! pull-off force and more adhesive work than on loading (Thornton & Ning, Powder Technology 99 (1998) 154, who integrate
+//! such a contact numerically). This law is the exact energy balance of that contact under three assumptions:
 //! - `delta = a²/R - sqrt(2πWa/E*)` (JKR) holds while the contact grows, elastic or plastic, from `delta = 0` on;
 //! - the JKR pressure `p(r) = p0 u - p1/u`, `u = sqrt(1 - r²/a²)`, `p0 = 2E*a/πR`, `p1 = sqrt(2WE*/πa)`, is limited
 //!   to `p_y` where it would be higher, first at the centre: adhesion takes `p1` of the pressure there;
-//! - at the largest `a` the JKR curve of `R_p` has the same force: `1/R_p = 3 (F + sqrt(8πWE*a³))/(4E*a³)`. Along it the
-//!   contact parts, and breaks where `delta` has its minimum, as it does after an elastic impact.
+//! - at the largest `a` the JKR curve of `R_p` has the same force: `1/R_p = 3 (F + sqrt(8πWE*a³))/(4E*a³)`. The contact
+//!   unloads along it and breaks at the minimum of `delta`, as after an elastic impact.
 //!
 //! In the units of the yield of a Hertz contact (`a_h = πp_yR/2E*`, its force, `a_h²/R`, and `½mv_y²`), with
 //! `t² = a/a_h` and `beta = p1/p_y` at `a_h`, which is `(2/π)(C2 v_adh/(C1 v_y))^(3/5)`:
@@ -22,15 +23,15 @@
 //! that of the JKR contact: `v_y (1 - 3.1 beta²)` for weak adhesion, and 0 from `v_adh = 0.61 v_y` on, where adhesion alone makes
 //! the contact yield. The sticking velocity is that of Thornton–Ning up to `v_adh = 0.48 v_y` and higher from there on.
 //!
-//! Adhesion also takes pressure from the centre, so that a fast contact flattens less: far above `v_s`, `e_n` is up to 0.01
-//! above Thornton–Ning's.
+//! Adhesion also lowers the pressure at the centre, so that a fast contact flattens less: far above `v_s`, `e_n` is up to 0.01
+//! higher than by Thornton–Ning.
 //!
 //! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, for `a` small against `R`; at the sticking velocity `a` is 0.7 to
-//! 1.2 times `a_h v_adh/v_y` for `v_adh/v_y` of 3 to 1000, and much of it is there at rest, since adhesion alone pulls the
-//! particle in. How `delta(a)` changes under the pressure limit is left out. For 4.9 µm ammonium fluorescein the sticking
-//! velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that Thornton & Ning found. Their paper was not
-//! at hand, so the three assumptions are its accounts': a force past yield of `dF/da = 2πap_y - sqrt(2πWE*a)`, which keeps the
-//! pull at the rim as at yield, would make it 1.82 m/s, which measures what is open here.
+//! 1.2 times `a_h v_adh/v_y` for `v_adh/v_y` of 3 to 1000, and much of it exists at rest, since adhesion alone pulls the
+//! particle in. The change of `delta(a)` under the pressure limit is neglected. For 4.9 µm ammonium fluorescein the sticking
+//! velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that Thornton & Ning found. Their paper was
+//! not available; the three assumptions are taken from accounts of it. A force past yield of `dF/da = 2πap_y - sqrt(2πWE*a)`,
+//! which keeps the pull at the rim as at yield, would give 1.82 m/s: a measure of the uncertainty.
 
 use super::thornton_ning::{ADHESIVE_FACTOR, YIELD_FACTOR, restitution as plain_restitution};
 
@@ -55,7 +56,7 @@ pub fn speeds(adhesive: f64, yielding: f64) -> [f64; 2] {
         return [0.0, adhesive];
     }
     let impact = YieldingContact::new(adhesive, yielding);
-    // The last `max` of each is for contacts so small that the polynomials leave the numbers.
+    // The last `max` of each is for contacts so small that the polynomials overflow.
     let own_yield = (yielding * impact.yield_energy.max(0.0).sqrt()).max(0.0);
     if adhesive <= own_yield {
         return [own_yield, adhesive];
@@ -66,13 +67,13 @@ pub fn speeds(adhesive: f64, yielding: f64) -> [f64; 2] {
 
 /// A contact in the units of its Hertz yield.
 struct YieldingContact {
-    /// `beta` [1]: what adhesion takes from the pressure at the centre when a Hertz contact yields.
+    /// `beta` [1]: pressure that adhesion removes at the centre when a Hertz contact yields, over the limiting pressure.
     beta: f64,
     /// `y` where the pressure limit begins to act: at yield, or at first contact when that already yields.
     start: f64,
     /// Kinetic energy that brings the contact to yield; negative where adhesion does.
     yield_energy: f64,
-    /// What the polynomial of [`Self::work`] is measured from.
+    /// Constant of the polynomial in [`Self::work`].
     offset: f64,
 }
 
@@ -168,7 +169,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// The fuzzer's: the polynomials of a contact far below an atom leave the numbers, and it has to stick all the same.
+    /// Found by fuzzing: the polynomials of a contact far below an atom overflow, and it has to stick nevertheless.
     #[test]
     fn adhesion_beyond_all_numbers_holds() {
         for adhesive in [1e30, 1e100, 1e200, 1e300, f64::MAX, f64::INFINITY] {

@@ -12,11 +12,11 @@
 //! Symbols: `W` work of adhesion [J/m²], `rho` particle density [kg/m³], `E*` reduced modulus [Pa], `R = d/2` [m],
 //! `p_y` limiting contact pressure [Pa], `v` normal impact speed [m/s]. Valid for one sphere on a smooth, thick,
 //! dry plane, for contacts small against `R` and impacts slow against the speed of sound. The closed form adds the
-//! losses of adhesion and of plasticity; it leaves out that yielding flattens the contact and so raises pull-off, which
-//! `plastic_jkr.rs` has.
+//! losses of adhesion and of plasticity. It neglects that yielding flattens the contact and so raises the pull-off;
+//! `plastic_jkr.rs` includes this.
 //!
-//! Slips in print: Troiano et al., Eq. 1, has 4/3 where 16/9 belongs (their `K` is `4E*/3`), which makes `v_s`
-//! 0.953 of the above; Eq. 6 lost a minus sign under its inner root. Tests below state both.
+//! Misprints: Troiano et al., Eq. 1, has 4/3 in place of 16/9 (their `K` is `4E*/3`), which makes `v_s` 0.953 of the above;
+//! Eq. 6 lacks a minus sign under its inner root. Tests below state both.
 
 use super::{Contact, Speeds};
 use crate::vector_math::inverse_cube_root;
@@ -26,9 +26,9 @@ pub(super) const ADHESIVE_FACTOR: f64 = 1.840_183_180_799_056_5;
 /// `C2 = π²/(2 sqrt10)`.
 pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
 
-/// What the law needs of a contact, worked out once.
+/// The constants of the law for a contact.
 ///
-/// `v_adh² = C1² (E*/rho) u^(-5/3)` with the size `u = d E*/2W` [1]: the formula above in other letters.
+/// `v_adh² = C1² (E*/rho) u^(-5/3)` with the size `u = d E*/2W` [1]: the formula above in other symbols.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prepared {
     /// `E*/2W` [1/m], infinite without adhesion.
@@ -40,14 +40,14 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// The contact's numbers.
+    /// The constants for a contact.
     #[inline(always)]
     pub fn new(contact: &Contact) -> Self {
         let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
         let adhesive = ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density);
         Self {
             size: reduced_modulus / (2.0 * work_of_adhesion),
-            // 0 or infinity times the other of them would be no number, for a solid as no solid is.
+            // Prevents 0 times infinity for impossible solids.
             adhesive: adhesive.clamp(f64::MIN_POSITIVE, f64::MAX),
             yielding: yield_velocity(contact),
         }
@@ -109,7 +109,7 @@ pub fn restitution(speed: f64, adhesive: f64, yielding: f64) -> f64 {
     rebound(speed, adhesive * adhesive, yielding)
 }
 
-/// As [`restitution`], from `v_adh²`. Without branches, for vectors: what a branch would skip is worked out and dropped.
+/// As [`restitution`], from `v_adh²`. Without branches, for vectors: both sides of a choice are computed.
 #[inline(always)]
 fn rebound(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
     let slowness = 1.0 / speed;
@@ -164,7 +164,7 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
-    /// The fuzzer's: half of this diameter is 0.
+    /// Found by fuzzing: half of this diameter is 0.
     #[test]
     fn without_adhesion_nothing_adheres_at_any_diameter() {
         let solid = Mechanical {
@@ -244,7 +244,7 @@ mod tests {
     /// Teflon's printed v_s agrees with Eq. 1, wax is 10 % off, steel and Pyrex slipped by a factor of ten. The printed
     /// v_y = 6.8e-3 holds for the two hard targets only.
     #[test]
-    fn troiano_table_4_with_its_slips() {
+    fn troiano_table_4_with_its_misprints() {
         let teflon = (wax_on(0.02, 0.5e9, 0.46), 3.02e-2, 0.0304, 0.040);
         let wax = (wax_on(0.03, 0.7e9, 0.49), 3.03e-2, 0.0336, 0.027);
         let steel = (wax_on(0.80, 190e9, 0.30), 1.04e-2, 0.105, 6.7e-3);

@@ -1,19 +1,18 @@
-//! Slag that runs down a wall: a laminar film under gravity.
+//! Slag film on a wall: laminar flow under gravity.
 //!
 //! Steady, fully developed, thin against the curvature of the wall, no shear by the gas, one temperature across: then
 //! `mu d²u/dy² = -rho g_t` with `u = 0` at the wall and no stress at the surface, and
 //!
 //! `u(y) = (rho g_t/mu) (delta y - y²/2)`, its mean `rho g_t delta²/(3 mu)`, mass flow per width `rho² g_t delta³/(3 mu)`
 //!
-//! (Nusselt's film). A wall that receives `m` everywhere from its upper edge on carries `m x` per width at the distance `x`, so
-//! `delta(x) = (3 mu m x/(rho² g_t))^(1/3)` once steady. A small change of thickness runs down at `rho g_t delta²/mu`, three times
-//! the mean speed.
+//! (Nusselt's film). A wall that receives `m` everywhere below its upper edge carries `m x` per width at the distance `x`, so the
+//! steady thickness is `delta(x) = (3 mu m x/(rho² g_t))^(1/3)`. A small change of thickness travels at `rho g_t delta²/mu`,
+//! three times the mean speed.
 //!
 //! `delta` thickness [m], `y` distance from the wall [m], `mu` viscosity [Pa s], `rho` density [kg/m³], `g_t` the part of gravity
 //! along the wall [m/s²], which is `g sin(beta)` on a wall at `beta` from the horizontal, `m` arrival [kg/m²/s]. Valid for
-//! Reynolds numbers `4 rho u delta/mu` below some 30, far above any slag's. Left out: the temperature across the film,
-//! which makes the outer slag run faster than that at the wall (Seggiani 1998 solves it for a gasifier), freezing, and the
-//! gas's drag.
+//! Reynolds numbers `4 rho u delta/mu` below some 30, far above any slag's. Neglected: the temperature profile across
+//! the film, which makes the outer slag flow faster (Seggiani 1998 solves it for a gasifier), freezing, and the drag of the gas.
 
 /// Speed [m/s] at a distance from the wall [m] in a film of a thickness [m].
 pub fn velocity(distance: f64, thickness: f64, density: f64, viscosity: f64, gravity_along: f64) -> f64 {
@@ -30,7 +29,7 @@ pub fn flow(thickness: f64, density: f64, viscosity: f64, gravity_along: f64) ->
     density * thickness * mean_velocity(thickness, density, viscosity, gravity_along)
 }
 
-/// Speed [m/s] at which a change of thickness runs down.
+/// Speed [m/s] at which a change of thickness travels.
 pub fn wave_velocity(thickness: f64, density: f64, viscosity: f64, gravity_along: f64) -> f64 {
     3.0 * mean_velocity(thickness, density, viscosity, gravity_along)
 }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! `mu_KF` [Pa s] is the law of [`super::urbain::KALMANOVITCH_FRANK`], `SiO2` [wt%] the share of silica in what stays in
-//! the melt (without `SO3`), held at the ends of 30 to 70. The correction does not depend on temperature, so the
+//! the melt (without `SO3`), clamped to 30 to 70. The correction does not depend on temperature, so the
 //! viscosity falls with it as it does after Kalmanovitch and Frank.
 //!
 //! Source: fitted to `tests/data/slag_viscosity_measured.csv` by `tests/library/slag_viscosity_study.rs`, which chose silica
@@ -14,11 +14,11 @@
 //!
 //! # Range and error
 //! Fully liquid slag of [`RANGES`], with at most 22 wt% of iron oxides and 1 wt% of all else together, at 1523 to 2456 K
-//! ([`TEMPERATURES`]). Outside it the law goes on, and [`super::SlagViscosity::holds_at`] says no: impacts are then
-//! counted as outside the stated range. On references held out whole, all weighing the same, the root mean square error
+//! ([`TEMPERATURES`]). Outside it the law still gives a value, but [`super::SlagViscosity::holds_at`] is false and impacts
+//! count as outside the stated range. On references held out whole, with equal weights, the root mean square error
 //! in log10 is 0.161 against 0.197 without the correction; it is larger than without on three of the twelve.
-//! The ratio is 0.815 [0.696, 0.964]; it hangs on few slags above 60 wt% SiO2: with one reference (MY1954) left out of
-//! the table the same search gains nothing that is certain, 0.951 [0.786, 1.182].
+//! The ratio is 0.815 [0.696, 0.964]; it rests on few slags above 60 wt% SiO2: with one reference (MY1954) left out of
+//! the table the same search gains nothing significant, 0.951 [0.786, 1.182].
 
 use super::ViscosityLaw;
 use super::composition::{Composition, Oxide};

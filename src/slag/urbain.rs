@@ -20,12 +20,12 @@
 //! phenomena", in Mineral Matter and Ash Deposition from Coal, Engineering Foundation (1988) 89–101.
 //!
 //! # Oxides on which the literature differs
-//! - `FeO` and `MnO` modify, `Fe2O3` is amphoteric: the composition decides, nothing is converted. An ash analysis
+//! - `FeO` and `MnO` are modifiers, `Fe2O3` is amphoteric; iron oxides are not converted. An ash analysis
 //!   reports all iron as `Fe2O3`; in a reducing gasifier most of it is `FeO`, which makes the slag up to ten times
-//!   thinner. Give it as what it is (1 wt% `Fe2O3` = 0.90 wt% `FeO`).
+//!   thinner. Give iron as the oxide that it forms (1 wt% `Fe2O3` = 0.90 wt% `FeO`).
 //! - A mole of `TiO2` counts as two of modifier (K. C. Mills in Slag Atlas, 2nd ed. 1995, and his "The estimation
 //!   of slag properties", 2011). The measured table is 0.001 closer in log10 than if it counted once.
-//! - `SO3` counts nowhere; it leaves before the ash melts.
+//! - `SO3` is ignored; it leaves before the ash melts.
 //!
 //! # Range and error
 //! Fully liquid slag: below the liquidus crystals thicken it and both laws are too low. Against the 1161 measured

@@ -16,7 +16,7 @@
 //! Fully liquid slag of British bituminous ash: 30–60 wt% SiO2, 15–35 Al2O3, 3–30 Fe2O3, 2–30 CaO, 1–10 MgO.
 //! Against the 1161 measured points of `tests/data/slag_viscosity_measured.csv` the root mean square error in log10
 //! is 0.39 (bias -0.32, half as thick as measured): most of those slags carry far more lime than coal ash does.
-//! Above 50 wt% SiO2 it is 0.18 to 0.30. The law has a pole at 150 °C; it says nothing about a slag that cold.
+//! Above 50 wt% SiO2 it is 0.18 to 0.30. The law has a pole at 150 °C and is meaningless for a slag that cold.
 
 use super::composition::{Composition, Oxide};
 use super::{LARGEST_EXPONENT, ViscosityLaw, unlimited};

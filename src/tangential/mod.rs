@@ -1,4 +1,4 @@
-//! Tangential impact: how much of the speed along the wall is left. One law a file.
+//! Tangential restitution: the share of the speed along the wall that a particle keeps. One law a file.
 
 mod constant;
 mod sliding;
@@ -8,7 +8,7 @@ pub use sliding_rolling::critical_angle;
 
 use crate::input::{InputError, Section};
 
-/// What a tangential law needs to know of an impact.
+/// The quantities of an impact that a tangential law uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpactKinematics {
     /// Speed towards the wall `v_n` [m/s].
@@ -32,7 +32,7 @@ impl ImpactKinematics {
         self.tangential_speed - 0.5 * self.diameter * self.spin
     }
 
-    /// The rebound at a speed [m/s] with the spin `omega_0 + x/d`; `at_rest` is `e_t` of an impact straight down.
+    /// The rebound with a speed along the wall [m/s] and the spin `omega_0 + x/d`; `at_rest` is `e_t` of a head-on impact.
     #[inline(always)]
     fn rebound(&self, [speed, omega_0, x]: [f64; 3], at_rest: f64) -> Rebound {
         let ratio = speed / self.tangential_speed;
@@ -100,8 +100,7 @@ impl TangentialLaw {
         }
     }
 
-    /// Tangential restitution and spin after the impact. Without tangential speed the restitution is that of
-    /// the smallest one.
+    /// Tangential restitution and spin after the impact. Without tangential speed the restitution is its limit for a small one.
     #[inline(always)]
     pub fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
         match self {

@@ -1,16 +1,16 @@
 //! Gross sliding: friction acts through the whole contact (Troiano et al., Eq. 10; MIGRAINE, Eq. 4).
 //!
-//! The normal impulse per mass is `(1+e_n) v_n`; Coulomb friction `f` takes that share of it from the tangential
-//! speed and turns it into spin:
+//! The normal impulse per mass is `(1+e_n) v_n`; Coulomb friction `f` reduces the tangential speed by that share of it and
+//! converts it to spin:
 //! `u2 = u1 - f (1+e_n) v_n`, `omega2 = omega1 + 5 f (1+e_n) v_n / d`, hence `e_t = 1 - f (1+e_n) tan(alpha)`.
 //!
 //! `u` tangential speed [m/s], `omega` spin [rad/s], `d` diameter [m]. Friction follows the slip of the contact
-//! point, `s = u1 - omega1 d/2`, so fast forward spin drives the particle on and backspin may throw it back. Valid below
+//! point, `s = u1 - omega1 d/2`, so fast forward spin accelerates the particle and backspin may reverse it. Valid below
 //! the critical angle of `sliding_rolling`, while the contact slips.
 //!
-//! Beyond that the law is used as printed, within two bounds. Friction without spin can stop the particle but not throw it
-//! back. And an impulse `J` per mass changes the energy of motion and spin by `-|s| J + 7/4 J²`, so friction that exceeds
-//! `J = 4|s|/7` would make energy: it turns the sphere no further than that, and with spin it drives it no further.
+//! Beyond that the law is used as printed, with two limits. Friction without spin can stop the particle but not reverse it.
+//! And an impulse `J` per mass changes the energy of motion and spin by `-|s| J + 7/4 J²`, so friction beyond `J = 4|s|/7`
+//! would create energy: neither the spin nor, with spin, the speed changes by more than that.
 
 use super::{ImpactKinematics, Rebound};
 
@@ -38,7 +38,7 @@ pub(super) fn impulse(friction: f64, kinematics: &ImpactKinematics) -> f64 {
     friction * (1.0 + kinematics.normal_restitution) * kinematics.normal_speed
 }
 
-/// `f64::min` takes care of what is no number, which costs a vector three instructions instead of one.
+/// `f64::min` handles NaN, which costs a vector three instructions instead of one.
 #[inline(always)]
 fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }

@@ -1,12 +1,12 @@
 //! Sliding at glancing angles, rolling at steep ones, for a rigid sphere (Troiano et al., Eqs. 10–12).
 //!
 //! Sliding ends at the critical angle from the surface `alpha_cr = acot( (7k-1)/k · f/2 · (1+e_n) )`, with Mindlin's
-//! stiffness ratio `k`. Past it the contact point no longer slips and the sphere leaves rolling:
+//! stiffness ratio `k`. Past it the contact point no longer slips and the sphere rolls off:
 //! `u2 = (5 u1 + d omega1)/7`, `omega2 = 2 u2 / d`; without spin `e_t = 5/7`.
 //!
 //! With incoming spin the slip `|u1 - omega1 d/2|` takes the place of `u1` in the criterion. For a finite `k` the
-//! sliding branch reaches `1 - 2k/(7k-1)` at `alpha_cr`, below 5/7: `e_t` jumps there. That is the theory as the
-//! paper uses it; tangential compliance, a term of its own, is what smooths the jump in reality.
+//! sliding branch reaches `1 - 2k/(7k-1)` at `alpha_cr`, below 5/7: `e_t` jumps there. This is the theory of the
+//! paper; in reality tangential compliance, a separate effect, smooths the jump.
 
 use super::{ImpactKinematics, Rebound, sliding};
 
