@@ -1,5 +1,5 @@
-//! What the benchmarks share: the model, its impacts, the floor that a processor's divider sets, and the same impact written by
-//! hand in C++.
+//! Common parts of the benchmarks: the model, its impacts, the lower limit set by the divider of a processor, and the same
+//! impact written by hand in C++.
 #![allow(unsafe_code, reason = "calls C")]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a benchmark may fail")]
 
@@ -173,7 +173,7 @@ pub struct Columns {
 }
 
 impl Columns {
-    /// So many impacts; those of a short list over and over.
+    /// `count` impacts, repeated from a short list.
     pub fn new(count: usize) -> Self {
         let list: Vec<[f64; 5]> = (0..1024).map(impact).collect();
         Self {

@@ -1,6 +1,6 @@
 // The wax impact of benches/impacts.rs as one would write it into a solver by hand: Thornton & Ning, sliding and rolling,
 // capture by melting, one draw. Nothing is checked and the constants are ready. Compiled with -O3 by the benchmark, once with the C
-// library's exponential and cube root, and once (-DOWN_ELEMENTARY) with those of src/elementary.rs.
+// library's exponential and cube root, and once (-DOWN_ELEMENTARY) with those of src/vector_math.rs.
 #include <cmath>
 #include <cstdint>
 #include <cstring>

@@ -1,4 +1,4 @@
-//! Times, and their ratios within one run. `benches/run` runs it several times and says how far the ratios spread.
+//! Times, and their ratios within one run. `benches/run` runs it several times and prints the spread of the ratios.
 #![allow(unsafe_code, reason = "calls C")]
 #![allow(clippy::unwrap_used, reason = "a benchmark may fail")]
 #![allow(missing_docs, reason = "criterion's functions")]

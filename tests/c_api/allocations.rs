@@ -31,7 +31,7 @@ const WAX: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmater
     [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n\
     [tangential]\nmodel = \"sliding-rolling\"\nfriction = 0.28\n";
 const MELTING: &str = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 360\nwidth = 7\n";
-const WALKED: &str = "[[effects]]\nkind = \"gas-lift\"\nstrength = 0.05\n";
+const GENERAL: &str = "[[effects]]\nkind = \"gas-lift\"\nstrength = 0.05\n";
 
 /// Allocations of the calls on one model: single ones, then a batch of so many.
 fn allocations(model: &str, count: usize) -> usize {
@@ -62,7 +62,7 @@ fn calls_allocate_nothing() {
     let before = COUNT.get();
     drop(std::hint::black_box(Box::new(1)));
     assert!(COUNT.get() > before, "the counter counts");
-    for effects in ["", MELTING, WALKED] {
+    for effects in ["", MELTING, GENERAL] {
         let model = WAX.to_owned() + effects;
         // The first batch of a process asks the processor for its vectors.
         allocations(&model, 1);

@@ -1,4 +1,4 @@
-//! `[capture] model = "droplet"` through the one door: what two papers saw of molten particles, and the file's errors.
+//! `[capture] model = "droplet"` through `Model::resolve`: observations of two papers, and errors of the model file.
 
 use nearwall::{Impact, ImpactError, ImpactRng, Model, Regime};
 
@@ -117,11 +117,11 @@ fn fast_droplets_splash_and_leave() {
 }
 
 #[test]
-fn the_walk_names_the_droplet() {
+fn the_trace_names_the_droplet() {
     let model = model("montan-wax", "pyrex", "");
     assert!(model.describe().iter().any(|(_, text)| text == "also by droplet, splash_K 57.7"));
-    let (_, shares) = model.explain(0, &wax_at(5.0, 120.0), ImpactRng::default()).unwrap();
-    assert!(shares.iter().any(|share| share.term == "droplet" && share.value == 1.0));
+    let (_, trace) = model.explain(0, &wax_at(5.0, 120.0), ImpactRng::default()).unwrap();
+    assert!(trace.iter().any(|entry| entry.term == "droplet" && entry.value == 1.0));
 }
 
 #[test]

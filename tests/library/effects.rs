@@ -1,4 +1,4 @@
-//! All effects together: what the documents say of them, that a model file reaches each, and that none breaks arithmetic.
+//! All effects: the documents list them, a model file can use each, and every outcome stays finite.
 
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -231,7 +231,7 @@ fn chance_counts_for_effects_with_streams_and_for_no_others() {
     }
 }
 
-/// A term whose parameters say "nothing" is no term.
+/// A term with neutral parameters has no effect.
 #[test]
 fn neutral_parameters_change_nothing() {
     let neutral: [(&str, &[f64]); 12] = [
@@ -278,9 +278,9 @@ fn a_rough_mirror_keeps_the_energy() {
     assert!(steeper > 500, "{steeper} of 1000 with e_n > 1");
 }
 
-/// What makes a particle sticky takes its share of what all effects on `e_n` leave, wherever it stands in the file.
+/// Stickiness reduces `e_n` after all effects on it, whatever their order in the file.
 #[test]
-fn stickiness_takes_its_share_after_the_effects() {
+fn stickiness_reduces_e_n_after_the_effects() {
     let agglomerates = "[[effects]]\nkind = \"agglomerates\"\nfraction = 1\nrestitution = 0.8\nspread = 0\n";
     let melting = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 293.15\nwidth = 10\n";
     let impact = Impact { normal_speed: 1.0, ..Impact::default() };

@@ -1,4 +1,4 @@
-//! The same impact has the same bits: alone, in batches of any size, on any thread and on any address.
+//! The same impact has the same bits: alone, in batches of any size, on any thread and at any address.
 #![allow(unsafe_code, reason = "the C interface")]
 
 use std::ptr::{null, null_mut};

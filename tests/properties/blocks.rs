@@ -1,4 +1,4 @@
-//! Same inputs, same bits: one at a time, noted step by step, and in blocks of any length with any vectors.
+//! Same inputs, same bits: single impacts, with a trace, and in blocks of any length with any vectors.
 
 use nearwall::model::block::{BLOCK, Block, Level, Outcomes};
 use nearwall::{Impact, ImpactRng, Model, Outcome, impact::INPUTS};
@@ -30,7 +30,7 @@ fn bits_at(outcomes: &Outcomes, index: usize) -> [u64; 7] {
     ]
 }
 
-/// Every set of vectors that a build has code for and this machine can run.
+/// Every vector width in the build that this machine supports.
 fn levels() -> Vec<Level> {
     let best = Level::new();
     #[cfg(target_arch = "x86_64")]
@@ -48,8 +48,8 @@ fn levels() -> Vec<Level> {
     vec![best]
 }
 
-/// Effects that a plan knows, none to three of them, sometimes with an asymmetry or a range that it leaves to the walk.
-fn simple_effects() -> impl Strategy<Value = String> {
+/// Effects with a precomputed form; sometimes with an asymmetry or a range that needs the general steps.
+fn precomputed_effects() -> impl Strategy<Value = String> {
     let ratio = prop_oneof![Just(String::new()), decades(0.1, 10.0).prop_map(|c| table("yield-ratio", &[c]))];
     let energy =
         prop_oneof![Just(String::new()), decades(1e-4, 10.0).prop_map(|w| table("adhesion-energy", &[w]))];
@@ -70,7 +70,7 @@ fn simple_effects() -> impl Strategy<Value = String> {
 }
 
 fn models() -> impl Strategy<Value = Model> {
-    (normal_laws(), tangential_laws(), simple_effects())
+    (normal_laws(), tangential_laws(), precomputed_effects())
         .prop_map(|(normal, tangential, effects)| wax(&normal, &tangential, &effects))
 }
 
@@ -96,7 +96,7 @@ proptest! {
     #![proptest_config(config(300))]
 
     #[test]
-    fn noting_the_steps_changes_nothing(
+    fn a_trace_changes_nothing(
         model in models(),
         impacts in prop::collection::vec(prop_oneof![impacts(), spinning(), hostile()], 1..40),
         seed: u64,
@@ -104,8 +104,8 @@ proptest! {
         for (key, impact) in impacts.iter().enumerate() {
             let draw = ImpactRng::new(seed, key as u64);
             let plain = model.resolve(0, impact, draw).unwrap();
-            let (noted, _) = model.explain(0, impact, draw).unwrap();
-            prop_assert_eq!(bits(&plain), bits(&noted), "{:?}: {:?} or {:?}", impact, plain, noted);
+            let (traced, _) = model.explain(0, impact, draw).unwrap();
+            prop_assert_eq!(bits(&plain), bits(&traced), "{:?}: {:?} or {:?}", impact, plain, traced);
         }
     }
 
@@ -134,9 +134,9 @@ proptest! {
     }
 }
 
-/// The tests above are of plans and not of the walk.
+/// The tests above cover prepared walls.
 #[test]
-fn plans_know_what_they_are_for() {
+fn walls_are_prepared_where_they_can_be() {
     let prepared = |normal: &str, effects: &str| wax(normal, FREE, effects).is_prepared(0);
     let transition = |asymmetry| table("melting-transition", &[360.0, 7.0, 1.0, asymmetry]);
     assert!(prepared(THORNTON_NING, "") && prepared(&constant_normal(0.5), &transition(1.0)));

@@ -17,7 +17,7 @@ const BEYOND_ONE: [&str; 5] = [
     "tangential-compliance", // near_normal may be given as up to 1.5; below with 0 to 1
 ];
 
-/// Either end, or even in the logarithm.
+/// Either end, or uniform in the logarithm.
 fn ends(low: f64, high: f64) -> impl Strategy<Value = f64> + Clone {
     prop_oneof![Just(low), Just(high), decades(low, high)]
 }

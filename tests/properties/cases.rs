@@ -7,8 +7,8 @@ use proptest::test_runner::RngSeed;
 
 use crate::common::random::seed;
 
-/// So many cases a test, from the seed that is printed (`NEARWALL_TEST_SEED` repeats it). No file of failures is kept: the seed is
-/// enough.
+/// The number of cases of a test, drawn from the printed seed (`NEARWALL_TEST_SEED` repeats it). The seed replaces a file of
+/// failures.
 pub fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,
@@ -18,7 +18,7 @@ pub fn config(cases: u32) -> ProptestConfig {
     }
 }
 
-/// Wax on Pyrex with these laws and effects; constant properties, so that any temperature has an answer.
+/// Wax on Pyrex with these laws and effects; constant properties, valid input at any temperature.
 pub fn wax(normal: &str, tangential: &str, effects: &str) -> Model {
     let text = format!(
         "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
@@ -53,12 +53,12 @@ pub fn e_n(model: &Model, impact: &Impact) -> f64 {
     resolve(model, impact).normal_restitution
 }
 
-/// Even in the logarithm.
+/// Uniform in the logarithm.
 pub fn decades(low: f64, high: f64) -> impl Strategy<Value = f64> + Clone {
     (low.ln()..high.ln()).prop_map(f64::exp)
 }
 
-/// Zero now and then, else even in the logarithm.
+/// Sometimes zero, else uniform in the logarithm.
 fn sometimes(low: f64, high: f64) -> impl Strategy<Value = f64> {
     prop_oneof![1 => Just(0.0), 3 => decades(low, high)]
 }
@@ -112,7 +112,7 @@ pub fn normal_laws() -> impl Strategy<Value = String> {
     ]
 }
 
-/// A parameter where a fit looks for it; over the ranges of [`impacts`] where it looks in those of the data.
+/// A parameter within the range of a fit; within the ranges of [`impacts`] where the fit uses those of the data.
 fn values(parameter: &'static Parameter) -> BoxedStrategy<f64> {
     match parameter.search {
         Search::Linear(low, high) => (low..high).boxed(),

@@ -1,4 +1,4 @@
-//! Every place where a law changes its form: the outcome goes through it without a jump.
+//! The outcome is continuous wherever a law changes its form.
 //!
 //! Two jumps are meant: `e_t` of `sliding-rolling` at the critical angle, whose size is tested here, and the probability of capture,
 //! which goes from 0 to 1 where adhesion or a film begins to hold (there `e_n` reaches 0 without a jump). What is drawn jumps

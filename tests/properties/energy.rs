@@ -1,4 +1,4 @@
-//! Energy: motion and spin together never gain by a collision.
+//! Energy: an impact never increases the energy of motion and spin.
 
 use nearwall::{Impact, ImpactRng, Outcome};
 use proptest::prelude::*;
@@ -23,7 +23,7 @@ fn energy(normal: f64, along: f64, rim: f64) -> f64 {
     0.5 * (normal * normal + along * along) + rim * rim / 20.0
 }
 
-/// Effects to which energy comes from elsewhere, or whose parameters may say so.
+/// Effects that add energy from elsewhere, or may do so by their parameters.
 const DRIVEN: [&str; 4] = [
     "gas-lift",              // the gas does work
     "agglomerates",          // draws e_n up to 1.5

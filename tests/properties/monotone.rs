@@ -1,4 +1,4 @@
-//! What rises and what falls, where theory says which.
+//! Monotonic dependences that theory predicts.
 
 use nearwall::effect::Term;
 use nearwall::normal::{restitution, sticking_velocity};
@@ -9,7 +9,7 @@ use crate::cases::{
     FREE, THORNTON_NING, config, constant_normal, decades, e_n, impacts, resolve, table, wax,
 };
 
-/// Values from `low` to `high`, even in the logarithm.
+/// Values from `low` to `high`, uniform in the logarithm.
 fn ladder(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| low * (high / low).powf(i as f64 / (count - 1) as f64)).collect()
 }
@@ -24,7 +24,7 @@ fn fall(numbers: &[f64]) -> Result<(), TestCaseError> {
     rise(&numbers.iter().map(|number| -number).collect::<Vec<_>>())
 }
 
-/// What a function says over a ladder of its input.
+/// A function over a ladder of its input.
 fn over(values: &[f64], of: impl Fn(f64) -> f64) -> Vec<f64> {
     values.iter().map(|value| of(*value)).collect()
 }
