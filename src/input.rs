@@ -225,11 +225,7 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is not a text.
     pub fn text(&self, key: &str) -> Result<Option<String>, InputError> {
-        match self.find(key).map(Spanned::get_ref) {
-            None => Ok(None),
-            Some(DeValue::String(text)) => Ok(Some(text.to_string())),
-            Some(other) => Err(self.wrong_type(key, "a text in quotes", other)),
-        }
+        self.converted(key, "a text in quotes", |value| value.as_str().map(str::to_owned))
     }
 
     /// A required text.
@@ -245,11 +241,7 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is neither `true` nor `false`.
     pub fn boolean(&self, key: &str) -> Result<Option<bool>, InputError> {
-        match self.find(key).map(Spanned::get_ref) {
-            None => Ok(None),
-            Some(DeValue::Boolean(value)) => Ok(Some(*value)),
-            Some(other) => Err(self.wrong_type(key, "true or false", other)),
-        }
+        self.converted(key, "true or false", DeValue::as_bool)
     }
 
     /// A list of finite numbers, or `None` when the key is absent.
@@ -257,13 +249,8 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is not a list of finite numbers.
     pub fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, InputError> {
-        match self.find(key).map(Spanned::get_ref) {
-            None => Ok(None),
-            Some(DeValue::Array(list)) => {
-                list.iter().map(|value| self.to_number(key, value)).collect::<Result<_, _>>().map(Some)
-            }
-            Some(other) => Err(self.wrong_type(key, "a list of numbers", other)),
-        }
+        let list = self.converted(key, "a list of numbers", DeValue::as_array)?;
+        list.map(|list| list.iter().map(|value| self.to_number(key, value)).collect()).transpose()
     }
 
     /// A list of texts, or `None` when the key is absent.
@@ -299,15 +286,10 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is not a table.
     pub fn section(&self, key: &str) -> Result<Option<Section<'a>>, InputError> {
-        match self.find(key) {
-            None => Ok(None),
-            Some(value) => match value.get_ref() {
-                DeValue::Table(table) => {
-                    Ok(Some(Section::new(self.document, self.full(key), table, value.span())))
-                }
-                other => Err(self.wrong_type(key, "a table", other)),
-            },
-        }
+        let table = self.converted(key, "a table", DeValue::as_table)?;
+        Ok(table
+            .zip(self.find(key))
+            .map(|(table, value)| Section::new(self.document, self.full(key), table, value.span())))
     }
 
     /// A required table.
@@ -385,6 +367,18 @@ impl<'a> Section<'a> {
         }
         let place = if self.path.is_empty() { "the file".to_owned() } else { format!("[{}]", self.path) };
         self.fault(key, format!("missing; add {what} named `{key}` to {place}"))
+    }
+
+    /// The converted value of `key`, `None` when the key is absent; an error naming the `expected` type where `convert` fails.
+    fn converted<T>(
+        &self,
+        key: &str,
+        expected: &str,
+        convert: impl FnOnce(&'a DeValue<'a>) -> Option<T>,
+    ) -> Result<Option<T>, InputError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        let wrong = || self.wrong_type(key, expected, value.get_ref());
+        convert(value.get_ref()).ok_or_else(wrong).map(Some)
     }
 
     fn find(&self, key: &str) -> Option<Value<'a>> {

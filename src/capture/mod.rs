@@ -14,7 +14,7 @@ pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited
 pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};
 
 /// Stickiness of particle and wall, each 0 to 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Stickiness {
     /// Of the particle, `P_p` [1].
     pub particle: f64,

@@ -48,7 +48,7 @@ impl Stages {
 }
 
 /// Normal restitution, and whether the particle is held.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct NormalRebound {
     /// Normal restitution `e_n` [1]; 0 when the particle is held.
     pub restitution: f64,
@@ -64,7 +64,7 @@ impl NormalRebound {
 }
 
 /// What is known of an impact between two steps. `C` is the contact of particle and wall.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ImpactState<C> {
     /// The impact with regard to the local, tilted wall.
     pub impact: Impact,
@@ -85,25 +85,7 @@ pub(super) struct ImpactState<C> {
     pub captured: bool,
 }
 
-impl<C: Default> ImpactState<C> {
-    /// An impact before the first step.
-    #[inline(always)]
-    pub fn new(impact: Impact) -> Self {
-        Self {
-            impact,
-            outside_range: false,
-            contact: C::default(),
-            sticky: Stickiness { particle: 0.0, wall: 0.0 },
-            adhesion: 0.0,
-            normal: NormalRebound { restitution: 0.0, held: false },
-            chance: 0.5,
-            normal_restitution: 0.0,
-            rebound: Rebound { restitution: 0.0, spin: 0.0 },
-            probability: 0.0,
-            captured: false,
-        }
-    }
-
+impl<C> ImpactState<C> {
     /// The outcome after the last step.
     #[inline(always)]
     pub fn outcome(&self) -> Outcome {

@@ -33,7 +33,7 @@ impl Model {
         let (wall, arriving) = self.at_wall(wall, impact)?;
         let frame = TiltedFrame { tilt: 0.0 };
         let mut steps = GeneralWall { model: self, wall, arriving, frame, uniform, trace };
-        let mut state = ImpactState::new(arriving);
+        let mut state = ImpactState { impact: arriving, ..ImpactState::default() };
         evaluate(&mut steps, Stages::ALL, &mut state)?;
         Ok(state.outcome())
     }

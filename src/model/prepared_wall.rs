@@ -105,7 +105,7 @@ impl PreparedWall {
     pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
         // First: no number has to be kept over the call.
         let holds = self.valid.is_empty() || self.terms_hold_for(impact);
-        let mut state = ImpactState::new(*impact);
+        let mut state = ImpactState { impact: *impact, ..ImpactState::default() };
         let Ok(()) = evaluate(&mut PreparedImpact { wall: &self.constants, rng }, Stages::ALL, &mut state);
         let outcome = state.outcome();
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
@@ -203,11 +203,7 @@ fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> Impac
     let input = |input: usize| block.inputs[input][i];
     let normal = outcomes.normal_restitution[i];
     ImpactState {
-        adhesion: normal,
-        sticky: Stickiness { particle: outcomes.sticking_probability[i], wall: 0.0 },
-        normal: wall.normal_rebound(normal),
-        chance: outcomes.spin[i],
-        ..ImpactState::new(Impact {
+        impact: Impact {
             normal_speed: input(Impact::NORMAL_SPEED),
             tangential_speed: input(Impact::TANGENTIAL_SPEED),
             diameter: input(Impact::DIAMETER),
@@ -216,7 +212,12 @@ fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> Impac
             conversion: input(Impact::CONVERSION),
             spin: input(Impact::SPIN),
             ..Impact::default()
-        })
+        },
+        adhesion: normal,
+        sticky: Stickiness { particle: outcomes.sticking_probability[i], wall: 0.0 },
+        normal: wall.normal_rebound(normal),
+        chance: outcomes.spin[i],
+        ..ImpactState::default()
     }
 }
 

@@ -68,27 +68,38 @@ pub enum CompositionError {
     Empty,
 }
 
+/// Formula, molar mass [kg/mol] and role of each oxide, in the order of the enum.
+const OXIDES: [(Oxide, &str, f64, OxideRole); 13] = [
+    (Oxide::SiO2, "SiO2", 60.083e-3, OxideRole::GlassFormer),
+    (Oxide::Al2O3, "Al2O3", 101.961e-3, OxideRole::Amphoteric),
+    (Oxide::Fe2O3, "Fe2O3", 159.687e-3, OxideRole::Amphoteric),
+    (Oxide::FeO, "FeO", 71.844e-3, OxideRole::Modifier),
+    (Oxide::CaO, "CaO", 56.077e-3, OxideRole::Modifier),
+    (Oxide::MgO, "MgO", 40.304e-3, OxideRole::Modifier),
+    (Oxide::Na2O, "Na2O", 61.979e-3, OxideRole::Modifier),
+    (Oxide::K2O, "K2O", 94.195e-3, OxideRole::Modifier),
+    (Oxide::TiO2, "TiO2", 79.865e-3, OxideRole::Modifier),
+    (Oxide::P2O5, "P2O5", 141.943e-3, OxideRole::GlassFormer),
+    (Oxide::MnO, "MnO", 70.937e-3, OxideRole::Modifier),
+    (Oxide::SO3, "SO3", 80.057e-3, OxideRole::Volatile),
+    (Oxide::B2O3, "B2O3", 69.617e-3, OxideRole::Amphoteric),
+];
+
 impl Oxide {
     /// Every oxide, in the order in which a composition lists them.
-    pub const ALL: [Self; 13] = [
-        Self::SiO2,
-        Self::Al2O3,
-        Self::Fe2O3,
-        Self::FeO,
-        Self::CaO,
-        Self::MgO,
-        Self::Na2O,
-        Self::K2O,
-        Self::TiO2,
-        Self::P2O5,
-        Self::MnO,
-        Self::SO3,
-        Self::B2O3,
-    ];
+    pub const ALL: [Self; 13] = {
+        let mut all = [Self::SiO2; 13];
+        let mut index = 0;
+        while index < all.len() {
+            all[index] = OXIDES[index].0;
+            index += 1;
+        }
+        all
+    };
 
     /// The chemical formula, as files write it.
     pub fn name(self) -> &'static str {
-        self.name_and_mass().0
+        OXIDES[self as usize].1
     }
 
     /// The oxide of this formula, capitals as in chemistry.
@@ -98,37 +109,12 @@ impl Oxide {
 
     /// Molar mass [kg/mol], from the IUPAC abridged standard atomic weights.
     pub fn molar_mass(self) -> f64 {
-        self.name_and_mass().1
-    }
-
-    fn name_and_mass(self) -> (&'static str, f64) {
-        match self {
-            Self::SiO2 => ("SiO2", 60.083e-3),
-            Self::Al2O3 => ("Al2O3", 101.961e-3),
-            Self::Fe2O3 => ("Fe2O3", 159.687e-3),
-            Self::FeO => ("FeO", 71.844e-3),
-            Self::CaO => ("CaO", 56.077e-3),
-            Self::MgO => ("MgO", 40.304e-3),
-            Self::Na2O => ("Na2O", 61.979e-3),
-            Self::K2O => ("K2O", 94.195e-3),
-            Self::TiO2 => ("TiO2", 79.865e-3),
-            Self::P2O5 => ("P2O5", 141.943e-3),
-            Self::MnO => ("MnO", 70.937e-3),
-            Self::SO3 => ("SO3", 80.057e-3),
-            Self::B2O3 => ("B2O3", 69.617e-3),
-        }
+        OXIDES[self as usize].2
     }
 
     /// Its role in the network of a silicate melt.
     pub fn role(self) -> OxideRole {
-        match self {
-            Self::SiO2 | Self::P2O5 => OxideRole::GlassFormer,
-            Self::Al2O3 | Self::Fe2O3 | Self::B2O3 => OxideRole::Amphoteric,
-            Self::FeO | Self::CaO | Self::MgO | Self::Na2O | Self::K2O | Self::TiO2 | Self::MnO => {
-                OxideRole::Modifier
-            }
-            Self::SO3 => OxideRole::Volatile,
-        }
+        OXIDES[self as usize].3
     }
 
     fn names() -> String {
@@ -255,6 +241,7 @@ mod tests {
     fn every_name_leads_back_to_its_oxide() {
         for oxide in Oxide::ALL {
             assert_eq!(Oxide::from_name(oxide.name()), Some(oxide));
+            assert_eq!(Oxide::ALL[oxide as usize], oxide);
         }
     }
 

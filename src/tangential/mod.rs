@@ -44,7 +44,7 @@ impl ImpactKinematics {
 }
 
 /// Tangential restitution and spin after the impact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rebound {
     /// Tangential restitution `e_t` [1].
     pub restitution: f64,
