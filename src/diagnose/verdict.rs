@@ -98,7 +98,11 @@ fn not_examined(hypothesis: &Hypothesis<'_>, effect: &'static EffectInfo) -> Opt
 /// The verdict: the result in a few sentences.
 pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
     let rows = diagnosis.rows.used;
-    let causes: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
+    let cause = |finding: &Finding| match finding.cause.strip_prefix("unknown:") {
+        Some(column) => format!("a dependence on {column}"),
+        None => finding.cause.clone(),
+    };
+    let causes: Vec<String> = diagnosis.findings.iter().map(cause).collect();
     let value = |c: &Calibration| format!("{} = {} instead of {}", c.key, c.value, c.from);
     let values = diagnosis.calibration.iter().map(value).collect::<Vec<_>>().join(", ");
     let mut text = match (causes.as_slice(), values.is_empty()) {
