@@ -1,4 +1,4 @@
-//! The fuzzer's bytes as choices and numbers; zeros when they run out.
+//! The fuzzer's bytes read as choices and numbers; zeros after their end.
 
 /// Numbers that break arithmetic.
 const HOSTILE: [f64; 20] = [
@@ -63,7 +63,7 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// Numbers as they may stand in a file.
+/// Numbers as text in a file.
 pub const WRITTEN: [&str; 28] = [
     "0",
     "-0.0",
@@ -95,7 +95,7 @@ pub const WRITTEN: [&str; 28] = [
     "[1, 2, 3]",
 ];
 
-/// A file that is accepted, with some of its numbers replaced: each two bytes say which and by what.
+/// An accepted file with some of its numbers replaced: each pair of bytes selects a number and its replacement.
 pub fn with_other_numbers(whole: &str, bytes: &[u8]) -> String {
     let is_part = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | '-' | '+');
     let mut numbers = Vec::new();
@@ -126,7 +126,8 @@ pub fn with_other_numbers(whole: &str, bytes: &[u8]) -> String {
     text
 }
 
-/// What bytes say that begin with one of 0xF8 to 0xFF, which no text does: a file of `wholes` with other numbers.
+/// The text of a file. Bytes that begin with one of 0xF8 to 0xFF, as no UTF-8 text does, select a file of `wholes` and
+/// replace numbers in it; other bytes are the text itself.
 pub fn file<'a>(wholes: &[&str], bytes: &'a [u8]) -> Option<std::borrow::Cow<'a, str>> {
     match bytes {
         [first @ 0xF8..=0xFF, which, rest @ ..] => {

@@ -1,7 +1,7 @@
-//! A measured data set that is read fine, through the whole of a diagnosis.
+//! A readable data set through a whole diagnosis.
 //!
-//! The bytes are the file; or, beginning with one of 0xF8 to 0xFF, which no text does, what a table is made of: its
-//! columns, how each runs, and numbers that break arithmetic. A short table of few columns keeps one diagnosis cheap.
+//! The bytes are the file; or, if they begin with one of 0xF8 to 0xFF, as no UTF-8 text does, they describe a table: its
+//! columns, the course of each, and extreme numbers. A short table of few columns keeps one diagnosis cheap.
 
 use std::fmt::Write as _;
 

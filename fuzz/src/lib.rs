@@ -1,5 +1,5 @@
-//! What is fuzzed: one function a door. Each takes any bytes and panics where a promise of nearwall is broken. The fuzzer
-//! (`fuzz/run`) and the replay of what it found (`tests/library/corpus.rs`) call the same functions.
+//! The fuzz targets. Each takes any bytes and panics if nearwall violates one of its guarantees. The fuzzer (`fuzz/run`) and
+//! the replay of its corpus (`tests/library/corpus.rs`) call the same functions.
 
 mod bytes;
 mod c_api;
@@ -16,10 +16,10 @@ pub use diagnose::diagnose;
 pub use model::model;
 pub use openfoam::openfoam;
 
-/// A door: what it is called, and what is fed.
+/// Name and function of a target.
 pub type Target = (&'static str, fn(&[u8]));
 
-/// Every door, by the name of its folder in `fuzz/corpus`.
+/// All targets, named as their folders in `fuzz/corpus`.
 pub const TARGETS: [Target; 6] = [
     ("model", model),
     ("case", case),
@@ -29,7 +29,7 @@ pub const TARGETS: [Target; 6] = [
     ("c_api", c_api),
 ];
 
-/// An error names the file and a place that is in it.
+/// Asserts that an error names the file and a position in it.
 fn place(error: &str, file: &str, text: &str) {
     let rest = error.strip_prefix(file).and_then(|rest| rest.strip_prefix(':'));
     let mut parts = rest.unwrap_or_else(|| panic!("no file in: {error}")).splitn(3, ':');
@@ -43,7 +43,7 @@ fn place(error: &str, file: &str, text: &str) {
     assert!(!error.contains("panicked"), "{error}");
 }
 
-/// A page that is whole, and whose figures have a number wherever a browser needs one.
+/// Asserts that a page is complete and that its figures contain numbers wherever a browser needs one.
 fn whole(page: &str) {
     assert!(page.contains("</html>") && page.len() > 1000);
     for bare in ["=\"NaN\"", "=\"inf\"", "=\"-inf\""] {

@@ -1,7 +1,7 @@
 //! A finished OpenFOAM case as `report` reads it.
 //!
-//! The bytes are the files of a case, each after a zero: a letter says which file of [`PLACES`] it is, the rest is what
-//! stands in it. Before the first zero stands the table of runs that `report` takes instead of a case.
+//! The bytes are the files of a case, each after a zero: a letter selects a file of [`PLACES`], the rest is its text. The
+//! bytes before the first zero are the table of runs that `report` accepts instead of a case.
 
 use std::path::Path;
 
@@ -64,7 +64,7 @@ pub fn openfoam(bytes: &[u8]) {
     }
 }
 
-/// A folder that goes when it is dropped; in memory where there is room for it, which is some forty times faster.
+/// A temporary folder, in memory where possible, which is some forty times faster.
 fn scratch() -> tempfile::TempDir {
     let memory = tempfile::tempdir_in("/dev/shm").or_else(|_| tempfile::tempdir());
     memory.expect("a scratch folder")

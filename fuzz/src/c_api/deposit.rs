@@ -5,8 +5,8 @@ use std::ptr::null;
 use nearwall::c_api::*;
 
 use super::super::bytes::Bytes;
+use super::guarded_buffer::{GuardedBuffer, known};
 use super::impacts::impact;
-use super::room::{Room, known};
 
 /// What a code keeps of a piece of wall.
 #[derive(Default)]
@@ -45,14 +45,14 @@ impl Wall {
         let impact = impact(bytes);
         let mass = if bytes.below(2) == 0 { 1e-3 } else { bytes.number() };
         let density = if bytes.below(2) == 0 { 2e3 } else { bytes.number() };
-        let mut asked = Room::holding(bytes, impact);
-        let from: *const nw_impact = asked.perhaps(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, impact);
+        let from: *const nw_impact = asked.start_or_null(bytes);
         let before = self.arrivals(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: each is null or what it should be.
             unsafe { nw_deposit_source_add(model, from, mass, density, to) }
         });
-        asked.kept();
+        asked.assert_guard_intact();
         let Some(after) = status else { return };
         sound_sums(&after);
         assert_eq!(after.count, before.count.saturating_add(1));
@@ -62,14 +62,14 @@ impl Wall {
 
     fn add(&mut self, bytes: &mut Bytes<'_>) {
         let arrivals = self.arrivals(bytes);
-        let mut asked = Room::holding(bytes, arrivals);
-        let from: *const nw_deposit_source = asked.perhaps(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, arrivals);
+        let from: *const nw_deposit_source = asked.start_or_null(bytes);
         let before = self.deposit(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: each is null or what it should be.
             unsafe { nw_deposit_add(from, to) }
         });
-        asked.kept();
+        asked.assert_guard_intact();
         let Some(after) = status else { return };
         sound(&after);
         alike(before.molten + before.powder + arrivals.molten + arrivals.powder, after.molten + after.powder);
@@ -81,13 +81,13 @@ impl Wall {
         let voidage = share(bytes);
         let deposit = self.deposit(bytes);
         let bare = impact(bytes);
-        let mut asked = Room::holding(bytes, deposit);
-        let from: *const nw_deposit = asked.perhaps(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, deposit);
+        let from: *const nw_deposit = asked.start_or_null(bytes);
         let status = changed(bytes, bare, |to| {
             // SAFETY: each is null or what it should be.
             unsafe { nw_deposit_apply(model, from, voidage, to) }
         });
-        asked.kept();
+        asked.assert_guard_intact();
         let Some(dressed) = status else { return };
         let heights = [dressed.layer_thickness, dressed.melt_thickness];
         assert!(heights.iter().all(|height| height.is_finite() && *height >= 0.0), "{dressed:?}");
@@ -114,23 +114,23 @@ impl Wall {
         let t_w = if bytes.below(2) == 0 { 1700.0 } else { bytes.number() };
         let gravity = if bytes.below(2) == 0 { 9.81 } else { bytes.number() };
         let deposit = self.deposit(bytes);
-        let mut asked = Room::holding(bytes, deposit);
-        let from: *const nw_deposit = asked.perhaps(bytes);
-        let mut room = Room::new(bytes, 8);
-        let to = room.perhaps(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, deposit);
+        let from: *const nw_deposit = asked.start_or_null(bytes);
+        let mut buffer = GuardedBuffer::new(bytes, 8);
+        let to = buffer.start_or_null(bytes);
         // SAFETY: each is null or what it should be.
         let status = unsafe { nw_film_velocity(model, from, t_w, gravity, to) };
         known(status);
-        asked.kept();
-        room.kept();
+        asked.assert_guard_intact();
+        buffer.assert_guard_intact();
         if status == NW_OK {
-            let found = room.f64();
+            let found = buffer.f64();
             assert!(
                 found.is_finite() && found >= 0.0,
                 "{found} m/s of {deposit:?} at {t_w} K, {gravity} m/s2"
             );
         } else {
-            room.untouched();
+            buffer.assert_untouched();
         }
     }
 
@@ -187,30 +187,30 @@ impl Wall {
 }
 
 fn begin(bytes: &mut Bytes<'_>) {
-    let mut deposit = Room::new(bytes, size_of::<nw_deposit>());
-    let mut arrivals = Room::new(bytes, size_of::<nw_deposit_source>());
-    let (to_deposit, to_arrivals) = (deposit.perhaps(bytes), arrivals.perhaps(bytes));
-    // SAFETY: each is null or room for what is written.
+    let mut deposit = GuardedBuffer::new(bytes, size_of::<nw_deposit>());
+    let mut arrivals = GuardedBuffer::new(bytes, size_of::<nw_deposit_source>());
+    let (to_deposit, to_arrivals) = (deposit.start_or_null(bytes), arrivals.start_or_null(bytes));
+    // SAFETY: each is null or a buffer large enough for what is written.
     let found = unsafe { [nw_deposit_init(to_deposit), nw_deposit_source_init(to_arrivals)] };
-    for (room, status) in [deposit, arrivals].iter().zip(found) {
+    for (buffer, status) in [deposit, arrivals].iter().zip(found) {
         known(status);
-        room.kept();
+        buffer.assert_guard_intact();
         if status != NW_OK {
-            room.untouched();
+            buffer.assert_untouched();
         }
     }
 }
 
 /// A call that changes what it is given: what that is afterwards, `None` where it was refused and so left alone.
 fn changed<T: Copy>(bytes: &mut Bytes<'_>, before: T, call: impl FnOnce(*mut T) -> nw_status) -> Option<T> {
-    let mut room = Room::holding(bytes, before);
-    let kept = room.bytes.clone();
-    let to: *mut T = room.perhaps(bytes);
+    let mut buffer = GuardedBuffer::holding(bytes, before);
+    let kept = buffer.bytes.clone();
+    let to: *mut T = buffer.start_or_null(bytes);
     let status = call(to);
     known(status);
-    room.kept();
+    buffer.assert_guard_intact();
     if status != NW_OK {
-        assert!(room.bytes == kept, "written on failure");
+        assert!(buffer.bytes == kept, "written on failure");
         return None;
     }
     // SAFETY: not null, or the call would have been refused; still a `T`.

@@ -7,7 +7,7 @@ use nearwall::c_api::*;
 use nearwall::impact::INPUTS;
 
 use super::super::bytes::Bytes;
-use super::room::{Room, known};
+use super::guarded_buffer::{GuardedBuffer, known};
 
 /// An impact of which most is ordinary.
 pub fn impact(bytes: &mut Bytes<'_>) -> nw_impact {
@@ -39,23 +39,23 @@ fn size_is_known(size: u32, right: usize) -> bool {
 /// One impact, resolved where it stands and once more on an even address.
 pub fn one(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let impact = impact(bytes);
-    let mut asked = Room::holding(bytes, impact);
+    let mut asked = GuardedBuffer::holding(bytes, impact);
     let mut outcome = nw_outcome::default();
     if bytes.byte() == 0 {
         outcome.struct_size = bytes.word() as u32;
     }
-    let mut room = Room::holding(bytes, outcome);
-    let before = room.bytes.clone();
-    let from: *const nw_impact = asked.perhaps(bytes);
-    let to: *mut nw_outcome = room.perhaps(bytes);
+    let mut buffer = GuardedBuffer::holding(bytes, outcome);
+    let before = buffer.bytes.clone();
+    let from: *const nw_impact = asked.start_or_null(bytes);
+    let to: *mut nw_outcome = buffer.start_or_null(bytes);
     let model = if bytes.byte() == 0 { null() } else { model };
     // SAFETY: each is null or what it should be, and begins with its size.
     let status = unsafe { nw_resolve(model, from, to) };
     known(status);
-    asked.kept();
-    room.kept();
+    asked.assert_guard_intact();
+    buffer.assert_guard_intact();
     if status != NW_OK {
-        assert!(room.bytes == before, "written on failure");
+        assert!(buffer.bytes == before, "written on failure");
     } else {
         assert!(size_is_known(impact.struct_size, size_of::<nw_impact>()));
         // SAFETY: an outcome was written there.
@@ -65,7 +65,7 @@ pub fn one(bytes: &mut Bytes<'_>, model: *const nw_model) {
         assert_eq!(unsafe { nw_resolve(model, &raw const impact, &raw mut again) }, NW_OK);
         // SAFETY: an outcome is plain bytes without padding.
         let bytes: [u8; size_of::<nw_outcome>()] = unsafe { std::mem::transmute(again) };
-        assert!(bytes == room.inside(), "other bits on another address");
+        assert!(bytes == buffer.inside(), "other bits on another address");
     }
 }
 
@@ -77,37 +77,37 @@ fn sane(outcome: &nw_outcome) {
 
 pub fn speeds(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let impact = impact(bytes);
-    let mut asked = Room::holding(bytes, impact);
-    let mut rooms: [Room; 3] = std::array::from_fn(|_| Room::new(bytes, 8));
-    let from: *const nw_impact = asked.perhaps(bytes);
-    let [a, b, c] = rooms.each_mut().map(|room| room.perhaps::<f64>(bytes));
+    let mut asked = GuardedBuffer::holding(bytes, impact);
+    let mut buffers: [GuardedBuffer; 3] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));
+    let from: *const nw_impact = asked.start_or_null(bytes);
+    let [a, b, c] = buffers.each_mut().map(|buffer| buffer.start_or_null::<f64>(bytes));
     // SAFETY: each is null or what it should be.
     let status = unsafe { nw_speeds(model, from, a, b, c) };
     known(status);
-    for (room, to) in rooms.iter_mut().zip([a, b, c]) {
-        room.kept();
+    for (buffer, to) in buffers.iter_mut().zip([a, b, c]) {
+        buffer.assert_guard_intact();
         if status == NW_OK && !to.is_null() {
-            assert!(room.f64() >= 0.0, "{} of {impact:?}", room.f64());
+            assert!(buffer.f64() >= 0.0, "{} of {impact:?}", buffer.f64());
         } else {
-            room.untouched();
+            buffer.assert_untouched();
         }
     }
 }
 
 pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let wall = [0, 1, 2, u32::MAX][bytes.below(4)];
-    let mut rooms: [Room; 4] = std::array::from_fn(|_| Room::new(bytes, 8));
-    let to = rooms.each_mut().map(|room| room.perhaps::<f64>(bytes));
+    let mut buffers: [GuardedBuffer; 4] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));
+    let to = buffers.each_mut().map(|buffer| buffer.start_or_null::<f64>(bytes));
     let model = if bytes.byte() == 0 { null() } else { model };
     // SAFETY: each is null or what it should be.
     let status = unsafe { nw_temperature_ranges(model, wall, to[0], to[1], to[2], to[3]) };
     known(status);
-    for (room, to) in rooms.iter_mut().zip(to) {
-        room.kept();
+    for (buffer, to) in buffers.iter_mut().zip(to) {
+        buffer.assert_guard_intact();
         if status == NW_OK && !to.is_null() {
-            assert!(room.f64() >= 0.0);
+            assert!(buffer.f64() >= 0.0);
         } else {
-            room.untouched();
+            buffer.assert_untouched();
         }
     }
 }
@@ -117,13 +117,13 @@ pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let count = bytes.below(8);
     let cases: Vec<nw_impact> = (0..count).map(|_| impact(bytes)).collect();
     let columns = INPUTS.each_ref().map(|input| {
-        let mut room = Room::new(bytes, 8 * count);
-        let start: *mut f64 = room.start();
+        let mut buffer = GuardedBuffer::new(bytes, 8 * count);
+        let start: *mut f64 = buffer.start();
         for (index, case) in cases.iter().enumerate() {
-            // SAFETY: room for `count` numbers.
+            // SAFETY: a buffer of `count` numbers.
             unsafe { start.add(index).write_unaligned((input.value)(&case.to_impact())) };
         }
-        (room.perhaps::<f64>(bytes).cast_const(), room)
+        (buffer.start_or_null::<f64>(bytes).cast_const(), buffer)
     });
     let keys: Vec<u64> = cases.iter().map(|case| case.key).collect();
     let walls: Vec<u32> = cases.iter().map(|case| case.wall).collect();
@@ -146,40 +146,45 @@ pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
     for (array, (column, _room)) in asked.columns_mut().into_iter().zip(&columns) {
         *array = *column;
     }
-    let mut numbers: [Room; 4] = std::array::from_fn(|_| Room::new(bytes, 8 * count));
-    let mut marks: [Room; 3] = std::array::from_fn(|_| Room::new(bytes, 4 * count));
-    let [e_n, e_t, p_stick, omega] = numbers.each_mut().map(|room| room.perhaps(bytes));
-    let [regime, stuck, flags] = marks.each_mut().map(|room| room.perhaps(bytes));
+    let mut numbers: [GuardedBuffer; 4] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8 * count));
+    let mut marks: [GuardedBuffer; 3] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 4 * count));
+    let [e_n, e_t, p_stick, omega] = numbers.each_mut().map(|buffer| buffer.start_or_null(bytes));
+    let [regime, stuck, flags] = marks.each_mut().map(|buffer| buffer.start_or_null(bytes));
     let struct_size = size_of::<nw_outcomes>() as u32;
     let struct_size = if bytes.byte() == 0 { bytes.word() as u32 } else { struct_size };
     let wanted = nw_outcomes { struct_size, e_n, e_t, p_stick, omega, regime, stuck, flags };
-    let mut asked = Room::holding(bytes, asked);
-    let mut wanted = Room::holding(bytes, wanted);
-    let mut first_bad = Room::new(bytes, size_of::<usize>());
+    let mut asked = GuardedBuffer::holding(bytes, asked);
+    let mut wanted = GuardedBuffer::holding(bytes, wanted);
+    let mut first_bad = GuardedBuffer::new(bytes, size_of::<usize>());
     let (from, to, bad): (*const nw_impacts, *const nw_outcomes, *mut usize) =
-        (asked.perhaps(bytes), wanted.perhaps(bytes), first_bad.perhaps(bytes));
+        (asked.start_or_null(bytes), wanted.start_or_null(bytes), first_bad.start_or_null(bytes));
     let model = if bytes.byte() == 0 { null() } else { model };
     // SAFETY: arrays of `count` entries or null, or a count that is refused.
     let status = unsafe { nw_resolve_batch(model, from, to, bad) };
     known(status);
-    for room in numbers.iter().chain(&marks).chain([&asked, &wanted, &first_bad]) {
-        room.kept();
+    for buffer in numbers.iter().chain(&marks).chain([&asked, &wanted, &first_bad]) {
+        buffer.assert_guard_intact();
     }
     let of_an_impact = [NW_UNKNOWN_WALL, NW_BAD_STATE, NW_OUT_OF_RANGE].contains(&status);
     if of_an_impact && !bad.is_null() {
         // SAFETY: an index was written there.
         assert!(unsafe { bad.read_unaligned() } < count);
     } else {
-        first_bad.untouched();
+        first_bad.assert_untouched();
     }
     if status != NW_OK {
-        return numbers.iter().chain(&marks).for_each(Room::untouched);
+        return numbers.iter().chain(&marks).for_each(GuardedBuffer::assert_untouched);
     }
     alike(model, from, &mut numbers, [e_n, e_t, p_stick, omega]);
 }
 
 /// The batch's numbers are those of its impacts one by one.
-fn alike(model: *const nw_model, asked: *const nw_impacts, found: &mut [Room; 4], wanted: [*mut f64; 4]) {
+fn alike(
+    model: *const nw_model,
+    asked: *const nw_impacts,
+    found: &mut [GuardedBuffer; 4],
+    wanted: [*mut f64; 4],
+) {
     // SAFETY: a batch that was accepted.
     let asked = unsafe { asked.read_unaligned() };
     for index in 0..asked.count {
@@ -203,9 +208,9 @@ fn alike(model: *const nw_model, asked: *const nw_impacts, found: &mut [Room; 4]
         assert_eq!(unsafe { nw_resolve(model, &raw const one, &raw mut outcome) }, NW_OK);
         sane(&outcome);
         let expected = [outcome.e_n, outcome.e_t, outcome.p_stick, outcome.omega];
-        for ((room, to), expected) in found.iter().zip(wanted).zip(expected) {
+        for ((buffer, to), expected) in found.iter().zip(wanted).zip(expected) {
             if !to.is_null() {
-                let bits = &room.inside()[8 * index..8 * index + 8];
+                let bits = &buffer.inside()[8 * index..8 * index + 8];
                 assert_eq!(bits, expected.to_ne_bytes(), "impact {index} of a batch");
             }
         }

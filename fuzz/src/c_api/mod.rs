@@ -1,7 +1,7 @@
 //! The C interface: the bytes are a program of calls with hostile pointers, sizes, numbers and texts.
 //!
-//! What the header asks of a caller is kept: a pointer that is not null points to what it should, though on any address
-//! where the header asks for no alignment, and an array is as long as its count where a count is accepted.
+//! The calls meet the header's requirements: a pointer that is not null is valid, at any alignment where the header
+//! requires none, and an array is as long as its count if the count is accepted.
 
 use std::ffi::{CStr, CString, c_char};
 use std::ptr::{null, null_mut};
@@ -9,11 +9,11 @@ use std::ptr::{null, null_mut};
 use nearwall::c_api::*;
 
 mod deposit;
+mod guarded_buffer;
 mod impacts;
-mod room;
 
 use super::bytes::Bytes;
-use room::{Room, known};
+use guarded_buffer::{GuardedBuffer, known};
 
 const MODELS: [&str; 3] = [
     include_str!("../../../tutorials/slaggingGasifier/constant/nearWall.toml"),
@@ -23,7 +23,7 @@ const MODELS: [&str; 3] = [
     include_str!("../models/lying.toml"),
 ];
 
-/// Runs the program: no crash, no panic, nothing written on failure, nothing written beyond.
+/// Runs the program and asserts: no crash, no panic, nothing written on failure, nothing written outside the buffers.
 pub fn c_api(bytes: &[u8]) {
     let mut bytes = Bytes(bytes);
     let mut model = parsed(MODELS[bytes.below(MODELS.len())]);
@@ -67,21 +67,21 @@ fn making(
     call: impl FnOnce(*mut *mut nw_model, *mut c_char, usize) -> nw_status,
 ) -> nw_status {
     let size = [0, 1, 2, 3, 40, 400][bytes.below(6)];
-    let mut message = Room::new(bytes, size);
-    let mut handle = Room::new(bytes, size_of::<*mut nw_model>());
-    let (to, text) = (handle.perhaps(bytes), message.perhaps(bytes));
+    let mut message = GuardedBuffer::new(bytes, size);
+    let mut handle = GuardedBuffer::new(bytes, size_of::<*mut nw_model>());
+    let (to, text) = (handle.start_or_null(bytes), message.start_or_null(bytes));
     let status = call(to, text, size);
     known(status);
-    message.kept();
-    handle.kept();
+    message.assert_guard_intact();
+    handle.assert_guard_intact();
     if status == NW_OK {
-        message.untouched();
+        message.assert_untouched();
         // SAFETY: a model was written there.
         unsafe { nw_model_free(to.read_unaligned()) };
     } else {
-        handle.untouched();
+        handle.assert_untouched();
         if text.is_null() || size == 0 {
-            message.untouched();
+            message.assert_untouched();
         } else {
             let text = CStr::from_bytes_until_nul(message.inside()).expect("a closing zero");
             text.to_str().expect("whole characters");
@@ -109,7 +109,9 @@ fn parse(bytes: &mut Bytes<'_>) {
         _ => (toml.as_ptr().cast(), toml.len()),
     };
     // SAFETY: no more bytes than the text has, or a size that is refused.
-    making(bytes, |model, message, room| unsafe { nw_model_parse(text, size, name, model, message, room) });
+    making(bytes, |model, message, buffer| unsafe {
+        nw_model_parse(text, size, name, model, message, buffer)
+    });
 }
 
 /// Some bytes, not always UTF-8, up to their first zero.
@@ -131,22 +133,23 @@ fn load(bytes: &mut Bytes<'_>) {
         _ => nowhere.as_ptr(),
     };
     // SAFETY: zero-terminated or null.
-    let status = making(bytes, |model, message, room| unsafe { nw_model_load(path, model, message, room) });
+    let status =
+        making(bytes, |model, message, buffer| unsafe { nw_model_load(path, model, message, buffer) });
     assert_ne!(status, NW_OK, "none of these is a model");
 }
 
 fn find_wall(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let name = c_text(bytes);
-    let mut wall = Room::new(bytes, 4);
-    let to = wall.perhaps(bytes);
+    let mut wall = GuardedBuffer::new(bytes, 4);
+    let to = wall.start_or_null(bytes);
     let model = if bytes.byte() == 0 { null() } else { model };
     let name = if bytes.byte() == 0 { null() } else { name.as_ptr() };
     // SAFETY: a live model, a zero-terminated text, a number that can be written, or null.
     let status = unsafe { nw_model_find_wall(model, name, to) };
     known(status);
-    wall.kept();
+    wall.assert_guard_intact();
     if status != NW_OK {
-        wall.untouched();
+        wall.assert_untouched();
     }
 }
 
@@ -160,14 +163,14 @@ fn texts(bytes: &mut Bytes<'_>) {
     // SAFETY: a static text.
     let version = unsafe { CStr::from_ptr(nw_version()) };
     assert!(nw_abi_version() == NW_ABI_VERSION && version.to_bytes().contains(&b'.'));
-    let mut room = Room::new(bytes, size_of::<nw_impact>());
-    let to = room.perhaps(bytes);
-    // SAFETY: null or room for an impact.
+    let mut buffer = GuardedBuffer::new(bytes, size_of::<nw_impact>());
+    let to = buffer.start_or_null(bytes);
+    // SAFETY: null or a buffer of the size of an impact.
     known(unsafe { nw_impact_init(to) });
-    room.kept();
-    let mut room = Room::new(bytes, size_of::<nw_outcome>());
-    let to = room.perhaps(bytes);
-    // SAFETY: null or room for an outcome.
+    buffer.assert_guard_intact();
+    let mut buffer = GuardedBuffer::new(bytes, size_of::<nw_outcome>());
+    let to = buffer.start_or_null(bytes);
+    // SAFETY: null or a buffer of the size of an outcome.
     known(unsafe { nw_outcome_init(to) });
-    room.kept();
+    buffer.assert_guard_intact();
 }
