@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "wallMemory.H"
 #include "dictionaryChecks.H"
@@ -17,18 +14,10 @@ using namespace Foam;
 using namespace Foam::nearWall;
 
 //- Names of the terms, in their order: keys of a restart and columns
-const char* const termNames[] =
-{
+const wordList termNames
+({
     "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg"
-};
-
-
-wordList sumNames()
-{
-    DynamicList<word> all;
-    for (const char* const name : termNames) all.append(name);
-    return wordList(all);
-}
+});
 
 
 //- A film needs the viscosity of the melt on one of the walls
@@ -53,8 +42,9 @@ void requireViscosity
     FatalIOErrorInFunction(dict)
         << "Key 'film' is yes, but the model knows no viscosity of the melt on"
         << " the walls." << nl
-        << "    Give the model [capture] model = \"viscosity\" and the particle,"
-        << " or the slag of a wall, a composition or a viscosity;" << nl
+        << "    Give the model [capture] model = \"viscosity\" and the"
+        << " particle, or the slag of a wall, a composition or a viscosity;"
+        << nl
         << "    or give it [capture] model = \"droplet\"."
         << exit(FatalIOError);
 }
@@ -67,17 +57,11 @@ struct patchExtremes
     scalar largest = 0;
 
     patchExtremes(const scalarField& x, const scalarField& area)
+    :
+        mean(gSum(x*area)/max(gSum(area), VSMALL))
     {
-        scalarList sums(2, scalar(0));
-        forAll(x, i)
-        {
-            sums[0] += x[i]*area[i];
-            sums[1] += area[i];
-            largest = max(largest, x[i]);
-        }
-        sumOverRanks(sums);
+        forAll(x, i) largest = max(largest, x[i]);
         reduce(largest, maxOp<scalar>());
-        mean = sums[1] > 0 ? sums[0]/sums[1] : 0;
     }
 };
 
@@ -137,7 +121,7 @@ Foam::nearWall::wallMemory::wallMemory
         (
             mesh.boundaryMesh()[patchi].size(), nearwall::make_deposit_source()
         );
-        sums_.append(runningTotals(sumNames(), saved.subOrEmptyDict(name)));
+        sums_.append(runningTotals(termNames, saved.subOrEmptyDict(name)));
         if (!saved.found(name)) addToSum(i, initial, mass(i));
         tables_.emplace_back(folder/(name + ".wall.dat"));
         setCoverage(patchi);
@@ -437,26 +421,20 @@ void Foam::nearWall::wallMemory::report
         const scalarField& powder = powder_.boundaryField()[patchi];
         const scalarField& conversion = conversion_.boundaryField()[patchi];
 
-        scalarList masses(3, scalar(0));
-        forAll(area, facei)
-        {
-            masses[0] += molten[facei]*area[facei];
-            masses[1] += powder[facei]*area[facei];
-            masses[2] +=
-                (molten[facei] + powder[facei])*area[facei]*conversion[facei];
-        }
-        sumOverRanks(masses);
+        const scalar moltenMass = gSum(molten*area);
+        const scalar powderMass = gSum(powder*area);
+        const scalar converted = gSum((molten + powder)*area*conversion);
 
         const scalarList& t = totals[i];
         const scalar in = t[initial] + t[arrived];
-        const scalar deposited = masses[0] + masses[1];
+        const scalar deposited = moltenMass + powderMass;
         const scalar rest = in + t[fromOthers] - t[drained] - deposited;
         const scalar all = max(in, in + t[fromOthers]);
         const patchExtremes coverage(coverage_.boundaryField()[patchi], area);
         if (in > 0 || deposited > 0)
         {
             os  << "        " << patchName(i) << ", memory: molten "
-                << masses[0] << " kg, powder " << masses[1]
+                << moltenMass << " kg, powder " << powderMass
                 << " kg, coverage " << coverage.mean;
             if (film_) os << ", drained " << t[drained] << " kg";
             os  << nl;
@@ -470,8 +448,8 @@ void Foam::nearWall::wallMemory::report
         tableRow row;
         row.add("time_s", time);
         for (label k = 0; k < nTerms; ++k) row.add(termNames[k], t[k]);
-        row.add("molten_kg", masses[0]);
-        row.add("powder_kg", masses[1]);
+        row.add("molten_kg", moltenMass);
+        row.add("powder_kg", powderMass);
         row.add("residual", all > 0 ? rest/all : 0);
         row.add("molten_mean_kg_m2", melt.mean);
         row.add("molten_max_kg_m2", melt.largest);
@@ -481,7 +459,7 @@ void Foam::nearWall::wallMemory::report
         row.add("layer_thickness_max_m", layer.largest);
         row.add("coverage_mean", coverage.mean);
         row.add("coverage_max", coverage.largest);
-        row.add("conversion_mean", deposited > 0 ? masses[2]/deposited : 0);
+        row.add("conversion_mean", deposited > 0 ? converted/deposited : 0);
         row.add("wall_temperature_mean_K", T.mean);
         row.add("wall_temperature_max_K", T.largest);
         tables_[i].write(row);

@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "wallFilm.H"
 #include "surfaceFields.H"
@@ -13,8 +10,8 @@ namespace
 
 using namespace Foam;
 
-//- Fraction of a face that a wave of the film crosses in one step; below 1, as a
-//  wave may become faster within it
+//- Fraction of a face that a wave of the film crosses in one step; below 1, as
+//  a wave may become faster within it
 const scalar courant = 0.5;
 
 } // End anonymous namespace

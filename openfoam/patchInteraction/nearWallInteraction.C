@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "nearWallInteraction.H"
 #include "buildCheck.H"
@@ -167,7 +164,7 @@ Foam::nearWallInteraction<CloudType>::runState::runState
     ),
     balance
     (
-        std::make_shared<nearWall::massBalance>
+        std::make_shared<massBalance>
         (
             m.saved("balance"), m.tableFolder(), m.injectedMass()
         )
@@ -198,7 +195,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     ),
     rules_
     (
-        nearWall::patchRule::read
+        patchRule::read
         (
             nearWall::coefficients(*this), owner.mesh(), *model_
         )
@@ -308,7 +305,7 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     const relativeVelocity& v
 ) const
 {
-    nearWall::impactEvent e;
+    impactEvent e;
     e.patch = pp.index();
     e.face = pp.whichFace(p.face());
     e.injector = p.typeId();
@@ -322,8 +319,8 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     e.impact.T_p = nearWall::temperature(p, particleTemperature_);
     e.impact.conversion = conversionOf(p);
 
-    const nearWall::patchRule& rule = rules_[e.patch];
-    if (rule.type != nearWall::patchRule::interact) return e;
+    const patchRule& rule = rules_[e.patch];
+    if (rule.type != patchRule::interact) return e;
 
     const vector gas(this->owner().U()[p.cell()] - v.wall);
     e.impact.wall = rule.wall;
@@ -353,7 +350,7 @@ void Foam::nearWallInteraction<CloudType>::interact
     // No impact: the parcel leaves the wall, for instance one that moves away
     if (v.vn <= 0) return;
 
-    nearWall::impactEvent e(eventOf(p, pp, v));
+    impactEvent e(eventOf(p, pp, v));
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
@@ -384,10 +381,7 @@ void Foam::nearWallInteraction<CloudType>::interact
 // * * * * * * * * * * * * * * Result of an impact * * * * * * * * * * * * * //
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::record
-(
-    const nearWall::impactEvent& e
-)
+void Foam::nearWallInteraction<CloudType>::record(const impactEvent& e)
 {
     run_->totals.add(e);
     run_->distributions.add(e);
@@ -415,13 +409,13 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::escape
 (
     parcelType& p,
-    nearWall::impactEvent& e,
+    impactEvent& e,
     bool& keepParticle
 )
 {
-    e.result = nearWall::impactEvent::escaped;
+    e.result = impactEvent::escaped;
     run_->totals.add(e);
-    run_->balance->add(nearWall::massBalance::escaped, e.mass);
+    run_->balance->add(massBalance::escaped, e.mass);
     keepParticle = false;
     nearWall::setMoving(p, false);
 }
@@ -431,26 +425,23 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::stick
 (
     parcelType& p,
-    nearWall::impactEvent& e,
+    impactEvent& e,
     bool& keepParticle
 )
 {
-    e.result = nearWall::impactEvent::stuck;
+    e.result = impactEvent::stuck;
     record(e);
     nearWall::setMoving(p, false);
     p.U() = Zero;
-    keepParticle = stuck_ == nearWall::stuckTreatment::react;
+    keepParticle = stuck_ == stuckTreatment::react;
     if (keepParticle) return;
 
     const bool isRemoved =
-        stuck_ == nearWall::stuckTreatment::remove
-     || (
-            stuck_ == nearWall::stuckTreatment::slide
-         && run_->memory->joinsFilm(e)
-        );
+        stuck_ == stuckTreatment::remove
+     || (stuck_ == stuckTreatment::slide && run_->memory->joinsFilm(e));
     if (isRemoved)
     {
-        run_->balance->add(nearWall::massBalance::stuckRemoved, e.mass);
+        run_->balance->add(massBalance::stuckRemoved, e.mass);
     }
     else
     {
@@ -484,12 +475,12 @@ void Foam::nearWallInteraction<CloudType>::rebound
 (
     parcelType& p,
     const relativeVelocity& v,
-    nearWall::impactEvent& e,
+    impactEvent& e,
     const scalar en,
     const scalar et
 )
 {
-    e.result = nearWall::impactEvent::rebounded;
+    e.result = impactEvent::rebounded;
     e.en = en;
     e.et = et;
     e.eg = sqrt(sqr(en*v.vn) + sqr(et*v.vt))/e.speed;
@@ -503,14 +494,14 @@ void Foam::nearWallInteraction<CloudType>::handleUnusable
 (
     parcelType& p,
     const relativeVelocity& v,
-    nearWall::impactEvent& e,
+    impactEvent& e,
     const nw_status status,
     bool& keepParticle
 )
 {
     ++run_->unusable;
     run_->unusableStatus = status;
-    e.result = nearWall::impactEvent::unusable;
+    e.result = impactEvent::unusable;
 
     // OpenFOAM cannot track or sum a speed or mass that is not a number
     keepParticle = std::isfinite(e.speed) && std::isfinite(e.mass);
@@ -525,7 +516,7 @@ void Foam::nearWallInteraction<CloudType>::handleUnusable
     e.impact.v_n = 0;
     if (!std::isfinite(e.mass)) e.mass = 0;
     run_->totals.add(e);
-    run_->balance->add(nearWall::massBalance::unusableRemoved, e.mass);
+    run_->balance->add(massBalance::unusableRemoved, e.mass);
     nearWall::setMoving(p, false);
 }
 
@@ -538,22 +529,22 @@ bool Foam::nearWallInteraction<CloudType>::correct
     bool& keepParticle
 )
 {
-    const nearWall::patchRule& rule = rules_[pp.index()];
-    if (rule.type == nearWall::patchRule::pass) return false;
+    const patchRule& rule = rules_[pp.index()];
+    if (rule.type == patchRule::pass) return false;
 
-    if (rule.type == nearWall::patchRule::interact)
+    if (rule.type == patchRule::interact)
     {
         interact(p, pp, keepParticle);
         return true;
     }
 
     const relativeVelocity v(velocityOf(p, pp));
-    nearWall::impactEvent e(eventOf(p, pp, v));
-    if (rule.type == nearWall::patchRule::escape)
+    impactEvent e(eventOf(p, pp, v));
+    if (rule.type == patchRule::escape)
     {
         escape(p, e, keepParticle);
     }
-    else if (rule.type == nearWall::patchRule::stick)
+    else if (rule.type == patchRule::stick)
     {
         stick(p, e, keepParticle);
     }
@@ -576,11 +567,7 @@ void Foam::nearWallInteraction<CloudType>::stopStuckParcels()
         if (nearWall::isMoving(p)) continue;
 
         p.U() = Zero;
-        if
-        (
-            stuck_ == nearWall::stuckTreatment::keep
-         || stuck_ == nearWall::stuckTreatment::slide
-        )
+        if (stuck_ == stuckTreatment::keep || stuck_ == stuckTreatment::slide)
         {
             addToDeposit(p, -1);
             cloud.deleteParticle(p);
@@ -593,7 +580,7 @@ template<class CloudType>
 Foam::nearWall::massBalance::content
 Foam::nearWallInteraction<CloudType>::content() const
 {
-    nearWall::massBalance::content now;
+    massBalance::content now;
     for (const parcelType& p : this->owner())
     {
         const scalar mass = p.nParticle()*p.mass();
@@ -614,17 +601,14 @@ void Foam::nearWallInteraction<CloudType>::reportBalance
     // A steady cloud forgets its parcels after each iteration
     if (this->owner().solution().steadyState()) return;
 
-    nearWall::massBalance& balance = *run_->balance;
+    massBalance& balance = *run_->balance;
     if (fullCloudType* const cloud = solverCloud())
     {
-        balance.add
-        (
-            nearWall::massBalance::reacted,
-            nearWall::reactedMass(*cloud, run_->meters)
-        );
+        const scalar mass = nearWall::reactedMass(*cloud, run_->meters);
+        balance.add(massBalance::reacted, mass);
     }
 
-    nearWall::massBalance::content now;
+    massBalance::content now;
     const scalarList totals(balance.totals(injectedMass(), content(), now));
     balance.report(os, totals, now);
 

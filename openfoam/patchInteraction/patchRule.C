@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "patchRule.H"
 #include "dictionaryChecks.H"
@@ -205,7 +202,8 @@ void Foam::nearWall::patchRule::readTemperature
     if (!dict.found("wallTemperature"))
     {
         if (dict.found("field")) requireField(dict, pp, mesh);
-        temperatureFromField = mesh.foundObject<volScalarField>(temperatureField);
+        temperatureFromField =
+            mesh.foundObject<volScalarField>(temperatureField);
         return;
     }
 
@@ -255,14 +253,15 @@ void Foam::nearWall::patchRule::checkTemperature
     const nearwall::temperature_ranges known = model.ranges(wall);
     if (lowest >= known.wall_low && highest <= known.wall_high) return;
 
+    const std::string key("wallTemperature");
     FatalIOErrorInFunction(dict)
         << "Patch '" << pp.name() << "': the wall temperature is " << lowest
         << " to " << highest << " K, but the properties of wall '"
         << wallName.c_str() << "' are known from " << known.wall_low << " to "
         << known.wall_high << " K." << nl << "    Correct "
-        << (temperatureFromField ? "field " + temperatureField : "wallTemperature")
-        << ", or extend the property tables of the wall's material in the model."
-        << exit(FatalIOError);
+        << (temperatureFromField ? "field " + temperatureField : key).c_str()
+        << ", or extend the property tables of the wall's material in the"
+        << " model." << exit(FatalIOError);
 }
 
 

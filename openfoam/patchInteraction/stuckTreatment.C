@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "stuckTreatment.H"
 #include "dictionaryChecks.H"
@@ -20,7 +17,8 @@ Foam::nearWall::stuckTreatment Foam::nearWall::readStuckTreatment
         {stuckTreatment::slide, "slide"}
     });
     const word name(readOr<word>(coeffs, "stuck", word("keep")));
-    const stuckTreatment treatment = checkedChoice(coeffs, "stuck", name, names);
+    const stuckTreatment treatment =
+        checkedChoice(coeffs, "stuck", name, names);
 
     if
     (
@@ -43,25 +41,14 @@ void Foam::nearWall::report
     const word& depositName
 )
 {
-    Info<< "    nearWallInteraction, stuck parcels: ";
-    switch (treatment)
+    const std::string inDeposit("kept in the cloud " + depositName + ", inert");
+    const std::string texts[] =
     {
-        case stuckTreatment::keep:
-            Info<< "kept in the cloud " << depositName << ", inert";
-            break;
-
-        case stuckTreatment::react:
-            Info<< "stay in this cloud and go on reacting";
-            break;
-
-        case stuckTreatment::remove:
-            Info<< "removed";
-            break;
-
-        case stuckTreatment::slide:
-            Info<< "molten ones join the film on the wall, others are kept in"
-                << " the cloud " << depositName << ", inert";
-            break;
-    }
-    Info<< nl;
+        inDeposit,
+        "stay in this cloud and go on reacting",
+        "removed",
+        "molten ones join the film on the wall, others are " + inDeposit
+    };
+    Info<< "    nearWallInteraction, stuck parcels: "
+        << texts[label(treatment)].c_str() << nl;
 }

@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "impactDistributions.H"
 #include "exactText.H"
@@ -21,7 +18,8 @@ namespace
 using namespace Foam;
 using namespace Foam::nearWall;
 
-typedef scalar (*impactFunction)(const impactEvent&);
+typedef const impactEvent& Event;
+typedef scalar (*impactFunction)(Event);
 
 //- A column: what is summed for each class. The sum of squares tells how many
 //  parcels of equal weight a class is worth.
@@ -31,27 +29,27 @@ struct column
     impactFunction increment;
 };
 
-scalar arrivingEnergy(const impactEvent& e)
+scalar arrivingEnergy(Event e)
 {
     return 0.5*e.mass*sqr(e.speed);
 }
 
-scalar isStuck(const impactEvent& e)
+scalar isStuck(Event e)
 {
     return e.result == impactEvent::stuck;
 }
 
 const column columns[] =
 {
-    {"hits", [](const impactEvent&) { return scalar(1); }},
-    {"particles", [](const impactEvent& e) { return e.particles; }},
-    {"particles_squared", [](const impactEvent& e) { return sqr(e.particles); }},
-    {"mass_kg", [](const impactEvent& e) { return e.mass; }},
+    {"hits", [](Event) { return scalar(1); }},
+    {"particles", [](Event e) { return e.particles; }},
+    {"particles_squared", [](Event e) { return sqr(e.particles); }},
+    {"mass_kg", [](Event e) { return e.mass; }},
     {"sticks", isStuck},
-    {"stick_particles", [](const impactEvent& e) { return isStuck(e)*e.particles; }},
-    {"stick_mass_kg", [](const impactEvent& e) { return isStuck(e)*e.mass; }},
+    {"stick_particles", [](Event e) { return isStuck(e)*e.particles; }},
+    {"stick_mass_kg", [](Event e) { return isStuck(e)*e.mass; }},
     {"energy_in_J", arrivingEnergy},
-    {"energy_out_J", [](const impactEvent& e) { return arrivingEnergy(e)*sqr(e.eg); }}
+    {"energy_out_J", [](Event e) { return arrivingEnergy(e)*sqr(e.eg); }}
 };
 
 const label nColumns = sizeof(columns)/sizeof(columns[0]);
@@ -84,7 +82,7 @@ struct quantity
         return i + 1 < size() ? low[i + 1] : top;
     }
 
-    label classOf(const impactEvent& e) const
+    label classOf(Event e) const
     {
         const auto above = std::upper_bound(low.begin(), low.end(), value(e));
         return above == low.begin() ? 0 : label(above - low.begin()) - 1;
@@ -119,7 +117,7 @@ quantity logarithmic
 
 quantity angle()
 {
-    const impactFunction fromWall = [](const impactEvent& e)
+    const impactFunction fromWall = [](Event e)
     {
         return radToDeg(std::atan2(e.impact.v_n, e.impact.v_t));
     };
@@ -133,9 +131,9 @@ const std::vector<quantity>& quantities()
 {
     static const std::vector<quantity> all
     {
-        logarithmic("speed_m_s", [](const impactEvent& e) { return e.speed; }, -3, 3),
+        logarithmic("speed_m_s", [](Event e) { return e.speed; }, -3, 3),
         angle(),
-        logarithmic("diameter_m", [](const impactEvent& e) { return e.impact.d; }, -8, -2)
+        logarithmic("diameter_m", [](Event e) { return e.impact.d; }, -8, -2)
     };
     return all;
 }
@@ -267,7 +265,10 @@ void Foam::nearWall::impactDistributions::add(const impactEvent& e)
     }
 
     scalar increments[nColumns];
-    for (label i = 0; i < nColumns; ++i) increments[i] = columns[i].increment(e);
+    for (label i = 0; i < nColumns; ++i)
+    {
+        increments[i] = columns[i].increment(e);
+    }
 
     label first = 0;
     for (const quantity& q : quantities())
@@ -304,7 +305,7 @@ void Foam::nearWall::impactDistributions::synchronise()
     }
 
     labelList order;
-    for (const auto& each : all) order.append(seriesOf(each.first, each.second));
+    for (const auto& p : all) order.append(seriesOf(p.first, p.second));
 
     patchOf_ = labelList(UIndirectList<label>(patchOf_, order));
     injectorOf_ = labelList(UIndirectList<label>(injectorOf_, order));
@@ -359,10 +360,12 @@ void Foam::nearWall::impactDistributions::writeFlux
 (
     const label series,
     const scalar time,
-    const scalar area,
     const scalarList& totals
 )
 {
+    const scalar area = gSum(mesh_.magSf().boundaryField()[patchOf_[series]]);
+    if (area <= 0) return;
+
     const auto flux = [&](const std::string& name)
     {
         const scalar since =
@@ -380,21 +383,6 @@ void Foam::nearWall::impactDistributions::writeFlux
 }
 
 
-Foam::scalarList Foam::nearWall::impactDistributions::areas() const
-{
-    scalarList sums(sums_.size(), scalar(0));
-    forAll(sums, i)
-    {
-        for (const scalar area : mesh_.magSf().boundaryField()[patchOf_[i]])
-        {
-            sums[i] += area;
-        }
-    }
-    sumOverRanks(sums);
-    return sums;
-}
-
-
 Foam::dictionary Foam::nearWall::impactDistributions::saved
 (
     const List<scalarList>& totals
@@ -407,7 +395,8 @@ Foam::dictionary Foam::nearWall::impactDistributions::saved
         dictionary series;
         forAll(totals[i], j)
         {
-            if (totals[i][j] != 0) addExact(series, sumNames()[j], totals[i][j]);
+            const scalar x = totals[i][j];
+            if (x != 0) addExact(series, sumNames()[j], x);
         }
         dictionary ofPatch;
         ofPatch.add(keyType(savedName(injectorOf_[i])), series);
@@ -421,7 +410,6 @@ Foam::dictionary Foam::nearWall::impactDistributions::write()
 {
     synchronise();
     const List<scalarList> totals(runningTotals::totals(sums_));
-    const scalarList area(areas());
     const scalar time = mesh_.time().value();
 
     // A cloud may move several times a time step; the tables grow once
@@ -438,7 +426,7 @@ Foam::dictionary Foam::nearWall::impactDistributions::write()
             {
                 writeDistributions(i, time, totals[i]);
             }
-            if (area[i] > 0) writeFlux(i, time, area[i], totals[i]);
+            writeFlux(i, time, totals[i]);
         }
         written_ = totals;
         lastTime_ = time;

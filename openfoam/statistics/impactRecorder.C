@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "impactRecorder.H"
 #include "dictionaryChecks.H"
@@ -23,24 +20,25 @@ using namespace Foam;
 using namespace Foam::nearWall;
 
 typedef impactRecorder::row row;
+typedef const row& Row;
 
 //- A column that holds a number
 struct numberColumn
 {
     const char* name;
-    scalar (*value)(const row&);
+    scalar (*value)(Row);
 };
 
 #define INPUT_COLUMN(input)                                                    \
-    {#input, [](const row& r) { return scalar(r.event.impact.input); }},
+    {#input, [](Row r) { return scalar(r.event.impact.input); }},
 
 //- The first columns; the first of them identify an impact
 const numberColumn numberColumns[] =
 {
-    {"time", [](const row& r) { return r.time; }},
-    {"x", [](const row& r) { return r.event.position.x(); }},
-    {"y", [](const row& r) { return r.event.position.y(); }},
-    {"z", [](const row& r) { return r.event.position.z(); }},
+    {"time", [](Row r) { return r.time; }},
+    {"x", [](Row r) { return r.event.position.x(); }},
+    {"y", [](Row r) { return r.event.position.y(); }},
+    {"z", [](Row r) { return r.event.position.z(); }},
     NW_IMPACT_INPUTS(INPUT_COLUMN)
 };
 

@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "massBalance.H"
 #include "versionCompat.H"
@@ -15,19 +12,11 @@ namespace
 using namespace Foam;
 
 //- Names of the terms, in their order: keys of a restart and columns
-const char* const names[] =
-{
+const wordList names
+({
     "injected_kg", "read_back_kg", "stuck_removed_kg", "escaped_kg",
     "reacted_kg", "unusable_removed_kg", "in_cloud_kg"
-};
-
-
-wordList termNames()
-{
-    DynamicList<word> all;
-    for (const char* const name : names) all.append(name);
-    return wordList(all);
-}
+});
 
 
 std::string digits(const scalar x)
@@ -47,7 +36,7 @@ Foam::nearWall::massBalance::massBalance
     const scalar injectorsAtStart
 )
 :
-    sums_(termNames(), saved),
+    sums_(names, saved),
     table_(folder/"balance.dat"),
     injectorsAtStart_(injectorsAtStart)
 {}

@@ -1,8 +1,5 @@
-/*---------------------------------------------------------------------------*\
-    nearwall: particle-wall interaction for OpenFOAM
-    Copyright (C) 2026 the nearwall authors
-    SPDX-License-Identifier: GPL-3.0-or-later
-\*---------------------------------------------------------------------------*/
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "wallHitFields.H"
 #include "surfaceFields.H"
@@ -57,7 +54,9 @@ void Foam::nearWall::wallHitFields::add(const impactEvent& e)
 
     if (e.result == impactEvent::stuck)
     {
+        const scalarField& area =
+            depositedMass_.mesh().magSf().boundaryField()[e.patch];
         depositedMass_.boundaryFieldRef()[e.patch][e.face] +=
-            e.mass/depositedMass_.mesh().magSf().boundaryField()[e.patch][e.face];
+            e.mass/area[e.face];
     }
 }
