@@ -252,7 +252,7 @@ fn laws_by_reference() {
     let laws: Vec<&'static ViscosityLaw> = LAWS.into_iter().chain([&SILICA_CORRECTED]).collect();
     println!("{:36} rows {:?}", "reference", laws.iter().map(|law| law.name).collect::<Vec<_>>());
     let columns = dictionary(false);
-    let found: Vec<Vec<Block>> = laws.iter().map(|law| blocks(&groups, &columns, *law)).collect();
+    let found: Vec<Vec<Block>> = laws.iter().map(|law| blocks(&groups, &columns, law)).collect();
     for (i, (source, own)) in groups.iter().enumerate() {
         let numbers: Vec<String> = found
             .iter()
@@ -540,7 +540,7 @@ fn residuals_along_silica() {
             let of = |rows: &Vec<&Measured>| mean(&rows.iter().map(|r| residual(r, law)).collect::<Vec<_>>());
             mean(&inside.iter().map(of).collect::<Vec<_>>())
         };
-        let found: Vec<f64> = laws.iter().map(|law| bias(*law)).collect();
+        let found: Vec<f64> = laws.iter().map(|law| bias(law)).collect();
         let count: usize = inside.iter().map(Vec::len).sum();
         let numbers: Vec<String> = found.iter().map(|f| format!("{f:+.3}")).collect();
         println!("{:.0} to {:.0}, {:2}, {count:4}: {}", bin[0], bin[1], inside.len(), numbers.join(" "));
