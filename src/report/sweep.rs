@@ -2,8 +2,8 @@
 //!
 //! The CSV's first column names the run and the second is the variable. A quantity `Q` is drawn when there is a column
 //! `Q_paper` beside it: its values with error bars from `Q_low95` and `Q_high95`, or 1.96 `Q_standard_error`, and the
-//! published ones; `>0.85` is a lower bound, `-` or a blank is nothing. A column `Q_reference` is drawn, too: what another
-//! calculation of the same gives.
+//! published ones; `>0.85` is a lower bound, `-` or a blank means no value. A column `Q_reference`, the result of another
+//! calculation of the same quantity, is drawn, too.
 
 use std::path::Path;
 
@@ -46,7 +46,7 @@ struct Runs {
     rows: Vec<Vec<String>>,
 }
 
-/// What is wrong with a file, in a reader's words.
+/// The error of a file as a message.
 fn fault(path: &Path, error: &csv::Error) -> SweepError {
     let file = path.display().to_string();
     let line = error.position().map(csv::Position::line);
@@ -173,7 +173,7 @@ fn over_decades(x: &[f64]) -> bool {
     low > 0.0 && high > 30.0 * low
 }
 
-/// Names as a reader likes them: `T_C` is a temperature, underscores are spaces.
+/// A column's name for the reader: `T_C` is a temperature, underscores become spaces.
 fn readable(name: &str) -> String {
     if let Some(quantity) = name.strip_suffix("_paper") {
         return format!("{}, published", readable(quantity));
@@ -199,14 +199,10 @@ fn table(runs: &Runs, variable: &str) -> Table {
         .collect();
     let shown = |cell: &str| cell.parse().map_or_else(|_| cell.to_owned(), number);
     let cells: Vec<Vec<&str>> = columns.iter().filter_map(|name| runs.cells(name)).collect();
-    Table {
-        text_columns: 0,
-        caption: "The same in numbers.".to_owned(),
-        header: columns.iter().map(|c| readable(c)).collect(),
-        rows: (0..runs.rows.len())
-            .map(|row| cells.iter().map(|column| shown(column[row])).collect())
-            .collect(),
-    }
+    let header: Vec<String> = columns.iter().map(|column| readable(column)).collect();
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    let row = |row: usize| cells.iter().map(|column| shown(column[row])).collect();
+    Table::new("The same in numbers.", 0, &header, (0..runs.rows.len()).map(row).collect())
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A case file: everything that a run depends on.
+//! A case file, which contains everything that a run depends on.
 
 use std::path::Path;
 
@@ -20,7 +20,7 @@ pub(super) const HIT_BITS: u32 = 24;
 /// Everything that a run depends on. Only a sweep changes it after reading.
 #[derive(Debug)]
 pub struct Case {
-    /// What the page is called.
+    /// Title of the page.
     pub title: String,
     /// One or more sentences for the page.
     pub about: Option<String>,
@@ -28,7 +28,7 @@ pub struct Case {
     pub seed: u64,
     /// Longest time that a particle is followed [s].
     pub time_limit: f64,
-    /// Most hits of one particle.
+    /// Largest number of hits of one particle.
     pub hit_limit: u64,
     /// Relative error per step of the integration [1].
     pub tolerance: f64,
@@ -40,18 +40,18 @@ pub struct Case {
     pub injection: Injection,
     /// Walls and exits.
     pub surfaces: Vec<Surface>,
-    /// What decides a hit.
+    /// The impact model.
     pub model: Model,
-    /// Most rows of `impacts.csv`.
+    /// Largest number of rows of `impacts.csv`.
     pub recorded: u64,
-    /// One quantity over a list of values.
+    /// A quantity that is varied over a list of values.
     pub sweep: Option<Sweep>,
 }
 
 /// A `[sweep]`: the case is run once for each value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// What is changed, one of [`SWEEP_KEYS`].
+    /// The swept quantity, one of [`SWEEP_KEYS`].
     pub key: String,
     /// The values, SI or degrees.
     pub values: Vec<f64>,
@@ -68,11 +68,11 @@ pub struct Reference {
     pub at: Vec<f64>,
     /// Values of the quantity.
     pub value: Vec<f64>,
-    /// Where they come from.
+    /// Their source.
     pub source: String,
 }
 
-/// What a sweep can change. `temperature` sets gas, particles and walls.
+/// Quantities that a sweep can change. `temperature` sets gas, particles and walls.
 pub const SWEEP_KEYS: [&str; 8] = [
     "temperature",
     "gas_temperature",
@@ -150,7 +150,7 @@ impl Case {
     /// Density of an unburnt particle [kg/m³] that starts at a temperature [K].
     ///
     /// # Errors
-    /// [`ImpactError::OutOfRange`] when the case does not give it and the model does not know it.
+    /// [`ImpactError::OutOfRange`] when neither the case nor the model gives it at this temperature.
     pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
         match self.injection.density {
             Some(density) => Ok(density),
@@ -161,7 +161,7 @@ impl Case {
     /// Sets the swept quantity.
     ///
     /// # Errors
-    /// What is wrong with the value, in words.
+    /// A message about the value.
     pub fn set(&mut self, key: &str, value: f64) -> Result<(), String> {
         let everything = key == "temperature";
         if everything || key == "gas_temperature" {
@@ -182,7 +182,7 @@ impl Case {
         Ok(())
     }
 
-    /// Makes sure before the first run that every value of the sweep can be set.
+    /// Checks before the first run that every value of the sweep can be set.
     fn try_sweep(&self, top: &Section<'_>) -> Result<(), InputError> {
         let Some(sweep) = &self.sweep else { return Ok(()) };
         if !["temperature", "gas_temperature"].contains(&sweep.key.as_str()) {

@@ -17,9 +17,9 @@ use rand_distr::{LogNormal, Normal, Uniform, Weibull};
 
 use crate::input::{InputError, Section};
 
-/// How often a draw is repeated before the nearest bound is taken.
+/// Number of draws before the nearest bound is taken.
 const ATTEMPTS: usize = 10_000;
-/// How often a new distribution is tried to see that its bounds leave something to draw.
+/// Number of trial draws that check whether a new distribution has values within its bounds.
 const TRIALS: usize = 1_000;
 
 /// One distribution, with the bounds that truncate it.

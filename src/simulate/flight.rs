@@ -37,7 +37,7 @@ pub fn velocity(state: &State) -> Vector3<f64> {
     state.fixed_rows::<3>(3).into()
 }
 
-/// Puts a state together.
+/// Assembles a state from position [m], velocity [m/s], temperature [K] and conversion [1].
 pub fn state(position: &Vector3<f64>, velocity: &Vector3<f64>, temperature: f64, conversion: f64) -> State {
     let mut state = State::zeros();
     state.fixed_rows_mut::<3>(0).copy_from(position);
@@ -47,7 +47,7 @@ pub fn state(position: &Vector3<f64>, velocity: &Vector3<f64>, temperature: f64,
     state
 }
 
-/// What of a particle does not change on its way.
+/// Properties of a particle that stay constant in flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
     /// Diameter [m].
@@ -56,9 +56,9 @@ pub struct Body {
     pub density: f64,
     /// Heat capacity [J/(kg K)]; without it the temperature stays.
     pub heat_capacity: Option<f64>,
-    /// Emissivity [1] and the temperature of what it sees [K].
+    /// Emissivity [1] and temperature of the surroundings [K].
     pub radiation: Option<(f64, f64)>,
-    /// How carbon is used up.
+    /// Law of carbon conversion.
     pub burning: Burning,
 }
 
@@ -113,7 +113,7 @@ impl ODE<f64, State> for ParticleMotion<'_> {
     }
 }
 
-/// Where a flight ended.
+/// End of a flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightEnd {
     /// Time [s].
@@ -124,28 +124,28 @@ pub struct FlightEnd {
     pub surface: Option<usize>,
 }
 
-/// The flight could not be followed.
+/// Why a flight cannot be integrated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FlightError {
     /// The path needs more steps than allowed.
     #[error("the path takes more than {STEP_LIMIT} integration steps")]
     TooManySteps,
     /// The equations give no finite number.
-    #[error("the state is not finite any more")]
+    #[error("the state of the particle is no longer finite")]
     NotFinite,
 }
 
 /// Integration steps of one flight before it is given up.
 const STEP_LIMIT: usize = 200_000;
-/// Places on a step's dense output at which contact is looked for.
+/// Points on a step's dense output at which contact is checked.
 const PLACES: u32 = 8;
 /// Halvings of the interval in which a contact lies.
 const HALVINGS: u32 = 60;
 
 /// Follows a particle from `start` at `time` until it touches a surface or the time `until` is reached.
 ///
-/// `tolerance` is the relative error allowed per step [1]. A surface is reached when the particle comes from its front;
-/// what starts behind a surface does not touch it.
+/// `tolerance` is the relative error allowed per step [1]. A particle reaches a surface only from its front; one that
+/// starts behind a surface does not touch it.
 ///
 /// # Errors
 /// [`FlightError`] when the path cannot be followed.

@@ -1,7 +1,7 @@
 //! Heat to a particle: convection (Ranz and Marshall 1952) and, where asked for, radiation.
 //!
 //! `Nu = 2 + 0.6 Re^(1/2) Pr^(1/3)`, heat flow `Nu k pi d (T_g - T_p)`; a grey sphere in surroundings of one
-//! temperature takes up `epsilon sigma pi d² (T_r⁴ - T_p⁴)`. The particle has one temperature throughout (Biot number
+//! temperature absorbs `epsilon sigma pi d² (T_r⁴ - T_p⁴)`. The particle has one temperature throughout (Biot number
 //! well below 0.1), and no heat of melting or reaction.
 
 use std::f64::consts::PI;
@@ -21,7 +21,7 @@ pub fn convection(nusselt: f64, conductivity: f64, diameter: f64, difference: f6
     nusselt * conductivity * PI * diameter * difference
 }
 
-/// Heat [W] that a grey sphere takes up from surroundings of one temperature.
+/// Heat [W] that a grey sphere absorbs from surroundings of one temperature.
 ///
 /// `emissivity` [1], `diameter` [m], `surroundings` and `particle` temperatures [K].
 pub fn radiation(emissivity: f64, diameter: f64, surroundings: f64, particle: f64) -> f64 {

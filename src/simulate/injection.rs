@@ -1,4 +1,4 @@
-//! Where particles come from and in which state.
+//! Initial positions and states of the particles.
 //!
 //! Each particle draws its state from its own stream of a seeded generator (ChaCha8, stream = number of the particle),
 //! so it is the same on any thread and however many particles there are.
@@ -36,15 +36,15 @@ pub struct Injection {
     pub density: Option<f64>,
     /// Heat capacity [J/(kg K)]; without it the temperature stays.
     pub heat_capacity: Option<f64>,
-    /// Emissivity [1] and the temperature of what it sees [K].
+    /// Emissivity [1] and temperature of the surroundings [K].
     pub radiation: Option<(f64, f64)>,
-    /// What all particles together weigh as they start [kg], and whether each stands for the same share of it.
+    /// Real particles that each followed particle represents.
     pub weight: ParticleWeight,
-    /// How carbon is used up.
+    /// Law of carbon conversion.
     pub burning: Burning,
 }
 
-/// What one followed particle stands for.
+/// Number of real particles that one followed particle represents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ParticleWeight {
     /// One real particle: the size distribution counts particles.
@@ -74,7 +74,7 @@ pub struct InitialState {
     pub conversion: f64,
 }
 
-/// What a sweep can change, with how: all of them in SI units or degrees.
+/// Quantities of particles that a sweep can change, in SI units or degrees.
 pub const SWEEPABLE: [&str; 5] = ["diameter", "speed", "angle_deg", "particle_temperature", "conversion"];
 
 impl Injection {

@@ -69,7 +69,7 @@ impl Shape {
         }
     }
 
-    /// Whether the surface extends to a point near it (a disc and a part of a pipe end somewhere).
+    /// Whether the surface extends to a point near it; a disc and a part of a pipe are bounded.
     pub fn covers(&self, position: &Vector3<f64>) -> bool {
         match self {
             Self::Plane { radius: None, .. } => true,
@@ -101,18 +101,18 @@ impl Shape {
     }
 }
 
-/// What a particle can run into.
+/// A wall or an exit.
 #[derive(Debug)]
 pub struct Surface {
     /// Its name in the case file.
     pub name: String,
     /// Its form.
     pub shape: Shape,
-    /// What it does to a particle.
+    /// Wall or exit.
     pub kind: SurfaceKind,
 }
 
-/// What a surface does to a particle.
+/// Whether particles hit a surface or leave through it.
 #[derive(Debug)]
 pub enum SurfaceKind {
     /// A wall: the model decides.
@@ -122,7 +122,7 @@ pub enum SurfaceKind {
         /// Wall temperature [K].
         temperature: Profile,
     },
-    /// The particle is gone.
+    /// The particle leaves.
     Exit,
 }
 

@@ -24,11 +24,11 @@ pub enum Fate {
     Stuck(usize),
     /// Left through the surface with this index.
     Escaped(usize),
-    /// Still under way when the time was up.
+    /// Still in the gas at the time limit.
     Airborne,
-    /// Given up: too many hits, or at rest on a wall that does not hold it.
+    /// Given up: too many hits, or at rest on a wall that does not capture it.
     GivenUp,
-    /// A hit that the model cannot decide, or a path that cannot be followed, with the reason.
+    /// The model cannot decide a hit, or the path cannot be integrated; with the reason.
     Unusable(String),
 }
 
@@ -41,15 +41,15 @@ pub struct Hit {
     pub surface: usize,
     /// Centre of the particle [m].
     pub position: Vector3<f64>,
-    /// What arrived.
+    /// The impact.
     pub impact: Impact,
-    /// What left.
+    /// Its outcome.
     pub outcome: Outcome,
-    /// Mass of what the particle stands for [kg].
+    /// Mass of all real particles that this one represents [kg].
     pub mass: f64,
 }
 
-/// A particle from start to end.
+/// The hits of a particle and its end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trajectory {
     /// How it ended.
@@ -58,11 +58,11 @@ pub struct Trajectory {
     pub hits: Vec<Hit>,
     /// Diameter [m].
     pub diameter: f64,
-    /// Mass of what it stands for at the start and at the end [kg].
+    /// Mass of all real particles that it represents, at the start and at the end [kg].
     pub mass: [f64; 2],
     /// Where it ended [m].
     pub position: Vector3<f64>,
-    /// State at the end: temperature [K] and conversion [1].
+    /// Temperature at the end [K].
     pub temperature: f64,
     /// Conversion at the end [1].
     pub conversion: f64,
@@ -126,7 +126,7 @@ struct Tracker<'a> {
     state: State,
     /// Angular velocity [rad/s].
     spin: Vector3<f64>,
-    /// Real particles that this one stands for.
+    /// Number of real particles that this one represents.
     weight: f64,
     hits: Vec<Hit>,
 }
@@ -179,7 +179,7 @@ impl Tracker<'_> {
         self.spin *= (-duration * rate / drag::slip_factor(gas.mean_free_path, body.diameter)).exp();
     }
 
-    /// What happens at the surface; `None` when the particle flies on.
+    /// Resolves the hit on a surface; `None` when the particle flies on.
     fn hit(&mut self, index: usize) -> Result<Option<Fate>, ImpactError> {
         let surface = &self.case.surfaces[index];
         let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else {

@@ -264,7 +264,7 @@ fn page_later_captures(page: &mut Page, run: &RunResults) {
     let totals = || run.walls.iter().filter_map(|wall| wall.rows.last()).map(|(_, totals)| totals);
     let first = totals().filter_map(|totals| totals.first_hits);
     let [hits, captured] = first.fold([0, 0], |[a, b], [c, d]| [a + c, b + d]);
-    let all: u64 = totals().map(|totals| totals.captured.count).sum();
+    let all = totals().fold(0_u64, |sum, totals| sum.saturating_add(totals.captured.count));
     if hits > 0 && (all - captured) as f64 > 0.1 * run.balance[0].count.unwrap_or(hits) as f64 {
         page.text(later_captures([hits, captured], all, run.has_carbon));
     }

@@ -1,7 +1,7 @@
 //! The gas that carries the particles: a prescribed velocity field, one kind a file, and the gas's properties.
 //!
-//! Particles do not act on the gas, and there is no turbulence in these fields: what brings a particle to a wall is its
-//! inertia, its weight, and the mean flow. Properties are taken at the gas's own local temperature.
+//! Particles do not act on the gas, and these fields have no turbulence: inertia, weight and the mean flow carry a
+//! particle to a wall. Properties are taken at the gas's own local temperature.
 
 mod stagnation_jet;
 mod swirling_pipe;
@@ -23,7 +23,7 @@ pub trait VelocityField: Send + Sync + std::fmt::Debug {
     fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64>;
 }
 
-/// A gas: where it goes and what it is.
+/// A gas: its velocity field, temperature and properties.
 #[derive(Debug)]
 pub struct Gas {
     field: Box<dyn VelocityField>,
@@ -109,7 +109,7 @@ impl Gas {
     /// The same gas at one temperature [K] everywhere.
     ///
     /// # Errors
-    /// What is not known there, in words.
+    /// A message that names the property that is not known there.
     pub fn set_temperature(&mut self, temperature: f64) -> Result<(), String> {
         self.known_at(temperature)?;
         self.temperature = Profile::constant(temperature);
@@ -119,12 +119,12 @@ impl Gas {
     /// Whether every property is known at a temperature [K].
     ///
     /// # Errors
-    /// The first property that is not, in words.
+    /// A message that names the first property that is not.
     pub fn known_at(&self, temperature: f64) -> Result<(), String> {
         for (key, property) in self.properties() {
             if let Err(range) = property.at(temperature) {
                 return Err(format!(
-                    "gas.{key} is given for {} to {} K, but the gas is to have {temperature} K; widen the table",
+                    "gas.{key} is given for {} to {} K, but the gas has {temperature} K in this case; widen the table",
                     range.low, range.high
                 ));
             }
