@@ -100,17 +100,22 @@ impl Cells {
     }
 }
 
+impl Values {
+    /// The cells of these rows.
+    pub(crate) fn at(&self, rows: &[usize]) -> Self {
+        match self {
+            Self::Numbers(numbers) => Self::Numbers(rows.iter().map(|&row| numbers[row]).collect()),
+            Self::Labels { levels, of_row } => {
+                Self::Labels { levels: levels.clone(), of_row: rows.iter().map(|&row| of_row[row]).collect() }
+            }
+        }
+    }
+}
+
 impl Column {
     /// The cells of these rows.
     pub(super) fn at(&self, rows: &[usize]) -> Self {
-        let values = match &self.values {
-            Values::Numbers(numbers) => Values::Numbers(rows.iter().map(|&row| numbers[row]).collect()),
-            Values::Labels { levels, of_row } => Values::Labels {
-                levels: levels.clone(),
-                of_row: rows.iter().map(|&row| of_row[row]).collect(),
-            },
-        };
-        Self { name: self.name.clone(), values }
+        Self { name: self.name.clone(), values: self.values.at(rows) }
     }
 }
 

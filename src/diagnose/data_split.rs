@@ -45,6 +45,14 @@ impl Covariate {
         }
     }
 
+    /// A row's number or the index of its label; NaN where blank.
+    pub fn cell(&self, row: usize) -> f64 {
+        match &self.values {
+            Values::Numbers(numbers) => numbers[row],
+            Values::Labels { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
+        }
+    }
+
     /// Distance from the mean in standard deviations, at most three; labels and blanks are 0.
     pub fn standardised(&self) -> Vec<f64> {
         let numbers = match &self.values {
@@ -130,6 +138,13 @@ impl DataSplit {
             fine.fit.truncate(STOCHASTIC_FIT_ROWS);
         }
         fine
+    }
+
+    /// Other rows under the same base model, none of them fitted.
+    pub fn with_rows(&self, rows: Vec<Measurement>, covariates: Vec<Covariate>) -> Self {
+        let (search, folds, fit, held_out) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (rows, covariates) = (rows.into(), covariates.into());
+        Self { base: self.base.clone(), rows, covariates, search, folds, fit, held_out, draws: COARSE_DRAWS }
     }
 
     /// The indices of all rows.

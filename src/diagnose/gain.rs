@@ -5,6 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
+use super::likelihood::readings;
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
 use crate::dataset::Values;
@@ -109,14 +110,11 @@ pub(super) fn sample(base: &Hypothesis<'_>, extended: &Hypothesis<'_>) -> Sample
         };
         pairs.map(triple).collect::<Vec<_>>()
     });
-    let cell = |values: &Values, row: usize| match values {
-        Values::Numbers(numbers) => numbers[row],
-        Values::Labels { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
-    };
     let row = |(place, &row): (usize, &usize)| {
         let [e_n, e_t, captured] = [0, 1, 2].map(|which| triples[which][place]);
-        let cells = data.covariates.iter().map(|column| cell(&column.values, row)).collect();
-        SampleRow { held_out: place < held_out.len(), cells, e_n, e_t, captured }
+        let cells = data.covariates.iter().map(|column| column.cell(row)).collect();
+        let errors = readings(&data.rows[row]).map(|reading| reading.and_then(|reading| reading.error));
+        SampleRow { held_out: place < held_out.len(), cells, errors, e_n, e_t, captured }
     };
     let words = data.covariates.iter().map(|column| match &column.values {
         Values::Labels { levels, .. } => Some(levels.clone()),
@@ -126,5 +124,6 @@ pub(super) fn sample(base: &Hypothesis<'_>, extended: &Hypothesis<'_>) -> Sample
         columns: data.covariates.iter().map(|c| (c.name.clone(), c.unit.to_owned())).collect(),
         words: words.collect(),
         rows: rows.iter().enumerate().map(row).collect(),
+        ..Sample::default()
     }
 }

@@ -9,6 +9,7 @@ mod candidate;
 mod cross_validation;
 mod curve;
 mod data_split;
+mod data_view;
 mod evaluation;
 mod extend;
 mod finding;
@@ -26,8 +27,8 @@ mod smooth;
 mod verdict;
 
 pub use record::{
-    Alternative, Calibration, Diagnosis, Errors, Estimate, Finding, FittedCurve, Gain, Measure, Misfit,
-    NotExamined, Options, Rows, Sample, SampleRow, ScatterFound, Unexplained,
+    Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, FittedCurve, Gain, Measure,
+    Misfit, NotExamined, Options, Rows, Sample, SampleRow, ScatterFound, Unexplained,
 };
 
 use crate::dataset::{BadRow, Measurements};
@@ -102,6 +103,8 @@ pub fn diagnose(
     diagnosis.misfit = verdict::misfit(&hypothesis, &first_round, options.level);
     diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()));
     diagnosis.sample = gain::sample(&plain, &hypothesis);
+    diagnosis.sample.views = data_view::views([&plain, &hypothesis], &diagnosis.findings);
+    diagnosis.sample.notes.clone_from(&data.notes);
     if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
         let [before, after] = [&plain, &hypothesis].map(|h| gain::evaluate(h, &fine.held_out));
         let of = |observable| gain::gain(&before, &after, observable, options.seed);

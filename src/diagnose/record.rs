@@ -251,6 +251,24 @@ pub struct Sample {
     pub words: Vec<Option<Vec<String>>>,
     /// A sample of the rows.
     pub rows: Vec<SampleRow>,
+    /// What to show of the measured values, by observable.
+    pub views: Vec<DataView>,
+    /// What was assumed about the data file, and what looks like a mistake in it.
+    pub notes: Vec<String>,
+}
+
+/// Measured values of one observable against one column, for a figure.
+#[derive(Debug, Clone)]
+pub struct DataView {
+    /// `e_n`, `e_t` or `outcome`.
+    pub observable: &'static str,
+    /// The column along the x axis.
+    pub column: String,
+    /// A second column and the range of it that selects the rows; `None` for all rows.
+    pub within: Option<(String, [f64; 2])>,
+    /// Value of the column, base model and extended model there: the models' means over the rows whose values are
+    /// nearest, weighted by distance, with the other inputs as measured. Empty for a column of words.
+    pub curve: Vec<[f64; 3]>,
 }
 
 /// A row for figures.
@@ -260,6 +278,8 @@ pub struct SampleRow {
     pub held_out: bool,
     /// Its cells, by column; the index of the label for a column of labels; NaN where blank.
     pub cells: Vec<f64>,
+    /// Stated standard errors of `e_n` and `e_t`.
+    pub errors: [Option<f64>; 2],
     /// `e_n`: measured, base model, extended model.
     pub e_n: Option<[f64; 3]>,
     /// `e_t`: measured, base model, extended model.

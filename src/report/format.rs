@@ -39,13 +39,18 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// A probability; one below 1e-12 is given as a bound.
-pub fn probability(value: f64) -> String {
-    match value {
-        small if small < 1e-12 => "< 1e-12".to_owned(),
-        small if small < 1e-3 => format!("{small:.1e}"),
-        _ => format!("{value:.3}"),
+/// A probability as the number of trials in which it happens once, with two digits.
+pub fn once_in(probability: f64) -> String {
+    if probability < 1e-12 {
+        return "> 1e12".to_owned();
     }
+    let trials: f64 = format!("{:.1e}", 1.0 / probability).parse().unwrap_or(f64::NAN);
+    number(trials)
+}
+
+/// A gain in log likelihood in standard deviations of a normal distribution: the root of twice the gain.
+pub fn sigma(gain: f64) -> String {
+    format!("{:.1}", (2.0 * gain).max(0.0).sqrt())
 }
 
 #[cfg(test)]
@@ -62,5 +67,11 @@ mod tests {
     fn shares_keep_two_digits() {
         let short = [0.0, 0.1234, 0.000_057, 1.0, 1e-9, f64::NAN].map(percent);
         assert_eq!(short, ["0 %", "12.3 %", "0.0057 %", "100.0 %", "1.0e-7 %", "–"]);
+    }
+
+    #[test]
+    fn probabilities_are_odds_of_chance() {
+        assert_eq!([0.0, 2.1e-10, 0.0234, 0.5].map(once_in), ["> 1e12", "4.8e9", "43", "2"]);
+        assert_eq!([4.5, 0.0, -1.0].map(sigma), ["3.0", "0.0", "0.0"]);
     }
 }

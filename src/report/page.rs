@@ -14,7 +14,8 @@ enum Section {
     Note(String),
     Verdict(Vec<String>),
     Code(String),
-    Figures(Vec<Figure>),
+    /// Figures and the CSS class of their grid.
+    Figures(Vec<Figure>, &'static str),
     Table(Table),
     Marked(Table, Vec<RowStatus>),
 }
@@ -116,9 +117,18 @@ impl Page {
 
     /// Adds figures, two or more side by side where the window is wide enough; without figures adds nothing.
     pub fn figures(&mut self, figures: impl IntoIterator<Item = Figure>) {
+        self.grid(figures, "figures");
+    }
+
+    /// Adds small figures, three or more side by side.
+    pub fn panels(&mut self, figures: impl IntoIterator<Item = Figure>) {
+        self.grid(figures, "figures panels");
+    }
+
+    fn grid(&mut self, figures: impl IntoIterator<Item = Figure>, style: &'static str) {
         let figures: Vec<Figure> = figures.into_iter().collect();
         if !figures.is_empty() {
-            self.sections.push(Section::Figures(figures));
+            self.sections.push(Section::Figures(figures, style));
         }
     }
 

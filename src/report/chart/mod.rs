@@ -36,7 +36,8 @@ const MARKERS: [MarkerShape; 7] = [
     MarkerShape::Cross,
     MarkerShape::Plus,
 ];
-const DASHES: [LineStyle; 4] = [LineStyle::Solid, LineStyle::Dashed, LineStyle::DashDot, LineStyle::Dotted];
+/// Gaps of lines; short enough to be seen in the legend.
+const DASHES: [&str; 4] = ["", "5 2", "7 2 2 2", "2 2"];
 /// Letters that fit side by side under an x axis.
 const WORDS_LETTERS: usize = 60;
 
@@ -63,12 +64,20 @@ pub struct Chart {
     log: [bool; 2],
     words: Vec<String>,
     lines: Vec<ReferenceLine>,
+    panel: bool,
 }
 
 impl Chart {
     /// An empty chart; axis labels carry their units.
     pub fn new(title: &str, x_label: &str, y_label: &str) -> Self {
         Self { title: title.to_owned(), labels: [x_label, y_label].map(str::to_owned), ..Self::default() }
+    }
+
+    /// Makes the figure smaller: one of several side by side.
+    #[must_use]
+    pub fn panel(mut self) -> Self {
+        self.panel = true;
+        self
     }
 
     /// Puts words along the x axis instead of numbers, the first at 1, the next at 2.
@@ -149,14 +158,15 @@ impl Chart {
     #[must_use]
     pub fn line(mut self, name: &str, points: &[[f64; 2]]) -> Self {
         let (colour, place) = self.next();
-        let style = &DASHES[place % DASHES.len()];
+        let dashes = Some(DASHES[place % DASHES.len()].to_owned()).filter(|dashes| !dashes.is_empty());
+        let style = dashes.clone().map_or(LineStyle::Solid, LineStyle::Custom);
         let entry = legend_entry(name, colour, LegendShape::Line);
-        self.legend.extend(entry.map(|entry| LegendEntry { dasharray: style.dasharray(), ..entry }));
+        self.legend.extend(entry.map(|entry| LegendEntry { dasharray: dashes, ..entry }));
         let plot = LinePlot::new()
             .with_data(finite(points).into_iter().map(|[x, y]| (x, y)))
             .with_color(colour)
             .with_stroke_width(2.0)
-            .with_line_style(style.clone());
+            .with_line_style(style);
         self.plots.push(plot.into());
         self
     }
@@ -252,6 +262,7 @@ impl Chart {
         }
         let lines = self.lines.into_iter().map(|line| line.with_color("#444444"));
         layout = lines.fold(layout, Layout::with_reference_line);
+        let layout = if self.panel { layout.with_width(420.0).with_height(300.0) } else { layout };
         Figure::new([id, &self.title, caption], self.plots, layout, self.legend)
     }
 

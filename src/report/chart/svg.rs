@@ -33,12 +33,13 @@ impl Figure {
         layout: Layout,
         legend: Vec<LegendEntry>,
     ) -> Self {
+        let (width, height) = (layout.width.unwrap_or(WIDTH), layout.height.unwrap_or(HEIGHT));
         let widest = legend.iter().map(|entry| entry.label.chars().count()).max().unwrap_or(0);
-        let columns = ((WIDTH - 100.0) / (45.0 + LETTER * widest as f64)).floor().max(1.0);
+        let columns = ((width - 100.0) / (45.0 + LETTER * widest as f64)).floor().max(1.0);
         let rows = (legend.len() as f64 / columns).ceil();
         let layout = layout
-            .with_width(WIDTH)
-            .with_height(HEIGHT + LEGEND_ROW * rows)
+            .with_width(width)
+            .with_height(height + LEGEND_ROW * rows)
             .with_tick_format(tick_format())
             .with_legend_position(LegendPosition::OutsideBottomColumns)
             .with_legend_box(false)

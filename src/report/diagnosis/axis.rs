@@ -1,14 +1,14 @@
-//! Columns as axes: numbers even or by their logarithm, words side by side.
+//! Columns as x axes: numbers on a linear or logarithmic axis, words side by side.
 
 use super::super::chart::Chart;
+use super::super::format::{number, with_unit};
 use super::plot::DISTINCT;
 use crate::diagnose::{Sample, SampleRow};
 
-/// Words along an axis at most.
+/// Most words along an axis, and letters of each.
 const WORDS: usize = 16;
-/// Letters of a word along an axis at most.
 const LETTERS: usize = 16;
-/// A column of positive numbers is drawn over its logarithm when nine tenths of its rows span more than this factor.
+/// Positive numbers get a logarithmic axis when nine tenths of the rows span more than this factor.
 const LOG_SPAN: f64 = 30.0;
 
 /// A column along the x axis.
@@ -20,15 +20,10 @@ pub(super) struct Axis<'a> {
 }
 
 enum Scale {
-    Numbers {
-        low: f64,
-        high: f64,
-        wide: bool,
-        /// Whether its values are few: markers stand at its ends.
-        few: bool,
-    },
-    /// Labels, and by place of the word where it stands.
-    Words { labels: Vec<String>, stands: Vec<Option<usize>> },
+    /// `few`: there are few values, so markers lie at the ends.
+    Numbers { low: f64, high: f64, log: bool, few: bool },
+    /// Labels, and the label of each of the column's words where it is shown.
+    Words { labels: Vec<String>, label_of: Vec<Option<usize>> },
 }
 
 impl<'a> Axis<'a> {
@@ -36,39 +31,40 @@ impl<'a> Axis<'a> {
     pub fn new(sample: &'a Sample, column: &str) -> Option<Self> {
         let place = sample.columns.iter().position(|(name, _)| name == column)?;
         let (name, unit) = &sample.columns[place];
-        let cells = || sample.rows.iter().filter_map(|row| row.cells.get(place).copied());
+        let cells = sample
+            .rows
+            .iter()
+            .filter_map(|row| row.cells.get(place).copied())
+            .filter(|cell| cell.is_finite());
         let scale = match sample.words.get(place) {
-            Some(Some(words)) => of_words(words, cells()),
-            _ => of_numbers(cells()),
+            Some(Some(words)) => of_words(words, cells),
+            _ => of_numbers(cells.collect()),
         }?;
         Some(Self { name, unit, place, scale })
     }
 
-    /// Name and unit.
-    pub fn label(&self) -> String {
-        if self.unit.is_empty() { self.name.to_owned() } else { format!("{} [{}]", self.name, self.unit) }
+    /// The row's number or the place of its word; `None` where it is blank.
+    pub fn cell(&self, row: &SampleRow) -> Option<f64> {
+        row.cells.get(self.place).copied().filter(|cell| cell.is_finite())
     }
 
-    /// Where a row stands; `None` where its cell is blank or its word is not shown.
+    /// The row's position on the axis; `None` where its cell is blank or its word is not shown.
     pub fn at(&self, row: &SampleRow) -> Option<f64> {
-        let cell = row.cells.get(self.place).copied().filter(|cell| cell.is_finite())?;
-        match &self.scale {
-            Scale::Numbers { .. } => Some(cell),
-            Scale::Words { stands, .. } => {
-                stands.get(cell as usize).copied().flatten().map(|place| place as f64)
-            }
+        self.position(self.cell(row)?)
+    }
+
+    /// The position of a word or a number.
+    pub fn find(&self, sample: &Sample, text: &str) -> Option<f64> {
+        match sample.words.get(self.place)? {
+            Some(words) => self.position(words.iter().position(|word| word == text)? as f64),
+            None => text.parse().ok(),
         }
     }
 
-    /// Where a word or a number of a fitted curve stands.
-    pub fn find(&self, sample: &Sample, text: &str) -> Option<f64> {
+    fn position(&self, cell: f64) -> Option<f64> {
         match &self.scale {
-            Scale::Numbers { .. } => text.parse().ok(),
-            Scale::Words { stands, .. } => {
-                let words = sample.words.get(self.place)?.as_ref()?;
-                let place = words.iter().position(|word| word == text)?;
-                stands.get(place).copied().flatten().map(|place| place as f64)
-            }
+            Scale::Numbers { .. } => Some(cell),
+            Scale::Words { label_of, .. } => label_of.get(cell as usize)?.map(|label| (label + 1) as f64),
         }
     }
 
@@ -84,12 +80,25 @@ impl<'a> Axis<'a> {
         }
     }
 
+    /// A range of the column in words.
+    pub fn describe(&self, [low, high]: [f64; 2]) -> String {
+        match &self.scale {
+            Scale::Words { labels, label_of } => {
+                let label = label_of.get(low as usize).copied().flatten();
+                format!("= {}", label.map_or("", |label| &labels[label]))
+            }
+            Scale::Numbers { .. } if low == high => format!("= {}", with_unit(low, self.unit)),
+            Scale::Numbers { .. } => format!("from {} to {}", number(low), with_unit(high, self.unit)),
+        }
+    }
+
     /// An empty chart over this column.
     pub fn chart(&self, title: &str, y_label: &str) -> Chart {
-        let chart = Chart::new(title, &self.label(), y_label);
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        let chart = Chart::new(title, &format!("{}{unit}", self.name), y_label);
         match &self.scale {
             Scale::Words { labels, .. } => chart.words(labels),
-            Scale::Numbers { wide: true, .. } => chart.log_x(),
+            Scale::Numbers { log: true, .. } => chart.log_x(),
             // Room for markers at the ends, but no speeds below zero.
             Scale::Numbers { low, high, few, .. } => {
                 let room = if *few { 0.015 * (high - low) } else { 0.0 };
@@ -100,20 +109,19 @@ impl<'a> Axis<'a> {
     }
 }
 
-fn of_numbers(cells: impl Iterator<Item = f64>) -> Option<Scale> {
-    let mut sorted: Vec<f64> = cells.filter(|cell| cell.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
-    let (low, high) = (*sorted.first()?, *sorted.last()?);
-    let beyond = sorted.len() / 20;
-    let wide = low > 0.0 && sorted[sorted.len() - 1 - beyond] > LOG_SPAN * sorted[beyond];
-    let few = sorted.chunk_by(|a, b| a == b).count() <= DISTINCT;
-    (low < high).then_some(Scale::Numbers { low, high, wide, few })
+fn of_numbers(mut cells: Vec<f64>) -> Option<Scale> {
+    cells.sort_by(f64::total_cmp);
+    let (low, high) = (*cells.first()?, *cells.last()?);
+    let beyond = cells.len() / 20;
+    let log = low > 0.0 && cells[cells.len() - 1 - beyond] > LOG_SPAN * cells[beyond];
+    let few = cells.chunk_by(|a, b| a == b).count() <= DISTINCT;
+    (low < high).then_some(Scale::Numbers { low, high, log, few })
 }
 
 /// The words with the most rows, in their own order.
 fn of_words(words: &[String], cells: impl Iterator<Item = f64>) -> Option<Scale> {
     let mut counts = vec![0_usize; words.len()];
-    for cell in cells.filter(|cell| cell.is_finite()) {
+    for cell in cells {
         if let Some(count) = counts.get_mut(cell as usize) {
             *count += 1;
         }
@@ -122,19 +130,14 @@ fn of_words(words: &[String], cells: impl Iterator<Item = f64>) -> Option<Scale>
     order.sort_by_key(|&word| (std::cmp::Reverse(counts[word]), word));
     order.truncate(WORDS);
     order.sort_unstable();
-    let mut stands = vec![None; words.len()];
-    for (place, &word) in order.iter().enumerate() {
-        stands[word] = Some(place + 1);
-    }
+    let label_of = (0..words.len()).map(|word| order.iter().position(|&shown| shown == word)).collect();
     let labels: Vec<String> = order.iter().map(|&word| short(&words[word])).collect();
-    (labels.len() > 1).then_some(Scale::Words { labels, stands })
+    (labels.len() > 1).then_some(Scale::Words { labels, label_of })
 }
 
 fn short(word: &str) -> String {
     if word.chars().count() <= LETTERS {
         return word.to_owned();
     }
-    let mut short: String = word.chars().take(LETTERS - 1).collect();
-    short.push('…');
-    short
+    word.chars().take(LETTERS - 1).chain(['…']).collect()
 }

@@ -1,8 +1,8 @@
-//! The curve over a column that no effect explains, with what the rest of the model leaves of the rows.
+//! The fitted curve over a column that no effect explains, with the rows that it was fitted to.
 
 use super::super::chart::Figure;
 use super::axis::Axis;
-use super::plot::{EXTENDED, Window, running, title, triple};
+use super::plot::{EXTENDED, Means, Window, title, triple};
 use crate::diagnose::{Diagnosis, Finding, FittedCurve};
 
 /// The curve, with the rows that it was fitted to; `None` where its column does not vary in the sample.
@@ -14,86 +14,58 @@ pub(super) fn figure(
 ) -> Option<Figure> {
     let sample = &diagnosis.sample;
     let axis = Axis::new(sample, finding.variables.first()?)?;
-    let mut line: Vec<[f64; 2]> = shape
-        .at
-        .iter()
-        .zip(&shape.adds)
-        .filter_map(|(at, adds)| Some([axis.find(sample, at)?, *adds]))
-        .collect();
-    line.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let bends = line.clone();
+    let bends = shape.at.iter().zip(&shape.adds);
+    let mut bends: Vec<[f64; 2]> =
+        bends.filter_map(|(at, adds)| Some([axis.find(sample, at)?, *adds])).collect();
+    bends.sort_by(|a, b| a[0].total_cmp(&b[0]));
     // Beyond its outermost bends the curve is level.
-    if let (Some([low, high]), Some(first), Some(last)) =
-        (axis.ends(), bends.first().copied(), bends.last().copied())
-    {
-        if low < first[0] {
-            line.insert(0, [low, first[1]]);
-        }
-        if high > last[0] {
-            line.push([high, last[1]]);
-        }
-    }
+    let mut line = bends.clone();
+    line.extend(axis.ends().into_iter().flatten().filter_map(|end| Some([end, along(&bends, end)?])));
+    line.sort_by(|a, b| a[0].total_cmp(&b[0]));
+
     let quantity = title(finding.observable);
-    let heading = format!("What goes with {}", axis.name);
-    let (label, points) = match (finding.observable, shape.factor) {
-        ("outcome", _) => ("added to the log odds of capture [1]".to_owned(), Vec::new()),
-        (observable, true) => {
-            let share = |measured: f64, extended: f64, adds: f64| measured / (extended / (1.0 + adds)) - 1.0;
-            (
-                format!("change of {quantity}, as a share of it [1]"),
-                left(diagnosis, &axis, observable, &line, share),
-            )
-        }
-        (observable, false) => {
-            let rest = |measured: f64, extended: f64, adds: f64| measured - (extended - adds);
-            (format!("added to {quantity} [1]"), left(diagnosis, &axis, observable, &line, rest))
-        }
+    let label = match (finding.observable, shape.factor) {
+        ("outcome", _) => "added to the log odds of capture [1]".to_owned(),
+        (_, true) => format!("relative change of {quantity} [1]"),
+        (_, false) => format!("added to {quantity} [1]"),
     };
-    let means = running(&points, axis.has_words());
-    let window = Window::new(&points, line.iter().map(|point| point[1]).chain(means.reach()));
-    let mut chart = window.on(axis.chart(&heading, &label)).mark_y(0.0, "");
+    // Measured value against the extended model without the curve.
+    let points = sample.rows.iter().filter(|_| finding.observable != "outcome").filter_map(|row| {
+        let numbers = triple(row, finding.observable)?;
+        let x = axis.at(row)?;
+        let (measured, extended, adds) = (numbers[0], numbers[EXTENDED], along(&line, x)?);
+        let y = if shape.factor {
+            measured / (extended / (1.0 + adds)) - 1.0
+        } else {
+            measured - extended + adds
+        };
+        y.is_finite().then_some([x, y])
+    });
+    let points: Vec<[f64; 2]> = points.collect();
+    let means = Means::new(&points, axis.has_words());
+    let window = Window::new(&points, line.iter().map(|point| point[1]).chain(means.reach()).chain([0.0]));
+    let (inside, note) = window.split(&points);
+    let mut chart =
+        window.on(axis.chart(&format!("Fitted curve over {}", axis.name), &label)).mark_y(0.0, "");
     if !points.is_empty() {
-        chart = chart.cloud("rows without the curve", &window.inside);
-        if !axis.has_words() {
-            chart = chart.points_with_errors("mean ± standard error", &means.means, &means.errors);
-        }
+        chart = chart.cloud("rows without the curve", &inside);
     }
     chart = if axis.has_words() {
-        chart.reference("fitted level", &line).points_with_errors(
-            "mean ± standard error",
-            &means.means,
-            &means.errors,
-        )
+        chart.reference("fitted level", &line)
     } else {
         chart.line("fitted curve", &line)
     };
+    if !points.is_empty() {
+        chart = chart.measured("mean ± standard error", &means.points, &means.errors);
+    }
     let caption = format!(
-        "What the rest of the model leaves, and the curve fitted to it. This is a description, not a law: the cause has yet \
-         to be found.{}",
-        window.note()
+        "{} rows: what the rest of the model leaves, and the curve fitted to it. The curve is a description, not a law.{note}",
+        points.len()
     );
     Some(chart.figure(&format!("curve-{id}"), &caption))
 }
 
-/// What the model without the curve leaves of each row.
-fn left(
-    diagnosis: &Diagnosis,
-    axis: &Axis<'_>,
-    observable: &str,
-    line: &[[f64; 2]],
-    of: impl Fn(f64, f64, f64) -> f64,
-) -> Vec<[f64; 2]> {
-    let rows = diagnosis.sample.rows.iter();
-    rows.filter_map(|row| {
-        let numbers = triple(row, observable)?;
-        let x = axis.at(row)?;
-        let y = of(numbers[0], numbers[EXTENDED], along(line, x)?);
-        y.is_finite().then_some([x, y])
-    })
-    .collect()
-}
-
-/// A line of points at `x`.
+/// A line of points at `x`, level beyond its ends.
 fn along(line: &[[f64; 2]], x: f64) -> Option<f64> {
     let right = line.partition_point(|point| point[0] <= x);
     match (right.checked_sub(1).and_then(|left| line.get(left)), line.get(right)) {

@@ -1,36 +1,32 @@
-//! What the page's figures have in common: running means, ranges that gross errors do not stretch.
+//! What the page's figures share: running means, and ranges that gross errors do not stretch.
 
-use super::super::chart::{Chart, ErrorBars, round_edges};
-use crate::diagnose::SampleRow;
+use super::super::chart::{Chart, ErrorBars, Figure, round_edges};
+use super::axis::Axis;
+use crate::diagnose::{Sample, SampleRow};
 
-/// Running means along an axis at most.
+/// Most running means along an axis.
 const BINS: usize = 12;
-/// Values of a column up to which each has a running mean of its own, if it has so many rows on average.
+/// Up to this many values of a column each has a mean of its own, if it has so many rows on average.
 pub(super) const DISTINCT: usize = 12;
-/// See [`DISTINCT`].
 const ROWS_A_VALUE: usize = 4;
-/// Rows that a running mean takes at least where there are enough.
+/// Fewest rows of a running mean, where there are enough.
 const ROWS_A_BIN: usize = 12;
-/// Share of the points beyond each end of an axis, at most.
+/// Largest share of the points beyond each end of an axis.
 const BEYOND: f64 = 0.005;
 
-/// Which of a row's three numbers.
+/// Place of each model's value in a row's three numbers; the measured value is at 0.
 pub(super) const BASE: usize = 1;
-/// The extended model's.
 pub(super) const EXTENDED: usize = 2;
 
 /// Observables in the order of the page.
 pub(super) const OBSERVABLES: [&str; 3] = ["e_n", "e_t", "outcome"];
 
-/// An observable for a reader.
+/// An observable's name on the page.
 pub(super) fn title(observable: &str) -> &str {
-    match observable {
-        "outcome" => "capture",
-        other => other,
-    }
+    if observable == "outcome" { "capture" } else { observable }
 }
 
-/// Measured, base model, extended model; the last may be no number.
+/// Measured value, base model, extended model; the last may be NaN.
 pub(super) fn triple(row: &SampleRow, observable: &str) -> Option<[f64; 3]> {
     let triple = match observable {
         "e_n" => row.e_n,
@@ -40,84 +36,124 @@ pub(super) fn triple(row: &SampleRow, observable: &str) -> Option<[f64; 3]> {
     triple.filter(|numbers| numbers[0].is_finite() && numbers[BASE].is_finite())
 }
 
-/// Letters, digits and hyphens that no other column's name comes to.
+/// Letters, digits and hyphens, different for every column name.
 pub(super) fn identifier(name: &str) -> String {
-    let mut id = String::new();
-    for letter in name.chars() {
-        match letter {
-            '_' => id.push('-'),
-            letter if letter.is_ascii_alphanumeric() => id.push(letter),
-            letter => id += &format!("x{:x}-", u32::from(letter)),
-        }
-    }
-    id
+    let letter = |letter: char| match letter {
+        '_' => "-".to_owned(),
+        letter if letter.is_ascii_alphanumeric() => letter.to_string(),
+        letter => format!("x{:x}-", u32::from(letter)),
+    };
+    name.chars().map(letter).collect()
 }
 
-/// Round edges about `low` to `high`, which may be one value.
+/// Sets the y axis of a chart of shares, with room for markers at both ends.
+pub(super) fn share_axis(chart: Chart) -> Chart {
+    chart.y_range(-0.04, 1.04).y_step(0.2)
+}
+
+/// Round edges that cover `low` to `high`, which may be one value.
 pub(super) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
     let room = if high - low > 1e-6 { 0.0 } else { 0.05 };
     round_edges(low - room, high + room, count)
 }
 
-/// Means over parts of the x axis, with their standard errors.
+/// Measured minus model over a column: the rows of the base model, and means for each of `models`.
+pub(super) fn residuals(
+    sample: &Sample,
+    [observable, column]: [&str; 2],
+    models: &[(usize, &str)],
+    [id, heading, caption]: [&str; 3],
+) -> Option<Figure> {
+    let axis = Axis::new(sample, column)?;
+    let of = |which: usize| {
+        let rows = sample.rows.iter().filter_map(|row| {
+            let numbers = triple(row, observable)?;
+            Some([axis.at(row)?, numbers[0] - numbers[which]])
+        });
+        rows.filter(|point| point[1].is_finite()).collect::<Vec<[f64; 2]>>()
+    };
+    let base = of(BASE);
+    if base.is_empty() {
+        return None;
+    }
+    let means: Vec<Means> =
+        models.iter().map(|(which, _)| Means::new(&of(*which), axis.has_words())).collect();
+    // Single captures lie at two heights only: a cloud of them shows nothing.
+    let cloud: &[[f64; 2]] = if observable == "outcome" { &[] } else { &base };
+    let window = Window::new(cloud, means.iter().flat_map(Means::reach).chain([0.0]));
+    let label = match observable {
+        "outcome" => "captured, measured − model [1]".to_owned(),
+        _ => format!("{observable}, measured − model [1]"),
+    };
+    let mut chart = window.on(axis.chart(heading, &label)).mark_y(0.0, "");
+    let (inside, note) = window.split(cloud);
+    if !cloud.is_empty() {
+        chart = chart.cloud("single rows, base model", &inside);
+    }
+    for ((_, model), means) in models.iter().zip(&means) {
+        chart = chart.points_with_errors(&format!("mean, {model} model"), &means.points, &means.errors);
+    }
+    let over = if axis.has_words() { "each word" } else { "neighbouring rows" };
+    let caption = format!("{} rows; means over {over} ± standard error. {caption}{note}", base.len());
+    Some(chart.figure(id, &caption))
+}
+
+/// Means over parts of the x axis with their standard errors.
 #[derive(Default)]
-pub(super) struct Running {
-    pub means: Vec<[f64; 2]>,
+pub(super) struct Means {
+    pub points: Vec<[f64; 2]>,
     pub errors: ErrorBars,
 }
 
-/// Running means of `points`: one for each word, for each value where there are few, else for equally many rows each.
-pub(super) fn running(points: &[[f64; 2]], words: bool) -> Running {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let groups: Vec<&[[f64; 2]]> = sorted.chunk_by(|a, b| a[0] == b[0]).collect();
-    let few = groups.len() <= DISTINCT && sorted.len() >= ROWS_A_VALUE * groups.len();
-    let most =
-        if words || few { 1 } else { (sorted.len() / BINS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1) };
-    let mut running = Running::default();
-    let mut from = 0;
-    let mut to = 0;
-    for group in groups {
-        to += group.len();
-        let rest = sorted.len() - to;
-        // The last part takes what would be too few for another.
-        if to - from >= most && (rest == 0 || rest >= most.div_ceil(2) || most == 1) {
-            running.push(&sorted[from..to]);
-            from = to;
+impl Means {
+    /// One mean for each word, for each value where there are few, else over equally many neighbouring rows each.
+    pub fn new(points: &[[f64; 2]], words: bool) -> Self {
+        let mut sorted = points.to_vec();
+        sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+        let groups: Vec<&[[f64; 2]]> = sorted.chunk_by(|a, b| a[0] == b[0]).collect();
+        let few = groups.len() <= DISTINCT && sorted.len() >= ROWS_A_VALUE * groups.len();
+        let most = (sorted.len() / BINS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1);
+        let most = if words || few { 1 } else { most };
+        let mut means = Self::default();
+        let (mut from, mut to) = (0, 0);
+        for group in groups {
+            to += group.len();
+            let rest = sorted.len() - to;
+            // The last part includes what would be too few for another.
+            if to - from >= most && (rest == 0 || rest >= most.div_ceil(2) || most == 1) {
+                means.push(&sorted[from..to]);
+                from = to;
+            }
         }
+        if from < to {
+            means.push(&sorted[from..to]);
+        }
+        means
     }
-    if from < to {
-        running.push(&sorted[from..to]);
-    }
-    running
-}
 
-impl Running {
     fn push(&mut self, points: &[[f64; 2]]) {
         let count = points.len() as f64;
         let mean = |of: usize| points.iter().map(|point| point[of]).sum::<f64>() / count;
         let (x, y) = (mean(0), mean(1));
         let square = points.iter().map(|point| (point[1] - y).powi(2)).sum::<f64>();
-        // A single row says nothing of its own error.
+        // The error of a single row is unknown.
         let error = if points.len() > 1 { (square / (count - 1.0) / count).sqrt() } else { 0.0 };
-        self.means.push([x, y]);
+        self.points.push([x, y]);
         self.errors.push((error, error));
     }
 
     /// The ends of the error bars.
     pub fn reach(&self) -> impl Iterator<Item = f64> {
-        let bars = self.means.iter().zip(&self.errors);
+        let bars = self.points.iter().zip(&self.errors);
         bars.flat_map(|(mean, (below, above))| [mean[1] - below, mean[1] + above])
     }
 }
 
-/// A range of the y axis that holds `always` and all but a few of `points`, and the points inside.
+/// A range of the y axis that holds `always` and all but a few of the points.
 pub(super) struct Window {
-    pub low: f64,
-    pub high: f64,
-    pub step: f64,
-    pub inside: Vec<[f64; 2]>,
-    pub outside: usize,
+    low: f64,
+    high: f64,
+    step: f64,
 }
 
 impl Window {
@@ -126,35 +162,37 @@ impl Window {
         sorted.sort_by(f64::total_cmp);
         let beyond = (BEYOND * sorted.len() as f64) as usize;
         let ends = [sorted.get(beyond), sorted.get(sorted.len().saturating_sub(1 + beyond))];
-        let reach = |[l, h]: [f64; 2], y: f64| [l.min(y), h.max(y)];
-        let [low, high] = always.filter(|y| y.is_finite()).fold([0.0; 2], reach);
-        // Room for the markers at the ends.
-        let room = 0.06 * (high - low);
-        let [low, high] =
-            [low - if low < 0.0 { room } else { 0.0 }, high + if high > 0.0 { room } else { 0.0 }];
+        let reach = |[low, high]: [f64; 2], y: f64| [low.min(y), high.max(y)];
+        let nothing = [f64::INFINITY, f64::NEG_INFINITY];
+        let [low, high] = always.filter(|y| y.is_finite()).fold(nothing, reach);
+        // The axis begins at zero unless that would take half of it.
+        let low = if (0.0..0.5 * high).contains(&low) { 0.0 } else { low };
+        // Room for the markers at the ends, but none beyond zero.
+        let room = (0.06 * (high - low)).max(0.0);
+        let low = if low < 0.0 { low - room } else { (low - room).max(0.0) };
+        let high = if high > 0.0 { high + room } else { (high + room).min(0.0) };
         let [low, high] = ends.into_iter().flatten().copied().fold([low, high], reach);
-        let edges = span(low, high, 6);
-        let (low, high) = (edges[0], edges[edges.len() - 1]);
-        let inside: Vec<[f64; 2]> =
-            points.iter().copied().filter(|point| (low..=high).contains(&point[1])).collect();
-        let outside = points.len() - inside.len();
-        Self { low, high, step: edges[1] - edges[0], inside, outside }
+        let edges = if low <= high { span(low, high, 6) } else { span(0.0, 1.0, 6) };
+        Self { low: edges[0], high: edges[edges.len() - 1], step: edges[1] - edges[0] }
     }
 
-    /// Sets the axis of a chart.
+    /// The points inside, and a sentence for the caption about the others.
+    pub fn split(&self, points: &[[f64; 2]]) -> (Vec<[f64; 2]>, String) {
+        let inside = |point: &&[f64; 2]| (self.low..=self.high).contains(&point[1]);
+        let inside: Vec<[f64; 2]> = points.iter().filter(inside).copied().collect();
+        let note = match points.len() - inside.len() {
+            0 => String::new(),
+            1 => " One row lies outside the figure.".to_owned(),
+            count => format!(" {count} rows lie outside the figure."),
+        };
+        (inside, note)
+    }
+
+    /// Sets the y axis of a chart.
     pub fn on(&self, chart: Chart) -> Chart {
-        // A touch wider, so that rounding does not lose the ticks at the ends.
+        // Slightly wider, so that rounding does not lose the ticks at the ends.
         let touch = 1e-9 * self.step;
         chart.y_range(self.low - touch, self.high + touch).y_step(self.step)
-    }
-
-    /// What a caption has to say of points that are not drawn.
-    pub fn note(&self) -> String {
-        match self.outside {
-            0 => String::new(),
-            1 => " One row lies beyond the picture.".to_owned(),
-            count => format!(" {count} rows lie beyond the picture."),
-        }
     }
 }
 
@@ -166,13 +204,13 @@ mod tests {
     fn running_means_hold_every_row_once_and_have_its_standard_error() {
         let points: Vec<[f64; 2]> =
             (0..100).map(|i| [f64::from(i), if i % 2 == 0 { 1.0 } else { 3.0 }]).collect();
-        let found = running(&points, false);
-        assert!((6..=BINS).contains(&found.means.len()), "{}", found.means.len());
-        assert!(found.means.iter().all(|mean| (mean[1] - 2.0).abs() < 0.2));
+        let found = Means::new(&points, false);
+        assert!((6..=BINS).contains(&found.points.len()), "{}", found.points.len());
+        assert!(found.points.iter().all(|mean| (mean[1] - 2.0).abs() < 0.2));
         // 0.5 sqrt(n/(n-1)) 2 / sqrt(n): a spread of 1 over some 12 rows.
         assert!(found.errors.iter().all(|(below, above)| below == above && (0.2..0.4).contains(below)));
-        let few = running(&[[1.0, 0.0], [1.0, 2.0], [2.0, 5.0]], true);
-        assert_eq!(few.means, [[1.0, 1.0], [2.0, 5.0]]);
+        let few = Means::new(&[[1.0, 0.0], [1.0, 2.0], [2.0, 5.0]], true);
+        assert_eq!(few.points, [[1.0, 1.0], [2.0, 5.0]]);
         assert_eq!(few.errors, [(1.0, 1.0), (0.0, 0.0)]);
     }
 
@@ -181,7 +219,7 @@ mod tests {
         let mut points: Vec<[f64; 2]> = (0..400).map(|i| [0.0, 0.001 * f64::from(i % 100) - 0.05]).collect();
         points.push([0.0, 40.0]);
         let window = Window::new(&points, std::iter::once(0.0));
-        assert!(window.high < 0.11 && window.outside == 1, "{} {}", window.high, window.outside);
+        assert!(window.high < 0.11 && window.split(&points).0.len() == 400, "{}", window.high);
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Causes that leave something to chance: they show in the spread of what was measured.
+//! Causes that act at random: they show in the distribution of the measured values.
 
 use super::super::chart::{Chart, Figure};
 use super::plot::{BASE, span, triple};
@@ -7,42 +7,48 @@ use crate::diagnose::{Diagnosis, Finding};
 /// Bins of a histogram, about.
 const BINS: usize = 30;
 
-/// Histograms of the values and of what the base model leaves of them.
+/// Histograms of the values and of the residuals of the base model.
 pub(super) fn figures(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
-    let observable = if finding.observable == "e_t" { "e_t" } else { "e_n" };
-    let rows: Vec<[f64; 3]> =
-        diagnosis.sample.rows.iter().filter_map(|row| triple(row, observable)).collect();
-    if rows.len() < 2 {
-        return Vec::new();
-    }
-    let own = if observable == "e_n" { diagnosis.scatter.e_n } else { diagnosis.scatter.e_t };
-    histograms(&rows, observable, own, id).to_vec()
+    let scatter = &diagnosis.scatter;
+    let (observable, scatter) =
+        if finding.observable == "e_t" { ("e_t", scatter.e_t) } else { ("e_n", scatter.e_n) };
+    let rows = diagnosis.sample.rows.iter();
+    let rows: Vec<[f64; 3]> = rows.filter_map(|row| triple(row, observable)).collect();
+    if rows.len() < 2 { Vec::new() } else { histograms(&rows, observable, scatter, id).to_vec() }
 }
 
-fn histograms(rows: &[[f64; 3]], observable: &str, own: f64, id: &str) -> [Figure; 2] {
+fn histograms(rows: &[[f64; 3]], observable: &str, scatter: f64, id: &str) -> [Figure; 2] {
     let of = |which: usize| rows.iter().map(|numbers| numbers[which]).collect::<Vec<f64>>();
-    let residuals: Vec<f64> = rows.iter().map(|numbers| numbers[0] - numbers[BASE]).collect();
     let y_label = "share of the rows [%]";
-    let edges = edges([of(0), of(BASE)].concat());
-    let values =
-        Chart::new(&format!("{observable}, measured and forecast"), &format!("{observable} [1]"), y_label)
-            .histogram("measured", &edges, &shares(&of(0), &edges))
-            .histogram("base model, without scatter", &edges, &shares(&of(BASE), &edges));
-    let edges = self::edges(residuals.clone());
+    let bins = edges([of(0), of(BASE)].concat());
+    let heading = format!("{observable}, measured and predicted");
+    let values = Chart::new(&heading, &format!("{observable} [1]"), y_label)
+        .histogram("measured", &bins, &shares(&of(0), &bins))
+        .histogram("base model, without scatter", &bins, &shares(&of(BASE), &bins));
+    let residuals: Vec<f64> = rows.iter().map(|numbers| numbers[0] - numbers[BASE]).collect();
+    let bins = edges(residuals.clone());
     let label = format!("{observable}, measured − base model [1]");
-    let mut left = Chart::new(&format!("What the base model leaves of {observable}"), &label, y_label)
-        .histogram("measured − base model", &edges, &shares(&residuals, &edges));
-    if own > 0.0 {
-        left = left.line("scatter of the rest alone", &bell(&edges, own));
+    let mut left = Chart::new(&format!("Residuals of {observable}"), &label, y_label).histogram(
+        "measured − base model",
+        &bins,
+        &shares(&residuals, &bins),
+    );
+    if scatter > 0.0 {
+        left = left.line("scatter of single values alone", &bell(&bins, scatter));
     }
+    let n = rows.len();
     [
         values.figure(
             &format!("spread-{id}"),
-            "A single forecast a row is not enough here: the measured values spread wider, or have a second hump.",
+            &format!(
+                "{n} rows. The measured values spread wider than one prediction per impact, or have a second peak."
+            ),
         ),
         left.figure(
             &format!("residuals-{id}"),
-            "The line is what scatter would leave were the base model right; what stands outside it is the cause's.",
+            &format!(
+                "{n} rows. The line is the normal distribution that scatter alone would give; bars outside it are due to the cause."
+            ),
         ),
     ]
 }
@@ -57,26 +63,23 @@ fn edges(mut values: Vec<f64>) -> Vec<f64> {
 /// Shares [%] of the values between edges.
 fn shares(values: &[f64], edges: &[f64]) -> Vec<f64> {
     let (low, step, bins) = (edges[0], edges[1] - edges[0], edges.len() - 1);
-    let mut counts = vec![0.0; bins];
+    let mut shares = vec![0.0; bins];
     for value in values {
         let place = (value - low) / step;
-        // A hair of rounding at the upper end.
+        // Rounding may lift the largest value above the last edge.
         if place >= 0.0 && place <= bins as f64 + 1e-9 {
-            counts[(place as usize).min(bins - 1)] += 100.0 / values.len() as f64;
+            shares[(place as usize).min(bins - 1)] += 100.0 / values.len() as f64;
         }
     }
-    counts
+    shares
 }
 
 /// A normal distribution about zero, in per cent a bin.
 fn bell(edges: &[f64], deviation: f64) -> Vec<[f64; 2]> {
     let (low, high, step) = (edges[0], edges[edges.len() - 1], edges[1] - edges[0]);
-    let density =
-        |x: f64| (-0.5 * (x / deviation).powi(2)).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt());
-    (0..=200)
-        .map(|i| low + (high - low) * f64::from(i) / 200.0)
-        .map(|x| [x, 100.0 * step * density(x)])
-        .collect()
+    let height = 100.0 * step / (deviation * (2.0 * std::f64::consts::PI).sqrt());
+    let xs = (0..=200).map(|i| low + (high - low) * f64::from(i) / 200.0);
+    xs.map(|x| [x, height * (-0.5 * (x / deviation).powi(2)).exp()]).collect()
 }
 
 #[cfg(test)]

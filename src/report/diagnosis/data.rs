@@ -1,0 +1,150 @@
+//! The measured values against the inputs that matter, with both models' curves.
+
+use super::super::chart::Figure;
+use super::super::page::Page;
+use super::axis::Axis;
+use super::plot::{BASE, EXTENDED, Means, OBSERVABLES, Window, identifier, share_axis, title, triple};
+use crate::diagnose::{DataView, Diagnosis, Sample, SampleRow};
+
+/// Up to this many rows each is drawn with its own error bar; more are drawn as a cloud with running means.
+const FEW: usize = 40;
+/// Relative difference below which both models are the same.
+const SAME: f64 = 1e-9;
+
+pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
+    let sample = &diagnosis.sample;
+    let (mut whole, mut parts) = (Vec::new(), Vec::new());
+    for observable in OBSERVABLES {
+        let views: Vec<&DataView> =
+            sample.views.iter().filter(|view| view.observable == observable).collect();
+        let selections: Vec<Selection<'_>> =
+            views.iter().filter_map(|view| Selection::new(sample, view)).collect();
+        // All figures of an observable have the same y axis.
+        let Some(window) = selections.first().map(Selection::window) else { continue };
+        let figures =
+            selections.iter().enumerate().map(|(place, selection)| selection.figure(&window, place));
+        let mut figures = figures.collect::<Vec<Figure>>().into_iter();
+        whole.extend(figures.next());
+        if let Some((second, _)) = selections.last().and_then(|last| last.second.as_ref()) {
+            let split =
+                format!("{} against {}, rows split by {}:", title(observable), views[0].column, second.name);
+            parts.push((split, figures));
+        }
+    }
+    if whole.is_empty() {
+        return;
+    }
+    page.heading("Measured values and models");
+    page.text(
+        "Black points are measured. Lines are the models: at each value of the x axis their mean over the nearest measured \
+         rows, with the other inputs as measured. Where there is one line only, both models are the same.",
+    );
+    page.figures(whole);
+    for (split, figures) in parts {
+        page.text(split);
+        page.panels(figures);
+    }
+}
+
+/// A view with the rows that it selects.
+struct Selection<'a> {
+    view: &'a DataView,
+    axis: Axis<'a>,
+    /// The column that selects the rows, and its range.
+    second: Option<(Axis<'a>, [f64; 2])>,
+    /// Position on the axis, stated standard error (0 where there is none), and the three numbers of each row.
+    rows: Vec<(f64, f64, [f64; 3])>,
+    few: bool,
+}
+
+impl<'a> Selection<'a> {
+    /// `None` where there is nothing to show.
+    fn new(sample: &'a Sample, view: &'a DataView) -> Option<Self> {
+        let axis = Axis::new(sample, &view.column)?;
+        let second = match &view.within {
+            Some((column, range)) => Some((Axis::new(sample, column)?, *range)),
+            None => None,
+        };
+        let place = OBSERVABLES.iter().position(|observable| *observable == view.observable)?;
+        let selected = |row: &SampleRow| {
+            if let Some((second, [low, high])) = &second {
+                second.cell(row).filter(|cell| (*low..=*high).contains(cell))?;
+            }
+            let error = row.errors.get(place).copied().flatten().unwrap_or(0.0);
+            Some((axis.at(row)?, error, triple(row, view.observable)?))
+        };
+        let rows: Vec<_> = sample.rows.iter().filter_map(selected).collect();
+        let few = rows.len() <= FEW && view.observable != "outcome";
+        (!rows.is_empty()).then_some(Self { view, axis, second, rows, few })
+    }
+
+    /// The rows' points: measured (0) or one of the models.
+    fn points(&self, which: usize) -> Vec<[f64; 2]> {
+        self.rows.iter().map(|(x, _, numbers)| [*x, numbers[which]]).collect()
+    }
+
+    /// Single rows behind the means. Captures lie at two heights only: a cloud of them shows nothing.
+    fn cloud(&self) -> Vec<[f64; 2]> {
+        if self.few || self.view.observable == "outcome" { Vec::new() } else { self.points(0) }
+    }
+
+    fn measured(&self) -> Means {
+        if self.few {
+            let errors = self.rows.iter().map(|(_, error, _)| (*error, *error)).collect();
+            return Means { points: self.points(0), errors };
+        }
+        Means::new(&self.points(0), self.axis.has_words())
+    }
+
+    fn window(&self) -> Window {
+        let curves = self.view.curve.iter().flat_map(|[_, base, extended]| [*base, *extended]);
+        Window::new(&self.cloud(), self.measured().reach().chain(curves))
+    }
+
+    fn figure(&self, window: &Window, place: usize) -> Figure {
+        let (view, quantity) = (self.view, title(self.view.observable));
+        let capture = view.observable == "outcome";
+        let unit = if capture { "impacts" } else { "rows" };
+        let mut caption = format!("{} {unit}", self.rows.len());
+        let heading = match &self.second {
+            None => format!("{quantity} against {}", self.axis.name),
+            Some((second, range)) => {
+                let range = format!("{} {}", second.name, second.describe(*range));
+                caption += &format!(" with {range}");
+                range
+            }
+        };
+        let label =
+            if capture { "share captured [1]".to_owned() } else { format!("{quantity} measured [1]") };
+        let mut chart = self.axis.chart(&heading, &label);
+        chart = if capture { share_axis(chart) } else { window.on(chart) };
+        chart = if place > 0 { chart.panel() } else { chart };
+        let (cloud, note) = window.split(&self.cloud());
+        if !cloud.is_empty() {
+            chart = chart.cloud("single rows", &cloud);
+        }
+        let numbers = view.curve.iter().chain(self.rows.iter().map(|(_, _, numbers)| numbers));
+        let both = { numbers }.any(|[_, base, extended]| (extended - base).abs() > SAME * base.abs());
+        let models = [(BASE, "base model"), (EXTENDED, "extended model")];
+        for (which, name) in &models[..if both { 2 } else { 1 }] {
+            chart = if view.curve.is_empty() {
+                let means = Means::new(&self.points(*which), self.axis.has_words());
+                chart.points(&format!("mean, {name}"), &means.points)
+            } else {
+                let line: Vec<[f64; 2]> = view.curve.iter().map(|point| [point[0], point[*which]]).collect();
+                chart.line(name, &line)
+            };
+        }
+        let measured = self.measured();
+        caption += match self.few {
+            true if measured.errors.iter().all(|(error, _)| *error == 0.0) => "; no errors are stated.",
+            true => "; bars are the stated standard errors.",
+            false if self.axis.has_words() => "; points are means for each word, bars their standard errors.",
+            false => "; points are means over neighbouring rows, bars their standard errors.",
+        };
+        let id = if place == 0 { String::new() } else { format!("-{place}") };
+        let id = format!("data-{}{id}", identifier(view.observable));
+        let name = if self.few { "measured" } else { "mean, measured" };
+        chart.measured(name, &measured.points, &measured.errors).figure(&id, &(caption + &note))
+    }
+}
