@@ -24,8 +24,11 @@ pub use study::{Extent, Part, Study};
 /// Result of a study: any error ends the run.
 pub type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
+/// Makes a study of the given extent.
+pub type StudyMaker = fn(Extent) -> Result<Study>;
+
 /// Every study in the order of the page: its name and the function that makes it.
-pub const STUDIES: [(&str, fn(Extent) -> Result<Study>); 4] = [
+pub const STUDIES: [(&str, StudyMaker); 4] = [
     ("migraine", migraine::study),
     ("troiano", troiano::study),
     ("checks", checks::study),
