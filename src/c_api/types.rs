@@ -83,7 +83,7 @@ pub const NW_SP_SW: nw_regime = 3;
 /// Bit of `flags`: a property or a fitted term was used outside its stated range.
 pub const NW_OUTSIDE_VALID_RANGE: u32 = 1;
 
-/// What leaves the wall.
+/// Result of an impact.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct nw_outcome {
@@ -95,11 +95,11 @@ pub struct nw_outcome {
     pub stuck: u32,
     /// Bits: `NW_OUTSIDE_VALID_RANGE`.
     pub flags: u32,
-    /// Normal restitution of a particle that rebounds.
+    /// Normal restitution [1] if the particle rebounds.
     pub e_n: f64,
-    /// Tangential restitution of a particle that rebounds.
+    /// Tangential restitution [1] if the particle rebounds.
     pub e_t: f64,
-    /// Probability of capture.
+    /// Probability of capture [1].
     pub p_stick: f64,
     /// Spin after a rebound [rad/s].
     pub omega: f64,

@@ -27,15 +27,15 @@ macro_rules! for_each_input {
             // Wall
             /// Wall temperature [K], positive.
             T_w, wall_temperature, WALL_TEMPERATURE, "K", POSITIVE, 293.15;
-            /// Roughness of the wall [m], not negative.
+            /// Roughness of the wall [m], not negative; kept for diagnosis, used by no built-in law.
             roughness, roughness, ROUGHNESS, "m", NOT_NEGATIVE, 0.0;
             /// Share of the wall that non-sticky char covers [1], 0 to 1.
             coverage, coverage, COVERAGE, "1", SHARE, 0.0;
             /// Thickness of the powder layer on the wall [m], not negative.
             layer_thickness, layer_thickness, LAYER_THICKNESS, "m", NOT_NEGATIVE, 0.0;
-            /// Thickness of the liquid film on the wall [m], not negative.
+            /// Thickness of a liquid film [m] that the caller states, not negative; the effect `liquid-film` uses it.
             film_thickness, film_thickness, FILM_THICKNESS, "m", NOT_NEGATIVE, 0.0;
-            /// Thickness of the melt that earlier particles left on the wall [m], not negative.
+            /// Thickness of the melt in the deposit of earlier particles [m], not negative.
             melt_thickness, melt_thickness, MELT_THICKNESS, "m", NOT_NEGATIVE, 0.0;
             // Gas
             /// Speed of the gas along the wall [m/s], not negative.

@@ -99,7 +99,7 @@ impl Regime {
     }
 }
 
-/// What leaves the wall.
+/// Result of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Outcome {
     /// Normal restitution `e_n` [1] of a particle that rebounds.

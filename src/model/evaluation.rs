@@ -1,14 +1,14 @@
 //! The order of physics: the steps of an impact, written once.
 //!
-//! [`evaluate`] is the order. Two kinds of walls follow it through [`Steps`]: a `GeneralWall` with every law, effect, draw and
+//! [`evaluate`] is the order. Two kinds of walls follow it through [`WallSteps`]: a `GeneralWall` with every law, effect, draw and
 //! trace, and a `PreparedWall` whose constants were computed when the model was read. A step that a prepared wall does not need
 //! keeps the trait's default and costs nothing.
 //!
-//! A single impact runs all steps at once. A block of impacts runs them in groups ([`Stages`]), each group in a loop of its own
+//! A new quantity of an impact is a field of [`ImpactState`]; a new step is a method of [`WallSteps`] and a line of [`evaluate`].
+//!
+//! A single impact runs all steps at once. A block of impacts runs them in groups ([`StepSet`]), each group in a loop of its own
 //! over the block: short loops keep a processor's divider busy, while in one long loop each impact waits for its own chain of
 //! results. The functions are the same, so both give the same bits.
-//!
-//! A new quantity of an impact is a field of [`ImpactState`]; a new step is a method of [`Steps`] and a line of [`evaluate`].
 
 use crate::capture::Stickiness;
 use crate::impact::{Impact, Outcome, Regime};
@@ -16,9 +16,9 @@ use crate::tangential::{ImpactKinematics, Rebound};
 
 /// A set of steps.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Stages(u8);
+pub(super) struct StepSet(u8);
 
-impl Stages {
+impl StepSet {
     /// Whether properties, criteria and fitted terms are used within their stated ranges.
     pub const RANGE: Self = Self(1);
     /// Tilt of the wall, and the contact with the effects on it.
@@ -37,12 +37,12 @@ impl Stages {
     pub const ALL: Self = Self(127);
 
     /// Both sets.
-    pub const fn and(self, other: Self) -> Self {
+    pub const fn union(self, other: Self) -> Self {
         Self(self.0 | other.0)
     }
 
     #[inline(always)]
-    pub const fn has(self, step: Self) -> bool {
+    pub const fn contains(self, step: Self) -> bool {
         self.0 & step.0 != 0
     }
 }
@@ -71,7 +71,7 @@ pub(super) struct ImpactState<C> {
     pub outside_range: bool,
     pub contact: C,
     pub sticky: Stickiness,
-    /// What [`Steps::adhesion`] returned.
+    /// `v_adh²` [m²/s²]; 0 where the normal law computes it itself.
     pub adhesion: f64,
     pub normal: NormalRebound,
     /// Random number of the capture, in (0, 1).
@@ -102,7 +102,7 @@ impl<C> ImpactState<C> {
 }
 
 /// The steps of an impact, as a kind of wall implements them.
-pub(super) trait Steps {
+pub(super) trait WallSteps {
     /// The contact of particle and wall; `()` where it is the same for all impacts.
     type Contact: Copy + Default;
     /// Why an impact cannot be decided.
@@ -173,38 +173,38 @@ pub(super) trait Steps {
     fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
 }
 
-/// Runs the steps of `stages` on an impact, in the order of physics.
+/// Runs the steps of `selected` on an impact, in the order of physics.
 ///
 /// # Errors
-/// What [`Steps::contact`] and [`Steps::stickiness`] return.
+/// What [`WallSteps::contact`] and [`WallSteps::stickiness`] return.
 #[inline(always)]
-pub(super) fn evaluate<S: Steps>(
+pub(super) fn evaluate<S: WallSteps>(
     steps: &mut S,
-    stages: Stages,
+    selected: StepSet,
     state: &mut ImpactState<S::Contact>,
 ) -> Result<(), S::Fault> {
-    if stages.has(Stages::RANGE) {
+    if selected.contains(StepSet::RANGE) {
         state.outside_range = steps.outside_range(&state.impact);
     }
-    if stages.has(Stages::CONTACT) {
+    if selected.contains(StepSet::CONTACT) {
         state.impact = steps.turn(&state.impact);
         state.contact = steps.contact(&state.impact)?;
     }
-    if stages.has(Stages::STICKINESS) {
+    if selected.contains(StepSet::STICKINESS) {
         state.sticky = steps.stickiness(&state.impact)?;
         steps.trace("wall", "wall stickiness", state.sticky.wall);
     }
-    if stages.has(Stages::ADHESION) {
+    if selected.contains(StepSet::ADHESION) {
         state.adhesion = steps.adhesion(&state.impact, &state.contact);
     }
-    if stages.has(Stages::NORMAL) {
+    if selected.contains(StepSet::NORMAL) {
         let rebound = steps.normal_law(&state.impact, &state.contact, state.adhesion);
         state.normal = steps.normal_effects(&state.impact, &state.contact, rebound);
     }
-    if stages.has(Stages::DRAW) {
+    if selected.contains(StepSet::DRAW) {
         state.chance = steps.draw();
     }
-    if stages.has(Stages::REBOUND) {
+    if selected.contains(StepSet::REBOUND) {
         let normal_restitution =
             state.normal.restitution * (1.0 - steps.rebound_loss() * state.sticky.particle);
         steps.trace("stickiness", "e_n", normal_restitution);
@@ -220,7 +220,8 @@ pub(super) fn evaluate<S: Steps>(
         let rebound = steps.tangential_effects(&kinematics, rebound);
         (state.normal_restitution, state.rebound) =
             steps.turn_back(&state.impact, normal_restitution, rebound);
-        // Adhesion holds the particle with certainty; otherwise stickiness decides, of a droplet its own alone.
+        // The probability is 1 if adhesion or a film holds the particle. Otherwise it is that of the combined
+        // stickiness, for a droplet that of the particle alone.
         let by_stickiness =
             if steps.is_droplet(&state.impact) { state.sticky.particle } else { state.sticky.probability() };
         state.probability = if state.normal.held { 1.0 } else { by_stickiness };

@@ -1,6 +1,6 @@
 //! The steps of an impact on any wall: properties over temperature, slag, every law and effect, draws and a trace.
 
-use super::evaluation::{ImpactState, NormalRebound, Stages, Steps, evaluate};
+use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
 use super::tilted_frame::TiltedFrame;
 use super::{Model, Wall};
 use crate::capture::{ParticleStickiness, Stickiness};
@@ -34,7 +34,7 @@ impl Model {
         let frame = TiltedFrame { tilt: 0.0 };
         let mut steps = GeneralWall { model: self, wall, arriving, frame, uniform, trace };
         let mut state = ImpactState { impact: arriving, ..ImpactState::default() };
-        evaluate(&mut steps, Stages::ALL, &mut state)?;
+        evaluate(&mut steps, StepSet::ALL, &mut state)?;
         Ok(state.outcome())
     }
 
@@ -85,7 +85,7 @@ impl Model {
     }
 }
 
-impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> Steps for GeneralWall<'_, U, T> {
+impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for GeneralWall<'_, U, T> {
     type Contact = Contact;
     type Fault = ImpactError;
 

@@ -10,7 +10,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::Model;
 use super::block::{BLOCK, Block, Outcomes};
-use super::evaluation::{ImpactState, NormalRebound, Stages, Steps, evaluate};
+use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
 use super::wall::Wall;
 use crate::capture::Stickiness;
 use crate::effect::{Precomputed, Term, Transition, stream};
@@ -106,7 +106,7 @@ impl PreparedWall {
         // First: no number has to be kept over the call.
         let holds = self.valid.is_empty() || self.terms_hold_for(impact);
         let mut state = ImpactState { impact: *impact, ..ImpactState::default() };
-        let Ok(()) = evaluate(&mut PreparedImpact { wall: &self.constants, rng }, Stages::ALL, &mut state);
+        let Ok(()) = evaluate(&mut PreparedImpact { wall: &self.constants, rng }, StepSet::ALL, &mut state);
         let outcome = state.outcome();
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
     }
@@ -125,15 +125,15 @@ impl PreparedWall {
         match wall.transitions {
             Transitions::None => {
                 let wall = Constants { transitions: Transitions::None, ..*wall };
-                run(Stages::STICKINESS, &wall, block, seed, outcomes);
+                run(StepSet::STICKINESS, &wall, block, seed, outcomes);
             }
             Transitions::One(one) => {
                 let wall = Constants { transitions: Transitions::One(one), ..*wall };
-                run(Stages::STICKINESS, &wall, block, seed, outcomes);
+                run(StepSet::STICKINESS, &wall, block, seed, outcomes);
             }
             Transitions::Two(one, two) => {
                 let wall = Constants { transitions: Transitions::Two(one, two), ..*wall };
-                run(Stages::STICKINESS, &wall, block, seed, outcomes);
+                run(StepSet::STICKINESS, &wall, block, seed, outcomes);
             }
         }
         match wall.normal {
@@ -143,22 +143,22 @@ impl PreparedWall {
             }
             Normal::ThorntonNing(law) => {
                 let wall = Constants { normal: Normal::ThorntonNing(law), ..*wall };
-                run(Stages::ADHESION, &wall, block, seed, outcomes);
+                run(StepSet::ADHESION, &wall, block, seed, outcomes);
                 normal_and_draw(&wall, block, seed, outcomes);
             }
         }
         match wall.tangential {
             TangentialLaw::Constant { restitution } => {
                 let wall = Constants { tangential: TangentialLaw::Constant { restitution }, ..*wall };
-                run(Stages::REBOUND.and(Stages::RANGE), &wall, block, seed, outcomes);
+                run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
             }
             TangentialLaw::Sliding { friction } => {
                 let wall = Constants { tangential: TangentialLaw::Sliding { friction }, ..*wall };
-                run(Stages::REBOUND.and(Stages::RANGE), &wall, block, seed, outcomes);
+                run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
             }
             TangentialLaw::SlidingRolling { friction } => {
                 let wall = Constants { tangential: TangentialLaw::SlidingRolling { friction }, ..*wall };
-                run(Stages::REBOUND.and(Stages::RANGE), &wall, block, seed, outcomes);
+                run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
             }
         }
         for &(input, range) in &self.valid {
@@ -179,21 +179,21 @@ impl PreparedWall {
 #[inline(always)]
 fn normal_and_draw(wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
     if wall.draws {
-        run(Stages::NORMAL.and(Stages::DRAW), &Constants { draws: true, ..*wall }, block, seed, outcomes);
+        run(StepSet::NORMAL.union(StepSet::DRAW), &Constants { draws: true, ..*wall }, block, seed, outcomes);
     } else {
-        run(Stages::NORMAL.and(Stages::DRAW), &Constants { draws: false, ..*wall }, block, seed, outcomes);
+        run(StepSet::NORMAL.union(StepSet::DRAW), &Constants { draws: false, ..*wall }, block, seed, outcomes);
     }
 }
 
 /// Runs some steps on each impact of a block. Between two loops the columns of the outcomes hold the quantities of the
 /// [`ImpactState`].
 #[inline(always)]
-fn run(stages: Stages, wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
+fn run(selected: StepSet, wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
     for i in 0..block.length.min(BLOCK) {
         let rng = ImpactRng::new(seed, block.keys[i]);
         let mut state = load(i, wall, block, outcomes);
-        let Ok(()) = evaluate(&mut PreparedImpact { wall, rng }, stages, &mut state);
-        store(i, stages, &state, outcomes);
+        let Ok(()) = evaluate(&mut PreparedImpact { wall, rng }, selected, &mut state);
+        store(i, selected, &state, outcomes);
     }
 }
 
@@ -221,25 +221,25 @@ fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> Impac
     }
 }
 
-/// Stores what the steps of `stages` have set for the impact `i`.
+/// Stores what the steps of `selected` have set for the impact `i`.
 #[inline(always)]
-fn store(i: usize, stages: Stages, state: &ImpactState<()>, outcomes: &mut Outcomes) {
-    if stages.has(Stages::STICKINESS) {
+fn store(i: usize, selected: StepSet, state: &ImpactState<()>, outcomes: &mut Outcomes) {
+    if selected.contains(StepSet::STICKINESS) {
         outcomes.sticking_probability[i] = state.sticky.particle;
     }
-    if stages.has(Stages::ADHESION) {
+    if selected.contains(StepSet::ADHESION) {
         outcomes.normal_restitution[i] = state.adhesion;
     }
-    if stages.has(Stages::NORMAL) {
+    if selected.contains(StepSet::NORMAL) {
         outcomes.normal_restitution[i] = state.normal.restitution;
     }
-    if stages.has(Stages::DRAW) {
+    if selected.contains(StepSet::DRAW) {
         outcomes.spin[i] = state.chance;
     }
-    if stages.has(Stages::RANGE) {
+    if selected.contains(StepSet::RANGE) {
         outcomes.outside_range[i] = u32::from(state.outside_range);
     }
-    if stages.has(Stages::REBOUND) {
+    if selected.contains(StepSet::REBOUND) {
         outcomes.normal_restitution[i] = state.normal_restitution;
         outcomes.tangential_restitution[i] = state.rebound.restitution;
         outcomes.sticking_probability[i] = state.probability;
@@ -258,7 +258,7 @@ impl Constants {
     }
 }
 
-impl Steps for PreparedImpact<'_> {
+impl WallSteps for PreparedImpact<'_> {
     type Contact = ();
     type Fault = Infallible;
 

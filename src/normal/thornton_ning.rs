@@ -28,15 +28,15 @@ pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
 
 /// The constants of the law for a contact.
 ///
-/// `v_adh² = C1² (E*/rho) u^(-5/3)` with the size `u = d E*/2W` [1]: the formula above in other symbols.
+/// `v_adh² = C1² (E*/rho) u^(-5/3)` with `u = d E*/2W` [1]: the formula above in other symbols.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prepared {
     /// `E*/2W` [1/m], infinite without adhesion.
-    size: f64,
+    inverse_length: f64,
     /// `C1² E*/rho` [m²/s²].
-    adhesive: f64,
+    adhesion_scale: f64,
     /// `v_y` [m/s].
-    yielding: f64,
+    yield_velocity: f64,
 }
 
 impl Prepared {
@@ -44,21 +44,21 @@ impl Prepared {
     #[inline(always)]
     pub fn new(contact: &Contact) -> Self {
         let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
-        let adhesive = ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density);
+        let adhesion_scale = ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density);
         Self {
-            size: reduced_modulus / (2.0 * work_of_adhesion),
+            inverse_length: reduced_modulus / (2.0 * work_of_adhesion),
             // Prevents 0 times infinity for impossible solids.
-            adhesive: adhesive.clamp(f64::MIN_POSITIVE, f64::MAX),
-            yielding: yield_velocity(contact),
+            adhesion_scale: adhesion_scale.clamp(f64::MIN_POSITIVE, f64::MAX),
+            yield_velocity: yield_velocity(contact),
         }
     }
 
     /// `v_adh²` [m²/s²] of a particle of `diameter` [m].
     #[inline(always)]
     pub fn adhesive_squared(&self, diameter: f64) -> f64 {
-        let root = inverse_cube_root(diameter * self.size);
+        let root = inverse_cube_root(diameter * self.inverse_length);
         let square = root * root;
-        self.adhesive * (square * square * root)
+        self.adhesion_scale * (square * square * root)
     }
 
     /// Normal restitution `e_n` [1] of a particle of `diameter` [m] at `normal_speed` [m/s]; 0 when adhesion holds it.
@@ -70,7 +70,7 @@ impl Prepared {
     /// As [`Self::restitution`], from `v_adh²` [m²/s²].
     #[inline(always)]
     pub fn rebound(&self, normal_speed: f64, adhesive_squared: f64) -> f64 {
-        rebound(normal_speed, adhesive_squared, self.yielding)
+        rebound(normal_speed, adhesive_squared, self.yield_velocity)
     }
 }
 
@@ -112,15 +112,15 @@ pub fn restitution(speed: f64, adhesive: f64, yielding: f64) -> f64 {
 /// As [`restitution`], from `v_adh²`. Without branches, for vectors: both sides of a choice are computed.
 #[inline(always)]
 fn rebound(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
-    let slowness = 1.0 / speed;
-    let adhesion = (adhesive_squared * slowness) * slowness;
-    let w = yielding * slowness;
+    let inverse_speed = 1.0 / speed;
+    let adhesion = (adhesive_squared * inverse_speed) * inverse_speed;
+    let w = yielding * inverse_speed;
     let plastic = plastic_term(w);
     let elastic = if w < 1.0 { plastic } else { 1.0 };
     // Negative exactly where speed < v_s: the sticking velocity is the root of this expression.
-    let left = elastic - adhesion;
-    let left = if (adhesion < 1.0) & (left > 0.0) { left } else { 0.0 };
-    left.sqrt()
+    let square = elastic - adhesion;
+    let square = if (adhesion < 1.0) & (square > 0.0) { square } else { 0.0 };
+    square.sqrt()
 }
 
 /// Sticking velocity `v_s` [m/s], from `v_adh` and `v_y` [m/s].

@@ -1,7 +1,7 @@
 //! Slag: the composition of an ash and the viscosity of its melt. One viscosity law a file; [`film`] is the flow down a wall.
 //!
 //! A new law is one file with a [`ViscosityLaw`] and one line in [`VISCOSITY_LAWS`]; the model file and `nearwall check` then know
-//! it. `tests/slag_viscosity.rs` compares the laws with measurements.
+//! it. `tests/library/slag_viscosity.rs` compares the laws with measurements.
 
 mod composition;
 pub mod film;
