@@ -137,6 +137,21 @@ pub struct Parameter {
     pub about: &'static str,
 }
 
+impl Parameter {
+    /// A parameter that the model file must give.
+    const fn new(name: &'static str, unit: &'static str, bounds: (f64, f64), search: Search) -> Self {
+        Self { name, unit, bounds, default: None, search, about: "" }
+    }
+
+    const fn default(self, value: f64) -> Self {
+        Self { default: Some(value), ..self }
+    }
+
+    const fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
+    }
+}
+
 /// Range in which a fit searches a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Search {

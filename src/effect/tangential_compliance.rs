@@ -27,30 +27,12 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["v_t", "v_n"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "friction",
-            unit: "1",
-            bounds: (0.0, 10.0),
-            default: None,
-            search: Search::Linear(0.03, 0.9),
-            about: "friction coefficient of the sliding contact",
-        },
-        Parameter {
-            name: "near_normal",
-            unit: "1",
-            bounds: (0.0, 1.5),
-            default: None,
-            search: Search::Linear(0.76, 1.1),
-            about: "e_t in the limit of a head-on impact",
-        },
-        Parameter {
-            name: "exponent",
-            unit: "1",
-            bounds: (0.05, 20.0),
-            default: None,
-            search: Search::Log(0.4, 5.0),
-            about: "how late e_t rises past the critical angle",
-        },
+        Parameter::new("friction", "1", (0.0, 10.0), Search::Linear(0.03, 0.9))
+            .about("friction coefficient of the sliding contact"),
+        Parameter::new("near_normal", "1", (0.0, 1.5), Search::Linear(0.76, 1.1))
+            .about("e_t in the limit of a head-on impact"),
+        Parameter::new("exponent", "1", (0.05, 20.0), Search::Log(0.4, 5.0))
+            .about("how late e_t rises past the critical angle"),
     ],
     build: |values| {
         Box::new(TangentialCompliance { friction: values[0], near_normal: values[1], exponent: values[2] })
