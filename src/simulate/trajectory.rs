@@ -5,8 +5,7 @@ use nalgebra::Vector3;
 use super::case::{Case, HIT_BITS};
 use super::drag;
 use super::flight::{
-    Body, CONVERSION, FlightEnd, FlightError, ParticleMotion, State, TEMPERATURE, fly, position, state,
-    velocity,
+    Body, CONVERSION, FlightEnd, ParticleMotion, State, TEMPERATURE, fly, position, state, velocity,
 };
 use super::geometry::across;
 use super::injection::ParticleWeight;
@@ -147,13 +146,11 @@ impl Tracker<'_> {
     fn travel(&mut self) -> Fate {
         loop {
             let case = self.case;
-            let flight =
-                fly(&self.motion, &case.surfaces, self.time, case.time_limit, &self.state, case.tolerance);
-            let FlightEnd { time, state, surface } = match flight {
-                Ok(arrival) => arrival,
-                Err(lost @ (FlightError::TooManySteps | FlightError::NotFinite)) => {
-                    return Fate::Unusable(lost.to_string());
-                }
+            let (from, until) = (self.time, case.time_limit);
+            let end = fly(&self.motion, &case.surfaces, from, until, &self.state, case.tolerance);
+            let FlightEnd { time, state, surface } = match end {
+                Ok(end) => end,
+                Err(lost) => return Fate::Unusable(lost.to_string()),
             };
             self.let_spin_decay(time - self.time, &state);
             (self.time, self.state) = (time, state);
