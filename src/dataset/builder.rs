@@ -10,7 +10,7 @@ use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
 use super::notes::{self, NoteCounts};
 use super::number::{NamedColumns, is_blank};
-use super::observed::{DETAILS, OBSERVATIONS, ObservedColumns};
+use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
 
@@ -21,7 +21,6 @@ struct Builder<'a> {
     named: NamedColumns,
     inputs: InputColumns,
     velocity: ImpactVelocity,
-    observed: ObservedColumns,
     /// The possible causes, each with its index in a row.
     causes: Vec<(usize, Cells)>,
     rows: Vec<Measurement>,
@@ -45,14 +44,14 @@ impl<'a> Builder<'a> {
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
             .map_err(|problem| table.column_fault(&problem, true))?;
-        let observed = ObservedColumns::new(&named, map.words.clone()).ok_or_else(|| {
+        if OBSERVATIONS.iter().all(|name| named.index(name).is_none()) {
             let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
-            table.column_fault(&problem, true)
-        })?;
+            return Err(table.column_fault(&problem, true));
+        }
         walls.check(named.index("wall").is_some())?;
         let causes = causes(headers, map, &named);
         let (rows, rejected, counts) = Default::default();
-        Ok(Self { map, walls, named, inputs, velocity, observed, causes, rows, rejected, counts })
+        Ok(Self { map, walls, named, inputs, velocity, causes, rows, rejected, counts })
     }
 
     /// Adds the next record: its line, or why it cannot be used.
@@ -80,7 +79,8 @@ impl<'a> Builder<'a> {
         let (e_n, e_t, captured) = (None, None, None);
         let mut row =
             Measurement { line, impact, stated, wall, impacts: 1.0, rebounds: 1.0, e_n, e_t, captured };
-        let remarks = self.observed.read(cells, &mut row)?;
+        let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
+        let remarks = observed.read_into(&mut row)?;
         self.counts.count(&row, remarks);
         Ok(row)
     }

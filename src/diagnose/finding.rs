@@ -170,12 +170,12 @@ impl FindingBuilder<'_> {
     }
 
     fn curve(&self, fitted: &ColumnCurve) -> FittedCurve {
-        let at = match (&fitted.curve.basis, self.hypothesis.data.values(fitted.form.covariate)) {
+        let at = match (&fitted.form.basis, self.hypothesis.data.values(fitted.form.covariate)) {
             (Basis::Hats(knots), _) => knots.iter().map(|knot| rounded(*knot).to_string()).collect(),
             (Basis::Labels(_), Values::Labels { levels, .. }) => levels.clone(),
             _ => Vec::new(),
         };
-        let adds = fitted.curve.heights.iter().map(|height| rounded(*height)).collect();
+        let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
         FittedCurve { factor: fitted.form.multiplicative, at, adds }
     }
 }
