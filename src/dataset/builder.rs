@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{Cells, Column, Values};
+use super::column::{Cells, Values};
 use super::column_map::ColumnMap;
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
@@ -108,8 +108,8 @@ impl<'a> Builder<'a> {
             let reason = "there is no row under the header; write one row per impact".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
         }
-        let given: Vec<&'static str> =
-            INPUTS.iter().map(|input| input.name).filter(|name| self.gives(name)).collect();
+        let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
+        let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
         let mut notes = self.header_notes(headers, &given);
         notes.extend(self.counts.notes(&given, self.rows.len()));
         let mut columns = Vec::new();
@@ -121,16 +121,15 @@ impl<'a> Builder<'a> {
                     "column `{name}` is read as text because `{cell}` on line {line} is not a number"
                 ));
             }
-            if is_possible_cause(&column) {
+            // A `wall` column with a single wall does not vary in meaning.
+            let one_wall = column.name == "wall"
+                && matches!(&column.values, Values::Labels { levels, .. } if levels.len() < 2);
+            if !one_wall {
                 columns.push(column);
             }
         }
         let file = file.to_owned();
         Ok(Measurements { file, rows: self.rows, columns, given, read, rejected: self.rejected, notes })
-    }
-
-    fn gives(&self, input: &str) -> bool {
-        self.inputs.gives(input) || self.velocity.gives(input)
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
@@ -197,14 +196,6 @@ fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) ->
         None => Some((index, Cells::new(header, map.labels.iter().any(|label| label == header)))),
     };
     headers.iter().enumerate().filter_map(cause).collect()
-}
-
-/// Whether a column varies in meaning: a `wall` column with a single wall does not.
-fn is_possible_cause(column: &Column) -> bool {
-    match &column.values {
-        Values::Labels { levels, .. } if column.name == "wall" => levels.len() > 1,
-        _ => true,
-    }
 }
 
 /// Explains a record of the wrong length over several lines.
