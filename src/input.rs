@@ -86,14 +86,12 @@ impl Document {
         let mut text = String::new();
         let read =
             std::fs::File::open(path).and_then(|file| file.take(LARGEST_FILE + 1).read_to_string(&mut text));
-        match read {
-            Ok(size) if size as u64 <= LARGEST_FILE => Ok(Self { name, text }),
-            Ok(_) => Err(InputError::Unreadable {
-                path: name,
-                reason: format!("larger than {} MB, which no model or case file is", LARGEST_FILE >> 20),
-            }),
-            Err(error) => Err(InputError::Unreadable { path: name, reason: error.to_string() }),
-        }
+        let reason = match read {
+            Ok(size) if size as u64 <= LARGEST_FILE => return Ok(Self { name, text }),
+            Ok(_) => format!("larger than {} MB, which no model or case file is", LARGEST_FILE >> 20),
+            Err(error) => error.to_string(),
+        };
+        Err(InputError::Unreadable { path: name, reason })
     }
 
     /// The name of the file in messages.
@@ -258,15 +256,13 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is not a list of texts.
     pub fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InputError> {
-        let to_text = |value: Value<'a>| match value.get_ref() {
-            DeValue::String(text) => Ok(text.to_string()),
-            other => Err(self.wrong_type(key, "a list of texts in quotes", other)),
+        let expected = "a list of texts in quotes";
+        let list = self.converted(key, expected, DeValue::as_array)?;
+        let to_text = |value: Value<'a>| {
+            let text = value.get_ref().as_str().map(str::to_owned);
+            text.ok_or_else(|| self.wrong_type(key, expected, value.get_ref()))
         };
-        match self.find(key).map(Spanned::get_ref) {
-            None => Ok(None),
-            Some(DeValue::Array(list)) => list.iter().map(to_text).collect::<Result<_, _>>().map(Some),
-            Some(other) => Err(self.wrong_type(key, "a list of texts in quotes", other)),
-        }
+        list.map(|list| list.iter().map(to_text).collect()).transpose()
     }
 
     /// A pair `[low, high]` with `low <= high`, or `None` when the key is absent.
@@ -305,19 +301,15 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is not a list of tables.
     pub fn sections(&self, key: &str) -> Result<Vec<Section<'a>>, InputError> {
-        let list = match self.find(key).map(Spanned::get_ref) {
-            None => return Ok(Vec::new()),
-            Some(DeValue::Array(list)) => list,
-            Some(other) => return Err(self.wrong_type(key, "a list of tables", other)),
+        let expected = "a list of tables";
+        let list = self.converted(key, expected, DeValue::as_array)?;
+        let to_section = |(index, value): (usize, Value<'a>)| {
+            let wrong = || self.wrong_type(key, expected, value.get_ref());
+            let path = format!("{}[{}]", self.full(key), index + 1);
+            let table = value.get_ref().as_table().ok_or_else(wrong)?;
+            Ok(Section::new(self.document, path, table, value.span()))
         };
-        let to_section = |(index, value): (usize, Value<'a>)| match value.get_ref() {
-            DeValue::Table(table) => {
-                let path = format!("{}[{}]", self.full(key), index + 1);
-                Ok(Section::new(self.document, path, table, value.span()))
-            }
-            other => Err(self.wrong_type(key, "a list of tables", other)),
-        };
-        list.iter().enumerate().map(to_section).collect()
+        list.into_iter().flatten().enumerate().map(to_section).collect()
     }
 
     /// Whether the value of `key` is a table (some keys take a number or a table).

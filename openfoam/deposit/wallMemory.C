@@ -50,20 +50,10 @@ void requireViscosity
 }
 
 
-//- Mean by area and largest value of a field on a patch, over all ranks
-struct patchExtremes
+scalar areaMean(const scalarField& x, const scalarField& area)
 {
-    scalar mean;
-    scalar largest = 0;
-
-    patchExtremes(const scalarField& x, const scalarField& area)
-    :
-        mean(gSum(x*area)/max(gSum(area), VSMALL))
-    {
-        forAll(x, i) largest = max(largest, x[i]);
-        reduce(largest, maxOp<scalar>());
-    }
-};
+    return gSum(x*area)/max(gSum(area), VSMALL);
+}
 
 } // End anonymous namespace
 
@@ -109,20 +99,26 @@ Foam::nearWall::wallMemory::wallMemory
     {
         if (rules[patchi].type == patchRule::interact) patches_.append(patchi);
     }
-    if (isNew()) setInitial();
-    checkFields();
+    setInitial();
 
     added_.resize(patches_.size());
     forAll(patches_, i)
     {
         const label patchi = patches_[i];
-        const word& name = patchName(i);
-        captured_[patchi].setSize
+        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+        const word& name = pp.name();
+        captured_[patchi].setSize(pp.size(), nearwall::make_deposit_source());
+        sums_.append
         (
-            mesh.boundaryMesh()[patchi].size(), nearwall::make_deposit_source()
+            runningTotals(termNames, saved.subOrEmptyDict(name), name)
         );
-        sums_.append(runningTotals(termNames, saved.subOrEmptyDict(name)));
-        if (!saved.found(name)) addToSum(i, initial, mass(i));
+        if (!saved.found(name))
+        {
+            const scalarField& area = mesh.magSf().boundaryField()[patchi];
+            const scalarField& molten = molten_.boundaryField()[patchi];
+            const scalarField& powder = powder_.boundaryField()[patchi];
+            addToSum(i, initial, sum((molten + powder)*area));
+        }
         tables_.emplace_back(folder/(name + ".wall.dat"));
         setCoverage(patchi);
     }
@@ -137,21 +133,13 @@ Foam::nearWall::wallMemory::wallMemory
 }
 
 
-const Foam::word& Foam::nearWall::wallMemory::patchName(const label i) const
-{
-    return mesh_.boundaryMesh()[patches_[i]].name();
-}
-
-
 nw_deposit Foam::nearWall::wallMemory::deposit
 (
     const label patchi,
     const label facei
 ) const
 {
-    nw_deposit d;
-    nw_deposit_init(&d);
-    d.wall = rules_[patchi].wall;
+    nw_deposit d(nearwall::make_deposit(rules_[patchi].wall));
     d.molten = molten_.boundaryField()[patchi][facei];
     d.powder = powder_.boundaryField()[patchi][facei];
     d.solid = layer_.boundaryField()[patchi][facei]*(1 - voidage_);
@@ -176,72 +164,48 @@ void Foam::nearWall::wallMemory::setDeposit
 }
 
 
-std::array<const Foam::volScalarField*, 5>
-Foam::nearWall::wallMemory::stateFields() const
-{
-    return {{&molten_, &powder_, &layer_, &cover_, &conversion_}};
-}
-
-
-bool Foam::nearWall::wallMemory::isNew() const
-{
-    bool given = false;
-    for (const volScalarField* const field : stateFields())
-    {
-        given = const_cast<volScalarField*>(field)->headerOk() || given;
-    }
-    return !returnReduce(given, orOp<bool>());
-}
-
-
 void Foam::nearWall::wallMemory::setInitial()
 {
-    forAll(patches_, i)
+    volScalarField* const fields[] =
     {
-        const label patchi = patches_[i];
-        const nw_deposit d
-        (
-            model_->initial_deposit(rules_[patchi].wall, voidage_)
-        );
-        forAll(mesh_.boundaryMesh()[patchi], facei)
+        &molten_, &powder_, &layer_, &cover_, &conversion_
+    };
+    bool given = false;
+    for (volScalarField* const field : fields)
+    {
+        given = field->headerOk() || given;
+    }
+    if (!returnReduce(given, orOp<bool>()))
+    {
+        for (const label patchi : patches_)
         {
-            setDeposit(patchi, facei, d);
+            const std::uint32_t wall = rules_[patchi].wall;
+            const nw_deposit d(model_->initial_deposit(wall, voidage_));
+            forAll(mesh_.boundaryMesh()[patchi], facei)
+            {
+                setDeposit(patchi, facei, d);
+            }
         }
     }
-}
 
-
-void Foam::nearWall::wallMemory::checkFields() const
-{
-    for (const volScalarField* const field : stateFields())
+    for (const volScalarField* const field : fields)
     {
         const scalar most = field == &conversion_ ? 1 : GREAT;
-        forAll(patches_, i)
+        for (const label patchi : patches_)
         {
-            const scalarField& x = field->boundaryField()[patches_[i]];
-            forAll(x, facei)
+            for (const scalar x : field->boundaryField()[patchi])
             {
-                if (x[facei] >= 0 && x[facei] <= most) continue;
+                if (x >= 0 && x <= most) continue;
 
                 FatalErrorInFunction
                     << "Field " << field->name() << " of time "
-                    << mesh_.time().timeName() << " is " << x[facei]
-                    << " on patch '" << patchName(i)
+                    << mesh_.time().timeName() << " is " << x << " on patch '"
+                    << mesh_.boundaryMesh()[patchi].name()
                     << "'; it must be from 0 to " << most << "."
                     << exit(FatalError);
             }
         }
     }
-}
-
-
-Foam::scalar Foam::nearWall::wallMemory::mass(const label i) const
-{
-    const label patchi = patches_[i];
-    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-    const scalarField& molten = molten_.boundaryField()[patchi];
-    const scalarField& powder = powder_.boundaryField()[patchi];
-    return sum((molten + powder)*area);
 }
 
 
@@ -319,7 +283,7 @@ void Foam::nearWall::wallMemory::addSources(const label i)
         if (status != NW_OK)
         {
             FatalErrorInFunction
-                << "The deposit on patch '" << patchName(i)
+                << "The deposit on patch '" << sums_[i].name()
                 << "' cannot grow: " << nw_status_text(status)
                 << exit(FatalError);
         }
@@ -335,14 +299,8 @@ void Foam::nearWall::wallMemory::setTemperature(const label patchi)
 {
     const patchRule& rule = rules_[patchi];
     scalarField& T = temperature_.boundaryFieldRef()[patchi];
-    if (rule.temperatureFromField)
-    {
-        T = rule.temperatureOn(mesh_, patchi);
-    }
-    else
-    {
-        T = rule.temperature;
-    }
+    if (rule.temperatureFromField) T = rule.temperatureOn(mesh_, patchi);
+    else T = rule.temperature;
 }
 
 
@@ -375,8 +333,8 @@ void Foam::nearWall::wallMemory::flow(const scalar duration)
     {
         const label patchi = patches_[i];
         scalarField& molten = molten_.boundaryFieldRef()[patchi];
-        scalarField& conversion = conversion_.boundaryFieldRef()[patchi];
         molten = film[i].molten;
+        scalarField& conversion = conversion_.boundaryFieldRef()[patchi];
         conversion = film[i].conversion;
         addToSum(i, drained, film[i].drained);
         addToSum(i, fromOthers, film[i].fromOthers);
@@ -430,52 +388,38 @@ void Foam::nearWall::wallMemory::report
         const scalar deposited = moltenMass + powderMass;
         const scalar rest = in + t[fromOthers] - t[drained] - deposited;
         const scalar all = max(in, in + t[fromOthers]);
-        const patchExtremes coverage(coverage_.boundaryField()[patchi], area);
+        const scalarField& coverage = coverage_.boundaryField()[patchi];
+        const scalar coverageMean = areaMean(coverage, area);
         if (in > 0 || deposited > 0)
         {
-            os  << "        " << patchName(i) << ", memory: molten "
+            os  << "        " << sums_[i].name() << ", memory: molten "
                 << moltenMass << " kg, powder " << powderMass
-                << " kg, coverage " << coverage.mean;
+                << " kg, coverage " << coverageMean;
             if (film_) os << ", drained " << t[drained] << " kg";
             os  << nl;
         }
         if (!writeRow) continue;
 
-        const patchExtremes melt(molten, area);
-        const patchExtremes dust(powder, area);
-        const patchExtremes layer(layer_.boundaryField()[patchi], area);
-        const patchExtremes T(temperature_.boundaryField()[patchi], area);
         tableRow row;
+        const auto addMeanAndMax =
+            [&](const std::string& name, const char* unit, const scalarField& x)
+        {
+            row.add(name + "_mean" + unit, areaMean(x, area));
+            row.add(name + "_max" + unit, max(scalar(0), gMax(x)));
+        };
         row.add("time_s", time);
         for (label k = 0; k < nTerms; ++k) row.add(termNames[k], t[k]);
         row.add("molten_kg", moltenMass);
         row.add("powder_kg", powderMass);
         row.add("residual", all > 0 ? rest/all : 0);
-        row.add("molten_mean_kg_m2", melt.mean);
-        row.add("molten_max_kg_m2", melt.largest);
-        row.add("powder_mean_kg_m2", dust.mean);
-        row.add("powder_max_kg_m2", dust.largest);
-        row.add("layer_thickness_mean_m", layer.mean);
-        row.add("layer_thickness_max_m", layer.largest);
-        row.add("coverage_mean", coverage.mean);
-        row.add("coverage_max", coverage.largest);
+        addMeanAndMax("molten", "_kg_m2", molten);
+        addMeanAndMax("powder", "_kg_m2", powder);
+        const scalarField& layer = layer_.boundaryField()[patchi];
+        addMeanAndMax("layer_thickness", "_m", layer);
+        addMeanAndMax("coverage", "", coverage);
         row.add("conversion_mean", deposited > 0 ? converted/deposited : 0);
-        row.add("wall_temperature_mean_K", T.mean);
-        row.add("wall_temperature_max_K", T.largest);
+        const scalarField& T = temperature_.boundaryField()[patchi];
+        addMeanAndMax("wall_temperature", "_K", T);
         tables_[i].write(row);
     }
-}
-
-
-Foam::dictionary Foam::nearWall::wallMemory::saved
-(
-    const List<scalarList>& totals
-) const
-{
-    dictionary dict;
-    forAll(patches_, i)
-    {
-        dict.add(keyType(patchName(i)), sums_[i].saved(totals[i]));
-    }
-    return dict;
 }

@@ -30,9 +30,7 @@ Foam::vector Foam::nearWall::wallFilm::velocity
     const scalar g = mag(along);
     if (g <= SMALL*mag(gravity_)) return Zero;
 
-    nw_deposit here;
-    nw_deposit_init(&here);
-    here.wall = p.wall;
+    nw_deposit here(nearwall::make_deposit(p.wall));
     here.molten = p.molten[facei];
     scalar speed = 0;
     const nw_status status =

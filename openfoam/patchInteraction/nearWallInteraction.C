@@ -11,15 +11,13 @@
 // * * * * * * * * * * * * * * * * Set-up  * * * * * * * * * * * * * * * * * //
 
 template<class CloudType>
-const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
-(
-    const dictionary& coeffs
-)
+const Foam::dictionary&
+Foam::nearWallInteraction<CloudType>::checkedCoeffs() const
 {
     nearWall::checkBuild();
     nearWall::refuseUnknownKeys
     (
-        coeffs,
+        coeffs(),
         wordList
         ({
             "model", "patches", "stuck", "writeFields", "seed",
@@ -28,7 +26,7 @@ const Foam::dictionary& Foam::nearWallInteraction<CloudType>::checked
         }),
         "nearWallInteraction"
     );
-    return coeffs;
+    return coeffs();
 }
 
 
@@ -67,13 +65,13 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::injectedMass() const
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::makeMemory(const dictionary& coeffs)
+void Foam::nearWallInteraction<CloudType>::makeMemory()
 {
-    if (!coeffs.found("memory")) return;
+    if (!coeffs().found("memory")) return;
 
-    if (!coeffs.isDict("memory"))
+    if (!coeffs().isDict("memory"))
     {
-        FatalIOErrorInFunction(coeffs)
+        FatalIOErrorInFunction(coeffs())
             << "Key 'memory' must be a dictionary, as in" << nl
             << "    memory { film yes; }" << nl
             << "Without the key the walls remember nothing."
@@ -81,7 +79,7 @@ void Foam::nearWallInteraction<CloudType>::makeMemory(const dictionary& coeffs)
     }
     if (this->owner().solution().steadyState())
     {
-        FatalIOErrorInFunction(coeffs)
+        FatalIOErrorInFunction(coeffs())
             << "Key 'memory': a steady cloud has no time in which a deposit"
             << " could grow; remove the key." << exit(FatalIOError);
     }
@@ -89,7 +87,7 @@ void Foam::nearWallInteraction<CloudType>::makeMemory(const dictionary& coeffs)
     (
         new nearWall::wallMemory
         (
-            coeffs.subDict("memory"),
+            coeffs().subDict("memory"),
             mesh(),
             this->owner().name(),
             rules_,
@@ -103,13 +101,10 @@ void Foam::nearWallInteraction<CloudType>::makeMemory(const dictionary& coeffs)
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::reportSetup
-(
-    const dictionary& coeffs
-) const
+void Foam::nearWallInteraction<CloudType>::reportSetup() const
 {
     Info<< "    nearWallInteraction, model: "
-        << nearWall::wallModelOrigin(coeffs, mesh().time()).c_str() << nl
+        << nearWall::wallModelOrigin(coeffs(), mesh().time()).c_str() << nl
         << "    nearWallInteraction, patches:" << nl;
     forAll(rules_, patchi)
     {
@@ -141,8 +136,7 @@ void Foam::nearWallInteraction<CloudType>::reportSetup
 template<class CloudType>
 Foam::nearWallInteraction<CloudType>::runState::runState
 (
-    const nearWallInteraction& m,
-    const dictionary& coeffs
+    const nearWallInteraction& m
 )
 :
     totals(m.mesh(), m.rules_, m.saved("patches"), m.tableFolder()),
@@ -155,7 +149,7 @@ Foam::nearWallInteraction<CloudType>::runState::runState
     ),
     recorder
     (
-        coeffs,
+        m.coeffs(),
         m.mesh(),
         m.rules_,
         nearWall::injectorNames(m.owner().injectors()),
@@ -171,7 +165,7 @@ Foam::nearWallInteraction<CloudType>::runState::runState
     ),
     deposit(nearWall::depositCloud::read(m.mesh(), m.owner().name()))
 {
-    if (nearWall::readOr<Switch>(coeffs, "writeFields", Switch(true)))
+    if (nearWall::readOr<Switch>(m.coeffs(), "writeFields", Switch(true)))
     {
         fields.reset(new nearWall::wallHitFields(m.mesh(), m.owner().name()));
     }
@@ -186,56 +180,34 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
 )
 :
     PatchInteractionModel<CloudType>(dict, owner, typeName),
-    model_
-    (
-        nearWall::readWallModel
-        (
-            checked(nearWall::coefficients(*this)), owner.mesh().time()
-        )
-    ),
-    rules_
-    (
-        patchRule::read
-        (
-            nearWall::coefficients(*this), owner.mesh(), *model_
-        )
-    ),
-    stuck_(nearWall::readStuckTreatment(nearWall::coefficients(*this))),
-    seed_(nearWall::readOr<label>(nearWall::coefficients(*this), "seed", 1)),
+    model_(nearWall::readWallModel(checkedCoeffs(), mesh().time())),
+    rules_(patchRule::read(coeffs(), mesh(), *model_)),
+    stuck_(nearWall::readStuckTreatment(coeffs())),
+    seed_(nearWall::readOr<label>(coeffs(), "seed", 1)),
     statisticsInterval_
     (
         nearWall::readChecked<label>
         (
-            nearWall::coefficients(*this), "statisticsInterval", 1,
+            coeffs(), "statisticsInterval", 1,
             [](label n) { return n >= 1; }, "a number of steps, 1 or more"
         )
     ),
     particleTemperature_
     (
-        nearWall::readOr<scalar>
-        (
-            nearWall::coefficients(*this), "particleTemperature", 293.15
-        )
+        nearWall::readOr<scalar>(coeffs(), "particleTemperature", 293.15)
     ),
-    carbon_
-    (
-        nearWall::readOr<word>
-        (
-            nearWall::coefficients(*this), "carbon", word("C")
-        )
-    )
+    carbon_(nearWall::readOr<word>(coeffs(), "carbon", word("C"))),
+    run_(std::make_shared<runState>(*this))
 {
-    const dictionary& coeffs = nearWall::coefficients(*this);
-    run_.reset(new runState(*this, coeffs));
-    makeMemory(coeffs);
+    makeMemory();
     owner.functions().append
     (
         new nearWallPreEvolve<CloudType>
         (
-            owner, run_->balance, run_->deposit, coeffs
+            owner, run_->balance, run_->deposit, coeffs()
         )
     );
-    reportSetup(coeffs);
+    reportSetup();
 }
 
 

@@ -29,10 +29,7 @@ wordList knownKeys(const patchRule::ruleType type)
     {
         return wordList({"type", "wall", "wallTemperature", "field"});
     }
-    if (type == patchRule::rebound)
-    {
-        return wordList({"type", "e", "mu"});
-    }
+    if (type == patchRule::rebound) return wordList({"type", "e", "mu"});
     return wordList({"type"});
 }
 
@@ -118,151 +115,139 @@ void checkEntries(const dictionary& patches, const polyBoundaryMesh& pbm)
 }
 
 
-scalar readFraction
-(
-    const dictionary& dict,
-    const word& key,
-    const scalar fallback
-)
+scalar readFraction(const dictionary& dict, const word& key, const scalar other)
 {
     return readChecked<scalar>
     (
-        dict, key, fallback, [](scalar x) { return x >= 0 && x <= 1; },
+        dict, key, other, [](scalar x) { return x >= 0 && x <= 1; },
         "from 0 to 1"
     );
 }
 
-} // End anonymous namespace
 
-
-void Foam::nearWall::patchRule::readWall
-(
-    const dictionary& dict,
-    const polyPatch& pp,
-    const nearwall::model& model
-)
+//- Reads the rule of one patch; FatalIOError on any fault
+struct ruleReader
 {
-    const bool given = dict.found("wall");
-    DynamicList<string> names;
-    if (given)
+    const dictionary& dict;
+    const polyPatch& pp;
+    const fvMesh& mesh;
+    const nearwall::model& model;
+    patchRule& rule;
+
+    //- Find the wall in the model: the given one, or by patch, group, default
+    void readWall() const
     {
-        names.append(nearWall::read<word>(dict, "wall"));
-    }
-    else
-    {
-        names.append(pp.name());
-        forAll(pp.inGroups(), i) names.append(pp.inGroups()[i]);
-        names.append("default");
-    }
-
-    forAll(names, i)
-    {
-        wallName = names[i];
-        if (model.find_wall(wallName, wall)) return;
-    }
-
-    FatalIOErrorInFunction(dict)
-        << "Patch '" << pp.name() << "': the wall model has no wall '"
-        << names[0].c_str() << "'" << (given ? "" : " and no default") << "."
-        << nl << "    Add [walls." << names[0].c_str() << "]"
-        << (given ? "" : " or [walls.default]")
-        << " to the model, or name one of its walls: " << pp.name()
-        << " { type interact; wall ...; }" << exit(FatalIOError);
-}
-
-
-void Foam::nearWall::patchRule::requireField
-(
-    const dictionary& dict,
-    const polyPatch& pp,
-    const fvMesh& mesh
-) const
-{
-    if (mesh.foundObject<volScalarField>(temperatureField)) return;
-
-    FatalIOErrorInFunction(dict)
-        << "Patch '" << pp.name() << "': the wall temperature is to come from"
-        << " a field, but no field '" << temperatureField << "' is registered."
-        << nl << "    If this solver has no temperature, give a number in K,"
-        << " wallTemperature 300;" << nl
-        << "    otherwise give the name of its temperature field, field T;"
-        << exit(FatalIOError);
-}
-
-
-void Foam::nearWall::patchRule::readTemperature
-(
-    const dictionary& dict,
-    const polyPatch& pp,
-    const fvMesh& mesh
-)
-{
-    temperatureField = readOr<word>(dict, "field", word("T"));
-
-    if (!dict.found("wallTemperature"))
-    {
-        if (dict.found("field")) requireField(dict, pp, mesh);
-        temperatureFromField =
-            mesh.foundObject<volScalarField>(temperatureField);
-        return;
-    }
-
-    const tokenList& given = dict.lookup("wallTemperature");
-    if (given.size() == 1)
-    {
-        const token& t = given[0];
-        if (t.isNumber() && t.number() > 0)
+        const bool given = dict.found("wall");
+        DynamicList<string> names;
+        if (given)
         {
-            temperature = t.number();
+            names.append(nearWall::read<word>(dict, "wall"));
+        }
+        else
+        {
+            names.append(pp.name());
+            forAll(pp.inGroups(), i) names.append(pp.inGroups()[i]);
+            names.append("default");
+        }
+
+        forAll(names, i)
+        {
+            rule.wallName = names[i];
+            if (model.find_wall(rule.wallName, rule.wall)) return;
+        }
+
+        FatalIOErrorInFunction(dict)
+            << "Patch '" << pp.name() << "': the wall model has no wall '"
+            << names[0].c_str() << "'" << (given ? "" : " and no default")
+            << "." << nl << "    Add [walls." << names[0].c_str() << "]"
+            << (given ? "" : " or [walls.default]")
+            << " to the model, or name one of its walls: " << pp.name()
+            << " { type interact; wall ...; }" << exit(FatalIOError);
+    }
+
+    //- Take the wall temperature from the field, which must be registered
+    void useField() const
+    {
+        rule.temperatureFromField = true;
+        if (mesh.foundObject<volScalarField>(rule.temperatureField)) return;
+
+        FatalIOErrorInFunction(dict)
+            << "Patch '" << pp.name() << "': the wall temperature is to come"
+            << " from a field, but no field '" << rule.temperatureField
+            << "' is registered." << nl
+            << "    If this solver has no temperature, give a number in K,"
+            << " wallTemperature 300;" << nl
+            << "    otherwise give the name of its temperature field, field T;"
+            << exit(FatalIOError);
+    }
+
+    //- Read where the wall temperature comes from
+    void readTemperature() const
+    {
+        rule.temperatureField = readOr<word>(dict, "field", word("T"));
+        if (!dict.found("wallTemperature"))
+        {
+            const bool isThere =
+                mesh.foundObject<volScalarField>(rule.temperatureField);
+            if (isThere || dict.found("field")) useField();
             return;
         }
+
+        const tokenList& given = dict.lookup("wallTemperature");
+        const token t(given.size() == 1 ? given[0] : token());
         if (t.isWord() && t.wordToken() == "field")
         {
-            temperatureFromField = true;
-            requireField(dict, pp, mesh);
+            useField();
             return;
         }
+        if (t.isNumber() && t.number() > 0)
+        {
+            rule.temperature = t.number();
+            return;
+        }
+
+        FatalIOErrorInFunction(dict)
+            << "Patch '" << pp.name()
+            << "': wallTemperature must be 'field' or a number above 0, in K."
+            << nl
+            << "    Give the number without a unit: wallTemperature 673.15;"
+            << exit(FatalIOError);
     }
 
-    FatalIOErrorInFunction(dict)
-        << "Patch '" << pp.name()
-        << "': wallTemperature must be 'field' or a number above 0, in K." << nl
-        << "    Give the number without a unit: wallTemperature 673.15;"
-        << exit(FatalIOError);
-}
-
-
-void Foam::nearWall::patchRule::checkTemperature
-(
-    const dictionary& dict,
-    const polyPatch& pp,
-    const fvMesh& mesh,
-    const nearwall::model& model
-) const
-{
-    scalar lowest = temperature;
-    scalar highest = temperature;
-    if (temperatureFromField)
+    //- Stop when the wall temperature at the start is outside the property
+    //  tables of the wall: the model would refuse every impact
+    void checkTemperature() const
     {
-        const scalarField& T = temperatureOn(mesh, pp.index());
-        if (returnReduce(T.size(), sumOp<label>()) == 0) return;
-        lowest = gMin(T);
-        highest = gMax(T);
+        scalar lowest = rule.temperature;
+        scalar highest = rule.temperature;
+        if (rule.temperatureFromField)
+        {
+            const scalarField& T = rule.temperatureOn(mesh, pp.index());
+            if (returnReduce(T.size(), sumOp<label>()) == 0) return;
+            lowest = gMin(T);
+            highest = gMax(T);
+        }
+
+        const nearwall::temperature_ranges known = model.ranges(rule.wall);
+        if (lowest >= known.wall_low && highest <= known.wall_high) return;
+
+        const std::string source
+        (
+            rule.temperatureFromField
+          ? "field " + rule.temperatureField
+          : std::string("wallTemperature")
+        );
+        FatalIOErrorInFunction(dict)
+            << "Patch '" << pp.name() << "': the wall temperature is " << lowest
+            << " to " << highest << " K, but the properties of wall '"
+            << rule.wallName.c_str() << "' are known from " << known.wall_low
+            << " to " << known.wall_high << " K." << nl << "    Correct "
+            << source.c_str() << ", or extend the property tables of the wall's"
+            << " material in the model." << exit(FatalIOError);
     }
+};
 
-    const nearwall::temperature_ranges known = model.ranges(wall);
-    if (lowest >= known.wall_low && highest <= known.wall_high) return;
-
-    const std::string key("wallTemperature");
-    FatalIOErrorInFunction(dict)
-        << "Patch '" << pp.name() << "': the wall temperature is " << lowest
-        << " to " << highest << " K, but the properties of wall '"
-        << wallName.c_str() << "' are known from " << known.wall_low << " to "
-        << known.wall_high << " K." << nl << "    Correct "
-        << (temperatureFromField ? "field " + temperatureField : key).c_str()
-        << ", or extend the property tables of the wall's material in the"
-        << " model." << exit(FatalIOError);
-}
+} // End anonymous namespace
 
 
 Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
@@ -294,12 +279,8 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
             const word type(nearWall::read<word>(dict, "type"));
             const string owner(" of patch '" + pp.name() + "'");
             rule.type = checkedChoice(dict, "type", type, typeNames, owner);
-            refuseUnknownKeys
-            (
-                dict,
-                knownKeys(rule.type),
-                "Patch '" + pp.name() + "', type " + type
-            );
+            const string where("Patch '" + pp.name() + "', type " + type);
+            refuseUnknownKeys(dict, knownKeys(rule.type), where);
         }
         else
         {
@@ -308,9 +289,10 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
 
         if (rule.type == interact)
         {
-            rule.readWall(dict, pp, model);
-            rule.readTemperature(dict, pp, mesh);
-            rule.checkTemperature(dict, pp, mesh, model);
+            const ruleReader reader{dict, pp, mesh, model, rule};
+            reader.readWall();
+            reader.readTemperature();
+            reader.checkTemperature();
         }
         if (rule.type == rebound)
         {
@@ -343,14 +325,8 @@ void Foam::nearWall::patchRule::report(const word& patchName) const
     if (type == interact)
     {
         Info<< ", wall '" << wallName.c_str() << "', temperature ";
-        if (temperatureFromField)
-        {
-            Info<< "from field " << temperatureField;
-        }
-        else
-        {
-            Info<< temperature << " K";
-        }
+        if (temperatureFromField) Info<< "from field " << temperatureField;
+        else Info<< temperature << " K";
     }
     Info<< (named ? "" : " (not named, default)") << nl;
 }

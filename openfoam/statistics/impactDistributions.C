@@ -196,57 +196,42 @@ Foam::nearWall::impactDistributions::impactDistributions
     injectors_(injectors),
     folder_(folder),
     loaded_(saved),
-    latest_(-1),
+    latest_(nullptr),
     lastTime_(mesh.time().value())
 {
     forAll(mesh.boundaryMesh(), patchi)
     {
-        const dictionary ofPatch
-        (
-            saved.subOrEmptyDict(mesh.boundaryMesh()[patchi].name())
-        );
+        const dictionary ofPatch(saved.subOrEmptyDict(patchName(patchi)));
         for (const word& key : ofPatch.toc())
         {
-            seriesOf(patchi, std::atoi(key.c_str() + savedAs.size()));
+            const label injector = std::atoi(key.c_str() + savedAs.size());
+            seriesOf(patchAndInjector(patchi, injector));
         }
     }
-    synchronise();
-    written_ = runningTotals::totals(sums_);
 }
 
 
 const Foam::word& Foam::nearWall::impactDistributions::patchName
 (
-    const label series
+    const label patchi
 ) const
 {
-    return mesh_.boundaryMesh()[patchOf_[series]].name();
+    return mesh_.boundaryMesh()[patchi].name();
 }
 
 
-Foam::label Foam::nearWall::impactDistributions::seriesOf
-(
-    const label patchi,
-    const label injector
-)
+Foam::nearWall::impactDistributions::series&
+Foam::nearWall::impactDistributions::seriesOf(const patchAndInjector& key)
 {
-    forAll(sums_, i)
-    {
-        if (patchOf_[i] == patchi && injectorOf_[i] == injector) return i;
-    }
+    const auto found = series_.find(key);
+    if (found != series_.end()) return found->second;
 
-    const dictionary ofPatch
+    const dictionary ofPatch(loaded_.subOrEmptyDict(patchName(key.first)));
+    const runningTotals sums
     (
-        loaded_.subOrEmptyDict(mesh_.boundaryMesh()[patchi].name())
+        sumNames(), ofPatch.subOrEmptyDict(savedName(key.second))
     );
-    patchOf_.append(patchi);
-    injectorOf_.append(injector);
-    sums_.append
-    (
-        runningTotals(sumNames(), ofPatch.subOrEmptyDict(savedName(injector)))
-    );
-    written_.append(scalarList(sumNames().size(), scalar(0)));
-    return sums_.size() - 1;
+    return series_[key] = series{key, sums, sums.base(), sums.base()};
 }
 
 
@@ -254,15 +239,8 @@ void Foam::nearWall::impactDistributions::add(const impactEvent& e)
 {
     if (!std::isfinite(e.speed) || !std::isfinite(e.mass)) return;
 
-    if
-    (
-        latest_ < 0
-     || patchOf_[latest_] != e.patch
-     || injectorOf_[latest_] != e.injector
-    )
-    {
-        latest_ = seriesOf(e.patch, e.injector);
-    }
+    const patchAndInjector key(e.patch, e.injector);
+    if (!latest_ || latest_->key != key) latest_ = &seriesOf(key);
 
     scalar increments[nColumns];
     for (label i = 0; i < nColumns; ++i)
@@ -276,7 +254,7 @@ void Foam::nearWall::impactDistributions::add(const impactEvent& e)
         const label at = first + nColumns*q.classOf(e);
         for (label i = 0; i < nColumns; ++i)
         {
-            sums_[latest_].add(at + i, increments[i]);
+            latest_->sums.add(at + i, increments[i]);
         }
         first += nColumns*q.size();
     }
@@ -287,50 +265,44 @@ void Foam::nearWall::impactDistributions::synchronise()
 {
     List<labelList> known(Pstream::nProcs());
     labelList& own = known[Pstream::myProcNo()];
-    forAll(sums_, i)
+    for (const auto& each : series_)
     {
-        own.append(patchOf_[i]);
-        own.append(injectorOf_[i]);
+        own.append(each.first.first);
+        own.append(each.first.second);
     }
     Pstream::gatherList(known);
     Pstream::scatterList(known);
-
-    std::set<std::pair<label, label>> all;
     for (const labelList& list : known)
     {
         for (label i = 0; i < list.size(); i += 2)
         {
-            all.insert(std::make_pair(list[i], list[i + 1]));
+            seriesOf(patchAndInjector(list[i], list[i + 1]));
         }
     }
 
-    labelList order;
-    for (const auto& p : all) order.append(seriesOf(p.first, p.second));
-
-    patchOf_ = labelList(UIndirectList<label>(patchOf_, order));
-    injectorOf_ = labelList(UIndirectList<label>(injectorOf_, order));
-    sums_ = List<runningTotals>(UIndirectList<runningTotals>(sums_, order));
-    written_ = List<scalarList>(UIndirectList<scalarList>(written_, order));
-    latest_ = -1;
+    DynamicList<runningTotals> sums;
+    for (const auto& each : series_) sums.append(each.second.sums);
+    const List<scalarList> totals(runningTotals::totals(sums));
+    label i = 0;
+    for (auto& each : series_) each.second.totals = totals[i++];
 }
 
 
 Foam::nearWall::outputTable& Foam::nearWall::impactDistributions::table
 (
-    const label series,
+    const series& s,
     const std::string& kind
 )
 {
-    const std::string file(patchName(series) + "." + kind + ".dat");
+    const std::string file(patchName(s.key.first) + "." + kind + ".dat");
     return tables_.emplace(file, outputTable(folder_/file)).first->second;
 }
 
 
 void Foam::nearWall::impactDistributions::writeDistributions
 (
-    const label series,
-    const scalar time,
-    const scalarList& totals
+    const series& s,
+    const scalar time
 )
 {
     label at = 0;
@@ -338,19 +310,19 @@ void Foam::nearWall::impactDistributions::writeDistributions
     {
         for (label i = 0; i < q.size(); ++i, at += nColumns)
         {
-            if (totals[at + columnIndex("hits")] == 0) continue;
+            if (s.totals[at + columnIndex("hits")] == 0) continue;
 
             tableRow row;
             row.add("time_s", time);
-            row.add("injector", injectors_.name(injectorOf_[series]));
+            row.add("injector", injectors_.name(s.key.second));
             row.add("quantity", q.name);
             row.add("low", q.low[i]);
             row.add("high", q.high(i));
             for (label j = 0; j < nColumns; ++j)
             {
-                row.add(columns[j].name, totals[at + j]);
+                row.add(columns[j].name, s.totals[at + j]);
             }
-            table(series, "distributions").write(row);
+            table(s, "distributions").write(row);
         }
     }
 }
@@ -358,49 +330,45 @@ void Foam::nearWall::impactDistributions::writeDistributions
 
 void Foam::nearWall::impactDistributions::writeFlux
 (
-    const label series,
-    const scalar time,
-    const scalarList& totals
+    const series& s,
+    const scalar time
 )
 {
-    const scalar area = gSum(mesh_.magSf().boundaryField()[patchOf_[series]]);
+    const scalar area = gSum(mesh_.magSf().boundaryField()[s.key.first]);
     if (area <= 0) return;
 
     const auto flux = [&](const std::string& name)
     {
         const scalar since =
-            columnSum(totals, name) - columnSum(written_[series], name);
+            columnSum(s.totals, name) - columnSum(s.written, name);
         return since/(area*(time - lastTime_));
     };
     tableRow row;
     row.add("time_s", time);
     row.add("since_s", lastTime_);
-    row.add("injector", injectors_.name(injectorOf_[series]));
+    row.add("injector", injectors_.name(s.key.second));
     row.add("area_m2", area);
     row.add("mass_flux_kg_m2_s", flux("mass_kg"));
     row.add("stick_mass_flux_kg_m2_s", flux("stick_mass_kg"));
-    table(series, "flux").write(row);
+    table(s, "flux").write(row);
 }
 
 
-Foam::dictionary Foam::nearWall::impactDistributions::saved
-(
-    const List<scalarList>& totals
-) const
+Foam::dictionary Foam::nearWall::impactDistributions::saved() const
 {
     dictionary all;
-    forAll(sums_, i)
+    for (const auto& each : series_)
     {
         // Most classes are empty; they are left out
-        dictionary series;
-        forAll(totals[i], j)
+        const scalarList& totals = each.second.totals;
+        dictionary sums;
+        forAll(totals, j)
         {
-            const scalar x = totals[i][j];
-            if (x != 0) addExact(series, sumNames()[j], x);
+            if (totals[j] != 0) addExact(sums, sumNames()[j], totals[j]);
         }
         dictionary ofPatch;
-        ofPatch.add(keyType(savedName(injectorOf_[i])), series);
-        all.add(keyType(patchName(i)), ofPatch, true);
+        ofPatch.add(keyType(savedName(each.first.second)), sums);
+        all.add(keyType(patchName(each.first.first)), ofPatch, true);
     }
     return all;
 }
@@ -409,27 +377,25 @@ Foam::dictionary Foam::nearWall::impactDistributions::saved
 Foam::dictionary Foam::nearWall::impactDistributions::write()
 {
     synchronise();
-    const List<scalarList> totals(runningTotals::totals(sums_));
     const scalar time = mesh_.time().value();
 
     // A cloud may move several times a time step; the tables grow once
     if (time > lastTime_)
     {
         std::set<label> changed;
-        forAll(sums_, i)
+        for (const auto& each : series_)
         {
-            if (totals[i] != written_[i]) changed.insert(patchOf_[i]);
+            const series& s = each.second;
+            if (s.totals != s.written) changed.insert(s.key.first);
         }
-        forAll(sums_, i)
+        for (auto& each : series_)
         {
-            if (changed.count(patchOf_[i]))
-            {
-                writeDistributions(i, time, totals[i]);
-            }
-            writeFlux(i, time, totals[i]);
+            series& s = each.second;
+            if (changed.count(s.key.first)) writeDistributions(s, time);
+            writeFlux(s, time);
+            s.written = s.totals;
         }
-        written_ = totals;
         lastTime_ = time;
     }
-    return saved(totals);
+    return saved();
 }

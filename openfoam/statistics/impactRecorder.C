@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <tuple>
 
 namespace
 {
@@ -19,52 +20,29 @@ namespace
 using namespace Foam;
 using namespace Foam::nearWall;
 
-typedef impactRecorder::row row;
-typedef const row& Row;
+#define INPUT_NAME(input) #input ","
+#define INPUT_VALUE(input) scalar(e.impact.input),
 
-//- A column that holds a number
-struct numberColumn
+//- Names of the columns: numbers, the first of which identify an impact, then
+//  the others as impactRecorder::add() writes them
+const std::string header
+(
+    "time,x,y,z," NW_IMPACT_INPUTS(INPUT_NAME)
+    "patch,wall,injector,mass,regime,outcome,e_n,e_t"
+);
+
+//- The numbers, in the order of their columns
+std::vector<scalar> numbers(const scalar time, const impactEvent& e)
 {
-    const char* name;
-    scalar (*value)(Row);
-};
+    const vector& at = e.position;
+    return {time, at.x(), at.y(), at.z(), NW_IMPACT_INPUTS(INPUT_VALUE)};
+}
 
-#define INPUT_COLUMN(input)                                                    \
-    {#input, [](Row r) { return scalar(r.event.impact.input); }},
-
-//- The first columns; the first of them identify an impact
-const numberColumn numberColumns[] =
-{
-    {"time", [](Row r) { return r.time; }},
-    {"x", [](Row r) { return r.event.position.x(); }},
-    {"y", [](Row r) { return r.event.position.y(); }},
-    {"z", [](Row r) { return r.event.position.z(); }},
-    NW_IMPACT_INPUTS(INPUT_COLUMN)
-};
-
-#undef INPUT_COLUMN
+#undef INPUT_NAME
+#undef INPUT_VALUE
 
 //- Time, position, v_n, v_t, omega, d
 const label nIdentifying = 8;
-
-//- The columns after them, as text() writes them
-const char* const textColumns =
-    "patch,wall,injector,mass,regime,outcome,e_n,e_t";
-
-
-const std::string& header()
-{
-    static std::string all;
-    if (all.empty())
-    {
-        for (const numberColumn& c : numberColumns)
-        {
-            all += std::string(c.name) + ",";
-        }
-        all += textColumns;
-    }
-    return all;
-}
 
 
 //- Hash of the numbers that identify an impact: time, position, v_n, v_t, d.
@@ -105,7 +83,7 @@ bool readIdentity(const std::string& line, scalar* id)
     {
         return std::count(s.begin(), s.end(), ',');
     };
-    if (commas(line) < commas(header())) return false;
+    if (commas(line) < commas(header)) return false;
 
     const char* at = line.c_str();
     for (label i = 0; i < nIdentifying; ++i)
@@ -224,15 +202,21 @@ void Foam::nearWall::impactRecorder::add(const impactEvent& e)
 {
     if (!recorded_[e.patch]) return;
 
-    row r;
-    r.event = e;
-    r.time = mesh_.time().value();
-    scalar id[nIdentifying];
-    for (label i = 0; i < nIdentifying; ++i) id[i] = numberColumns[i].value(r);
-    r.hash = hashOf(id);
+    const std::vector<scalar> values(numbers(mesh_.time().value(), e));
+    row r{values[0], hashOf(values.data()), std::string()};
     seen_ += 1;
-
     if (halvingsOf(r.hash) < level_) return;
+
+    for (const scalar value : values) r.text += exactText(value) + ",";
+    r.text += csvCell(mesh_.boundaryMesh()[e.patch].name());
+    r.text += "," + csvCell(rules_[e.patch].wallName);
+    r.text += "," + csvCell(injectors_.name(e.injector));
+    r.text += "," + exactText(e.mass) + ",";
+    r.text += nw_regime_name(nw_regime(e.regime));
+    r.text +=
+        e.result == impactEvent::stuck
+      ? ",stick,,"
+      : ",rebound," + exactText(e.en) + "," + exactText(e.et);
     rows_.push_back(r);
 
     // The sample of all ranks is larger than that of one: halving here gives
@@ -260,58 +244,39 @@ void Foam::nearWall::impactRecorder::thin()
 }
 
 
-std::string Foam::nearWall::impactRecorder::text(const row& r) const
-{
-    const impactEvent& e = r.event;
-    std::string line;
-    for (const numberColumn& c : numberColumns)
-    {
-        line += exactText(c.value(r)) + ",";
-    }
-    line += csvCell(mesh_.boundaryMesh()[e.patch].name());
-    line += "," + csvCell(rules_[e.patch].wallName);
-    line += "," + csvCell(injectors_.name(e.injector));
-    line += "," + exactText(e.mass);
-    line += std::string(",") + nw_regime_name(nw_regime(e.regime));
-    if (e.result == impactEvent::stuck) return line + ",stick,,";
-    return line + ",rebound," + exactText(e.en) + "," + exactText(e.et);
-}
-
-
-std::vector<Foam::nearWall::impactRecorder::line>
+std::vector<Foam::nearWall::impactRecorder::row>
 Foam::nearWall::impactRecorder::gathered() const
 {
     List<List<string>> texts(Pstream::nProcs());
     List<string>& own = texts[Pstream::myProcNo()];
     own.setSize(label(rows_.size()));
-    forAll(own, i) own[i] = text(rows_[i]);
+    forAll(own, i) own[i] = rows_[i].text;
     Pstream::gatherList(texts);
 
-    std::vector<line> lines;
-    if (Pstream::master())
+    std::vector<row> rows;
+    if (!Pstream::master()) return rows;
+    for (const List<string>& list : texts)
     {
-        for (const List<string>& list : texts)
+        for (const string& text : list)
         {
-            for (const string& text : list)
-            {
-                scalar id[nIdentifying];
-                readIdentity(text, id);
-                lines.push_back(line{id[0], hashOf(id), text});
-            }
+            scalar id[nIdentifying];
+            readIdentity(text, id);
+            rows.push_back(row{id[0], hashOf(id), text});
         }
     }
 
     // An order that does not depend on the ranks
     std::sort
     (
-        lines.begin(), lines.end(),
-        [](const line& a, const line& b)
+        rows.begin(), rows.end(),
+        [](const row& a, const row& b)
         {
-            if (a.time != b.time) return a.time < b.time;
-            return a.hash != b.hash ? a.hash < b.hash : a.text < b.text;
+            return
+                std::tie(a.time, a.hash, a.text)
+              < std::tie(b.time, b.hash, b.text);
         }
     );
-    return lines;
+    return rows;
 }
 
 
@@ -328,7 +293,7 @@ void Foam::nearWall::impactRecorder::rewrite
     {
         std::ofstream to(newFile.c_str());
         to  << "# nearWallInteraction, recorded impacts: " << fraction(level_)
-            << " since the start of the case, evenly chosen\n" << header()
+            << " since the start of the case, evenly chosen\n" << header
             << '\n';
 
         std::ifstream rows(from.c_str());
@@ -370,19 +335,16 @@ void Foam::nearWall::impactRecorder::open()
 }
 
 
-void Foam::nearWall::impactRecorder::append(const std::vector<line>& lines)
+void Foam::nearWall::impactRecorder::append(const std::vector<row>& rows)
 {
     std::ofstream to(file_.c_str(), std::ios::app);
-    for (const line& one : lines)
+    for (const row& r : rows)
     {
-        to << one.text << '\n';
-        inFile_[halvingsOf(one.hash)] += 1;
+        to << r.text << '\n';
+        inFile_[halvingsOf(r.hash)] += 1;
     }
     to.close();
-    if (!to)
-    {
-        WarningInFunction << "Cannot write to " << file_ << endl;
-    }
+    if (!to) WarningInFunction << "Cannot write to " << file_ << endl;
 }
 
 
@@ -421,9 +383,9 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
         rewrite(file_, std::numeric_limits<scalar>::infinity());
     }
 
-    const std::vector<line> lines(gathered());
+    const std::vector<row> all(gathered());
     rows_.clear();
-    if (Pstream::master()) append(lines);
+    if (Pstream::master()) append(all);
 
     const scalar written = rowsInFile();
     const scalar impacts = before_ + sums[nHalvings];

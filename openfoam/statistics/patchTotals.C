@@ -11,44 +11,39 @@ namespace
 using namespace Foam;
 using namespace Foam::nearWall;
 
+//- What an impact adds to a sum
+typedef std::function<scalar(const impactEvent&)> increment;
+
 //- A column of the table, which is also the key that a restart reads
 struct column
 {
     //- Name, ending with the unit
     std::string name;
 
-    //- What an impact adds to the sum
-    std::function<scalar(const impactEvent&)> increment;
+    //- Null for a ratio of two sums, which is not saved
+    increment add;
 
-    //- For a ratio of two sums, which is not saved: their names
+    //- Names of the two sums
     std::string part, whole;
 };
 
 
 //- An increment for impacts of one result
-std::function<scalar(const impactEvent&)> of
-(
-    const impactEvent::resultType result,
-    const std::function<scalar(const impactEvent&)>& increment
-)
+increment of(const impactEvent::resultType result, const increment& add)
 {
     return [=](const impactEvent& e)
     {
-        return e.result == result ? increment(e) : 0;
+        return e.result == result ? add(e) : 0;
     };
 }
 
 
 //- An increment for parcels that the model held in one regime
-std::function<scalar(const impactEvent&)> inRegime
-(
-    const label regime,
-    const std::function<scalar(const impactEvent&)>& increment
-)
+increment inRegime(const label regime, const increment& add)
 {
     return [=](const impactEvent& e)
     {
-        return e.stuckByModel() && e.regime == regime ? increment(e) : 0;
+        return e.stuckByModel() && e.regime == regime ? add(e) : 0;
     };
 }
 
@@ -71,40 +66,39 @@ std::vector<column> makeColumns()
     const auto escaped = impactEvent::escaped;
     const auto unusable = impactEvent::unusable;
 
-    std::vector<column> all
+    std::vector<column> all;
+    const auto sum = [&all](const std::string& name, const increment& add)
     {
-        {"hits", count, "", ""},
-        {"hit_particles", particles, "", ""},
-        {"hit_mass_kg", mass, "", ""},
-        {"rebounds", of(rebounded, count), "", ""},
-        {"rebound_mass_kg", of(rebounded, mass), "", ""},
-        {"sticks", of(stuck, count), "", ""},
-        {"stick_particles", of(stuck, particles), "", ""},
-        {"stick_mass_kg", of(stuck, mass), "", ""},
-        {"escapes", of(escaped, count), "", ""},
-        {"escape_mass_kg", of(escaped, mass), "", ""},
-        {"unusable", of(unusable, count), "", ""},
-        {"unusable_mass_kg", of(unusable, mass), "", ""},
-        {"impact_speed_sum_m_s", [](E e) { return e.speed; }, "", ""},
-        {"normal_speed_sum_m_s", [](E e) { return e.impact.v_n; }, "", ""},
-        {"e_n_sum", [](E e) { return e.en; }, "", ""},
-        {"e_n2_sum", [](E e) { return sqr(e.en); }, "", ""},
-        {"e_g_sum", [](E e) { return e.eg; }, "", ""}
+        all.push_back({name, add, "", ""});
     };
+    sum("hits", count);
+    sum("hit_particles", particles);
+    sum("hit_mass_kg", mass);
+    sum("rebounds", of(rebounded, count));
+    sum("rebound_mass_kg", of(rebounded, mass));
+    sum("sticks", of(stuck, count));
+    sum("stick_particles", of(stuck, particles));
+    sum("stick_mass_kg", of(stuck, mass));
+    sum("escapes", of(escaped, count));
+    sum("escape_mass_kg", of(escaped, mass));
+    sum("unusable", of(unusable, count));
+    sum("unusable_mass_kg", of(unusable, mass));
+    sum("impact_speed_sum_m_s", [](E e) { return e.speed; });
+    sum("normal_speed_sum_m_s", [](E e) { return e.impact.v_n; });
+    sum("e_n_sum", [](E e) { return e.en; });
+    sum("e_n2_sum", [](E e) { return sqr(e.en); });
+    sum("e_g_sum", [](E e) { return e.eg; });
     const auto regimeName = [](const label r)
     {
         return std::string(nw_regime_name(nw_regime(r)));
     };
     for (label r = 0; r < 4; ++r)
     {
-        all.push_back({"sticks_" + regimeName(r), inRegime(r, count), "", ""});
+        sum("sticks_" + regimeName(r), inRegime(r, count));
     }
     for (label r = 0; r < 4; ++r)
     {
-        all.push_back
-        ({
-            "stick_mass_" + regimeName(r) + "_kg", inRegime(r, mass), "", ""
-        });
+        sum("stick_mass_" + regimeName(r) + "_kg", inRegime(r, mass));
     }
     for (label b = 0; b < 10; ++b)
     {
@@ -112,21 +106,15 @@ std::vector<column> makeColumns()
         {
             return conversionClass(e.impact.conversion) == b ? e.mass : 0;
         };
-        all.push_back
-        ({
-            "stick_mass_conversion_0." + std::to_string(b) + "_kg",
-            of(stuck, inClass), "", ""
-        });
+        const std::string from("0." + std::to_string(b));
+        sum("stick_mass_conversion_" + from + "_kg", of(stuck, inClass));
     }
     all.push_back
     ({
         "capture_by_particles", nullptr, "stick_particles", "hit_particles"
     });
     all.push_back({"capture_by_mass", nullptr, "stick_mass_kg", "hit_mass_kg"});
-    all.push_back
-    ({
-        "outside_range", [](E e) { return scalar(e.outsideRange); }, "", ""
-    });
+    sum("outside_range", [](E e) { return scalar(e.outsideRange); });
     return all;
 }
 
@@ -145,7 +133,7 @@ scalar total(const scalarList& totals, const std::string& name)
     for (const column& c : columns())
     {
         if (c.name == name) break;
-        if (c.increment) ++i;
+        if (c.add) ++i;
     }
     return totals[i];
 }
@@ -195,12 +183,6 @@ void reportPatch(Ostream& os, const word& name, const scalarList& t)
 } // End anonymous namespace
 
 
-const Foam::word& Foam::nearWall::patchTotals::patchName(const label i) const
-{
-    return mesh_.boundaryMesh()[patches_[i]].name();
-}
-
-
 Foam::nearWall::patchTotals::patchTotals
 (
     const fvMesh& mesh,
@@ -209,29 +191,25 @@ Foam::nearWall::patchTotals::patchTotals
     const fileName& folder
 )
 :
-    mesh_(mesh),
     indices_(rules.size(), label(-1))
 {
     DynamicList<word> names;
     for (const column& c : columns())
     {
-        if (c.increment) names.append(c.name);
+        if (c.add) names.append(c.name);
     }
 
     forAll(rules, patchi)
     {
         if (rules[patchi].type == patchRule::pass) continue;
 
-        indices_[patchi] = patches_.size();
-        patches_.append(patchi);
+        indices_[patchi] = sums_.size();
         const word& name = mesh.boundaryMesh()[patchi].name();
-        sums_.append
-        (
-            runningTotals(wordList(names), saved.subOrEmptyDict(name))
-        );
+        const dictionary ofPatch(saved.subOrEmptyDict(name));
+        sums_.append(runningTotals(wordList(names), ofPatch, name));
         tables_.emplace_back(folder/(name + ".dat"));
     }
-    written_.setSize(patches_.size());
+    written_.setSize(sums_.size());
 }
 
 
@@ -241,22 +219,8 @@ void Foam::nearWall::patchTotals::add(const impactEvent& e)
     label i = 0;
     for (const column& c : columns())
     {
-        if (c.increment) sums.add(i++, c.increment(e));
+        if (c.add) sums.add(i++, c.add(e));
     }
-}
-
-
-Foam::dictionary Foam::nearWall::patchTotals::saved
-(
-    const List<scalarList>& totals
-) const
-{
-    dictionary dict;
-    forAll(sums_, i)
-    {
-        dict.add(keyType(patchName(i)), sums_[i].saved(totals[i]));
-    }
-    return dict;
 }
 
 
@@ -269,7 +233,8 @@ void Foam::nearWall::patchTotals::report
     os  << "    Near-wall impacts since the start of the case" << nl;
     forAll(totals, i)
     {
-        if (total(totals[i], "hits")) reportPatch(os, patchName(i), totals[i]);
+        const scalarList& t = totals[i];
+        if (total(t, "hits")) reportPatch(os, sums_[i].name(), t);
     }
 }
 
@@ -291,7 +256,7 @@ void Foam::nearWall::patchTotals::writeRows
         label k = 0;
         for (const column& c : columns())
         {
-            row.add(c.name, c.increment ? t[k++] : ratio(t, c.part, c.whole));
+            row.add(c.name, c.add ? t[k++] : ratio(t, c.part, c.whole));
         }
         tables_[i].write(row);
     }

@@ -8,9 +8,11 @@
 Foam::nearWall::runningTotals::runningTotals
 (
     const wordList& names,
-    const dictionary& saved
+    const dictionary& saved,
+    const word& name
 )
 :
+    name_(name),
     names_(names),
     base_(names.size()),
     added_(names.size(), scalar(0))
@@ -26,6 +28,18 @@ Foam::dictionary Foam::nearWall::runningTotals::saved
 {
     dictionary dict;
     forAll(names_, i) addExact(dict, names_[i], totals[i]);
+    return dict;
+}
+
+
+Foam::dictionary Foam::nearWall::runningTotals::saved
+(
+    const UList<runningTotals>& sums,
+    const UList<scalarList>& totals
+)
+{
+    dictionary dict;
+    forAll(sums, i) dict.add(keyType(sums[i].name()), sums[i].saved(totals[i]));
     return dict;
 }
 

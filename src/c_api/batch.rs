@@ -1,9 +1,7 @@
 //! Many impacts in one call: arrays in, arrays out.
 #![allow(non_camel_case_types)]
 
-use std::ptr::null_mut;
-
-use super::boundary::{get, guarded_status, put, reader, sized};
+use super::boundary::{get, guarded_status, put, reader, sized, zero_by_default};
 use super::impact::nw_impacts;
 use super::types::{NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, flags, nw_model, nw_status};
 use crate::impact::{INPUTS, Input, Outcome};
@@ -148,21 +146,7 @@ impl nw_impacts {
     }
 }
 
-/// No outcome wanted.
-impl Default for nw_outcomes {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>() as u32,
-            e_n: null_mut(),
-            e_t: null_mut(),
-            p_stick: null_mut(),
-            omega: null_mut(),
-            regime: null_mut(),
-            stuck: null_mut(),
-            flags: null_mut(),
-        }
-    }
-}
+zero_by_default!(nw_outcomes);
 
 impl nw_outcomes {
     /// Writes one outcome.

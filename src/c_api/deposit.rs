@@ -1,7 +1,7 @@
 //! The deposit on a wall.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{check_size, guarded_status, initialise, reader, sized};
+use super::boundary::{check_size, guarded_status, initialise, reader, sized, zero_by_default};
 use super::impact::nw_impact;
 use super::types::{NW_BAD_STATE, NW_NULL_POINTER, nw_model, nw_status};
 use crate::deposit::{Deposit, DepositSource};
@@ -49,34 +49,7 @@ pub struct nw_deposit_source {
     pub converted: f64,
 }
 
-impl Default for nw_deposit {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>() as u32,
-            wall: 0,
-            molten: 0.0,
-            powder: 0.0,
-            solid: 0.0,
-            cover: 0.0,
-            conversion: 0.0,
-        }
-    }
-}
-
-impl Default for nw_deposit_source {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>() as u32,
-            count: 0,
-            molten: 0.0,
-            powder: 0.0,
-            solid: 0.0,
-            cover: 0.0,
-            buried: 0.0,
-            converted: 0.0,
-        }
-    }
-}
+zero_by_default!(nw_deposit, nw_deposit_source);
 
 impl nw_deposit {
     fn to_deposit(self) -> Deposit {
@@ -89,14 +62,10 @@ impl nw_deposit {
         Self { molten, powder, solid, cover, conversion, ..self }
     }
 
-    fn is_sound(&self) -> bool {
-        let sizes = [self.molten, self.powder, self.solid, self.cover];
-        sizes.iter().all(|size| size.is_finite() && *size >= 0.0) && (0.0..=1.0).contains(&self.conversion)
-    }
-
     /// Refuses overflowed sums, so that every other call accepts what this one writes.
     fn sound(self) -> Result<Self, nw_status> {
-        if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
+        let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover]);
+        if sizes && (0.0..=1.0).contains(&self.conversion) { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
@@ -112,15 +81,16 @@ impl nw_deposit_source {
         Self { count, molten, powder, solid, cover, buried, converted, ..self }
     }
 
-    fn is_sound(&self) -> bool {
-        let sizes = [self.molten, self.powder, self.solid, self.cover, self.buried, self.converted];
-        sizes.iter().all(|size| size.is_finite() && *size >= 0.0)
-    }
-
     /// As [`nw_deposit::sound`].
     fn sound(self) -> Result<Self, nw_status> {
-        if self.is_sound() { Ok(self) } else { Err(NW_BAD_STATE) }
+        let Self { molten, powder, solid, cover, buried, converted, .. } = self;
+        let sizes = are_sizes(&[molten, powder, solid, cover, buried, converted]);
+        if sizes { Ok(self) } else { Err(NW_BAD_STATE) }
     }
+}
+
+fn are_sizes(numbers: &[f64]) -> bool {
+    numbers.iter().all(|number| number.is_finite() && *number >= 0.0)
 }
 
 /// Initialises a deposit: its size, wall 0, a bare wall.
@@ -234,13 +204,8 @@ pub unsafe extern "C" fn nw_deposit_apply(
         // SAFETY: the caller's promises.
         let (model, deposit, before) =
             unsafe { (reader(model)?, sized(deposit)?, sized(impact.cast_const())?) };
-        let wall = before.wall as usize;
-        let found = model.inner().apply_deposit(
-            wall,
-            &deposit.sound()?.to_deposit(),
-            voidage,
-            &before.to_impact(),
-        )?;
+        let (wall, deposit) = (before.wall as usize, deposit.sound()?.to_deposit());
+        let found = model.inner().apply_deposit(wall, &deposit, voidage, &before.to_impact())?;
         if !(found.layer_thickness.is_finite() && found.melt_thickness.is_finite()) {
             return Err(NW_BAD_STATE);
         }
@@ -278,10 +243,10 @@ pub unsafe extern "C" fn nw_film_velocity(
         if velocity.is_null() {
             return Err(NW_NULL_POINTER);
         }
-        let possible = T_w.is_finite() && T_w > 0.0 && gravity_along.is_finite() && gravity_along >= 0.0;
-        if !(possible && deposit.is_sound()) {
+        if !(are_sizes(&[T_w, gravity_along]) && T_w > 0.0) {
             return Err(NW_BAD_STATE);
         }
+        let deposit = deposit.sound()?;
         let melt = model.inner().melt(deposit.wall as usize, T_w)?;
         let thickness = deposit.molten / melt.density;
         let found = film::mean_velocity(thickness, melt.density, melt.viscosity, gravity_along);

@@ -1,9 +1,7 @@
 //! The structs of one and of many impacts, from the table of inputs.
 #![allow(non_camel_case_types)]
 
-use std::ptr::null;
-
-use super::boundary::get;
+use super::boundary::{get, zero_by_default};
 use crate::impact::{INPUTS, Impact, for_each_input};
 use crate::rng::ImpactRng;
 
@@ -84,21 +82,6 @@ macro_rules! define_structs {
             }
         }
 
-        /// No impacts and no arrays.
-        impl Default for nw_impacts {
-            fn default() -> Self {
-                Self {
-                    struct_size: size_of::<Self>() as u32,
-                    wall: 0,
-                    count: 0,
-                    seed: 0,
-                    walls: null(),
-                    key: null(),
-                    $($name: null(),)*
-                }
-            }
-        }
-
         impl nw_impacts {
             /// The arrays of the inputs, in the order of [`INPUTS`].
             pub fn columns(&self) -> [*const f64; INPUTS.len()] {
@@ -127,6 +110,7 @@ macro_rules! define_structs {
 }
 
 for_each_input!(define_structs);
+zero_by_default!(nw_impacts);
 
 impl Default for nw_impact {
     fn default() -> Self {

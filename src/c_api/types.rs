@@ -3,6 +3,7 @@
 
 use std::ffi::CStr;
 
+use super::boundary::zero_by_default;
 use crate::impact::{ImpactError, Outcome};
 use crate::model::Model;
 
@@ -105,20 +106,7 @@ pub struct nw_outcome {
     pub omega: f64,
 }
 
-impl Default for nw_outcome {
-    fn default() -> Self {
-        Self {
-            struct_size: size_of::<Self>() as u32,
-            regime: NW_NSP_NSW,
-            stuck: 0,
-            flags: 0,
-            e_n: 0.0,
-            e_t: 0.0,
-            p_stick: 0.0,
-            omega: 0.0,
-        }
-    }
-}
+zero_by_default!(nw_outcome);
 
 impl nw_outcome {
     pub(super) fn from_outcome(outcome: &Outcome) -> Self {

@@ -3,8 +3,10 @@
 //! `viscosity` also applies to the slag on a wall. `droplet` applies to the particle alone: a deposit has no speed and is
 //! sticky when it is molten.
 
-use super::droplet::{Droplet, DropletCriterion};
-use super::viscosity::{MeltStickiness, ViscosityCriterion};
+use std::sync::Arc;
+
+use super::droplet::DropletCriterion;
+use super::viscosity::ViscosityCriterion;
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::Material;
@@ -71,84 +73,44 @@ impl Criterion {
     ///
     /// # Errors
     /// [`Unsuitable`] when the material lacks what the criterion needs.
-    pub fn of_particle(self, material: &Material) -> Result<Option<ParticleStickiness>, Unsuitable> {
+    pub fn of_particle(self, material: &Material) -> Result<Option<Arc<dyn ParticleStickiness>>, Unsuitable> {
         match self {
-            Self::Viscosity(criterion) => Ok(criterion.prepare(material)?.map(ParticleStickiness::Melt)),
+            Self::Viscosity(criterion) => Ok(criterion.prepare(material)?.map(|melt| Arc::new(melt) as _)),
             Self::Droplet(criterion) => {
                 let lacking = |lacking| Unsuitable::Lacking { material: material.name().to_owned(), lacking };
-                Ok(Some(ParticleStickiness::Droplet(criterion.prepare(material).map_err(lacking)?)))
+                Ok(Some(Arc::new(criterion.prepare(material).map_err(lacking)?)))
             }
         }
     }
 }
 
 /// The criterion for the particle's material.
-#[derive(Debug, Clone)]
-pub enum ParticleStickiness {
-    /// By viscosity.
-    Melt(MeltStickiness),
-    /// By splashing.
-    Droplet(Droplet),
-}
-
-impl ParticleStickiness {
+pub trait ParticleStickiness: std::fmt::Debug + Send + Sync {
     /// The model's name in the `[capture]` table.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Melt(_) => "viscosity",
-            Self::Droplet(_) => "droplet",
-        }
-    }
+    fn name(&self) -> &'static str;
 
     /// Stickiness of the particle [1].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] where a required property is not known.
-    pub fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
-        match self {
-            Self::Melt(melt) => melt.at(impact.particle_temperature),
-            Self::Droplet(droplet) => droplet.at(impact),
-        }
-    }
+    fn at(&self, impact: &Impact) -> Result<f64, ImpactError>;
 
     /// Stickiness [1] of the material on a wall at a temperature [K]. By the droplet criterion it is 1 above the melting point and
     /// 0 below.
-    pub fn as_deposit(&self, temperature: f64) -> f64 {
-        match self {
-            Self::Melt(melt) => melt.as_deposit(temperature),
-            Self::Droplet(droplet) => f64::from(droplet.is_molten(temperature)),
-        }
-    }
+    fn as_deposit(&self, temperature: f64) -> f64;
 
-    /// Viscosity [Pa s] of the material on a wall at a temperature [K]; infinite where it is frozen.
-    pub fn film_viscosity(&self, temperature: f64) -> f64 {
-        match self {
-            Self::Melt(melt) => melt.film_viscosity(temperature),
-            Self::Droplet(droplet) => droplet.film_viscosity(temperature),
-        }
-    }
+    /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is frozen and below a measured table,
+    /// and that at the end of the table above it.
+    fn film_viscosity(&self, temperature: f64) -> f64;
 
     /// Whether a particle at a temperature [K] is a droplet, whose capture does not depend on the wall.
-    pub fn is_droplet(&self, temperature: f64) -> bool {
-        match self {
-            Self::Melt(_) => false,
-            Self::Droplet(droplet) => droplet.is_molten(temperature),
-        }
+    fn is_droplet(&self, _temperature: f64) -> bool {
+        false
     }
 
     /// Temperatures [K] at which the criterion can be evaluated.
-    pub fn known_range(&self) -> [f64; 2] {
-        match self {
-            Self::Melt(melt) => melt.known_range(),
-            Self::Droplet(droplet) => droplet.known_range(),
-        }
-    }
+    fn known_range(&self) -> [f64; 2];
 
     /// Whether the criterion is stated for this material at a temperature [K].
-    pub fn holds_at(&self, temperature: f64) -> bool {
-        match self {
-            Self::Melt(melt) => melt.holds_at(temperature),
-            Self::Droplet(droplet) => droplet.holds_at(temperature),
-        }
-    }
+    fn holds_at(&self, temperature: f64) -> bool;
 }

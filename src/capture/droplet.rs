@@ -21,6 +21,7 @@
 //! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion counts them as deposited,
 //! for the contact angle is not an input.
 
+use super::ParticleStickiness;
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::{Material, Molten};
@@ -96,12 +97,13 @@ pub struct Droplet {
     splash_limit: f64,
 }
 
-impl Droplet {
-    /// Probability that the particle stays [1]: 0 for a solid, the deposited share for a droplet.
-    ///
-    /// # Errors
-    /// [`ImpactError::OutOfRange`] for a droplet where a property of the melt is not known.
-    pub fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
+impl ParticleStickiness for Droplet {
+    fn name(&self) -> &'static str {
+        "droplet"
+    }
+
+    /// 0 for a solid, the deposited share for a droplet.
+    fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
         let temperature = impact.particle_temperature;
         if !self.material.is_molten(temperature)? {
             return Ok(0.0);
@@ -111,30 +113,31 @@ impl Droplet {
         Ok(deposited_share(numbers.splash, self.splash_limit))
     }
 
-    /// Whether the material is molten at a temperature [K]; no where its melting point is not known.
-    pub fn is_molten(&self, temperature: f64) -> bool {
-        self.material.is_molten(temperature).unwrap_or(false)
+    fn as_deposit(&self, temperature: f64) -> f64 {
+        f64::from(self.is_droplet(temperature))
     }
 
-    /// Viscosity [Pa s] of a deposit on a wall at a temperature [K]: infinite for a solid and below a measured table, and that at
-    /// the end of the table above it.
-    pub fn film_viscosity(&self, temperature: f64) -> f64 {
+    fn film_viscosity(&self, temperature: f64) -> f64 {
         let [low, high] = self.material.viscosity_range();
-        let liquid = self.is_molten(temperature) && temperature >= low;
+        let liquid = self.is_droplet(temperature) && temperature >= low;
         let known = liquid.then(|| self.material.viscosity(temperature.min(high)).ok());
         known.flatten().unwrap_or(f64::INFINITY)
     }
 
-    /// Temperatures [K] at which the criterion can be evaluated.
-    pub fn known_range(&self) -> [f64; 2] {
+    /// Whether the material is molten; no where its melting point is not known.
+    fn is_droplet(&self, temperature: f64) -> bool {
+        self.material.is_molten(temperature).unwrap_or(false)
+    }
+
+    fn known_range(&self) -> [f64; 2] {
         let [low, high] = self.material.molten_range();
         // A solid needs no property of the melt.
         let melts_known = self.material.is_molten(low).is_ok_and(|molten| !molten);
         [if melts_known { 0.0 } else { low }, high]
     }
 
-    /// Whether the properties are stated to hold at a temperature [K]; a solid needs none.
-    pub fn holds_at(&self, temperature: f64) -> bool {
+    /// Whether the properties are stated to hold; a solid needs none.
+    fn holds_at(&self, temperature: f64) -> bool {
         self.material.is_molten(temperature) == Ok(false) || self.material.melt_holds_at(temperature)
     }
 }

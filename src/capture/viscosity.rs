@@ -5,7 +5,8 @@
 //! default. Valid for glassy silicate melts above their critical viscosity temperature; it does not include residual carbon
 //! (see the effect `conversion-transition`).
 
-use crate::impact::ImpactError;
+use super::ParticleStickiness;
+use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
 use crate::slag::{SlagViscosity, UnsuitableComposition, VISCOSITY_LAWS, ViscosityLaw};
@@ -75,42 +76,12 @@ enum MeltViscosity {
 }
 
 impl MeltStickiness {
-    /// Temperatures [K] at which the viscosity is known.
-    pub fn known_range(&self) -> [f64; 2] {
-        match &self.melt {
-            MeltViscosity::Oxides(_) => [0.0, f64::INFINITY],
-            MeltViscosity::Given(material) => material.viscosity_range(),
-        }
-    }
-
-    /// Whether the viscosity law is stated for this melt at a temperature [K]. A material's own viscosity always holds within
-    /// [`Self::known_range`]; beyond that it is an error.
-    pub fn holds_at(&self, temperature: f64) -> bool {
-        match &self.melt {
-            MeltViscosity::Oxides(law) => law.holds_at(temperature),
-            MeltViscosity::Given(_) => true,
-        }
-    }
-
     /// Probability of sticking [1] at a temperature [K].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
-    pub fn at(&self, temperature: f64) -> Result<f64, ImpactError> {
+    pub fn probability(&self, temperature: f64) -> Result<f64, ImpactError> {
         Ok(sticking_probability(self.viscosity(temperature)?, self.reference))
-    }
-
-    /// Probability of sticking [1] of melt on a wall at a temperature [K], from [`Self::film_viscosity`].
-    pub fn as_deposit(&self, temperature: f64) -> f64 {
-        sticking_probability(self.film_viscosity(temperature), self.reference)
-    }
-
-    /// Viscosity [Pa s] of melt on a wall at a temperature [K]: infinite below a measured table (frozen), and that at the end of
-    /// the table above it.
-    pub fn film_viscosity(&self, temperature: f64) -> f64 {
-        let [low, high] = self.known_range();
-        let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
-        known.flatten().unwrap_or(f64::INFINITY)
     }
 
     /// Viscosity of the melt [Pa s] at a temperature [K].
@@ -121,6 +92,41 @@ impl MeltStickiness {
         match &self.melt {
             MeltViscosity::Oxides(law) => Ok(law.at(temperature)),
             MeltViscosity::Given(material) => material.viscosity(temperature),
+        }
+    }
+}
+
+impl ParticleStickiness for MeltStickiness {
+    fn name(&self) -> &'static str {
+        "viscosity"
+    }
+
+    fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        self.probability(impact.particle_temperature)
+    }
+
+    fn as_deposit(&self, temperature: f64) -> f64 {
+        sticking_probability(self.film_viscosity(temperature), self.reference)
+    }
+
+    fn film_viscosity(&self, temperature: f64) -> f64 {
+        let [low, high] = self.known_range();
+        let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
+        known.flatten().unwrap_or(f64::INFINITY)
+    }
+
+    fn known_range(&self) -> [f64; 2] {
+        match &self.melt {
+            MeltViscosity::Oxides(_) => [0.0, f64::INFINITY],
+            MeltViscosity::Given(material) => material.viscosity_range(),
+        }
+    }
+
+    /// A material's own viscosity always holds within [`Self::known_range`]; beyond that it is an error.
+    fn holds_at(&self, temperature: f64) -> bool {
+        match &self.melt {
+            MeltViscosity::Oxides(law) => law.holds_at(temperature),
+            MeltViscosity::Given(_) => true,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{Cells, Column, Values};
+use super::column::{Cells, Values};
 use super::column_map::ColumnMap;
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
@@ -10,7 +10,7 @@ use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
 use super::notes::{self, NoteCounts};
 use super::number::{NamedColumns, is_blank};
-use super::observed::{DETAILS, OBSERVATIONS, ObservedColumns};
+use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
 
@@ -21,7 +21,6 @@ struct Builder<'a> {
     named: NamedColumns,
     inputs: InputColumns,
     velocity: ImpactVelocity,
-    observed: ObservedColumns,
     /// The possible causes, each with its index in a row.
     causes: Vec<(usize, Cells)>,
     rows: Vec<Measurement>,
@@ -45,14 +44,14 @@ impl<'a> Builder<'a> {
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
             .map_err(|problem| table.column_fault(&problem, true))?;
-        let observed = ObservedColumns::new(&named, map.words.clone()).ok_or_else(|| {
+        if OBSERVATIONS.iter().all(|name| named.index(name).is_none()) {
             let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
-            table.column_fault(&problem, true)
-        })?;
+            return Err(table.column_fault(&problem, true));
+        }
         walls.check(named.index("wall").is_some())?;
         let causes = causes(headers, map, &named);
         let (rows, rejected, counts) = Default::default();
-        Ok(Self { map, walls, named, inputs, velocity, observed, causes, rows, rejected, counts })
+        Ok(Self { map, walls, named, inputs, velocity, causes, rows, rejected, counts })
     }
 
     /// Adds the next record: its line, or why it cannot be used.
@@ -80,7 +79,8 @@ impl<'a> Builder<'a> {
         let (e_n, e_t, captured) = (None, None, None);
         let mut row =
             Measurement { line, impact, stated, wall, impacts: 1.0, rebounds: 1.0, e_n, e_t, captured };
-        let remarks = self.observed.read(cells, &mut row)?;
+        let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
+        let remarks = observed.read_into(&mut row)?;
         self.counts.count(&row, remarks);
         Ok(row)
     }
@@ -108,8 +108,8 @@ impl<'a> Builder<'a> {
             let reason = "there is no row under the header; write one row per impact".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
         }
-        let given: Vec<&'static str> =
-            INPUTS.iter().map(|input| input.name).filter(|name| self.gives(name)).collect();
+        let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
+        let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
         let mut notes = self.header_notes(headers, &given);
         notes.extend(self.counts.notes(&given, self.rows.len()));
         let mut columns = Vec::new();
@@ -121,16 +121,15 @@ impl<'a> Builder<'a> {
                     "column `{name}` is read as text because `{cell}` on line {line} is not a number"
                 ));
             }
-            if is_possible_cause(&column) {
+            // A `wall` column with a single wall does not vary in meaning.
+            let one_wall = column.name == "wall"
+                && matches!(&column.values, Values::Labels { levels, .. } if levels.len() < 2);
+            if !one_wall {
                 columns.push(column);
             }
         }
         let file = file.to_owned();
         Ok(Measurements { file, rows: self.rows, columns, given, read, rejected: self.rejected, notes })
-    }
-
-    fn gives(&self, input: &str) -> bool {
-        self.inputs.gives(input) || self.velocity.gives(input)
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
@@ -197,14 +196,6 @@ fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) ->
         None => Some((index, Cells::new(header, map.labels.iter().any(|label| label == header)))),
     };
     headers.iter().enumerate().filter_map(cause).collect()
-}
-
-/// Whether a column varies in meaning: a `wall` column with a single wall does not.
-fn is_possible_cause(column: &Column) -> bool {
-    match &column.values {
-        Values::Labels { levels, .. } if column.name == "wall" => levels.len() > 1,
-        _ => true,
-    }
 }
 
 /// Explains a record of the wrong length over several lines.

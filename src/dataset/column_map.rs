@@ -57,7 +57,7 @@ impl ColumnMap {
         document.read(|top| {
             let mut map = Self { file: document.name().to_owned(), ..Self::default() };
             map.layout = read_layout(top)?;
-            map.style.decimal_comma = read_decimal(top)?;
+            map.style.decimal_comma = top.choice("decimal", &[".", ","])?.is_some_and(|mark| mark == ",");
             map.ignored = read_names(top, "ignore")?;
             map.labels = read_names(top, "labels")?;
             if let Some(columns) = top.section("columns")? {
@@ -139,7 +139,9 @@ impl ColumnMap {
         headers: &csv::StringRecord,
     ) -> Result<Option<NumberColumn>, String> {
         let place = |column: &str| headers.iter().position(|header| header == column);
-        let found = |index, unit| Ok(Some(NumberColumn { name, index, unit, style: self.style() }));
+        // In measured data, markers of missing values are blanks.
+        let style = NumberStyle { markers: true, ..self.style };
+        let found = |index, unit| Ok(Some(NumberColumn { name, index, unit, style }));
         let taken = self.ignores(name) || self.sources.iter().any(|source| source.column == name);
         let own = if taken { None } else { place(name) };
         match (self.source(name), own) {
@@ -161,11 +163,6 @@ impl ColumnMap {
         let known: Vec<&str> = headers.iter().filter(|header| !header.is_empty()).collect();
         let problem = unknown(&source.column, "column", &known);
         format!("{} reads {} from a missing column: {problem}", self.file, source.name)
-    }
-
-    /// The notation of numbers. In measured data, markers of missing values are blanks.
-    fn style(&self) -> NumberStyle {
-        NumberStyle { markers: true, ..self.style }
     }
 
     /// Parses a number of a possible cause.
@@ -205,10 +202,6 @@ fn read_names(top: &Section<'_>, key: &str) -> Result<Vec<String>, InputError> {
     let names = section.texts("columns")?.ok_or_else(|| section.missing("columns", "a list of columns"))?;
     section.finish()?;
     Ok(names.iter().map(|name| name.trim().to_owned()).collect())
-}
-
-fn read_decimal(top: &Section<'_>) -> Result<bool, InputError> {
-    Ok(top.choice("decimal", &[".", ","])?.is_some_and(|mark| mark == ","))
 }
 
 fn read_layout(top: &Section<'_>) -> Result<Layout, InputError> {

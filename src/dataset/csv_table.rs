@@ -201,7 +201,10 @@ mod tests {
             assert!(fault(empty.as_bytes()).contains("there is no header"), "{empty:?}");
         }
         assert_eq!(fault(b"#\n#\na,b,a\n"), "t.csv:3: column `a` occurs twice; rename one");
-        assert_eq!(fault(b"d [\xb5m]\n1\n"), "t.csv:1: the header is not UTF-8; save the file as UTF-8");
+        let utf16: Vec<u8> = "\u{feff}v_n,e_n\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+        for bytes in [b"d [\xb5m]\n1\n".as_slice(), &utf16] {
+            assert_eq!(fault(bytes), "t.csv:1: the header is not UTF-8; save the file as UTF-8");
+        }
     }
 
     #[test]

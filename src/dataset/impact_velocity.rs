@@ -23,15 +23,6 @@ impl AngleFrom {
     }
 }
 
-/// Direction of the impact.
-#[derive(Debug, Clone, Copy)]
-struct Slope {
-    /// Sine of the angle from the surface [1].
-    normal: f64,
-    /// Sine of the angle from the normal [1].
-    tangential: f64,
-}
-
 /// A column of angles.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AngleColumn {
@@ -45,7 +36,8 @@ impl AngleColumn {
     /// Excess over 90° [°] that is taken for rounding, as in 1.5708 rad.
     const SLACK: f64 = 0.06;
 
-    fn read(&self, cells: &csv::StringRecord) -> Result<Option<Slope>, String> {
+    /// Sines of the angles from the surface and from the normal [1]: the shares of `v_n` and `v_t` in the speed.
+    fn read(&self, cells: &csv::StringRecord) -> Result<Option<[f64; 2]>, String> {
         let Some(angle) = self.column.read_finite(cells)? else { return Ok(None) };
         if !(0.0..=90.0 + Self::SLACK).contains(&angle) {
             return Err(format!("angle = {angle}°: must be between 0° and 90°"));
@@ -54,8 +46,8 @@ impl AngleColumn {
         // Sines of both angles: the cosine of 90° is not exactly 0.
         let (near, far) = (angle.to_radians().sin(), (90.0 - angle).to_radians().sin());
         Ok(Some(match self.from {
-            AngleFrom::Surface => Slope { normal: near, tangential: far },
-            AngleFrom::Normal => Slope { normal: far, tangential: near },
+            AngleFrom::Surface => [near, far],
+            AngleFrom::Normal => [far, near],
         }))
     }
 }
@@ -150,23 +142,20 @@ impl ImpactVelocity {
                 if speed < 0.0 {
                     return Err("speed is negative".to_owned());
                 }
-                let slope = angle.read(cells)?.ok_or("angle is blank")?;
-                impact.normal_speed = speed * slope.normal;
-                impact.tangential_speed = speed * slope.tangential;
+                let shares = angle.read(cells)?.ok_or("angle is blank")?;
+                [impact.normal_speed, impact.tangential_speed] = shares.map(|share| speed * share);
             }
             Self::NormalAndAngle(angle) => {
                 // A blank angle means the default of v_t, as a blank v_t does.
-                let Some(slope) = angle.read(cells)? else { return Ok(()) };
-                impact.tangential_speed =
-                    other_speed(impact.normal_speed, slope.tangential, slope.normal, "v_n")?;
+                let Some([normal, tangential]) = angle.read(cells)? else { return Ok(()) };
+                impact.tangential_speed = other_speed(impact.normal_speed, tangential, normal, "v_n")?;
             }
             Self::TangentialAndAngle(angle) => {
                 if !stated[position("v_t")] {
                     return Err("v_t is blank, but v_n is computed from it".to_owned());
                 }
-                let slope = angle.read(cells)?.ok_or("angle is blank")?;
-                impact.normal_speed =
-                    other_speed(impact.tangential_speed, slope.normal, slope.tangential, "v_t")?;
+                let [normal, tangential] = angle.read(cells)?.ok_or("angle is blank")?;
+                impact.normal_speed = other_speed(impact.tangential_speed, normal, tangential, "v_t")?;
             }
         }
         stated[position("v_n")] = true;

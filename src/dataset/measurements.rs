@@ -108,6 +108,7 @@ impl Measurements {
 
 #[cfg(test)]
 mod tests {
+    use super::super::column::tests::words;
     use super::super::{ColumnMap, DatasetError, Values, WallChoice};
     use super::*;
     use crate::model::Model;
@@ -140,10 +141,6 @@ mod tests {
 
     fn exact(value: f64) -> Option<Reading> {
         Some(Reading { value, error: None })
-    }
-
-    fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {
-        Values::Labels { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
     }
 
     #[test]
@@ -347,13 +344,11 @@ mod tests {
             let message = refused(text, map);
             assert!(message.contains(part), "`{part}` is not in: {message}");
         };
-        part("", "", "t.csv:1: there is no header");
         part("v_n,e_n\n# 1,2\n", "", "t.csv: there is no row under the header");
         part("speed,e_n\n1,1\n", "", "no column `v_n`");
         part("v_n;e_n\n1;1\n", "", "separator = \";\"");
         part("v_n\te_n\n1\t1\n", "", "separator = \"tab\"");
         part("v_n,humidity\n1,1\n", "", "the file has no observation; add a column e_n, e_t, outcome");
-        part("v_n,e_n,e_n\n1,1,1\n", "", "column `e_n` occurs twice");
         part("Vn (m/s),e_n\n1,1\n", "[columns]\nv_n = \"Vn [m/s]\"\n", "did you mean `Vn (m/s)`?");
         part("V,v_n,e_n\n1,1,1\n", "[columns]\nv_n = \"V\"\n", "a column `v_n` exists too");
         part("V,e_n\n1,1\n", "[columns]\nspeed = \"V\"\n", "speed alone does not determine");
@@ -417,21 +412,6 @@ mod tests {
     }
 
     #[test]
-    fn rows_that_are_not_utf8_are_rejected() {
-        let data = try_read(b"v_n,e_n\n1,0.5\n1,\xb5\n", "", None).unwrap();
-        assert_eq!(reasons(&data), ["3: the row is not UTF-8"]);
-        let utf16: Vec<u8> = "\u{feff}v_n,e_n\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
-        let message = try_read(&utf16, "", None).unwrap_err().to_string();
-        assert!(message.contains("save the file as UTF-8"), "{message}");
-    }
-
-    /// The map in docs/data-file.md.
-    fn documented_map() -> &'static str {
-        let page = include_str!("../../docs/data-file.md");
-        page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap()
-    }
-
-    #[test]
     fn the_examples_of_the_page_are_read() {
         let page = include_str!("../../docs/data-file.md");
         let data = read(page.split("```\n").nth(1).unwrap());
@@ -439,7 +419,7 @@ mod tests {
         let data = mapped(
             "Rig\n\nwall temperature;size;temp;COR_n;V;theta;result;row id;plate\n% pause\n300;75;20;41,5;2;0;1;1;7\n\
              300;75;20;41,5;2;0;Bounced;2;7\n",
-            documented_map(),
+            page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap(),
         );
         assert_eq!(data.rejected, []);
         assert_eq!((data.rows[0].captured, data.rows[1].e_n), (Some(1.0), exact(0.415)));

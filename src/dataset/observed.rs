@@ -1,7 +1,7 @@
 //! The observations of a row: of one impact, or an average over several.
 
 use super::measurements::{Measurement, Reading};
-use super::number::{NamedColumns, NumberColumn, is_blank};
+use super::number::{NamedColumns, is_blank};
 use crate::input::{InputError, Section};
 
 /// The columns of observations; a row has at least one of them.
@@ -70,52 +70,31 @@ impl OutcomeWords {
     }
 }
 
-/// The columns of the observations.
-pub(super) struct ObservedColumns {
-    e_n: Option<NumberColumn>,
-    e_n_err: Option<NumberColumn>,
-    e_t: Option<NumberColumn>,
-    e_t_err: Option<NumberColumn>,
-    impacts: Option<NumberColumn>,
-    captured: Option<NumberColumn>,
-    efficiency: Option<NumberColumn>,
-    outcome: Option<usize>,
-    words: OutcomeWords,
+/// The cells of a row with an observation.
+pub(super) struct ObservedCells<'a> {
+    pub(super) columns: &'a NamedColumns,
+    pub(super) words: &'a OutcomeWords,
+    pub(super) cells: &'a csv::StringRecord,
 }
 
-impl ObservedColumns {
-    /// The columns of a file; `None` if there is no observation.
-    pub(super) fn new(named: &NamedColumns, words: OutcomeWords) -> Option<Self> {
-        OBSERVATIONS.iter().any(|name| named.index(name).is_some()).then(|| Self {
-            e_n: named.column("e_n"),
-            e_n_err: named.column("e_n_err"),
-            e_t: named.column("e_t"),
-            e_t_err: named.column("e_t_err"),
-            impacts: named.column("n_impacts"),
-            captured: named.column("captured"),
-            efficiency: named.column("capture_efficiency"),
-            outcome: named.index("outcome"),
-            words,
-        })
-    }
-
-    /// Reads the observations of a row.
+impl ObservedCells<'_> {
+    /// Reads the observations into their row.
     ///
     /// # Errors
     /// The reason why the row cannot be used.
-    pub(super) fn read(&self, cells: &csv::StringRecord, row: &mut Measurement) -> Result<Remarks, String> {
-        let counted = read(&self.impacts, cells)?;
+    pub(super) fn read_into(&self, row: &mut Measurement) -> Result<Remarks, String> {
+        let counted = self.number("n_impacts")?;
         row.impacts = counted.unwrap_or(1.0);
         if row.impacts < 1.0 || row.impacts.fract() != 0.0 {
             return Err(format!("n_impacts is {}; it must be a whole number from 1", row.impacts));
         }
-        row.captured = self.share_captured(cells, counted)?;
+        row.captured = self.share_captured(counted)?;
         let uncounted = counted.is_none() && row.captured.is_some_and(|share| share.fract() != 0.0);
         let mut no_error = false;
         // Without rebounds there is no e_n and e_t.
         if row.captured != Some(1.0) {
-            row.e_n = reading(cells, &self.e_n, &self.e_n_err, 0.0, &mut no_error)?;
-            row.e_t = reading(cells, &self.e_t, &self.e_t_err, -HIGHEST, &mut no_error)?;
+            row.e_n = self.reading(["e_n", "e_n_err"], 0.0, &mut no_error)?;
+            row.e_t = self.reading(["e_t", "e_t_err"], -HIGHEST, &mut no_error)?;
         }
         let no_rebound = row.e_n.is_some_and(|e| e.value == 0.0) && row.e_t.is_none_or(|e| e.value == 0.0);
         if row.captured.is_none() && no_rebound {
@@ -135,10 +114,10 @@ impl ObservedColumns {
     }
 
     /// The captured share of the impacts [1], if recorded.
-    fn share_captured(&self, cells: &csv::StringRecord, counted: Option<f64>) -> Result<Option<f64>, String> {
+    fn share_captured(&self, counted: Option<f64>) -> Result<Option<f64>, String> {
         let impacts = counted.unwrap_or(1.0);
-        let count = self.count_captured(cells, counted)?.map(|count| count / impacts);
-        let stated = read(&self.efficiency, cells)?;
+        let count = self.count_captured(counted)?.map(|count| count / impacts);
+        let stated = self.number("capture_efficiency")?;
         if let Some(share) = stated.filter(|share| !(0.0..=1.0).contains(share)) {
             return Err(format!("capture_efficiency is {share}; it must be between 0 and 1"));
         }
@@ -151,7 +130,7 @@ impl ObservedColumns {
             return Err(format!("captured / n_impacts is {count:.4}, but capture_efficiency is {stated}"));
         }
         let share = count.or(stated);
-        match (self.outcome(cells)?, share) {
+        match (self.outcome()?, share) {
             (None, share) => Ok(share),
             (Some(_), None) if impacts > 1.0 => Err(format!(
                 "one outcome cannot describe {impacts} impacts; give captured or capture_efficiency"
@@ -165,8 +144,8 @@ impl ObservedColumns {
         }
     }
 
-    fn count_captured(&self, cells: &csv::StringRecord, counted: Option<f64>) -> Result<Option<f64>, String> {
-        let Some(count) = read(&self.captured, cells)? else { return Ok(None) };
+    fn count_captured(&self, counted: Option<f64>) -> Result<Option<f64>, String> {
+        let Some(count) = self.number("captured")? else { return Ok(None) };
         if count < 0.0 || count.fract() != 0.0 {
             return Err(format!("captured is {count}; it must be a whole number from 0"));
         }
@@ -179,43 +158,41 @@ impl ObservedColumns {
         }
     }
 
-    fn outcome(&self, cells: &csv::StringRecord) -> Result<Option<bool>, String> {
-        let cell = self.outcome.and_then(|index| cells.get(index)).unwrap_or("");
+    fn outcome(&self) -> Result<Option<bool>, String> {
+        let cell = self.columns.index("outcome").and_then(|index| self.cells.get(index)).unwrap_or("");
         match self.words.captured(cell) {
             None if is_blank(cell) => Ok(None),
             None => Err(self.words.unknown(cell)),
             known => Ok(known),
         }
     }
-}
 
-/// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
-fn reading(
-    cells: &csv::StringRecord,
-    value: &Option<NumberColumn>,
-    error: &Option<NumberColumn>,
-    lowest: f64,
-    no_error: &mut bool,
-) -> Result<Option<Reading>, String> {
-    let (Some(column), Some(value)) = (value, read(value, cells)?) else { return Ok(None) };
-    let name = column.name;
-    if value < lowest {
-        return Err(match lowest {
-            0.0 => format!("{name} is negative"),
-            _ => format!("{name} is {value}, below {lowest}"),
-        });
+    /// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
+    fn reading(
+        &self,
+        [name, error]: [&str; 2],
+        lowest: f64,
+        no_error: &mut bool,
+    ) -> Result<Option<Reading>, String> {
+        let Some(value) = self.number(name)? else { return Ok(None) };
+        if value < lowest {
+            return Err(match lowest {
+                0.0 => format!("{name} is negative"),
+                _ => format!("{name} is {value}, below {lowest}"),
+            });
+        }
+        if value > HIGHEST {
+            return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
+        }
+        let error = self.number(error)?;
+        if error.is_some_and(|error| error < 0.0) {
+            return Err(format!("{name}_err is negative"));
+        }
+        *no_error |= error == Some(0.0);
+        Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
     }
-    if value > HIGHEST {
-        return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
-    }
-    let error = read(error, cells)?;
-    if error.is_some_and(|error| error < 0.0) {
-        return Err(format!("{name}_err is negative"));
-    }
-    *no_error |= error == Some(0.0);
-    Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
-}
 
-fn read(column: &Option<NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
-    column.as_ref().map_or(Ok(None), |column| column.read_finite(cells))
+    fn number(&self, name: &str) -> Result<Option<f64>, String> {
+        self.columns.column(name).map_or(Ok(None), |column| column.read_finite(self.cells))
+    }
 }

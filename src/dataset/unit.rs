@@ -16,7 +16,7 @@ pub(super) struct Unit {
 
 impl Unit {
     /// The SI unit of any dimension.
-    pub(super) const SI: Self = scaled("SI", 1.0, 1.0);
+    pub(super) const SI: Self = part("SI", 1.0);
 
     /// A value in SI units (an angle in degrees).
     pub(super) fn to_si(self, value: f64) -> f64 {
@@ -28,30 +28,25 @@ const fn scaled(name: &'static str, factor: f64, divisor: f64) -> Unit {
     Unit { name, offset: 0.0, factor, divisor }
 }
 
-const LENGTHS: [Unit; 5] = [
-    scaled("m", 1.0, 1.0),
-    scaled("mm", 1.0, 1e3),
-    scaled("um", 1.0, 1e6),
-    scaled("µm", 1.0, 1e6),
-    scaled("nm", 1.0, 1e9),
-];
-const SPEEDS: [Unit; 4] =
-    [scaled("m/s", 1.0, 1.0), scaled("cm/s", 1.0, 1e2), scaled("mm/s", 1.0, 1e3), scaled("km/h", 1.0, 3.6)];
+/// A unit of which `divisor` make one SI unit.
+const fn part(name: &'static str, divisor: f64) -> Unit {
+    scaled(name, 1.0, divisor)
+}
+
+const LENGTHS: [Unit; 5] =
+    [part("m", 1.0), part("mm", 1e3), part("um", 1e6), part("µm", 1e6), part("nm", 1e9)];
+const SPEEDS: [Unit; 4] = [part("m/s", 1.0), part("cm/s", 1e2), part("mm/s", 1e3), part("km/h", 3.6)];
 const TEMPERATURES: [Unit; 4] = [
-    scaled("K", 1.0, 1.0),
+    part("K", 1.0),
     Unit { name: "C", offset: 273.15, factor: 1.0, divisor: 1.0 },
     Unit { name: "°C", offset: 273.15, factor: 1.0, divisor: 1.0 },
     Unit { name: "F", offset: 459.67, factor: 5.0, divisor: 9.0 },
 ];
-const SPINS: [Unit; 4] = [
-    scaled("rad/s", 1.0, 1.0),
-    scaled("s^-1", 1.0, 1.0),
-    scaled("1/s", 1.0, 1.0),
-    scaled("rpm", std::f64::consts::TAU, 60.0),
-];
-const SHARES: [Unit; 2] = [scaled("1", 1.0, 1.0), scaled("%", 1.0, 100.0)];
+const SPINS: [Unit; 4] =
+    [part("rad/s", 1.0), part("s^-1", 1.0), part("1/s", 1.0), scaled("rpm", std::f64::consts::TAU, 60.0)];
+const SHARES: [Unit; 2] = [part("1", 1.0), part("%", 100.0)];
 /// Angles are converted to degrees, not radians: 90 is a right angle exactly.
-const ANGLES: [Unit; 2] = [scaled("deg", 1.0, 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
+const ANGLES: [Unit; 2] = [part("deg", 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
 
 /// The dimension of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

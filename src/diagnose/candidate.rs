@@ -75,7 +75,7 @@ impl Addition {
                 effect.parameters.iter().filter(|parameter| parameter.default.is_none()).count()
             }
             Self::Part { part, .. } => part.at.len(),
-            Self::Curve(curve) => curve.curve.heights.len(),
+            Self::Curve(curve) => curve.heights.len(),
             Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1,
         }
     }

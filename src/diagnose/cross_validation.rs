@@ -297,7 +297,7 @@ fn split_last(mut joint: Hypothesis<'_>) -> Option<Addition> {
 fn fit_background(rows: &Evaluation<'_>) -> Option<Addition> {
     let observable = Observable::Capture;
     let form = CurveForm { covariate: 0, observable, multiplicative: false, basis: Basis::Constant };
-    form.fit(rows)?.curve.heights.first().copied().map(Addition::BackgroundCapture)
+    form.fit(rows)?.heights.first().copied().map(Addition::BackgroundCapture)
 }
 
 /// The q-values of Benjamini and Hochberg for `count` candidates, of which the hopeless are not listed.

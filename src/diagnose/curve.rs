@@ -3,7 +3,7 @@
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
-use super::smooth::{Basis, Curve};
+use super::smooth::Basis;
 
 /// Rounds of the iteratively reweighted fit of capture.
 const ROUNDS: usize = 5;
@@ -29,23 +29,22 @@ impl CurveForm {
         let values = evaluation.data.values(self.covariate);
         if self.observable != Observable::Capture {
             let points = evaluation.residuals(self.observable, self.multiplicative);
-            let curve = Curve::fit(values, &self.basis, &points)?;
-            return Some(ColumnCurve { form: self, curve });
+            let heights = self.basis.fit(values, &points)?;
+            return Some(ColumnCurve { form: self, heights });
         }
-        let heights = vec![constant_odds(evaluation)?];
-        let mut curve = Curve { basis: Basis::Constant, heights };
+        let (mut basis, mut heights) = (&Basis::Constant, vec![constant_odds(evaluation)?]);
         for _ in 0..if matches!(self.basis, Basis::Constant) { 0 } else { ROUNDS } {
             let mut offsets = evaluation.offsets.to_vec();
             for &row in evaluation.rows.iter() {
-                offsets[row].capture += curve.at(values, row);
+                offsets[row].capture += basis.height(&heights, values, row);
             }
             let mut points = evaluation.with_offsets(offsets).residuals(self.observable, false);
             for point in &mut points {
-                point.residual += curve.at(values, point.row);
+                point.residual += basis.height(&heights, values, point.row);
             }
-            curve = Curve::fit(values, &self.basis, &points)?;
+            (basis, heights) = (&self.basis, self.basis.fit(values, &points)?);
         }
-        Some(ColumnCurve { form: self, curve })
+        Some(ColumnCurve { form: self, heights })
     }
 }
 
@@ -53,16 +52,18 @@ impl CurveForm {
 #[derive(Debug, Clone)]
 pub(super) struct ColumnCurve {
     pub form: CurveForm,
-    pub curve: Curve,
+    /// Heights of the basis functions.
+    pub heights: Vec<f64>,
 }
 
 impl ColumnCurve {
     /// Adds the curve to the offsets of the evaluated rows.
     pub fn add_to(&self, offsets: &mut [Offset], evaluation: &Evaluation<'_>) {
-        let CurveForm { covariate, observable, multiplicative, .. } = self.form;
+        let CurveForm { covariate, observable, multiplicative, ref basis } = self.form;
         let values = evaluation.data.values(covariate);
         for (row, predicted) in evaluation.plain(observable) {
-            let height = self.curve.at(values, row) * if multiplicative { predicted } else { 1.0 };
+            let scale = if multiplicative { predicted } else { 1.0 };
+            let height = basis.height(&self.heights, values, row) * scale;
             let offset = &mut offsets[row];
             *offset.restitution.get_mut(observable as usize).unwrap_or(&mut offset.capture) += height;
         }

@@ -5,9 +5,7 @@ use std::sync::Arc;
 
 use super::data_split::DataSplit;
 use super::forecast::{Forecast, Prediction};
-use super::likelihood::{
-    Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, mean, readings, regular, score,
-};
+use super::likelihood::{Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, mean, regular, score};
 use super::observable::Observable;
 use super::smooth::Point;
 use crate::dataset::Measurement;
@@ -52,8 +50,7 @@ impl<'a> Evaluation<'a> {
     }
 
     pub fn with_offsets(&self, offsets: Vec<Offset>) -> Self {
-        let (rows, forecast) = (self.rows.clone(), self.forecast.clone());
-        Self { data: self.data, rows, forecast, offsets: offsets.into(), scatter: self.scatter }
+        Self { offsets: offsets.into(), ..self.clone() }
     }
 
     pub fn with_scatter(self, scatter: Scatter) -> Self {
@@ -137,7 +134,7 @@ impl<'a> Evaluation<'a> {
                 let (residual, weight) = ((row.captured? - mean.capture) / variance, variance * row.impacts);
                 return Some(Point { row: index, residual, weight, scale: 1.0 });
             }
-            let reading = readings(row)[which]?;
+            let reading = [row.e_n, row.e_t][which]?;
             let expected = mean.restitution[which];
             let residual = reading.value - expected;
             let own = (self.scatter[which] * offset.spread).powi(2) + mean.variance[which];

@@ -5,6 +5,7 @@ use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, val
 use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
 use super::part::{FittedPart, Part};
+use super::record::Estimate;
 use crate::dataset::Values;
 use crate::effect::EffectInfo;
 
@@ -61,15 +62,10 @@ fn append(document: &mut DocumentMut, added: ArrayOfTables) {
 fn effect(data: &DataSplit, fitted: &FittedPart, info: &EffectInfo) -> Table {
     let mut table = Table::new();
     table.insert("kind", value(info.id));
-    for ((parameter, number), [low, high]) in
-        info.parameters.iter().zip(fitted.values()).zip(&fitted.intervals)
-    {
-        let mut fit = InlineTable::new();
-        fit.insert("value", rounded(number).into());
-        fit.insert("low", rounded(*low).into());
-        fit.insert("high", rounded(*high).into());
-        fit.insert("unit", parameter.unit.into());
-        table.insert(parameter.name, value(fit));
+    for (name, Estimate { value: number, low, high, unit }) in fitted.estimates() {
+        let mut fit = InlineTable::from_iter([("value", number), ("low", low), ("high", high)]);
+        fit.insert("unit", unit.into());
+        table.insert(name, value(fit));
     }
     table.insert("valid", value(valid(data)));
     table.insert("source", value("fitted by nearwall diagnose"));

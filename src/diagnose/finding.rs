@@ -10,7 +10,7 @@ use super::hypothesis::Hypothesis;
 use super::model_selection::{DISTINGUISHABLE, Discovery};
 use super::observable::Observable;
 use super::part::{FittedPart, Part};
-use super::record::{Alternative, Calibration, Estimate, Finding, FittedCurve};
+use super::record::{Alternative, Calibration, Finding, FittedCurve};
 use super::smooth::Basis;
 use crate::dataset::Values;
 use crate::effect::EFFECTS;
@@ -66,7 +66,7 @@ impl FindingBuilder<'_> {
             gain: winner.gain(),
             p_value: winner.p_value,
             q_value: winner.q_value,
-            parameters: self.parameters(&cause),
+            parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),
             alternatives: self.alternatives(winner, others),
             measure_next: rivals.iter().filter_map(advice).collect(),
             indistinguishable_from: rivals.iter().map(|rival| self.name(rival)).collect(),
@@ -104,17 +104,6 @@ impl FindingBuilder<'_> {
             _ => Vec::new(),
         };
         Hypothesis::with_parts(self.hypothesis.data, parts, self.hypothesis.scatter)
-    }
-
-    fn parameters(&self, cause: &str) -> BTreeMap<&'static str, Estimate> {
-        let Some(fitted) = self.final_part(cause) else { return BTreeMap::new() };
-        let Part::Effect(effect) = fitted.part else { return BTreeMap::new() };
-        let estimates = effect.parameters.iter().zip(fitted.values()).zip(&fitted.intervals);
-        let estimate = |((parameter, value), interval): ((&crate::effect::Parameter, f64), &[f64; 2])| {
-            let [low, high] = interval.map(rounded);
-            (parameter.name, Estimate { value: rounded(value), low, high, unit: parameter.unit })
-        };
-        estimates.map(estimate).collect()
     }
 
     /// The best candidates of other causes in the round.
@@ -170,12 +159,12 @@ impl FindingBuilder<'_> {
     }
 
     fn curve(&self, fitted: &ColumnCurve) -> FittedCurve {
-        let at = match (&fitted.curve.basis, self.hypothesis.data.values(fitted.form.covariate)) {
+        let at = match (&fitted.form.basis, self.hypothesis.data.values(fitted.form.covariate)) {
             (Basis::Hats(knots), _) => knots.iter().map(|knot| rounded(*knot).to_string()).collect(),
             (Basis::Labels(_), Values::Labels { levels, .. }) => levels.clone(),
             _ => Vec::new(),
         };
-        let adds = fitted.curve.heights.iter().map(|height| rounded(*height)).collect();
+        let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
         FittedCurve { factor: fitted.form.multiplicative, at, adds }
     }
 }

@@ -5,10 +5,10 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
-use super::likelihood::readings;
+use super::likelihood::Mean;
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
-use crate::dataset::Values;
+use crate::dataset::{Measurement, Values};
 
 /// Resamples of the bootstrap.
 const RESAMPLES: usize = 1000;
@@ -30,7 +30,6 @@ pub(super) fn gain(
     observable: Observable,
     seed: u64,
 ) -> Option<Gain> {
-    let squared = |[measured, predicted]: [f64; 2]| (measured - predicted).powi(2);
     let pairs = before.pairs(observable).zip(after.pairs(observable));
     let squares: Vec<[f64; 2]> =
         pairs.filter_map(|(before, after)| Some([squared(before?), squared(after?)])).collect();
@@ -68,6 +67,11 @@ fn bootstrap(squares: &[[f64; 2]], seed: u64) -> [f64; 2] {
     [ratios[RESAMPLES / 40], ratios[RESAMPLES - 1 - RESAMPLES / 40]]
 }
 
+/// Squared difference of a measured and a predicted value.
+fn squared([measured, predicted]: [f64; 2]) -> f64 {
+    (measured - predicted).powi(2)
+}
+
 fn average(values: impl Iterator<Item = f64>) -> Option<f64> {
     let values: Vec<f64> = values.collect();
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
@@ -75,10 +79,7 @@ fn average(values: impl Iterator<Item = f64>) -> Option<f64> {
 
 /// The errors of a hypothesis on these rows.
 pub(super) fn errors(rows: &Evaluation<'_>) -> Errors {
-    let rmse = |observable| {
-        let squared = |[measured, predicted]: [f64; 2]| (measured - predicted).powi(2);
-        average(rows.pairs(observable).flatten().map(squared)).map(f64::sqrt)
-    };
+    let rmse = |observable| average(rows.pairs(observable).flatten().map(squared)).map(f64::sqrt);
     let loss = |[share, p]: [f64; 2]| -(share * p.ln() + (1.0 - share) * (1.0 - p).ln());
     Errors {
         rmse_e_n: rmse(Observable::NormalRestitution),
@@ -102,19 +103,18 @@ pub(super) fn sample(base: &Hypothesis<'_>, extended: &Hypothesis<'_>) -> Sample
     let (held_out, fitted) = (some(&data.held_out), some(&data.search));
     let rows = [held_out.as_slice(), &fitted].concat();
     let (before, after) = (evaluate(base, &rows), evaluate(extended, &rows));
-    let triples = Observable::ALL.map(|observable| {
-        let pairs = before.pairs(observable).zip(after.pairs(observable));
-        let triple = |(before, after): (Option<[f64; 2]>, Option<[f64; 2]>)| {
-            let ([measured, base], [_, extended]) = (before?, after?);
-            Some([measured, base, extended])
-        };
-        pairs.map(triple).collect::<Vec<_>>()
-    });
+    let value = |((measured, base), (_, extended)): ((&Measurement, Mean), (&Measurement, Mean))| {
+        Observable::ALL.map(|observable| {
+            let predicted = [&base, &extended].map(|mean| observable.predicted(mean));
+            observable.measured(measured).map(|value| [value, predicted[0], predicted[1]])
+        })
+    };
+    let values: Vec<[Option<[f64; 3]>; 3]> = before.means().zip(after.means()).map(value).collect();
     let row = |(place, &row): (usize, &usize)| {
-        let [e_n, e_t, captured] = [0, 1, 2].map(|which| triples[which][place]);
         let cells = data.covariates.iter().map(|column| column.cell(row)).collect();
-        let errors = readings(&data.rows[row]).map(|reading| reading.and_then(|reading| reading.error));
-        SampleRow { held_out: place < held_out.len(), cells, errors, e_n, e_t, captured }
+        let Measurement { e_n, e_t, .. } = data.rows[row];
+        let errors = [e_n, e_t].map(|reading| reading.and_then(|reading| reading.error));
+        SampleRow { held_out: place < held_out.len(), cells, errors, values: values[place] }
     };
     let words = data.covariates.iter().map(|column| match &column.values {
         Values::Labels { levels, .. } => Some(levels.clone()),

@@ -52,9 +52,9 @@ pub(super) struct Mean {
     pub capture: f64,
 }
 
-/// The measured `e_n` and `e_t` of a row.
-pub(super) fn readings(row: &Measurement) -> [Option<Reading>; 2] {
-    [row.e_n, row.e_t]
+/// The measured ones of `e_n` (0) and `e_t` (1).
+fn readings(row: &Measurement) -> impl Iterator<Item = (usize, &Reading)> {
+    [&row.e_n, &row.e_t].into_iter().enumerate().filter_map(|(which, one)| Some((which, one.as_ref()?)))
 }
 
 /// The probability of capture with its offset, away from 0 and 1: no curve may gain from a claim of certainty.
@@ -139,8 +139,7 @@ fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, 
             continue;
         }
         let mut density = 1.0;
-        for (which, reading) in readings(row).iter().enumerate() {
-            let Some(reading) = reading else { continue };
+        for (which, reading) in readings(row) {
             let width = deviation(scatter[which], offset.spread, reading, 1.0, one.reach[which].powi(2));
             let residual = reading.value - (one.restitution[which] + offset.restitution[which]);
             density *= densities(residual, width).0;
@@ -157,8 +156,7 @@ fn score_average(row: &Measurement, predictions: &[Prediction], offset: &Offset,
     let mut score = row.captured.map_or(0.0, |share| {
         row.impacts * (share * mean.capture.ln() + (1.0 - share) * (1.0 - mean.capture).ln())
     });
-    for (which, reading) in readings(row).iter().enumerate() {
-        let Some(reading) = reading else { continue };
+    for (which, reading) in readings(row) {
         let width = deviation(scatter[which], offset.spread, reading, row.rebounds, mean.variance[which]);
         score += densities(reading.value - mean.restitution[which], width).0.ln();
     }
@@ -194,8 +192,7 @@ pub(super) fn add_squares(
     for one in predictions {
         let mut likelihood = (1.0 - capture(one, offset)) * one.weight;
         let mut terms = [[0.0; 2]; 2];
-        for (which, reading) in readings(row).iter().enumerate() {
-            let Some(reading) = reading else { continue };
+        for (which, reading) in readings(row) {
             let residual = reading.value - (one.restitution[which] + offset.restitution[which]);
             let variance = variance[which] + one.reach[which].powi(2);
             let width = deviation(scatter[which], offset.spread, reading, row.rebounds, variance);

@@ -1,6 +1,8 @@
 //! What a fit can add to a base model: an effect, or another value of a parameter of its laws.
 
 use super::data_split::DataSplit;
+use super::extend::rounded;
+use super::record::Estimate;
 use super::search::SearchAxis;
 use crate::effect::EffectInfo;
 use crate::model::Model;
@@ -126,5 +128,15 @@ impl FittedPart {
             values.extend(further.filter_map(|parameter| parameter.default));
         }
         values
+    }
+
+    /// The fitted parameters of an effect by name, with six digits; none before the final fit.
+    pub fn estimates(&self) -> impl Iterator<Item = (&'static str, Estimate)> {
+        let Self { part, intervals, .. } = self;
+        let parameters = if let Part::Effect(effect) = part { effect.parameters } else { &[] };
+        parameters.iter().zip(self.values()).zip(intervals).map(|((parameter, value), interval)| {
+            let [low, high] = interval.map(rounded);
+            (parameter.name, Estimate { value: rounded(value), low, high, unit: parameter.unit })
+        })
     }
 }

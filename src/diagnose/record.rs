@@ -280,10 +280,6 @@ pub struct SampleRow {
     pub cells: Vec<f64>,
     /// Stated standard errors of `e_n` and `e_t`.
     pub errors: [Option<f64>; 2],
-    /// `e_n`: measured, base model, extended model.
-    pub e_n: Option<[f64; 3]>,
-    /// `e_t`: measured, base model, extended model.
-    pub e_t: Option<[f64; 3]>,
-    /// Share captured: measured, base model, extended model.
-    pub captured: Option<[f64; 3]>,
+    /// `e_n`, `e_t` and share captured: measured, base model, extended model.
+    pub values: [Option<[f64; 3]>; 3],
 }

@@ -77,6 +77,16 @@ impl Basis {
         }
     }
 
+    /// The heights of the curve through the points; `None` where there are too few.
+    pub fn fit(&self, values: &Values, points: &[Point]) -> Option<Vec<f64>> {
+        ridge(&self.penalty(), points, |row| self.entry(values, row))
+    }
+
+    /// The height of a curve at a row, without the scale.
+    pub fn height(&self, heights: &[f64], values: &Values, row: usize) -> f64 {
+        sum(&self.entry(values, row), heights)
+    }
+
     /// The penalty on the heights: bends for numbers, size for labels.
     fn penalty(&self) -> DMatrix<f64> {
         let count = self.len();
@@ -115,13 +125,6 @@ fn hats(knots: &[f64], value: f64) -> Entry {
     vec![(right - 1, 1.0 - share), (right, share)]
 }
 
-/// A fitted curve.
-#[derive(Debug, Clone)]
-pub(super) struct Curve {
-    pub basis: Basis,
-    pub heights: Vec<f64>,
-}
-
 /// One row as a curve is fitted to it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
@@ -135,37 +138,24 @@ pub(super) struct Point {
     pub scale: f64,
 }
 
-impl Curve {
-    /// The curve through the points; `None` where there are too few.
-    pub fn fit(values: &Values, basis: &Basis, points: &[Point]) -> Option<Self> {
-        let entries = points
-            .iter()
-            .map(|point| scaled(basis.entry(values, point.row), point.scale))
-            .collect::<Vec<_>>();
-        let heights = ridge(basis.len(), &basis.penalty(), &entries, points)?;
-        Some(Self { basis: basis.clone(), heights })
-    }
-
-    /// Its height at a row, without the scale.
-    pub fn at(&self, values: &Values, row: usize) -> f64 {
-        self.basis.entry(values, row).iter().map(|&(place, share)| share * self.heights[place]).sum()
-    }
+/// The sum of the basis functions of a row, each with its height.
+fn sum(entry: &Entry, heights: &[f64]) -> f64 {
+    entry.iter().map(|&(place, share)| share * heights[place]).sum()
 }
 
-fn scaled(mut entry: Entry, factor: f64) -> Entry {
-    entry.iter_mut().for_each(|(_, value)| *value *= factor);
-    entry
-}
-
-/// Penalised least squares with the penalty of smallest generalised cross-validation error.
-fn ridge(count: usize, penalty: &DMatrix<f64>, entries: &[Entry], points: &[Point]) -> Option<Vec<f64>> {
+/// Heights of the basis functions `entry` of each row: penalised least squares with the penalty of smallest generalised
+/// cross-validation error. `None` where there are too few points.
+fn ridge(penalty: &DMatrix<f64>, points: &[Point], entry: impl Fn(usize) -> Entry) -> Option<Vec<f64>> {
+    let count = penalty.nrows();
     let mut normal: DMatrix<f64> = DMatrix::zeros(count, count);
     let mut right: DVector<f64> = DVector::zeros(count);
     let (mut square, mut weights) = (0.0_f64, 0.0_f64);
-    for (entry, point) in entries.iter().zip(points) {
-        for &(a, x) in entry {
+    for point in points {
+        let mut entry = entry(point.row);
+        entry.iter_mut().for_each(|(_, value)| *value *= point.scale);
+        for &(a, x) in &entry {
             right[a] += point.weight * x * point.residual;
-            for &(b, y) in entry {
+            for &(b, y) in &entry {
                 normal[(a, b)] += point.weight * x * y;
             }
         }
@@ -207,19 +197,18 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
     // The second pass distributes the effect over correlated columns (backfitting).
     for _ in 0..2 {
         for (basis, values) in &own {
-            if let Some(curve) = Curve::fit(values, basis, &left) {
-                take(&mut left, &|row| curve.at(values, row));
+            if let Some(heights) = basis.fit(values, &left) {
+                take(&mut left, &|row| basis.height(&heights, values, row));
             }
         }
     }
     for first in 0..own.len() {
         for (basis, values) in own[first + 1..].iter().chain(&others) {
             let pair = [(&own[first].0, &own[first].1), (basis, values)];
-            if let Some(heights) = fit_pair(&pair, &left) {
-                let at = |row: usize| {
-                    pair_entry(&pair, row, 1.0).iter().map(|&(place, share)| share * heights[place]).sum()
-                };
-                take(&mut left, &at);
+            let count = pair[0].0.len() * basis.len();
+            let entry = |row: usize| products(&pair, row);
+            if let Some(heights) = ridge(&DMatrix::identity(count, count), &left, entry) {
+                take(&mut left, &|row| sum(&entry(row), &heights));
             }
         }
     }
@@ -233,17 +222,11 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
 }
 
 /// The basis functions of an interaction: all products.
-fn pair_entry(pair: &[(&Basis, &Values); 2], row: usize, factor: f64) -> Entry {
+fn products(pair: &[(&Basis, &Values); 2], row: usize) -> Entry {
     let [one, two] = pair.map(|(basis, values)| basis.entry(values, row));
     let wide = pair[1].0.len();
-    let product = |&(a, x): &(usize, f64)| two.iter().map(move |&(b, y)| (a * wide + b, x * y * factor));
+    let product = |&(a, x): &(usize, f64)| two.iter().map(move |&(b, y)| (a * wide + b, x * y));
     one.iter().flat_map(product).collect()
-}
-
-fn fit_pair(pair: &[(&Basis, &Values); 2], points: &[Point]) -> Option<Vec<f64>> {
-    let count = pair[0].0.len() * pair[1].0.len();
-    let entries: Vec<Entry> = points.iter().map(|point| pair_entry(pair, point.row, point.scale)).collect();
-    ridge(count, &DMatrix::identity(count, count), &entries, points)
 }
 
 #[cfg(test)]
@@ -260,9 +243,9 @@ mod tests {
         let values = Values::Numbers(x.clone());
         let rows: Vec<usize> = (0..200).collect();
         let basis = Basis::of(&values, &rows).unwrap();
-        let curve = Curve::fit(&values, &basis, &points(200, |i| (3.0 * x[i]).sin())).unwrap();
-        let worst =
-            rows.iter().map(|&i| (curve.at(&values, i) - (3.0 * x[i]).sin()).abs()).fold(0.0, f64::max);
+        let heights = basis.fit(&values, &points(200, |i| (3.0 * x[i]).sin())).unwrap();
+        let error = |&i: &usize| (basis.height(&heights, &values, i) - (3.0 * x[i]).sin()).abs();
+        let worst = rows.iter().map(error).fold(0.0, f64::max);
         assert!(worst < 0.03, "{worst}");
     }
 
@@ -272,8 +255,8 @@ mod tests {
         let values = Values::Labels { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
         let rows: Vec<usize> = (0..60).collect();
         let basis = Basis::of(&values, &rows).unwrap();
-        let curve = Curve::fit(&values, &basis, &points(60, |i| [0.5, -0.25, -0.25][i % 3])).unwrap();
-        assert!((curve.at(&values, 0) - 0.5).abs() < 0.01);
+        let heights = basis.fit(&values, &points(60, |i| [0.5, -0.25, -0.25][i % 3])).unwrap();
+        assert!((basis.height(&heights, &values, 0) - 0.5).abs() < 0.01);
         let labels = Values::Labels {
             levels: (0..30).map(|i| i.to_string()).collect(),
             of_row: (0..60).map(|i| Some(i % 30)).collect(),

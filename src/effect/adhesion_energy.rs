@@ -16,14 +16,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     about: "the work of adhesion differs from that of the surface energies",
     inputs: &[],
     stream: None,
-    parameters: &[Parameter {
-        name: "work_of_adhesion",
-        unit: "J/m2",
-        bounds: (0.0, 1e3),
-        default: None,
-        search: Search::Log(1e-3, 20.0),
-        about: "work that separates a unit of contact area",
-    }],
+    parameters: &[Parameter::new("work_of_adhesion", "J/m2", (0.0, 1e3), Search::Log(1e-3, 20.0))
+        .about("work that separates a unit of contact area")],
     build: |values| Box::new(AdhesionEnergy { work_of_adhesion: values[0] }),
 };
 

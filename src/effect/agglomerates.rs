@@ -20,30 +20,12 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &[],
     stream: Some(stream::AGGLOMERATES),
     parameters: &[
-        Parameter {
-            name: "fraction",
-            unit: "1",
-            bounds: (0.0, 1.0),
-            default: None,
-            search: Search::Linear(0.03, 0.6),
-            about: "share of the rebounds that are agglomerates'",
-        },
-        Parameter {
-            name: "restitution",
-            unit: "1",
-            bounds: (0.0, 1.5),
-            default: None,
-            search: Search::Linear(0.5, 1.0),
-            about: "mean e_n of agglomerates",
-        },
-        Parameter {
-            name: "spread",
-            unit: "1",
-            bounds: (0.0, 0.5),
-            default: None,
-            search: Search::Log(0.01, 0.2),
-            about: "standard deviation of e_n of agglomerates",
-        },
+        Parameter::new("fraction", "1", (0.0, 1.0), Search::Linear(0.03, 0.6))
+            .about("share of the rebounds that are agglomerates'"),
+        Parameter::new("restitution", "1", (0.0, 1.5), Search::Linear(0.5, 1.0))
+            .about("mean e_n of agglomerates"),
+        Parameter::new("spread", "1", (0.0, 0.5), Search::Log(0.01, 0.2))
+            .about("standard deviation of e_n of agglomerates"),
     ],
     build: |values| Box::new(Agglomerates { fraction: values[0], restitution: values[1], spread: values[2] }),
 };

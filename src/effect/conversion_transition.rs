@@ -18,30 +18,13 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["conversion"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "threshold",
-            unit: "1",
-            bounds: (0.0, 1.0),
-            default: None,
-            search: Search::InputRange("conversion"),
-            about: "carbon conversion at which half of the impacts stick",
-        },
-        Parameter {
-            name: "width",
-            unit: "1",
-            bounds: (1e-6, 10.0),
-            default: None,
-            search: Search::InputWidth("conversion"),
-            about: "conversion over which the odds of sticking change by e",
-        },
-        Parameter {
-            name: "softening",
-            unit: "1",
-            bounds: (0.0, 1.0),
-            default: Some(0.0),
-            search: Search::Linear(0.0, 1.0),
-            about: "share of e_n that a sticky particle loses where it still rebounds",
-        },
+        Parameter::new("threshold", "1", (0.0, 1.0), Search::InputRange("conversion"))
+            .about("carbon conversion at which half of the impacts stick"),
+        Parameter::new("width", "1", (1e-6, 10.0), Search::InputWidth("conversion"))
+            .about("conversion over which the odds of sticking change by e"),
+        Parameter::new("softening", "1", (0.0, 1.0), Search::Linear(0.0, 1.0))
+            .default(0.0)
+            .about("share of e_n that a sticky particle loses where it still rebounds"),
         ASYMMETRY,
     ],
     build: |values| transition(Variable::Conversion, values),

@@ -18,14 +18,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     about: "gas that flows along the wall raises e_n of glancing impacts",
     inputs: &["v_gas", "v_t"],
     stream: None,
-    parameters: &[Parameter {
-        name: "strength",
-        unit: "s/m",
-        bounds: (0.0, 10.0),
-        default: None,
-        search: Search::Log(1e-3, 1.0),
-        about: "relative gain of e_n of a grazing impact per gas speed",
-    }],
+    parameters: &[Parameter::new("strength", "s/m", (0.0, 10.0), Search::Log(1e-3, 1.0))
+        .about("relative gain of e_n of a grazing impact per gas speed")],
     build: |values| Box::new(GasLift { strength: values[0] }),
 };
 

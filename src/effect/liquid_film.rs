@@ -25,22 +25,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["film_thickness", "v_n", "d"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "viscosity",
-            unit: "Pa s",
-            bounds: (0.0, 1e6),
-            default: None,
-            search: Search::Log(1e-4, 10.0),
-            about: "viscosity of the film",
-        },
-        Parameter {
-            name: "asperity",
-            unit: "m",
-            bounds: (1e-12, 1.0),
-            default: None,
-            search: Search::Log(1e-8, 1e-4),
-            about: "distance at which the solids touch through the film",
-        },
+        Parameter::new("viscosity", "Pa s", (0.0, 1e6), Search::Log(1e-4, 10.0))
+            .about("viscosity of the film"),
+        Parameter::new("asperity", "m", (1e-12, 1.0), Search::Log(1e-8, 1e-4))
+            .about("distance at which the solids touch through the film"),
     ],
     build: |values| Box::new(LiquidFilm { viscosity: values[0], asperity: values[1] }),
 };

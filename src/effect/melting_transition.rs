@@ -19,30 +19,13 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["T_p"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "temperature",
-            unit: "K",
-            bounds: (1.0, 1e4),
-            default: None,
-            search: Search::InputRange("T_p"),
-            about: "particle temperature at which half of the impacts stick",
-        },
-        Parameter {
-            name: "width",
-            unit: "K",
-            bounds: (1e-3, 1e4),
-            default: None,
-            search: Search::InputWidth("T_p"),
-            about: "temperature over which the odds of sticking change by e",
-        },
-        Parameter {
-            name: "softening",
-            unit: "1",
-            bounds: (0.0, 1.0),
-            default: Some(1.0),
-            search: Search::Linear(0.0, 1.0),
-            about: "share of e_n that a molten particle loses where it still rebounds",
-        },
+        Parameter::new("temperature", "K", (1.0, 1e4), Search::InputRange("T_p"))
+            .about("particle temperature at which half of the impacts stick"),
+        Parameter::new("width", "K", (1e-3, 1e4), Search::InputWidth("T_p"))
+            .about("temperature over which the odds of sticking change by e"),
+        Parameter::new("softening", "1", (0.0, 1.0), Search::Linear(0.0, 1.0))
+            .default(1.0)
+            .about("share of e_n that a molten particle loses where it still rebounds"),
         ASYMMETRY,
     ],
     build: |values| transition(Variable::Temperature, values),

@@ -23,14 +23,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     about: "the wall is tilted at random where it is hit",
     inputs: &["v_t", "v_n"],
     stream: Some(stream::MICRO_ROUGHNESS),
-    parameters: &[Parameter {
-        name: "angle",
-        unit: "rad",
-        bounds: (0.0, 1.0),
-        default: None,
-        search: Search::Log(0.01, 0.5),
-        about: "standard deviation of the facets' tilt",
-    }],
+    parameters: &[Parameter::new("angle", "rad", (0.0, 1.0), Search::Log(0.01, 0.5))
+        .about("standard deviation of the facets' tilt")],
     build: |values| Box::new(MicroRoughness { angle: values[0] }),
 };
 

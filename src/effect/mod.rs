@@ -137,6 +137,21 @@ pub struct Parameter {
     pub about: &'static str,
 }
 
+impl Parameter {
+    /// A parameter that the model file must give.
+    const fn new(name: &'static str, unit: &'static str, bounds: (f64, f64), search: Search) -> Self {
+        Self { name, unit, bounds, default: None, search, about: "" }
+    }
+
+    const fn default(self, value: f64) -> Self {
+        Self { default: Some(value), ..self }
+    }
+
+    const fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
+    }
+}
+
 /// Range in which a fit searches a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Search {
@@ -275,26 +290,13 @@ fn bounded(factor: f64) -> f64 {
 mod testing {
     use crate::material::Library;
     use crate::normal::Contact;
-    use crate::tangential::ImpactKinematics;
+    pub use crate::tangential::testing::{kinematics, momentum_is_kept};
 
     /// Troiano's wax on Pyrex, with `c = 0.7`.
     pub fn wax_on_pyrex() -> Contact {
         let library = Library::built_in().unwrap();
         let solid = |name: &str| library.get(name).unwrap().mechanical(293.15).unwrap();
         Contact::new(&solid("montan-wax"), &solid("pyrex"), 0.7, None)
-    }
-
-    /// Wax that hits at 1 m/s under `alpha` [degrees] from the surface.
-    pub fn kinematics(alpha: f64, spin: f64) -> ImpactKinematics {
-        let (normal_speed, tangential_speed) = alpha.to_radians().sin_cos();
-        ImpactKinematics {
-            normal_speed,
-            tangential_speed,
-            diameter: 75e-6,
-            spin,
-            normal_restitution: 0.39,
-            stiffness_ratio: 0.676,
-        }
     }
 
     /// Evenly spaced numbers in (0, 1).

@@ -17,14 +17,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     about: "adhesion is drawn between a part and all of its value on smooth solids",
     inputs: &[],
     stream: Some(stream::NANO_ROUGHNESS),
-    parameters: &[Parameter {
-        name: "spread",
-        unit: "1",
-        bounds: (0.0, 1.0),
-        default: None,
-        search: Search::Linear(0.2, 1.0),
-        about: "largest share of the work of adhesion that roughness takes",
-    }],
+    parameters: &[Parameter::new("spread", "1", (0.0, 1.0), Search::Linear(0.2, 1.0))
+        .about("largest share of the work of adhesion that roughness takes")],
     build: |values| Box::new(NanoRoughness { spread: values[0] }),
 };
 

@@ -21,30 +21,14 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["v_t", "v_n"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "strength",
-            unit: "1",
-            bounds: (-20.0, 20.0),
-            default: None,
-            search: Search::Linear(-1.5, 3.0),
-            about: "loss of ln e_n of a grazing impact at v_n = 1 m/s; negative for a gain",
-        },
-        Parameter {
-            name: "speed_exponent",
-            unit: "1",
-            bounds: (0.0, 3.0),
-            default: None,
-            search: Search::Linear(0.0, 1.5),
-            about: "power of v_n with which the loss grows",
-        },
-        Parameter {
-            name: "sharpness",
-            unit: "1",
-            bounds: (0.1, 20.0),
-            default: Some(2.0),
-            search: Search::Linear(0.5, 4.0),
-            about: "power of sin² of the angle from the normal: the higher, the more only glancing impacts are concerned",
-        },
+        Parameter::new("strength", "1", (-20.0, 20.0), Search::Linear(-1.5, 3.0))
+            .about("loss of ln e_n of a grazing impact at v_n = 1 m/s; negative for a gain"),
+        Parameter::new("speed_exponent", "1", (0.0, 3.0), Search::Linear(0.0, 1.5))
+            .about("power of v_n with which the loss grows"),
+        Parameter::new("sharpness", "1", (0.1, 20.0), Search::Linear(0.5, 4.0)).default(2.0).about(
+            "power of sin² of the angle from the normal: the higher, the more \
+                 only glancing impacts are concerned",
+        ),
     ],
     build: |values| {
         Box::new(ObliqueAngle { strength: values[0], speed_exponent: values[1], sharpness: values[2] })

@@ -18,22 +18,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["layer_thickness"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "thickness",
-            unit: "m",
-            bounds: (1e-9, 1.0),
-            default: None,
-            search: Search::InputWidth("layer_thickness"),
-            about: "layer thickness over which the loss builds up",
-        },
-        Parameter {
-            name: "residual",
-            unit: "1",
-            bounds: (0.0, 1.0),
-            default: None,
-            search: Search::Linear(0.0, 0.95),
-            about: "share of e_n left over a thick layer",
-        },
+        Parameter::new("thickness", "m", (1e-9, 1.0), Search::InputWidth("layer_thickness"))
+            .about("layer thickness over which the loss builds up"),
+        Parameter::new("residual", "1", (0.0, 1.0), Search::Linear(0.0, 0.95))
+            .about("share of e_n left over a thick layer"),
     ],
     build: |values| Box::new(PowderLayer { thickness: values[0], residual: values[1] }),
 };

@@ -18,22 +18,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["d"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "diameter",
-            unit: "m",
-            bounds: (1e-9, 1.0),
-            default: None,
-            search: Search::Log(1e-8, 1e-2),
-            about: "diameter for which the material's yield strength holds",
-        },
-        Parameter {
-            name: "exponent",
-            unit: "1",
-            bounds: (0.0, 3.0),
-            default: None,
-            search: Search::Linear(0.1, 1.5),
-            about: "power with which the strength rises as the size falls",
-        },
+        Parameter::new("diameter", "m", (1e-9, 1.0), Search::Log(1e-8, 1e-2))
+            .about("diameter for which the material's yield strength holds"),
+        Parameter::new("exponent", "1", (0.0, 3.0), Search::Linear(0.1, 1.5))
+            .about("power with which the strength rises as the size falls"),
     ],
     build: |values| Box::new(SizeDependentYield { diameter: values[0], exponent: values[1] }),
 };

@@ -16,14 +16,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     about: "sliding ends at a critical angle, beyond which the particle rolls",
     inputs: &["v_t", "v_n"],
     stream: None,
-    parameters: &[Parameter {
-        name: "friction",
-        unit: "1",
-        bounds: (0.0, 10.0),
-        default: None,
-        search: Search::Linear(0.03, 0.9),
-        about: "friction coefficient of the sliding contact",
-    }],
+    parameters: &[Parameter::new("friction", "1", (0.0, 10.0), Search::Linear(0.03, 0.9))
+        .about("friction coefficient of the sliding contact")],
     build: |values| Box::new(SlidingToRolling { friction: values[0] }),
 };
 

@@ -19,22 +19,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["v_n"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "speed",
-            unit: "m/s",
-            bounds: (1e-6, 1e4),
-            default: None,
-            search: Search::Log(1e-3, 1e3),
-            about: "speed towards the wall at which the material's yield strength holds",
-        },
-        Parameter {
-            name: "exponent",
-            unit: "1",
-            bounds: (0.0, 2.0),
-            default: None,
-            search: Search::Linear(0.03, 0.8),
-            about: "power with which the strength rises with the speed",
-        },
+        Parameter::new("speed", "m/s", (1e-6, 1e4), Search::Log(1e-3, 1e3))
+            .about("speed towards the wall at which the material's yield strength holds"),
+        Parameter::new("exponent", "1", (0.0, 2.0), Search::Linear(0.03, 0.8))
+            .about("power with which the strength rises with the speed"),
     ],
     build: |values| Box::new(StrainRateHardening { speed: values[0], exponent: values[1] }),
 };

@@ -18,22 +18,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["T_p"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "onset",
-            unit: "K",
-            bounds: (0.0, 1e4),
-            default: None,
-            search: Search::InputRange("T_p"),
-            about: "particle temperature from which it softens",
-        },
-        Parameter {
-            name: "scale",
-            unit: "K",
-            bounds: (1.0, 1e5),
-            default: None,
-            search: Search::InputWidth("T_p"),
-            about: "temperature over which the yield strength falls by e",
-        },
+        Parameter::new("onset", "K", (0.0, 1e4), Search::InputRange("T_p"))
+            .about("particle temperature from which it softens"),
+        Parameter::new("scale", "K", (1.0, 1e5), Search::InputWidth("T_p"))
+            .about("temperature over which the yield strength falls by e"),
     ],
     build: |values| Box::new(ThermalSoftening { onset: values[0], scale: values[1] }),
 };

@@ -9,14 +9,10 @@ use crate::impact::Impact;
 use crate::vector_math::exponential;
 
 /// Last parameter of both effects.
-pub(super) const ASYMMETRY: Parameter = Parameter {
-    name: "asymmetry",
-    unit: "1",
-    bounds: (0.01, 100.0),
-    default: Some(1.0),
-    search: Search::Log(0.2, 10.0),
-    about: "above 1 the rise begins steeply and ends slowly, below 1 the other way round",
-};
+pub(super) const ASYMMETRY: Parameter =
+    Parameter::new("asymmetry", "1", (0.01, 100.0), Search::Log(0.2, 10.0))
+        .default(1.0)
+        .about("above 1 the rise begins steeply and ends slowly, below 1 the other way round");
 
 /// The input that stickiness rises over.
 #[derive(Debug, Clone, Copy, PartialEq)]

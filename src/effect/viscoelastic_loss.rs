@@ -18,22 +18,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["v_n"],
     stream: None,
     parameters: &[
-        Parameter {
-            name: "speed",
-            unit: "m/s",
-            bounds: (1e-6, 1e9),
-            default: None,
-            search: Search::Log(0.5, 200.0),
-            about: "speed towards the wall at which the loss leaves 1/e of e_n",
-        },
-        Parameter {
-            name: "exponent",
-            unit: "1",
-            bounds: (0.1, 3.0),
-            default: None,
-            search: Search::Linear(0.2, 1.5),
-            about: "power with which the loss grows with the speed",
-        },
+        Parameter::new("speed", "m/s", (1e-6, 1e9), Search::Log(0.5, 200.0))
+            .about("speed towards the wall at which the loss leaves 1/e of e_n"),
+        Parameter::new("exponent", "1", (0.1, 3.0), Search::Linear(0.2, 1.5))
+            .about("power with which the loss grows with the speed"),
     ],
     build: |values| Box::new(ViscoelasticLoss { speed: values[0], exponent: values[1] }),
 };

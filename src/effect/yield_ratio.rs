@@ -16,14 +16,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     about: "the limiting contact pressure over the yield strength differs from the assumed one",
     inputs: &[],
     stream: None,
-    parameters: &[Parameter {
-        name: "ratio",
-        unit: "1",
-        bounds: (1e-6, 1e6),
-        default: None,
-        search: Search::Log(0.2, 12.0),
-        about: "limiting contact pressure over yield strength, p_y / sigma_y",
-    }],
+    parameters: &[Parameter::new("ratio", "1", (1e-6, 1e6), Search::Log(0.2, 12.0))
+        .about("limiting contact pressure over yield strength, p_y / sigma_y")],
     build: |values| Box::new(YieldRatio { ratio: values[0] }),
 };
 

@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::wall::Wall;
-use crate::capture::{MeltStickiness, ParticleStickiness, Stickiness};
+use crate::capture::{ParticleStickiness, Stickiness};
 use crate::deposit::{CapturedParticles, Deposit, DepositSource, wetting};
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
@@ -95,19 +95,13 @@ impl Model {
     /// [`ImpactError::NoSuchWall`], or an unknown density.
     pub fn melt(&self, wall: usize, temperature: f64) -> Result<WallMelt, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let viscosity = |melt: &dyn ParticleStickiness| melt.film_viscosity(temperature);
         let (material, viscosity) = match &wall.slag {
-            Some(slag) => {
-                (slag, wall.melt.as_ref().map(|melt: &MeltStickiness| melt.film_viscosity(temperature)))
-            }
-            None => (
-                &self.particle,
-                self.stickiness.as_ref().map(|s: &ParticleStickiness| s.film_viscosity(temperature)),
-            ),
+            Some(slag) => (slag, wall.melt.as_ref().map(|melt| viscosity(melt))),
+            None => (&self.particle, self.stickiness.as_deref().map(viscosity)),
         };
-        Ok(WallMelt {
-            density: density_near(material, temperature)?,
-            viscosity: viscosity.unwrap_or(f64::INFINITY),
-        })
+        let viscosity = viscosity.unwrap_or(f64::INFINITY);
+        Ok(WallMelt { density: density_near(material, temperature)?, viscosity })
     }
 
     /// Stickiness of the wall [1]: the larger of that of its slag and that of the melt from earlier particles, where the melt wets
@@ -123,8 +117,8 @@ impl Model {
 
     /// Whether the melt on the wall is within the range for which the capture criterion is stated.
     pub(super) fn melt_holds(&self, impact: &Impact) -> bool {
-        let holds = |criterion: &ParticleStickiness| criterion.holds_at(impact.wall_temperature);
-        impact.melt_thickness == 0.0 || self.stickiness.as_ref().is_none_or(holds)
+        let mut criteria = self.stickiness.iter();
+        impact.melt_thickness == 0.0 || criteria.all(|criterion| criterion.holds_at(impact.wall_temperature))
     }
 
     /// Stickiness [1] of the particle's material on the wall, at the wall's temperature and with a conversion [1]: the product of

@@ -3,7 +3,7 @@
 use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
 use super::tilted_frame::TiltedFrame;
 use super::{Model, Wall};
-use crate::capture::{ParticleStickiness, Stickiness};
+use crate::capture::{ParticleStickiness as _, Stickiness};
 use crate::effect::{Term, stream};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
@@ -179,8 +179,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     }
 
     fn is_droplet(&self, impact: &Impact) -> bool {
-        let splashes = |criterion: &ParticleStickiness| criterion.is_droplet(impact.particle_temperature);
-        self.model.stickiness.as_ref().is_some_and(splashes)
+        self.model
+            .stickiness
+            .as_ref()
+            .is_some_and(|criterion| criterion.is_droplet(impact.particle_temperature))
     }
 
     fn trace(&mut self, term: &'static str, quantity: &'static str, value: f64) {

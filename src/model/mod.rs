@@ -16,8 +16,9 @@ mod tilted_frame;
 mod wall;
 
 use std::path::Path;
+use std::sync::Arc;
 
-use crate::capture::{Criterion, MeltStickiness, ParticleStickiness};
+use crate::capture::{Criterion, ParticleStickiness};
 use crate::effect::Term;
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::input::{Document, InputError};
@@ -36,7 +37,7 @@ pub struct Model {
     particle: Material,
     criterion: Option<Criterion>,
     /// The criterion for the particle's material, where it applies to that.
-    stickiness: Option<ParticleStickiness>,
+    stickiness: Option<Arc<dyn ParticleStickiness>>,
     walls: Vec<Wall>,
     normal: NormalLaw,
     tangential: TangentialLaw,
@@ -142,8 +143,8 @@ impl Model {
             overlap([material.known_range()].into_iter().chain(stickiness))
         };
         Ok(TemperatureRanges {
-            particle: range(&self.particle, self.stickiness.as_ref().map(ParticleStickiness::known_range)),
-            wall: range(wall.material(), wall.melt.as_ref().map(MeltStickiness::known_range)),
+            particle: range(&self.particle, self.stickiness.as_ref().map(|s| s.known_range())),
+            wall: range(wall.material(), wall.melt.as_ref().map(|melt| melt.known_range())),
         })
     }
 

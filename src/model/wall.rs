@@ -71,7 +71,7 @@ impl Wall {
     /// Stickiness of the wall [1]: that of its slag where no powder or char covers it, else 0.
     pub(super) fn stickiness(&self, impact: &Impact) -> Result<f64, ImpactError> {
         match &self.melt {
-            Some(melt) => Ok(melt.at(impact.wall_temperature)? * (1.0 - impact.coverage)),
+            Some(melt) => Ok(melt.probability(impact.wall_temperature)? * (1.0 - impact.coverage)),
             None => Ok(0.0),
         }
     }

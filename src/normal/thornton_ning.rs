@@ -164,16 +164,17 @@ mod tests {
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
+    /// A solid of these properties, in the order of [`Mechanical`].
+    fn solid(
+        [density, youngs_modulus, poisson_ratio, yield_strength, surface_energy]: [f64; 5],
+    ) -> Mechanical {
+        Mechanical { density, youngs_modulus, poisson_ratio, yield_strength, surface_energy }
+    }
+
     /// Found by fuzzing: half of this diameter is 0.
     #[test]
     fn without_adhesion_nothing_adheres_at_any_diameter() {
-        let solid = Mechanical {
-            density: 1000.0,
-            youngs_modulus: 1e9,
-            poisson_ratio: 0.3,
-            yield_strength: 1e7,
-            surface_energy: 0.03,
-        };
+        let solid = solid([1000.0, 1e9, 0.3, 1e7, 0.03]);
         let contact = Contact::new(&solid, &solid, 1.0, Some(0.0));
         for diameter in [5e-324, 1e-300, 1e-4, f64::MAX] {
             assert_eq!(adhesive_velocity(&contact, diameter), 0.0);
@@ -222,20 +223,8 @@ mod tests {
     }
 
     fn wax_on(gamma: f64, youngs_modulus: f64, poisson_ratio: f64) -> Contact {
-        let wax = Mechanical {
-            density: 1000.0,
-            youngs_modulus: 700e6,
-            poisson_ratio: 0.49,
-            yield_strength: 9.5e6,
-            surface_energy: 0.03,
-        };
-        let target = Mechanical {
-            density: 2000.0,
-            youngs_modulus,
-            poisson_ratio,
-            yield_strength: 1e9,
-            surface_energy: gamma,
-        };
+        let wax = solid([1000.0, 700e6, 0.49, 9.5e6, 0.03]);
+        let target = solid([2000.0, youngs_modulus, poisson_ratio, 1e9, gamma]);
         Contact::new(&wax, &target, 0.7, None)
     }
 

@@ -61,7 +61,22 @@ impl Table {
         let header = header.iter().map(|&head| head.to_owned()).collect();
         Self { caption: caption.to_owned(), header, rows, text_columns }
     }
+
+    /// A table with a row for each item; a column is its head and the text that it shows of an item.
+    pub fn of_items<T>(
+        caption: &str,
+        text_columns: usize,
+        items: &[T],
+        columns: &[TableColumn<'_, T>],
+    ) -> Self {
+        let row = |item: &T| columns.iter().map(|(_, text)| text(item)).collect();
+        let header: Vec<&str> = columns.iter().map(|(head, _)| *head).collect();
+        Self::new(caption, text_columns, &header, items.iter().map(row).collect())
+    }
 }
+
+/// Head of a column, and its text for an item.
+pub type TableColumn<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 
 /// A page under construction; sections appear in the order in which they are added.
 #[derive(Debug, Clone, PartialEq, Template)]

@@ -12,30 +12,13 @@ use super::{Chart, ErrorBars, Figure, Page, Table, number};
 /// Why a table cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
-    /// The file cannot be read as CSV.
-    #[error("{file}: {reason}")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// What is wrong.
-        reason: String,
-    },
-    /// A line does not fit the header, or is no text.
-    #[error("{file}:{line}: {reason}")]
-    BadLine {
-        /// The file.
-        file: String,
-        /// The line, from 1.
-        line: u64,
-        /// What is wrong and what to do.
-        reason: String,
-    },
+    /// The file cannot be read as CSV, or a line does not fit the header: the file, with the line if it is known, and what
+    /// is wrong.
+    #[error("{0}: {1}")]
+    Unreadable(String, String),
     /// No column has a published partner.
-    #[error("{file}:1: no quantity to draw; a column `Q` is drawn when a column `Q_paper` stands beside it")]
-    NothingToDraw {
-        /// The file.
-        file: String,
-    },
+    #[error("{0}:1: no quantity to draw; a column `Q` is drawn when a column `Q_paper` stands beside it")]
+    NothingToDraw(String),
     /// The page cannot be filled.
     #[error(transparent)]
     Page(#[from] askama::Error),
@@ -48,8 +31,7 @@ struct Runs {
 
 /// The error of a file as a message.
 fn fault(path: &Path, error: &csv::Error) -> SweepError {
-    let file = path.display().to_string();
-    let line = error.position().map(csv::Position::line);
+    let line = error.position().map_or(String::new(), |position| format!(":{}", position.line()));
     let reason = match error.kind() {
         csv::ErrorKind::Io(error) => error.to_string(),
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => format!(
@@ -59,10 +41,7 @@ fn fault(path: &Path, error: &csv::Error) -> SweepError {
         csv::ErrorKind::Utf8 { .. } => "not UTF-8; save the table as UTF-8".to_owned(),
         _ => error.to_string(),
     };
-    match line {
-        Some(line) => SweepError::BadLine { file, line, reason },
-        None => SweepError::Unreadable { file, reason },
-    }
+    SweepError::Unreadable(format!("{}{line}", path.display()), reason)
 }
 
 impl Runs {
@@ -127,7 +106,7 @@ pub fn page(path: &Path) -> Result<String, SweepError> {
     let runs = Runs::read(path)?;
     let file = path.display().to_string();
     let variable = runs.header.get(1).cloned().unwrap_or_default();
-    let nothing = || SweepError::NothingToDraw { file: file.clone() };
+    let nothing = || SweepError::NothingToDraw(file.clone());
     let x = runs.numbers(&variable).ok_or_else(nothing)?;
     if runs.quantities().is_empty() || runs.rows.is_empty() {
         return Err(nothing());

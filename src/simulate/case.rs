@@ -73,25 +73,24 @@ pub struct Reference {
 }
 
 /// Quantities that a sweep can change. `temperature` sets gas, particles and walls.
-pub const SWEEP_KEYS: [&str; 8] = [
-    "temperature",
-    "gas_temperature",
-    "wall_temperature",
-    SWEEPABLE[0],
-    SWEEPABLE[1],
-    SWEEPABLE[2],
-    SWEEPABLE[3],
-    SWEEPABLE[4],
-];
+pub const SWEEP_KEYS: [&str; 8] = {
+    let [diameter, speed, angle, particle, conversion] = SWEEPABLE;
+    ["temperature", "gas_temperature", "wall_temperature", diameter, speed, angle, particle, conversion]
+};
 
 /// The unit of one of [`SWEEP_KEYS`].
 pub fn sweep_unit(key: &str) -> &'static str {
+    unit_and_range(key).0
+}
+
+/// The unit of one of [`SWEEP_KEYS`] and the values that it may have.
+fn unit_and_range(key: &str) -> (&'static str, [f64; 2]) {
     match key {
-        "diameter" => "m",
-        "speed" => "m/s",
-        "angle_deg" => "°",
-        "conversion" => "1",
-        _ => "K",
+        "diameter" => ("m", [f64::MIN_POSITIVE, 1.0]),
+        "speed" => ("m/s", [0.0, 1e5]),
+        "angle_deg" => ("°", [-90.0, 90.0]),
+        "conversion" => ("1", [0.0, 1.0]),
+        _ => ("K", [1.0, 1e5]),
     }
 }
 
@@ -152,10 +151,8 @@ impl Case {
     /// # Errors
     /// [`ImpactError::OutOfRange`] when neither the case nor the model gives it at this temperature.
     pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
-        match self.injection.density {
-            Some(density) => Ok(density),
-            None => Ok(self.model.particle().mechanical(temperature)?.density),
-        }
+        let of_model = || Ok(self.model.particle().mechanical(temperature)?.density);
+        self.injection.density.map_or_else(of_model, Ok)
     }
 
     /// Sets the swept quantity.
@@ -184,14 +181,9 @@ impl Case {
 
     /// Checks before the first run that every value of the sweep can be set.
     fn try_sweep(&self, top: &Section<'_>) -> Result<(), InputError> {
-        let Some(sweep) = &self.sweep else { return Ok(()) };
-        if !["temperature", "gas_temperature"].contains(&sweep.key.as_str()) {
-            return Ok(());
-        }
-        for value in &sweep.values {
-            self.gas.known_at(*value).map_err(|problem| top.fault("sweep", problem))?;
-        }
-        Ok(())
+        let of_gas = |sweep: &&Sweep| ["temperature", "gas_temperature"].contains(&sweep.key.as_str());
+        let mut values = self.sweep.iter().filter(of_gas).flat_map(|sweep| &sweep.values);
+        values.try_for_each(|value| self.gas.known_at(*value).map_err(|problem| top.fault("sweep", problem)))
     }
 }
 
@@ -220,13 +212,7 @@ fn read_sweep(section: &Section<'_>) -> Result<Sweep, InputError> {
     if values.is_empty() {
         return Err(section.missing("values", "a list of numbers"));
     }
-    let [low, high] = match key.as_str() {
-        "angle_deg" => [-90.0, 90.0],
-        "conversion" => [0.0, 1.0],
-        "speed" => [0.0, 1e5],
-        "diameter" => [f64::MIN_POSITIVE, 1.0],
-        _ => [1.0, 1e5],
-    };
+    let (_, [low, high]) = unit_and_range(&key);
     if let Some(value) = values.iter().find(|value| !(low..=high).contains(*value)) {
         return Err(section.fault("values", format!("{value} is outside {low} to {high}")));
     }

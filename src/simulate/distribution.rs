@@ -12,9 +12,11 @@
 //! | `rosin-rammler` | `scale`, `exponent` | `F(x) = 1 - exp(-(x/scale)^exponent)` (Weibull) |
 
 use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 use rand_distr::Distribution as _;
 use rand_distr::{LogNormal, Normal, Uniform, Weibull};
 
+use super::geometry::required_within;
 use crate::input::{InputError, Section};
 
 /// Number of draws before the nearest bound is taken.
@@ -76,7 +78,8 @@ impl Distribution {
         if read.min > read.max {
             return Err(section.fault(key, "`min` is above `max`"));
         }
-        if !read.can_be_drawn() {
+        let mut random = ChaCha8Rng::seed_from_u64(0);
+        if !(0..TRIALS).any(|_| (read.min..=read.max).contains(&read.draw(&mut random))) {
             let problem =
                 format!("hardly anything of this distribution lies in {} to {}", read.min, read.max);
             return Err(section.fault(key, problem));
@@ -86,14 +89,21 @@ impl Distribution {
 
     /// Draws one value.
     pub fn sample(&self, random: &mut ChaCha8Rng) -> f64 {
-        let mut value = self.family.draw(self, random);
-        for _ in 0..ATTEMPTS {
+        let mut value = f64::NAN;
+        for _ in 0..=ATTEMPTS {
+            value = self.draw(random);
             if (self.min..=self.max).contains(&value) {
                 return value;
             }
-            value = self.family.draw(self, random);
         }
         value.clamp(self.min, self.max)
+    }
+
+    /// A value that may lie out of bounds.
+    fn draw(&self, random: &mut ChaCha8Rng) -> f64 {
+        // The parameters were checked on reading; one that the crate refuses all the same gives no number, which no
+        // bounds contain.
+        self.family.draw([self.min, self.max], random).unwrap_or(f64::NAN)
     }
 
     /// The same shape around another middle: `value`, `mean`, `median` or `scale`; a uniform one is shifted. Bounds of
@@ -114,20 +124,12 @@ impl Distribution {
         }
         moved
     }
-
-    fn can_be_drawn(&self) -> bool {
-        use rand_chacha::rand_core::SeedableRng;
-        let mut random = ChaCha8Rng::seed_from_u64(0);
-        (0..TRIALS).any(|_| (self.min..=self.max).contains(&self.family.draw(self, &mut random)))
-    }
 }
 
 impl Family {
     fn read(table: &Section<'_>, low: f64, high: f64) -> Result<Self, InputError> {
         let name = table.choice("distribution", &NAMES)?;
-        let needed = |key: &str, low: f64, high: f64| {
-            table.number_within(key, low, high)?.ok_or_else(|| table.missing(key, "a number"))
-        };
+        let needed = |key: &str, low: f64, high: f64| required_within(table, key, low, high);
         let positive = f64::MIN_POSITIVE;
         match name.as_deref() {
             None => Err(table.missing("distribution", &format!("one of {}", NAMES.join(", ")))),
@@ -148,24 +150,16 @@ impl Family {
         }
     }
 
-    fn draw(self, whole: &Distribution, random: &mut ChaCha8Rng) -> f64 {
-        // The parameters were checked on reading; one that the crate refuses all the same gives no number, which no
-        // bounds contain.
-        match self {
+    fn draw(self, [min, max]: [f64; 2], random: &mut ChaCha8Rng) -> Option<f64> {
+        Some(match self {
             Self::Fixed(value) => value,
-            Self::Uniform => {
-                Uniform::new_inclusive(whole.min, whole.max).map_or(f64::NAN, |d| d.sample(random))
-            }
-            Self::Normal { mean, deviation } => {
-                Normal::new(mean, deviation).map_or(f64::NAN, |d| d.sample(random))
-            }
+            Self::Uniform => Uniform::new_inclusive(min, max).ok()?.sample(random),
+            Self::Normal { mean, deviation } => Normal::new(mean, deviation).ok()?.sample(random),
             Self::LogNormal { median, geometric_deviation } => {
-                LogNormal::new(median.ln(), geometric_deviation.ln()).map_or(f64::NAN, |d| d.sample(random))
+                LogNormal::new(median.ln(), geometric_deviation.ln()).ok()?.sample(random)
             }
-            Self::RosinRammler { scale, exponent } => {
-                Weibull::new(scale, exponent).map_or(f64::NAN, |d| d.sample(random))
-            }
-        }
+            Self::RosinRammler { scale, exponent } => Weibull::new(scale, exponent).ok()?.sample(random),
+        })
     }
 }
 
@@ -173,7 +167,6 @@ impl Family {
 mod tests {
     use super::*;
     use crate::input::Document;
-    use rand_chacha::rand_core::SeedableRng;
 
     fn read(text: &str) -> Result<Distribution, InputError> {
         Document::new("c.toml", format!("x = {text}"))

@@ -13,6 +13,7 @@ use rand_distr::StandardUniform;
 
 use super::burning::Burning;
 use super::distribution::Distribution;
+use super::flight::{State, state};
 use super::geometry::{across, direction, required_vector, required_within, vector};
 use crate::input::{InputError, Section};
 
@@ -59,21 +60,6 @@ enum Place {
     Disc { centre: Vector3<f64>, normal: Vector3<f64>, radii: [f64; 2] },
 }
 
-/// A particle as it starts.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct InitialState {
-    /// Position [m].
-    pub position: Vector3<f64>,
-    /// Velocity [m/s], on top of the gas's where the case says so.
-    pub velocity: Vector3<f64>,
-    /// Diameter [m].
-    pub diameter: f64,
-    /// Temperature [K].
-    pub temperature: f64,
-    /// Carbon conversion [1].
-    pub conversion: f64,
-}
-
 /// Quantities of particles that a sweep can change, in SI units or degrees.
 pub const SWEEPABLE: [&str; 5] = ["diameter", "speed", "angle_deg", "particle_temperature", "conversion"];
 
@@ -114,8 +100,9 @@ impl Injection {
         })
     }
 
-    /// Draws the start of the particle with this number.
-    pub fn draw(&self, seed: u64, number: u64) -> InitialState {
+    /// Draws the diameter [m] and the first state of the particle with this number. Its velocity is on top of the gas's
+    /// where the case says so.
+    pub fn draw(&self, seed: u64, number: u64) -> (f64, State) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(number);
         let random = &mut random;
@@ -126,13 +113,9 @@ impl Injection {
         let azimuth = self.azimuth.sample(random).to_radians();
         let [first, second] = across(&self.along);
         let sideways = first * azimuth.cos() + second * azimuth.sin();
-        InitialState {
-            position,
-            velocity: speed * (self.along * angle.sin() + sideways * angle.cos()),
-            diameter,
-            temperature: self.temperature.sample(random),
-            conversion: self.conversion.sample(random),
-        }
+        let velocity = speed * (self.along * angle.sin() + sideways * angle.cos());
+        let (temperature, conversion) = (self.temperature.sample(random), self.conversion.sample(random));
+        (diameter, state(&position, &velocity, temperature, conversion))
     }
 
     /// Centres one of [`SWEEPABLE`] on a value.

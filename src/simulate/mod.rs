@@ -22,7 +22,7 @@ pub use burning::{Burning, GAS_CONSTANT};
 pub use case::{Case, Reference, SWEEP_KEYS, Sweep, sweep_unit};
 pub use distribution::Distribution;
 pub use flight::{Body, FlightEnd, FlightError, ParticleMotion, State, fly, position, state, velocity};
-pub use injection::{InitialState, Injection, ParticleWeight};
+pub use injection::{Injection, ParticleWeight};
 pub use profile::Profile;
 pub use surface::{Shape, Surface, SurfaceKind};
 pub use trajectory::{Fate, Hit, Trajectory};

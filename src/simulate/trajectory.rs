@@ -5,11 +5,10 @@ use nalgebra::Vector3;
 use super::case::{Case, HIT_BITS};
 use super::drag;
 use super::flight::{
-    Body, CONVERSION, FlightEnd, FlightError, ParticleMotion, State, TEMPERATURE, fly, position, state,
-    velocity,
+    Body, CONVERSION, FlightEnd, ParticleMotion, State, TEMPERATURE, fly, position, velocity,
 };
 use super::geometry::across;
-use super::injection::ParticleWeight;
+use super::injection::{Injection, ParticleWeight};
 use super::surface::{Shape, Surface, SurfaceKind};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::rng::ImpactRng;
@@ -70,34 +69,28 @@ pub struct Trajectory {
 
 /// Follows the particle with this number.
 pub(super) fn follow(case: &Case, number: u64) -> Trajectory {
-    let start = case.injection.draw(case.seed, number);
-    let (density, trouble) = match case.density(start.temperature) {
+    let (diameter, mut start) = case.injection.draw(case.seed, number);
+    let (density, trouble) = match case.density(start[TEMPERATURE]) {
         Ok(density) => (density, None),
         Err(error) => (1.0, Some(error.to_string())),
     };
-    let body = Body {
-        diameter: start.diameter,
-        density,
-        heat_capacity: case.injection.heat_capacity,
-        radiation: case.injection.radiation,
-        burning: case.injection.burning,
-    };
-    let mut speed = start.velocity;
+    let Injection { heat_capacity, radiation, burning, .. } = case.injection;
+    let body = Body { diameter, density, heat_capacity, radiation, burning };
     if case.injection.relative_to_gas {
-        speed += case.gas.at(&start.position).velocity;
+        let speed = velocity(&start) + case.gas.at(&position(&start)).velocity;
+        start.fixed_rows_mut::<3>(3).copy_from(&speed);
     }
-    let first = state(&start.position, &speed, start.temperature, start.conversion);
     let mut tracker = Tracker {
         case,
         number,
         motion: ParticleMotion { gas: &case.gas, gravity: case.gravity, body },
         time: 0.0,
-        state: first,
+        state: start,
         spin: Vector3::zeros(),
         weight: match case.injection.weight {
             ParticleWeight::One => 1.0,
             ParticleWeight::EqualShare(mass) => {
-                mass / (case.injection.count as f64 * body.mass_at(start.conversion))
+                mass / (case.injection.count as f64 * body.mass_at(start[CONVERSION]))
             }
         },
         hits: Vec::new(),
@@ -109,7 +102,7 @@ pub(super) fn follow(case: &Case, number: u64) -> Trajectory {
     };
     Trajectory {
         fate,
-        diameter: body.diameter,
+        diameter,
         mass: [mass, tracker.mass()],
         position: position(&tracker.state),
         temperature: tracker.state[TEMPERATURE],
@@ -147,13 +140,11 @@ impl Tracker<'_> {
     fn travel(&mut self) -> Fate {
         loop {
             let case = self.case;
-            let flight =
-                fly(&self.motion, &case.surfaces, self.time, case.time_limit, &self.state, case.tolerance);
-            let FlightEnd { time, state, surface } = match flight {
-                Ok(arrival) => arrival,
-                Err(lost @ (FlightError::TooManySteps | FlightError::NotFinite)) => {
-                    return Fate::Unusable(lost.to_string());
-                }
+            let (from, until) = (self.time, case.time_limit);
+            let end = fly(&self.motion, &case.surfaces, from, until, &self.state, case.tolerance);
+            let FlightEnd { time, state, surface } = match end {
+                Ok(end) => end,
+                Err(lost) => return Fate::Unusable(lost.to_string()),
             };
             self.let_spin_decay(time - self.time, &state);
             (self.time, self.state) = (time, state);

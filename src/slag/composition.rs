@@ -190,6 +190,13 @@ impl Composition {
     }
 }
 
+/// Composition of a test from its shares [wt%], as in `"SiO2 60, CaO 40"`.
+#[cfg(test)]
+pub(super) fn oxides(text: &str) -> Composition {
+    let pairs = text.split(", ").map(|pair| pair.split_once(' ').unwrap());
+    Composition::new(pairs.map(|(oxide, share)| (oxide, share.parse().unwrap()))).unwrap()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

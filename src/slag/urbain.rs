@@ -122,11 +122,12 @@ pub(super) fn viscosity([factor, activation]: [f64; 2], temperature: f64) -> f64
 
 #[cfg(test)]
 mod tests {
+    use super::super::composition::oxides;
     use super::*;
     use approx::assert_relative_eq;
 
     fn simple() -> Composition {
-        Composition::new([("SiO2", 50.0), ("Al2O3", 25.0), ("CaO", 15.0), ("FeO", 10.0)]).unwrap()
+        oxides("SiO2 50, Al2O3 25, CaO 15, FeO 10")
     }
 
     /// Worked by hand from the equations above.
@@ -145,22 +146,10 @@ mod tests {
 
     #[test]
     fn every_oxide_counts_in_its_group() {
-        let slag = Composition::new([
-            ("SiO2", 45.0),
-            ("Al2O3", 20.0),
-            ("Fe2O3", 8.0),
-            ("FeO", 5.0),
-            ("CaO", 10.0),
-            ("MgO", 3.0),
-            ("Na2O", 1.0),
-            ("K2O", 2.0),
-            ("TiO2", 1.5),
-            ("P2O5", 0.5),
-            ("MnO", 0.5),
-            ("B2O3", 1.0),
-            ("SO3", 7.0),
-        ])
-        .unwrap();
+        let slag = oxides(
+            "SiO2 45, Al2O3 20, Fe2O3 8, FeO 5, CaO 10, MgO 3, Na2O 1, K2O 2, \
+             TiO2 1.5, P2O5 0.5, MnO 0.5, B2O3 1, SO3 7",
+        );
         let groups = Groups::of(&slag).unwrap();
         assert_relative_eq!(groups.glass_former, 0.5308782787326313, max_relative = 1e-13);
         assert_relative_eq!(
@@ -177,7 +166,7 @@ mod tests {
         let b = |modifier: f64| Groups { glass_former: 1.0, modifier, amphoteric: 0.0 }.activation();
         assert_relative_eq!(b(0.0), 64.1, max_relative = 1e-14);
         assert_relative_eq!(b(1e-300), 64.0764, max_relative = 1e-14);
-        let silica = Groups::of(&Composition::new([("SiO2", 100.0)]).unwrap()).unwrap();
+        let silica = Groups::of(&oxides("SiO2 100")).unwrap();
         assert_eq!(silica, Groups { glass_former: 1.0, modifier: 0.0, amphoteric: 0.0 });
     }
 

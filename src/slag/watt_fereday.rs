@@ -65,6 +65,7 @@ fn viscosity([slope, intercept]: [f64; 2], temperature: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::composition::oxides;
     use super::*;
     use approx::assert_relative_eq;
 
@@ -72,7 +73,7 @@ mod tests {
     /// at 1350 °C log10(10 mu) = 4.888e6 / 1200² - 0.949 = 2.445444.
     #[test]
     fn three_oxides_by_hand() {
-        let slag = Composition::new([("SiO2", 50.0), ("Al2O3", 30.0), ("CaO", 20.0)]).unwrap();
+        let slag = oxides("SiO2 50, Al2O3 30, CaO 20");
         let [slope, intercept] = line(&slag).unwrap();
         assert_relative_eq!(slope, 0.4888, max_relative = 1e-13);
         assert_relative_eq!(intercept, -0.949, max_relative = 1e-13);
@@ -82,25 +83,15 @@ mod tests {
 
     #[test]
     fn iron_counts_as_ferric_and_the_rest_is_left_out() {
-        let slag = Composition::new([
-            ("SiO2", 45.0),
-            ("Al2O3", 20.0),
-            ("Fe2O3", 8.0),
-            ("FeO", 5.0),
-            ("CaO", 10.0),
-            ("MgO", 3.0),
-            ("Na2O", 4.0),
-            ("TiO2", 5.0),
-        ])
-        .unwrap();
+        let slag = oxides("SiO2 45, Al2O3 20, Fe2O3 8, FeO 5, CaO 10, MgO 3, Na2O 4, TiO2 5");
         assert_relative_eq!(WATT_FEREDAY.at(&slag, 1600.0), 17.648111303620798, max_relative = 1e-12);
     }
 
     #[test]
     fn compositions_without_a_slope_have_no_viscosity() {
-        let alkali = Composition::new([("Na2O", 1.0), ("K2O", 1.0)]).unwrap();
+        let alkali = oxides("Na2O 1, K2O 1");
         assert!(WATT_FEREDAY.at(&alkali, 1600.0).is_nan());
-        let lime = Composition::new([("CaO", 95.0), ("SiO2", 5.0)]).unwrap();
+        let lime = oxides("CaO 95, SiO2 5");
         assert!(WATT_FEREDAY.at(&lime, 1600.0).is_nan());
     }
 }

@@ -110,3 +110,37 @@ impl TangentialLaw {
         }
     }
 }
+
+/// Helpers for the tests of tangential laws and effects.
+#[cfg(test)]
+pub(crate) mod testing {
+    use super::{ImpactKinematics, Rebound};
+    use approx::assert_relative_eq;
+
+    /// Wax that hits at 1 m/s under `alpha` [degrees] from the surface.
+    pub fn kinematics(alpha: f64, spin: f64) -> ImpactKinematics {
+        let (normal_speed, tangential_speed) = alpha.to_radians().sin_cos();
+        ImpactKinematics {
+            normal_speed,
+            tangential_speed,
+            diameter: 75e-6,
+            spin,
+            normal_restitution: 0.39,
+            stiffness_ratio: 0.676,
+        }
+    }
+
+    /// A rigid sphere keeps its angular momentum about the contact point: `u + (2/5)(d/2) omega`.
+    pub fn momentum_is_kept(rebound: impl Fn(&ImpactKinematics) -> Rebound) {
+        for alpha in [5.0, 20.0, 40.0, 44.0, 60.0, 85.0] {
+            for spin in [-3e5, -1e4, 0.0, 1e4, 3e5] {
+                let before = kinematics(alpha, spin);
+                let after = rebound(&before);
+                let momentum = |u: f64, omega: f64| u + 0.2 * before.diameter * omega;
+                let left = momentum(after.restitution * before.tangential_speed, after.spin);
+                let came = momentum(before.tangential_speed, spin);
+                assert_relative_eq!(left, came, max_relative = 1e-12, epsilon = 1e-12);
+            }
+        }
+    }
+}

@@ -10,6 +10,7 @@ use super::svg::Figure;
 use super::{COLOURS, legend_entry};
 
 /// Bars over named categories, several series side by side or stacked.
+#[derive(Default)]
 pub struct BarChart {
     title: String,
     y_label: String,
@@ -21,13 +22,8 @@ pub struct BarChart {
 impl BarChart {
     /// A chart without a series; the axis label carries its unit.
     pub fn new(title: &str, y_label: &str, categories: &[String]) -> Self {
-        Self {
-            title: title.to_owned(),
-            y_label: y_label.to_owned(),
-            categories: categories.to_vec(),
-            series: Vec::new(),
-            stacked: false,
-        }
+        let [title, y_label] = [title, y_label].map(str::to_owned);
+        Self { title, y_label, categories: categories.to_vec(), ..Self::default() }
     }
 
     /// Adds a series with one value per category.

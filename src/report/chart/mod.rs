@@ -44,6 +44,9 @@ const WORDS_LETTERS: usize = 60;
 /// Length of each point's error bar below and above it.
 pub type ErrorBars = Vec<(f64, f64)>;
 
+/// Colour and form of markers.
+type MarkerStyle = (&'static str, MarkerShape);
+
 /// An entry of the legend; `None` for a series without a name.
 fn legend_entry(name: &str, colour: &str, shape: LegendShape) -> Option<LegendEntry> {
     let entry = || LegendEntry { label: name.to_owned(), color: colour.to_owned(), shape, dasharray: None };
@@ -124,34 +127,35 @@ impl Chart {
 
     /// Adds points. A series without a name is not in the legend.
     #[must_use]
-    pub fn points(self, name: &str, points: &[[f64; 2]]) -> Self {
-        self.next_points(name, points, None)
+    pub fn points(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let style = self.next_marker();
+        self.scatter(name, finite(points), style, [4.0, 1.5], None)
     }
 
     /// Adds small pale points for single readings.
     #[must_use]
     pub fn cloud(self, name: &str, points: &[[f64; 2]]) -> Self {
-        let size = if points.len() > 500 { 1.5 } else { 2.0 };
-        self.scatter(name, &finite(points), CLOUD, MarkerShape::Circle, |plot| plot.with_size(size))
+        self.scatter(name, finite(points), (CLOUD, MarkerShape::Circle), [2.0, 1.5], None)
     }
 
     /// Adds large points to compare with.
     #[must_use]
-    pub fn reference(self, name: &str, points: &[[f64; 2]]) -> Self {
-        self.next_points(name, points, Some(8.0))
+    pub fn reference(mut self, name: &str, points: &[[f64; 2]]) -> Self {
+        let style = self.next_marker();
+        self.scatter(name, finite(points), style, [8.0; 2], None)
     }
 
     /// Adds points with error bars.
     #[must_use]
     pub fn points_with_errors(mut self, name: &str, points: &[[f64; 2]], errors: &ErrorBars) -> Self {
-        let (colour, place) = self.next();
-        self.error_bars(name, points, errors, colour, MARKERS[place % MARKERS.len()])
+        let style = self.next_marker();
+        self.error_bars(name, points, errors, style)
     }
 
     /// Adds measured values with error bars, in black.
     #[must_use]
     pub fn measured(self, name: &str, points: &[[f64; 2]], errors: &ErrorBars) -> Self {
-        self.error_bars(name, points, errors, "#000000", MarkerShape::Circle)
+        self.error_bars(name, points, errors, ("#000000", MarkerShape::Circle))
     }
 
     /// Adds a line through points in their order.
@@ -266,42 +270,37 @@ impl Chart {
         Figure::new([id, &self.title, caption], self.plots, layout, self.legend)
     }
 
-    /// Points in the next colour; `size` is the radius of a marker [px].
-    fn next_points(mut self, name: &str, points: &[[f64; 2]], size: Option<f64>) -> Self {
-        let points = finite(points);
-        let (colour, place) = self.next();
-        let size = size.unwrap_or(if points.len() > 500 { 1.5 } else { 4.0 });
-        self.scatter(name, &points, colour, MARKERS[place % MARKERS.len()], |plot| plot.with_size(size))
-    }
-
-    fn error_bars(
-        self,
-        name: &str,
-        points: &[[f64; 2]],
-        errors: &ErrorBars,
-        colour: &'static str,
-        marker: MarkerShape,
-    ) -> Self {
+    fn error_bars(self, name: &str, points: &[[f64; 2]], errors: &ErrorBars, style: MarkerStyle) -> Self {
         let both = points.iter().zip(errors);
         let drawn =
             both.filter(|([x, y], (below, above))| all_drawable([*x, *y, y - below, y + above]).is_some());
-        let (points, errors): (Vec<[f64; 2]>, ErrorBars) = drawn.unzip();
-        let size = if points.len() > 500 { 1.5 } else { 4.0 };
-        self.scatter(name, &points, colour, marker, |plot| plot.with_size(size).with_y_err_asymmetric(errors))
+        let (points, errors) = drawn.unzip();
+        self.scatter(name, points, style, [4.0, 1.5], Some(errors))
     }
 
+    /// Adds points that can be drawn; the radii of their markers [px] are those of up to 500 points and of more.
     fn scatter(
         mut self,
         name: &str,
-        points: &[[f64; 2]],
-        colour: &'static str,
-        marker: MarkerShape,
-        finish: impl FnOnce(ScatterPlot) -> ScatterPlot,
+        points: Vec<[f64; 2]>,
+        (colour, marker): MarkerStyle,
+        [few, many]: [f64; 2],
+        errors: Option<ErrorBars>,
     ) -> Self {
         self.legend.extend(legend_entry(name, colour, LegendShape::Marker(marker)));
-        let plot = ScatterPlot::new().with_data(points.iter().map(|[x, y]| (*x, *y)));
-        self.plots.push(finish(plot.with_color(colour).with_marker(marker)).into());
+        let size = if points.len() > 500 { many } else { few };
+        let plot = ScatterPlot::new().with_data(points.into_iter().map(|[x, y]| (x, y)));
+        let plot = plot.with_color(colour).with_marker(marker).with_size(size);
+        self.plots.push(match errors {
+            Some(errors) => plot.with_y_err_asymmetric(errors).into(),
+            None => plot.into(),
+        });
         self
+    }
+
+    fn next_marker(&mut self) -> MarkerStyle {
+        let (colour, place) = self.next();
+        (colour, MARKERS[place % MARKERS.len()])
     }
 
     fn next(&mut self) -> (&'static str, usize) {

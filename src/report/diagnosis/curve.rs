@@ -44,13 +44,9 @@ pub(super) fn figure(
     let points: Vec<[f64; 2]> = points.collect();
     let means = Means::new(&points, axis.has_words());
     let window = Window::new(&points, line.iter().map(|point| point[1]).chain(means.reach()).chain([0.0]));
-    let (inside, note) = window.split(&points);
-    let mut chart =
-        window.on(axis.chart(&format!("Fitted curve over {}", axis.name), &label)).mark_y(0.0, "");
-    if !points.is_empty() {
-        chart = chart.cloud("rows without the curve", &inside);
-    }
-    chart = if axis.has_words() {
+    let chart = axis.chart(&format!("Fitted curve over {}", axis.name), &label).mark_y(0.0, "");
+    let (chart, note) = window.draw(chart, "rows without the curve", &points);
+    let mut chart = if axis.has_words() {
         chart.reference("fitted level", &line)
     } else {
         chart.line("fitted curve", &line)

@@ -116,13 +116,10 @@ impl<'a> Selection<'a> {
         };
         let label =
             if capture { "share captured [1]".to_owned() } else { format!("{quantity} measured [1]") };
-        let mut chart = self.axis.chart(&heading, &label);
-        chart = if capture { share_axis(chart) } else { window.on(chart) };
-        chart = if place > 0 { chart.panel() } else { chart };
-        let (cloud, note) = window.split(&self.cloud());
-        if !cloud.is_empty() {
-            chart = chart.cloud("single rows", &cloud);
-        }
+        let chart = self.axis.chart(&heading, &label);
+        let chart = if place > 0 { chart.panel() } else { chart };
+        let (mut chart, note) = window.draw(chart, "single rows", &self.cloud());
+        chart = if capture { share_axis(chart) } else { chart };
         let numbers = view.curve.iter().chain(self.rows.iter().map(|(_, _, numbers)| numbers));
         let both = { numbers }.any(|[_, base, extended]| (extended - base).abs() > SAME * base.abs());
         let models = [(BASE, "base model"), (EXTENDED, "extended model")];

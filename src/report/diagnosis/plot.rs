@@ -28,12 +28,8 @@ pub(super) fn title(observable: &str) -> &str {
 
 /// Measured value, base model, extended model; the last may be NaN.
 pub(super) fn triple(row: &SampleRow, observable: &str) -> Option<[f64; 3]> {
-    let triple = match observable {
-        "e_n" => row.e_n,
-        "e_t" => row.e_t,
-        _ => row.captured,
-    };
-    triple.filter(|numbers| numbers[0].is_finite() && numbers[BASE].is_finite())
+    let place = OBSERVABLES.iter().position(|one| *one == observable)?;
+    row.values[place].filter(|numbers| numbers[0].is_finite() && numbers[BASE].is_finite())
 }
 
 /// Letters, digits and hyphens, different for every column name.
@@ -85,11 +81,8 @@ pub(super) fn residuals(
         "outcome" => "captured, measured − model [1]".to_owned(),
         _ => format!("{observable}, measured − model [1]"),
     };
-    let mut chart = window.on(axis.chart(heading, &label)).mark_y(0.0, "");
-    let (inside, note) = window.split(cloud);
-    if !cloud.is_empty() {
-        chart = chart.cloud("single rows, base model", &inside);
-    }
+    let (chart, note) = window.draw(axis.chart(heading, &label), "single rows, base model", cloud);
+    let mut chart = chart.mark_y(0.0, "");
     for ((_, model), means) in models.iter().zip(&means) {
         chart = chart.points_with_errors(&format!("mean, {model} model"), &means.points, &means.errors);
     }
@@ -176,23 +169,22 @@ impl Window {
         Self { low: edges[0], high: edges[edges.len() - 1], step: edges[1] - edges[0] }
     }
 
-    /// The points inside, and a sentence for the caption about the others.
-    pub fn split(&self, points: &[[f64; 2]]) -> (Vec<[f64; 2]>, String) {
-        let inside = |point: &&[f64; 2]| (self.low..=self.high).contains(&point[1]);
-        let inside: Vec<[f64; 2]> = points.iter().filter(inside).copied().collect();
+    /// Adds the points inside to a chart over this range; and a sentence for the caption about the others.
+    pub fn draw(&self, chart: Chart, name: &str, points: &[[f64; 2]]) -> (Chart, String) {
+        let inside: Vec<[f64; 2]> = points.iter().filter(|point| self.contains(point)).copied().collect();
         let note = match points.len() - inside.len() {
             0 => String::new(),
             1 => " One row lies outside the figure.".to_owned(),
             count => format!(" {count} rows lie outside the figure."),
         };
-        (inside, note)
-    }
-
-    /// Sets the y axis of a chart.
-    pub fn on(&self, chart: Chart) -> Chart {
         // Slightly wider, so that rounding does not lose the ticks at the ends.
         let touch = 1e-9 * self.step;
-        chart.y_range(self.low - touch, self.high + touch).y_step(self.step)
+        let chart = chart.y_range(self.low - touch, self.high + touch).y_step(self.step);
+        (if points.is_empty() { chart } else { chart.cloud(name, &inside) }, note)
+    }
+
+    fn contains(&self, point: &[f64; 2]) -> bool {
+        (self.low..=self.high).contains(&point[1])
     }
 }
 
@@ -219,7 +211,8 @@ mod tests {
         let mut points: Vec<[f64; 2]> = (0..400).map(|i| [0.0, 0.001 * f64::from(i % 100) - 0.05]).collect();
         points.push([0.0, 40.0]);
         let window = Window::new(&points, std::iter::once(0.0));
-        assert!(window.high < 0.11 && window.split(&points).0.len() == 400, "{}", window.high);
+        let inside = points.iter().filter(|point| window.contains(point)).count();
+        assert!(window.high < 0.11 && inside == 400, "{}", window.high);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What arrives at each wall by speed, angle and size, which part of it is captured, and its kinetic energy.
 
 use super::{Comparison, number, percent};
+use crate::report::page::TableColumn;
 use crate::report::{BarChart, Chart, Figure, Table};
 use crate::results::classes::{Class, ClassSums, Quantity, together, total};
 use crate::results::share;
@@ -109,45 +110,33 @@ fn energy(comparison: &Comparison<'_>, walls: &[String]) -> Figure {
 
 /// One row for each case, wall and injector.
 pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
-    let mut rows = Vec::new();
+    let mut items = Vec::new();
     for wall in &comparison.walls {
         for (label, classes) in each(comparison, wall) {
             let mut injectors: Vec<&str> = classes.iter().map(|class| class.injector.as_str()).collect();
             injectors.sort_unstable();
             injectors.dedup();
-            for injector in injectors {
-                let sums = total(classes, Some(injector));
-                rows.push(vec![
-                    label.clone(),
-                    wall.clone(),
-                    injector.to_owned(),
-                    number(sums.hits),
-                    number(sums.mass),
-                    percent(share(sums.captured_mass, sums.mass)),
-                    number(sums.energy_in),
-                    number(sums.energy_out),
-                    percent(share(sums.energy_out, sums.energy_in)),
-                ]);
-            }
+            let sums = |injector| ([label.as_str(), wall, injector], total(classes, Some(injector)));
+            items.extend(injectors.into_iter().map(sums));
         }
     }
-    let header = [
-        "case",
-        "wall",
-        "injector",
-        "arrivals",
-        "arriving mass [kg]",
-        "captured / arriving",
-        "kinetic energy before [J]",
-        "after [J]",
-        "after / before",
-    ];
     let caption = format!(
         "From the start to {} s, as the wall model decided. With several injectors, parcels that hit in the step of their \
          injection have the injector -1.",
         number(comparison.time)
     );
-    Some(Table { caption, header: header.map(str::to_owned).to_vec(), rows, text_columns: 3 })
+    let columns: [TableColumn<'_, ([&str; 3], ClassSums)>; 9] = [
+        ("case", &|([case, _, _], _)| (*case).to_owned()),
+        ("wall", &|([_, wall, _], _)| (*wall).to_owned()),
+        ("injector", &|([_, _, injector], _)| (*injector).to_owned()),
+        ("arrivals", &|(_, sums)| number(sums.hits)),
+        ("arriving mass [kg]", &|(_, sums)| number(sums.mass)),
+        ("captured / arriving", &|(_, sums)| percent(share(sums.captured_mass, sums.mass))),
+        ("kinetic energy before [J]", &|(_, sums)| number(sums.energy_in)),
+        ("after [J]", &|(_, sums)| number(sums.energy_out)),
+        ("after / before", &|(_, sums)| percent(share(sums.energy_out, sums.energy_in))),
+    ];
+    Some(Table::of_items(&caption, 3, &items, &columns))
 }
 
 /// The ends of a class for a logarithmic axis: an open class is as wide as the others.

@@ -247,12 +247,8 @@ impl<'a> Comparison<'a> {
             rows.iter_mut().for_each(|row| drop(row.remove(0)));
         }
         let text_columns = if self.is_single() { 1 } else { 2 };
-        (header.len() > text_columns).then(|| Table {
-            caption: caption.to_owned(),
-            header,
-            rows,
-            text_columns,
-        })
+        let caption = caption.to_owned();
+        (header.len() > text_columns).then_some(Table { caption, header, rows, text_columns })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::places::map_figures;
 use super::{later_captures, number, percent};
+use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
 use crate::results::standalone::{Run, RunTotals};
 use crate::results::{Moments, WallTotals, share, wilson};
@@ -128,37 +129,21 @@ fn merged(run: &Run, of: impl Fn(&WallTotals) -> &Moments) -> (f64, f64) {
 }
 
 fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
-    let row = |run: &Run| {
-        let totals = &run.totals;
-        let [hits, captured] = totals.first_hits();
-        let [part, low, high] = first_capture(totals).map(|part| percent(0.01 * part));
-        vec![
-            number(axis.value(run)),
-            hits.to_string(),
-            captured.to_string(),
-            format!("{part} ({low} to {high})"),
-            percent(captured_mass(totals)),
-            number(merged(run, |wall| &wall.first_e_n).0),
-            number(merged(run, |wall| &wall.e_n).0),
-            number(merged(run, |wall| &wall.speed).0),
-            format!("{:.1e}", totals.balance_error()),
-        ]
+    let first = |run: &Run| {
+        let [part, low, high] = first_capture(&run.totals).map(|part| percent(0.01 * part));
+        format!("{part} ({low} to {high})")
     };
-    let header = [
-        axis.label.as_str(),
-        "first hits",
-        "captured",
-        "captured at first hit (95 %)",
-        "captured at the end",
-        "e_n of first hits, captured = 0",
-        "e_n of rebounds, all hits",
-        "speed, all hits [m/s]",
-        "mass balance",
+    let mean = |run: &Run, of: fn(&WallTotals) -> &Moments| number(merged(run, of).0);
+    let columns: [TableColumn<'_, Run>; 9] = [
+        (&axis.label, &|run| number(axis.value(run))),
+        ("first hits", &|run| run.totals.first_hits()[0].to_string()),
+        ("captured", &|run| run.totals.first_hits()[1].to_string()),
+        ("captured at first hit (95 %)", &first),
+        ("captured at the end", &|run| percent(captured_mass(&run.totals))),
+        ("e_n of first hits, captured = 0", &|run| mean(run, |wall| &wall.first_e_n)),
+        ("e_n of rebounds, all hits", &|run| mean(run, |wall| &wall.e_n)),
+        ("speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
+        ("mass balance", &|run| format!("{:.1e}", run.totals.balance_error())),
     ];
-    Table {
-        caption: String::new(),
-        header: header.map(str::to_owned).to_vec(),
-        rows: runs.iter().map(row).collect(),
-        text_columns: 0,
-    }
+    Table::of_items("", 0, runs, &columns)
 }

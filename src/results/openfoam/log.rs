@@ -18,7 +18,7 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::super::{Amount, History, WallTotals, history_of};
-use super::table::sorted_files;
+use super::{entries, file_name};
 
 /// What the logs state of one cloud.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -34,8 +34,8 @@ pub struct LogResults {
 /// Reads every `log.*` and `*.log` of a case.
 pub(super) fn read_all(case: &Path) -> BTreeMap<String, LogResults> {
     let mut clouds = BTreeMap::new();
-    for path in sorted_files(case) {
-        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    for path in entries(case, Path::is_file) {
+        let name = file_name(&path);
         if (name.starts_with("log.") || name.ends_with(".log"))
             && let Ok(file) = std::fs::File::open(&path)
         {

@@ -51,8 +51,8 @@ pub fn read(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
     let case = whole.file_name().map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
     let mut clouds: BTreeMap<String, RunResults> = BTreeMap::new();
     let tables = folder.join("postProcessing/nearWallInteraction");
-    for cloud in folders(&tables) {
-        tables::read_into(clouds.entry(cloud.clone()).or_default(), &tables.join(&cloud));
+    for cloud in entries(&tables, Path::is_dir) {
+        tables::read_into(clouds.entry(file_name(&cloud).to_owned()).or_default(), &cloud);
     }
     for (cloud, log) in log::read_all(folder) {
         let results = clouds.entry(cloud).or_default();
@@ -84,13 +84,12 @@ fn is_active(results: &RunResults) -> bool {
 /// A hint at the cases in a folder, one or two levels down; empty when there are none.
 fn cases_below(folder: &Path) -> String {
     let is_case = |path: &PathBuf| path.join("system/controlDict").is_file();
-    let inside = |path: &Path| folders(path).into_iter().map(|name| path.join(name)).collect::<Vec<_>>();
     let mut cases = Vec::new();
-    for path in inside(folder) {
+    for path in entries(folder, Path::is_dir) {
         if is_case(&path) {
             cases.push(path);
         } else {
-            cases.extend(inside(&path).into_iter().filter(is_case));
+            cases.extend(entries(&path, Path::is_dir).into_iter().filter(is_case));
         }
     }
     if cases.is_empty() {
@@ -174,7 +173,7 @@ fn escaped_mass(results: &RunResults) -> Option<f64> {
 fn interaction_properties(folder: &Path, cloud: &str) -> Option<String> {
     let own = folder.join(format!("constant/{cloud}Properties"));
     let small = |path: &PathBuf| path.metadata().is_ok_and(|data| data.len() < 1 << 20);
-    let others = table::sorted_files(&folder.join("constant")).into_iter().filter(small);
+    let others = entries(&folder.join("constant"), Path::is_file).into_iter().filter(small);
     std::iter::once(own).chain(others).find_map(|path| {
         let text = std::fs::read_to_string(path).ok()?;
         entry(&text, "patchInteractionModel").is_some_and(|model| model != "none").then_some(text)
@@ -201,23 +200,25 @@ fn wall_patches(folder: &Path) -> Vec<String> {
 
 /// Sub-folders whose names are times, in the order of time.
 fn time_folders(folder: &Path) -> Vec<(f64, PathBuf)> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut times: Vec<(f64, PathBuf)> = entries
-        .filter(|path| path.is_dir())
-        .filter_map(|path| Some((path.file_name()?.to_str()?.parse::<f64>().ok()?, path)))
+    let time = |path: PathBuf| Some((file_name(&path).parse::<f64>().ok()?, path));
+    let mut times: Vec<(f64, PathBuf)> = entries(folder, Path::is_dir)
+        .into_iter()
+        .filter_map(time)
         .filter(|(time, _)| time.is_finite())
         .collect();
     times.sort_by(|a, b| a.0.total_cmp(&b.0));
     times
 }
 
-/// Names of the sub-folders, sorted.
-fn folders(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let mut names: Vec<String> = entries
-        .filter(|entry| entry.path().is_dir())
-        .map(|entry| entry.file_name().to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    names
+/// The files or the sub-folders of a folder in the order of their names.
+fn entries(folder: &Path, is_wanted: fn(&Path) -> bool) -> Vec<PathBuf> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let mut paths: Vec<PathBuf> = entries.filter(|path| is_wanted(path)).collect();
+    paths.sort();
+    paths
+}
+
+/// The last part of a path; empty when it is not UTF-8.
+fn file_name(path: &Path) -> &str {
+    path.file_name().and_then(|name| name.to_str()).unwrap_or_default()
 }

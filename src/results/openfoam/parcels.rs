@@ -126,9 +126,9 @@ mod tests {
 
     #[test]
     fn parcels_of_the_deposit_are_read_when_the_cloud_is_empty() {
-        let case = std::env::temp_dir().join(format!("nearwall-parcels-{}", std::process::id()));
+        let case = tempfile::tempdir().unwrap();
         let write = |path: &str, body: &str| {
-            let path = case.join(path);
+            let path = case.path().join(path);
             std::fs::create_dir_all(path.parent().unwrap()).unwrap();
             std::fs::write(path, format!("FoamFile\n{{\n}}\n// * * * //\n\n{body}\n")).unwrap();
         };
@@ -142,8 +142,7 @@ mod tests {
         {
             write(&format!("0.2/lagrangian/coalDeposit/{file}"), body);
         }
-        let parcels = read_last(&case, "coal");
-        std::fs::remove_dir_all(&case).unwrap();
+        let parcels = read_last(case.path(), "coal");
         let lying = |z, mass| capture([0.0, 0.0, z], mass, 1e-4);
         assert_eq!(parcels.unwrap(), [lying(1.0, 3e-6), lying(2.0, 4e-6)]);
     }

@@ -3,11 +3,11 @@
 //! wall model, so that cases can be compared by what arrives.
 
 use std::f64::consts::PI;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::super::RecordedArrival;
-use super::table::{TableRow, read, sorted_files};
-use super::{folders, time_folders};
+use super::table::{TableRow, read};
+use super::{entries, file_name, time_folders};
 
 /// The carbon of fresh coal, from `constant/<cloud>Properties`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,11 +53,11 @@ impl Carbon {
 pub(super) fn read_all(case: &Path, cloud: &str, carbon: Option<&Carbon>) -> Vec<RecordedArrival> {
     let root = case.join("postProcessing/lagrangian").join(cloud);
     let mut arrivals: Vec<RecordedArrival> = Vec::new();
-    for function in folders(&root) {
+    for function in entries(&root, Path::is_dir) {
         let mut own = Vec::new();
-        for path in time_folders(&root.join(&function)).iter().flat_map(|(_, folder)| sorted_files(folder)) {
-            let name = path.file_name().and_then(|name| name.to_str());
-            let Some(patch) = name.and_then(|name| name.strip_suffix(".post")) else { continue };
+        let files = |(_, folder): (f64, PathBuf)| entries(&folder, Path::is_file);
+        for path in time_folders(&function).into_iter().flat_map(files) {
+            let Some(patch) = file_name(&path).strip_suffix(".post") else { continue };
             if !arrivals.iter().any(|arrival| arrival.patch == patch) {
                 let text = std::fs::read_to_string(&path).unwrap_or_default();
                 own.extend(read(&text, |row| to_arrival(row, patch, carbon)));

@@ -1,10 +1,10 @@
 //! The reader of all tables under `postProcessing`: a header line after `#` with the names of the columns, then one
 //! line a row. Columns are found by name, so that older and newer tables can be read; an incomplete line is skipped.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::super::{History, history_of};
-use super::time_folders;
+use super::{entries, file_name, time_folders};
 
 /// One line of a table with the names of its columns.
 pub struct TableRow<'a> {
@@ -61,10 +61,12 @@ pub fn histories<T>(
 ) -> Vec<History<T>> {
     let mut histories: Vec<History<T>> = Vec::new();
     for (start, folder) in time_folders(folder) {
-        for path in sorted_files(&folder) {
-            let name = path.file_name().and_then(|name| name.to_str());
-            let name = name.filter(|name| !except.iter().any(|ending| name.ends_with(ending)));
-            let Some(wall) = name.and_then(|name| name.strip_suffix(suffix)) else { continue };
+        for path in entries(&folder, Path::is_file) {
+            let name = file_name(&path);
+            let Some(wall) = name.strip_suffix(suffix) else { continue };
+            if except.iter().any(|ending| name.ends_with(ending)) {
+                continue;
+            }
             let rows = read(&std::fs::read_to_string(&path).unwrap_or_default(), &convert);
             let Some((first, _)) = rows.first() else { continue };
             // The folder's name may be rounded to six digits.
@@ -75,14 +77,6 @@ pub fn histories<T>(
         }
     }
     histories
-}
-
-/// The files of a folder in the order of their names.
-pub fn sorted_files(folder: &Path) -> Vec<PathBuf> {
-    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let mut paths: Vec<PathBuf> = entries.filter(|path| path.is_file()).collect();
-    paths.sort();
-    paths
 }
 
 /// Splits a line at blanks; what stands in brackets, with the count before them, is one piece.

@@ -57,6 +57,9 @@ pub(super) fn read_into(results: &mut RunResults, folder: &Path) {
 fn wall_totals(row: &TableRow<'_>) -> Option<(f64, WallTotals)> {
     let or = |name: &str, otherwise: f64| row.number(name).unwrap_or(otherwise);
     let amount = |count: &str, mass: &str| Amount::new(or(count, 0.0), or(mass, 0.0));
+    let moments = |count: &str, sum: &str, squares: &str| {
+        Some(Moments::from_sums(or(count, 0.0), row.number(sum)?, or(squares, f64::NAN)))
+    };
     let [counts, masses] = [["sticks_", ""], ["stick_mass_", "_kg"]].map(|[before, after]| {
         row.all(Regime::ALL.iter().map(|regime| format!("{before}{}{after}", regime.name())))
     });
@@ -66,19 +69,14 @@ fn wall_totals(row: &TableRow<'_>) -> Option<(f64, WallTotals)> {
         std::array::from_fn(|_| amounts.next().unwrap_or_default())
     });
     let conversions = row.all((0..10).map(|tenth| format!("stick_mass_conversion_0.{tenth}_kg")));
-    let hits = row.number("hits");
     let totals = WallTotals {
-        hits: hits.map(|_| amount("hits", "hit_mass_kg")),
+        hits: row.number("hits").map(|_| amount("hits", "hit_mass_kg")),
         captured: amount("sticks", "stick_mass_kg"),
         escaped: amount("escapes", "escape_mass_kg"),
         regimes,
         conversions: conversions.and_then(|list| list.try_into().ok()),
-        speed: row
-            .number("impact_speed_sum_m_s")
-            .map_or(Moments::default(), |sum| Moments::from_sums(or("hits", 0.0), sum, f64::NAN)),
-        e_n: row.number("e_n_sum").map_or(Moments::default(), |sum| {
-            Moments::from_sums(or("rebounds", 0.0), sum, or("e_n2_sum", f64::NAN))
-        }),
+        speed: moments("hits", "impact_speed_sum_m_s", "").unwrap_or_default(),
+        e_n: moments("rebounds", "e_n_sum", "e_n2_sum").unwrap_or_default(),
         outside_range: row.number("outside_range").map(|count| count as u64),
         ..WallTotals::default()
     };

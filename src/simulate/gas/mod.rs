@@ -28,12 +28,14 @@ pub trait VelocityField: Send + Sync + std::fmt::Debug {
 pub struct Gas {
     field: Box<dyn VelocityField>,
     temperature: Profile,
-    density: Property,
-    viscosity: Property,
-    conductivity: Property,
-    heat_capacity: Property,
+    /// In the order of [`PROPERTIES`].
+    properties: [Property; 4],
     mean_free_path: f64,
 }
+
+/// Keys and units of the properties that depend on the temperature.
+const PROPERTIES: [(&str, &str); 4] =
+    [("density", "kg/m3"), ("viscosity", "Pa s"), ("conductivity", "W/(m K)"), ("heat_capacity", "J/(kg K)")];
 
 /// The gas at one place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,17 +75,14 @@ impl Gas {
         };
         let temperature = Profile::read(section, "temperature", 1.0, 1e5)?
             .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
-        let property = |key: &str, unit: &'static str| {
+        let [density, viscosity, conductivity, heat_capacity] = PROPERTIES.map(|(key, unit)| {
             let read = Property::read(section, key, &Limits::positive(unit))?;
             read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
-        };
+        });
         let gas = Self {
             field,
             temperature,
-            density: property("density", "kg/m3")?,
-            viscosity: property("viscosity", "Pa s")?,
-            conductivity: property("conductivity", "W/(m K)")?,
-            heat_capacity: property("heat_capacity", "J/(kg K)")?,
+            properties: [density?, viscosity?, conductivity?, heat_capacity?],
             mean_free_path: section.number_within("mean_free_path", 0.0, f64::INFINITY)?.unwrap_or(0.0),
         };
         gas.check(section)?;
@@ -94,16 +93,10 @@ impl Gas {
     pub fn at(&self, position: &Vector3<f64>) -> GasState {
         let temperature = self.temperature.at(position);
         // `check` made sure that every property is known at every temperature of the gas.
-        let value = |property: &Property| property.at(temperature).unwrap_or(f64::NAN);
-        GasState {
-            velocity: self.field.velocity(position),
-            temperature,
-            density: value(&self.density),
-            viscosity: value(&self.viscosity),
-            conductivity: value(&self.conductivity),
-            heat_capacity: value(&self.heat_capacity),
-            mean_free_path: self.mean_free_path,
-        }
+        let [density, viscosity, conductivity, heat_capacity] =
+            self.properties.each_ref().map(|property| property.at(temperature).unwrap_or(f64::NAN));
+        let (velocity, mean_free_path) = (self.field.velocity(position), self.mean_free_path);
+        GasState { velocity, temperature, density, viscosity, conductivity, heat_capacity, mean_free_path }
     }
 
     /// The same gas at one temperature [K] everywhere.
@@ -121,7 +114,7 @@ impl Gas {
     /// # Errors
     /// A message that names the first property that is not.
     pub fn known_at(&self, temperature: f64) -> Result<(), String> {
-        for (key, property) in self.properties() {
+        for ((key, _), property) in PROPERTIES.iter().zip(&self.properties) {
             if let Err(range) = property.at(temperature) {
                 return Err(format!(
                     "gas.{key} is given for {} to {} K, but the gas has {temperature} K in this case; widen the table",
@@ -130,15 +123,6 @@ impl Gas {
             }
         }
         Ok(())
-    }
-
-    fn properties(&self) -> [(&'static str, &Property); 4] {
-        [
-            ("density", &self.density),
-            ("viscosity", &self.viscosity),
-            ("conductivity", &self.conductivity),
-            ("heat_capacity", &self.heat_capacity),
-        ]
     }
 
     fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
