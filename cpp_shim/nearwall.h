@@ -71,21 +71,21 @@ typedef struct nw_impact {
   double conversion;
   // Wall temperature [K], positive.
   double T_w;
-  // Roughness of the wall [m], not negative.
+  // Roughness of the wall [m], not negative; kept for diagnosis, used by no built-in law.
   double roughness;
   // Share of the wall that non-sticky char covers [1], 0 to 1.
   double coverage;
   // Thickness of the powder layer on the wall [m], not negative.
   double layer_thickness;
-  // Thickness of the liquid film on the wall [m], not negative.
+  // Thickness of a liquid film [m] that the caller states, not negative; the effect `liquid-film` uses it.
   double film_thickness;
-  // Thickness of the melt that earlier particles left on the wall [m], not negative.
+  // Thickness of the melt in the deposit of earlier particles [m], not negative.
   double melt_thickness;
   // Speed of the gas along the wall [m/s], not negative.
   double v_gas;
 } nw_impact;
 
-// What leaves the wall.
+// Result of an impact.
 typedef struct nw_outcome {
   // `sizeof(nw_outcome)`.
   uint32_t struct_size;
@@ -95,18 +95,19 @@ typedef struct nw_outcome {
   uint32_t stuck;
   // Bits: `NW_OUTSIDE_VALID_RANGE`.
   uint32_t flags;
-  // Normal restitution of a particle that rebounds.
+  // Normal restitution [1] if the particle rebounds.
   double e_n;
-  // Tangential restitution of a particle that rebounds.
+  // Tangential restitution [1] if the particle rebounds.
   double e_t;
-  // Probability of capture.
+  // Probability of capture [1].
   double p_stick;
   // Spin after a rebound [rad/s].
   double omega;
 } nw_outcome;
 
 // Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array means the value that
-// `nw_impact_init` sets, and for `key` the index of the entry.
+// `nw_impact_init` sets, and for `key` the index of the entry: with a null `key`, change `seed` in every call, or
+// each call repeats the draws.
 typedef struct nw_impacts {
   // `sizeof(nw_impacts)`.
   uint32_t struct_size;
@@ -134,15 +135,15 @@ typedef struct nw_impacts {
   const double *conversion;
   // Wall temperature [K], positive.
   const double *T_w;
-  // Roughness of the wall [m], not negative.
+  // Roughness of the wall [m], not negative; kept for diagnosis, used by no built-in law.
   const double *roughness;
   // Share of the wall that non-sticky char covers [1], 0 to 1.
   const double *coverage;
   // Thickness of the powder layer on the wall [m], not negative.
   const double *layer_thickness;
-  // Thickness of the liquid film on the wall [m], not negative.
+  // Thickness of a liquid film [m] that the caller states, not negative; the effect `liquid-film` uses it.
   const double *film_thickness;
-  // Thickness of the melt that earlier particles left on the wall [m], not negative.
+  // Thickness of the melt in the deposit of earlier particles [m], not negative.
   const double *melt_thickness;
   // Speed of the gas along the wall [m/s], not negative.
   const double *v_gas;

@@ -181,7 +181,13 @@ fn normal_and_draw(wall: &Constants, block: &Block, seed: u64, outcomes: &mut Ou
     if wall.draws {
         run(StepSet::NORMAL.union(StepSet::DRAW), &Constants { draws: true, ..*wall }, block, seed, outcomes);
     } else {
-        run(StepSet::NORMAL.union(StepSet::DRAW), &Constants { draws: false, ..*wall }, block, seed, outcomes);
+        run(
+            StepSet::NORMAL.union(StepSet::DRAW),
+            &Constants { draws: false, ..*wall },
+            block,
+            seed,
+            outcomes,
+        );
     }
 }
 
