@@ -28,8 +28,8 @@ pub(super) fn views(models: [&Hypothesis<'_>; 2], findings: &[Finding]) -> Vec<D
     for observable in Observable::ALL {
         let rows = data.held_out.iter().chain(&data.search).copied();
         let rows: Vec<usize> = rows.filter(|&row| observable.measured(&data.rows[row]).is_some()).collect();
-        let columns = columns(data, findings, observable.name());
-        let Some(&main) = columns.first().filter(|_| !rows.is_empty()) else { continue };
+        let columns = columns(data, findings, observable.name(), &rows);
+        let Some(&main) = columns.first() else { continue };
         let view = |rows: &[usize], within| DataView {
             observable: observable.name(),
             column: main.name.clone(),
@@ -45,9 +45,15 @@ pub(super) fn views(models: [&Hypothesis<'_>; 2], findings: &[Finding]) -> Vec<D
     views
 }
 
-/// The main column and, if a finding is about this observable, a second one: the findings' own inputs, then `v_n` and `d`
-/// if they are among them, then `v_n`; without any of these the first column.
-fn columns<'a>(data: &'a DataSplit, findings: &[Finding], observable: &str) -> Vec<&'a Covariate> {
+/// The main column and, if a finding is about this observable, a second one, of the columns that vary in these rows: the
+/// findings' own inputs, then `v_n` and `d` if they are among them, then `v_n`; without any of these the column with most
+/// different values.
+fn columns<'a>(
+    data: &'a DataSplit,
+    findings: &[Finding],
+    observable: &str,
+    rows: &[usize],
+) -> Vec<&'a Covariate> {
     let about: Vec<&Finding> = findings.iter().filter(|finding| finding.observable == observable).collect();
     let count = if about.is_empty() { 1 } else { 2 };
     let about = if about.is_empty() { findings.iter().take(1).collect() } else { about };
@@ -55,15 +61,24 @@ fn columns<'a>(data: &'a DataSplit, findings: &[Finding], observable: &str) -> V
     let (plain, own): (Vec<&str>, Vec<&str>) = names.partition(|name| ["v_n", "d"].contains(name));
     let named = own.into_iter().chain(plain).chain(["v_n"]).filter_map(|name| data.covariate(name));
     let mut columns: Vec<&Covariate> = Vec::new();
-    for covariate in named {
+    for covariate in named.filter(|covariate| different_values(covariate, rows) > 1) {
         if columns.len() < count && columns.iter().all(|column| column.name != covariate.name) {
             columns.push(covariate);
         }
     }
-    if columns.is_empty() {
-        columns.extend(data.covariates.first());
+    if columns.is_empty() && !rows.is_empty() {
+        columns.extend(data.covariates.iter().max_by_key(|covariate| different_values(covariate, rows)));
     }
     columns
+}
+
+/// Number of different values of a column in these rows.
+fn different_values(covariate: &Covariate, rows: &[usize]) -> usize {
+    let mut cells: Vec<f64> =
+        rows.iter().map(|&row| covariate.cell(row)).filter(|cell| cell.is_finite()).collect();
+    cells.sort_by(f64::total_cmp);
+    cells.dedup();
+    cells.len()
 }
 
 /// Ranges of a column with about equally many of the rows each, or its most frequent values if these are few or labels.

@@ -11,6 +11,8 @@ const CAPTURE_BINS: usize = 8;
 const ROWS_A_BIN: usize = 10;
 /// Largest share of the rows beyond each end of an axis.
 const BEYOND: f64 = 0.004;
+/// Least number of held-out rows in a figure of measured against predicted values.
+const LEAST_POINTS: usize = 3;
 /// Name of the line on which measured and predicted values agree.
 const AGREE: &str = "measured = predicted";
 
@@ -79,7 +81,7 @@ fn table(diagnosis: &Diagnosis) -> Table {
     Table::new(caption, 1, &header, diagnosis.gains.iter().map(row).collect())
 }
 
-/// Measured against predicted values, held-out rows only; nothing where the extension changes nothing.
+/// Measured against predicted values, held-out rows only; nothing where the extension changes nothing or rows are too few.
 fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
     let rows = diagnosis.sample.rows.iter().filter(|row| row.held_out);
     let rows: Vec<[f64; 3]> = rows
@@ -87,7 +89,7 @@ fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
         .filter(|numbers| numbers[EXTENDED].is_finite())
         .collect();
     let changed = rows.iter().any(|numbers| numbers[BASE] != numbers[EXTENDED]);
-    if rows.is_empty() || (!changed && !diagnosis.gains.is_empty()) {
+    if rows.len() < LEAST_POINTS || (!changed && !diagnosis.gains.is_empty()) {
         return Vec::new();
     }
     let models = [(BASE, "base model"), (EXTENDED, "extended model")];
