@@ -1,9 +1,11 @@
 //! Many impacts in one call: arrays in, arrays out.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{get, guarded_status, put, reader, sized, zero_by_default};
+use super::boundary::{get, guarded_status, put, reader, sized};
 use super::impact::nw_impacts;
-use super::types::{NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, flags, nw_model, nw_status};
+use super::types::{
+    NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, flags, nw_model, nw_status, zero_by_default,
+};
 use crate::impact::{INPUTS, Input, Outcome};
 use crate::model::Model;
 use crate::model::block::{BLOCK, Block, Outcomes};

@@ -119,20 +119,6 @@ pub(super) unsafe fn initialise<T: Default>(pointer: *mut T) -> nw_status {
     NW_OK
 }
 
-/// The default of C structs: their size, and zero or null in every other field.
-macro_rules! zero_by_default {
-    ($($name:ident),*) => {$(
-        impl Default for $name {
-            fn default() -> Self {
-                // SAFETY: every field is a number or a pointer, which all may be zero.
-                let zero = unsafe { std::mem::zeroed::<Self>() };
-                Self { struct_size: size_of::<Self>() as u32, ..zero }
-            }
-        }
-    )*};
-}
-pub(super) use zero_by_default;
-
 /// A copy of a struct that begins with its own size.
 ///
 /// # Safety

@@ -1,9 +1,9 @@
 //! The deposit on a wall.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{check_size, guarded_status, initialise, reader, sized, zero_by_default};
+use super::boundary::{check_size, guarded_status, initialise, reader, sized};
 use super::impact::nw_impact;
-use super::types::{NW_BAD_STATE, NW_NULL_POINTER, nw_model, nw_status};
+use super::types::{NW_BAD_STATE, NW_NULL_POINTER, nw_model, nw_status, zero_by_default};
 use crate::deposit::{Deposit, DepositSource};
 use crate::slag::film;
 

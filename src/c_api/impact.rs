@@ -1,7 +1,8 @@
 //! The structs of one and of many impacts, from the table of inputs.
 #![allow(non_camel_case_types)]
 
-use super::boundary::{get, zero_by_default};
+use super::boundary::get;
+use super::types::zero_by_default;
 use crate::impact::{INPUTS, Impact, for_each_input};
 use crate::rng::ImpactRng;
 

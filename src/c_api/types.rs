@@ -3,9 +3,22 @@
 
 use std::ffi::CStr;
 
-use super::boundary::zero_by_default;
 use crate::impact::{ImpactError, Outcome};
 use crate::model::Model;
+
+/// The default of C structs: their size, and zero or null in every other field.
+macro_rules! zero_by_default {
+    ($($name:ident),*) => {$(
+        impl Default for $name {
+            fn default() -> Self {
+                // SAFETY: every field is a number or a pointer, which all may be zero.
+                let zero = unsafe { std::mem::zeroed::<Self>() };
+                Self { struct_size: size_of::<Self>() as u32, ..zero }
+            }
+        }
+    )*};
+}
+pub(super) use zero_by_default;
 
 /// A loaded model: opaque, immutable, shareable between threads.
 pub struct nw_model(Model);

@@ -4,7 +4,7 @@ use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, val
 
 use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
-use super::part::{FittedPart, Part};
+use super::part::{FittedPart, Part, rounded};
 use super::record::Estimate;
 use crate::dataset::Values;
 use crate::effect::EffectInfo;
@@ -83,9 +83,4 @@ fn valid(data: &DataSplit) -> InlineTable {
         }
     }
     ranges
-}
-
-/// The number with six digits, which is more than the accuracy of a fit.
-pub(super) fn rounded(number: f64) -> f64 {
-    format!("{number:.5e}").parse().unwrap_or(number)
 }

@@ -1,7 +1,6 @@
 //! What a fit can add to a base model: an effect, or another value of a parameter of its laws.
 
 use super::data_split::DataSplit;
-use super::extend::rounded;
 use super::record::Estimate;
 use super::search::SearchAxis;
 use crate::effect::EffectInfo;
@@ -139,4 +138,9 @@ impl FittedPart {
             (parameter.name, Estimate { value: rounded(value), low, high, unit: parameter.unit })
         })
     }
+}
+
+/// The number with six digits, which is more than the accuracy of a fit.
+pub(super) fn rounded(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
 }

@@ -2,9 +2,10 @@
 
 use super::super::chart::Chart;
 use super::super::format::{number, with_unit};
-use super::plot::DISTINCT;
 use crate::diagnose::{Sample, SampleRow};
 
+/// Up to this many values of a column each has a mean of its own, if it has so many rows on average.
+pub(super) const DISTINCT: usize = 12;
 /// Most words along an axis, and letters of each.
 const WORDS: usize = 16;
 const LETTERS: usize = 16;

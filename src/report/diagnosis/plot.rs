@@ -1,13 +1,11 @@
 //! What the page's figures share: running means, and ranges that gross errors do not stretch.
 
 use super::super::chart::{Chart, ErrorBars, Figure, round_edges};
-use super::axis::Axis;
+use super::axis::{Axis, DISTINCT};
 use crate::diagnose::{Sample, SampleRow};
 
 /// Most running means along an axis.
 const BINS: usize = 12;
-/// Up to this many values of a column each has a mean of its own, if it has so many rows on average.
-pub(super) const DISTINCT: usize = 12;
 const ROWS_A_VALUE: usize = 4;
 /// Fewest rows of a running mean, where there are enough.
 const ROWS_A_BIN: usize = 12;
