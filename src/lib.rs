@@ -62,6 +62,7 @@ pub mod diagnose;
 pub mod effect;
 pub mod impact;
 pub mod input;
+pub mod law;
 pub mod material;
 pub mod model;
 pub mod normal;

@@ -54,6 +54,10 @@ impl LawParameter {
                 _,
                 TangentialLaw::Sliding { friction } | TangentialLaw::SlidingRolling { friction },
             ) => Some(friction),
+            (Self::Friction, _, TangentialLaw::Listed { law, values }) => {
+                let place = law.parameters.iter().position(|parameter| parameter.name == "friction")?;
+                values.get_mut(place)
+            }
             _ => None,
         }
     }

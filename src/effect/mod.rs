@@ -26,6 +26,7 @@ use std::sync::Arc;
 
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
+pub use crate::law::{Parameter, Search};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
@@ -120,51 +121,6 @@ pub enum Precomputed {
     Transition(Transition),
 }
 
-/// One parameter of an effect.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter {
-    /// Key in the model file.
-    pub name: &'static str,
-    /// SI unit.
-    pub unit: &'static str,
-    /// Smallest and largest value that makes sense.
-    pub bounds: (f64, f64),
-    /// Value where the model file does not give it; `None` for a required parameter.
-    pub default: Option<f64>,
-    /// Range of a fit.
-    pub search: Search,
-    /// One line of explanation.
-    pub about: &'static str,
-}
-
-impl Parameter {
-    /// A parameter that the model file must give.
-    const fn new(name: &'static str, unit: &'static str, bounds: (f64, f64), search: Search) -> Self {
-        Self { name, unit, bounds, default: None, search, about: "" }
-    }
-
-    const fn default(self, value: f64) -> Self {
-        Self { default: Some(value), ..self }
-    }
-
-    const fn about(self, about: &'static str) -> Self {
-        Self { about, ..self }
-    }
-}
-
-/// Range in which a fit searches a parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Search {
-    /// Uniform between two values.
-    Linear(f64, f64),
-    /// Uniform in the logarithm between two positive values.
-    Log(f64, f64),
-    /// Uniform within the range of an input in the data.
-    InputRange(&'static str),
-    /// Uniform in the logarithm, from a fiftieth of the range of an input in the data to four times that range.
-    InputWidth(&'static str),
-}
-
 /// Id, description and parameters of an effect.
 #[derive(Debug)]
 pub struct EffectInfo {
@@ -210,7 +166,7 @@ impl Term {
         let values = kind
             .parameters
             .iter()
-            .map(|parameter| read_parameter(section, parameter))
+            .map(|parameter| parameter.read(section))
             .collect::<Result<Vec<f64>, _>>()?;
         section.text("source")?;
         let valid = section.section("valid")?.map_or(Ok(Vec::new()), |table| read_valid(&table))?;
@@ -249,23 +205,6 @@ impl Term {
             |&(input, [low, high]): &(usize, [f64; 2])| (low..=high).contains(&(INPUTS[input].value)(impact));
         self.valid.iter().all(inside)
     }
-}
-
-/// Reads a number, or `{ value, low, high }` of a fit.
-fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, InputError> {
-    let Parameter { name, unit, bounds: (low, high), default, about, .. } = *parameter;
-    let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
-    if !section.is_section(name) {
-        let given = section.number_within(name, low, high)?.or(default);
-        return given.ok_or_else(|| missing(section));
-    }
-    let fitted = section.required_section(name)?;
-    let value = fitted.number_within("value", low, high)?.ok_or_else(|| missing(&fitted))?;
-    fitted.number("low")?;
-    fitted.number("high")?;
-    fitted.text("unit")?;
-    fitted.finish()?;
-    Ok(value)
 }
 
 /// Reads `valid = { v_n = [0.5, 3], ... }`: the range of each input in the data of a fit.

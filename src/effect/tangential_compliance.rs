@@ -12,8 +12,8 @@
 //! The power of `x` is assumed and fitted to wax on Pyrex (Troiano et al., Fig 6): 0.85 at 80°, which
 //! `f = 0.28`, `e_1 = 1`, `q = 2.2` give. It is not the solution for elastic spheres (Maw, Barber & Fawcett 1976): integrated for
 //! that pair, elastic compliance falls from 0.64 at the transition to 0.55 and comes back to 0.69 head-on (`validation/run`,
-//! "Independent checks"), so another cause raises wax to 0.85; the name of the paper is kept. `e_1` above 1, or
-//! below 3/7, may create energy with spin. Valid for one friction and one pair of materials. It replaces the result of the tangential
+//! "Independent checks"), so another cause raises wax to 0.85; the name of the paper is kept. The solution itself is the
+//! tangential law `maw-barber-fawcett`. `e_1` above 1, or below 3/7, may create energy with spin. Valid for one friction and one pair of materials. It replaces the result of the tangential
 //! law and of effects before it.
 
 use std::f64::consts::FRAC_PI_2;

@@ -68,6 +68,11 @@ impl Impact {
         // A negative zero, which counts as a speed, would turn the angle round.
         self.normal_speed.abs().atan2(self.tangential_speed.abs())
     }
+
+    /// Mean of the temperatures of particle and wall [K].
+    pub fn mean_temperature(&self) -> f64 {
+        0.5 * self.particle_temperature + 0.5 * self.wall_temperature
+    }
 }
 
 /// Which of particle and wall is sticky: the four regimes of Troiano et al.

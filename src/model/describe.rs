@@ -1,6 +1,7 @@
 //! The content of a model in words, for `nearwall check`.
 
 use super::Model;
+use crate::law::{Origin, Parameter, describe_values};
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
@@ -28,6 +29,9 @@ impl Model {
                 TangentialLaw::Constant { restitution } => format!("constant, e_t = {restitution}"),
                 TangentialLaw::Sliding { friction } => format!("sliding, friction {friction}"),
                 TangentialLaw::SlidingRolling { friction } => format!("sliding-rolling, friction {friction}"),
+                TangentialLaw::Listed { law, values } => {
+                    listed(law.name, law.parameters, &values, law.origin)
+                }
             },
         ));
         let capture = self.criterion.map_or_else(
@@ -36,12 +40,7 @@ impl Model {
         );
         lines.push(("capture", capture));
         for term in &self.terms {
-            let parameters = term.kind().parameters.iter().zip(term.values());
-            let parameters = parameters.map(|(p, value)| match p.unit {
-                "1" => format!("{} = {value}", p.name),
-                unit => format!("{} = {value} {unit}", p.name),
-            });
-            let parameters: Vec<String> = parameters.collect();
+            let parameters = describe_values(term.kind().parameters, term.values());
             lines.push(("effect", format!("{}: {}", term.kind().id, parameters.join(", "))));
         }
         lines
@@ -51,6 +50,9 @@ impl Model {
         if let NormalLaw::Constant { restitution } = self.normal {
             return format!("constant, e_n = {restitution}");
         }
+        if let NormalLaw::Listed { law, values } = self.normal {
+            return listed(law.name, law.parameters, &values, law.origin);
+        }
         let adhesion = self.walls.first().map(|wall| wall.adhesion);
         let ratio = adhesion.map_or(f64::NAN, |a| a.yield_ratio);
         let work = match adhesion.and_then(|a| a.work) {
@@ -59,4 +61,11 @@ impl Model {
         };
         format!("{}, yield_ratio {ratio}, work of adhesion {work}", self.normal.name())
     }
+}
+
+/// A listed law with its parameters and the case to which it was fitted.
+fn listed(name: &str, parameters: &[Parameter], values: &[f64], origin: &Origin) -> String {
+    let mut parts = vec![name.to_owned()];
+    parts.extend(describe_values(parameters, values));
+    format!("{} ({})", parts.join(", "), origin.describe())
 }

@@ -94,6 +94,8 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         !(model.stickiness.as_ref().is_none_or(|criterion| criterion.holds_at(arriving.particle_temperature))
             && wall.melt.as_ref().is_none_or(|melt| melt.holds_at(arriving.wall_temperature))
             && model.melt_holds(arriving)
+            && model.normal.holds_for(arriving)
+            && model.tangential.holds_for(arriving)
             && model.particle.holds_at(arriving.particle_temperature)
             && wall.material.holds_at(arriving.wall_temperature)
             && model.terms.iter().all(|term| term.holds_for(arriving)))
@@ -116,7 +118,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     fn normal_law(&mut self, impact: &Impact, contact: &Contact, _: f64) -> NormalRebound {
         let law = self.model.normal;
-        let e_n = law.restitution(contact, impact.diameter, impact.normal_speed);
+        let e_n = law.rebound(contact, impact);
         self.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
         NormalRebound::of(e_n)
     }

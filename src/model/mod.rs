@@ -218,6 +218,6 @@ impl Model {
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        Ok(self.normal.speeds(&self.contact(wall, &impact, &|_| 0.5)?, impact.diameter))
+        Ok(self.normal.speeds_of(&self.contact(wall, &impact, &|_| 0.5)?, &impact))
     }
 }

@@ -1,6 +1,7 @@
 //! The steps of an impact on a prepared wall: what depends on materials and model alone is computed when the model is read.
 //!
-//! A wall is prepared when constant properties, a Thornton–Ning or constant normal law, any tangential law and effects with a
+//! A wall is prepared when constant properties, a Thornton–Ning or constant normal law, a tangential law with a variant
+//! of its own and effects with a
 //! precomputed form ([`Precomputed`]) decide its impacts. The steps have no branches, so the compiler turns a loop over a block
 //! into vector instructions.
 
@@ -31,7 +32,7 @@ pub(super) struct PreparedWall {
 #[derive(Debug, Clone, Copy)]
 struct Constants {
     normal: Normal,
-    tangential: TangentialLaw,
+    tangential: Tangential,
     /// Mindlin's `k` [1].
     stiffness_ratio: f64,
     transitions: Transitions,
@@ -47,6 +48,14 @@ struct Constants {
 enum Normal {
     ThorntonNing(normal::Prepared),
     Constant(f64),
+}
+
+/// The tangential laws that can be prepared.
+#[derive(Debug, Clone, Copy)]
+enum Tangential {
+    Constant(f64),
+    Sliding(f64),
+    SlidingRolling(f64),
 }
 
 /// What makes the particle sticky; the stickiness of two transitions is multiplied.
@@ -80,7 +89,7 @@ impl PreparedWall {
         let normal = match model.normal {
             NormalLaw::ThorntonNing => Normal::ThorntonNing(normal::Prepared::new(&contact)),
             NormalLaw::Constant { restitution } => Normal::Constant(restitution),
-            NormalLaw::PlasticJkr => return None,
+            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => return None,
         };
         // The powder of the model file changes these two inputs before a range is checked.
         let changed = |name| name == "layer_thickness" || name == "coverage";
@@ -90,7 +99,7 @@ impl PreparedWall {
         }
         let constants = Constants {
             normal,
-            tangential: model.tangential,
+            tangential: Tangential::new(model.tangential)?,
             stiffness_ratio: contact.stiffness_ratio,
             transitions,
             draws: !matches!(transitions, Transitions::None),
@@ -148,16 +157,16 @@ impl PreparedWall {
             }
         }
         match wall.tangential {
-            TangentialLaw::Constant { restitution } => {
-                let wall = Constants { tangential: TangentialLaw::Constant { restitution }, ..*wall };
+            Tangential::Constant(restitution) => {
+                let wall = Constants { tangential: Tangential::Constant(restitution), ..*wall };
                 run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
             }
-            TangentialLaw::Sliding { friction } => {
-                let wall = Constants { tangential: TangentialLaw::Sliding { friction }, ..*wall };
+            Tangential::Sliding(friction) => {
+                let wall = Constants { tangential: Tangential::Sliding(friction), ..*wall };
                 run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
             }
-            TangentialLaw::SlidingRolling { friction } => {
-                let wall = Constants { tangential: TangentialLaw::SlidingRolling { friction }, ..*wall };
+            Tangential::SlidingRolling(friction) => {
+                let wall = Constants { tangential: Tangential::SlidingRolling(friction), ..*wall };
                 run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
             }
         }
@@ -330,6 +339,26 @@ impl WallSteps for PreparedImpact<'_> {
 #[inline(always)]
 fn within(value: f64, [low, high]: [f64; 2]) -> bool {
     (value >= low) & (value <= high)
+}
+
+impl Tangential {
+    fn new(law: TangentialLaw) -> Option<Self> {
+        match law {
+            TangentialLaw::Constant { restitution } => Some(Self::Constant(restitution)),
+            TangentialLaw::Sliding { friction } => Some(Self::Sliding(friction)),
+            TangentialLaw::SlidingRolling { friction } => Some(Self::SlidingRolling(friction)),
+            TangentialLaw::Listed { .. } => None,
+        }
+    }
+
+    #[inline(always)]
+    fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
+        match self {
+            Self::Constant(restitution) => TangentialLaw::Constant { restitution }.rebound(kinematics),
+            Self::Sliding(friction) => TangentialLaw::Sliding { friction }.rebound(kinematics),
+            Self::SlidingRolling(friction) => TangentialLaw::SlidingRolling { friction }.rebound(kinematics),
+        }
+    }
 }
 
 impl Transitions {

@@ -84,7 +84,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
     let work = section.quantity("work_of_adhesion", &WORK_OF_ADHESION)?;
     let yield_ratio = match (yield_ratio, law) {
         (Some(ratio), _) => ratio,
-        (None, NormalLaw::Constant { .. }) => 1.0,
+        (None, NormalLaw::Constant { .. } | NormalLaw::Listed { .. }) => 1.0,
         (None, NormalLaw::ThorntonNing | NormalLaw::PlasticJkr) => {
             let what = "p_y / sigma_y (1.6 to 4 for hard, 0.7 for soft particles)";
             return Err(section.missing("yield_ratio", what));

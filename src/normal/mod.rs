@@ -1,16 +1,61 @@
 //! Normal restitution: the share of the speed towards the wall that a particle keeps. One law a file.
+//!
+//! The laws of [`NormalLaw`] with a variant of their own can be prepared for vectors. All others are listed in [`LISTED_LAWS`]: a
+//! new one is one file with a [`ListedLaw`] and one line there; the model file and `nearwall check` then know it, and tests demand
+//! its row in the documents.
 
+mod bons;
+mod brach_dunn;
 mod constant;
 mod contact;
+mod el_batsh;
+pub(crate) mod grant_tabakoff;
 mod plastic_jkr;
+pub(crate) mod tabakoff_wakeman;
 mod thornton_ning;
+mod whitaker_bons;
 
+pub(crate) use bons::ORIGIN as BONS;
 pub use contact::{Contact, reduced_modulus, stiffness_ratio};
 pub use thornton_ning::{
     Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
 };
 
+use crate::impact::Impact;
 use crate::input::{InputError, Section};
+use crate::law::{Origin, Parameter, Values, read_values};
+
+/// Every listed law.
+pub static LISTED_LAWS: [&ListedLaw; 6] = [
+    &brach_dunn::BRACH_DUNN,
+    &el_batsh::EL_BATSH,
+    &bons::BONS,
+    &whitaker_bons::WHITAKER_BONS,
+    &grant_tabakoff::GRANT_TABAKOFF,
+    &tabakoff_wakeman::TABAKOFF_WAKEMAN,
+];
+
+/// A law that may depend on every input of an impact, with its parameters and the case to which it was fitted.
+#[derive(Debug)]
+pub struct ListedLaw {
+    /// The name in model files.
+    pub name: &'static str,
+    /// Source, case and range.
+    pub origin: &'static Origin,
+    /// Its parameters, at most [`MOST_PARAMETERS`](crate::law::MOST_PARAMETERS).
+    pub parameters: &'static [Parameter],
+    /// Normal restitution [1] from the values of the parameters; `None` when the particle sticks.
+    pub restitution: fn(&Impact, &Contact, &Values) -> Option<f64>,
+    /// Sticking velocity [m/s] at the size and the temperatures of an impact; `None` for a law under which no particle sticks.
+    pub sticking_velocity: Option<fn(&Impact, &Contact, &Values) -> f64>,
+}
+
+/// Laws are equal when their names are.
+impl PartialEq for ListedLaw {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
 
 /// The speeds that separate sticking, elastic and plastic impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +80,13 @@ pub enum NormalLaw {
         /// Normal restitution `e_n` [1].
         restitution: f64,
     },
+    /// A law of [`LISTED_LAWS`].
+    Listed {
+        /// The law.
+        law: &'static ListedLaw,
+        /// The values of its parameters.
+        values: Values,
+    },
 }
 
 impl NormalLaw {
@@ -43,8 +95,13 @@ impl NormalLaw {
     /// # Errors
     /// [`InputError::Fault`] for an unknown law or a value out of bounds.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let word =
-            section.choice("model", &["thornton-ning", "thornton-ning-raised-pull-off", "constant"])?;
+        let mut names = vec!["thornton-ning", "thornton-ning-raised-pull-off", "constant"];
+        names.extend(LISTED_LAWS.map(|law| law.name));
+        let word = section.choice("model", &names)?;
+        let named = |law: &&&'static ListedLaw| Some(law.name) == word.as_deref();
+        if let Some(&law) = LISTED_LAWS.iter().find(named) {
+            return Ok(Self::Listed { law, values: read_values(section, law.parameters)? });
+        }
         match word.as_deref() {
             Some("thornton-ning-raised-pull-off") => Ok(Self::PlasticJkr),
             Some("constant") => Ok(Self::Constant { restitution: constant::read(section)? }),
@@ -58,32 +115,57 @@ impl NormalLaw {
             Self::ThorntonNing => "thornton-ning",
             Self::PlasticJkr => "thornton-ning-raised-pull-off",
             Self::Constant { .. } => "constant",
+            Self::Listed { law, .. } => law.name,
         }
     }
 
-    /// Normal restitution [1] of a particle of `diameter` [m] that hits at `normal_speed` [m/s]; `None` when
-    /// adhesion holds it.
+    /// Whether the law is stated for an impact; a law without a case to which it was fitted holds for all.
+    pub fn holds_for(self, impact: &Impact) -> bool {
+        match self {
+            Self::Listed { law, .. } => law.origin.holds_for(impact),
+            _ => true,
+        }
+    }
+
+    /// Normal restitution [1] of a particle of `diameter` [m] that hits head-on at `normal_speed` [m/s], without temperatures;
+    /// `None` when adhesion holds it.
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
+        self.rebound(contact, &Impact { diameter, normal_speed, ..Impact::default() })
+    }
+
+    /// Normal restitution [1] of an impact; `None` when adhesion holds the particle.
+    pub fn rebound(self, contact: &Contact, impact: &Impact) -> Option<f64> {
         let e_n = match self {
-            Self::ThorntonNing => Prepared::new(contact).restitution(diameter, normal_speed),
+            Self::ThorntonNing => Prepared::new(contact).restitution(impact.diameter, impact.normal_speed),
             Self::PlasticJkr => plastic_jkr::restitution(
-                normal_speed,
-                adhesive_velocity(contact, diameter),
+                impact.normal_speed,
+                adhesive_velocity(contact, impact.diameter),
                 yield_velocity(contact),
             ),
             Self::Constant { restitution } => return Some(restitution),
+            Self::Listed { law, values } => return (law.restitution)(impact, contact, &values),
         };
         (e_n > 0.0).then_some(e_n)
     }
 
-    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m]; for the constant law those of Thornton–Ning.
+    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m], without temperatures; for a law under which no
+    /// particle sticks those of Thornton–Ning.
     pub fn speeds(self, contact: &Contact, diameter: f64) -> Speeds {
-        let plain = thornton_ning::speeds(contact, diameter);
+        self.speeds_of(contact, &Impact { diameter, ..Impact::default() })
+    }
+
+    /// The same at the size and the temperatures of an impact.
+    pub fn speeds_of(self, contact: &Contact, impact: &Impact) -> Speeds {
+        let plain = thornton_ning::speeds(contact, impact.diameter);
         match self {
             Self::ThorntonNing | Self::Constant { .. } => plain,
             Self::PlasticJkr => {
                 let [yielding, sticking] = plastic_jkr::speeds(plain.adhesive, plain.yielding);
                 Speeds { yielding, sticking, ..plain }
+            }
+            Self::Listed { law, values } => {
+                let sticking = law.sticking_velocity.map(|sticking| sticking(impact, contact, &values));
+                Speeds { sticking: sticking.unwrap_or(plain.sticking), ..plain }
             }
         }
     }

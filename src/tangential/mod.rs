@@ -1,12 +1,50 @@
 //! Tangential restitution: the share of the speed along the wall that a particle keeps. One law a file.
+//!
+//! The laws of [`TangentialLaw`] with a variant of their own can be prepared for vectors. All others are listed in
+//! [`LISTED_LAWS`]: a new one is one file with a [`ListedLaw`] and one line there; the model file and `nearwall check` then know
+//! it, and tests demand its row in the documents.
 
+mod bons;
 mod constant;
+mod grant_tabakoff;
+mod maw_barber_fawcett;
 mod sliding;
 mod sliding_rolling;
+mod tabakoff_wakeman;
 
 pub use sliding_rolling::critical_angle;
 
+use crate::impact::Impact;
 use crate::input::{InputError, Section};
+use crate::law::{Origin, Parameter, Values, read_values};
+
+/// Every listed law.
+pub static LISTED_LAWS: [&ListedLaw; 4] = [
+    &maw_barber_fawcett::MAW_BARBER_FAWCETT,
+    &bons::BONS,
+    &grant_tabakoff::GRANT_TABAKOFF,
+    &tabakoff_wakeman::TABAKOFF_WAKEMAN,
+];
+
+/// A law with its parameters and the case to which it was fitted.
+#[derive(Debug)]
+pub struct ListedLaw {
+    /// The name in model files.
+    pub name: &'static str,
+    /// Source, case and range.
+    pub origin: &'static Origin,
+    /// Its parameters, at most [`MOST_PARAMETERS`](crate::law::MOST_PARAMETERS).
+    pub parameters: &'static [Parameter],
+    /// Tangential restitution and spin from the values of the parameters.
+    pub rebound: fn(&ImpactKinematics, &Values) -> Rebound,
+}
+
+/// Laws are equal when their names are.
+impl PartialEq for ListedLaw {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
 
 /// The quantities of an impact that a tangential law uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +68,11 @@ impl ImpactKinematics {
     #[inline(always)]
     fn slip(&self) -> f64 {
         self.tangential_speed - 0.5 * self.diameter * self.spin
+    }
+
+    /// Angle between path and surface [rad]: 0 glancing, pi/2 head-on.
+    fn angle_from_surface(&self) -> f64 {
+        self.normal_speed.abs().atan2(self.tangential_speed.abs())
     }
 
     /// The rebound with a speed along the wall [m/s] and the spin `omega_0 + x/d`; `at_rest` is `e_t` of a head-on impact.
@@ -70,6 +113,13 @@ pub enum TangentialLaw {
         /// Friction coefficient `f` [1].
         friction: f64,
     },
+    /// A law of [`LISTED_LAWS`].
+    Listed {
+        /// The law.
+        law: &'static ListedLaw,
+        /// The values of its parameters.
+        values: Values,
+    },
 }
 
 impl TangentialLaw {
@@ -78,7 +128,13 @@ impl TangentialLaw {
     /// # Errors
     /// [`InputError::Fault`] for an unknown law or a value out of bounds.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let word = section.choice("model", &["constant", "sliding", "sliding-rolling"])?;
+        let mut names = vec!["constant", "sliding", "sliding-rolling"];
+        names.extend(LISTED_LAWS.map(|law| law.name));
+        let word = section.choice("model", &names)?;
+        let named = |law: &&&'static ListedLaw| Some(law.name) == word.as_deref();
+        if let Some(&law) = LISTED_LAWS.iter().find(named) {
+            return Ok(Self::Listed { law, values: read_values(section, law.parameters)? });
+        }
         let friction = |s: &Section<'_>| {
             s.number_within("friction", 0.0, f64::INFINITY)?
                 .ok_or_else(|| s.missing("friction", "a friction coefficient"))
@@ -97,6 +153,15 @@ impl TangentialLaw {
             Self::Constant { .. } => "constant",
             Self::Sliding { .. } => "sliding",
             Self::SlidingRolling { .. } => "sliding-rolling",
+            Self::Listed { law, .. } => law.name,
+        }
+    }
+
+    /// Whether the law is stated for an impact; a law without a case to which it was fitted holds for all.
+    pub fn holds_for(self, impact: &Impact) -> bool {
+        match self {
+            Self::Listed { law, .. } => law.origin.holds_for(impact),
+            _ => true,
         }
     }
 
@@ -107,6 +172,7 @@ impl TangentialLaw {
             Self::Constant { restitution } => Rebound { restitution, spin: kinematics.spin },
             Self::Sliding { friction } => sliding::rebound(friction, kinematics),
             Self::SlidingRolling { friction } => sliding_rolling::rebound(friction, kinematics),
+            Self::Listed { law, values } => (law.rebound)(kinematics, &values),
         }
     }
 }

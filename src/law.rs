@@ -1,0 +1,203 @@
+//! What laws of all rooms have in common: parameters, and the case to which a law was fitted.
+
+use crate::impact::Impact;
+use crate::input::{InputError, Section};
+
+/// One parameter of a law or an effect.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Key in the model file.
+    pub name: &'static str,
+    /// SI unit.
+    pub unit: &'static str,
+    /// Smallest and largest value that makes sense.
+    pub bounds: (f64, f64),
+    /// Value where the model file does not give it; `None` for a required parameter.
+    pub default: Option<f64>,
+    /// Range of a fit.
+    pub search: Search,
+    /// One line of explanation.
+    pub about: &'static str,
+}
+
+/// Range in which a fit searches a parameter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Search {
+    /// Uniform between two values.
+    Linear(f64, f64),
+    /// Uniform in the logarithm between two positive values.
+    Log(f64, f64),
+    /// Uniform within the range of an input in the data.
+    InputRange(&'static str),
+    /// Uniform in the logarithm, from a fiftieth of the range of an input in the data to four times that range.
+    InputWidth(&'static str),
+}
+
+impl Parameter {
+    /// A parameter that the model file must give.
+    pub(crate) const fn new(
+        name: &'static str,
+        unit: &'static str,
+        bounds: (f64, f64),
+        search: Search,
+    ) -> Self {
+        Self { name, unit, bounds, default: None, search, about: "" }
+    }
+
+    pub(crate) const fn default(self, value: f64) -> Self {
+        Self { default: Some(value), ..self }
+    }
+
+    pub(crate) const fn about(self, about: &'static str) -> Self {
+        Self { about, ..self }
+    }
+
+    /// Reads a number, or `{ value, low, high }` of a fit.
+    pub(crate) fn read(&self, section: &Section<'_>) -> Result<f64, InputError> {
+        let Self { name, unit, bounds: (low, high), default, about, .. } = *self;
+        let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
+        if !section.is_section(name) {
+            let given = section.number_within(name, low, high)?.or(default);
+            return given.ok_or_else(|| missing(section));
+        }
+        let fitted = section.required_section(name)?;
+        let value = fitted.number_within("value", low, high)?.ok_or_else(|| missing(&fitted))?;
+        fitted.number("low")?;
+        fitted.number("high")?;
+        fitted.text("unit")?;
+        fitted.finish()?;
+        Ok(value)
+    }
+}
+
+/// Most parameters of a listed law.
+pub const MOST_PARAMETERS: usize = 4;
+
+/// The values of the parameters of a listed law, in their order; the rest is 0.
+pub type Values = [f64; MOST_PARAMETERS];
+
+/// Reads the parameters of a listed law.
+pub(crate) fn read_values(
+    section: &Section<'_>,
+    parameters: &'static [Parameter],
+) -> Result<Values, InputError> {
+    let mut values = Values::default();
+    for (value, parameter) in values.iter_mut().zip(parameters) {
+        *value = parameter.read(section)?;
+    }
+    Ok(values)
+}
+
+/// Parameters with their values and units, as in `name = 0.3 m/s`.
+pub(crate) fn describe_values(parameters: &[Parameter], values: &[f64]) -> Vec<String> {
+    let text = |(parameter, value): (&Parameter, &f64)| match parameter.unit {
+        "1" => format!("{} = {value}", parameter.name),
+        unit => format!("{} = {value} {unit}", parameter.name),
+    };
+    parameters.iter().zip(values).map(text).collect()
+}
+
+/// Where a listed law comes from and for which impacts it is stated.
+#[derive(Debug)]
+pub struct Origin {
+    /// The publication.
+    pub source: &'static str,
+    /// The particles, walls and impacts to which it was fitted, or the case that it describes.
+    pub case: &'static str,
+    /// The impacts of that case; outside, the outcome is marked as outside the valid range.
+    pub range: &'static [FitLimit],
+}
+
+/// The range of one quantity of an impact to which a law was fitted.
+#[derive(Debug)]
+pub struct FitLimit {
+    /// The quantity in words.
+    pub quantity: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// Lowest and highest value.
+    pub range: [f64; 2],
+    /// Reads it from an impact.
+    pub value: fn(&Impact) -> f64,
+}
+
+impl FitLimit {
+    /// The angle between path and surface [degrees]: 0 glancing, 90 head-on.
+    pub(crate) const fn angle(low: f64, high: f64) -> Self {
+        let value = |impact: &Impact| impact.angle_from_surface().to_degrees();
+        Self { quantity: "angle from the surface", unit: "degrees", range: [low, high], value }
+    }
+
+    /// The speed of the particle [m/s].
+    pub(crate) const fn speed(low: f64, high: f64) -> Self {
+        Self { quantity: "speed", unit: "m/s", range: [low, high], value: Impact::speed }
+    }
+
+    /// The diameter of the particle [m].
+    pub(crate) const fn diameter(low: f64, high: f64) -> Self {
+        Self { quantity: "diameter", unit: "m", range: [low, high], value: |impact| impact.diameter }
+    }
+
+    /// The mean of the temperatures of particle and wall [K].
+    pub(crate) const fn temperature(low: f64, high: f64) -> Self {
+        Self { quantity: "mean temperature", unit: "K", range: [low, high], value: Impact::mean_temperature }
+    }
+}
+
+impl Origin {
+    /// Whether an impact lies in the range of the fit.
+    pub fn holds_for(&self, impact: &Impact) -> bool {
+        self.range.iter().all(|limit| {
+            let [low, high] = limit.range;
+            // Rounding: an angle of 90 degrees is computed from two speeds.
+            let value = (limit.value)(impact);
+            value >= low * (1.0 - 1e-12) && value <= high * (1.0 + 1e-12)
+        })
+    }
+
+    /// Case and range in one line.
+    pub(crate) fn describe(&self) -> String {
+        let limit = |limit: &FitLimit| {
+            let FitLimit { quantity, unit, range: [low, high], .. } = limit;
+            format!("{quantity} {low} to {high} {unit}")
+        };
+        let range: Vec<String> = self.range.iter().map(limit).collect();
+        if range.is_empty() {
+            self.case.to_owned()
+        } else {
+            format!("{}; stated for {}", self.case, range.join(", "))
+        }
+    }
+}
+
+/// `c0 + c1 x + c2 x² + ...`
+pub(crate) fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_begins_with_its_constant() {
+        assert_eq!(polynomial(&[3.0, 2.0, 1.0], 10.0), 123.0);
+        assert_eq!(polynomial(&[], 10.0), 0.0);
+    }
+
+    /// The angle is counted from the surface: a head-on impact has 90 degrees.
+    #[test]
+    fn angles_are_counted_from_the_surface() {
+        let origin = Origin { source: "", case: "", range: &[FitLimit::angle(80.0, 90.0)] };
+        let impact =
+            |normal_speed, tangential_speed| Impact { normal_speed, tangential_speed, ..Impact::default() };
+        assert!(origin.holds_for(&impact(1.0, 0.0)) && origin.holds_for(&impact(1.0, 0.1)));
+        assert!(!origin.holds_for(&impact(0.1, 1.0)));
+    }
+
+    #[test]
+    fn a_description_has_the_range_with_units() {
+        let origin = Origin { source: "", case: "sand", range: &[FitLimit::speed(60.0, 190.0)] };
+        assert_eq!(origin.describe(), "sand; stated for speed 60 to 190 m/s");
+    }
+}
