@@ -185,19 +185,20 @@ mod tests {
         assert_eq!(polynomial(&[], 10.0), 0.0);
     }
 
+    static STEEP: Origin = Origin { source: "", case: "", range: &[FitLimit::angle(80.0, 90.0)] };
+    static FAST: Origin = Origin { source: "", case: "sand", range: &[FitLimit::speed(60.0, 190.0)] };
+
     /// The angle is counted from the surface: a head-on impact has 90 degrees.
     #[test]
     fn angles_are_counted_from_the_surface() {
-        let origin = Origin { source: "", case: "", range: &[FitLimit::angle(80.0, 90.0)] };
-        let impact =
-            |normal_speed, tangential_speed| Impact { normal_speed, tangential_speed, ..Impact::default() };
-        assert!(origin.holds_for(&impact(1.0, 0.0)) && origin.holds_for(&impact(1.0, 0.1)));
-        assert!(!origin.holds_for(&impact(0.1, 1.0)));
+        let holds = |normal_speed, tangential_speed| {
+            STEEP.holds_for(&Impact { normal_speed, tangential_speed, ..Impact::default() })
+        };
+        assert!(holds(1.0, 0.0) && holds(1.0, 0.1) && !holds(0.1, 1.0));
     }
 
     #[test]
     fn a_description_has_the_range_with_units() {
-        let origin = Origin { source: "", case: "sand", range: &[FitLimit::speed(60.0, 190.0)] };
-        assert_eq!(origin.describe(), "sand; stated for speed 60 to 190 m/s");
+        assert_eq!(FAST.describe(), "sand; stated for speed 60 to 190 m/s");
     }
 }

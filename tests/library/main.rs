@@ -1,4 +1,4 @@
-//! The library: the golden table, independent oracles, effects, droplets, slag viscosity, the fuzzer's corpus, the links
+//! The library: the golden table, independent oracles, effects, listed laws, measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links
 //! in the documents, and the C header with everything that is generated from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "the C interface is compared and fuzzed too")]
@@ -14,5 +14,7 @@ mod droplet;
 mod effects;
 mod golden;
 mod interface;
+mod laws;
+mod oblique_impact;
 mod slag_viscosity;
 mod slag_viscosity_study;

@@ -147,4 +147,6 @@ fn walls_are_prepared_where_they_can_be() {
     assert!(!prepared(THORNTON_NING, &transition(2.0)));
     assert!(!prepared(THORNTON_NING, &table("gas-lift", &[0.05])));
     assert!(!prepared(&THORNTON_NING.replace("thornton-ning", "thornton-ning-raised-pull-off"), ""));
+    assert!(!prepared("model = \"grant-tabakoff\"", ""));
+    assert!(!wax(THORNTON_NING, "model = \"maw-barber-fawcett\"\nfriction = 0.3", "").is_prepared(0));
 }

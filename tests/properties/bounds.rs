@@ -63,6 +63,7 @@ proptest! {
     /// it is what spin makes of a speed along the wall that may be next to nothing, and may exceed every number.
     #[test]
     fn far_away_inputs_give_numbers(
+        normal in prop_oneof![Just(crate::cases::THORNTON_NING.to_owned()), crate::cases::listed_normal_laws()],
         tangential in tangential_laws(),
         effects in effects_but(&[]),
         exponents in proptest::array::uniform9(-300.0..300.0),
@@ -85,7 +86,7 @@ proptest! {
             spin,
             ..Impact::default()
         };
-        let model = wax(crate::cases::THORNTON_NING, &tangential, &effects);
+        let model = wax(&normal, &tangential, &effects);
         let outcome = model.resolve(0, &impact, ImpactRng::new(1, key)).unwrap();
         prop_assert!(outcome.normal_restitution.is_finite() && outcome.normal_restitution >= 0.0, "{outcome:?}");
         prop_assert!((0.0..=1.0).contains(&outcome.sticking_probability), "{outcome:?}");

@@ -1,7 +1,7 @@
 //! Random models and impacts.
 
 use nearwall::effect::{EFFECTS, EffectInfo, Parameter, Search};
-use nearwall::{Impact, ImpactRng, Model, Outcome};
+use nearwall::{Impact, ImpactRng, Model, Outcome, normal, tangential};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
@@ -92,9 +92,31 @@ pub fn spinning() -> impl Strategy<Value = Impact> {
     })
 }
 
+/// The keys of a listed law with random parameters.
+fn listed(name: &'static str, parameters: &'static [Parameter]) -> BoxedStrategy<String> {
+    let text = move |values: Vec<f64>| {
+        let lines = parameters.iter().zip(values).map(|(p, value)| format!("\n{} = {value:e}", p.name));
+        format!("model = \"{name}\"{}", lines.collect::<String>())
+    };
+    parameters.iter().map(values).collect::<Vec<_>>().prop_map(text).boxed()
+}
+
+/// One of the listed tangential laws.
+pub fn listed_tangential_laws() -> impl Strategy<Value = String> {
+    let laws = tangential::LISTED_LAWS.map(|law| listed(law.name, law.parameters));
+    proptest::strategy::Union::new(laws)
+}
+
+/// One of the listed normal laws.
+pub fn listed_normal_laws() -> impl Strategy<Value = String> {
+    let laws = normal::LISTED_LAWS.map(|law| listed(law.name, law.parameters));
+    proptest::strategy::Union::new(laws)
+}
+
 /// A law for the motion along the wall.
 pub fn tangential_laws() -> impl Strategy<Value = String> {
     prop_oneof![
+        listed_tangential_laws(),
         (0.0..=1.0).prop_map(|e_t| format!("model = \"constant\"\ne_t = {e_t:e}")),
         decades(1e-3, 10.0).prop_map(|f| format!("model = \"sliding\"\nfriction = {f:e}")),
         decades(1e-3, 10.0).prop_map(|f| format!("model = \"sliding-rolling\"\nfriction = {f:e}")),
@@ -104,6 +126,7 @@ pub fn tangential_laws() -> impl Strategy<Value = String> {
 /// A normal law.
 pub fn normal_laws() -> impl Strategy<Value = String> {
     prop_oneof![
+        listed_normal_laws(),
         (0.0..=1.0).prop_map(constant_normal),
         (any::<bool>(), decades(0.1, 10.0), decades(1e-4, 10.0)).prop_map(|(raised, ratio, work)| {
             let law = if raised { "thornton-ning-raised-pull-off" } else { "thornton-ning" };

@@ -167,6 +167,7 @@ proptest! {
             Just("model = \"constant\"\ne_t = 0.7"),
             Just("model = \"sliding\"\nfriction = 0.2"),
             Just("model = \"sliding-rolling\"\nfriction = 0.2"),
+            Just("model = \"maw-barber-fawcett\"\nfriction = 0.2"),
         ],
         key in any::<u64>(),
     ) {
