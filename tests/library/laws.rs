@@ -31,7 +31,7 @@ fn model(table: &str, law: &str) -> Result<Model, nearwall::input::InputError> {
         _ => ("model = \"constant\"\ne_n = 0.5\n", law),
     };
     let text = format!(
-        "[particle]\nmaterial = \"fly-ash\"\n[walls.default]\nmaterial = \"stainless-steel\"\n\
+        "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
          [normal]\n{normal}[tangential]\n{tangential}"
     );
     Model::from_toml("m", &text)
@@ -146,7 +146,7 @@ fn outside_the_range_of_the_fit_the_outcome_is_marked() {
 fn angles_are_counted_from_the_surface() {
     for name in ["grant-tabakoff", "tabakoff-wakeman"] {
         let text = format!(
-            "[particle]\nmaterial = \"fly-ash\"\n[walls.default]\nmaterial = \"stainless-steel\"\n\
+            "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
              [normal]\nmodel = \"{name}\"\n[tangential]\nmodel = \"{name}\"\n"
         );
         let model = Model::from_toml("m", &text).unwrap();
