@@ -93,7 +93,12 @@ fn share(along: f64, stiffness_ratio: f64) -> f64 {
         values[node] + past * (values[node + 1] - values[node])
     };
     let first = in_row(row);
-    first + above * (in_row(row + 1) - first)
+    (first + above * (in_row(row + 1) - first)) * share_at_end(stiffness_ratio)
+}
+
+/// Share of the slip that the wall takes where partial slip ends [1]: that of gross sliding at `psi = 7k - 1`.
+fn share_at_end(stiffness_ratio: f64) -> f64 {
+    2.0 * stiffness_ratio / (7.0 * stiffness_ratio - 1.0)
 }
 
 /// The node below a place between 0 and 1, and how far the place is on the way to the next node.
@@ -103,15 +108,16 @@ fn place(along: f64, nodes: usize) -> (usize, f64) {
     (below, scaled - below as f64)
 }
 
+/// One row of the table: `rho` over its value at the end of partial slip [1], so that the law joins gross sliding exactly.
 fn tabulate(row: usize) -> [f64; NODES] {
     let [low, high] = STIFFNESS;
     let k = low + (high - low) * row as f64 / (ROWS - 1) as f64;
     let end = 7.0 * k - 1.0;
     std::array::from_fn(|node| match node {
         // The integral is singular without slip, where `rho` has a limit.
-        0 => integrate(k, 1e-6 * end, RESOLUTION),
-        _ if node == NODES - 1 => 2.0 * k / end,
-        _ => integrate(k, end * node as f64 / (NODES - 1) as f64, RESOLUTION),
+        0 => integrate(k, 1e-6 * end, RESOLUTION) / share_at_end(k),
+        _ if node == NODES - 1 => 1.0,
+        _ => integrate(k, end * node as f64 / (NODES - 1) as f64, RESOLUTION) / share_at_end(k),
     })
 }
 
@@ -205,11 +211,15 @@ mod tests {
         assert_abs_diff_eq!(rebound(&head_on, &WAX).restitution, e_t(0.28, 89.9999), epsilon = 1e-4);
     }
 
-    /// A share of 4/7 would give the slip back whole; below it energy is lost.
+    /// A share of 4/7 would give the slip back whole; below it energy is lost. And friction bounds the impulse.
     #[test]
-    fn no_share_makes_energy() {
-        for row in 0..ROWS {
-            assert!(tabulate(row).iter().all(|share| *share > 0.0 && *share < 4.0 / 7.0), "{row}");
+    fn no_share_makes_energy_or_exceeds_friction() {
+        for k in [2.0 / 3.0, 0.8, 1.0, 1.2, 4.0 / 3.0] {
+            for along in (0..=200).map(|i| f64::from(i) / 200.0) {
+                let share = share(along, k);
+                assert!(share > 0.0 && share < 4.0 / 7.0, "{k} {along}: {share}");
+                assert!(share * along * (7.0 * k - 1.0) <= 2.0 * k * (1.0 + 1e-12), "{k} {along}: {share}");
+            }
         }
     }
 

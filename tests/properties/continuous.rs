@@ -58,6 +58,27 @@ proptest! {
         joined([below / yielding, above / yielding])?;
     }
 
+    /// With any spin; where gross sliding ends, and where the slip goes through zero.
+    #[test]
+    fn maw_barber_fawcett_where_sliding_ends_and_without_slip(
+        friction in decades(1e-2, 5.0),
+        e in 0.0..=1.0,
+        rim in -5.0f64..5.0,
+    ) {
+        let law = format!("model = \"maw-barber-fawcett\"\nfriction = {friction:e}");
+        let model = wax(&constant_normal(e), &law, "");
+        let cotangent = 1.0 / critical_angle(friction, e, k(&model)).tan();
+        let diameter = 1e-4;
+        let impact = |slip: f64| {
+            let rim = rim.abs() * cotangent;
+            let spin = 2.0 * rim / diameter;
+            Impact { normal_speed: 1.0, tangential_speed: slip + rim, diameter, spin, ..Impact::default() }
+        };
+        all_joined(&impact(cotangent), sides(cotangent, |slip| resolve(&model, &impact(slip))))?;
+        let around = [resolve(&model, &impact(-ASIDE * cotangent)), resolve(&model, &impact(ASIDE * cotangent))];
+        all_joined(&impact(0.01 * cotangent), around)?;
+    }
+
     /// With any spin: the slip takes the place of the speed along the wall.
     #[test]
     fn tangential_compliance_at_the_critical_angle(

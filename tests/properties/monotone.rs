@@ -77,6 +77,29 @@ proptest! {
         fall(&over(&ladder(diameter, 30.0 * diameter, 8), |d| sticking(work, d)))?;
     }
 
+    /// Of the laws by name that have one: small particles stick up to higher speeds, and hot ones where the law knows heat.
+    #[test]
+    fn sticking_velocities_of_listed_laws(diameter in decades(1e-6, 1e-3), temperature in 600.0..1400.0) {
+        let sticking = |law: &str, diameter: f64, temperature: f64| {
+            let impact = Impact {
+                diameter,
+                particle_temperature: temperature,
+                wall_temperature: temperature,
+                ..Impact::default()
+            };
+            wax(law, FREE, "").speeds(0, &impact).unwrap().sticking
+        };
+        let vane = "model = \"el-batsh\"\ne_n = 0.8";
+        let bons = "model = \"bons\"\nwork_of_adhesion = 1e-3";
+        let spheres = "model = \"brach-dunn\"\nloss_speed = 200\nloss_exponent = 0.7";
+        for law in [vane, bons, spheres] {
+            fall(&over(&ladder(diameter, 30.0 * diameter, 8), |d| sticking(law, d, temperature)))?;
+        }
+        rise(&over(&ladder(temperature, 1.5 * temperature, 8), |t| sticking(vane, diameter, t)))?;
+        let adhesive = |work: f64| format!("model = \"bons\"\nwork_of_adhesion = {work:e}");
+        rise(&over(&ladder(1e-5, 1e-1, 8), |work| sticking(&adhesive(work), diameter, temperature)))?;
+    }
+
     #[test]
     fn restitution_falls_with_adhesion_and_rises_with_strength_and_size(impact in impacts()) {
         fall(&over(&ladder(1e-5, 10.0, 10), |work| e_n(&wax(&with_work(work), FREE, ""), &impact)))?;

@@ -44,7 +44,7 @@ pub fn study(extent: Extent) -> Result<Study> {
             "The laws of adhesion, yielding, sliding and rolling agree with the integrated contact, and the \
              viscosity laws with their stated errors. Known differences: the default law under-predicts \
              sticking where adhesion is as strong as yield, and tangential-compliance differs from elastic \
-             theory."
+             theory, which the law maw-barber-fawcett follows."
                 .to_owned(),
         parts,
     })
