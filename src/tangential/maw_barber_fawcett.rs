@@ -58,8 +58,11 @@ const ROWS: usize = 17;
 /// The `k` of the first and of the last row: Poisson's ratio one half and minus one.
 const STIFFNESS: [f64; 2] = [2.0 / 3.0, 4.0 / 3.0];
 
-/// Springs over the largest contact radius, and steps over the impact.
-const RESOLUTION: [usize; 2] = [50, 200];
+/// Springs over the largest contact radius.
+const SPRINGS: usize = 50;
+
+/// Steps over the impact.
+const STEPS: usize = 200;
 
 static TABLE: [OnceLock<[f64; NODES]>; ROWS] = [const { OnceLock::new() }; ROWS];
 
@@ -115,9 +118,9 @@ fn tabulate(row: usize) -> [f64; NODES] {
     let end = 7.0 * k - 1.0;
     std::array::from_fn(|node| match node {
         // The integral is singular without slip, where `rho` has a limit.
-        0 => integrate(k, 1e-6 * end, RESOLUTION) / share_at_end(k),
+        0 => integrate::<SPRINGS>(k, 1e-6 * end, STEPS) / share_at_end(k),
         _ if node == NODES - 1 => 1.0,
-        _ => integrate(k, end * node as f64 / (NODES - 1) as f64, RESOLUTION) / share_at_end(k),
+        _ => integrate::<SPRINGS>(k, end * node as f64 / (NODES - 1) as f64, STEPS) / share_at_end(k),
     })
 }
 
@@ -125,9 +128,9 @@ fn tabulate(row: usize) -> [f64; NODES] {
 ///
 /// Lengths along the normal are in units of the deepest approach `D`, stretch along the wall in units of `f D/k`, so that the
 /// spring at `x` (in contact radii) holds at most `depth - x²`; slip in units of `f v_n/k`, impulse of `f m v_n`.
-fn integrate(k: f64, psi: f64, [springs, steps]: [usize; 2]) -> f64 {
-    let places: Vec<f64> = (0..springs).map(|i| ((i as f64 + 0.5) / springs as f64).powi(2)).collect();
-    let mut stretch = vec![0.0; springs];
+fn integrate<const SPRINGS: usize>(k: f64, psi: f64, steps: usize) -> f64 {
+    let places: [f64; SPRINGS] = std::array::from_fn(|i| ((i as f64 + 0.5) / SPRINGS as f64).powi(2));
+    let mut stretch = [0.0; SPRINGS];
     let (mut slip, mut impulse, mut depth) = (psi, 0.0, 0.0);
     let step = PI / steps as f64;
     for index in 0..steps {
@@ -181,7 +184,7 @@ mod tests {
     fn the_table_is_as_accurate_as_stated() {
         for k in [2.0 / 3.0, 0.69, 0.78, 0.91, 1.0, 1.23, 4.0 / 3.0] {
             for along in [1e-4, 0.011, 0.05, 0.13, 0.21, 0.3, 0.47, 0.71, 0.93, 0.99, 1.0] {
-                let fine = integrate(k, along * (7.0 * k - 1.0), [200, 2000]);
+                let fine = integrate::<200>(k, along * (7.0 * k - 1.0), 2000);
                 assert_abs_diff_eq!(share(along, k), fine, epsilon = 1e-3);
             }
         }

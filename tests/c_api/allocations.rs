@@ -33,6 +33,9 @@ const WAX: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmater
 const MELTING: &str = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 360\nwidth = 7\n";
 const GENERAL: &str = "[[effects]]\nkind = \"gas-lift\"\nstrength = 0.05\n";
 
+const BY_NAME: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+    [normal]\nmodel = \"bons\"\nwork_of_adhesion = 1e-4\n[tangential]\nmodel = \"maw-barber-fawcett\"\nfriction = 0.28\n";
+
 /// Allocations of the calls on one model: single ones, then a batch of so many.
 fn allocations(model: &str, count: usize) -> usize {
     let (mut handle, speeds) = (null_mut(), vec![1.5; count]);
@@ -62,12 +65,11 @@ fn calls_allocate_nothing() {
     let before = COUNT.get();
     drop(std::hint::black_box(Box::new(1)));
     assert!(COUNT.get() > before, "the counter counts");
-    for effects in ["", MELTING, GENERAL] {
-        let model = WAX.to_owned() + effects;
+    for model in [WAX.to_owned(), WAX.to_owned() + MELTING, WAX.to_owned() + GENERAL, BY_NAME.to_owned()] {
         // The first batch of a process asks the processor for its vectors.
         allocations(&model, 1);
         for count in [0, 1, 127, 10_000] {
-            assert_eq!(allocations(&model, count), 0, "{count} impacts, {effects}");
+            assert_eq!(allocations(&model, count), 0, "{count} impacts, {model}");
         }
     }
 }

@@ -403,7 +403,16 @@ fn chart(compared: &Compared) -> Result<Figure> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may fail")]
     use super::*;
+
+    /// The law's own error is below 1e-3, that of the coarse integration too.
+    #[test]
+    fn the_law_follows_the_theory() {
+        let largest = law_from_theory(Extent::Short).unwrap();
+        println!("largest difference {largest:.5}");
+        assert!(largest < 2e-3, "{largest}");
+    }
 
     #[test]
     fn the_integration_is_as_accurate_as_stated() {
