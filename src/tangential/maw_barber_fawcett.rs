@@ -16,7 +16,7 @@
 //! # Solution
 //! `rho` is integrated over the impact: Hertz's contact as a row of springs over the contact radius, each with its own friction (exact
 //! for Hertz and for Cattaneo's and Mindlin's partial slip under any history of loads), over the phase `theta` of
-//! `v = v_n cos(theta)`. A row of [`NODES`] values of `psi` for one of [`ROWS`] values of `k` is computed when it is first needed
+//! `v = v_n cos(theta)`. A row of `NODES` values of `psi` for one of `ROWS` values of `k` is computed when it is first needed
 //! (1 ms) and kept; between them linear interpolation. Error of `e_t`: below 1e-3 (tests compare with a finer integration; the
 //! independent integration of `validation/run`, "Independent checks", agrees as well).
 //!

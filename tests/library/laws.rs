@@ -162,3 +162,21 @@ fn angles_are_counted_from_the_surface() {
         assert!(!glancing.stuck && !steep.stuck);
     }
 }
+
+/// Measured critical velocities of fly ash on steel (Energies 6 (2013) 3245 and 4288; 14 (2021) 5231): diameter [m], velocity [m/s].
+const ASH: [[f64; 2]; 6] =
+    [[88e-6, 1.92], [96e-6, 1.25], [104e-6, 0.69], [85e-6, 0.19], [65e-6, 0.42], [23e-6, 1.06]];
+
+/// What the documents say of `brach-dunn` and ash.
+#[test]
+fn brach_and_dunn_do_not_describe_ash() {
+    let text = "[particle]\nmaterial = \"fly-ash\"\n[walls.default]\nmaterial = \"stainless-steel\"\n\
+                [normal]\nmodel = \"brach-dunn\"\nloss_speed = 200\nloss_exponent = 0.7\n\
+                [tangential]\nmodel = \"constant\"\ne_t = 1\n";
+    let model = Model::from_toml("m", text).unwrap();
+    for [diameter, measured] in ASH {
+        let law = model.speeds(0, &Impact { diameter, ..Impact::default() }).unwrap().sticking;
+        println!("{:.0} µm: {law:.4} m/s, measured {measured}", 1e6 * diameter);
+        assert!((80.0..3000.0).contains(&(measured / law)), "{diameter}: {law}");
+    }
+}
