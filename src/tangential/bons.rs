@@ -3,7 +3,7 @@
 //! `u2 = u1 - f (1+e_n) v_n cos² b`, so `e_t = 1 - f (1+e_n) sin b cos b`.
 //!
 //! `u` speed along the wall [m/s], `v_n` speed towards it [m/s], `b` the angle between path and SURFACE [rad]: 0 glancing, pi/2
-//! head-on; `f` friction coefficient [1], 0 to 1. Spin stays as it was: the model has none.
+//! head-on; `f` friction coefficient [1]; `e_t` is kept at 0 or above. Spin stays as it was: the model has none.
 //!
 //! Source as for the normal law of the same name; the equation agrees with an open CFD code that names the paper (0.3 was the
 //! friction of an earlier version), with friction after Barker et al. 2013 and the cosine by Bons et al. The lift of adhesion and the
@@ -16,7 +16,7 @@ use crate::law::{Parameter, Search};
 pub(super) static BONS: ListedLaw = ListedLaw {
     name: "bons",
     origin: &crate::normal::BONS,
-    parameters: &[Parameter::new("friction", "1", (0.0, 1.0), Search::Linear(0.03, 0.9))
+    parameters: &[Parameter::new("friction", "1", (0.0, 2.0), Search::Linear(0.03, 0.9))
         .about("friction coefficient of the sliding contact")],
     rebound: |kinematics, values| {
         let (sine, cosine) = kinematics.angle_from_surface().sin_cos();
