@@ -159,7 +159,12 @@ impl Origin {
     pub(crate) fn describe(&self) -> String {
         let limit = |limit: &FitLimit| {
             let FitLimit { quantity, unit, range: [low, high], .. } = limit;
-            format!("{quantity} {low} to {high} {unit}")
+            // A diameter is easier to read as 5e-7 than as 0.0000005.
+            if *high < 0.1 {
+                format!("{quantity} {low:e} to {high:e} {unit}")
+            } else {
+                format!("{quantity} {low} to {high} {unit}")
+            }
         };
         let range: Vec<String> = self.range.iter().map(limit).collect();
         if range.is_empty() {

@@ -131,7 +131,7 @@ fn predict(
     }
     if outside > 0 {
         eprintln!(
-            "nearwall: {outside} of {done} rows lie outside the valid range of a property or a fitted term \
+            "nearwall: {outside} of {done} rows lie outside the valid range of a property, a law or a fitted term \
              (see --explain LINE, `nearwall materials NAME`)"
         );
     }
@@ -179,7 +179,7 @@ fn explain(
                     speeds.sticking
                 );
                 if outcome.outside_range {
-                    text += "outside the valid range of a property or a fitted term\n";
+                    text += "outside the valid range of a property, a law or a fitted term\n";
                 }
                 for entry in entries {
                     text += &format!("{:<24} {:<22} {:.6}\n", entry.term, entry.quantity, entry.value);
