@@ -21,7 +21,7 @@
 //! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion counts them as deposited,
 //! for the contact angle is not an input.
 
-use super::ParticleStickiness;
+use super::StickinessCriterion;
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::{Material, Molten};
@@ -97,24 +97,27 @@ pub struct Droplet {
     splash_limit: f64,
 }
 
-impl ParticleStickiness for Droplet {
+impl StickinessCriterion for Droplet {
     fn name(&self) -> &'static str {
         "droplet"
     }
 
     /// 0 for a solid, the deposited share for a droplet.
-    fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
+    fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
         let temperature = impact.particle_temperature;
         if !self.material.is_molten(temperature)? {
             return Ok(0.0);
         }
-        let melt = self.material.molten(temperature)?;
+        let mut melt = self.material.molten(temperature)?;
+        if impact.particle_density > 0.0 {
+            melt.density = impact.particle_density;
+        }
         let numbers = DropletNumbers::new(&melt, impact.normal_speed, impact.diameter);
         Ok(deposited_share(numbers.splash, self.splash_limit))
     }
 
-    fn as_deposit(&self, temperature: f64) -> f64 {
-        f64::from(self.is_droplet(temperature))
+    fn on_wall(&self, impact: &Impact) -> f64 {
+        f64::from(self.is_droplet(impact.wall_temperature))
     }
 
     fn film_viscosity(&self, temperature: f64) -> f64 {
@@ -137,7 +140,7 @@ impl ParticleStickiness for Droplet {
     }
 
     /// Whether the properties are stated to hold; a solid needs none.
-    fn holds_at(&self, temperature: f64) -> bool {
+    fn holds_in_flight(&self, temperature: f64) -> bool {
         self.material.is_molten(temperature) == Ok(false) || self.material.melt_holds_at(temperature)
     }
 }
@@ -208,11 +211,11 @@ mod tests {
     fn solids_are_not_sticky_and_melts_have_an_end() {
         let wax = droplet("montan-wax");
         let at = |particle_temperature| {
-            wax.at(&Impact { normal_speed: 1.0, particle_temperature, ..Impact::default() })
+            wax.in_flight(&Impact { normal_speed: 1.0, particle_temperature, ..Impact::default() })
         };
         assert_eq!((at(293.15), at(353.15), at(353.2)), (Ok(0.0), Ok(0.0), Ok(1.0)));
         assert!(matches!(at(404.0), Err(ImpactError::OutOfRange { property: "viscosity", .. })));
         assert_eq!(wax.known_range(), [0.0, 403.15]);
-        assert!(wax.holds_at(293.15) && !wax.holds_at(354.0) && wax.holds_at(380.0));
+        assert!(wax.holds_in_flight(293.15) && !wax.holds_in_flight(354.0) && wax.holds_in_flight(380.0));
     }
 }

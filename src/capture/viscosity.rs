@@ -2,14 +2,16 @@
 //!
 //! `P = min(1, mu_ref / mu(T))`, with `mu` the viscosity of ash or slag [Pa s] at its own temperature and `mu_ref` the
 //! viscosity [Pa s] at and below which every impact sticks. The literature's `mu_ref` spans 8 to 1e7 Pa s: it has no
-//! default. Valid for glassy silicate melts above their critical viscosity temperature; it does not include residual carbon
-//! (see the effect `conversion-transition`).
+//! default. Valid for glassy silicate melts; on a wall, where a melt has time to crystallise, it is stiff below its temperature of
+//! critical viscosity ([`Solidification`](super::Solidification)). It does not include residual carbon (see the effect
+//! `conversion-transition`).
 
-use super::ParticleStickiness;
+use super::solidification::{Solidification, Stiffening};
+use super::{StickinessCriterion, Unsuitable};
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, UnsuitableComposition, VISCOSITY_LAWS, ViscosityLaw};
+use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw};
 
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
@@ -25,6 +27,7 @@ const REFERENCE: Limits =
 pub struct ViscosityCriterion {
     law: &'static ViscosityLaw,
     reference: f64,
+    solidification: Solidification,
 }
 
 impl ViscosityCriterion {
@@ -39,26 +42,32 @@ impl ViscosityCriterion {
             let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
             section.missing("reference_viscosity", what)
         })?;
-        Ok(Self { law, reference })
+        Ok(Self { law, reference, solidification: Solidification::read(section)? })
     }
 
     pub(super) fn describe(self) -> String {
         let range = self.law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
-        format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name, self.reference)
+        format!(
+            "viscosity ({}{range}), reference_viscosity {} Pa s, solidification {}",
+            self.law.name,
+            self.reference,
+            self.solidification.name()
+        )
     }
 
     /// The criterion for a material; `None` for one with neither a viscosity of its own nor an oxide composition. Its own
     /// viscosity has priority.
     ///
     /// # Errors
-    /// [`UnsuitableComposition`] when the law cannot be applied to the composition.
-    pub fn prepare(self, material: &Material) -> Result<Option<MeltStickiness>, UnsuitableComposition> {
+    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what `solidification` needs.
+    pub fn prepare(self, material: &Material) -> Result<Option<MeltStickiness>, Unsuitable> {
         let melt = match (material.property("viscosity"), material.composition()) {
             (Some(_), _) => MeltViscosity::Given(Box::new(material.clone())),
             (None, Some(composition)) => MeltViscosity::Oxides(SlagViscosity::new(self.law, composition)?),
             (None, None) => return Ok(None),
         };
-        Ok(Some(MeltStickiness { melt, reference: self.reference }))
+        let stiffening = self.solidification.prepare(material)?;
+        Ok(Some(MeltStickiness { melt, reference: self.reference, stiffening }))
     }
 }
 
@@ -67,6 +76,7 @@ impl ViscosityCriterion {
 pub struct MeltStickiness {
     melt: MeltViscosity,
     reference: f64,
+    stiffening: Stiffening,
 }
 
 #[derive(Debug, Clone)]
@@ -76,15 +86,7 @@ enum MeltViscosity {
 }
 
 impl MeltStickiness {
-    /// Probability of sticking [1] at a temperature [K].
-    ///
-    /// # Errors
-    /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
-    pub fn probability(&self, temperature: f64) -> Result<f64, ImpactError> {
-        Ok(sticking_probability(self.viscosity(temperature)?, self.reference))
-    }
-
-    /// Viscosity of the melt [Pa s] at a temperature [K].
+    /// Viscosity of the liquid [Pa s] at a temperature [K].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
@@ -96,23 +98,23 @@ impl MeltStickiness {
     }
 }
 
-impl ParticleStickiness for MeltStickiness {
+impl StickinessCriterion for MeltStickiness {
     fn name(&self) -> &'static str {
         "viscosity"
     }
 
-    fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
-        self.probability(impact.particle_temperature)
+    fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        Ok(sticking_probability(self.viscosity(impact.particle_temperature)?, self.reference))
     }
 
-    fn as_deposit(&self, temperature: f64) -> f64 {
-        sticking_probability(self.film_viscosity(temperature), self.reference)
+    fn on_wall(&self, impact: &Impact) -> f64 {
+        sticking_probability(self.film_viscosity(impact.wall_temperature), self.reference)
     }
 
     fn film_viscosity(&self, temperature: f64) -> f64 {
         let [low, high] = self.known_range();
         let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
-        known.flatten().unwrap_or(f64::INFINITY)
+        known.flatten().unwrap_or(f64::INFINITY) * self.stiffening.factor(temperature)
     }
 
     fn known_range(&self) -> [f64; 2] {
@@ -122,12 +124,21 @@ impl ParticleStickiness for MeltStickiness {
         }
     }
 
-    /// A material's own viscosity always holds within [`Self::known_range`]; beyond that it is an error.
-    fn holds_at(&self, temperature: f64) -> bool {
+    /// A material's own viscosity holds within [`Self::known_range`].
+    fn holds_in_flight(&self, temperature: f64) -> bool {
         match &self.melt {
             MeltViscosity::Oxides(law) => law.holds_at(temperature),
-            MeltViscosity::Given(_) => true,
+            MeltViscosity::Given(_) => {
+                let [low, high] = self.known_range();
+                (low..=high).contains(&temperature)
+            }
         }
+    }
+
+    fn holds_on_wall(&self, temperature: f64) -> bool {
+        // Stiff slag has no viscosity that could be out of range.
+        let stiff = self.stiffening.factor(temperature).is_infinite();
+        self.stiffening.holds() && (stiff || self.holds_in_flight(temperature))
     }
 }
 

@@ -6,6 +6,7 @@
 mod adhesion_energy;
 mod agglomerates;
 mod conversion_transition;
+mod dry_on_melt;
 mod gas_lift;
 mod liquid_film;
 mod melting_transition;
@@ -31,7 +32,7 @@ use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
 
 /// Every effect.
-pub const EFFECTS: [&EffectInfo; 17] = [
+pub const EFFECTS: [&EffectInfo; 18] = [
     &yield_ratio::INFO,
     &adhesion_energy::INFO,
     &oblique_angle::INFO,
@@ -43,6 +44,7 @@ pub const EFFECTS: [&EffectInfo; 17] = [
     &agglomerates::INFO,
     &powder_layer::INFO,
     &liquid_film::INFO,
+    &dry_on_melt::INFO,
     &melting_transition::INFO,
     &conversion_transition::INFO,
     &thermal_softening::INFO,
@@ -61,6 +63,8 @@ pub(crate) mod stream {
     pub const MICRO_ROUGHNESS: u64 = 2;
     /// Whether a particle is an agglomerate, and how it rebounds.
     pub const AGGLOMERATES: u64 = 3;
+    /// Whether the impact meets the covered or the bare share of the wall (no effect).
+    pub const COVER: u64 = 4;
 }
 
 /// A named term of a model. Each method belongs to one step of an impact; an effect overrides those on which it acts.
@@ -100,6 +104,16 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         Some(restitution)
     }
 
+    /// Whether the effect depends on [`Contact::melt`], the melt that the particle meets.
+    fn uses_melt(&self) -> bool {
+        false
+    }
+
+    /// What the melt on the wall does to a dry particle; `None` for an effect that does not say.
+    fn on_melt(&self, _impact: &Impact, _contact: &Contact) -> Option<OnMelt> {
+        None
+    }
+
     /// The precomputed form of the effect, if any.
     fn precompute(&self) -> Option<Precomputed> {
         None
@@ -109,6 +123,15 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
     fn tangential(&self, _kinematics: &ImpactKinematics, rebound: Rebound) -> Rebound {
         rebound
     }
+}
+
+/// What a melt on the wall does to a dry particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OnMelt {
+    /// It sinks, or surface tension holds it.
+    Held,
+    /// It leaves with this normal restitution [1].
+    Rebounds(f64),
 }
 
 /// An effect that is computed when the model is read.
@@ -129,8 +152,11 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
-    /// Value where the model file does not give it; `None` for a required parameter.
+    /// Value where the model file does not give it, and which a fit leaves unless another one is worth it; `None` for a parameter that
+    /// every fit searches.
     pub default: Option<f64>,
+    /// Value where the model file does not give it, of a parameter that every fit searches; `None` for a required one.
+    pub absent: Option<f64>,
     /// Range of a fit.
     pub search: Search,
     /// One line of explanation.
@@ -140,11 +166,15 @@ pub struct Parameter {
 impl Parameter {
     /// A parameter that the model file must give.
     const fn new(name: &'static str, unit: &'static str, bounds: (f64, f64), search: Search) -> Self {
-        Self { name, unit, bounds, default: None, search, about: "" }
+        Self { name, unit, bounds, default: None, absent: None, search, about: "" }
     }
 
     const fn default(self, value: f64) -> Self {
         Self { default: Some(value), ..self }
+    }
+
+    const fn absent(self, value: f64) -> Self {
+        Self { absent: Some(value), ..self }
     }
 
     const fn about(self, about: &'static str) -> Self {
@@ -253,10 +283,10 @@ impl Term {
 
 /// Reads a number, or `{ value, low, high }` of a fit.
 fn read_parameter(section: &Section<'_>, parameter: &Parameter) -> Result<f64, InputError> {
-    let Parameter { name, unit, bounds: (low, high), default, about, .. } = *parameter;
+    let Parameter { name, unit, bounds: (low, high), default, absent, about, .. } = *parameter;
     let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
     if !section.is_section(name) {
-        let given = section.number_within(name, low, high)?.or(default);
+        let given = section.number_within(name, low, high)?.or(default).or(absent);
         return given.ok_or_else(|| missing(section));
     }
     let fitted = section.required_section(name)?;

@@ -29,7 +29,7 @@ const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) ->
 /// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
 /// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
 /// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
-const FIELDS: [PropertyField; 8] = [
+const FIELDS: [PropertyField; 11] = [
     field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
     field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
     field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
@@ -38,6 +38,9 @@ const FIELDS: [PropertyField; 8] = [
     field("viscosity", false, limits("Pa s", 1e-7, f64::INFINITY, "liquid helium 3e-6")),
     field("surface_tension", false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten 2.5")),
     field("melting_point", false, limits("K", 0.1, 5e4, "helium some 1, carbides 4200")),
+    field("critical_viscosity_temperature", false, limits("K", 0.1, 5e4, "coal slags 1400 to 1800")),
+    field("liquidus", false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900")),
+    field("solidus", false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500")),
 ];
 
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`].
@@ -69,6 +72,21 @@ pub struct Mechanical {
     pub yield_strength: f64,
     /// Surface energy `gamma` [J/m²].
     pub surface_energy: f64,
+}
+
+impl Mechanical {
+    /// Between these properties and those of another solid, linear in `share` [1]: 0 these, 1 the others.
+    #[must_use]
+    pub fn mixed(&self, other: &Self, share: f64) -> Self {
+        let between = |of: fn(&Self) -> f64| of(self) + (of(other) - of(self)) * share;
+        Self {
+            density: between(|m| m.density),
+            youngs_modulus: between(|m| m.youngs_modulus),
+            poisson_ratio: between(|m| m.poisson_ratio),
+            yield_strength: between(|m| m.yield_strength),
+            surface_energy: between(|m| m.surface_energy),
+        }
+    }
 }
 
 /// The properties of a melt at one temperature.
@@ -185,6 +203,23 @@ impl Material {
             viscosity: self.viscosity(temperature)?,
             surface_tension: self.value(SURFACE_TENSION, temperature)?,
         })
+    }
+
+    /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at which it is known; `None` without
+    /// one.
+    pub fn surface_tension_near(&self, temperature: f64) -> Option<f64> {
+        let property = self.properties[SURFACE_TENSION].as_ref()?;
+        let [low, high] = property.known_range().unwrap_or([0.0, f64::INFINITY]);
+        property.at(temperature.clamp(low, high)).ok()
+    }
+
+    /// Density [kg/m³] at a temperature [K], or at the nearest temperature at which it is known.
+    ///
+    /// # Errors
+    /// As [`Material::density`].
+    pub fn density_near(&self, temperature: f64) -> Result<f64, ImpactError> {
+        let [low, high] = self.density_range();
+        self.density(temperature.clamp(low, high))
     }
 
     /// Whether a temperature [K] is above the melting point.
@@ -331,7 +366,7 @@ mod tests {
     /// Both ends of every property's limits, just within and just beyond.
     #[test]
     fn a_number_that_no_material_has_is_refused() {
-        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600"];
+        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400"];
         let read = |place: usize, value: f64| {
             let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
                 let value = if at == place { format!("{value:e}") } else { usual.to_owned() };

@@ -7,11 +7,21 @@ use crate::tangential::TangentialLaw;
 impl Model {
     /// The content of the model as pairs of a heading and its numbers with units, in the order of the steps of an impact.
     pub fn describe(&self) -> Vec<(&'static str, String)> {
-        let mut lines = vec![("particle", self.particle.name().to_owned())];
+        let mut particle = self.particle().name().to_owned();
+        if let Some(ash) = self.ash() {
+            particle += &format!(", burning to {}", ash.name());
+        }
+        let mut lines = vec![("particle", particle)];
         for wall in &self.walls {
             let mut text = format!("{} of {}", wall.name(), wall.material().name());
             if let Some(slag) = &wall.slag {
                 text += &format!(", under {}", slag.name());
+            }
+            if let Some(powder) = &wall.powder {
+                text += &format!(", covered by {}", powder.name());
+            }
+            if wall.film_thickness > 0.0 {
+                text += &format!(", film {} m", wall.film_thickness);
             }
             if wall.coverage > 0.0 {
                 text += &format!(", coverage {}", wall.coverage);
@@ -30,9 +40,9 @@ impl Model {
                 TangentialLaw::SlidingRolling { friction } => format!("sliding-rolling, friction {friction}"),
             },
         ));
-        let capture = self.criterion.map_or_else(
+        let capture = self.capture.describe().map_or_else(
             || "below the sticking velocity, and what effects add".to_owned(),
-            |criterion| format!("also by {}", criterion.describe()),
+            |criterion| format!("also by {criterion}"),
         );
         lines.push(("capture", capture));
         for term in &self.terms {

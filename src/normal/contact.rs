@@ -1,6 +1,11 @@
 //! The contact of a particle and a wall, each at its own temperature.
 
+use crate::deposit::WallMelt;
 use crate::material::Mechanical;
+
+/// Contact radius over particle radius [1] up to which the contact of a sphere with a half-space is a fair description: Hertz's theory is
+/// for small contacts, and 0.3 is a usual bound (assumed).
+pub const LARGEST_CONTACT_RADIUS: f64 = 0.3;
 
 /// Properties of the two solids that the impact laws use.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -17,6 +22,8 @@ pub struct Contact {
     pub yield_ratio: f64,
     /// Tangential over normal stiffness, Mindlin's `k` [1].
     pub stiffness_ratio: f64,
+    /// The melt that the particle meets on the wall; `None` on a dry, frozen or covered wall.
+    pub melt: Option<WallMelt>,
 }
 
 impl Contact {
@@ -38,7 +45,15 @@ impl Contact {
             yield_strength: particle.yield_strength.min(wall.yield_strength),
             yield_ratio,
             stiffness_ratio: stiffness_ratio(particle, wall),
+            melt: None,
         }
+    }
+
+    /// Largest `rho v_n²` [Pa] at which a sphere that flows plastically stays below
+    /// [`LARGEST_CONTACT_RADIUS`]: `a/R = (8 rho v_n²/(3 p_y))^(1/4)`, from the kinetic energy that the pressure `p_y` takes up on the
+    /// area `pi a² = 2 pi R h` (indentation `h`).
+    pub fn largest_impact_pressure(&self) -> f64 {
+        0.375 * LARGEST_CONTACT_RADIUS.powi(4) * self.limiting_pressure()
     }
 
     /// Limiting contact pressure `p_y = c sigma_y` [Pa].

@@ -5,7 +5,7 @@ mod contact;
 mod plastic_jkr;
 mod thornton_ning;
 
-pub use contact::{Contact, reduced_modulus, stiffness_ratio};
+pub use contact::{Contact, LARGEST_CONTACT_RADIUS, reduced_modulus, stiffness_ratio};
 pub use thornton_ning::{
     Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
 };
@@ -65,7 +65,7 @@ impl NormalLaw {
     /// adhesion holds it.
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
         let e_n = match self {
-            Self::ThorntonNing => Prepared::new(contact).restitution(diameter, normal_speed),
+            Self::ThorntonNing => Prepared::new(contact).restitution(contact.density, diameter, normal_speed),
             Self::PlasticJkr => plastic_jkr::restitution(
                 normal_speed,
                 adhesive_velocity(contact, diameter),
@@ -74,6 +74,21 @@ impl NormalLaw {
             Self::Constant { restitution } => return Some(restitution),
         };
         (e_n > 0.0).then_some(e_n)
+    }
+
+    /// Whether the law describes the contact of two solids.
+    pub fn is_contact_law(self) -> bool {
+        match self {
+            Self::ThorntonNing | Self::PlasticJkr => true,
+            Self::Constant { .. } => false,
+        }
+    }
+
+    /// Whether the law is stated for a speed towards the wall [m/s]: the contact radius has to stay below
+    /// [`LARGEST_CONTACT_RADIUS`] times that of the particle.
+    pub fn holds_for(self, contact: &Contact, normal_speed: f64) -> bool {
+        !self.is_contact_law()
+            || contact.density * normal_speed * normal_speed <= contact.largest_impact_pressure()
     }
 
     /// Adhesive, yield and sticking velocity of a particle of `diameter` [m]; for the constant law those of Thornton–Ning.
