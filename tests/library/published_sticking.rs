@@ -282,6 +282,8 @@ fn mechanism_line(id: &str) -> String {
     let elastic = Trial { yield_ratio: 1e6, ..BUILT_IN }.critical_velocity(&row, size);
     // The energy of adhesion of a facet of radius of curvature r is r^(4/3) of that of the sphere.
     let flatness = (speed / elastic).powf(1.5);
+    let library = nearwall::material::Library::built_in().unwrap();
+    let steel = library.get("stainless-steel").unwrap().mechanical(row.number(12)).unwrap();
     let mass = 2300.0 * std::f64::consts::PI / 6.0 * size.powi(3);
     let film = 0.5 * mass * speed * speed / (2.0 * std::f64::consts::PI * size * WATER);
     format!(
@@ -292,7 +294,7 @@ fn mechanism_line(id: &str) -> String {
         short(dry[1]),
         short(work("thornton-ning")),
         short(work(raised)),
-        short(hardness * 207.0),
+        short(hardness * steel.yield_strength / 1e6),
         short(softness / 1e6),
         short(flatness),
         short(film * 1e6),
