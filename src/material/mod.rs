@@ -29,7 +29,7 @@ const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) ->
 /// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
 /// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
 /// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
-const FIELDS: [PropertyField; 11] = [
+const FIELDS: [PropertyField; 12] = [
     field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
     field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
     field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
@@ -41,14 +41,16 @@ const FIELDS: [PropertyField; 11] = [
     field("critical_viscosity_temperature", false, limits("K", 0.1, 5e4, "coal slags 1400 to 1800")),
     field("liquidus", false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900")),
     field("solidus", false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500")),
+    field("work_of_adhesion", false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to impacts 50")),
 ];
 
-/// The first five fields are the mechanical ones, in the order of [`Mechanical`].
+/// The first five fields are the mechanical ones, in the order of [`Mechanical`]; `work_of_adhesion` is one where it is given.
 const MECHANICAL: usize = 5;
 const DENSITY: usize = 0;
 const VISCOSITY: usize = 5;
 const SURFACE_TENSION: usize = 6;
 const MELTING_POINT: usize = 7;
+const WORK_OF_ADHESION: usize = 11;
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -72,6 +74,8 @@ pub struct Mechanical {
     pub yield_strength: f64,
     /// Surface energy `gamma` [J/m²].
     pub surface_energy: f64,
+    /// Effective work of adhesion `W` [J/m²] of its impacts on any wall, where one was fitted to them.
+    pub work_of_adhesion: Option<f64>,
 }
 
 impl Mechanical {
@@ -85,6 +89,8 @@ impl Mechanical {
             poisson_ratio: between(|m| m.poisson_ratio),
             yield_strength: between(|m| m.yield_strength),
             surface_energy: between(|m| m.surface_energy),
+            // A fitted value holds for one material; of a mixture each contact knows its own.
+            work_of_adhesion: None,
         }
     }
 }
@@ -190,6 +196,10 @@ impl Material {
             poisson_ratio: self.value(2, temperature)?,
             yield_strength: self.value(3, temperature)?,
             surface_energy: self.value(4, temperature)?,
+            work_of_adhesion: match self.properties[WORK_OF_ADHESION] {
+                Some(_) => Some(self.value(WORK_OF_ADHESION, temperature)?),
+                None => None,
+            },
         })
     }
 
@@ -240,13 +250,17 @@ impl Material {
         self.molten_properties().all(|p| p.holds_at(temperature))
     }
 
+    fn mechanical_properties(&self) -> impl Iterator<Item = &Property> {
+        self.properties[..MECHANICAL].iter().chain([&self.properties[WORK_OF_ADHESION]]).flatten()
+    }
+
     fn molten_properties(&self) -> impl Iterator<Item = &Property> {
         [DENSITY, VISCOSITY, SURFACE_TENSION].into_iter().filter_map(|field| self.properties[field].as_ref())
     }
 
     /// Temperatures [K] at which every mechanical property is known.
     pub fn known_range(&self) -> [f64; 2] {
-        overlap(self.properties[..MECHANICAL].iter().flatten().filter_map(Property::known_range))
+        overlap(self.mechanical_properties().filter_map(Property::known_range))
     }
 
     /// Temperatures [K] at which the material's own viscosity is known.
@@ -256,17 +270,17 @@ impl Material {
 
     /// Whether every mechanical property is stated to hold at this temperature [K].
     pub fn holds_at(&self, temperature: f64) -> bool {
-        self.properties[..MECHANICAL].iter().flatten().all(|p| p.holds_at(temperature))
+        self.mechanical_properties().all(|p| p.holds_at(temperature))
     }
 
     /// Temperatures [K] at which every mechanical property is stated to hold, where they are [constant](Self::is_constant).
     pub fn valid_range(&self) -> [f64; 2] {
-        overlap(self.properties[..MECHANICAL].iter().flatten().filter_map(Property::valid))
+        overlap(self.mechanical_properties().filter_map(Property::valid))
     }
 
     /// Whether the mechanical properties are the same at every temperature.
     pub fn is_constant(&self) -> bool {
-        self.properties[..MECHANICAL].iter().flatten().all(Property::is_constant)
+        self.mechanical_properties().all(Property::is_constant)
     }
 }
 
@@ -366,7 +380,7 @@ mod tests {
     /// Both ends of every property's limits, just within and just beyond.
     #[test]
     fn a_number_that_no_material_has_is_refused() {
-        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400"];
+        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400", "0.5"];
         let read = |place: usize, value: f64| {
             let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
                 let value = if at == place { format!("{value:e}") } else { usual.to_owned() };

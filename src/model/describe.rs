@@ -4,6 +4,9 @@ use super::Model;
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
+/// Temperature [K] at which a property that depends on it is shown.
+const ROOM: f64 = 293.15;
+
 impl Model {
     /// The content of the model as pairs of a heading and its numbers with units, in the order of the steps of an impact.
     pub fn describe(&self) -> Vec<(&'static str, String)> {
@@ -65,8 +68,21 @@ impl Model {
         let ratio = adhesion.map_or(f64::NAN, |a| a.yield_ratio);
         let work = match adhesion.and_then(|a| a.work) {
             Some(work) => format!("{work} J/m2"),
-            None => "2 sqrt(gamma_p gamma_w)".to_owned(),
+            None => self.describe_own_adhesion(),
         };
         format!("{}, yield_ratio {ratio}, work of adhesion {work}", self.normal.name())
+    }
+
+    /// The work of adhesion where the model file does not give it; of the source of the particle's own the part before `;`.
+    fn describe_own_adhesion(&self) -> String {
+        let Some(property) = self.particle().property("work_of_adhesion") else {
+            return "2 sqrt(gamma_p gamma_w)".to_owned();
+        };
+        let value = property.at(ROOM).map_or_else(
+            |range| format!("known from {} to {} K", range.low, range.high),
+            |work| format!("{work} J/m2 at {ROOM} K"),
+        );
+        let source = property.source().and_then(|text| text.split(';').next()).unwrap_or("no source given");
+        format!("of {}: {value}, {source}", self.particle().name())
     }
 }

@@ -1,11 +1,12 @@
 //! The particle of a model: its material, and the ash that it becomes.
 //!
 //! A char particle has the mechanical properties of its material at conversion 0 and of its ash at conversion 1, in between *assumed*
-//! linear in the conversion (density, modulus, Poisson's ratio, yield strength, surface energy). A model file without `ash` keeps those of
+//! linear in the conversion (density, modulus, Poisson's ratio, yield strength, work of adhesion). A model file without `ash` keeps those of
 //! the material.
 
 use crate::impact::{Impact, ImpactError};
 use crate::material::{Material, Mechanical};
+use crate::normal::Contact;
 
 /// A `[particle]` table.
 #[derive(Debug, Clone)]
@@ -40,19 +41,33 @@ impl Particle {
         self.material.holds_at(temperature) && self.ash.iter().all(|ash| ash.holds_at(temperature))
     }
 
-    /// The mechanical properties for an impact; the density is that of the impact where it is given.
+    /// The contact with a wall for an impact; the density is that of the impact where it is given. Work of adhesion as in
+    /// [`Contact::new`].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] outside a table.
-    pub(super) fn mechanical(&self, impact: &Impact) -> Result<Mechanical, ImpactError> {
+    pub(super) fn contact(
+        &self,
+        impact: &Impact,
+        wall: &Mechanical,
+        yield_ratio: f64,
+        work_of_adhesion: Option<f64>,
+    ) -> Result<Contact, ImpactError> {
+        let of = |solid: &Mechanical| Contact::new(solid, wall, yield_ratio, work_of_adhesion);
         let char = self.material.mechanical(impact.particle_temperature)?;
-        let mut mixed = match &self.ash {
-            Some(ash) => char.mixed(&ash.mechanical(impact.particle_temperature)?, impact.conversion),
-            None => char,
+        let mut contact = match &self.ash {
+            None => of(&char),
+            Some(ash) => {
+                let ash = ash.mechanical(impact.particle_temperature)?;
+                let share = impact.conversion;
+                // A work of adhesion fitted to ash holds for ash; so the two contacts are mixed, not the materials.
+                let work = (1.0 - share) * of(&char).work_of_adhesion + share * of(&ash).work_of_adhesion;
+                Contact { work_of_adhesion: work, ..of(&char.mixed(&ash, share)) }
+            }
         };
         if impact.particle_density > 0.0 {
-            mixed.density = impact.particle_density;
+            contact.density = impact.particle_density;
         }
-        Ok(mixed)
+        Ok(contact)
     }
 }

@@ -106,7 +106,7 @@ impl Wall {
         };
         let wall = partner.mechanical(impact.wall_temperature)?;
         let Adhesion { yield_ratio, work } = self.adhesion;
-        Ok(Contact::new(&particle.mechanical(impact)?, &wall, yield_ratio, work))
+        particle.contact(impact, &wall, yield_ratio, work)
     }
 
     /// Stickiness of the slag that the model file puts on the wall [1].

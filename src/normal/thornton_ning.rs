@@ -175,7 +175,14 @@ mod tests {
     fn solid(
         [density, youngs_modulus, poisson_ratio, yield_strength, surface_energy]: [f64; 5],
     ) -> Mechanical {
-        Mechanical { density, youngs_modulus, poisson_ratio, yield_strength, surface_energy }
+        Mechanical {
+            density,
+            youngs_modulus,
+            poisson_ratio,
+            yield_strength,
+            surface_energy,
+            work_of_adhesion: None,
+        }
     }
 
     /// Found by fuzzing: half of this diameter is 0.

@@ -14,5 +14,6 @@ mod droplet;
 mod effects;
 mod golden;
 mod interface;
+mod published_sticking;
 mod slag_viscosity;
 mod slag_viscosity_study;
