@@ -5,6 +5,7 @@
 
 mod adhesion_energy;
 mod agglomerates;
+mod conversion_decline;
 mod conversion_transition;
 mod dry_on_melt;
 mod gas_lift;
@@ -32,7 +33,7 @@ use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
 
 /// Every effect.
-pub const EFFECTS: [&EffectInfo; 18] = [
+pub const EFFECTS: [&EffectInfo; 19] = [
     &yield_ratio::INFO,
     &adhesion_energy::INFO,
     &oblique_angle::INFO,
@@ -47,6 +48,7 @@ pub const EFFECTS: [&EffectInfo; 18] = [
     &dry_on_melt::INFO,
     &melting_transition::INFO,
     &conversion_transition::INFO,
+    &conversion_decline::INFO,
     &thermal_softening::INFO,
     &size_dependent_yield::INFO,
     &strain_rate_hardening::INFO,
@@ -85,6 +87,11 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
     /// Stickiness of the particle, 0 to 1; that of several effects is multiplied. `None` for an effect that does not act on it.
     fn particle_stickiness(&self, _impact: &Impact) -> Option<f64> {
         None
+    }
+
+    /// Factor on the particle's stickiness [1], 0 to 1; it makes nothing sticky by itself.
+    fn stickiness_factor(&self, _impact: &Impact) -> f64 {
+        1.0
     }
 
     /// Share of `e_n` that a fully sticky particle loses where it still rebounds [1]; of several effects the largest.

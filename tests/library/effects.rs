@@ -11,7 +11,7 @@ use nearwall::{Impact, ImpactRng, Model, Outcome};
 /// The stream that decides whether covered or bare wall is met.
 const COVER: u64 = 4;
 
-const IDS: [&str; 18] = [
+const IDS: [&str; 19] = [
     "yield-ratio",
     "adhesion-energy",
     "oblique-angle",
@@ -26,6 +26,7 @@ const IDS: [&str; 18] = [
     "dry-on-melt",
     "melting-transition",
     "conversion-transition",
+    "conversion-decline",
     "thermal-softening",
     "size-dependent-yield",
     "strain-rate-hardening",
