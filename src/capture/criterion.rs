@@ -7,6 +7,7 @@
 use std::sync::Arc;
 
 use super::droplet::DropletCriterion;
+use super::melt_fraction::MeltFractionCriterion;
 use super::stickiness::Combination;
 use super::viscosity::ViscosityCriterion;
 use crate::impact::{Impact, ImpactError};
@@ -26,8 +27,10 @@ pub struct Capture {
 /// The criterion of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Criterion {
-    /// A melt of low viscosity sticks.
+    /// A melt of low viscosity sticks; the limit is constant or falls with the kinetic energy.
     Viscosity(ViscosityCriterion),
+    /// A particle with enough liquid sticks.
+    MeltFraction(MeltFractionCriterion),
     /// A droplet that does not splash stays.
     Droplet(DropletCriterion),
 }
@@ -38,6 +41,15 @@ pub enum Unsuitable {
     /// The viscosity law does not apply to its composition.
     #[error(transparent)]
     Composition(#[from] UnsuitableComposition),
+    /// Its viscosity has to follow from its composition, and no law is given.
+    #[error(
+        "`{material}` has a composition but no viscosity; add law = \"{}\" to [capture], or give viscosity to the material",
+        crate::slag::urbain::KALMANOVITCH_FRANK.name
+    )]
+    NoLaw {
+        /// The material's name.
+        material: String,
+    },
     /// The criterion needs properties that it lacks.
     #[error(
         "`{material}` has no {}, which [capture] {needed_by} needs; give it to the material in [materials.{material}]",
@@ -59,8 +71,13 @@ impl Capture {
     /// # Errors
     /// [`InputError::Fault`] for an unknown model or law, or a missing or impossible number.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let criterion = match section.choice("model", &["none", "viscosity", "droplet"])?.as_deref() {
+        let models = ["none", "viscosity", "kinetic-energy", "melt-fraction", "droplet"];
+        let criterion = match section.choice("model", &models)?.as_deref() {
             Some("viscosity") => Some(Criterion::Viscosity(ViscosityCriterion::read(section)?)),
+            Some("kinetic-energy") => {
+                Some(Criterion::Viscosity(ViscosityCriterion::read_with_energy(section)?))
+            }
+            Some("melt-fraction") => Some(Criterion::MeltFraction(MeltFractionCriterion::read(section)?)),
             Some("droplet") => Some(Criterion::Droplet(DropletCriterion::read(section)?)),
             _ => None,
         };
@@ -78,6 +95,7 @@ impl Criterion {
     fn describe(self) -> String {
         match self {
             Self::Viscosity(criterion) => criterion.describe(),
+            Self::MeltFraction(criterion) => criterion.describe(),
             Self::Droplet(criterion) => criterion.describe(),
         }
     }
@@ -91,24 +109,36 @@ impl Criterion {
         material: &Material,
     ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
         match self {
-            Self::Viscosity(_) => self.of_slag(material),
-            Self::Droplet(criterion) => {
-                let needed_by = "model = \"droplet\"";
-                let material_name = || material.name().to_owned();
-                let lacking = |lacking| Unsuitable::Lacking { material: material_name(), needed_by, lacking };
-                Ok(Some(Arc::new(criterion.prepare(material).map_err(lacking)?)))
-            }
+            Self::Viscosity(_) | Self::MeltFraction(_) => self.of_slag(material, material),
+            Self::Droplet(criterion) => Ok(Some(Arc::new(criterion.prepare(material)?))),
         }
     }
 
-    /// The criterion for slag of a material on a wall; `None` when it does not apply to that.
+    /// The criterion for slag of a material on a wall that particles of the material `particle` meet; `None` when it does not apply to
+    /// that slag.
     ///
     /// # Errors
     /// As [`Criterion::of_particle`].
-    pub fn of_slag(self, material: &Material) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
+    pub fn of_slag(
+        self,
+        slag: &Material,
+        particle: &Material,
+    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
         match self {
-            Self::Viscosity(criterion) => Ok(criterion.prepare(material)?.map(|melt| Arc::new(melt) as _)),
+            Self::Viscosity(criterion) => {
+                Ok(criterion.prepare(slag, particle)?.map(|melt| Arc::new(melt) as _))
+            }
+            Self::MeltFraction(criterion) => Ok(criterion.prepare(slag).map(|melt| Arc::new(melt) as _)),
             Self::Droplet(_) => Ok(None),
+        }
+    }
+
+    /// What a melt needs so that the criterion applies to it, in words.
+    pub fn needs(self) -> &'static str {
+        match self {
+            Self::Viscosity(_) => "a composition or a viscosity",
+            Self::MeltFraction(_) => "a melt_fraction",
+            Self::Droplet(_) => "a melt",
         }
     }
 }
@@ -131,6 +161,15 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is frozen, too stiff to flow, or below a
     /// measured table, and that at the end of the table above it.
     fn film_viscosity(&self, temperature: f64) -> f64;
+
+    /// Normal restitution [1] of a droplet that bounces whole from a wall of this material; `None` for one that does not, and for
+    /// what is not a droplet.
+    ///
+    /// # Errors
+    /// As [`StickinessCriterion::in_flight`].
+    fn droplet_rebound(&self, _impact: &Impact, _wall: &Material) -> Result<Option<f64>, ImpactError> {
+        Ok(None)
+    }
 
     /// Whether a particle at a temperature [K] is a droplet, whose capture does not depend on the wall.
     fn is_droplet(&self, _temperature: f64) -> bool {

@@ -15,10 +15,42 @@
 
 use std::f64::consts::PI;
 
+use crate::impact::Impact;
+use crate::input::{InputError, Limits, Section};
+
 /// `A` [Pa s] of Srinivasachar et al.
-pub const COEFFICIENT: f64 = 5e-12;
+const COEFFICIENT: f64 = 5e-12;
 /// `n` [1] of Srinivasachar et al.
-pub const EXPONENT: f64 = 1.78;
+const EXPONENT: f64 = 1.78;
+
+const COEFFICIENTS: Limits =
+    Limits { unit: "Pa s", low: 1e-100, high: 1e100, known: "5e-12 by Srinivasachar et al." };
+
+/// The `coefficient` and the `exponent` of a `[capture]` table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct EnergyLaw {
+    coefficient: f64,
+    exponent: f64,
+}
+
+impl EnergyLaw {
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        Ok(Self {
+            coefficient: section.quantity("coefficient", &COEFFICIENTS)?.unwrap_or(COEFFICIENT),
+            exponent: section.number_within("exponent", 0.0, 10.0)?.unwrap_or(EXPONENT),
+        })
+    }
+
+    pub fn describe(self) -> String {
+        format!("reference viscosity {} Pa s (E/J)^-{}", self.coefficient, self.exponent)
+    }
+
+    /// Viscosity [Pa s] up to which an impact of a particle of this density [kg/m³] sticks.
+    pub fn at(self, density: f64, impact: &Impact) -> f64 {
+        let energy = kinetic_energy(density, impact.diameter, impact.normal_speed);
+        critical_viscosity(energy, self.coefficient, self.exponent)
+    }
+}
 
 /// Kinetic energy [J] of a sphere's motion towards the wall, `pi/12 rho d³ v_n²`, from density [kg/m³], diameter [m] and speed [m/s].
 pub fn kinetic_energy(density: f64, diameter: f64, normal_speed: f64) -> f64 {

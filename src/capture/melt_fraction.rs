@@ -15,6 +15,11 @@
 //! arrives still sticks. Neglected: the speed of the impact (sticking temperature falls with size and with liquid content,
 //! Tran et al., abstract).
 
+use super::StickinessCriterion;
+use crate::impact::{Impact, ImpactError};
+use crate::input::{InputError, Section};
+use crate::material::Material;
+
 /// Share of liquid [1] below which a particle does not stick.
 pub const STICKY_FROM: f64 = 0.15;
 /// Share of liquid [1] from which an ash flows.
@@ -37,6 +42,83 @@ pub fn melt_fraction_stickiness(melt_fraction: f64, sticky_from: f64, flows_from
         0.0
     } else {
         (melt_fraction - sticky_from) / (flows_from - sticky_from)
+    }
+}
+
+/// The melt-fraction criterion of a `[capture]` table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeltFractionCriterion {
+    sticky_from: f64,
+    flows_from: f64,
+}
+
+impl MeltFractionCriterion {
+    pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let sticky_from = section.number_within("sticky_from", 0.0, 1.0)?.unwrap_or(STICKY_FROM);
+        let flows_from = section.number_within("flows_from", 0.0, 1.0)?.unwrap_or(FLOWS_FROM);
+        if flows_from < sticky_from {
+            return Err(section.fault("flows_from", format!("below `sticky_from`, {sticky_from}")));
+        }
+        Ok(Self { sticky_from, flows_from })
+    }
+
+    pub(super) fn describe(self) -> String {
+        format!("melt-fraction, sticky_from {}, flows_from {}", self.sticky_from, self.flows_from)
+    }
+
+    /// The criterion for a material; `None` for one without a melt fraction.
+    pub fn prepare(self, material: &Material) -> Option<MeltFractionStickiness> {
+        material.property("melt_fraction")?;
+        Some(MeltFractionStickiness { criterion: self, material: Box::new(material.clone()) })
+    }
+}
+
+/// The criterion for one material.
+#[derive(Debug, Clone)]
+pub struct MeltFractionStickiness {
+    criterion: MeltFractionCriterion,
+    material: Box<Material>,
+}
+
+impl MeltFractionStickiness {
+    /// Share of liquid [1] at a temperature [K]; beyond the ends of a table that of the nearest end.
+    fn melt_fraction(&self, temperature: f64) -> f64 {
+        self.material.melt_fraction_near(temperature).unwrap_or(0.0)
+    }
+
+    fn stickiness(&self, temperature: f64) -> f64 {
+        let MeltFractionCriterion { sticky_from, flows_from } = self.criterion;
+        melt_fraction_stickiness(self.melt_fraction(temperature), sticky_from, flows_from)
+    }
+}
+
+impl StickinessCriterion for MeltFractionStickiness {
+    fn name(&self) -> &'static str {
+        "melt-fraction"
+    }
+
+    fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        Ok(self.stickiness(impact.particle_temperature))
+    }
+
+    fn on_wall(&self, impact: &Impact) -> f64 {
+        self.stickiness(impact.wall_temperature)
+    }
+
+    /// That of the material's liquid where it flows; a material without a viscosity does not flow.
+    fn film_viscosity(&self, temperature: f64) -> f64 {
+        let flows = self.melt_fraction(temperature) >= self.criterion.flows_from;
+        if flows { self.material.viscosity_near(temperature).unwrap_or(f64::INFINITY) } else { f64::INFINITY }
+    }
+
+    fn known_range(&self) -> [f64; 2] {
+        [0.0, f64::INFINITY]
+    }
+
+    /// Within the table; beyond an end where all is solid or liquid it holds too.
+    fn holds_in_flight(&self, temperature: f64) -> bool {
+        let complete = [0.0, 1.0].contains(&self.melt_fraction(temperature));
+        complete || self.material.property("melt_fraction").is_some_and(|p| p.at(temperature).is_ok())
     }
 }
 

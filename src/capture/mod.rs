@@ -13,6 +13,7 @@ pub mod drop_freezing;
 pub mod drop_rebound;
 mod droplet;
 mod kinetic_energy;
+mod melt;
 mod melt_fraction;
 mod solidification;
 mod stickiness;
@@ -24,7 +25,9 @@ pub use char_on_slag::{
 pub use criterion::{Capture, Criterion, StickinessCriterion, Unsuitable};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
 pub use kinetic_energy::{critical_viscosity, kinetic_energy};
-pub use melt_fraction::{FLOWS_FROM, STICKY_FROM, melt_fraction_stickiness};
+pub use melt_fraction::{
+    FLOWS_FROM, MeltFractionCriterion, MeltFractionStickiness, STICKY_FROM, melt_fraction_stickiness,
+};
 pub use solidification::Solidification;
 pub use stickiness::{Combination, Stickiness};
 pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};

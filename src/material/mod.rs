@@ -29,7 +29,7 @@ const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) ->
 /// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
 /// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
 /// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
-const FIELDS: [PropertyField; 12] = [
+const FIELDS: [PropertyField; 16] = [
     field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
     field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
     field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
@@ -42,6 +42,10 @@ const FIELDS: [PropertyField; 12] = [
     field("liquidus", false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900")),
     field("solidus", false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500")),
     field("work_of_adhesion", false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to impacts 50")),
+    field("melt_fraction", false, limits("1", 0.0, 1.0, "a share of the mass")),
+    field("heat_capacity", false, limits("J/(kg K)", 0.01, 2e5, "hot metals 100, liquid hydrogen 1e4")),
+    field("thermal_conductivity", false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, diamond 2000")),
+    field("heat_of_fusion", false, limits("J/kg", 100.0, 5e7, "mercury 1.1e4, boron 4.6e6")),
 ];
 
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`]; `work_of_adhesion` is one where it is given.
@@ -51,6 +55,10 @@ const VISCOSITY: usize = 5;
 const SURFACE_TENSION: usize = 6;
 const MELTING_POINT: usize = 7;
 const WORK_OF_ADHESION: usize = 11;
+const MELT_FRACTION: usize = 12;
+const HEAT_CAPACITY: usize = 13;
+const THERMAL_CONDUCTIVITY: usize = 14;
+const HEAT_OF_FUSION: usize = 15;
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -160,6 +168,14 @@ impl Material {
         self.value(VISCOSITY, temperature)
     }
 
+    /// Surface tension [N/m] of the melt at a temperature [K].
+    ///
+    /// # Errors
+    /// As [`Material::viscosity`].
+    pub fn surface_tension(&self, temperature: f64) -> Result<f64, ImpactError> {
+        self.value(SURFACE_TENSION, temperature)
+    }
+
     /// Density [kg/m³] at a temperature [K].
     ///
     /// # Errors
@@ -218,7 +234,41 @@ impl Material {
     /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at which it is known; `None` without
     /// one.
     pub fn surface_tension_near(&self, temperature: f64) -> Option<f64> {
-        let property = self.properties[SURFACE_TENSION].as_ref()?;
+        self.near(SURFACE_TENSION, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the viscosity [Pa s] of its melt.
+    pub fn viscosity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(VISCOSITY, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the share of liquid in its mass [1].
+    pub fn melt_fraction_near(&self, temperature: f64) -> Option<f64> {
+        self.near(MELT_FRACTION, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the heat capacity [J/(kg K)].
+    pub fn heat_capacity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(HEAT_CAPACITY, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the thermal conductivity [W/(m K)].
+    pub fn thermal_conductivity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(THERMAL_CONDUCTIVITY, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the heat of fusion [J/kg].
+    pub fn heat_of_fusion_near(&self, temperature: f64) -> Option<f64> {
+        self.near(HEAT_OF_FUSION, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the melting point [K].
+    pub fn melting_point_near(&self, temperature: f64) -> Option<f64> {
+        self.near(MELTING_POINT, temperature)
+    }
+
+    fn near(&self, field: usize, temperature: f64) -> Option<f64> {
+        let property = self.properties[field].as_ref()?;
         let [low, high] = property.known_range().unwrap_or([0.0, f64::INFINITY]);
         property.at(temperature.clamp(low, high)).ok()
     }
@@ -380,7 +430,10 @@ mod tests {
     /// Both ends of every property's limits, just within and just beyond.
     #[test]
     fn a_number_that_no_material_has_is_refused() {
-        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400", "0.5"];
+        let usual = [
+            "2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400", "0.5", "0.5",
+            "1000", "2", "4e5",
+        ];
         let read = |place: usize, value: f64| {
             let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
                 let value = if at == place { format!("{value:e}") } else { usual.to_owned() };

@@ -57,7 +57,19 @@ impl Model {
             let parameters: Vec<String> = parameters.collect();
             lines.push(("effect", format!("{}: {}", term.kind().id, parameters.join(", "))));
         }
+        lines.extend(self.counted_twice().map(|note| ("note", note)));
         lines
+    }
+
+    /// A remark where criterion and effects multiply two stickinesses that both follow the particle's temperature.
+    fn counted_twice(&self) -> Option<String> {
+        let criterion = self.stickiness.as_ref()?.name();
+        let term = self.terms.iter().find(|term| term.kind().id == "melting-transition")?;
+        Some(format!(
+            "[capture] model = \"{criterion}\" and the effect {} both make the particle sticky by its temperature, and are \
+             multiplied: the temperature counts twice; remove one of them, unless they were fitted together",
+            term.kind().id
+        ))
     }
 
     fn describe_normal(&self) -> String {

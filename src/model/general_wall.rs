@@ -24,6 +24,8 @@ struct GeneralWall<'a, U, T> {
     frame: TiltedFrame,
     /// What the melt on the wall does to a dry particle, where a term says it.
     on_melt: Option<OnMelt>,
+    /// Normal restitution [1] of a droplet that bounces whole.
+    droplet_rebound: Option<f64>,
     /// Whether a law was used outside its range.
     left_range: bool,
     uniform: &'a U,
@@ -84,6 +86,7 @@ impl Model {
             arriving,
             frame,
             on_melt: None,
+            droplet_rebound: None,
             left_range: false,
             uniform,
             trace,
@@ -134,7 +137,21 @@ impl Model {
                 product = Some(product.unwrap_or(1.0) * stickiness);
             }
         }
-        Ok(product.unwrap_or(0.0))
+        let factors = self.terms.iter().map(|term| term.effect().stickiness_factor(impact));
+        Ok(factors.fold(product.unwrap_or(0.0), |product, factor| product * factor))
+    }
+
+    /// Normal restitution [1] of a droplet that bounces whole; `None` for any other particle. In melt on the wall it merges.
+    fn droplet_rebound(
+        &self,
+        wall: &Wall,
+        impact: &Impact,
+        place: Place,
+    ) -> Result<Option<f64>, ImpactError> {
+        let Some(criterion) = &self.stickiness else { return Ok(None) };
+        let material = wall.partner(place);
+        let molten = place != Place::Covered && self.melt_met(wall, impact)?.is_some();
+        if molten { Ok(None) } else { criterion.droplet_rebound(impact, material) }
     }
 
     /// Share of `e_n` [1] that full stickiness of the particle takes: all of it by a capture criterion.
@@ -174,11 +191,16 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             Some(_) => self.model.terms.iter().find_map(|term| term.effect().on_melt(impact, &contact)),
             None => None,
         };
+        self.droplet_rebound = self.model.droplet_rebound(self.wall, impact, self.place)?;
         Ok(contact)
     }
 
     fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, ImpactError> {
-        let particle = self.model.particle_stickiness(impact, &mut self.trace)?;
+        let mut particle = self.model.particle_stickiness(impact, &mut self.trace)?;
+        if self.droplet_rebound.is_some() {
+            self.trace("droplet rebound", "particle stickiness", 0.0);
+            particle = 0.0;
+        }
         let wall = match self.place {
             Place::Covered => 0.0,
             Place::Anywhere | Place::Bare => self.model.wall_stickiness(self.wall, impact),
@@ -189,6 +211,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     fn normal_law(&mut self, impact: &Impact, contact: &Contact, _: f64) -> NormalRebound {
         if let Some(OnMelt::Rebounds(e_n)) = self.on_melt {
             self.trace("melt", "e_n", e_n);
+            return NormalRebound { restitution: e_n, held: false };
+        }
+        if let Some(e_n) = self.droplet_rebound {
+            self.trace("droplet rebound", "e_n", e_n);
             return NormalRebound { restitution: e_n, held: false };
         }
         let law = self.model.normal;

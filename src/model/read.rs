@@ -57,8 +57,9 @@ impl Model {
         let walls = reader.read_all(top)?;
         let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
         if capture.criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
-            let problem = "neither the particle nor the slag of a wall has a composition or a viscosity; \
-                           give one to a material";
+            let needs = capture.criterion.map_or("", Criterion::needs);
+            let problem =
+                format!("neither the particle nor the slag of a wall has {needs}; give one to a material");
             return Err(top.fault("capture", problem));
         }
         let (uses_melt, prepared) = (false, Vec::new());
@@ -125,7 +126,8 @@ impl WallReader<'_> {
         let melt = match (&slag, self.criterion) {
             (None, _) => None,
             (Some(slag), criterion) => {
-                let melt = criterion.map(|criterion| criterion.of_slag(slag)).transpose();
+                let melt =
+                    criterion.map(|criterion| criterion.of_slag(slag, self.particle.melting())).transpose();
                 let melt = melt.map_err(|error| section.fault("slag", error))?.flatten();
                 Some(melt.ok_or_else(|| section.fault("slag", self.without_criterion(slag)))?)
             }
@@ -158,8 +160,8 @@ impl WallReader<'_> {
     /// Why there is no criterion for the slag of a wall.
     fn without_criterion(&self, slag: &Material) -> String {
         match self.criterion {
-            Some(Criterion::Viscosity(_)) => {
-                format!("`{}` has neither composition nor viscosity", slag.name())
+            Some(criterion @ (Criterion::Viscosity(_) | Criterion::MeltFraction(_))) => {
+                format!("`{}` lacks {}", slag.name(), criterion.needs())
             }
             _ => "a wall with slag needs [capture] model = \"viscosity\" to say when it is sticky".to_owned(),
         }

@@ -87,6 +87,14 @@ impl Wall {
         self.melt.is_some() || self.powder.is_some() || impact.melt_thickness > 0.0
     }
 
+    /// What a dry particle meets at a place.
+    pub(super) fn partner(&self, place: Place) -> &Material {
+        match (place, &self.powder) {
+            (Place::Covered, Some(powder)) => powder,
+            _ => &self.material,
+        }
+    }
+
     /// The contact with a dry wall at the temperatures of the impact.
     pub(super) fn contact(
         &self,

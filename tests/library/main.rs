@@ -7,6 +7,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod capture;
 mod contact_integration;
 mod corpus;
 mod docs;
