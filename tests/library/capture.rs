@@ -11,7 +11,7 @@ fn text(capture: &str, own: &str, more: &str) -> String {
          [materials.own]\ndensity = 2500\nyoungs_modulus = 5e10\npoisson_ratio = 0.2\nyield_strength = 3e8\n\
          surface_energy = 0.05\n{own}\n\
          [materials.target]\ndensity = 7800\nyoungs_modulus = 2e11\npoisson_ratio = 0.3\nyield_strength = 1e9\n\
-         surface_energy = 0.05\nheat_capacity = 600\nthermal_conductivity = 30\n"
+         surface_energy = 0.05\n"
     )
 }
 
@@ -85,8 +85,8 @@ fn fast_and_large_impacts_stick_less() {
     // The density that the solver gives counts.
     let light = p(Impact { particle_density: 250.0, ..at(3.0, 1200.0) });
     assert!((light / 0.0903 - 10_f64.powf(1.78)).abs() < 0.3 || light == 1.0, "{light}");
-    let own = model(&format!("{ENERGY}\ncoefficient = 1e-3\nexponent = 1"), glass, "");
-    let expected = 1e-3 / 7.363e-10 / 1e6;
+    let own = model(&format!("{ENERGY}\ncoefficient = 1e-4\nexponent = 1"), glass, "");
+    let expected = 1e-4 / 7.363e-10 / 1e6;
     assert!((hit(&own, &at(3.0, 1200.0)).sticking_probability / expected - 1.0).abs() < 1e-3);
     assert!(stiff.describe().iter().any(|line| line.1.contains("kinetic-energy") && line.1.contains("E/J")));
 }
@@ -140,7 +140,6 @@ fn a_glass_is_a_droplet_from_the_working_point_on() {
 }
 
 const WATER: &str = "viscosity = 1e-3\nsurface_tension = 0.072\nmelting_point = 273.15\n";
-const WATER_FREEZES: &str = "heat_capacity = 4200\nthermal_conductivity = 0.6\nheat_of_fusion = 3.34e5\n";
 
 fn water(contact_angle: f64, properties: &str) -> Model {
     let capture = format!("model = \"droplet\"\ncontact_angle = {contact_angle}");
@@ -169,19 +168,23 @@ fn a_droplet_bounces_where_it_does_not_wet() {
     );
 }
 
-/// Water of 0.5 mm does not freeze on steel within its contact time, of 10 µm it would; both by
-/// `h²/(4 a lambda²)` against `2.6 sqrt(rho R³/sigma)`, an estimate to a factor of two by hand.
+/// MIGRAINE, Fig 7b: molten molybdenum freezes on tungsten below 1000 K before it can recoil. On a wall near the melting point it would
+/// bounce, if it did not wet it.
 #[test]
-fn a_small_droplet_is_arrested_by_a_cold_wall() {
-    let cold = water(150.0, &format!("{WATER}{WATER_FREEZES}"));
-    let on = |diameter: f64, wall_temperature: f64| {
-        hit(&cold, &Impact { diameter, wall_temperature, ..at(2.0, 274.0) }).sticking_probability
+fn a_metal_droplet_is_arrested_by_a_cold_wall() {
+    let text = text("model = \"droplet\"\ncontact_angle = 150", "", "");
+    let text = text.replace("\"own\"", "\"molybdenum\"").replace("\"target\"", "\"tungsten\"");
+    let model = Model::from_toml("m.toml", &text).unwrap();
+    let p = |wall_temperature| {
+        let impact = Impact { diameter: 30e-6, wall_temperature, ..at(10.0, 2900.0) };
+        hit(&model, &impact).sticking_probability
     };
-    assert_eq!((on(0.5e-3, 250.0), on(0.5e-3, 300.0)), (0.0, 0.0));
-    let small = Impact { diameter: 30e-6, ..at(8.0, 274.0) };
-    let warm = hit(&cold, &Impact { wall_temperature: 300.0, ..small });
-    let arrested = hit(&cold, &Impact { wall_temperature: 100.0, ..small });
-    assert_eq!((warm.sticking_probability, arrested.sticking_probability), (0.0, 1.0));
+    assert_eq!([300.0, 700.0, 1000.0].map(p), [1.0; 3]);
+    assert_eq!([2850.0, 2895.0].map(p), [0.0; 2]);
+    // Where a thermal property is not known, freezing is not judged.
+    let unknown = Model::from_toml("m.toml", &text.replace("\"tungsten\"", "\"stainless-steel\"")).unwrap();
+    let impact = Impact { diameter: 30e-6, ..at(10.0, 2900.0) };
+    assert_eq!(hit(&unknown, &impact).sticking_probability, 0.0);
 }
 
 /// A rise by `conversion-transition` that is complete, then the fall: by hand 1 at the peak 0.9, 0.75 halfway, 0.5 at the end.
