@@ -102,7 +102,8 @@ impl DropletCriterion {
         let angle = self.contact_angle.map_or_else(String::new, |angle| {
             format!(", rebound at a contact_angle of {:.6} degrees", angle.to_degrees())
         });
-        format!("droplet ({}), splash_K {}{angle}", self.laws.describe(), self.splash_limit)
+        let law = self.laws.describe().map_or_else(String::new, |law| format!(", viscosity by {law}"));
+        format!("droplet, splash_K {}{law}{angle}", self.splash_limit)
     }
 
     /// The criterion for the particle's material.

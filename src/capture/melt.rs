@@ -32,11 +32,11 @@ impl MeltLaws {
         Ok(Self { law, solidification: Solidification::read(section)? })
     }
 
-    /// The law with its range, in words.
-    pub fn describe(self) -> String {
-        let Some(law) = self.law else { return "own viscosity".to_owned() };
+    /// The law with its range, in words; `None` without one.
+    pub fn describe(self) -> Option<String> {
+        let law = self.law?;
         let range = law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
-        format!("{}{range}", law.name)
+        Some(format!("{}{range}", law.name))
     }
 
     pub fn solidification(self) -> &'static str {

@@ -60,7 +60,7 @@ impl ViscosityCriterion {
             Reference::Energy(law) => law.describe(),
         };
         let Self { laws, .. } = self;
-        let (law, solidification) = (laws.describe(), laws.solidification());
+        let (law, solidification) = (laws.describe().unwrap_or_default(), laws.solidification());
         format!("{} ({law}), {reference}, solidification {solidification}", self.name())
     }
 

@@ -163,7 +163,9 @@ impl WallReader<'_> {
             Some(criterion @ (Criterion::Viscosity(_) | Criterion::MeltFraction(_))) => {
                 format!("`{}` lacks {}", slag.name(), criterion.needs())
             }
-            _ => "a wall with slag needs [capture] model = \"viscosity\" to say when it is sticky".to_owned(),
+            _ => "a wall with slag needs [capture] model = \"viscosity\", \"kinetic-energy\" or \"melt-fraction\" to say \
+                  when it is sticky"
+                .to_owned(),
         }
     }
 }
