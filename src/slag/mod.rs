@@ -4,6 +4,8 @@
 //! it. `tests/library/slag_viscosity.rs` compares the laws with measurements.
 
 mod composition;
+pub mod critical_viscosity_temperature;
+pub mod crystal_load;
 pub mod film;
 pub mod silica_corrected;
 pub mod urbain;
