@@ -9,7 +9,7 @@ use super::ParticleStickiness;
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, UnsuitableComposition, VISCOSITY_LAWS, ViscosityLaw};
+use crate::slag::{SlagViscosity, UnsuitableComposition, VISCOSITY_LAWS, ViscosityLaw, withdrawn};
 
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
@@ -29,6 +29,9 @@ pub struct ViscosityCriterion {
 
 impl ViscosityCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        if let Some(why) = section.text("law")?.as_deref().and_then(withdrawn) {
+            return Err(section.fault("law", why));
+        }
         let names = VISCOSITY_LAWS.map(|law| law.name);
         let name = section.choice("law", &names)?;
         let law = match name.and_then(|name| ViscosityLaw::from_name(&name)) {
@@ -43,8 +46,8 @@ impl ViscosityCriterion {
     }
 
     pub(super) fn describe(self) -> String {
-        let range = self.law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
-        format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name, self.reference)
+        let (name, range) = (self.law.name, self.law.stated_for);
+        format!("viscosity ({name}, stated for {range}), reference_viscosity {} Pa s", self.reference)
     }
 
     /// The criterion for a material; `None` for one with neither a viscosity of its own nor an oxide composition. Its own
