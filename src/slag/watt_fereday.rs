@@ -63,7 +63,7 @@ impl FiveOxides {
             [Oxide::SiO2, Oxide::Al2O3, Oxide::CaO, Oxide::MgO].map(share);
         let total = silica + alumina + iron + lime + magnesia;
         let scale = 100.0 / total;
-        (total > 0.0).then(|| Self {
+        (total > 0.0).then_some(Self {
             silica: scale * silica,
             alumina: scale * alumina,
             iron: scale * iron,

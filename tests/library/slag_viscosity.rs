@@ -13,6 +13,9 @@ use nearwall::slag::giordano_russell_dingwell::GIORDANO_RUSSELL_DINGWELL;
 use nearwall::slag::urbain::{KALMANOVITCH_FRANK, URBAIN};
 use nearwall::slag::watt_fereday::WATT_FEREDAY;
 use nearwall::slag::{Composition, SlagViscosity, VISCOSITY_LAWS, ViscosityLaw};
+use nearwall::{Impact, ImpactRng, Model};
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Root mean square and mean of predicted minus measured log10 viscosity.
 fn error<'a>(
@@ -133,4 +136,49 @@ fn iron_is_not_what_sets_the_error() {
         assert!(as_given < all_ferric && all_ferric < as_given + 0.013);
         assert!(without < as_given && as_given < only);
     }
+}
+
+/// An impact carries the flag exactly where the law of its melt is not stated: random ashes at random temperatures.
+#[test]
+fn outside_the_range_of_a_law_an_impact_is_flagged() {
+    let mut random = ChaCha8Rng::seed_from_u64(11);
+    let mut below = |high: f64| high * (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    let [mut inside, mut outside] = [0, 0];
+    for law in VISCOSITY_LAWS {
+        for _ in 0..200 {
+            let ceilings = [60.0, 2.0, 35.0, 10.0, 5.0, 0.2, 4.0, 5.0, 5.0, 25.0, 0.5];
+            let shares: Vec<(&str, f64)> =
+                OXIDES.into_iter().zip(ceilings).map(|(oxide, high)| (oxide, 0.1 + below(high))).collect();
+            let Ok(slag) = SlagViscosity::new(law, &Composition::new(shares.clone()).unwrap()) else {
+                continue;
+            };
+            let temperature = 1300.0 + below(900.0);
+            let oxides: Vec<String> =
+                shares.iter().map(|(oxide, share)| format!("{oxide} = {share}")).collect();
+            let model = Model::from_toml("m.toml", &model_file(law.name, &oxides.join(", "))).unwrap();
+            let impact = Impact {
+                normal_speed: 2.0,
+                diameter: 80e-6,
+                particle_temperature: temperature,
+                wall_temperature: 300.0,
+                ..Impact::default()
+            };
+            let found = model.resolve(0, &impact, ImpactRng::default()).unwrap().outside_range;
+            let stated = slag.holds_at(temperature);
+            assert_eq!(found, !stated, "{} at {temperature} K: {oxides:?}", law.name);
+            *if stated { &mut inside } else { &mut outside } += 1;
+        }
+    }
+    assert!(inside > 50 && outside > 300, "{inside} inside, {outside} outside");
+}
+
+/// A model of ash with these oxides, with a law of viscosity.
+fn model_file(law: &str, oxides: &str) -> String {
+    format!(
+        "[particle]\nmaterial = \"ash\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+         [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \"constant\"\ne_t = 0.76\n\
+         [capture]\nmodel = \"viscosity\"\nlaw = \"{law}\"\nreference_viscosity = 25\n\
+         [materials.ash]\ndensity = 2500\nyoungs_modulus = 7e10\npoisson_ratio = 0.2\nyield_strength = 1e9\n\
+         surface_energy = 0.4\ncomposition = {{ {oxides} }}\n"
+    )
 }
