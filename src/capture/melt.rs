@@ -5,7 +5,7 @@ use super::solidification::{Solidification, Stiffening};
 use crate::impact::ImpactError;
 use crate::input::{InputError, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw};
+use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw, withdrawn};
 
 /// The `law` and the `solidification` of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,6 +27,9 @@ impl MeltLaws {
 
     /// With a `law` that only materials without a viscosity of their own need.
     pub fn read_optional(section: &Section<'_>) -> Result<Self, InputError> {
+        if let Some(why) = section.text("law")?.as_deref().and_then(withdrawn) {
+            return Err(section.fault("law", why));
+        }
         let name = section.choice("law", &VISCOSITY_LAWS.map(|law| law.name))?;
         let law = name.and_then(|name| ViscosityLaw::from_name(&name));
         Ok(Self { law, solidification: Solidification::read(section)? })
@@ -35,8 +38,7 @@ impl MeltLaws {
     /// The law with its range, in words; `None` without one.
     pub fn describe(self) -> Option<String> {
         let law = self.law?;
-        let range = law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
-        Some(format!("{}{range}", law.name))
+        Some(format!("{}, stated for {}", law.name, law.stated_for))
     }
 
     pub fn solidification(self) -> &'static str {
