@@ -5,7 +5,8 @@
 //! [Pa s] of the melt at the particle's own temperature, `v_n` speed towards the wall [m/s], `d` diameter [m]. A particle is a
 //! droplet when it is hotter than the `melting_point` of its material; a solid one is not sticky.
 //!
-//! Ash and slag: the viscosity follows from the composition by the `law` of the `[capture]` table, if the material has none of its own. An
+//! Ash and slag: the viscosity follows from the composition by the `law` of the `[capture]` table and the surface
+//! tension from the composition ([`crate::slag::surface_tension`]), if the material has none of its own. An
 //! ash in flight is quenched glass: without a `melting_point` it is a droplet from [`WORKING_VISCOSITY`] down. That is the working
 //! point of glass makers, 1e4 poise; and a glass of shear modulus `G` = 3e10 Pa flows within the 1e-7 s of an elastic contact (50 µm at
 //! some metres a second, Hertz) when `mu/G` is shorter, below 3e3 Pa s (*assumed* as the bound). What is stiffer has stickiness 0 here;
@@ -119,7 +120,7 @@ impl DropletCriterion {
         lacking.retain(|key| match *key {
             "melting_point" => !has(key) && !composed,
             "viscosity" => melt.is_none() && !composed,
-            _ => !has(key),
+            _ => material.surface_tension_near(Impact::default().particle_temperature).is_none(),
         });
         match melt {
             _ if !lacking.is_empty() => {

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Limits, Section, unknown};
-use crate::slag::Composition;
+use crate::slag::{Composition, surface_tension};
 
 pub use property::{OutOfRange, Property};
 
@@ -168,12 +168,20 @@ impl Material {
         self.value(VISCOSITY, temperature)
     }
 
-    /// Surface tension [N/m] of the melt at a temperature [K].
+    /// Surface tension [N/m] of the melt at a temperature [K]; without one of its own, that of its composition
+    /// ([`surface_tension::kucuk`]).
     ///
     /// # Errors
     /// As [`Material::viscosity`].
     pub fn surface_tension(&self, temperature: f64) -> Result<f64, ImpactError> {
-        self.value(SURFACE_TENSION, temperature)
+        let composed = self.surface_tension_by_composition();
+        composed.map_or_else(|| self.value(SURFACE_TENSION, temperature), Ok)
+    }
+
+    /// Surface tension [N/m] by the composition, for a material without one of its own.
+    fn surface_tension_by_composition(&self) -> Option<f64> {
+        let composition = self.composition.as_ref().filter(|_| self.properties[SURFACE_TENSION].is_none())?;
+        surface_tension::kucuk(composition)
     }
 
     /// Density [kg/m³] at a temperature [K].
@@ -227,14 +235,14 @@ impl Material {
         Ok(Molten {
             density: self.density(temperature)?,
             viscosity: self.viscosity(temperature)?,
-            surface_tension: self.value(SURFACE_TENSION, temperature)?,
+            surface_tension: self.surface_tension(temperature)?,
         })
     }
 
     /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at which it is known; `None` without
-    /// one.
+    /// one and without a composition.
     pub fn surface_tension_near(&self, temperature: f64) -> Option<f64> {
-        self.near(SURFACE_TENSION, temperature)
+        self.surface_tension_by_composition().or_else(|| self.near(SURFACE_TENSION, temperature))
     }
 
     /// As [`Material::surface_tension_near`], the viscosity [Pa s] of its melt.
@@ -297,7 +305,9 @@ impl Material {
 
     /// Whether every property of the melt is stated to hold at a temperature [K].
     pub fn melt_holds_at(&self, temperature: f64) -> bool {
+        let composed = self.composition.as_ref().filter(|_| self.surface_tension_by_composition().is_some());
         self.molten_properties().all(|p| p.holds_at(temperature))
+            && composed.is_none_or(|composition| surface_tension::holds(composition, temperature))
     }
 
     fn mechanical_properties(&self) -> impl Iterator<Item = &Property> {
