@@ -42,7 +42,10 @@ impl EnergyLaw {
     }
 
     pub fn describe(self) -> String {
-        format!("reference viscosity {} Pa s (E/J)^-{}", self.coefficient, self.exponent)
+        let Self { coefficient, exponent } = self;
+        let default = (coefficient, exponent) == (COEFFICIENT, EXPONENT);
+        let warning = if default { " (quoted from memory, without a second source)" } else { "" };
+        format!("reference viscosity {coefficient:e} Pa s (E/J)^-{exponent}{warning}")
     }
 
     /// Viscosity [Pa s] up to which an impact of a particle of this density [kg/m³] sticks.

@@ -110,9 +110,9 @@ impl MeltStickiness {
         match self.criterion.reference {
             Reference::Constant(reference) => reference,
             Reference::Energy(law) => {
-                let near = || self.particle.density_near(impact.particle_temperature).unwrap_or(f64::NAN);
-                let density = if impact.particle_density > 0.0 { impact.particle_density } else { near() };
-                law.at(density, impact)
+                // An unknown density is taken as too large to stick; a material always has one at the nearest temperature.
+                let own = self.particle.density_near(impact.particle_temperature).unwrap_or(f64::INFINITY);
+                law.at(if impact.particle_density > 0.0 { impact.particle_density } else { own }, impact)
             }
         }
     }

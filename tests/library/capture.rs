@@ -1,5 +1,6 @@
 //! The criteria of `[capture]` through `Model::resolve`: melt fraction, kinetic energy, droplets of ash, droplets that bounce.
 
+use crate::common::random::hostile_cases;
 use nearwall::{Impact, ImpactRng, Model, Outcome, Regime};
 
 /// A model with particles of `own` on pyrex, and what else the file says.
@@ -229,4 +230,32 @@ fn a_temperature_that_counts_twice_is_noted() {
     assert!(noted(&model("model = \"melt-fraction\"", SALT, effect)));
     assert!(!noted(&model("model = \"melt-fraction\"", SALT, "")));
     assert!(!noted(&model("model = \"none\"", SALT, effect)));
+}
+
+/// Impacts with numbers that break arithmetic, by every criterion.
+#[test]
+fn hostile_impacts_have_a_probability() {
+    let metal = "viscosity = 1e-3\nsurface_tension = 0.5\nmelting_point = 300\nheat_capacity = 400\n\
+                 thermal_conductivity = 80\nheat_of_fusion = 4e5\n";
+    let models = [
+        model("model = \"melt-fraction\"", SALT, ""),
+        model("model = \"melt-fraction\"\nsticky_from = 0\nflows_from = 0", SALT, ""),
+        model(ENERGY, ASH, ""),
+        model(ENERGY, "viscosity = 1e6", ""),
+        model("model = \"droplet\"\nlaw = \"urbain\"\ncontact_angle = 180", ASH, ""),
+        model("model = \"droplet\"\ncontact_angle = 0", metal, ""),
+        model("model = \"droplet\"\ncontact_angle = 150", metal, ""),
+    ];
+    let cases: Vec<_> = hostile_cases().into_iter().filter(|case| case.1.check().is_ok()).collect();
+    assert!(cases.len() > 1000);
+    for (number, model) in models.iter().enumerate() {
+        for (_, impact, draw) in &cases {
+            let outcome = model.resolve(0, impact, *draw).unwrap();
+            let Outcome { normal_restitution: e_n, sticking_probability: p, .. } = outcome;
+            assert!(
+                e_n.is_finite() && e_n >= 0.0 && (0.0..=1.0).contains(&p),
+                "{number} {outcome:?} {impact:?}"
+            );
+        }
+    }
 }
