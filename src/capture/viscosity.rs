@@ -11,7 +11,7 @@ use super::{StickinessCriterion, Unsuitable};
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw};
+use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw, withdrawn};
 
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
@@ -32,6 +32,9 @@ pub struct ViscosityCriterion {
 
 impl ViscosityCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        if let Some(why) = section.text("law")?.as_deref().and_then(withdrawn) {
+            return Err(section.fault("law", why));
+        }
         let names = VISCOSITY_LAWS.map(|law| law.name);
         let name = section.choice("law", &names)?;
         let law = match name.and_then(|name| ViscosityLaw::from_name(&name)) {
@@ -46,10 +49,10 @@ impl ViscosityCriterion {
     }
 
     pub(super) fn describe(self) -> String {
-        let range = self.law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
         format!(
-            "viscosity ({}{range}), reference_viscosity {} Pa s, solidification {}",
+            "viscosity ({}, stated for {}), reference_viscosity {} Pa s, solidification {}",
             self.law.name,
+            self.law.stated_for,
             self.reference,
             self.solidification.name()
         )

@@ -304,7 +304,7 @@ e_t = 0.76
     }
 
     #[test]
-    fn a_fitted_viscosity_law_reports_where_it_was_not_measured() {
+    fn a_viscosity_law_reports_where_it_is_not_stated() {
         let outside = |law: &str, silica: f64, temperature: f64| {
             let text = SMALLEST.replace("\"montan-wax\"", "\"own\"")
                 + &format!(
@@ -323,10 +323,23 @@ e_t = 0.76
             };
             model.resolve(0, &impact, ImpactRng::default()).unwrap().outside_range
         };
-        assert!(!outside("kalmanovitch-frank-silica", 50.0, 1700.0));
-        assert!(outside("kalmanovitch-frank-silica", 50.0, 1400.0));
-        assert!(outside("kalmanovitch-frank-silica", 10.0, 1700.0));
-        assert!(!outside("kalmanovitch-frank", 10.0, 1400.0));
+        for law in ["kalmanovitch-frank", "urbain"] {
+            assert!(!outside(law, 50.0, 1700.0));
+            assert!(outside(law, 50.0, 1400.0));
+            assert!(outside(law, 10.0, 1700.0));
+        }
+        assert!(outside("watt-fereday", 50.0, 1700.0), "no iron and no magnesia");
+        assert!(outside("giordano-russell-dingwell", 50.0, 1700.0), "no alkali");
+    }
+
+    #[test]
+    fn a_withdrawn_viscosity_law_is_refused_with_its_reason() {
+        let text = format!(
+            "{SMALLEST}[capture]\nmodel = \"viscosity\"\nlaw = \"kalmanovitch-frank-silica\"\nreference_viscosity = 25\n"
+        );
+        let message = Model::from_toml("m.toml", &text).unwrap_err().to_string();
+        assert!(message.contains("capture.law: `kalmanovitch-frank-silica` was withdrawn"), "{message}");
+        assert!(message.contains("Use \"kalmanovitch-frank\""), "{message}");
     }
 
     #[test]

@@ -19,10 +19,13 @@
 //! Above 50 wt% SiO2 it is 0.18 to 0.30. The law has a pole at 150 °C and is meaningless for a slag that cold.
 
 use super::composition::{Composition, Oxide};
-use super::{LARGEST_EXPONENT, ViscosityLaw, unlimited};
+use super::{LARGEST_EXPONENT, ViscosityLaw};
 
 /// Mass of ferric oxide that holds the iron of 1 kg of ferrous oxide [kg].
 const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
+
+/// Temperatures [K] for which the law counts as stated; assumed.
+const TEMPERATURES: [f64; 2] = [1423.0, 1873.0];
 
 /// Temperature at which the law has its pole [K].
 const POLE: f64 = 150.0 + 273.15;
@@ -30,10 +33,10 @@ const POLE: f64 = 150.0 + 273.15;
 /// The law.
 pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
     name: "watt-fereday",
-    stated_for: None,
+    stated_for: "SiO2 30 to 60, Al2O3 15 to 35, Fe2O3 3 to 30, CaO 2 to 30 and MgO 1 to 10 wt% of the five, 1423 to 1873 K",
     coefficients: |composition| line(composition).ok_or("it has too little SiO2 and Al2O3"),
     viscosity,
-    range: unlimited,
+    range: |composition| FiveOxides::of(composition)?.is_like_british_ash().then_some(TEMPERATURES),
 };
 
 /// Shares [wt%] of the five oxides in Watt and Fereday's normalisation: they add up to 100, all iron as `Fe2O3`.
@@ -60,7 +63,7 @@ impl FiveOxides {
             [Oxide::SiO2, Oxide::Al2O3, Oxide::CaO, Oxide::MgO].map(share);
         let total = silica + alumina + iron + lime + magnesia;
         let scale = 100.0 / total;
-        (total > 0.0).then(|| Self {
+        (total > 0.0).then_some(Self {
             silica: scale * silica,
             alumina: scale * alumina,
             iron: scale * iron,
