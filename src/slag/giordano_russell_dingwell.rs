@@ -11,7 +11,7 @@
 //! with shares in mol% of these oxides, all iron as `FeO`. The terms for water and fluorine are left out: ash has neither.
 //!
 //! Source: D. Giordano, J. K. Russell, D. B. Dingwell, "Viscosity of magmatic liquids: a model", Earth Planet. Sci. Lett.
-//! 271 (2008) 123–134; the coefficients as three independent open programs have them.
+//! 271 (2008) 123–134 (not re-read); the coefficients as three open programs have them, one of them after the authors' own.
 //!
 //! # Range and error
 //! Fitted to melts of volcanic rocks between 1e-1 and 1e14 Pa s, for which the source states a root mean square error of
