@@ -11,8 +11,9 @@
 //! in milliseconds and stays a glass: the temperature says nothing about it.
 //!
 //! Source: J. D. Watt, "The flow properties of slags formed from the ashes of British coals. Part 2: The crystallizing
-//! behaviour of the slags", J. Inst. Fuel 42 (1969) 131–134; often cited as Watt 1963. Not re-read. That the equation is in °C
-//! follows from M. Seggiani, Fuel 77 (1998) 1611, who writes it in kelvin with 3263 for 2990 (from memory).
+//! behaviour of the slags", J. Inst. Fuel 42 (1969) 131–134; often cited as Watt 1963. Not re-read, and no second source with the
+//! numbers could be looked up. That it is in °C follows from M. Seggiani, Fuel 77 (1998) 1611, who writes it in kelvin with 3263 for
+//! 2990 (from memory).
 //!
 //! # Range and error
 //! Slags of British bituminous ash in Watt and Fereday's range of composition ([`FiveOxides::is_like_british_ash`]; the
