@@ -23,6 +23,7 @@
   X(omega) \
   X(d) \
   X(T_p) \
+  X(rho_p) \
   X(conversion) \
   X(T_w) \
   X(roughness) \
@@ -67,6 +68,8 @@ typedef struct nw_impact {
   double d;
   // Particle temperature [K], positive.
   double T_p;
+  // Density of the particle [kg/m3], not negative; 0 takes that of its material.
+  double rho_p;
   // Carbon conversion [1], 0 to 1; 1 for a particle without carbon.
   double conversion;
   // Wall temperature [K], positive.
@@ -77,7 +80,7 @@ typedef struct nw_impact {
   double coverage;
   // Thickness of the powder layer on the wall [m], not negative.
   double layer_thickness;
-  // Thickness of a liquid film [m] that the caller states, not negative; the effect `liquid-film` uses it.
+  // Thickness of a liquid film [m] that the caller states, not negative; `liquid-film` uses it, or the melt if thicker.
   double film_thickness;
   // Thickness of the melt in the deposit of earlier particles [m], not negative.
   double melt_thickness;
@@ -131,6 +134,8 @@ typedef struct nw_impacts {
   const double *d;
   // Particle temperature [K], positive.
   const double *T_p;
+  // Density of the particle [kg/m3], not negative; 0 takes that of its material.
+  const double *rho_p;
   // Carbon conversion [1], 0 to 1; 1 for a particle without carbon.
   const double *conversion;
   // Wall temperature [K], positive.
@@ -141,7 +146,7 @@ typedef struct nw_impacts {
   const double *coverage;
   // Thickness of the powder layer on the wall [m], not negative.
   const double *layer_thickness;
-  // Thickness of a liquid film [m] that the caller states, not negative; the effect `liquid-film` uses it.
+  // Thickness of a liquid film [m] that the caller states, not negative; `liquid-film` uses it, or the melt if thicker.
   const double *film_thickness;
   // Thickness of the melt in the deposit of earlier particles [m], not negative.
   const double *melt_thickness;

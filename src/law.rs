@@ -12,8 +12,11 @@ pub struct Parameter {
     pub unit: &'static str,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
-    /// Value where the model file does not give it; `None` for a required parameter.
+    /// Value where the model file does not give it, and which a fit leaves unless another one is worth it; `None` for a parameter that
+    /// every fit searches.
     pub default: Option<f64>,
+    /// Value where the model file does not give it, of a parameter that every fit searches; `None` for a required one.
+    pub absent: Option<f64>,
     /// Range of a fit.
     pub search: Search,
     /// One line of explanation.
@@ -41,11 +44,15 @@ impl Parameter {
         bounds: (f64, f64),
         search: Search,
     ) -> Self {
-        Self { name, unit, bounds, default: None, search, about: "" }
+        Self { name, unit, bounds, default: None, absent: None, search, about: "" }
     }
 
     pub(crate) const fn default(self, value: f64) -> Self {
         Self { default: Some(value), ..self }
+    }
+
+    pub(crate) const fn absent(self, value: f64) -> Self {
+        Self { absent: Some(value), ..self }
     }
 
     pub(crate) const fn about(self, about: &'static str) -> Self {
@@ -54,10 +61,10 @@ impl Parameter {
 
     /// Reads a number, or `{ value, low, high }` of a fit.
     pub(crate) fn read(&self, section: &Section<'_>) -> Result<f64, InputError> {
-        let Self { name, unit, bounds: (low, high), default, about, .. } = *self;
+        let Self { name, unit, bounds: (low, high), default, absent, about, .. } = *self;
         let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
         if !section.is_section(name) {
-            let given = section.number_within(name, low, high)?.or(default);
+            let given = section.number_within(name, low, high)?.or(default).or(absent);
             return given.ok_or_else(|| missing(section));
         }
         let fitted = section.required_section(name)?;

@@ -51,6 +51,7 @@ module nearwall
     real(c_double) :: omega
     real(c_double) :: d
     real(c_double) :: T_p
+    real(c_double) :: rho_p
     real(c_double) :: conversion
     real(c_double) :: T_w
     real(c_double) :: roughness
@@ -73,7 +74,7 @@ module nearwall
   end type nw_outcome
 
   type, bind(c) :: nw_impacts
-    integer(c_int32_t) :: struct_size = 144
+    integer(c_int32_t) :: struct_size = 152
     integer(c_int32_t) :: wall = 0
     integer(c_size_t) :: count = 0
     integer(c_int64_t) :: seed = 0
@@ -84,6 +85,7 @@ module nearwall
     type(c_ptr) :: omega = c_null_ptr
     type(c_ptr) :: d = c_null_ptr
     type(c_ptr) :: T_p = c_null_ptr
+    type(c_ptr) :: rho_p = c_null_ptr
     type(c_ptr) :: conversion = c_null_ptr
     type(c_ptr) :: T_w = c_null_ptr
     type(c_ptr) :: roughness = c_null_ptr

@@ -38,17 +38,17 @@ SP_SW = 3
 
 # The inputs of an impact; nearwall.h describes them.
 INPUTS = (
-    "v_n", "v_t", "omega", "d", "T_p", "conversion", "T_w", "roughness", "coverage", "layer_thickness",
-    "film_thickness", "melt_thickness", "v_gas")
+    "v_n", "v_t", "omega", "d", "T_p", "rho_p", "conversion", "T_w", "roughness", "coverage",
+    "layer_thickness", "film_thickness", "melt_thickness", "v_gas")
 
 
 class nw_impact(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("wall", c_uint32), ("seed", c_uint64), ("key", c_uint64),
         ("v_n", c_double), ("v_t", c_double), ("omega", c_double), ("d", c_double), ("T_p", c_double),
-        ("conversion", c_double), ("T_w", c_double), ("roughness", c_double), ("coverage", c_double),
-        ("layer_thickness", c_double), ("film_thickness", c_double), ("melt_thickness", c_double),
-        ("v_gas", c_double)]
+        ("rho_p", c_double), ("conversion", c_double), ("T_w", c_double), ("roughness", c_double),
+        ("coverage", c_double), ("layer_thickness", c_double), ("film_thickness", c_double),
+        ("melt_thickness", c_double), ("v_gas", c_double)]
 
 
 class nw_outcome(Structure):
@@ -61,7 +61,7 @@ class nw_impacts(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("wall", c_uint32), ("count", c_size_t), ("seed", c_uint64),
         ("walls", c_void_p), ("key", c_void_p), ("v_n", c_void_p), ("v_t", c_void_p), ("omega", c_void_p),
-        ("d", c_void_p), ("T_p", c_void_p), ("conversion", c_void_p), ("T_w", c_void_p),
+        ("d", c_void_p), ("T_p", c_void_p), ("rho_p", c_void_p), ("conversion", c_void_p), ("T_w", c_void_p),
         ("roughness", c_void_p), ("coverage", c_void_p), ("layer_thickness", c_void_p),
         ("film_thickness", c_void_p), ("melt_thickness", c_void_p), ("v_gas", c_void_p)]
 

@@ -14,11 +14,14 @@
 //! char has burned off or the layer has carried it away. Assumed: slag does not lift the char; a particle that rises with the
 //! surface is buried later or never.
 //!
+//! *Rebound* ([`CharOnSlag::restitution`]): the same drag acts on the way out. What is left there must pull the sphere out of the surface, where
+//! it rests, which takes `W_out = pi R² sigma (1 + cos theta)²`, the free energy `-F` of the rest position.
+//!
 //! *Segregation*: it stays on the surface and burns there. *Segregation–coverage*: so much char lies there that the next one
 //! hits char rather than slag: with `N = n pi d²/4 t` (`n` char particles a second and area [1/(m² s)], `t` [s] their stay)
-//! the covered share is `N/(1 + N)`, because char that hits char is not held and covers nothing. The limit is a share of
-//! one half, as for [`Stickiness::THRESHOLD`](super::Stickiness::THRESHOLD). Discs that overlap make it somewhat smaller: a
-//! simulation of falling discs (in the tests) gives 0.47 where it says 0.5.
+//! the char on the wall has the projected area `A = N exp(-A)`, because char that hits char is not held, and covers the share
+//! `1 - exp(-A)` of [`cover::share`]. The limit is a share of one half, as for
+//! [`Stickiness::THRESHOLD`](super::Stickiness::THRESHOLD). A simulation of falling discs (in the tests) gives 0.47 at `N = 1` where this says 0.43.
 //!
 //! Symbols: `d` [m], `rho_c` [kg/m³], `v_n` [m/s] and `m` [kg] of the char; `sigma` [N/m], `mu` [Pa s] and `rho_s` [kg/m³] of the
 //! slag. Valid for smooth spheres that are small against the capillary
@@ -34,6 +37,7 @@
 
 use std::f64::consts::PI;
 
+use crate::deposit::cover;
 use crate::material::Molten;
 
 /// A char particle and the slag it has reached. All finite and positive unless said.
@@ -103,9 +107,23 @@ pub fn holding_force(diameter: f64, surface_tension: f64, contact_angle: f64) ->
     PI / 2.0 * diameter * surface_tension * (1.0 - contact_angle.cos())
 }
 
-/// Share of a wall that char covers [1], `N/(1 + N)`, from the area [1] that would arrive within one stay.
+/// Work [J] to pull a resting sphere out of the surface, `pi R² sigma (1 + cos theta)²`, from its diameter [m], the surface tension
+/// [N/m] and the contact angle [rad].
+pub fn detaching_work(diameter: f64, surface_tension: f64, contact_angle: f64) -> f64 {
+    PI / 4.0 * diameter * diameter * surface_tension * (1.0 + contact_angle.cos()).powi(2)
+}
+
+/// Share of a wall that char covers [1], `1 - exp(-A)` with `A exp(A) = N`, from the area `N` [1] that would arrive within one stay.
 pub fn char_coverage(arriving: f64) -> f64 {
-    if arriving.is_infinite() { 1.0 } else { arriving / (1.0 + arriving) }
+    if arriving.is_infinite() {
+        return 1.0;
+    }
+    // Newton's method on the convex A exp(A) - N, from above; ln(1 + N) is never below the root.
+    let mut area = arriving.ln_1p();
+    for _ in 0..20 {
+        area -= (area - arriving * (-area).exp()) / (1.0 + area);
+    }
+    cover::share(area)
 }
 
 /// A quotient with 0/0 = 0.
@@ -122,6 +140,36 @@ impl CharOnSlag {
     /// Speed [m/s] left after one diameter of Stokes' drag in the slag.
     pub fn speed_left(&self) -> f64 {
         (self.normal_speed - 18.0 * self.slag.viscosity / (self.density * self.diameter)).max(0.0)
+    }
+
+    /// Char of a diameter [m], a density [kg/m³] and a speed towards the slag [m/s], alone on a vertical wall; its contact angle is 120°.
+    pub fn new(diameter: f64, density: f64, normal_speed: f64, slag: Molten) -> Self {
+        Self {
+            diameter,
+            density,
+            normal_speed,
+            slag,
+            contact_angle: 2.0 / 3.0 * PI,
+            gravity: 0.0,
+            slag_flux: 0.0,
+            char_flux: 0.0,
+            burn_time: f64::INFINITY,
+            drain_time: f64::INFINITY,
+        }
+    }
+
+    /// Normal restitution [1] of char that leaves the slag again; `None` when it sinks or surface tension holds it.
+    pub fn restitution(&self) -> Option<f64> {
+        let mass = self.density * PI / 6.0 * self.diameter.powi(3);
+        let tension = self.slag.surface_tension;
+        let energy = |speed: f64| 0.5 * mass * speed * speed;
+        let inwards = self.speed_left();
+        if energy(inwards) >= submerging_work(self.diameter, tension, self.contact_angle) {
+            return None;
+        }
+        let outwards = (2.0 * inwards - self.normal_speed).max(0.0);
+        let left = energy(outwards) - detaching_work(self.diameter, tension, self.contact_angle);
+        (left > 0.0).then(|| (2.0 * left / mass).sqrt() / self.normal_speed)
     }
 
     /// Fresh slag [kg/m²] that buries it, as high as the char stands out.
@@ -315,7 +363,7 @@ mod tests {
     /// With `x = N (1 - c)`, the area held, the covered share `c` is at most `x` (no overlap: `N/(1+N)`) and at least
     /// `1 - exp(-x)` (overlap as if they did not avoid each other). 0.01 is three standard errors of the count.
     #[test]
-    fn coverage_lies_between_its_bounds_and_the_formula_is_the_upper_one() {
+    fn coverage_lies_between_its_bounds_and_the_formula_is_the_lower_one() {
         let seed = 20_100_874;
         println!("seed {seed}");
         let radius: f64 = 0.05;
@@ -342,7 +390,7 @@ mod tests {
             let held = arriving * (1.0 - covered);
             println!("N = {arriving}: covered {covered}, formula {}", char_coverage(arriving));
             assert!(covered < held + 0.01 && covered > 1.0 - (-held).exp() - 0.01, "{arriving}: {covered}");
-            assert!(covered < char_coverage(arriving) + 0.01);
+            assert!(covered > char_coverage(arriving) - 0.01);
         }
     }
 

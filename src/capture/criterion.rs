@@ -1,22 +1,36 @@
-//! The `[capture]` table: the criterion for the stickiness of a particle.
+//! The `[capture]` table: the criterion for the stickiness of a melt, and how particle and wall combine.
 //!
-//! `viscosity` also applies to the slag on a wall. `droplet` applies to the particle alone: a deposit has no speed and is
-//! sticky when it is molten.
+//! A criterion applies to the particle at its own temperature, and to the melt on a wall at the wall's: to the slag that the model file
+//! puts there and to what molten particles left. `droplet` applies to particles alone: a deposit has no speed and is sticky when it
+//! is molten.
 
 use std::sync::Arc;
 
 use super::droplet::DropletCriterion;
+use super::melt_fraction::MeltFractionCriterion;
+use super::stickiness::Combination;
 use super::viscosity::ViscosityCriterion;
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::Material;
 use crate::slag::UnsuitableComposition;
 
+/// A `[capture]` table.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Capture {
+    /// The criterion; `None` for `model = "none"`.
+    pub criterion: Option<Criterion>,
+    /// How the stickiness of particle and wall combine.
+    pub combination: Combination,
+}
+
 /// The criterion of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Criterion {
-    /// A melt of low viscosity sticks.
+    /// A melt of low viscosity sticks; the limit is constant or falls with the kinetic energy.
     Viscosity(ViscosityCriterion),
+    /// A particle with enough liquid sticks.
+    MeltFraction(MeltFractionCriterion),
     /// A droplet that does not splash stays.
     Droplet(DropletCriterion),
 }
@@ -27,45 +41,62 @@ pub enum Unsuitable {
     /// The viscosity law does not apply to its composition.
     #[error(transparent)]
     Composition(#[from] UnsuitableComposition),
-    /// The droplet criterion needs properties that it lacks.
+    /// Its viscosity has to follow from its composition, and no law is given.
     #[error(
-        "`{material}` has no {}, which [capture] model = \"droplet\" needs; give it to the material in [materials.{material}]",
+        "`{material}` has a composition but no viscosity; add law = \"{}\" to [capture], or give viscosity to the material",
+        crate::slag::urbain::KALMANOVITCH_FRANK.name
+    )]
+    NoLaw {
+        /// The material's name.
+        material: String,
+    },
+    /// The criterion needs properties that it lacks.
+    #[error(
+        "`{material}` has no {}, which [capture] {needed_by} needs; give it to the material in [materials.{material}]",
         .lacking.join(", no ")
     )]
     Lacking {
         /// The material's name.
         material: String,
+        /// The key of the `[capture]` table that needs them, with its value.
+        needed_by: &'static str,
         /// The keys that it lacks.
         lacking: Vec<&'static str>,
     },
 }
 
-impl Criterion {
-    /// Reads a `[capture]` table; `None` when its model is `none`.
+impl Capture {
+    /// Reads a `[capture]` table.
     ///
     /// # Errors
     /// [`InputError::Fault`] for an unknown model or law, or a missing or impossible number.
-    pub fn read(section: &Section<'_>) -> Result<Option<Self>, InputError> {
-        match section.choice("model", &["none", "viscosity", "droplet"])?.as_deref() {
-            Some("viscosity") => Ok(Some(Self::Viscosity(ViscosityCriterion::read(section)?))),
-            Some("droplet") => Ok(Some(Self::Droplet(DropletCriterion::read(section)?))),
-            _ => Ok(None),
-        }
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let models = ["none", "viscosity", "kinetic-energy", "melt-fraction", "droplet"];
+        let criterion = match section.choice("model", &models)?.as_deref() {
+            Some("viscosity") => Some(Criterion::Viscosity(ViscosityCriterion::read(section)?)),
+            Some("kinetic-energy") => {
+                Some(Criterion::Viscosity(ViscosityCriterion::read_with_energy(section)?))
+            }
+            Some("melt-fraction") => Some(Criterion::MeltFraction(MeltFractionCriterion::read(section)?)),
+            Some("droplet") => Some(Criterion::Droplet(DropletCriterion::read(section)?)),
+            _ => None,
+        };
+        Ok(Self { criterion, combination: Combination::read(section)? })
     }
 
-    /// The criterion in words.
-    pub fn describe(self) -> String {
+    /// The table in words; `None` without a criterion.
+    pub fn describe(self) -> Option<String> {
+        let combination = self.combination.describe();
+        self.criterion.map(|criterion| format!("{}, combination {combination}", criterion.describe()))
+    }
+}
+
+impl Criterion {
+    fn describe(self) -> String {
         match self {
             Self::Viscosity(criterion) => criterion.describe(),
+            Self::MeltFraction(criterion) => criterion.describe(),
             Self::Droplet(criterion) => criterion.describe(),
-        }
-    }
-
-    /// The criterion for slag on a wall, if this one applies to it.
-    pub fn of_slag(self) -> Option<ViscosityCriterion> {
-        match self {
-            Self::Viscosity(criterion) => Some(criterion),
-            Self::Droplet(_) => None,
         }
     }
 
@@ -73,35 +104,72 @@ impl Criterion {
     ///
     /// # Errors
     /// [`Unsuitable`] when the material lacks what the criterion needs.
-    pub fn of_particle(self, material: &Material) -> Result<Option<Arc<dyn ParticleStickiness>>, Unsuitable> {
+    pub fn of_particle(
+        self,
+        material: &Material,
+    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
         match self {
-            Self::Viscosity(criterion) => Ok(criterion.prepare(material)?.map(|melt| Arc::new(melt) as _)),
-            Self::Droplet(criterion) => {
-                let lacking = |lacking| Unsuitable::Lacking { material: material.name().to_owned(), lacking };
-                Ok(Some(Arc::new(criterion.prepare(material).map_err(lacking)?)))
+            Self::Viscosity(_) | Self::MeltFraction(_) => self.of_slag(material, material),
+            Self::Droplet(criterion) => Ok(Some(Arc::new(criterion.prepare(material)?))),
+        }
+    }
+
+    /// The criterion for slag of a material on a wall that particles of the material `particle` meet; `None` when it does not apply to
+    /// that slag.
+    ///
+    /// # Errors
+    /// As [`Criterion::of_particle`].
+    pub fn of_slag(
+        self,
+        slag: &Material,
+        particle: &Material,
+    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
+        match self {
+            Self::Viscosity(criterion) => {
+                Ok(criterion.prepare(slag, particle)?.map(|melt| Arc::new(melt) as _))
             }
+            Self::MeltFraction(criterion) => Ok(criterion.prepare(slag).map(|melt| Arc::new(melt) as _)),
+            Self::Droplet(_) => Ok(None),
+        }
+    }
+
+    /// What a melt needs so that the criterion applies to it, in words.
+    pub fn needs(self) -> &'static str {
+        match self {
+            Self::Viscosity(_) => "a composition or a viscosity",
+            Self::MeltFraction(_) => "a melt_fraction",
+            Self::Droplet(_) => "a melt",
         }
     }
 }
 
-/// The criterion for the particle's material.
-pub trait ParticleStickiness: std::fmt::Debug + Send + Sync {
+/// A criterion for one material.
+pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// The model's name in the `[capture]` table.
     fn name(&self) -> &'static str;
 
-    /// Stickiness of the particle [1].
+    /// Stickiness of the particle [1], at its own temperature: quenched in flight, its melt does not crystallise.
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] where a required property is not known.
-    fn at(&self, impact: &Impact) -> Result<f64, ImpactError>;
+    fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError>;
 
-    /// Stickiness [1] of the material on a wall at a temperature [K]. By the droplet criterion it is 1 above the melting point and
-    /// 0 below.
-    fn as_deposit(&self, temperature: f64) -> f64;
+    /// Stickiness [1] of the material on a wall, at the wall's temperature, where it had time to crystallise. Outside a table the
+    /// value at its nearest end, or 0 where that is colder. By the droplet criterion it is 1 above the melting point and 0 below.
+    fn on_wall(&self, impact: &Impact) -> f64;
 
-    /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is frozen and below a measured table,
-    /// and that at the end of the table above it.
+    /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is frozen, too stiff to flow, or below a
+    /// measured table, and that at the end of the table above it.
     fn film_viscosity(&self, temperature: f64) -> f64;
+
+    /// Normal restitution [1] of a droplet that bounces whole from a wall of this material; `None` for one that does not, and for
+    /// what is not a droplet.
+    ///
+    /// # Errors
+    /// As [`StickinessCriterion::in_flight`].
+    fn droplet_rebound(&self, _impact: &Impact, _wall: &Material) -> Result<Option<f64>, ImpactError> {
+        Ok(None)
+    }
 
     /// Whether a particle at a temperature [K] is a droplet, whose capture does not depend on the wall.
     fn is_droplet(&self, _temperature: f64) -> bool {
@@ -111,6 +179,11 @@ pub trait ParticleStickiness: std::fmt::Debug + Send + Sync {
     /// Temperatures [K] at which the criterion can be evaluated.
     fn known_range(&self) -> [f64; 2];
 
-    /// Whether the criterion is stated for this material at a temperature [K].
-    fn holds_at(&self, temperature: f64) -> bool;
+    /// Whether the criterion is stated for this material in flight at a temperature [K].
+    fn holds_in_flight(&self, temperature: f64) -> bool;
+
+    /// Whether the criterion is stated for this material on a wall at a temperature [K].
+    fn holds_on_wall(&self, temperature: f64) -> bool {
+        self.holds_in_flight(temperature)
+    }
 }

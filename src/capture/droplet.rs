@@ -5,6 +5,13 @@
 //! [Pa s] of the melt at the particle's own temperature, `v_n` speed towards the wall [m/s], `d` diameter [m]. A particle is a
 //! droplet when it is hotter than the `melting_point` of its material; a solid one is not sticky.
 //!
+//! Ash and slag: the viscosity follows from the composition by the `law` of the `[capture]` table and the surface
+//! tension from the composition ([`crate::slag::surface_tension`]), if the material has none of its own. An
+//! ash in flight is quenched glass: without a `melting_point` it is a droplet from [`WORKING_VISCOSITY`] down. That is the working
+//! point of glass makers, 1e4 poise; and a glass of shear modulus `G` = 3e10 Pa flows within the 1e-7 s of an elastic contact (50 µm at
+//! some metres a second, Hertz) when `mu/G` is shorter, below 3e3 Pa s (*assumed* as the bound). What is stiffer has stickiness 0 here;
+//! the criteria `viscosity` and `kinetic-energy` are made for it.
+//!
 //! `K_cr = 57.7` and the normal speed in `K`: Mundo et al., Int. J. Multiphase Flow 21 (1995) 151 (not re-read), drops of 60 to
 //! 150 µm at 12 to 18 m/s.
 //!
@@ -15,16 +22,23 @@
 //!
 //! Valid for dry walls. `K_cr` is not universal: water drops of 12 to 100 µm at up to 100 m/s did not splash at all (Visser
 //! et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the highest speed): in such cases use a larger `splash_K`.
-//! Roughness promotes prompt splashing: use a smaller one. Neglected: freezing on a cold wall (it flattens and pins the
-//! drop, towards capture); a liquid film; the gas, without which drops splash less (arXiv 1203.2718, abstract, as for roughness).
-//! A droplet that does not splash can bounce off whole where it does not wet the wall: aqueous drops of 30 to 50 µm did so on
-//! Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). The criterion counts them as deposited,
-//! for the contact angle is not an input.
+//! Roughness promotes prompt splashing: use a smaller one. Neglected: a liquid film; the gas, without which drops splash less (arXiv
+//! 1203.2718, abstract, as for roughness).
+//!
+//! Rebound: with a `contact_angle` of the melt on the wall [degrees] a droplet that does not splash leaves whole where the energy balance
+//! on spreading says so ([`drop_rebound`](super::drop_rebound)), and with that restitution; aqueous drops of 30 to 50 µm do so on Teflon
+//! above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). It stays if it freezes before it can recoil
+//! ([`drop_freezing`](super::drop_freezing)), which is judged where the droplet has `melting_point`, `heat_capacity`,
+//! `thermal_conductivity` and `heat_of_fusion`, and the wall `heat_capacity` and `thermal_conductivity`. Without a contact angle all
+//! that does not splash counts as deposited; on a molten wall too, where drops merge.
 
-use super::ParticleStickiness;
+use super::drop_freezing::{FreezingDroplet, ThermalProperties};
+use super::drop_rebound::{contact_time, droplet_restitution, maximum_spread};
+use super::melt::{Melt, MeltLaws};
+use super::{StickinessCriterion, Unsuitable};
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
-use crate::material::{Material, Molten};
+use crate::material::{Material, Molten, overlap};
 
 /// `K_cr` of Mundo et al. [1]: above it a droplet splashes.
 pub const SPLASH_K: f64 = 57.7;
@@ -63,30 +77,58 @@ pub fn deposited_share(splash: f64, splash_limit: f64) -> f64 {
     1.0 - (SPLASHED_PER_K_SQUARED * excess).min(MOST_SPLASHED)
 }
 
+/// Viscosity [Pa s] from which an ash without a melting point counts as a droplet: the working point of glass.
+pub const WORKING_VISCOSITY: f64 = 1e3;
+
 /// The droplet criterion of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DropletCriterion {
     splash_limit: f64,
+    laws: MeltLaws,
+    /// [rad]
+    contact_angle: Option<f64>,
 }
 
 impl DropletCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let given = section.number_within("splash_K", f64::MIN_POSITIVE, f64::INFINITY)?;
-        Ok(Self { splash_limit: given.unwrap_or(SPLASH_K) })
+        Ok(Self {
+            splash_limit: given.unwrap_or(SPLASH_K),
+            laws: MeltLaws::read_optional(section)?,
+            contact_angle: section.number_within("contact_angle", 0.0, 180.0)?.map(f64::to_radians),
+        })
     }
 
     pub(super) fn describe(self) -> String {
-        format!("droplet, splash_K {}", self.splash_limit)
+        let angle = self.contact_angle.map_or_else(String::new, |angle| {
+            format!(", rebound at a contact_angle of {:.6} degrees", angle.to_degrees())
+        });
+        let law = self.laws.describe().map_or_else(String::new, |law| format!(", viscosity by {law}"));
+        format!("droplet, splash_K {}{law}{angle}", self.splash_limit)
     }
 
-    /// The criterion for the particle's material, or the keys that the material lacks.
-    pub(super) fn prepare(self, material: &Material) -> Result<Droplet, Vec<&'static str>> {
+    /// The criterion for the particle's material.
+    ///
+    /// # Errors
+    /// [`Unsuitable`] when the material lacks properties, or the law does not apply to its composition.
+    pub(super) fn prepare(self, material: &Material) -> Result<Droplet, Unsuitable> {
+        let melt = self.laws.prepare(material)?;
+        let name = || material.name().to_owned();
+        let has = |key: &str| material.property(key).is_some();
+        let composed = material.composition().is_some();
         let mut lacking = vec!["melting_point", "viscosity", "surface_tension"];
-        lacking.retain(|key| material.property(key).is_none());
-        if !lacking.is_empty() {
-            return Err(lacking);
+        lacking.retain(|key| match *key {
+            "melting_point" => !has(key) && !composed,
+            "viscosity" => melt.is_none() && !composed,
+            _ => material.surface_tension_near(Impact::default().particle_temperature).is_none(),
+        });
+        match melt {
+            _ if !lacking.is_empty() => {
+                Err(Unsuitable::Lacking { material: name(), needed_by: "model = \"droplet\"", lacking })
+            }
+            Some(melt) => Ok(Droplet { material: Box::new(material.clone()), melt, criterion: self }),
+            None => Err(Unsuitable::NoLaw { material: name() }),
         }
-        Ok(Droplet { material: Box::new(material.clone()), splash_limit: self.splash_limit })
     }
 }
 
@@ -94,63 +136,135 @@ impl DropletCriterion {
 #[derive(Debug, Clone)]
 pub struct Droplet {
     material: Box<Material>,
-    splash_limit: f64,
+    melt: Melt,
+    criterion: DropletCriterion,
 }
 
-impl ParticleStickiness for Droplet {
+impl Droplet {
+    /// Whether a particle at a temperature [K] is a droplet.
+    fn is_molten(&self, temperature: f64) -> Result<bool, ImpactError> {
+        match self.material.property("melting_point") {
+            Some(_) => self.material.is_molten(temperature),
+            None => Ok(self.melt.viscosity(temperature)? <= WORKING_VISCOSITY),
+        }
+    }
+
+    /// The melt of an impact; `None` for a solid.
+    fn molten(&self, impact: &Impact) -> Result<Option<Molten>, ImpactError> {
+        let temperature = impact.particle_temperature;
+        if !self.is_molten(temperature)? {
+            return Ok(None);
+        }
+        let given = impact.particle_density;
+        Ok(Some(Molten {
+            density: if given > 0.0 { given } else { self.material.density(temperature)? },
+            viscosity: self.melt.viscosity(temperature)?,
+            surface_tension: self.material.surface_tension(temperature)?,
+        }))
+    }
+
+    /// Whether freezing on a wall arrests a droplet that would bounce; no where a thermal property is not known.
+    fn is_arrested(&self, impact: &Impact, melt: &Molten, spread: f64, wall: &Material) -> bool {
+        let thermal = |material: &Material, density: f64, temperature: f64| {
+            Some(ThermalProperties {
+                density,
+                heat_capacity: material.heat_capacity_near(temperature)?,
+                conductivity: material.thermal_conductivity_near(temperature)?,
+            })
+        };
+        let freezing = || {
+            let Impact { particle_temperature, wall_temperature, .. } = *impact;
+            let wall_density = wall.density_near(wall_temperature).ok()?;
+            Some(FreezingDroplet {
+                droplet: thermal(&self.material, melt.density, particle_temperature)?,
+                wall: thermal(wall, wall_density, wall_temperature)?,
+                temperature: particle_temperature,
+                wall_temperature,
+                melting_point: self.material.melting_point_near(particle_temperature)?,
+                heat_of_fusion: self.material.heat_of_fusion_near(particle_temperature)?,
+            })
+        };
+        let time = contact_time(melt.density, melt.surface_tension, impact.diameter);
+        freezing().is_some_and(|freezing| freezing.is_arrested(impact.diameter, spread, time))
+    }
+}
+
+impl StickinessCriterion for Droplet {
     fn name(&self) -> &'static str {
         "droplet"
     }
 
     /// 0 for a solid, the deposited share for a droplet.
-    fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
-        let temperature = impact.particle_temperature;
-        if !self.material.is_molten(temperature)? {
-            return Ok(0.0);
-        }
-        let melt = self.material.molten(temperature)?;
+    fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        let Some(melt) = self.molten(impact)? else { return Ok(0.0) };
         let numbers = DropletNumbers::new(&melt, impact.normal_speed, impact.diameter);
-        Ok(deposited_share(numbers.splash, self.splash_limit))
+        Ok(deposited_share(numbers.splash, self.criterion.splash_limit))
     }
 
-    fn as_deposit(&self, temperature: f64) -> f64 {
-        f64::from(self.is_droplet(temperature))
+    fn on_wall(&self, impact: &Impact) -> f64 {
+        let temperature = impact.wall_temperature;
+        // A melting point says that it is liquid; a glass is, unless it has crystallised.
+        let liquid = || {
+            self.material.property("melting_point").is_some() || self.film_viscosity(temperature).is_finite()
+        };
+        f64::from(self.is_droplet(temperature) && liquid())
     }
 
     fn film_viscosity(&self, temperature: f64) -> f64 {
-        let [low, high] = self.material.viscosity_range();
-        let liquid = self.is_droplet(temperature) && temperature >= low;
-        let known = liquid.then(|| self.material.viscosity(temperature.min(high)).ok());
-        known.flatten().unwrap_or(f64::INFINITY)
+        if self.is_droplet(temperature) { self.melt.film_viscosity(temperature) } else { f64::INFINITY }
     }
 
-    /// Whether the material is molten; no where its melting point is not known.
+    fn droplet_rebound(&self, impact: &Impact, wall: &Material) -> Result<Option<f64>, ImpactError> {
+        let Some(contact_angle) = self.criterion.contact_angle else { return Ok(None) };
+        let Some(melt) = self.molten(impact)? else { return Ok(None) };
+        let DropletNumbers { weber, reynolds, splash } =
+            DropletNumbers::new(&melt, impact.normal_speed, impact.diameter);
+        if splash > self.criterion.splash_limit {
+            return Ok(None);
+        }
+        let spread = maximum_spread(weber, reynolds, contact_angle);
+        let stays = |spread| self.is_arrested(impact, &melt, spread, wall);
+        let bounces = droplet_restitution(weber, reynolds, contact_angle);
+        Ok(bounces.filter(|_| !spread.is_some_and(stays)))
+    }
+
+    /// Whether the material is molten; no where that is not known.
     fn is_droplet(&self, temperature: f64) -> bool {
-        self.material.is_molten(temperature).unwrap_or(false)
+        self.is_molten(temperature).unwrap_or(false)
     }
 
     fn known_range(&self) -> [f64; 2] {
-        let [low, high] = self.material.molten_range();
+        let [low, high] = overlap([self.material.molten_range(), self.melt.known_range()].into_iter());
         // A solid needs no property of the melt.
-        let melts_known = self.material.is_molten(low).is_ok_and(|molten| !molten);
+        let melts_known = self.is_molten(low).is_ok_and(|molten| !molten);
         [if melts_known { 0.0 } else { low }, high]
     }
 
     /// Whether the properties are stated to hold; a solid needs none.
-    fn holds_at(&self, temperature: f64) -> bool {
-        self.material.is_molten(temperature) == Ok(false) || self.material.melt_holds_at(temperature)
+    fn holds_in_flight(&self, temperature: f64) -> bool {
+        let melt_holds =
+            || self.material.melt_holds_at(temperature) && self.melt.holds_in_flight(temperature);
+        self.is_molten(temperature) == Ok(false) || melt_holds()
+    }
+
+    fn holds_on_wall(&self, temperature: f64) -> bool {
+        self.is_molten(temperature) == Ok(false)
+            || self.material.melt_holds_at(temperature) && self.melt.holds_on_wall(temperature)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Document;
     use crate::material::Library;
     use approx::assert_relative_eq;
 
     fn droplet(material: &str) -> Droplet {
         let library = Library::built_in().unwrap();
-        DropletCriterion { splash_limit: SPLASH_K }.prepare(library.get(material).unwrap()).unwrap()
+        let document = Document::new("m.toml", "");
+        let criterion = document.read(DropletCriterion::read).unwrap();
+        criterion.prepare(library.get(material).unwrap()).unwrap()
     }
 
     fn numbers(material: &str, diameter: f64, speed: f64, temperature: f64) -> DropletNumbers {
@@ -208,11 +322,11 @@ mod tests {
     fn solids_are_not_sticky_and_melts_have_an_end() {
         let wax = droplet("montan-wax");
         let at = |particle_temperature| {
-            wax.at(&Impact { normal_speed: 1.0, particle_temperature, ..Impact::default() })
+            wax.in_flight(&Impact { normal_speed: 1.0, particle_temperature, ..Impact::default() })
         };
         assert_eq!((at(293.15), at(353.15), at(353.2)), (Ok(0.0), Ok(0.0), Ok(1.0)));
         assert!(matches!(at(404.0), Err(ImpactError::OutOfRange { property: "viscosity", .. })));
         assert_eq!(wax.known_range(), [0.0, 403.15]);
-        assert!(wax.holds_at(293.15) && !wax.holds_at(354.0) && wax.holds_at(380.0));
+        assert!(wax.holds_in_flight(293.15) && !wax.holds_in_flight(354.0) && wax.holds_in_flight(380.0));
     }
 }

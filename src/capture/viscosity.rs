@@ -2,132 +2,151 @@
 //!
 //! `P = min(1, mu_ref / mu(T))`, with `mu` the viscosity of ash or slag [Pa s] at its own temperature and `mu_ref` the
 //! viscosity [Pa s] at and below which every impact sticks. The literature's `mu_ref` spans 8 to 1e7 Pa s: it has no
-//! default. Valid for glassy silicate melts above their critical viscosity temperature; it does not include residual carbon
-//! (see the effect `conversion-transition`).
+//! default. Valid for glassy silicate melts; on a wall, where a melt has time to crystallise, it is stiff below its temperature of
+//! critical viscosity ([`super::Solidification`]). It does not include residual carbon (see the effect
+//! `conversion-transition`).
 
-use super::ParticleStickiness;
+use super::kinetic_energy::EnergyLaw;
+use super::melt::{Melt, MeltLaws};
+use super::{StickinessCriterion, Unsuitable};
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, UnsuitableComposition, VISCOSITY_LAWS, ViscosityLaw};
 
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
-    (reference / viscosity).min(1.0)
+    // Without motion every viscosity is below an infinite reference.
+    if reference == f64::INFINITY { 1.0 } else { (reference / viscosity).min(1.0) }
 }
 
 /// From a tenth of the thinnest liquid to far above the viscosity of a solid glass.
 const REFERENCE: Limits =
     Limits { unit: "Pa s", low: 1e-7, high: 1e20, known: "literature 8 to 1e7; glass is solid above 1e12" };
 
-/// The viscosity criterion of a `[capture]` table.
+/// The reference viscosity of an impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Reference {
+    /// The same for all [Pa s].
+    Constant(f64),
+    /// By kinetic energy.
+    Energy(EnergyLaw),
+}
+
+/// The criterion of viscosity of a `[capture]` table: with a constant reference (`viscosity`), or with one that falls with the kinetic
+/// energy (`kinetic-energy`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscosityCriterion {
-    law: &'static ViscosityLaw,
-    reference: f64,
+    laws: MeltLaws,
+    reference: Reference,
 }
 
 impl ViscosityCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let names = VISCOSITY_LAWS.map(|law| law.name);
-        let name = section.choice("law", &names)?;
-        let law = match name.and_then(|name| ViscosityLaw::from_name(&name)) {
-            Some(law) => law,
-            None => return Err(section.missing("law", &format!("one of {}", names.join(", ")))),
-        };
+        let laws = MeltLaws::read(section)?;
         let reference = section.quantity("reference_viscosity", &REFERENCE)?.ok_or_else(|| {
             let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
             section.missing("reference_viscosity", what)
         })?;
-        Ok(Self { law, reference })
+        Ok(Self { laws, reference: Reference::Constant(reference) })
+    }
+
+    pub(super) fn read_with_energy(section: &Section<'_>) -> Result<Self, InputError> {
+        Ok(Self { laws: MeltLaws::read(section)?, reference: Reference::Energy(EnergyLaw::read(section)?) })
     }
 
     pub(super) fn describe(self) -> String {
-        let range = self.law.stated_for.map_or_else(String::new, |range| format!(", stated for {range}"));
-        format!("viscosity ({}{range}), reference_viscosity {} Pa s", self.law.name, self.reference)
+        let reference = match self.reference {
+            Reference::Constant(reference) => format!("reference_viscosity {reference} Pa s"),
+            Reference::Energy(law) => law.describe(),
+        };
+        let Self { laws, .. } = self;
+        let (law, solidification) = (laws.describe().unwrap_or_default(), laws.solidification());
+        format!("{} ({law}), {reference}, solidification {solidification}", self.name())
     }
 
-    /// The criterion for a material; `None` for one with neither a viscosity of its own nor an oxide composition. Its own
-    /// viscosity has priority.
+    /// The model's name in the `[capture]` table.
+    pub fn name(self) -> &'static str {
+        match self.reference {
+            Reference::Constant(_) => "viscosity",
+            Reference::Energy(_) => "kinetic-energy",
+        }
+    }
+
+    /// The criterion for a melt that meets or carries particles of the material `particle`; `None` for one with neither a viscosity of its
+    /// own nor an oxide composition. Its own viscosity has priority.
     ///
     /// # Errors
-    /// [`UnsuitableComposition`] when the law cannot be applied to the composition.
-    pub fn prepare(self, material: &Material) -> Result<Option<MeltStickiness>, UnsuitableComposition> {
-        let melt = match (material.property("viscosity"), material.composition()) {
-            (Some(_), _) => MeltViscosity::Given(Box::new(material.clone())),
-            (None, Some(composition)) => MeltViscosity::Oxides(SlagViscosity::new(self.law, composition)?),
-            (None, None) => return Ok(None),
-        };
-        Ok(Some(MeltStickiness { melt, reference: self.reference }))
+    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what `solidification` needs.
+    pub fn prepare(
+        self,
+        material: &Material,
+        particle: &Material,
+    ) -> Result<Option<MeltStickiness>, Unsuitable> {
+        let melt = self.laws.prepare(material)?;
+        Ok(melt.map(|melt| MeltStickiness { criterion: self, melt, particle: Box::new(particle.clone()) }))
     }
 }
 
 /// The criterion for one melt.
 #[derive(Debug, Clone)]
 pub struct MeltStickiness {
-    melt: MeltViscosity,
-    reference: f64,
-}
-
-#[derive(Debug, Clone)]
-enum MeltViscosity {
-    Oxides(SlagViscosity),
-    Given(Box<Material>),
+    criterion: ViscosityCriterion,
+    melt: Melt,
+    /// For the density, where the impact does not give it.
+    particle: Box<Material>,
 }
 
 impl MeltStickiness {
-    /// Probability of sticking [1] at a temperature [K].
-    ///
-    /// # Errors
-    /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
-    pub fn probability(&self, temperature: f64) -> Result<f64, ImpactError> {
-        Ok(sticking_probability(self.viscosity(temperature)?, self.reference))
-    }
-
-    /// Viscosity of the melt [Pa s] at a temperature [K].
+    /// Viscosity of the liquid [Pa s] at a temperature [K].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
     pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
-        match &self.melt {
-            MeltViscosity::Oxides(law) => Ok(law.at(temperature)),
-            MeltViscosity::Given(material) => material.viscosity(temperature),
+        self.melt.viscosity(temperature)
+    }
+
+    /// The viscosity [Pa s] up to which this impact sticks.
+    fn reference(&self, impact: &Impact) -> f64 {
+        match self.criterion.reference {
+            Reference::Constant(reference) => reference,
+            Reference::Energy(law) => {
+                // An unknown density is taken as too large to stick; a material always has one at the nearest temperature.
+                let own = self.particle.density_near(impact.particle_temperature).unwrap_or(f64::INFINITY);
+                law.at(if impact.particle_density > 0.0 { impact.particle_density } else { own }, impact)
+            }
         }
     }
 }
 
-impl ParticleStickiness for MeltStickiness {
+impl StickinessCriterion for MeltStickiness {
     fn name(&self) -> &'static str {
-        "viscosity"
+        self.criterion.name()
     }
 
-    fn at(&self, impact: &Impact) -> Result<f64, ImpactError> {
-        self.probability(impact.particle_temperature)
+    fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        Ok(sticking_probability(self.viscosity(impact.particle_temperature)?, self.reference(impact)))
     }
 
-    fn as_deposit(&self, temperature: f64) -> f64 {
-        sticking_probability(self.film_viscosity(temperature), self.reference)
+    fn on_wall(&self, impact: &Impact) -> f64 {
+        let viscosity = self.film_viscosity(impact.wall_temperature);
+        // What is stiff holds nothing, however slow.
+        if viscosity == f64::INFINITY { 0.0 } else { sticking_probability(viscosity, self.reference(impact)) }
     }
 
     fn film_viscosity(&self, temperature: f64) -> f64 {
-        let [low, high] = self.known_range();
-        let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
-        known.flatten().unwrap_or(f64::INFINITY)
+        self.melt.film_viscosity(temperature)
     }
 
     fn known_range(&self) -> [f64; 2] {
-        match &self.melt {
-            MeltViscosity::Oxides(_) => [0.0, f64::INFINITY],
-            MeltViscosity::Given(material) => material.viscosity_range(),
-        }
+        self.melt.known_range()
     }
 
-    /// A material's own viscosity always holds within [`Self::known_range`]; beyond that it is an error.
-    fn holds_at(&self, temperature: f64) -> bool {
-        match &self.melt {
-            MeltViscosity::Oxides(law) => law.holds_at(temperature),
-            MeltViscosity::Given(_) => true,
-        }
+    fn holds_in_flight(&self, temperature: f64) -> bool {
+        self.melt.holds_in_flight(temperature)
+    }
+
+    fn holds_on_wall(&self, temperature: f64) -> bool {
+        self.melt.holds_on_wall(temperature)
     }
 }
 

@@ -44,6 +44,7 @@ const TEMPERATURES: [Unit; 4] = [
 ];
 const SPINS: [Unit; 4] =
     [part("rad/s", 1.0), part("s^-1", 1.0), part("1/s", 1.0), scaled("rpm", std::f64::consts::TAU, 60.0)];
+const DENSITIES: [Unit; 2] = [part("kg/m3", 1.0), scaled("g/cm3", 1e3, 1.0)];
 const SHARES: [Unit; 2] = [part("1", 1.0), part("%", 100.0)];
 /// Angles are converted to degrees, not radians: 90 is a right angle exactly.
 const ANGLES: [Unit; 2] = [part("deg", 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
@@ -55,6 +56,7 @@ pub(super) enum Dimension {
     Speed,
     Temperature,
     Spin,
+    Density,
     /// A dimensionless number: a share or a restitution.
     Share,
     Angle,
@@ -72,6 +74,7 @@ impl Dimension {
             Self::Speed => &SPEEDS,
             Self::Temperature => &TEMPERATURES,
             Self::Spin => &SPINS,
+            Self::Density => &DENSITIES,
             Self::Share => &SHARES,
             Self::Angle => &ANGLES,
             Self::Count | Self::Text => &[],
@@ -108,6 +111,7 @@ pub(super) fn names() -> impl Iterator<Item = (&'static str, Dimension)> {
         "m/s" => Dimension::Speed,
         "K" => Dimension::Temperature,
         "rad/s" => Dimension::Spin,
+        "kg/m3" => Dimension::Density,
         _ => Dimension::Share,
     };
     INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(MORE_NAMES)
@@ -130,6 +134,7 @@ mod tests {
         assert_eq!(si(Dimension::Temperature, "C", 20.0), 293.15);
         assert!((si(Dimension::Temperature, "F", 212.0) - 373.15).abs() < 1e-12);
         assert!((si(Dimension::Spin, "rpm", 60.0) - std::f64::consts::TAU).abs() < 1e-12);
+        assert_eq!(si(Dimension::Density, "g/cm3", 2.3), 2300.0);
         assert_eq!(si(Dimension::Share, "%", 35.0), 0.35);
         assert_eq!(si(Dimension::Angle, "rad", std::f64::consts::FRAC_PI_2), 90.0);
     }

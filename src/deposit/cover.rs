@@ -17,6 +17,15 @@ pub fn share(cover: f64) -> f64 {
     -(-cover).exp_m1()
 }
 
+/// Projected area per area of wall [1] of an evenly spread layer of a thickness [m] of grains of a diameter [m]: `3 h (1 - voidage)/(2 d)`,
+/// with half of the layer voids (*assumed*).
+pub fn of_layer(thickness: f64, diameter: f64) -> f64 {
+    1.5 * thickness * (1.0 - VOIDAGE) / diameter
+}
+
+/// Share of voids in a layer that is given by its thickness alone [1].
+const VOIDAGE: f64 = 0.5;
+
 /// Projected area [1] after `landed` of powder and `buried` of melt [both 1] have arrived on `before` [1], evenly mixed.
 pub fn after(before: f64, landed: f64, buried: f64) -> f64 {
     if buried <= 0.0 {

@@ -14,6 +14,27 @@
 pub mod cover;
 pub mod wetting;
 
+use crate::material::Molten;
+
+/// Properties of the melt on a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallMelt {
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Viscosity [Pa s]; infinite where it is stiff or frozen, or the model has none.
+    pub viscosity: f64,
+    /// Surface tension [N/m]; `None` for a material without one.
+    pub surface_tension: Option<f64>,
+}
+
+impl WallMelt {
+    /// Its properties with the surface tension, where it has one.
+    pub fn molten(&self) -> Option<Molten> {
+        let Self { density, viscosity, .. } = *self;
+        self.surface_tension.map(|surface_tension| Molten { density, viscosity, surface_tension })
+    }
+}
+
 /// Deposit on a piece of wall, per area of that wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Deposit {

@@ -6,7 +6,7 @@
 //! The form is assumed, a straight line through two observations: wax at `v_n = 1 m/s` had `e_n` 0.41 at 35° against 0.28
 //! near normal, where the air that drove it flowed four times as fast (Troiano et al., Fig 6, who name lift as the likely
 //! cause and give no gas speed at the wall). They give `b v_gas` = 0.57 at 35°. Valid within the fitted gas speeds;
-//! nothing limits it beyond them. Where the solver resolves the boundary layer, its drag and lift may already contain part of
+//! the result does not exceed 1, so that lift alone returns no more speed than came in. Where the solver resolves the boundary layer, its drag and lift may already contain part of
 //! this effect.
 
 use super::{Effect, EffectInfo, Parameter, Search};
@@ -32,8 +32,8 @@ impl Effect for GasLift {
     fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
         let speed = impact.speed();
         let cosine = if speed > 0.0 { impact.tangential_speed / speed } else { 0.0 };
-        // The bound only keeps a number finite.
-        Some((restitution * (1.0 + self.strength * impact.gas_speed * cosine)).min(f64::MAX))
+        let lifted = restitution * (1.0 + self.strength * impact.gas_speed * cosine);
+        Some(lifted.min(restitution.max(1.0)))
     }
 }
 
@@ -54,6 +54,11 @@ mod tests {
     fn troiano_glancing_wax() {
         assert!((e_n(35.0, 10.0) - 0.41).abs() < 0.005);
         assert!((e_n(85.0, 2.5) - 0.28).abs() < 0.005);
+    }
+
+    #[test]
+    fn no_more_speed_than_came_in() {
+        assert_eq!(e_n(45.0, 1e6), 1.0);
     }
 
     #[test]

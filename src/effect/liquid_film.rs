@@ -11,8 +11,8 @@
 //! plane and observed the same law. Meant for walls covered with slag.
 //!
 //! Valid for films thin against `d` and slow flow within them; it neglects capillary and inertial forces, cavitation on
-//! rebound and deformation by the pressure of the film, which lowers `St_c`. The temperature of the film enters only through
-//! `viscosity`. Under a powder layer the film does not act: give such a wall no film (Troiano et al., Fig 10, found
+//! rebound and deformation by the pressure of the film, which lowers `St_c`. The film is the caller's `film_thickness`, or the melt of
+//! earlier particles where that is thicker; without a `viscosity` its viscosity is that of the slag at the wall's temperature. Under a powder layer the film does not act (Troiano et al., Fig 10, found
 //! powder on syrup like powder on a dry target).
 
 use super::{Effect, EffectInfo, Parameter, Search};
@@ -26,7 +26,8 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     stream: None,
     parameters: &[
         Parameter::new("viscosity", "Pa s", (0.0, 1e6), Search::Log(1e-4, 10.0))
-            .about("viscosity of the film"),
+            .absent(0.0)
+            .about("viscosity of the film; 0 takes that of the melt on the wall"),
         Parameter::new("asperity", "m", (1e-12, 1.0), Search::Log(1e-8, 1e-4))
             .about("distance at which the solids touch through the film"),
     ],
@@ -41,13 +42,21 @@ struct LiquidFilm {
 
 impl LiquidFilm {
     /// Speed [m/s] that crossing the film costs, `v_n ln(h/h_a) / St`.
-    fn cost(&self, impact: &Impact, density: f64) -> f64 {
-        let depth = (impact.film_thickness / self.asperity).ln().max(0.0);
-        9.0 * self.viscosity * depth / (density * impact.diameter)
+    fn cost(&self, impact: &Impact, contact: &Contact) -> f64 {
+        let melt = contact.melt.map_or(0.0, |melt| melt.viscosity);
+        let viscosity = if self.viscosity > 0.0 { self.viscosity } else { melt };
+        // A wall's memory knows its melt, which is a film where it is liquid.
+        let deposit = if contact.melt.is_some() { impact.melt_thickness } else { 0.0 };
+        let depth = (impact.film_thickness.max(deposit) / self.asperity).ln().max(0.0);
+        9.0 * viscosity * depth / (contact.density * impact.diameter)
     }
 }
 
 impl Effect for LiquidFilm {
+    fn uses_melt(&self) -> bool {
+        true
+    }
+
     fn normal_restitution(
         &self,
         impact: &Impact,
@@ -55,7 +64,7 @@ impl Effect for LiquidFilm {
         restitution: f64,
         _: f64,
     ) -> Option<f64> {
-        let cost = self.cost(impact, contact.density);
+        let cost = self.cost(impact, contact);
         if cost <= 0.0 {
             return Some(restitution);
         }

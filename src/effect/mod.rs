@@ -5,7 +5,9 @@
 
 mod adhesion_energy;
 mod agglomerates;
+mod conversion_decline;
 mod conversion_transition;
+mod dry_on_melt;
 mod gas_lift;
 mod liquid_film;
 mod melting_transition;
@@ -32,7 +34,7 @@ use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
 
 /// Every effect.
-pub const EFFECTS: [&EffectInfo; 17] = [
+pub const EFFECTS: [&EffectInfo; 19] = [
     &yield_ratio::INFO,
     &adhesion_energy::INFO,
     &oblique_angle::INFO,
@@ -44,8 +46,10 @@ pub const EFFECTS: [&EffectInfo; 17] = [
     &agglomerates::INFO,
     &powder_layer::INFO,
     &liquid_film::INFO,
+    &dry_on_melt::INFO,
     &melting_transition::INFO,
     &conversion_transition::INFO,
+    &conversion_decline::INFO,
     &thermal_softening::INFO,
     &size_dependent_yield::INFO,
     &strain_rate_hardening::INFO,
@@ -62,6 +66,8 @@ pub(crate) mod stream {
     pub const MICRO_ROUGHNESS: u64 = 2;
     /// Whether a particle is an agglomerate, and how it rebounds.
     pub const AGGLOMERATES: u64 = 3;
+    /// Whether the impact meets the covered or the bare share of the wall (no effect).
+    pub const COVER: u64 = 4;
 }
 
 /// A named term of a model. Each method belongs to one step of an impact; an effect overrides those on which it acts.
@@ -84,6 +90,11 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         None
     }
 
+    /// Factor on the particle's stickiness [1], 0 to 1; it makes nothing sticky by itself.
+    fn stickiness_factor(&self, _impact: &Impact) -> f64 {
+        1.0
+    }
+
     /// Share of `e_n` that a fully sticky particle loses where it still rebounds [1]; of several effects the largest.
     fn rebound_loss(&self) -> f64 {
         0.0
@@ -101,6 +112,16 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         Some(restitution)
     }
 
+    /// Whether the effect depends on [`Contact::melt`], the melt that the particle meets.
+    fn uses_melt(&self) -> bool {
+        false
+    }
+
+    /// What the melt on the wall does to a dry particle; `None` for an effect that does not say.
+    fn on_melt(&self, _impact: &Impact, _contact: &Contact) -> Option<OnMelt> {
+        None
+    }
+
     /// The precomputed form of the effect, if any.
     fn precompute(&self) -> Option<Precomputed> {
         None
@@ -110,6 +131,15 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
     fn tangential(&self, _kinematics: &ImpactKinematics, rebound: Rebound) -> Rebound {
         rebound
     }
+}
+
+/// What a melt on the wall does to a dry particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum OnMelt {
+    /// It sinks, or surface tension holds it.
+    Held,
+    /// It leaves with this normal restitution [1].
+    Rebounds(f64),
 }
 
 /// An effect that is computed when the model is read.

@@ -22,6 +22,8 @@ macro_rules! for_each_input {
             d, diameter, DIAMETER, "m", POSITIVE, 1e-4;
             /// Particle temperature [K], positive.
             T_p, particle_temperature, PARTICLE_TEMPERATURE, "K", POSITIVE, 293.15;
+            /// Density of the particle [kg/m3], not negative; 0 takes that of its material.
+            rho_p, particle_density, PARTICLE_DENSITY, "kg/m3", NOT_NEGATIVE, 0.0;
             /// Carbon conversion [1], 0 to 1; 1 for a particle without carbon.
             conversion, conversion, CONVERSION, "1", SHARE, 1.0;
             // Wall
@@ -33,7 +35,7 @@ macro_rules! for_each_input {
             coverage, coverage, COVERAGE, "1", SHARE, 0.0;
             /// Thickness of the powder layer on the wall [m], not negative.
             layer_thickness, layer_thickness, LAYER_THICKNESS, "m", NOT_NEGATIVE, 0.0;
-            /// Thickness of a liquid film [m] that the caller states, not negative; the effect `liquid-film` uses it.
+            /// Thickness of a liquid film [m] that the caller states, not negative; `liquid-film` uses it, or the melt if thicker.
             film_thickness, film_thickness, FILM_THICKNESS, "m", NOT_NEGATIVE, 0.0;
             /// Thickness of the melt in the deposit of earlier particles [m], not negative.
             melt_thickness, melt_thickness, MELT_THICKNESS, "m", NOT_NEGATIVE, 0.0;

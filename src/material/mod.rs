@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Limits, Section, unknown};
-use crate::slag::Composition;
+use crate::slag::{Composition, surface_tension};
 
 pub use property::{OutOfRange, Property};
 
@@ -29,7 +29,7 @@ const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) ->
 /// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
 /// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
 /// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
-const FIELDS: [PropertyField; 8] = [
+const FIELDS: [PropertyField; 16] = [
     field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
     field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
     field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
@@ -38,14 +38,27 @@ const FIELDS: [PropertyField; 8] = [
     field("viscosity", false, limits("Pa s", 1e-7, f64::INFINITY, "liquid helium 3e-6")),
     field("surface_tension", false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten 2.5")),
     field("melting_point", false, limits("K", 0.1, 5e4, "helium some 1, carbides 4200")),
+    field("critical_viscosity_temperature", false, limits("K", 0.1, 5e4, "coal slags 1400 to 1800")),
+    field("liquidus", false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900")),
+    field("solidus", false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500")),
+    field("work_of_adhesion", false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to impacts 50")),
+    field("melt_fraction", false, limits("1", 0.0, 1.0, "a share of the mass")),
+    field("heat_capacity", false, limits("J/(kg K)", 0.01, 2e5, "hot metals 100, liquid hydrogen 1e4")),
+    field("thermal_conductivity", false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, diamond 2000")),
+    field("heat_of_fusion", false, limits("J/kg", 100.0, 5e7, "mercury 1.1e4, boron 4.6e6")),
 ];
 
-/// The first five fields are the mechanical ones, in the order of [`Mechanical`].
+/// The first five fields are the mechanical ones, in the order of [`Mechanical`]; `work_of_adhesion` is one where it is given.
 const MECHANICAL: usize = 5;
 const DENSITY: usize = 0;
 const VISCOSITY: usize = 5;
 const SURFACE_TENSION: usize = 6;
 const MELTING_POINT: usize = 7;
+const WORK_OF_ADHESION: usize = 11;
+const MELT_FRACTION: usize = 12;
+const HEAT_CAPACITY: usize = 13;
+const THERMAL_CONDUCTIVITY: usize = 14;
+const HEAT_OF_FUSION: usize = 15;
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -69,6 +82,25 @@ pub struct Mechanical {
     pub yield_strength: f64,
     /// Surface energy `gamma` [J/m²].
     pub surface_energy: f64,
+    /// Effective work of adhesion `W` [J/m²] of its impacts on any wall, where one was fitted to them.
+    pub work_of_adhesion: Option<f64>,
+}
+
+impl Mechanical {
+    /// Between these properties and those of another solid, linear in `share` [1]: 0 these, 1 the others.
+    #[must_use]
+    pub fn mixed(&self, other: &Self, share: f64) -> Self {
+        let between = |of: fn(&Self) -> f64| of(self) + (of(other) - of(self)) * share;
+        Self {
+            density: between(|m| m.density),
+            youngs_modulus: between(|m| m.youngs_modulus),
+            poisson_ratio: between(|m| m.poisson_ratio),
+            yield_strength: between(|m| m.yield_strength),
+            surface_energy: between(|m| m.surface_energy),
+            // A fitted value holds for one material; of a mixture each contact knows its own.
+            work_of_adhesion: None,
+        }
+    }
 }
 
 /// The properties of a melt at one temperature.
@@ -136,6 +168,22 @@ impl Material {
         self.value(VISCOSITY, temperature)
     }
 
+    /// Surface tension [N/m] of the melt at a temperature [K]; without one of its own, that of its composition
+    /// ([`surface_tension::kucuk`]).
+    ///
+    /// # Errors
+    /// As [`Material::viscosity`].
+    pub fn surface_tension(&self, temperature: f64) -> Result<f64, ImpactError> {
+        let composed = self.surface_tension_by_composition();
+        composed.map_or_else(|| self.value(SURFACE_TENSION, temperature), Ok)
+    }
+
+    /// Surface tension [N/m] by the composition, for a material without one of its own.
+    fn surface_tension_by_composition(&self) -> Option<f64> {
+        let composition = self.composition.as_ref().filter(|_| self.properties[SURFACE_TENSION].is_none())?;
+        surface_tension::kucuk(composition)
+    }
+
     /// Density [kg/m³] at a temperature [K].
     ///
     /// # Errors
@@ -172,6 +220,10 @@ impl Material {
             poisson_ratio: self.value(2, temperature)?,
             yield_strength: self.value(3, temperature)?,
             surface_energy: self.value(4, temperature)?,
+            work_of_adhesion: match self.properties[WORK_OF_ADHESION] {
+                Some(_) => Some(self.value(WORK_OF_ADHESION, temperature)?),
+                None => None,
+            },
         })
     }
 
@@ -183,8 +235,59 @@ impl Material {
         Ok(Molten {
             density: self.density(temperature)?,
             viscosity: self.viscosity(temperature)?,
-            surface_tension: self.value(SURFACE_TENSION, temperature)?,
+            surface_tension: self.surface_tension(temperature)?,
         })
+    }
+
+    /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at which it is known; `None` without
+    /// one and without a composition.
+    pub fn surface_tension_near(&self, temperature: f64) -> Option<f64> {
+        self.surface_tension_by_composition().or_else(|| self.near(SURFACE_TENSION, temperature))
+    }
+
+    /// As [`Material::surface_tension_near`], the viscosity [Pa s] of its melt.
+    pub fn viscosity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(VISCOSITY, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the share of liquid in its mass [1].
+    pub fn melt_fraction_near(&self, temperature: f64) -> Option<f64> {
+        self.near(MELT_FRACTION, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the heat capacity [J/(kg K)].
+    pub fn heat_capacity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(HEAT_CAPACITY, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the thermal conductivity [W/(m K)].
+    pub fn thermal_conductivity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(THERMAL_CONDUCTIVITY, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the heat of fusion [J/kg].
+    pub fn heat_of_fusion_near(&self, temperature: f64) -> Option<f64> {
+        self.near(HEAT_OF_FUSION, temperature)
+    }
+
+    /// As [`Material::surface_tension_near`], the melting point [K].
+    pub fn melting_point_near(&self, temperature: f64) -> Option<f64> {
+        self.near(MELTING_POINT, temperature)
+    }
+
+    fn near(&self, field: usize, temperature: f64) -> Option<f64> {
+        let property = self.properties[field].as_ref()?;
+        let [low, high] = property.known_range().unwrap_or([0.0, f64::INFINITY]);
+        property.at(temperature.clamp(low, high)).ok()
+    }
+
+    /// Density [kg/m³] at a temperature [K], or at the nearest temperature at which it is known.
+    ///
+    /// # Errors
+    /// As [`Material::density`].
+    pub fn density_near(&self, temperature: f64) -> Result<f64, ImpactError> {
+        let [low, high] = self.density_range();
+        self.density(temperature.clamp(low, high))
     }
 
     /// Whether a temperature [K] is above the melting point.
@@ -202,7 +305,13 @@ impl Material {
 
     /// Whether every property of the melt is stated to hold at a temperature [K].
     pub fn melt_holds_at(&self, temperature: f64) -> bool {
+        let composed = self.composition.as_ref().filter(|_| self.surface_tension_by_composition().is_some());
         self.molten_properties().all(|p| p.holds_at(temperature))
+            && composed.is_none_or(|composition| surface_tension::holds(composition, temperature))
+    }
+
+    fn mechanical_properties(&self) -> impl Iterator<Item = &Property> {
+        self.properties[..MECHANICAL].iter().chain([&self.properties[WORK_OF_ADHESION]]).flatten()
     }
 
     fn molten_properties(&self) -> impl Iterator<Item = &Property> {
@@ -211,7 +320,7 @@ impl Material {
 
     /// Temperatures [K] at which every mechanical property is known.
     pub fn known_range(&self) -> [f64; 2] {
-        overlap(self.properties[..MECHANICAL].iter().flatten().filter_map(Property::known_range))
+        overlap(self.mechanical_properties().filter_map(Property::known_range))
     }
 
     /// Temperatures [K] at which the material's own viscosity is known.
@@ -221,17 +330,17 @@ impl Material {
 
     /// Whether every mechanical property is stated to hold at this temperature [K].
     pub fn holds_at(&self, temperature: f64) -> bool {
-        self.properties[..MECHANICAL].iter().flatten().all(|p| p.holds_at(temperature))
+        self.mechanical_properties().all(|p| p.holds_at(temperature))
     }
 
     /// Temperatures [K] at which every mechanical property is stated to hold, where they are [constant](Self::is_constant).
     pub fn valid_range(&self) -> [f64; 2] {
-        overlap(self.properties[..MECHANICAL].iter().flatten().filter_map(Property::valid))
+        overlap(self.mechanical_properties().filter_map(Property::valid))
     }
 
     /// Whether the mechanical properties are the same at every temperature.
     pub fn is_constant(&self) -> bool {
-        self.properties[..MECHANICAL].iter().flatten().all(Property::is_constant)
+        self.mechanical_properties().all(Property::is_constant)
     }
 }
 
@@ -331,7 +440,10 @@ mod tests {
     /// Both ends of every property's limits, just within and just beyond.
     #[test]
     fn a_number_that_no_material_has_is_refused() {
-        let usual = ["2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600"];
+        let usual = [
+            "2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400", "0.5", "0.5",
+            "1000", "2", "4e5",
+        ];
         let read = |place: usize, value: f64| {
             let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
                 let value = if at == place { format!("{value:e}") } else { usual.to_owned() };

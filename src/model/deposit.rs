@@ -2,19 +2,9 @@
 
 use super::Model;
 use super::wall::Wall;
-use crate::capture::{ParticleStickiness, Stickiness};
-use crate::deposit::{CapturedParticles, Deposit, DepositSource, wetting};
+use crate::capture::Stickiness;
+use crate::deposit::{CapturedParticles, Deposit, DepositSource, WallMelt, cover, wetting};
 use crate::impact::{Impact, ImpactError};
-use crate::material::Material;
-
-/// Properties of the melt on a wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallMelt {
-    /// Density [kg/m³].
-    pub density: f64,
-    /// Viscosity [Pa s]; infinite where the model has none, and below the temperatures of a measured one.
-    pub viscosity: f64,
-}
 
 impl Model {
     /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²], with the particle's `density`
@@ -55,9 +45,9 @@ impl Model {
         check_voidage(voidage)?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         let solid = wall.layer_thickness * (1.0 - voidage);
-        let powder = solid * density_near(&self.particle, Impact::default().wall_temperature)?;
+        let powder = solid * self.particle.material.density_near(Impact::default().wall_temperature)?;
         let covered = -(1.0 - wall.coverage).max(f64::MIN_POSITIVE).ln();
-        let cover = covered.max(1.5 * solid / Impact::default().diameter);
+        let cover = covered.max(cover::of_layer(wall.layer_thickness, Impact::default().diameter));
         Ok(Deposit { powder, solid, cover, ..Deposit::default() })
     }
 
@@ -95,38 +85,51 @@ impl Model {
     /// [`ImpactError::NoSuchWall`], or an unknown density.
     pub fn melt(&self, wall: usize, temperature: f64) -> Result<WallMelt, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let viscosity = |melt: &dyn ParticleStickiness| melt.film_viscosity(temperature);
-        let (material, viscosity) = match &wall.slag {
-            Some(slag) => (slag, wall.melt.as_ref().map(|melt| viscosity(melt))),
-            None => (&self.particle, self.stickiness.as_deref().map(viscosity)),
-        };
-        let viscosity = viscosity.unwrap_or(f64::INFINITY);
-        Ok(WallMelt { density: density_near(material, temperature)?, viscosity })
+        self.wall_melt(wall, temperature)
     }
 
-    /// Stickiness of the wall [1]: the larger of that of its slag and that of the melt from earlier particles, where the melt wets
-    /// the wall and nothing covers it.
-    pub(super) fn wall_stickiness(&self, wall: &Wall, impact: &Impact) -> Result<f64, ImpactError> {
-        let own = wall.stickiness(impact)?;
-        if impact.melt_thickness == 0.0 || !self.stickiness_depends_on_temperature() {
-            return Ok(own);
+    fn wall_melt(&self, wall: &Wall, temperature: f64) -> Result<WallMelt, ImpactError> {
+        let (material, criterion) = match &wall.slag {
+            Some(slag) => (slag, &wall.melt),
+            None => (self.particle.melting(), &self.stickiness),
+        };
+        let viscosity = criterion.as_ref().map_or(f64::INFINITY, |melt| melt.film_viscosity(temperature));
+        let surface_tension = material.surface_tension_near(temperature);
+        Ok(WallMelt { density: material.density_near(temperature)?, viscosity, surface_tension })
+    }
+
+    /// The melt that an impact meets on bare wall, with the thickness of its film; `None` where there is none, or it is stiff.
+    pub(super) fn melt_met(&self, wall: &Wall, impact: &Impact) -> Result<Option<WallMelt>, ImpactError> {
+        if wall.slag.is_none() && impact.melt_thickness == 0.0 {
+            return Ok(None);
         }
-        let wet = wetting::share(impact.melt_thickness, impact.diameter) * (1.0 - impact.coverage);
-        Ok(own.max(wet * self.stickiness_as_melt(impact, 1.0)))
+        let melt = self.wall_melt(wall, impact.wall_temperature)?;
+        Ok(melt.viscosity.is_finite().then_some(melt))
+    }
+
+    /// Stickiness of the bare wall [1]: the larger of that of its slag and that of the melt from earlier particles, where the melt
+    /// wets the wall.
+    pub(super) fn wall_stickiness(&self, wall: &Wall, impact: &Impact) -> f64 {
+        let own = wall.slag_stickiness(impact);
+        if impact.melt_thickness == 0.0 || !self.stickiness_depends_on_temperature() {
+            return own;
+        }
+        let wet = wetting::share(impact.melt_thickness, impact.diameter);
+        own.max(wet * self.stickiness_as_melt(impact, 1.0))
     }
 
     /// Whether the melt on the wall is within the range for which the capture criterion is stated.
     pub(super) fn melt_holds(&self, impact: &Impact) -> bool {
         let mut criteria = self.stickiness.iter();
-        impact.melt_thickness == 0.0 || criteria.all(|criterion| criterion.holds_at(impact.wall_temperature))
+        impact.melt_thickness == 0.0
+            || criteria.all(|criterion| criterion.holds_on_wall(impact.wall_temperature))
     }
 
     /// Stickiness [1] of the particle's material on the wall, at the wall's temperature and with a conversion [1]: the product of
     /// what the capture criterion and the effects give, 0 without any.
     fn stickiness_as_melt(&self, impact: &Impact, conversion: f64) -> f64 {
         let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
-        let criterion =
-            self.stickiness.as_ref().map(|criterion| criterion.as_deposit(impact.wall_temperature));
+        let criterion = self.stickiness.as_ref().map(|criterion| criterion.on_wall(&on_wall));
         let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&on_wall));
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
@@ -154,12 +157,6 @@ fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> 
         return Ok(());
     }
     Err(ImpactError::Unusable { quantity, value, reason: "must be finite and not negative" })
-}
-
-/// Density [kg/m³] at a temperature [K], or at the nearest temperature at which it is known.
-fn density_near(material: &Material, temperature: f64) -> Result<f64, ImpactError> {
-    let [low, high] = material.density_range();
-    material.density(temperature.clamp(low, high))
 }
 
 #[cfg(test)]
@@ -233,10 +230,10 @@ width = 0.01
         assert!(dry < 1e-6, "{dry}");
         let shares = [1e-7, 1e-6, 1e-5, 1e-3].map(|thickness| captured(&melt(1900.0, thickness)));
         assert!(shares.is_sorted() && shares[3] > 0.999, "{shares:?}");
-        // p_stick of a dry particle is the root of the wall's stickiness: here what is wet, 1 - exp(-6/60), times what the
+        // p_stick of a dry particle is the wall's stickiness: here what is wet, 1 - exp(-6/60), times what the
         // conversion-transition leaves of a burnt-out particle's, 1/(1 + exp(-10)).
         let wall: f64 = (1.0 - (-0.1_f64).exp()) / (1.0 + (-10.0_f64).exp());
-        assert_relative_eq!(shares[1], wall.sqrt(), max_relative = 1e-12);
+        assert_relative_eq!(shares[1], wall, max_relative = 1e-12);
         for thickness in [1e-6, 1e-3, 1.0] {
             assert!(captured(&melt(1000.0, thickness)) < 1e-3, "{thickness}");
         }
@@ -303,7 +300,7 @@ model = "droplet"
         };
         let wet: f64 = 1.0 - (-6.0_f64 * 10.0 / 120.0).exp();
         let solid = resolve(10e-6, at(370.0, 300.0));
-        assert_relative_eq!(solid.sticking_probability, wet.sqrt(), max_relative = 1e-12);
+        assert_relative_eq!(solid.sticking_probability, wet, max_relative = 1e-12);
         assert_eq!(resolve(10e-6, at(350.0, 300.0)).sticking_probability, 0.0);
         let [dry, drowned] = [0.0, 1.0].map(|thickness| resolve(thickness, at(370.0, 370.0)));
         assert!(dry.sticking_probability < 1.0, "{dry:?}");

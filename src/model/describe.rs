@@ -5,14 +5,27 @@ use crate::law::{Origin, Parameter, describe_values};
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
+/// Temperature [K] at which a property that depends on it is shown.
+const ROOM: f64 = 293.15;
+
 impl Model {
     /// The content of the model as pairs of a heading and its numbers with units, in the order of the steps of an impact.
     pub fn describe(&self) -> Vec<(&'static str, String)> {
-        let mut lines = vec![("particle", self.particle.name().to_owned())];
+        let mut particle = self.particle().name().to_owned();
+        if let Some(ash) = self.ash() {
+            particle += &format!(", burning to {}", ash.name());
+        }
+        let mut lines = vec![("particle", particle)];
         for wall in &self.walls {
             let mut text = format!("{} of {}", wall.name(), wall.material().name());
             if let Some(slag) = &wall.slag {
                 text += &format!(", under {}", slag.name());
+            }
+            if let Some(powder) = &wall.powder {
+                text += &format!(", covered by {}", powder.name());
+            }
+            if wall.film_thickness > 0.0 {
+                text += &format!(", film {} m", wall.film_thickness);
             }
             if wall.coverage > 0.0 {
                 text += &format!(", coverage {}", wall.coverage);
@@ -34,16 +47,28 @@ impl Model {
                 }
             },
         ));
-        let capture = self.criterion.map_or_else(
+        let capture = self.capture.describe().map_or_else(
             || "below the sticking velocity, and what effects add".to_owned(),
-            |criterion| format!("also by {}", criterion.describe()),
+            |criterion| format!("also by {criterion}"),
         );
         lines.push(("capture", capture));
         for term in &self.terms {
             let parameters = describe_values(term.kind().parameters, term.values());
             lines.push(("effect", format!("{}: {}", term.kind().id, parameters.join(", "))));
         }
+        lines.extend(self.counted_twice().map(|note| ("note", note)));
         lines
+    }
+
+    /// A remark where criterion and effects multiply two stickinesses that both follow the particle's temperature.
+    fn counted_twice(&self) -> Option<String> {
+        let criterion = self.stickiness.as_ref()?.name();
+        let term = self.terms.iter().find(|term| term.kind().id == "melting-transition")?;
+        Some(format!(
+            "[capture] model = \"{criterion}\" and the effect {} both make the particle sticky by its temperature, and are \
+             multiplied: the temperature counts twice; remove one of them, unless they were fitted together",
+            term.kind().id
+        ))
     }
 
     fn describe_normal(&self) -> String {
@@ -57,9 +82,22 @@ impl Model {
         let ratio = adhesion.map_or(f64::NAN, |a| a.yield_ratio);
         let work = match adhesion.and_then(|a| a.work) {
             Some(work) => format!("{work} J/m2"),
-            None => "2 sqrt(gamma_p gamma_w)".to_owned(),
+            None => self.describe_own_adhesion(),
         };
         format!("{}, yield_ratio {ratio}, work of adhesion {work}", self.normal.name())
+    }
+
+    /// The work of adhesion where the model file does not give it; of the source of the particle's own the part before `;`.
+    fn describe_own_adhesion(&self) -> String {
+        let Some(property) = self.particle().property("work_of_adhesion") else {
+            return "2 sqrt(gamma_p gamma_w)".to_owned();
+        };
+        let value = property.at(ROOM).map_or_else(
+            |range| format!("known from {} to {} K", range.low, range.high),
+            |work| format!("{work} J/m2 at {ROOM} K"),
+        );
+        let source = property.source().and_then(|text| text.split(';').next()).unwrap_or("no source given");
+        format!("of {}: {value}, {source}", self.particle().name())
     }
 }
 

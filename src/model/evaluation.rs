@@ -71,7 +71,7 @@ pub(super) struct ImpactState<C> {
     pub outside_range: bool,
     pub contact: C,
     pub sticky: Stickiness,
-    /// `v_adh²` [m²/s²]; 0 where the normal law computes it itself.
+    /// `rho v_adh²` [Pa]; 0 where the normal law computes it itself.
     pub adhesion: f64,
     pub normal: NormalRebound,
     /// Random number of the capture, in (0, 1).
@@ -123,7 +123,7 @@ pub(super) trait WallSteps {
     /// Stickiness of particle and wall.
     fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, Self::Fault>;
 
-    /// The part of the normal law that does not depend on speed, where a block computes it apart: `v_adh²` [m²/s²].
+    /// The part of the normal law that does not depend on speed, where a block computes it apart: `rho v_adh²` [Pa].
     #[inline(always)]
     fn adhesion(&self, _: &Impact, _: &Self::Contact) -> f64 {
         0.0
@@ -162,9 +162,14 @@ pub(super) trait WallSteps {
         (e_n, rebound)
     }
 
-    /// Whether the particle is a droplet, whose capture does not depend on the stickiness of the wall.
+    /// Probability that the stickiness of particle or wall holds the particle [1].
     #[inline(always)]
-    fn is_droplet(&self, _: &Impact) -> bool {
+    fn capture_probability(&mut self, _: &Impact, stickiness: Stickiness) -> f64 {
+        stickiness.particle
+    }
+    /// Whether a law was used outside the range that it is stated for, known after the last step.
+    #[inline(always)]
+    fn left_range(&self) -> bool {
         false
     }
 
@@ -220,11 +225,10 @@ pub(super) fn evaluate<S: WallSteps>(
         let rebound = steps.tangential_effects(&kinematics, rebound);
         (state.normal_restitution, state.rebound) =
             steps.turn_back(&state.impact, normal_restitution, rebound);
-        // The probability is 1 if adhesion or a film holds the particle. Otherwise it is that of the combined
-        // stickiness, for a droplet that of the particle alone.
-        let by_stickiness =
-            if steps.is_droplet(&state.impact) { state.sticky.particle } else { state.sticky.probability() };
+        // The probability is 1 if adhesion or a film holds the particle.
+        let by_stickiness = steps.capture_probability(&state.impact, state.sticky);
         state.probability = if state.normal.held { 1.0 } else { by_stickiness };
+        state.outside_range |= steps.left_range();
         steps.trace("capture", "p_stick", state.probability);
         state.captured = (state.probability >= 1.0) | (state.chance < state.probability);
     }

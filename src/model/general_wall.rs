@@ -1,10 +1,14 @@
 //! The steps of an impact on any wall: properties over temperature, slag, every law and effect, draws and a trace.
+//!
+//! A wall with slag or powder is a patchwork: an impact meets its covered or its bare share. A draw decides which; the outcome is
+//! that of the share met, and its probability of capture is that of both, `c P_covered + (1 - c) P_bare`.
 
 use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
 use super::tilted_frame::TiltedFrame;
+use super::wall::Place;
 use super::{Model, Wall};
-use crate::capture::{ParticleStickiness as _, Stickiness};
-use crate::effect::{Term, stream};
+use crate::capture::Stickiness;
+use crate::effect::{OnMelt, Term, stream};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
@@ -14,10 +18,17 @@ use crate::tangential::{ImpactKinematics, Rebound};
 struct GeneralWall<'a, U, T> {
     model: &'a Model,
     wall: &'a Wall,
+    place: Place,
     /// The impact with regard to the mean wall.
     arriving: Impact,
     frame: TiltedFrame,
-    uniform: U,
+    /// What the melt on the wall does to a dry particle, where a term says it.
+    on_melt: Option<OnMelt>,
+    /// Normal restitution [1] of a droplet that bounces whole.
+    droplet_rebound: Option<f64>,
+    /// Whether a law was used outside its range.
+    left_range: bool,
+    uniform: &'a U,
     trace: T,
 }
 
@@ -28,11 +39,58 @@ impl Model {
         wall: usize,
         impact: &Impact,
         uniform: impl Fn(u64) -> f64,
-        trace: impl FnMut(&'static str, &'static str, f64),
+        mut trace: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
         let (wall, arriving) = self.at_wall(wall, impact)?;
+        if arriving.coverage == 0.0 || !wall.is_patchwork(&arriving) {
+            return self.evaluate_place(wall, &arriving, Place::Anywhere, &uniform, &mut trace);
+        }
+        let covered_share = arriving.coverage;
+        let [met, other] = if uniform(stream::COVER) < 1.0 - covered_share {
+            [Place::Bare, Place::Covered]
+        } else {
+            [Place::Covered, Place::Bare]
+        };
+        let outcome = self.evaluate_place(wall, &arriving, met, &uniform, &mut trace)?;
+        let share = |place| if place == Place::Covered { covered_share } else { 1.0 - covered_share };
+        if share(other) == 0.0 {
+            return Ok(outcome);
+        }
+        let elsewhere = self.evaluate_place(wall, &arriving, other, &uniform, &mut |_, _, _| {})?;
+        let sticking_probability =
+            share(met) * outcome.sticking_probability + share(other) * elsewhere.sticking_probability;
+        trace("cover", "p_stick", sticking_probability);
+        let outside_range = outcome.outside_range | elsewhere.outside_range;
+        Ok(Outcome { sticking_probability, outside_range, ..outcome })
+    }
+
+    /// Decides an impact at one place of a wall.
+    fn evaluate_place(
+        &self,
+        wall: &Wall,
+        arriving: &Impact,
+        place: Place,
+        uniform: &impl Fn(u64) -> f64,
+        trace: &mut impl FnMut(&'static str, &'static str, f64),
+    ) -> Result<Outcome, ImpactError> {
+        let arriving = match place {
+            Place::Anywhere => *arriving,
+            Place::Bare => Impact { coverage: 0.0, layer_thickness: 0.0, ..*arriving },
+            Place::Covered => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*arriving },
+        };
         let frame = TiltedFrame { tilt: 0.0 };
-        let mut steps = GeneralWall { model: self, wall, arriving, frame, uniform, trace };
+        let mut steps = GeneralWall {
+            model: self,
+            wall,
+            place,
+            arriving,
+            frame,
+            on_melt: None,
+            droplet_rebound: None,
+            left_range: false,
+            uniform,
+            trace,
+        };
         let mut state = ImpactState { impact: arriving, ..ImpactState::default() };
         evaluate(&mut steps, StepSet::ALL, &mut state)?;
         Ok(state.outcome())
@@ -50,9 +108,13 @@ impl Model {
         &self,
         wall: &Wall,
         impact: &Impact,
+        place: Place,
         uniform: &impl Fn(u64) -> f64,
     ) -> Result<Contact, ImpactError> {
-        let of_materials = wall.contact(&self.particle, impact)?;
+        let mut of_materials = wall.contact(&self.particle, impact, place)?;
+        if self.uses_melt && place != Place::Covered {
+            of_materials.melt = self.melt_met(wall, impact)?;
+        }
         let change = |contact, term: &Term| term.effect().contact(impact, contact, term.chance(uniform));
         Ok(self.terms.iter().fold(of_materials, change))
     }
@@ -65,7 +127,7 @@ impl Model {
     ) -> Result<f64, ImpactError> {
         let mut product = None;
         if let Some(criterion) = &self.stickiness {
-            let stickiness = criterion.at(impact)?;
+            let stickiness = criterion.in_flight(impact)?;
             trace(criterion.name(), "particle stickiness", stickiness);
             product = Some(stickiness);
         }
@@ -75,7 +137,21 @@ impl Model {
                 product = Some(product.unwrap_or(1.0) * stickiness);
             }
         }
-        Ok(product.unwrap_or(0.0))
+        let factors = self.terms.iter().map(|term| term.effect().stickiness_factor(impact));
+        Ok(factors.fold(product.unwrap_or(0.0), |product, factor| product * factor))
+    }
+
+    /// Normal restitution [1] of a droplet that bounces whole; `None` for any other particle. In melt on the wall it merges.
+    fn droplet_rebound(
+        &self,
+        wall: &Wall,
+        impact: &Impact,
+        place: Place,
+    ) -> Result<Option<f64>, ImpactError> {
+        let Some(criterion) = &self.stickiness else { return Ok(None) };
+        let material = wall.partner(place);
+        let molten = place != Place::Covered && self.melt_met(wall, impact)?.is_some();
+        if molten { Ok(None) } else { criterion.droplet_rebound(impact, material) }
     }
 
     /// Share of `e_n` [1] that full stickiness of the particle takes: all of it by a capture criterion.
@@ -90,11 +166,14 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     type Fault = ImpactError;
 
     fn outside_range(&mut self, arriving: &Impact) -> bool {
-        let Self { model, wall, .. } = self;
-        !(model.stickiness.as_ref().is_none_or(|criterion| criterion.holds_at(arriving.particle_temperature))
-            && wall.melt.as_ref().is_none_or(|melt| melt.holds_at(arriving.wall_temperature))
+        let Self { model, wall, place, .. } = self;
+        let melt = wall.melt.as_ref().filter(|_| *place != Place::Covered);
+        !(model
+            .stickiness
+            .as_ref()
+            .is_none_or(|criterion| criterion.holds_in_flight(arriving.particle_temperature))
+            && melt.is_none_or(|melt| melt.holds_on_wall(arriving.wall_temperature))
             && model.melt_holds(arriving)
-            && model.normal.holds_for(arriving)
             && model.tangential.holds_for(arriving)
             && model.particle.holds_at(arriving.particle_temperature)
             && wall.material.holds_at(arriving.wall_temperature)
@@ -102,22 +181,45 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     }
 
     fn turn(&mut self, arriving: &Impact) -> Impact {
-        let tilt = |term: &Term| term.effect().tilt(arriving, term.chance(&self.uniform));
+        let tilt = |term: &Term| term.effect().tilt(arriving, term.chance(self.uniform));
         self.frame = TiltedFrame { tilt: self.model.terms.iter().map(tilt).sum() };
         self.frame.turn(arriving)
     }
 
     fn contact(&mut self, impact: &Impact) -> Result<Contact, ImpactError> {
-        self.model.contact(self.wall, impact, &self.uniform)
+        let contact = self.model.contact(self.wall, impact, self.place, self.uniform)?;
+        self.on_melt = match contact.melt {
+            Some(_) => self.model.terms.iter().find_map(|term| term.effect().on_melt(impact, &contact)),
+            None => None,
+        };
+        self.droplet_rebound = self.model.droplet_rebound(self.wall, impact, self.place)?;
+        Ok(contact)
     }
 
     fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, ImpactError> {
-        let particle = self.model.particle_stickiness(impact, &mut self.trace)?;
-        Ok(Stickiness { particle, wall: self.model.wall_stickiness(self.wall, impact)? })
+        let mut particle = self.model.particle_stickiness(impact, &mut self.trace)?;
+        if self.droplet_rebound.is_some() {
+            self.trace("droplet rebound", "particle stickiness", 0.0);
+            particle = 0.0;
+        }
+        let wall = match self.place {
+            Place::Covered => 0.0,
+            Place::Anywhere | Place::Bare => self.model.wall_stickiness(self.wall, impact),
+        };
+        Ok(Stickiness { particle, wall })
     }
 
     fn normal_law(&mut self, impact: &Impact, contact: &Contact, _: f64) -> NormalRebound {
+        if let Some(OnMelt::Rebounds(e_n)) = self.on_melt {
+            self.trace("melt", "e_n", e_n);
+            return NormalRebound { restitution: e_n, held: false };
+        }
+        if let Some(e_n) = self.droplet_rebound {
+            self.trace("droplet rebound", "e_n", e_n);
+            return NormalRebound { restitution: e_n, held: false };
+        }
         let law = self.model.normal;
+        self.left_range |= !law.holds_for(contact, impact);
         let e_n = law.rebound(contact, impact);
         self.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
         NormalRebound::of(e_n)
@@ -134,7 +236,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             return rebound;
         }
         for term in &self.model.terms {
-            let chance = term.chance(&self.uniform);
+            let chance = term.chance(self.uniform);
             let changed = term.effect().normal_restitution(impact, contact, e_n, chance);
             if changed != Some(e_n) {
                 (self.trace)(term.kind().id, "e_n", changed.unwrap_or(0.0));
@@ -180,11 +282,26 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(&self.arriving, rebound.spin) })
     }
 
-    fn is_droplet(&self, impact: &Impact) -> bool {
-        self.model
-            .stickiness
-            .as_ref()
-            .is_some_and(|criterion| criterion.is_droplet(impact.particle_temperature))
+    /// A droplet's capture does not depend on the wall, and a dry particle leaves a melt that it rebounds from. A particle that
+    /// rebounds from a sticky wall by the law of a dry contact is outside that law's range.
+    fn capture_probability(&mut self, impact: &Impact, stickiness: Stickiness) -> f64 {
+        let model = self.model;
+        let droplet = |t| model.stickiness.as_ref().is_some_and(|criterion| criterion.is_droplet(t));
+        if droplet(impact.particle_temperature) {
+            return stickiness.particle;
+        }
+        let wall = match self.on_melt {
+            Some(OnMelt::Rebounds(_)) => 0.0,
+            Some(OnMelt::Held) | None => stickiness.wall,
+        };
+        let probability = model.capture.combination.probability(Stickiness { wall, ..stickiness });
+        let dry_rebound = probability < 1.0 && self.on_melt.is_none() && stickiness.is_wall_sticky();
+        self.left_range |= dry_rebound && model.normal.is_contact_law();
+        probability
+    }
+
+    fn left_range(&self) -> bool {
+        self.left_range
     }
 
     fn trace(&mut self, term: &'static str, quantity: &'static str, value: f64) {

@@ -10,6 +10,7 @@ mod deposit;
 mod describe;
 mod evaluation;
 mod general_wall;
+mod particle;
 mod prepared_wall;
 mod read;
 mod tilted_frame;
@@ -18,7 +19,7 @@ mod wall;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::capture::{Criterion, ParticleStickiness};
+use crate::capture::{Capture, StickinessCriterion};
 use crate::effect::Term;
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::input::{Document, InputError};
@@ -27,21 +28,25 @@ use crate::normal::{NormalLaw, Speeds};
 use crate::rng::ImpactRng;
 use crate::tangential::TangentialLaw;
 
-pub use deposit::WallMelt;
+pub use crate::deposit::WallMelt;
+pub use particle::Particle;
 use prepared_wall::PreparedWall;
+use wall::Place;
 pub use wall::Wall;
 
 /// Everything that decides an impact of a particle on a wall. Immutable after reading.
 #[derive(Debug, Clone)]
 pub struct Model {
-    particle: Material,
-    criterion: Option<Criterion>,
-    /// The criterion for the particle's material, where it applies to that.
-    stickiness: Option<Arc<dyn ParticleStickiness>>,
+    particle: Particle,
+    capture: Capture,
+    /// The criterion for the particle's material or ash, where it applies to that.
+    stickiness: Option<Arc<dyn StickinessCriterion>>,
     walls: Vec<Wall>,
     normal: NormalLaw,
     tangential: TangentialLaw,
     terms: Vec<Term>,
+    /// Whether a term depends on the melt on the wall.
+    uses_melt: bool,
     /// For each wall its prepared form, where it has one.
     prepared: Vec<Option<PreparedWall>>,
 }
@@ -83,9 +88,14 @@ impl Model {
         Self::read(&Document::new(name, text))
     }
 
-    /// The material of the particles.
+    /// The material of the unburnt particles.
     pub fn particle(&self) -> &Material {
-        &self.particle
+        self.particle.material()
+    }
+
+    /// What is left of a particle when all carbon is gone, where the model file says so.
+    pub fn ash(&self) -> Option<&Material> {
+        self.particle.ash()
     }
 
     /// The walls, in the order of the file.
@@ -122,6 +132,7 @@ impl Model {
 
     /// Prepares the walls that can be prepared.
     fn prepare(mut self) -> Self {
+        self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
         self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         self
     }
@@ -139,12 +150,14 @@ impl Model {
     /// [`ImpactError::NoSuchWall`].
     pub fn temperature_ranges(&self, wall: usize) -> Result<TemperatureRanges, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let range = |material: &Material, stickiness: Option<[f64; 2]>| {
-            overlap([material.known_range()].into_iter().chain(stickiness))
+        let solids = |solids: [Option<&Material>; 2]| {
+            solids.into_iter().flatten().map(Material::known_range).collect::<Vec<_>>()
         };
+        let particle = solids([Some(self.particle()), self.ash()]);
+        let melt = self.stickiness.as_ref().map(|criterion| criterion.known_range());
         Ok(TemperatureRanges {
-            particle: range(&self.particle, self.stickiness.as_ref().map(|s| s.known_range())),
-            wall: range(wall.material(), wall.melt.as_ref().map(|melt| melt.known_range())),
+            particle: overlap(particle.into_iter().chain(melt)),
+            wall: overlap(solids([Some(wall.material()), wall.powder.as_ref()]).into_iter()),
         })
     }
 
@@ -154,9 +167,9 @@ impl Model {
     /// As [`Model::resolve`].
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        self.contact(wall, &impact, &|_| 0.5)?;
+        self.contact(wall, &impact, Place::Bare, &|_| 0.5)?;
+        self.contact(wall, &impact, Place::Covered, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
-        self.wall_stickiness(wall, &impact)?;
         Ok(())
     }
 
@@ -218,6 +231,7 @@ impl Model {
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
         let (wall, impact) = self.at_wall(wall, impact)?;
-        Ok(self.normal.speeds_of(&self.contact(wall, &impact, &|_| 0.5)?, &impact))
+        let contact = self.contact(wall, &impact, Place::Anywhere, &|_| 0.5)?;
+        Ok(self.normal.speeds_of(&contact, &impact))
     }
 }

@@ -13,7 +13,7 @@ use super::Model;
 use super::block::{BLOCK, Block, Outcomes};
 use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
 use super::wall::Wall;
-use crate::capture::Stickiness;
+use crate::capture::{Combination, Stickiness};
 use crate::effect::{Precomputed, Term, Transition, stream};
 use crate::impact::{INPUTS, Impact, Outcome};
 use crate::normal::{self, NormalLaw};
@@ -42,6 +42,10 @@ struct Constants {
     rebound_loss: f64,
     /// Temperatures [K] for which the properties of particle and wall are stated.
     materials: [[f64; 2]; 2],
+    /// Density of the particle's material [kg/m³].
+    density: f64,
+    /// Largest `rho v_n²` [Pa] for which the normal law is stated.
+    largest_pressure: f64,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -75,7 +79,8 @@ struct PreparedImpact<'a> {
 impl PreparedWall {
     /// Prepares a wall; `None` where its impacts need the general steps.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
-        if model.stickiness.is_some() || wall.melt.is_some() {
+        let plain = model.capture.combination == Combination::default();
+        if model.stickiness.is_some() || wall.melt.is_some() || wall.powder.is_some() || !plain {
             return None;
         }
         let mut contact = wall.prepared?;
@@ -104,7 +109,13 @@ impl PreparedWall {
             transitions,
             draws: !matches!(transitions, Transitions::None),
             rebound_loss: model.rebound_loss(),
-            materials: [model.particle.valid_range(), wall.material().valid_range()],
+            materials: [model.particle().valid_range(), wall.material().valid_range()],
+            density: contact.density,
+            largest_pressure: if model.normal.is_contact_law() {
+                contact.largest_impact_pressure()
+            } else {
+                f64::INFINITY
+            },
         };
         Some(Self { constants, valid })
     }
@@ -224,6 +235,7 @@ fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> Impac
             diameter: input(Impact::DIAMETER),
             particle_temperature: input(Impact::PARTICLE_TEMPERATURE),
             wall_temperature: input(Impact::WALL_TEMPERATURE),
+            particle_density: input(Impact::PARTICLE_DENSITY),
             conversion: input(Impact::CONVERSION),
             spin: input(Impact::SPIN),
             ..Impact::default()
@@ -266,6 +278,12 @@ fn store(i: usize, selected: StepSet, state: &ImpactState<()>, outcomes: &mut Ou
 }
 
 impl Constants {
+    /// Density of the particle [kg/m³]: that of its material where the impact does not give it.
+    #[inline(always)]
+    fn density(&self, impact: &Impact) -> f64 {
+        if impact.particle_density > 0.0 { impact.particle_density } else { self.density }
+    }
+
     #[inline(always)]
     fn normal_rebound(&self, restitution: f64) -> NormalRebound {
         let held = matches!(self.normal, Normal::ThorntonNing(_)) & (restitution <= 0.0);
@@ -280,7 +298,11 @@ impl WallSteps for PreparedImpact<'_> {
     #[inline(always)]
     fn outside_range(&mut self, impact: &Impact) -> bool {
         let [particle, wall] = self.wall.materials;
-        !(within(impact.particle_temperature, particle) & within(impact.wall_temperature, wall))
+        let speed = impact.normal_speed;
+        let small_contact = self.wall.density(impact) * speed * speed <= self.wall.largest_pressure;
+        !(within(impact.particle_temperature, particle)
+            & within(impact.wall_temperature, wall)
+            & small_contact)
     }
 
     #[inline(always)]
@@ -291,7 +313,7 @@ impl WallSteps for PreparedImpact<'_> {
     #[inline(always)]
     fn adhesion(&self, impact: &Impact, (): &()) -> f64 {
         match self.wall.normal {
-            Normal::ThorntonNing(law) => law.adhesive_squared(impact.diameter),
+            Normal::ThorntonNing(law) => law.adhesive_pressure(impact.diameter),
             Normal::Constant(_) => 0.0,
         }
     }
@@ -308,9 +330,11 @@ impl WallSteps for PreparedImpact<'_> {
     }
 
     #[inline(always)]
-    fn normal_law(&mut self, impact: &Impact, (): &(), adhesive_squared: f64) -> NormalRebound {
+    fn normal_law(&mut self, impact: &Impact, (): &(), adhesive_pressure: f64) -> NormalRebound {
         self.wall.normal_rebound(match self.wall.normal {
-            Normal::ThorntonNing(law) => law.rebound(impact.normal_speed, adhesive_squared),
+            Normal::ThorntonNing(law) => {
+                law.rebound(self.wall.density(impact), impact.normal_speed, adhesive_pressure)
+            }
             Normal::Constant(restitution) => restitution,
         })
     }

@@ -2,9 +2,9 @@
 
 use regex_lite::Regex;
 
-use super::Model;
 use super::wall::{Adhesion, Wall};
-use crate::capture::{Criterion, ViscosityCriterion};
+use super::{Model, Particle};
+use crate::capture::{Capture, Criterion};
 use crate::effect::Term;
 use crate::input::{Document, InputError, Limits, Section};
 use crate::material::{Library, Material};
@@ -38,29 +38,34 @@ impl Model {
             library = library.with(&own)?;
             own.finish()?;
         }
-        let criterion = match top.section("capture")? {
-            Some(section) => finished(section, Criterion::read)?,
-            None => None,
+        let capture = match top.section("capture")? {
+            Some(section) => finished(section, Capture::read)?,
+            None => Capture::default(),
         };
         let (particle, stickiness) = finished(top.required_section("particle")?, |section| {
             let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
-            let stickiness = criterion.map(|criterion| criterion.of_particle(&material)).transpose();
+            let particle = Particle { material, ash: library.named_by(section, "ash")? };
+            let of_particle = |criterion: Criterion| criterion.of_particle(particle.melting());
+            let stickiness = capture.criterion.map(of_particle).transpose();
             let stickiness = stickiness.map_err(|error| section.fault("material", error))?.flatten();
-            Ok((material, stickiness))
+            Ok((particle, stickiness))
         })?;
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
-        let of_slag = criterion.and_then(Criterion::of_slag);
-        let reader = WallReader { library: &library, of_slag, particle: &particle, adhesion };
+        let reader =
+            WallReader { library: &library, criterion: capture.criterion, particle: &particle, adhesion };
         let walls = reader.read_all(top)?;
         let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
-        if criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
-            let problem = "neither the particle nor the slag of a wall has a composition or a viscosity; \
-                           give one to a material";
+        if capture.criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
+            let needs = capture.criterion.map_or("", Criterion::needs);
+            let problem =
+                format!("neither the particle nor the slag of a wall has {needs}; give one to a material");
             return Err(top.fault("capture", problem));
         }
-        let prepared = Vec::new();
-        Ok(Self { particle, criterion, stickiness, walls, normal, tangential, terms, prepared }.prepare())
+        let (uses_melt, prepared) = (false, Vec::new());
+        let model =
+            Self { particle, capture, stickiness, walls, normal, tangential, terms, uses_melt, prepared };
+        Ok(model.prepare())
     }
 }
 
@@ -96,8 +101,8 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
 /// What all walls of a model have in common.
 struct WallReader<'a> {
     library: &'a Library,
-    of_slag: Option<ViscosityCriterion>,
-    particle: &'a Material,
+    criterion: Option<Criterion>,
+    particle: &'a Particle,
     adhesion: Adhesion,
 }
 
@@ -118,24 +123,20 @@ impl WallReader<'_> {
         let material = self.library.named_by(section, "material")?;
         let material = material.ok_or_else(|| missing_material(section))?;
         let slag = self.library.named_by(section, "slag")?;
-        let melt = match (&slag, self.of_slag) {
+        let melt = match (&slag, self.criterion) {
             (None, _) => None,
-            (Some(_), None) => {
-                let problem =
-                    "a wall with slag needs [capture] model = \"viscosity\" to say when it is sticky";
-                return Err(section.fault("slag", problem));
-            }
-            (Some(slag), Some(criterion)) => {
-                let melt = criterion.prepare(slag).map_err(|error| section.fault("slag", error))?;
-                let lacking = || format!("`{}` has neither composition nor viscosity", slag.name());
-                Some(melt.ok_or_else(|| section.fault("slag", lacking()))?)
+            (Some(slag), criterion) => {
+                let melt =
+                    criterion.map(|criterion| criterion.of_slag(slag, self.particle.melting())).transpose();
+                let melt = melt.map_err(|error| section.fault("slag", error))?.flatten();
+                Some(melt.ok_or_else(|| section.fault("slag", self.without_criterion(slag)))?)
             }
         };
         let prepared = match (self.particle.is_constant(), material.is_constant()) {
             (true, true) => {
-                let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
                 let Adhesion { yield_ratio, work } = self.adhesion;
-                Some(Contact::new(&at(self.particle)?, &at(&material)?, yield_ratio, work))
+                let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
+                Some(Contact::new(&at(self.particle.material())?, &at(&material)?, yield_ratio, work))
             }
             _ => None,
         };
@@ -145,11 +146,27 @@ impl WallReader<'_> {
             material,
             slag,
             melt,
+            powder: self.library.named_by(section, "powder")?,
             layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
+            film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
             adhesion: self.adhesion,
             prepared,
         })
+    }
+}
+
+impl WallReader<'_> {
+    /// Why there is no criterion for the slag of a wall.
+    fn without_criterion(&self, slag: &Material) -> String {
+        match self.criterion {
+            Some(criterion @ (Criterion::Viscosity(_) | Criterion::MeltFraction(_))) => {
+                format!("`{}` lacks {}", slag.name(), criterion.needs())
+            }
+            _ => "a wall with slag needs [capture] model = \"viscosity\", \"kinetic-energy\" or \"melt-fraction\" to say \
+                  when it is sticky"
+                .to_owned(),
+        }
     }
 }
 
@@ -291,7 +308,7 @@ e_t = 0.76
     }
 
     #[test]
-    fn a_fitted_viscosity_law_reports_where_it_was_not_measured() {
+    fn a_viscosity_law_reports_where_it_is_not_stated() {
         let outside = |law: &str, silica: f64, temperature: f64| {
             let text = SMALLEST.replace("\"montan-wax\"", "\"own\"")
                 + &format!(
@@ -310,10 +327,23 @@ e_t = 0.76
             };
             model.resolve(0, &impact, ImpactRng::default()).unwrap().outside_range
         };
-        assert!(!outside("kalmanovitch-frank-silica", 50.0, 1700.0));
-        assert!(outside("kalmanovitch-frank-silica", 50.0, 1400.0));
-        assert!(outside("kalmanovitch-frank-silica", 10.0, 1700.0));
-        assert!(!outside("kalmanovitch-frank", 10.0, 1400.0));
+        for law in ["kalmanovitch-frank", "urbain"] {
+            assert!(!outside(law, 50.0, 1700.0));
+            assert!(outside(law, 50.0, 1400.0));
+            assert!(outside(law, 10.0, 1700.0));
+        }
+        assert!(outside("watt-fereday", 50.0, 1700.0), "no iron and no magnesia");
+        assert!(outside("giordano-russell-dingwell", 50.0, 1700.0), "no alkali");
+    }
+
+    #[test]
+    fn a_withdrawn_viscosity_law_is_refused_with_its_reason() {
+        let text = format!(
+            "{SMALLEST}[capture]\nmodel = \"viscosity\"\nlaw = \"kalmanovitch-frank-silica\"\nreference_viscosity = 25\n"
+        );
+        let message = Model::from_toml("m.toml", &text).unwrap_err().to_string();
+        assert!(message.contains("capture.law: `kalmanovitch-frank-silica` was withdrawn"), "{message}");
+        assert!(message.contains("Use \"kalmanovitch-frank\""), "{message}");
     }
 
     #[test]

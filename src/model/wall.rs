@@ -1,8 +1,12 @@
 //! One wall of a model: its material and what lies on it.
 
+use std::sync::Arc;
+
 use regex_lite::Regex;
 
-use crate::capture::MeltStickiness;
+use super::particle::Particle;
+use crate::capture::StickinessCriterion;
+use crate::deposit::cover;
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
 use crate::normal::Contact;
@@ -15,8 +19,12 @@ pub struct Wall {
     pub(super) material: Material,
     /// The slag on it.
     pub(super) slag: Option<Material>,
-    pub(super) melt: Option<MeltStickiness>,
+    /// The stickiness of that slag.
+    pub(super) melt: Option<Arc<dyn StickinessCriterion>>,
+    /// The contact partner where powder covers the wall; otherwise the wall itself.
+    pub(super) powder: Option<Material>,
     pub(super) layer_thickness: f64,
+    pub(super) film_thickness: f64,
     pub(super) coverage: f64,
     pub(super) adhesion: Adhesion,
     /// The contact with the particle, where no property depends on temperature.
@@ -30,6 +38,17 @@ pub(super) struct Adhesion {
     pub yield_ratio: f64,
     /// Work of adhesion [J/m²] where it is given.
     pub work: Option<f64>,
+}
+
+/// What an impact meets on a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Place {
+    /// The wall as a whole, where bare and covered share do not differ.
+    Anywhere,
+    /// Bare wall or slag.
+    Bare,
+    /// Powder or char.
+    Covered,
 }
 
 impl Wall {
@@ -48,31 +67,58 @@ impl Wall {
         self.pattern.as_ref().is_some_and(|pattern| pattern.is_match(patch))
     }
 
-    /// The impact with the powder and the covering that the model file puts on the wall.
+    /// The impact with the powder, the covering and the film that the model file puts on the wall.
     ///
-    /// A powder layer also covers: one particle diameter of it hides the wall.
+    /// A layer whose coverage is not given covers like grains of the particle's diameter.
     pub(super) fn apply_deposit(&self, impact: &Impact) -> Impact {
-        let layer_thickness = impact.layer_thickness.max(self.layer_thickness);
-        let by_layer = (layer_thickness / impact.diameter).min(1.0);
-        let coverage = impact.coverage.max(self.coverage).max(by_layer);
-        Impact { layer_thickness, coverage, ..*impact }
+        let by_layer = |thickness: f64| cover::share(cover::of_layer(thickness, impact.diameter));
+        // A wall's memory knows its cover and gives it with the layer.
+        let given = if impact.coverage > 0.0 { impact.coverage } else { by_layer(impact.layer_thickness) };
+        Impact {
+            layer_thickness: impact.layer_thickness.max(self.layer_thickness),
+            coverage: given.max(self.coverage).max(by_layer(self.layer_thickness)),
+            film_thickness: impact.film_thickness.max(self.film_thickness),
+            ..*impact
+        }
     }
 
-    /// The contact at the temperatures of the impact.
-    pub(super) fn contact(&self, particle: &Material, impact: &Impact) -> Result<Contact, ImpactError> {
-        if let Some(contact) = self.prepared {
-            return Ok(contact);
-        }
-        let particle = particle.mechanical(impact.particle_temperature)?;
-        let wall = self.material.mechanical(impact.wall_temperature)?;
-        Ok(Contact::new(&particle, &wall, self.adhesion.yield_ratio, self.adhesion.work))
+    /// Whether covered and bare share decide an impact differently.
+    pub(super) fn is_patchwork(&self, impact: &Impact) -> bool {
+        self.melt.is_some() || self.powder.is_some() || impact.melt_thickness > 0.0
     }
 
-    /// Stickiness of the wall [1]: that of its slag where no powder or char covers it, else 0.
-    pub(super) fn stickiness(&self, impact: &Impact) -> Result<f64, ImpactError> {
-        match &self.melt {
-            Some(melt) => Ok(melt.probability(impact.wall_temperature)? * (1.0 - impact.coverage)),
-            None => Ok(0.0),
+    /// What a dry particle meets at a place.
+    pub(super) fn partner(&self, place: Place) -> &Material {
+        match (place, &self.powder) {
+            (Place::Covered, Some(powder)) => powder,
+            _ => &self.material,
         }
+    }
+
+    /// The contact with a dry wall at the temperatures of the impact.
+    pub(super) fn contact(
+        &self,
+        particle: &Particle,
+        impact: &Impact,
+        place: Place,
+    ) -> Result<Contact, ImpactError> {
+        let partner = match (place, &self.powder) {
+            (Place::Covered, Some(powder)) => powder,
+            _ => {
+                if let Some(contact) = self.prepared {
+                    let given = impact.particle_density;
+                    return Ok(if given > 0.0 { Contact { density: given, ..contact } } else { contact });
+                }
+                &self.material
+            }
+        };
+        let wall = partner.mechanical(impact.wall_temperature)?;
+        let Adhesion { yield_ratio, work } = self.adhesion;
+        particle.contact(impact, &wall, yield_ratio, work)
+    }
+
+    /// Stickiness of the slag that the model file puts on the wall [1].
+    pub(super) fn slag_stickiness(&self, impact: &Impact) -> f64 {
+        self.melt.as_ref().map_or(0.0, |melt| melt.on_wall(impact))
     }
 }

@@ -123,6 +123,7 @@ mod tests {
             yield_strength: 200e6,
             yield_ratio: 1.0,
             stiffness_ratio: 0.8,
+            ..Contact::default()
         }
     }
 

@@ -1,6 +1,11 @@
 //! The contact of a particle and a wall, each at its own temperature.
 
+use crate::deposit::WallMelt;
 use crate::material::Mechanical;
+
+/// Contact radius over particle radius [1] up to which the contact of a sphere with a half-space is a fair description: Hertz's theory is
+/// for small contacts, and 0.3 is a usual bound (assumed).
+pub const LARGEST_CONTACT_RADIUS: f64 = 0.3;
 
 /// Properties of the two solids that the impact laws use.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -17,13 +22,15 @@ pub struct Contact {
     pub yield_ratio: f64,
     /// Tangential over normal stiffness, Mindlin's `k` [1].
     pub stiffness_ratio: f64,
+    /// The melt that the particle meets on the wall; `None` on a dry, frozen or covered wall.
+    pub melt: Option<WallMelt>,
 }
 
 impl Contact {
     /// The contact of two solids.
     ///
     /// `yield_ratio` is `c = p_y / sigma_y` [1]; the weaker solid yields first. `work_of_adhesion` [J/m²]
-    /// replaces the default `W = 2 sqrt(gamma_1 gamma_2)`.
+    /// replaces the particle's own, which replaces the default `W = 2 sqrt(gamma_1 gamma_2)`.
     pub fn new(
         particle: &Mechanical,
         wall: &Mechanical,
@@ -34,11 +41,19 @@ impl Contact {
         Self {
             density: particle.density,
             reduced_modulus: reduced_modulus(particle, wall),
-            work_of_adhesion: work_of_adhesion.unwrap_or(geometric),
+            work_of_adhesion: work_of_adhesion.or(particle.work_of_adhesion).unwrap_or(geometric),
             yield_strength: particle.yield_strength.min(wall.yield_strength),
             yield_ratio,
             stiffness_ratio: stiffness_ratio(particle, wall),
+            melt: None,
         }
+    }
+
+    /// Largest `rho v_n²` [Pa] at which a sphere that flows plastically stays below
+    /// [`LARGEST_CONTACT_RADIUS`]: `a/R = (8 rho v_n²/(3 p_y))^(1/4)`, from the kinetic energy that the pressure `p_y` takes up on the
+    /// area `pi a² = 2 pi R h` (indentation `h`).
+    pub fn largest_impact_pressure(&self) -> f64 {
+        0.375 * LARGEST_CONTACT_RADIUS.powi(4) * self.limiting_pressure()
     }
 
     /// Limiting contact pressure `p_y = c sigma_y` [Pa].
@@ -69,6 +84,24 @@ pub fn stiffness_ratio(particle: &Mechanical, wall: &Mechanical) -> f64 {
 mod tests {
     use super::*;
     use crate::material::Library;
+
+    /// The model file's number goes before the material's, and that before the geometric mean. That of a wall has no say.
+    #[test]
+    fn the_work_of_adhesion_is_the_nearest_one_given() {
+        let plain = Mechanical {
+            density: 2300.0,
+            youngs_modulus: 7e10,
+            poisson_ratio: 0.2,
+            yield_strength: 3e8,
+            surface_energy: 0.04,
+            work_of_adhesion: None,
+        };
+        let fitted = Mechanical { work_of_adhesion: Some(5.0), ..plain };
+        let work = |particle, given| Contact::new(particle, &fitted, 1.0, given).work_of_adhesion;
+        assert_eq!(work(&plain, None), 0.08);
+        assert_eq!(work(&fitted, None), 5.0);
+        assert_eq!(work(&fitted, Some(0.0)), 0.0);
+    }
 
     /// Troiano Eq. 12 with Mindlin's denominator, wax on Pyrex; as printed it would be 1.
     #[test]

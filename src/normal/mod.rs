@@ -16,7 +16,7 @@ mod thornton_ning;
 mod whitaker_bons;
 
 pub(crate) use bons::ORIGIN as BONS;
-pub use contact::{Contact, reduced_modulus, stiffness_ratio};
+pub use contact::{Contact, LARGEST_CONTACT_RADIUS, reduced_modulus, stiffness_ratio};
 pub use thornton_ning::{
     Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
 };
@@ -119,14 +119,6 @@ impl NormalLaw {
         }
     }
 
-    /// Whether the law is stated for an impact; a law without a case to which it was fitted holds for all.
-    pub fn holds_for(self, impact: &Impact) -> bool {
-        match self {
-            Self::Listed { law, .. } => law.origin.holds_for(impact),
-            _ => true,
-        }
-    }
-
     /// Normal restitution [1] of a particle of `diameter` [m] that hits head-on at `normal_speed` [m/s], without temperatures;
     /// `None` when adhesion holds it.
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
@@ -136,7 +128,9 @@ impl NormalLaw {
     /// Normal restitution [1] of an impact; `None` when adhesion holds the particle.
     pub fn rebound(self, contact: &Contact, impact: &Impact) -> Option<f64> {
         let e_n = match self {
-            Self::ThorntonNing => Prepared::new(contact).restitution(impact.diameter, impact.normal_speed),
+            Self::ThorntonNing => {
+                Prepared::new(contact).restitution(contact.density, impact.diameter, impact.normal_speed)
+            }
             Self::PlasticJkr => plastic_jkr::restitution(
                 impact.normal_speed,
                 adhesive_velocity(contact, impact.diameter),
@@ -146,6 +140,27 @@ impl NormalLaw {
             Self::Listed { law, values } => return (law.restitution)(impact, contact, &values),
         };
         (e_n > 0.0).then_some(e_n)
+    }
+
+    /// Whether the law describes the contact of two solids.
+    pub fn is_contact_law(self) -> bool {
+        match self {
+            Self::ThorntonNing | Self::PlasticJkr => true,
+            Self::Constant { .. } | Self::Listed { .. } => false,
+        }
+    }
+
+    /// Whether the law is stated for an impact: the contact radius has to stay below [`LARGEST_CONTACT_RADIUS`] times that of the
+    /// particle, and a listed law has the range of its fit.
+    pub fn holds_for(self, contact: &Contact, impact: &Impact) -> bool {
+        match self {
+            Self::ThorntonNing | Self::PlasticJkr => {
+                contact.density * impact.normal_speed * impact.normal_speed
+                    <= contact.largest_impact_pressure()
+            }
+            Self::Constant { .. } => true,
+            Self::Listed { law, .. } => law.origin.holds_for(impact),
+        }
     }
 
     /// Adhesive, yield and sticking velocity of a particle of `diameter` [m], without temperatures; for a law under which no

@@ -28,49 +28,51 @@ pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
 
 /// The constants of the law for a contact.
 ///
-/// `v_adh² = C1² (E*/rho) u^(-5/3)` with `u = d E*/2W` [1]: the formula above in other symbols.
+/// `rho v_adh² = C1² E* u^(-5/3)` with `u = d E*/2W` [1]: the formula above in other symbols. Density enters only with the kinetic
+/// energy, so the law works with `sqrt(rho) v` [Pa^½] in place of every speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prepared {
     /// `E*/2W` [1/m], infinite without adhesion.
     inverse_length: f64,
-    /// `C1² E*/rho` [m²/s²].
+    /// `C1² E*` [Pa].
     adhesion_scale: f64,
-    /// `v_y` [m/s].
-    yield_velocity: f64,
+    /// `sqrt(rho) v_y` [Pa^½].
+    yielding: f64,
 }
 
 impl Prepared {
-    /// The constants for a contact.
+    /// The constants for a contact; its density is not used.
     #[inline(always)]
     pub fn new(contact: &Contact) -> Self {
-        let Contact { density, reduced_modulus, work_of_adhesion, .. } = *contact;
-        let adhesion_scale = ADHESIVE_FACTOR * ADHESIVE_FACTOR * (reduced_modulus / density);
+        let Contact { reduced_modulus, work_of_adhesion, .. } = *contact;
+        let adhesion_scale = ADHESIVE_FACTOR * ADHESIVE_FACTOR * reduced_modulus;
         Self {
             inverse_length: reduced_modulus / (2.0 * work_of_adhesion),
             // Prevents 0 times infinity for impossible solids.
             adhesion_scale: adhesion_scale.clamp(f64::MIN_POSITIVE, f64::MAX),
-            yield_velocity: yield_velocity(contact),
+            yielding: yielding(contact),
         }
     }
 
-    /// `v_adh²` [m²/s²] of a particle of `diameter` [m].
+    /// `rho v_adh²` [Pa] of a particle of `diameter` [m].
     #[inline(always)]
-    pub fn adhesive_squared(&self, diameter: f64) -> f64 {
+    pub fn adhesive_pressure(&self, diameter: f64) -> f64 {
         let root = inverse_cube_root(diameter * self.inverse_length);
         let square = root * root;
         self.adhesion_scale * (square * square * root)
     }
 
-    /// Normal restitution `e_n` [1] of a particle of `diameter` [m] at `normal_speed` [m/s]; 0 when adhesion holds it.
+    /// Normal restitution `e_n` [1] of a particle of `density` [kg/m³] and `diameter` [m] at `normal_speed` [m/s]; 0 when adhesion
+    /// holds it.
     #[inline(always)]
-    pub fn restitution(&self, diameter: f64, normal_speed: f64) -> f64 {
-        self.rebound(normal_speed, self.adhesive_squared(diameter))
+    pub fn restitution(&self, density: f64, diameter: f64, normal_speed: f64) -> f64 {
+        self.rebound(density, normal_speed, self.adhesive_pressure(diameter))
     }
 
-    /// As [`Self::restitution`], from `v_adh²` [m²/s²].
+    /// As [`Self::restitution`], from `rho v_adh²` [Pa].
     #[inline(always)]
-    pub fn rebound(&self, normal_speed: f64, adhesive_squared: f64) -> f64 {
-        rebound(normal_speed, adhesive_squared, self.yield_velocity)
+    pub fn rebound(&self, density: f64, normal_speed: f64, adhesive_pressure: f64) -> f64 {
+        rebound(density.sqrt() * normal_speed, adhesive_pressure, self.yielding)
     }
 }
 
@@ -83,16 +85,21 @@ pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
 
 /// Adhesive velocity `v_adh` [m/s] of a particle of `diameter` [m].
 pub fn adhesive_velocity(contact: &Contact, diameter: f64) -> f64 {
-    Prepared::new(contact).adhesive_squared(diameter).sqrt()
+    (Prepared::new(contact).adhesive_pressure(diameter) / contact.density).sqrt()
 }
 
 /// Yield velocity `v_y` [m/s].
 #[inline]
 pub fn yield_velocity(contact: &Contact) -> f64 {
-    let Contact { density, reduced_modulus, .. } = *contact;
+    yielding(contact) / contact.density.sqrt()
+}
+
+/// `sqrt(rho) v_y` [Pa^½].
+#[inline]
+fn yielding(contact: &Contact) -> f64 {
     let limiting_pressure = contact.limiting_pressure();
-    let strain = limiting_pressure / reduced_modulus;
-    YIELD_FACTOR * strain * strain * (limiting_pressure / density).sqrt()
+    let strain = limiting_pressure / contact.reduced_modulus;
+    YIELD_FACTOR * strain * strain * limiting_pressure.sqrt()
 }
 
 /// Plastic term `P(w)` [1] for `w = v_y / v` in 0 to 1.
@@ -168,7 +175,14 @@ mod tests {
     fn solid(
         [density, youngs_modulus, poisson_ratio, yield_strength, surface_energy]: [f64; 5],
     ) -> Mechanical {
-        Mechanical { density, youngs_modulus, poisson_ratio, yield_strength, surface_energy }
+        Mechanical {
+            density,
+            youngs_modulus,
+            poisson_ratio,
+            yield_strength,
+            surface_energy,
+            work_of_adhesion: None,
+        }
     }
 
     /// Found by fuzzing: half of this diameter is 0.

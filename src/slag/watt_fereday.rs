@@ -19,10 +19,13 @@
 //! Above 50 wt% SiO2 it is 0.18 to 0.30. The law has a pole at 150 °C and is meaningless for a slag that cold.
 
 use super::composition::{Composition, Oxide};
-use super::{LARGEST_EXPONENT, ViscosityLaw, unlimited};
+use super::{LARGEST_EXPONENT, ViscosityLaw};
 
 /// Mass of ferric oxide that holds the iron of 1 kg of ferrous oxide [kg].
 const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
+
+/// Temperatures [K] for which the law counts as stated; assumed.
+const TEMPERATURES: [f64; 2] = [1423.0, 1873.0];
 
 /// Temperature at which the law has its pole [K].
 const POLE: f64 = 150.0 + 273.15;
@@ -30,27 +33,63 @@ const POLE: f64 = 150.0 + 273.15;
 /// The law.
 pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
     name: "watt-fereday",
-    stated_for: None,
+    stated_for: "SiO2 30 to 60, Al2O3 15 to 35, Fe2O3 3 to 30, CaO 2 to 30 and MgO 1 to 10 wt% of the five, 1423 to 1873 K",
     coefficients: |composition| line(composition).ok_or("it has too little SiO2 and Al2O3"),
     viscosity,
-    range: unlimited,
+    range: |composition| FiveOxides::of(composition)?.is_like_british_ash().then_some(TEMPERATURES),
 };
+
+/// Shares [wt%] of the five oxides in Watt and Fereday's normalisation: they add up to 100, all iron as `Fe2O3`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FiveOxides {
+    /// `SiO2`.
+    pub silica: f64,
+    /// `Al2O3`.
+    pub alumina: f64,
+    /// `Fe2O3 + 1.11 FeO`.
+    pub iron: f64,
+    /// `CaO`.
+    pub lime: f64,
+    /// `MgO`.
+    pub magnesia: f64,
+}
+
+impl FiveOxides {
+    /// The shares of a composition; `None` when it has none of the five oxides.
+    pub fn of(composition: &Composition) -> Option<Self> {
+        let share = |oxide| composition.weight_percent(oxide);
+        let iron = share(Oxide::Fe2O3) + FERRIC_PER_FERROUS * share(Oxide::FeO);
+        let [silica, alumina, lime, magnesia] =
+            [Oxide::SiO2, Oxide::Al2O3, Oxide::CaO, Oxide::MgO].map(share);
+        let total = silica + alumina + iron + lime + magnesia;
+        let scale = 100.0 / total;
+        (total > 0.0).then_some(Self {
+            silica: scale * silica,
+            alumina: scale * alumina,
+            iron: scale * iron,
+            lime: scale * lime,
+            magnesia: scale * magnesia,
+        })
+    }
+
+    /// Whether Watt and Fereday's slags of British bituminous ash were like this one.
+    pub fn is_like_british_ash(&self) -> bool {
+        (30.0..=60.0).contains(&self.silica)
+            && (15.0..=35.0).contains(&self.alumina)
+            && (3.0..=30.0).contains(&self.iron)
+            && (2.0..=30.0).contains(&self.lime)
+            && (1.0..=10.0).contains(&self.magnesia)
+    }
+}
 
 /// `m` and `c` [both 1].
 ///
 /// `None` when none of the five oxides is present, or when `m` is not positive for lack of silica and alumina: the viscosity
 /// would not fall with temperature.
 fn line(composition: &Composition) -> Option<[f64; 2]> {
-    let share = |oxide| composition.weight_percent(oxide);
-    let iron = share(Oxide::Fe2O3) + FERRIC_PER_FERROUS * share(Oxide::FeO);
-    let (silica, alumina, lime) = (share(Oxide::SiO2), share(Oxide::Al2O3), share(Oxide::CaO));
-    let total = silica + alumina + iron + lime + share(Oxide::MgO);
-    if total <= 0.0 {
-        return None;
-    }
-    let scale = 100.0 / total;
-    let slope = scale * (0.00835 * silica + 0.00601 * alumina) - 0.109;
-    let intercept = scale * (0.0415 * silica + 0.0192 * alumina + 0.0276 * iron + 0.0160 * lime) - 3.92;
+    let of = FiveOxides::of(composition)?;
+    let slope = 0.00835 * of.silica + 0.00601 * of.alumina - 0.109;
+    let intercept = 0.0415 * of.silica + 0.0192 * of.alumina + 0.0276 * of.iron + 0.0160 * of.lime - 3.92;
     (slope > 0.0).then_some([slope, intercept])
 }
 

@@ -31,9 +31,9 @@ macro_rules! for_each_function {
 macro_rules! for_each_struct {
     ($define:ident) => {
         $define! {
-            nw_impact { struct_size wall seed key v_n v_t omega d T_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
+            nw_impact { struct_size wall seed key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
             nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
-            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
+            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
             nw_deposit { struct_size wall molten powder solid cover conversion }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }

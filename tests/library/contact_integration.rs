@@ -32,6 +32,7 @@ impl Case {
             yield_strength: self.impact.limiting_pressure,
             yield_ratio: 1.0,
             stiffness_ratio: 1.0,
+            melt: None,
         }
     }
 

@@ -119,7 +119,9 @@ fn fast_droplets_splash_and_leave() {
 #[test]
 fn the_trace_names_the_droplet() {
     let model = model("montan-wax", "pyrex", "");
-    assert!(model.describe().iter().any(|(_, text)| text == "also by droplet, splash_K 57.7"));
+    assert!(
+        model.describe().iter().any(|(_, text)| text == "also by droplet, splash_K 57.7, combination walsh")
+    );
     let (_, trace) = model.explain(0, &wax_at(5.0, 120.0), ImpactRng::default()).unwrap();
     assert!(trace.iter().any(|entry| entry.term == "droplet" && entry.value == 1.0));
 }

@@ -41,6 +41,7 @@ impl Golden {
             poisson_ratio,
             yield_strength: self.p_y,
             surface_energy: 0.0,
+            work_of_adhesion: None,
         };
         let (particle, wall) = (solid(self.e1, self.nu1), solid(self.e2, self.nu2));
         let contact = Contact::new(&particle, &wall, 1.0, Some(self.work_of_adhesion));

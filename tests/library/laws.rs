@@ -112,7 +112,7 @@ fn outside_the_range_of_the_fit_the_outcome_is_marked() {
         // Materials whose properties are stated for room temperature only mark the impact themselves.
         let marked = |impact: &Impact| {
             let law = if table == "normal" {
-                model.normal_law().holds_for(impact)
+                model.normal_law().holds_for(&normal::Contact::default(), impact)
             } else {
                 model.tangential_law().holds_for(impact)
             };

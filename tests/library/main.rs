@@ -7,6 +7,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod capture;
 mod contact_integration;
 mod corpus;
 mod docs;
@@ -16,5 +17,6 @@ mod golden;
 mod interface;
 mod laws;
 mod oblique_impact;
+mod published_sticking;
 mod slag_viscosity;
 mod slag_viscosity_study;

@@ -21,14 +21,30 @@
 
 use crate::common::measured_slags::{Measured, measured};
 use nalgebra::{DMatrix, DVector};
-use nearwall::slag::silica_corrected::{self, SILICA_CORRECTED};
 use nearwall::slag::urbain::{KALMANOVITCH_FRANK, URBAIN};
 use nearwall::slag::watt_fereday::WATT_FEREDAY;
-use nearwall::slag::{SlagViscosity, ViscosityLaw};
+use nearwall::slag::{Oxide, SlagViscosity, ViscosityLaw, measured_range};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 const LAWS: [&ViscosityLaw; 3] = [&WATT_FEREDAY, &URBAIN, &KALMANOVITCH_FRANK];
+
+/// The law that this study led to and that was withdrawn: Kalmanovitch and Frank's less [`SILICA_OFFSET`] and [`SILICA_SLOPE`] per
+/// 10 wt% SiO2 above 40, in log10.
+static SILICA_CORRECTED: ViscosityLaw = ViscosityLaw {
+    name: "kalmanovitch-frank-silica",
+    stated_for: measured_range::IN_WORDS,
+    coefficients: |composition| {
+        let [factor, activation] = (KALMANOVITCH_FRANK.coefficients)(composition)?;
+        let silica = composition.weight_percent(Oxide::SiO2).clamp(30.0, 70.0);
+        let correction = SILICA_OFFSET + SILICA_SLOPE * (silica - 40.0) / 10.0;
+        Ok([factor * 10_f64.powf(-correction), activation])
+    },
+    viscosity: |coefficients, temperature| (KALMANOVITCH_FRANK.viscosity)(coefficients, temperature),
+    range: measured_range::temperatures,
+};
+const SILICA_OFFSET: f64 = 0.062123384;
+const SILICA_SLOPE: f64 = -0.131094130;
 
 /// Squared ratio of the error between references (0.2 in log10) to the effect that is expected of a term (0.5).
 const RIDGE: f64 = 0.16;
@@ -386,8 +402,8 @@ fn names(columns: &[Column], terms: &[usize]) -> String {
     terms.iter().map(|term| columns[*term].0.as_str()).collect::<Vec<_>>().join(", ")
 }
 
-/// The extension that the library has is the one that this search finds, and it holds on unseen references; when either
-/// stops being so, `src/slag/silica_corrected.rs` and `docs/slag-viscosity.md` have to change.
+/// The search and its gain on references held out whole, as they were reported. The gain did not hold: see
+/// [`the_choice_drawn_anew`].
 #[test]
 fn the_extension_on_references_held_out_whole() {
     let rows = measured();
@@ -418,9 +434,9 @@ fn the_extension_on_references_held_out_whole() {
             let held = |number: &str| unseen.iter().filter(|f| names(&columns, &f.terms) == number).count();
             println!("    silica alone in {} folds", held("1, SiO2"));
             assert_eq!(names(&columns, &terms), "1, SiO2");
-            assert!((beta[0] - silica_corrected::OFFSET).abs() < 1e-6);
-            assert!((beta[1] - silica_corrected::SLOPE).abs() < 1e-6);
-            assert!(high < 1.0, "the gain does not hold on unseen references");
+            assert!((beta[0] - SILICA_OFFSET).abs() < 1e-6);
+            assert!((beta[1] - SILICA_SLOPE).abs() < 1e-6);
+            assert!(high < 1.0, "the interval that was reported");
             rows_with_iron(&groups, &columns, &unseen);
             draw_gain(&groups, &unseen);
         }
@@ -496,22 +512,75 @@ fn other_choices() {
     }
 }
 
-/// What the library says of its range is what was measured.
+/// What let the gain through: the reported interval draws the twelve held-out errors anew and takes the choice of terms, the fit
+/// and the references behind them as given. Here the references themselves are drawn, the whole search and fit is
+/// repeated on those that were drawn, and asked on those that were not.
+#[test]
+fn the_choice_drawn_anew() {
+    const REDRAWS: usize = 400;
+    let rows = measured();
+    let columns = dictionary(true);
+    let groups = by_reference(&rows, false);
+    let blocks = blocks(&groups, &columns, &KALMANOVITCH_FRANK);
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let (mut ratios, mut silica_alone, mut worse) = (Vec::new(), 0, 0);
+    while ratios.len() < REDRAWS {
+        let drawn: std::collections::BTreeSet<usize> =
+            blocks.iter().map(|_| (random.next_u64() % blocks.len() as u64) as usize).collect();
+        let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..blocks.len()).partition(|i| drawn.contains(i));
+        if seen.len() < 3 || unseen.is_empty() {
+            continue;
+        }
+        let train: Vec<&Block> = seen.iter().map(|i| &blocks[*i]).collect();
+        let terms = chosen(&train, columns.len());
+        let beta = fit(train, &terms);
+        let sum = |error: &dyn Fn(&Block) -> f64| unseen.iter().map(|i| error(&blocks[*i])).sum::<f64>();
+        let ratio = (sum(&|block| block.left(&terms, &beta)) / sum(&|block| block.yy)).sqrt();
+        silica_alone += usize::from(names(&columns, &terms) == "1, SiO2");
+        worse += usize::from(ratio > 1.0);
+        ratios.push(ratio);
+    }
+    ratios.sort_by(f64::total_cmp);
+    let (low, middle, high) = (ratios[REDRAWS / 40], ratios[REDRAWS / 2], ratios[REDRAWS - 1 - REDRAWS / 40]);
+    println!(
+        "choice and fit on drawn references, asked on the others: ratio {middle:.3} [{low:.3}, {high:.3}], \
+         worse in {worse} of {REDRAWS}, silica alone in {silica_alone}"
+    );
+    written(&format!("{middle:.3} [{low:.3}, {high:.3}]"));
+    assert!(high > 1.0, "the gain does not hold when the choice is drawn anew");
+    let mut includes_one = 0;
+    for (out, (source, _)) in groups.iter().enumerate() {
+        let kept: Vec<&Block> =
+            blocks.iter().enumerate().filter(|(i, _)| *i != out).map(|(_, block)| block).collect();
+        let unseen = extended(&kept, columns.len());
+        let errors = |part: fn(&Unseen) -> f64| unseen.iter().map(part).collect::<Vec<f64>>();
+        let (found, [low, high]) = ratio(&errors(|fold| fold.after), &errors(|fold| fold.before));
+        println!("    without {source:36} ratio {found:.3} [{low:.3}, {high:.3}]");
+        includes_one += usize::from(high > 1.0);
+    }
+    assert_eq!(includes_one, 7, "docs/slag-viscosity.md says seven of twelve");
+}
+
+/// The range of Urbain's and of Kalmanovitch and Frank's law is what was measured.
 #[test]
 fn the_stated_range_is_that_of_the_table() {
     let rows = measured();
     for row in &rows {
-        let slag = SlagViscosity::new(&SILICA_CORRECTED, &row.composition()).unwrap();
+        let slag = SlagViscosity::new(&KALMANOVITCH_FRANK, &row.composition()).unwrap();
         assert!(slag.holds_at(row.temperature), "{} at {} K", row.source, row.temperature);
     }
-    for (oxide, low, high) in silica_corrected::RANGES {
+    for (oxide, low, high) in measured_range::RANGES {
         let shares = rows.iter().map(|row| row.share(oxide.name()));
         let most = shares.clone().fold(0.0, f64::max);
         let least = shares.fold(100.0, f64::min);
         assert!(high - most < 0.2 && least - low < 0.2, "{}: {least} to {most}", oxide.name());
     }
     let iron = rows.iter().map(Measured::iron).fold(0.0, f64::max);
-    assert!(silica_corrected::MOST_IRON - iron < 0.2, "{iron}");
+    assert!(measured_range::MOST_IRON - iron < 0.2, "{iron}");
+    let temperatures = rows.iter().map(|row| row.temperature);
+    let [low, high] = measured_range::TEMPERATURES;
+    assert!(temperatures.clone().fold(f64::INFINITY, f64::min) - low < 1.0);
+    assert!(high - temperatures.fold(0.0, f64::max) < 1.0);
 }
 
 const BINS: [f64; 9] = [30.0, 35.0, 40.0, 45.0, 50.0, 55.0, 60.0, 65.0, 70.1];

@@ -9,10 +9,9 @@ use crate::cases::{
 };
 
 /// Effects that leave 0 to 1 by design.
-const BEYOND_ONE: [&str; 5] = [
+const BEYOND_ONE: [&str; 4] = [
     "micro-roughness",       // turns speed along the wall into speed away from it
     "agglomerates",          // draws e_n up to 1.5: turned spin adds to what came towards the wall
-    "gas-lift",              // the gas does work
     "oblique-angle", // a negative strength turns speed along the wall into speed away from it, e_n <= v/v_n
     "tangential-compliance", // near_normal may be given as up to 1.5; below with 0 to 1
 ];

@@ -161,8 +161,10 @@ proptest! {
         let model = wax(&constant_normal(e), FREE, &table("liquid-film", &[viscosity, asperity]));
         let thin = Impact { normal_speed: 1.0 + impact.normal_speed, diameter: 1e-3, ..impact };
         joined(sides(asperity, |film_thickness| e_n(&model, &Impact { film_thickness, ..thin })))?;
-        let density = model.particle().mechanical(293.15).unwrap().density;
-        let wet = Impact { film_thickness: 1e-5, ..impact };
+        let of_material = model.particle().mechanical(293.15).unwrap().density;
+        let density = if impact.particle_density > 0.0 { impact.particle_density } else { of_material };
+        // Melt and powder of earlier particles make the wall a patchwork, of which the film wets a share.
+        let wet = Impact { film_thickness: 1e-5, melt_thickness: 0.0, ..impact };
         let critical = (1.0 + 1.0 / e) * 1e2f64.ln() * 9.0 * viscosity / (density * wet.diameter);
         let [below, above] = sides(critical, |normal_speed| resolve(&model, &Impact { normal_speed, ..wet }));
         joined([below.normal_restitution, above.normal_restitution])?;

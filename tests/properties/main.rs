@@ -14,4 +14,5 @@ mod cases;
 mod continuous;
 mod energy;
 mod monotone;
+mod slag;
 mod units;

@@ -36,7 +36,7 @@ impl Units {
     fn factor(self, unit: &str) -> f64 {
         let Self { kilogram, metre, second, kelvin } = self;
         match unit {
-            "1" | "rad" => 1.0,
+            "1" | "rad" | "degrees" => 1.0,
             "m" => metre,
             "K" => kelvin,
             "m/s" => metre / second,

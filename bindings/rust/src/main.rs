@@ -36,6 +36,7 @@ struct nw_impact {
     omega: f64,
     d: f64,
     T_p: f64,
+    rho_p: f64,
     conversion: f64,
     T_w: f64,
     roughness: f64,

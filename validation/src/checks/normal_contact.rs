@@ -23,6 +23,7 @@ fn contact(ratio: f64) -> Contact {
         yield_strength: 1e7,
         yield_ratio: 1.0,
         stiffness_ratio: 0.7,
+        melt: None,
     };
     let speeds = NormalLaw::ThorntonNing.speeds(&without, DIAMETER);
     // v_adh goes with W^(5/6).
@@ -41,6 +42,7 @@ fn fluorescein() -> Contact {
         yield_strength: 35.3e6,
         yield_ratio: 1.0,
         stiffness_ratio: 0.7,
+        melt: None,
     }
 }
 

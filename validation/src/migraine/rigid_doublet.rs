@@ -363,6 +363,7 @@ mod tests {
             yield_strength: 300e6,
             yield_ratio: 4.0,
             stiffness_ratio: 0.8,
+            melt: None,
         };
         let root = 2f64.sqrt();
         let slow = (adhesive_velocity(&contact, 9e-6) / root, yield_velocity(&contact) / root);

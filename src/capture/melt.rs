@@ -1,0 +1,123 @@
+//! The viscosity of a melt: a material's own, or by a law from its composition; on a wall it stiffens as it crystallises.
+
+use super::Unsuitable;
+use super::solidification::{Solidification, Stiffening};
+use crate::impact::ImpactError;
+use crate::input::{InputError, Section};
+use crate::material::Material;
+use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw, withdrawn};
+
+/// The `law` and the `solidification` of a `[capture]` table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MeltLaws {
+    law: Option<&'static ViscosityLaw>,
+    solidification: Solidification,
+}
+
+impl MeltLaws {
+    /// With a `law` that has to be given.
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let laws = Self::read_optional(section)?;
+        if laws.law.is_none() {
+            let names = VISCOSITY_LAWS.map(|law| law.name);
+            return Err(section.missing("law", &format!("one of {}", names.join(", "))));
+        }
+        Ok(laws)
+    }
+
+    /// With a `law` that only materials without a viscosity of their own need.
+    pub fn read_optional(section: &Section<'_>) -> Result<Self, InputError> {
+        if let Some(why) = section.text("law")?.as_deref().and_then(withdrawn) {
+            return Err(section.fault("law", why));
+        }
+        let name = section.choice("law", &VISCOSITY_LAWS.map(|law| law.name))?;
+        let law = name.and_then(|name| ViscosityLaw::from_name(&name));
+        Ok(Self { law, solidification: Solidification::read(section)? })
+    }
+
+    /// The law with its range, in words; `None` without one.
+    pub fn describe(self) -> Option<String> {
+        let law = self.law?;
+        Some(format!("{}, stated for {}", law.name, law.stated_for))
+    }
+
+    pub fn solidification(self) -> &'static str {
+        self.solidification.name()
+    }
+
+    /// The melt of a material; `None` for one with neither a viscosity of its own nor a composition and a law. Its own viscosity
+    /// has priority.
+    ///
+    /// # Errors
+    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what `solidification` needs.
+    pub fn prepare(self, material: &Material) -> Result<Option<Melt>, Unsuitable> {
+        let viscosity = match (material.property("viscosity"), self.law, material.composition()) {
+            (Some(_), _, _) => MeltViscosity::Given(Box::new(material.clone())),
+            (None, Some(law), Some(composition)) => {
+                MeltViscosity::Oxides(SlagViscosity::new(law, composition)?)
+            }
+            _ => return Ok(None),
+        };
+        Ok(Some(Melt { viscosity, stiffening: self.solidification.prepare(material)? }))
+    }
+}
+
+/// One melt.
+#[derive(Debug, Clone)]
+pub(super) struct Melt {
+    viscosity: MeltViscosity,
+    stiffening: Stiffening,
+}
+
+#[derive(Debug, Clone)]
+enum MeltViscosity {
+    Oxides(SlagViscosity),
+    Given(Box<Material>),
+}
+
+impl Melt {
+    /// Viscosity of the liquid [Pa s] at a temperature [K].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
+    pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
+        match &self.viscosity {
+            MeltViscosity::Oxides(law) => Ok(law.at(temperature)),
+            MeltViscosity::Given(material) => material.viscosity(temperature),
+        }
+    }
+
+    /// Viscosity [Pa s] on a wall at a temperature [K]: infinite where it is stiff or below a measured table, and that at the end of
+    /// the table above it.
+    pub fn film_viscosity(&self, temperature: f64) -> f64 {
+        let [low, high] = self.known_range();
+        let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
+        known.flatten().unwrap_or(f64::INFINITY) * self.stiffening.factor(temperature)
+    }
+
+    /// Temperatures [K] at which the viscosity is known.
+    pub fn known_range(&self) -> [f64; 2] {
+        match &self.viscosity {
+            MeltViscosity::Oxides(_) => [0.0, f64::INFINITY],
+            MeltViscosity::Given(material) => material.viscosity_range(),
+        }
+    }
+
+    /// Whether the viscosity is stated for the material at a temperature [K]; a material's own is within [`Self::known_range`].
+    pub fn holds_in_flight(&self, temperature: f64) -> bool {
+        match &self.viscosity {
+            MeltViscosity::Oxides(law) => law.holds_at(temperature),
+            MeltViscosity::Given(_) => {
+                let [low, high] = self.known_range();
+                (low..=high).contains(&temperature)
+            }
+        }
+    }
+
+    /// As [`Self::holds_in_flight`], on a wall.
+    pub fn holds_on_wall(&self, temperature: f64) -> bool {
+        // Stiff slag has no viscosity that could be out of range.
+        let stiff = self.stiffening.factor(temperature).is_infinite();
+        self.stiffening.holds() && (stiff || self.holds_in_flight(temperature))
+    }
+}

@@ -1,0 +1,73 @@
+//! The particle of a model: its material, and the ash that it becomes.
+//!
+//! A char particle has the mechanical properties of its material at conversion 0 and of its ash at conversion 1, in between *assumed*
+//! linear in the conversion (density, modulus, Poisson's ratio, yield strength, work of adhesion). A model file without `ash` keeps those of
+//! the material.
+
+use crate::impact::{Impact, ImpactError};
+use crate::material::{Material, Mechanical};
+use crate::normal::Contact;
+
+/// A `[particle]` table.
+#[derive(Debug, Clone)]
+pub struct Particle {
+    pub(super) material: Material,
+    pub(super) ash: Option<Material>,
+}
+
+impl Particle {
+    /// The material of the unburnt particle.
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// What is left when all carbon is gone, where the model file says so.
+    pub fn ash(&self) -> Option<&Material> {
+        self.ash.as_ref()
+    }
+
+    /// The material whose melt makes the particle sticky: the ash where there is one.
+    pub fn melting(&self) -> &Material {
+        self.ash.as_ref().unwrap_or(&self.material)
+    }
+
+    /// Whether the mechanical properties are the same for every impact.
+    pub(super) fn is_constant(&self) -> bool {
+        self.ash.is_none() && self.material.is_constant()
+    }
+
+    /// Whether every mechanical property is stated to hold at a temperature [K].
+    pub(super) fn holds_at(&self, temperature: f64) -> bool {
+        self.material.holds_at(temperature) && self.ash.iter().all(|ash| ash.holds_at(temperature))
+    }
+
+    /// The contact with a wall for an impact; the density is that of the impact where it is given. Work of adhesion as in
+    /// [`Contact::new`].
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside a table.
+    pub(super) fn contact(
+        &self,
+        impact: &Impact,
+        wall: &Mechanical,
+        yield_ratio: f64,
+        work_of_adhesion: Option<f64>,
+    ) -> Result<Contact, ImpactError> {
+        let of = |solid: &Mechanical| Contact::new(solid, wall, yield_ratio, work_of_adhesion);
+        let char = self.material.mechanical(impact.particle_temperature)?;
+        let mut contact = match &self.ash {
+            None => of(&char),
+            Some(ash) => {
+                let ash = ash.mechanical(impact.particle_temperature)?;
+                let share = impact.conversion;
+                // A work of adhesion fitted to ash holds for ash; so the two contacts are mixed, not the materials.
+                let work = (1.0 - share) * of(&char).work_of_adhesion + share * of(&ash).work_of_adhesion;
+                Contact { work_of_adhesion: work, ..of(&char.mixed(&ash, share)) }
+            }
+        };
+        if impact.particle_density > 0.0 {
+            contact.density = impact.particle_density;
+        }
+        Ok(contact)
+    }
+}
