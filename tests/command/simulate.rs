@@ -8,7 +8,7 @@ use std::process::Command;
 use nalgebra::{Complex, Vector3};
 use nearwall::results::standalone::{ImpactRecorder, Run, run};
 use nearwall::simulate::{
-    Body, Burning, Case, Fate, ParticleMotion, Trajectory, fly, position, state, velocity,
+    Body, Burning, Case, Fate, Fusion, ParticleMotion, Shrinkage, Trajectory, fly, position, state, velocity,
 };
 
 /// A model with constant restitution, whose stickiness is a known number at each temperature.
@@ -57,7 +57,15 @@ fn trajectories(case: &mut Case) -> (Vec<Trajectory>, Vec<Run>) {
 }
 
 fn body(diameter: f64, density: f64) -> Body {
-    Body { diameter, density, heat_capacity: None, radiation: None, burning: Burning::NONE }
+    Body {
+        diameter,
+        density,
+        shrinkage: Shrinkage::NONE,
+        heat_capacity: None,
+        fusion: None,
+        radiation: None,
+        burning: Burning::NONE,
+    }
 }
 
 fn near(ours: f64, exact: f64, relative: f64) {
@@ -215,8 +223,9 @@ fn heating_and_burning_are_exponential() {
     near(end.state[6] - 300.0, 100.0 * (-1.5f64).exp(), 1e-6);
 
     let text = "[conversion]\nlaw = \"first-order\"\npre_exponential = 500\nactivation_energy = 20000\ncarbon = 0.9\n";
-    let burning = case_with(text).injection.burning;
-    let motion = ParticleMotion { body: Body { burning, ..body(1e-4, 1000.0) }, ..motion };
+    let burning = case_with(text).injections[0].burning;
+    let motion = ParticleMotion { body: Body { burning, shrinkage, ..body(1e-4, 1000.0) }, ..motion };
+    let shrinkage = Shrinkage::new(1000.0, 0.9, 0.25, 2400.0).unwrap();
     let rate = 500.0 * (-20000.0f64 / (8.314_462_618 * 400.0)).exp();
     let end = fly(&motion, &case.surfaces, 0.0, 1.0 / rate, &start, 1e-9).unwrap();
     near(end.state[7], 1.0 - (-1.0f64).exp(), 1e-6);
@@ -264,7 +273,7 @@ fn what_goes_in_is_what_ends_somewhere() {
     let text = text.replace("density = 1000\n", "density = 1000\nconversion = 0.1\n");
     let mut case = case(&text);
     let (trajectories, runs) = trajectories(&mut case);
-    let totals = &runs[0].totals;
+    let totals = &runs[0].totals.ends;
     let ends = [totals.captured, totals.escaped, totals.airborne, totals.given_up, totals.unusable];
     assert_eq!(ends.iter().map(|amount| amount.count).sum::<u64>(), 300);
     assert_eq!(totals.injected.count, 300);
@@ -276,8 +285,8 @@ fn what_goes_in_is_what_ends_somewhere() {
         trajectories.iter().filter(|l| matches!(l.fate, Fate::Stuck(_))).map(|l| l.mass[1]).sum();
     near(totals.captured.mass(), stuck, 1e-12);
     let hits: usize = trajectories.iter().map(|trajectory| trajectory.hits.len()).sum();
-    assert_eq!(totals.walls[0].1.hits.unwrap().count, hits as u64);
-    assert_eq!(totals.walls[0].1.regime_hits.unwrap().iter().sum::<u64>(), hits as u64);
+    assert_eq!(runs[0].totals.walls[0].1.hits.unwrap().count, hits as u64);
+    assert_eq!(runs[0].totals.walls[0].1.regime_hits.unwrap().iter().sum::<u64>(), hits as u64);
 }
 
 /// First hits stick with the logistic probability of the effect: the count is binomial.
@@ -341,7 +350,7 @@ fn example(name: &str) -> PathBuf {
 #[test]
 fn the_wax_rig_meets_the_paper() {
     let mut case = Case::from_file(&example("waxRig.toml")).unwrap();
-    case.injection.count = 600;
+    case.injections[0].count = 600;
     case.sweep.as_mut().unwrap().values = vec![293.15, 343.15, 378.15];
     case.hit_limit = 1;
     let (trajectories, runs) = trajectories(&mut case);
@@ -363,14 +372,14 @@ fn the_wax_rig_meets_the_paper() {
 fn every_example_runs() {
     for name in ["gasifier.toml", "tungstenDust.toml", "waxRig.toml"] {
         let mut case = Case::from_file(&example(name)).unwrap_or_else(|error| panic!("{error}"));
-        case.injection.count = 20;
+        case.injections[0].count = 20;
         if let Some(sweep) = &mut case.sweep {
             sweep.values.truncate(2);
         }
         let (_, runs) = trajectories(&mut case);
         for run in &runs {
-            assert_eq!(run.totals.unusable.count, 0, "{name}: {:?}", run.totals.first_trouble);
-            assert!(run.totals.balance_error().abs() < 1e-14);
+            assert_eq!(run.totals.ends.unusable.count, 0, "{name}: {:?}", run.totals.first_trouble);
+            assert!(run.totals.ends.balance_error().abs() < 1e-14);
             assert!(
                 run.totals.walls.iter().any(|(_, wall)| wall.hits.unwrap().count > 0),
                 "{name}: nothing hits a wall"

@@ -1,0 +1,137 @@
+//! Time that a particle spends near each wall, and in the part of a pipe that belongs to it.
+//!
+//! A particle is near a wall while the gap between its surface and the wall is at most a given distance. The centre is then in a
+//! layer of exactly that thickness, whatever the size of the particle, so that time over volume is a concentration that can be
+//! compared with that in the whole cross-section. Within a step the path is that of the dense output, straight between
+//! a few places.
+
+use differential_equations::interpolate::Interpolation;
+use differential_equations::ode::OrdinaryNumericalMethod;
+
+use super::flight::{Body, CONVERSION, PLACES, State, position, reach};
+use super::surface::{Shape, Surface, SurfaceKind};
+
+/// Times at one surface [s].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StayTime {
+    /// Near the wall.
+    pub near: f64,
+    /// In the whole cross-section of the pipe, between the ends of this part; 0 for a plane.
+    pub section: f64,
+}
+
+/// Times at all surfaces; empty when they are not asked for.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct StayTimes {
+    /// Gap up to which a particle is near a wall [m].
+    distance: f64,
+    /// In the order of the surfaces.
+    pub times: Vec<StayTime>,
+}
+
+impl StayTimes {
+    /// No time yet at any of so many surfaces.
+    pub(super) fn new(distance: f64, surfaces: usize) -> Self {
+        Self { distance, times: vec![StayTime::default(); surfaces] }
+    }
+
+    /// Adds the step that the solver has just taken, up to `end`: its time and state.
+    pub(super) fn add<S>(
+        &mut self,
+        solver: &mut S,
+        surfaces: &[Surface],
+        body: &Body,
+        (to, after): (f64, State),
+    ) where
+        S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+    {
+        let (from, before) = (solver.t_prev(), *solver.y_prev());
+        let mut path = Path { solver, from, to, before, after, places: Vec::new() };
+        let reach = reach(to - from, &before, &after);
+        for (time, surface) in self.times.iter_mut().zip(surfaces) {
+            if !matches!(surface.kind, SurfaceKind::Wall { .. }) {
+                continue;
+            }
+            let gap = |state: &State| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
+            if gap(&before) <= self.distance + reach {
+                let mut covered = 0.0;
+                path.each(|duration, one, other| {
+                    if surface.shape.covers(&position(one)) || surface.shape.covers(&position(other)) {
+                        covered += duration * share_below(self.distance, gap(one), gap(other));
+                    }
+                });
+                time.near += covered;
+            }
+            if let Shape::Pipe { zone: [begin, end], .. } = surface.shape {
+                let [one, other] = [&before, &after].map(|state| position(state).z);
+                let inside = |z: f64| (begin..=end).contains(&z);
+                if inside(one) && inside(other) {
+                    time.section += to - from;
+                } else if one.min(other) - reach <= end && one.max(other) + reach >= begin {
+                    path.each(|duration, one, other| {
+                        let [one, other] = [position(one).z, position(other).z];
+                        let share = share_below(end, one, other) - share_below(begin, one, other);
+                        time.section += duration * share;
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// Share of a straight piece from `one` to `other` that lies at or below a limit [1].
+fn share_below(limit: f64, one: f64, other: f64) -> f64 {
+    let (low, high) = (one.min(other), one.max(other));
+    if high <= limit {
+        1.0
+    } else if low > limit {
+        0.0
+    } else {
+        (limit - low) / (high - low)
+    }
+}
+
+/// The path of one step.
+struct Path<'a, S> {
+    solver: &'a mut S,
+    from: f64,
+    to: f64,
+    before: State,
+    after: State,
+    /// Filled at the first use.
+    places: Vec<State>,
+}
+
+impl<S> Path<'_, S>
+where
+    S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+{
+    /// Calls with the duration and both ends of each piece.
+    fn each(&mut self, mut piece: impl FnMut(f64, &State, &State)) {
+        let duration = (self.to - self.from) / f64::from(PLACES);
+        if self.places.is_empty() {
+            self.places.push(self.before);
+            for place in 1..PLACES {
+                let time = self.from + duration * f64::from(place);
+                self.places.push(self.solver.interpolate(time).unwrap_or(self.after));
+            }
+            self.places.push(self.after);
+        }
+        for pair in self.places.windows(2) {
+            piece(duration, &pair[0], &pair[1]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_below_a_limit_is_that_of_a_straight_line() {
+        assert_eq!(share_below(1.0, 0.0, 4.0), 0.25);
+        assert_eq!(share_below(1.0, 4.0, 0.0), 0.25);
+        assert_eq!((share_below(1.0, 0.2, 0.9), share_below(1.0, 1.2, 2.0)), (1.0, 0.0));
+        assert_eq!((share_below(1.0, 1.0, 1.0), share_below(1.0, 1.5, 1.5)), (1.0, 0.0));
+    }
+}
