@@ -19,7 +19,6 @@ use super::fusion::Fusion;
 use super::geometry::{across, direction, required_vector, required_within, vector};
 use super::shrinkage::{ASH_DENSITY, Shrinkage};
 use crate::input::{InputError, Section};
-use crate::material::Material;
 use crate::model::Model;
 
 /// The `[particles]` of a case, or one of several `[[particles]]`.
@@ -140,8 +139,14 @@ impl Injection {
         self.walls.get(of_case).copied().unwrap_or(of_case)
     }
 
-    /// What a particle of a diameter and a density before any carbon is gone [m, kg/m³] consists of; `material` is that of
-    /// the model, at the `temperature` [K] of the start.
+    /// Density of the ash [kg/m³]: that of the case, else that of the model's ash near a temperature [K], else an assumed one.
+    pub(super) fn ash_density(&self, model: &Model, temperature: f64) -> f64 {
+        let of_model = || model.ash().and_then(|ash| ash.density_near(temperature).ok());
+        self.burning.ash_density.or_else(of_model).unwrap_or(ASH_DENSITY)
+    }
+
+    /// What a particle of a diameter and a density before any carbon is gone [m, kg/m³] consists of, with the `temperature` [K]
+    /// of its start.
     ///
     /// # Errors
     /// A message when its ash does not fit into it, or when no melting point is known.
@@ -150,24 +155,22 @@ impl Injection {
         diameter: f64,
         density: f64,
         temperature: f64,
-        material: &Material,
+        model: &Model,
     ) -> Result<Body, String> {
         let Self { heat_capacity, radiation, burning, .. } = *self;
-        // A density that nobody stated must not refuse a heavy particle.
-        let assumed = || ASH_DENSITY.max((1.0 - burning.carbon) * density);
-        let ash_density = burning.ash_density.unwrap_or_else(assumed);
+        let mut ash_density = self.ash_density(model, temperature);
+        if burning.ash_density.is_none() {
+            // A density that the case does not state must not refuse a heavy particle.
+            ash_density = ash_density.max((1.0 - burning.carbon) * density);
+        }
         let shrinkage = Shrinkage::new(density, burning.carbon, burning.diameter_exponent, ash_density)?;
         let fusion = match self.fusion.zip(heat_capacity) {
             None => None,
             Some((keys, capacity)) => {
-                let known = || material.property("melting_point")?.at(temperature).ok();
-                let point = keys.melting_point.or_else(known);
-                let point = point.ok_or_else(|| {
-                    format!(
-                        "the material `{}` has no melting_point; add it to the particles",
-                        material.name()
-                    )
-                })?;
+                let point = match keys.melting_point {
+                    Some(point) => point,
+                    None => melting_point(model, temperature)?,
+                };
                 Some(Fusion::new(keys.heat, capacity, point, keys.range))
             }
         };
@@ -249,6 +252,15 @@ pub(super) fn model_file(section: &Section<'_>, name: &str, folder: &Path) -> Re
         return Err(section.fault("model", problem));
     }
     Model::from_file(&path)
+}
+
+/// Melting point [K] of the model's ash, or of its particle where it has none.
+fn melting_point(model: &Model, temperature: f64) -> Result<f64, String> {
+    let material = model.ash().unwrap_or_else(|| model.particle());
+    let known = material.property("melting_point").and_then(|property| property.at(temperature).ok());
+    known.ok_or_else(|| {
+        format!("the material `{}` has no melting_point; add melting_point to the particles", material.name())
+    })
 }
 
 /// For each wall of the case's model the one of the same name in `own`, else its `default`.

@@ -53,25 +53,26 @@ impl StayTimes {
                 continue;
             }
             let gap = |state: &State| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
+            let [begin, end] = bounds(&surface.shape);
+            let coordinate = |state: &State| surface.shape.coordinate(&position(state));
+            let inside =
+                |one: &State, other: &State| between([begin, end], coordinate(one), coordinate(other));
             if gap(&before) <= self.distance + reach {
-                let mut covered = 0.0;
                 path.each(|duration, one, other| {
-                    if surface.shape.covers(&position(one)) || surface.shape.covers(&position(other)) {
-                        covered += duration * share_below(self.distance, gap(one), gap(other));
-                    }
+                    time.near += duration
+                        * overlap(
+                            between([f64::NEG_INFINITY, self.distance], gap(one), gap(other)),
+                            inside(one, other),
+                        );
                 });
-                time.near += covered;
             }
-            if let Shape::Pipe { zone: [begin, end], .. } = surface.shape {
-                let [one, other] = [&before, &after].map(|state| position(state).z);
-                let inside = |z: f64| (begin..=end).contains(&z);
-                if inside(one) && inside(other) {
+            if let Shape::Pipe { .. } = surface.shape {
+                let [one, other] = [&before, &after].map(coordinate);
+                if [one, other].iter().all(|z| (begin..=end).contains(z)) {
                     time.section += to - from;
                 } else if one.min(other) - reach <= end && one.max(other) + reach >= begin {
                     path.each(|duration, one, other| {
-                        let [one, other] = [position(one).z, position(other).z];
-                        let share = share_below(end, one, other) - share_below(begin, one, other);
-                        time.section += duration * share;
+                        time.section += duration * overlap([0.0, 1.0], inside(one, other));
                     });
                 }
             }
@@ -79,16 +80,26 @@ impl StayTimes {
     }
 }
 
-/// Share of a straight piece from `one` to `other` that lies at or below a limit [1].
-fn share_below(limit: f64, one: f64, other: f64) -> f64 {
-    let (low, high) = (one.min(other), one.max(other));
-    if high <= limit {
-        1.0
-    } else if low > limit {
-        0.0
-    } else {
-        (limit - low) / (high - low)
+/// The coordinates between which a surface lies [m].
+fn bounds(shape: &Shape) -> [f64; 2] {
+    match *shape {
+        Shape::Plane { radius, .. } => [f64::NEG_INFINITY, radius.unwrap_or(f64::INFINITY)],
+        Shape::Pipe { zone, .. } => zone,
     }
+}
+
+/// The part of a straight piece from `one` to `other`, from 0 to 1, on which the value lies within limits.
+fn between([low, high]: [f64; 2], one: f64, other: f64) -> [f64; 2] {
+    if one == other {
+        return if (low..=high).contains(&one) { [0.0, 1.0] } else { [0.0, 0.0] };
+    }
+    let [at_low, at_high] = [low, high].map(|limit| ((limit - one) / (other - one)).clamp(0.0, 1.0));
+    [at_low.min(at_high), at_low.max(at_high)]
+}
+
+/// Length that two parts have in common.
+fn overlap([from, to]: [f64; 2], [begin, end]: [f64; 2]) -> f64 {
+    (to.min(end) - from.max(begin)).max(0.0)
 }
 
 /// The path of one step.
@@ -128,10 +139,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_share_below_a_limit_is_that_of_a_straight_line() {
-        assert_eq!(share_below(1.0, 0.0, 4.0), 0.25);
-        assert_eq!(share_below(1.0, 4.0, 0.0), 0.25);
-        assert_eq!((share_below(1.0, 0.2, 0.9), share_below(1.0, 1.2, 2.0)), (1.0, 0.0));
-        assert_eq!((share_below(1.0, 1.0, 1.0), share_below(1.0, 1.5, 1.5)), (1.0, 0.0));
+    fn the_part_within_limits_is_that_of_a_straight_line() {
+        assert_eq!(between([1.0, 2.0], 0.0, 4.0), [0.25, 0.5]);
+        assert_eq!(between([1.0, 2.0], 4.0, 0.0), [0.5, 0.75]);
+        assert_eq!(between([f64::NEG_INFINITY, 1.0], 4.0, 0.0), [0.75, 1.0]);
+        assert_eq!(between([f64::NEG_INFINITY, 1.0], 0.0, 4.0), [0.0, 0.25]);
+        assert_eq!(between([f64::NEG_INFINITY, f64::INFINITY], 4.0, 0.0), [0.0, 1.0]);
+        assert_eq!(overlap([0.0, 1.0], between([1.0, 2.0], 3.0, 5.0)), 0.0);
+        assert_eq!(overlap([0.0, 1.0], between([1.0, 2.0], 1.5, 1.5)), 1.0);
+        assert_eq!(overlap([0.0, 0.4], [0.3, 0.9]), 0.4 - 0.3);
+        assert_eq!(overlap([0.0, 0.4], [0.5, 0.9]), 0.0);
     }
 }

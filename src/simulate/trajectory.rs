@@ -134,7 +134,7 @@ pub(super) fn follow(case: &Case, walls: Option<&WallDeposits>, number: u64) -> 
 
 fn body(case: &Case, injection: &Injection, diameter: f64, temperature: f64) -> Result<Body, String> {
     let density = case.density(injection, temperature).map_err(|error| error.to_string())?;
-    injection.body(diameter, density, temperature, case.model_of(injection).particle())
+    injection.body(diameter, density, temperature, case.model_of(injection))
 }
 
 /// Stands for a particle that cannot be used.
@@ -227,11 +227,13 @@ impl Tracker<'_> {
         let frame = WallFrame::new(&surface.shape, &here, &velocity(&self.state));
         let spin_axis = frame.normal.cross(&frame.along);
         let gas = self.case.gas.at(&here).velocity;
+        let density = self.motion.body.density_at(self.state[CONVERSION]);
         let impact = Impact {
             normal_speed: frame.normal_speed,
             tangential_speed: frame.tangential_speed,
             diameter: self.diameter(),
             particle_temperature: self.motion.body.temperature(&self.state),
+            particle_density: density,
             wall_temperature: temperature.at(&here),
             conversion: self.state[CONVERSION].clamp(0.0, 1.0),
             gas_speed: (gas - frame.normal * frame.normal.dot(&gas)).norm(),
@@ -245,7 +247,6 @@ impl Tracker<'_> {
         };
         let key = (self.number << HIT_BITS) | self.hits.len() as u64;
         let outcome = model.resolve(wall, &impact, ImpactRng::new(self.case.seed, key))?;
-        let density = self.motion.body.density_at(self.state[CONVERSION]);
         let (time, mass) = (self.time, self.mass());
         self.hits.push(Hit { time, surface: index, position: here, impact, outcome, density, mass });
         if outcome.stuck {

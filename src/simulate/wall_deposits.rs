@@ -210,7 +210,8 @@ impl Bin {
         let carbon = self.powder.with(&std::mem::take(&mut self.powder_source)).times(kept);
         self.powder = carbon;
         // The law is that of the case, the same for all injections.
-        let Some(law) = case.injections.first().map(|injection| injection.burning) else { return Ok(0.0) };
+        let Some(injection) = case.injections.first() else { return Ok(0.0) };
+        let law = injection.burning;
         if carbon.left <= 0.0 {
             return Ok(0.0);
         }
@@ -220,7 +221,7 @@ impl Bin {
             combustible: carbon.left,
             left,
             diameter_exponent: law.diameter_exponent,
-            ash_density: law.ash_density.unwrap_or(ASH_DENSITY),
+            ash_density: injection.ash_density(&case.model, temperature),
             ash_melts: ash_melts(case, wall, temperature)?,
         };
         self.deposit = burn_off::after(&self.deposit, &burning);

@@ -240,7 +240,7 @@ fn case_with(more: &str) -> Case {
 /// v = v0 exp(-18 mu/(rho d0²) integral of dt/(1 - c k t)^(2/3)).
 #[test]
 fn a_shrinking_core_slows_down_as_the_integral_says() {
-    let gas = "field = \"uniform\"\nvelocity = [0, 0, 0]\ndensity = 1e-12\nviscosity = 1e-3\nconductivity = 1\n\
+    let gas = "field = \"uniform\"\nvelocity = [0, 0, 0]\ndensity = 1e-12\nviscosity = 1e-4\nconductivity = 1\n\
                heat_capacity = 1000";
     let law = "[conversion]\nlaw = \"fixed-rate\"\nrate = 2\ncarbon = 0.9\ndiameter_exponent = 0.3333333333333333\n";
     let case = case(&plane(gas, ONE, "", law));
@@ -251,7 +251,7 @@ fn a_shrinking_core_slows_down_as_the_integral_says() {
     let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::new(3.0, 0.0, 0.0), 300.0, 0.0);
     let time = 0.4;
     let end = fly(&motion, &case.surfaces, 0.0, time, &start, 1e-10).unwrap();
-    let (loss, tau) = (0.9 * 2.0, 1000.0 * 1e-6 / (18.0 * 1e-3));
+    let (loss, tau) = (0.9 * 2.0, 1000.0 * 1e-6 / (18.0 * 1e-4));
     let left: f64 = 1.0 - loss * time;
     near(end.state[7], 0.8, 1e-9);
     near(body.diameter_at(end.state[7]), 1e-3 * left.cbrt(), 1e-9);
@@ -298,7 +298,7 @@ fn freezing_takes_the_time_of_the_enthalpy_integral() {
         let motion = ParticleMotion { gas: &case.gas, gravity: Vector3::zeros(), body };
         let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::zeros(), fusion.sensible(400.0), 1.0);
         let end = fly(&motion, &case.surfaces, 0.0, time * tau, &start, 1e-9).unwrap();
-        near(body.temperature(&end.state), 340.0, 1e-7);
+        near(body.temperature(&end.state), 340.0, 1e-5);
     }
 }
 
@@ -313,7 +313,7 @@ fn heat_of_fusion_and_thin_gas_slow_down_cooling() {
         trajectories(&mut case).0[0].hits[0].impact.particle_temperature
     };
     let plain = arrives("", "");
-    let freezing = "heat_of_fusion = 8e6\nmelting_point = 400\nmelting_range = 20";
+    let freezing = "heat_of_fusion = 3e7\nmelting_point = 400\nmelting_range = 20";
     assert!((390.0..=410.0).contains(&arrives(freezing, "")) && plain < 301.0, "{plain}");
     let thin = arrives("", "mean_free_path = 1e-3");
     let cold = arrives("", "mean_free_path = 1e-3\naccommodation = 0.3");
@@ -527,29 +527,40 @@ fn covering_char_burns_off() {
     let kept = last.mass() * first.area + first.burnt.last().unwrap();
     near(kept, *first.arrived.last().unwrap(), 1e-12);
     near(runs[0].totals.ends.captured.mass(), *first.arrived.last().unwrap(), 1e-12);
-    assert!(last.powder / last.solid > 1000.0 && last.cover < 1.5 * 1e-5 / first.area / 0.1);
+    // The grains that came in step n have burnt for 20 - n + 1 steps, and each is a particle of its own.
+    let ash = 0.2 * 1000.0 / 2000.0;
+    let volume = |steps: i32| ash + (1.0 - ash) * ratio.powi(steps).powf(0.75);
+    let mean = |of: &dyn Fn(f64) -> f64| (1..=20).map(|steps| of(volume(steps))).sum::<f64>() / 20.0;
+    let whole = 1e-5 / first.area;
+    near(last.solid, whole / 1000.0 * mean(&|v| v), 0.02);
+    near(last.cover, 1.5 * whole / 0.1 * mean(&|v| v.powf(2.0 / 3.0)), 0.02);
 }
 
-/// A slagging wall takes up the ash of the char that burns on it.
+/// Drops of ash make a hot wall sticky, char stays on it as powder, burns, and its ash joins the melt.
 #[test]
 fn on_a_hot_wall_the_ash_of_burnt_char_becomes_melt() {
     let law = "[[model.effects]]\nkind = \"conversion-transition\"\nthreshold = 0.5\nwidth = 0.01\n\
                [conversion]\nlaw = \"first-order\"\npre_exponential = 0.05\nactivation_energy = 0\ncarbon = 0.8\n";
-    let sticky = "model = \"constant\"\ne_n = 0\n";
     let text = falling(law, "")
         .replace("normal = [0, 0, 1]\ntemperature = 300", "normal = [0, 0, 1]\ntemperature = 500");
-    let text = text
-        .replace("[model.normal]\nmodel = \"constant\"\ne_n = 0.5\n", &format!("[model.normal]\n{sticky}"));
-    let (trajectories, runs) = trajectories(&mut case(&text));
+    let (before, rest) = text.split_once("[particles]\n").unwrap();
+    let (char, after) = rest.split_once("[[walls]]").unwrap();
+    let drops = char.replace("conversion = 0\n", "conversion = 1\ncarbon = 0\n").replace("1e-5", "4e-5");
+    let text = format!(
+        "{before}[[particles]]\nname = \"drops\"\n{drops}[[particles]]\nname = \"char\"\n{char}[[walls]]{after}"
+    );
+    let (_, runs) = trajectories(&mut case(&text));
+    let [drops, char] = &runs[0].totals.injections[..] else { panic!() };
+    assert_eq!(drops.captured.count, 200);
+    assert!(char.captured.count > 100, "{}", char.captured.count);
     let bin = &runs[0].deposits.as_ref().unwrap().walls[0].bins[0];
     let last = bin.states.last().unwrap();
-    if trajectories.iter().any(|t| matches!(t.fate, Fate::Stuck(_))) {
-        assert!(last.molten > 0.0 && last.powder > 0.0);
-        let kept = last.mass() * bin.area + bin.burnt.last().unwrap();
-        near(kept, *bin.arrived.last().unwrap(), 1e-12);
-    } else {
-        panic!("nothing was captured");
-    }
+    let burnt = *bin.burnt.last().unwrap();
+    assert!(last.powder > 0.0 && burnt > 0.0);
+    near(last.mass() * bin.area + burnt, *bin.arrived.last().unwrap(), 1e-12);
+    // What burns is carbon, four times the ash that it leaves; what melt buries does not burn.
+    let buried_or_melted = last.molten * bin.area - drops.captured.mass();
+    assert!(buried_or_melted >= 0.25 * burnt * (1.0 - 1e-9), "{buried_or_melted} {burnt}");
 }
 
 #[test]
@@ -592,14 +603,14 @@ fn the_time_near_a_wall_is_that_of_the_straight_path() {
 #[test]
 fn an_even_stream_is_as_dense_at_the_wall_as_elsewhere() {
     let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
-    let particles = "count = 20000\nposition = { shape = \"disc\", center = [0, 0, 0], normal = [0, 0, 1], radius = 0.0999999 }\n\
-                     direction = [0, 0, 1]\nspeed = 2\ndiameter = 1e-7\ntemperature = 300\ndensity = 1000";
+    let particles = "count = 20000\nposition = { shape = \"disc\", center = [0, 0, 0], normal = [0, 0, 1], radius = 0.09999 }\n\
+                     direction = [0, 0, 1]\nspeed = 2\ndiameter = 1e-5\ntemperature = 300\ndensity = 1000";
     let text = plane(&gas, particles, "gravity = [0, 0, 0]\nnear_wall_distance = 0.02", "");
     let (before, _) = text.split_once("[[walls]]").unwrap();
     let pipe = "[[walls]]\nname = \"pipe\"\nwall = \"default\"\nshape = \"pipe\"\nradius = 0.1\nzone = [0.5, 1.0]\n\
                 temperature = 300\n[[exits]]\nname = \"end\"\nshape = \"plane\"\npoint = [0, 0, 2]\nnormal = [0, 0, -1]\n";
     let (trajectories, runs) = trajectories(&mut case(&format!("{before}{pipe}")));
-    assert!(trajectories.iter().all(|t| (t.stays[0].section - 0.25).abs() < 1e-6));
+    assert!(trajectories.iter().all(|t| (t.stays[0].section - 0.25).abs() < 1e-5));
     let near_wall = runs[0].totals.walls[0].1.near_wall.unwrap();
     near(near_wall.stays.mean, 0.25, 1e-4);
     let [number, mass] = near_wall.concentration().unwrap();
@@ -703,7 +714,7 @@ fn errors_name_the_place_the_key_and_the_remedy() {
         ),
         ("speed = 3", "heat_of_fusion = 1e5\nspeed = 3", "particles.heat_capacity: missing"),
         ("speed = 3", "melting_range = 5\nspeed = 3", "particles.melting_range: needs `heat_of_fusion`"),
-        ("speed = 3", "model = \"none.toml\"\nspeed = 3", "particles.model: there is no file none.toml"),
+        ("speed = 3", "model = \"none.toml\"\nspeed = 3", "particles.model: there is no file ./none.toml"),
         ("[run]", "[deposit]\nduration = 10\n[run]", "deposit.duration: the wall `floor` has no end"),
         ("[run]", "[sweep]\nkey = \"temperature\"\nvalues = [0]\n[run]", "sweep.values: 0 is outside"),
     ] {
@@ -732,7 +743,7 @@ fn the_command_writes_its_files_and_refuses_bad_cases() {
     assert_eq!(summary["runs"][1]["swept"]["value"], 380.0);
     assert!(
         read("impacts.csv")
-            .starts_with("time,wall,particle,hit,v_n,v_t,omega,d,T_p,conversion,T_w,v_gas,x,y,z,e_n")
+            .starts_with("time,wall,particle,hit,v_n,v_t,omega,d,T_p,rho_p,conversion,T_w,v_gas,x,y,z,e_n")
     );
     assert!(read("report.html").contains("id=\"sweep-capture\""));
     assert_eq!(std::fs::read_dir(folder.path().join("rig")).unwrap().count(), 3, "no scratch files are left");
