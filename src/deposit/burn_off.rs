@@ -24,6 +24,8 @@ pub struct Burning {
     pub combustible: f64,
     /// Share of it that is left after the step, `r` [1].
     pub left: f64,
+    /// Carbon conversion of the powder before the step, `X` [1].
+    pub conversion: f64,
     /// Exponent `a` of the size of the combustible matter [1]; 0 for particles of constant size.
     pub diameter_exponent: f64,
     /// Density of the ash, `rho_ash` [kg/m³].
@@ -32,15 +34,15 @@ pub struct Burning {
     pub ash_melts: bool,
 }
 
-/// The deposit after the step. Its mean conversion rises by the combustible matter that is gone.
+/// The deposit after the step. In the mean conversion, powder that shrinks counts with `1 - (1 - X) r`, powder that is left beside
+/// melting ash with `X`, and that ash with 1.
 #[must_use]
 pub fn after(deposit: &Deposit, burning: &Burning) -> Deposit {
-    let Burning { combustible, left, diameter_exponent, ash_density, ash_melts } = *burning;
+    let Burning { combustible, left, conversion, diameter_exponent, ash_density, ash_melts } = *burning;
     let combustible = combustible.min(deposit.powder);
     if combustible <= 0.0 || left >= 1.0 {
         return *deposit;
     }
-    let burnt = combustible * (1.0 - left);
     let ash = deposit.powder - combustible;
     let after = if ash_melts {
         Deposit {
@@ -62,10 +64,11 @@ pub fn after(deposit: &Deposit, burning: &Burning) -> Deposit {
             ..*deposit
         }
     };
-    // The carbon that a kilogram still has falls with the combustible mass.
-    let unburnt = deposit.mass() * (1.0 - deposit.conversion) - burnt;
-    let conversion = if after.mass() > 0.0 { 1.0 - unburnt / after.mass() } else { 1.0 };
-    Deposit { conversion: conversion.clamp(0.0, 1.0), ..after }
+    let of_powder = if ash_melts { conversion } else { 1.0 - (1.0 - conversion) * left };
+    let elsewhere = deposit.mass() * deposit.conversion - deposit.powder * conversion;
+    let converted = elsewhere + after.powder * of_powder + (after.molten - deposit.molten);
+    let mean = if after.mass() > 0.0 { converted / after.mass() } else { 1.0 };
+    Deposit { conversion: mean.clamp(0.0, 1.0), ..after }
 }
 
 #[cfg(test)]
@@ -79,12 +82,14 @@ mod tests {
 
     fn char() -> Deposit {
         let deposit = Deposit::default().with(&DepositSource::default().with(&CHAR));
-        Deposit { molten: 0.3, ..deposit }
+        // The melt has no carbon.
+        Deposit { molten: 0.3, conversion: 0.3 / (deposit.mass() + 0.3), ..deposit }
     }
 
     const BURNING: Burning = Burning {
         combustible: 1.8e-3,
         left: 0.25,
+        conversion: 0.0,
         diameter_exponent: 0.25,
         ash_density: 2400.0,
         ash_melts: false,
@@ -126,6 +131,16 @@ mod tests {
         let gone = after(&char(), &Burning { left: 0.0, ..melting });
         assert_eq!((gone.solid, gone.cover), (0.0, 0.0));
         assert!(gone.powder.abs() < 1e-18);
+    }
+
+    /// Char of conversion 0 beside melt of conversion 1: by mass.
+    #[test]
+    fn the_mean_conversion_is_that_of_the_parts() {
+        let shrunk = after(&char(), &BURNING);
+        let mean = (0.3 + shrunk.powder * 0.75) / (0.3 + shrunk.powder);
+        assert_relative_eq!(shrunk.conversion, mean, max_relative = 1e-12);
+        let melted = after(&char(), &Burning { ash_melts: true, ..BURNING });
+        assert_relative_eq!(melted.conversion, melted.molten / melted.mass(), max_relative = 1e-12);
     }
 
     /// Two steps are one of both durations, since r multiplies.

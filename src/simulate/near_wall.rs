@@ -2,14 +2,17 @@
 //!
 //! A particle is near a wall while the gap between its surface and the wall is at most a given distance. The centre is then in a
 //! layer of exactly that thickness, whatever the size of the particle, so that time over volume is a concentration that can be
-//! compared with that in the whole cross-section. Within a step the path is that of the dense output, straight between
-//! a few places.
+//! compared with that in the whole cross-section. Within a step the path is that of the dense output; where the particle comes
+//! near is found by bisection.
 
 use differential_equations::interpolate::Interpolation;
 use differential_equations::ode::OrdinaryNumericalMethod;
 
 use super::flight::{Body, CONVERSION, PLACES, State, position, reach};
 use super::surface::{Shape, Surface, SurfaceKind};
+
+/// Halvings of the piece of a path on which the particle comes near a wall or leaves it.
+const HALVINGS: u32 = 30;
 
 /// Times at one surface [s].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -58,12 +61,9 @@ impl StayTimes {
             let inside =
                 |one: &State, other: &State| between([begin, end], coordinate(one), coordinate(other));
             if gap(&before) <= self.distance + reach {
-                path.each(|duration, one, other| {
-                    time.near += duration
-                        * overlap(
-                            between([f64::NEG_INFINITY, self.distance], gap(one), gap(other)),
-                            inside(one, other),
-                        );
+                path.each(|duration, one, other, at| {
+                    let near = below(self.distance, &gap, [one, other], at);
+                    time.near += duration * overlap(near, inside(one, other));
                 });
             }
             if let Shape::Pipe { .. } = surface.shape {
@@ -71,7 +71,7 @@ impl StayTimes {
                 if [one, other].iter().all(|z| (begin..=end).contains(z)) {
                     time.section += to - from;
                 } else if one.min(other) - reach <= end && one.max(other) + reach >= begin {
-                    path.each(|duration, one, other| {
+                    path.each(|duration, one, other, _| {
                         time.section += duration * overlap([0.0, 1.0], inside(one, other));
                     });
                 }
@@ -97,6 +97,27 @@ fn between([low, high]: [f64; 2], one: f64, other: f64) -> [f64; 2] {
     [at_low.min(at_high), at_low.max(at_high)]
 }
 
+/// The part of a piece, from 0 to 1, on which the gap is at most `limit`; `at` gives the state on the piece.
+fn below(
+    limit: f64,
+    gap: &impl Fn(&State) -> f64,
+    [one, other]: [&State; 2],
+    at: &mut dyn FnMut(f64) -> State,
+) -> [f64; 2] {
+    match [one, other].map(|state| gap(state) <= limit) {
+        [true, true] => [0.0, 1.0],
+        [false, false] => [0.0, 0.0],
+        [first, _] => {
+            let [mut from, mut to] = [0.0, 1.0];
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (from + to);
+                if (gap(&at(middle)) <= limit) == first { from = middle } else { to = middle }
+            }
+            if first { [0.0, from] } else { [to, 1.0] }
+        }
+    }
+}
+
 /// Length that two parts have in common.
 fn overlap([from, to]: [f64; 2], [begin, end]: [f64; 2]) -> f64 {
     (to.min(end) - from.max(begin)).max(0.0)
@@ -117,8 +138,8 @@ impl<S> Path<'_, S>
 where
     S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
 {
-    /// Calls with the duration and both ends of each piece.
-    fn each(&mut self, mut piece: impl FnMut(f64, &State, &State)) {
+    /// Calls with the duration and both ends of each piece, and with its states from 0 to 1.
+    fn each(&mut self, mut piece: impl FnMut(f64, &State, &State, &mut dyn FnMut(f64) -> State)) {
         let duration = (self.to - self.from) / f64::from(PLACES);
         if self.places.is_empty() {
             self.places.push(self.before);
@@ -128,8 +149,11 @@ where
             }
             self.places.push(self.after);
         }
-        for pair in self.places.windows(2) {
-            piece(duration, &pair[0], &pair[1]);
+        let (solver, after) = (&mut *self.solver, self.after);
+        for (place, pair) in self.places.windows(2).enumerate() {
+            let begin = self.from + duration * place as f64;
+            let mut at = |share: f64| solver.interpolate(begin + duration * share).unwrap_or(after);
+            piece(duration, &pair[0], &pair[1], &mut at);
         }
     }
 }

@@ -220,6 +220,7 @@ impl Bin {
         let burning = burn_off::Burning {
             combustible: carbon.left,
             left,
+            conversion,
             diameter_exponent: law.diameter_exponent,
             ash_density: injection.ash_density(&case.model, temperature),
             ash_melts: ash_melts(case, wall, temperature)?,

@@ -56,6 +56,10 @@ fn trajectories(case: &mut Case) -> (Vec<Trajectory>, Vec<Run>) {
     (trajectories, runs.unwrap())
 }
 
+fn trajectories_of(text: &str) -> (Vec<Trajectory>, Vec<Run>) {
+    trajectories(&mut case(text))
+}
+
 fn body(diameter: f64, density: f64) -> Body {
     Body {
         diameter,
@@ -594,6 +598,13 @@ fn the_time_near_a_wall_is_that_of_the_straight_path() {
     let near_wall = runs[0].totals.walls[0].1.near_wall.unwrap();
     assert_eq!((near_wall.stays.count, near_wall.concentration()), (1, None));
     near(near_wall.near[1].total(), exact * PI / 6.0 * 1e-12 * 1000.0, 1e-6);
+    // A throw: the last 20 mm of the fall, and the first of the rebound with half of the speed.
+    let (trajectories, _) =
+        trajectories_of(&plane(&gas, ONE, "near_wall_distance = 0.02\nhit_limit = 1", ""));
+    let (hit, first) =
+        (trajectories[0].hits[0].impact.normal_speed, 0.5 * trajectories[0].hits[0].impact.normal_speed);
+    let through = |speed: f64| (speed - (speed * speed - 2.0 * 9.81 * 0.02).sqrt()) / 9.81;
+    near(trajectories[0].stays[0].near, through(hit) + 2.0 * through(first), 1e-6);
     // Five mean diameters without a key.
     let case = case(&plane(&gas, ONE, "", ""));
     near(case.near_wall_distance, 5e-4, 1e-12);

@@ -17,14 +17,15 @@ const INJECTION: &str = "injection";
 
 /// Writes impacts as a data file that `nearwall predict` and `nearwall diagnose` read, up to a number of rows.
 ///
-/// The rows are all hits of the first particles: a fair sample, since particles are drawn alike. The first particle
-/// whose hits do not all fit ends the record. Each value of a sweep has an equal number of rows.
+/// The rows are all hits of the first particles of each injection: a fair sample, since particles are drawn alike (in a case
+/// with a deposit, of the time of the first particles). The first particle whose hits do not all fit ends the record. Each
+/// injection and each value of a sweep has an equal number of rows.
 pub struct ImpactRecorder<W: Write> {
     writer: csv::Writer<W>,
-    /// Rows for each run of the case.
+    /// Rows for each injection in each run of the case.
     limit: u64,
-    /// Rows left in this run.
-    left: u64,
+    /// Rows left for each injection in this run.
+    left: Vec<u64>,
     /// Value of the swept quantity in this run.
     value: Option<f64>,
     /// Hits that did not fit into the file.
@@ -44,8 +45,9 @@ impl<W: Write> ImpactRecorder<W> {
         let header = BEFORE.into_iter().chain(inputs).chain(AFTER).chain(injection).map(str::to_owned);
         writer.write_record(header.chain(swept.map(|key| format!("swept_{key}"))))?;
         let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len().max(1));
-        let limit = case.recorded / runs as u64;
-        Ok(Self { writer, limit, left: limit, value: None, left_out: 0 })
+        let injections = case.injections.len();
+        let limit = case.recorded / (runs * injections) as u64;
+        Ok(Self { writer, limit, left: vec![limit; injections], value: None, left_out: 0 })
     }
 
     /// Writes the hits of a particle.
@@ -60,15 +62,17 @@ impl<W: Write> ImpactRecorder<W> {
         trajectory: &Trajectory,
     ) -> csv::Result<()> {
         if value != self.value {
-            (self.value, self.left) = (value, self.limit);
+            self.value = value;
+            self.left.fill(self.limit);
         }
         let rows = trajectory.hits.len() as u64;
-        if rows > self.left {
+        let left = &mut self.left[trajectory.injection];
+        if rows > *left {
             self.left_out += rows;
-            self.left = 0;
+            *left = 0;
             return Ok(());
         }
-        self.left -= rows;
+        *left -= rows;
         for (index, hit) in trajectory.hits.iter().enumerate() {
             self.row(case, trajectory, number, index, hit)?;
         }
@@ -119,6 +123,8 @@ fn inputs(case: &Case) -> impl Iterator<Item = &'static crate::impact::Input> {
 
 /// The shortest text that reads back as the same number.
 pub(super) fn text(number: f64) -> String {
+    // Without the sign of a negative zero.
+    let number = number + 0.0;
     if number != 0.0 && !(1e-3..1e6).contains(&number.abs()) {
         format!("{number:e}")
     } else {
