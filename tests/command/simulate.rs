@@ -768,6 +768,26 @@ fn the_command_writes_its_files_and_refuses_bad_cases() {
         );
     }
 
+    let text = falling("", "").replace("count = 200", "count = 40");
+    std::fs::write(folder.path().join("wall.toml"), text).unwrap();
+    let done = nearwall(folder.path(), &["simulate", "wall.toml"]);
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("wall").join(name)).unwrap();
+    let deposit = read("deposit.csv");
+    assert!(deposit.starts_with("time_s,wall,from_m,to_m,area_m2,coverage,"));
+    assert_eq!(deposit.lines().count(), 1 + 21 * 4);
+    assert!(deposit.lines().skip(1).all(|row| row.split(',').all(|cell| cell != "-0" && cell != "NaN")));
+    assert!(read("impacts.csv").lines().next().unwrap().contains("coverage,layer_thickness"));
+    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    let on_wall = &summary["runs"][0]["deposits"][0];
+    assert!(on_wall["balance_error"].as_f64().unwrap().abs() < 1e-12 && on_wall["arrived_mass"] == 1e-5);
+    assert!(summary["runs"][0]["walls"][0]["near_wall"]["particles"] == 40);
+    let page = read("report.html");
+    for part in ["wall-coverage", "How densely particles linger at the walls", "residence time near the wall"]
+    {
+        assert!(page.contains(part), "{part}");
+    }
+
     let absent = nearwall(folder.path(), &["simulate", "none.toml"]);
     assert_eq!(absent.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&absent.stderr).contains("none.toml"));
