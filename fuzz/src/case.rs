@@ -47,7 +47,13 @@ pub fn case(bytes: &[u8]) {
         Err(error) => return place(&error.to_string(), FILE, text),
         Ok(case) => case,
     };
-    case.injection.count = case.injection.count.min(2);
+    for injection in &mut case.injections {
+        injection.count = injection.count.min(2);
+    }
+    if let Some(deposit) = &mut case.deposit {
+        deposit.steps = deposit.steps.min(3);
+        deposit.bins = deposit.bins.min(3);
+    }
     case.hit_limit = case.hit_limit.min(4);
     case.time_limit = case.time_limit.min(1e-2);
     case.tolerance = case.tolerance.max(1e-4);
@@ -58,7 +64,7 @@ pub fn case(bytes: &[u8]) {
     // A swept value that cannot be set is named.
     let Ok(runs) = runs else { return };
     for run in &runs {
-        let totals = &run.totals;
+        let totals = &run.totals.ends;
         let ends = [totals.captured, totals.escaped, totals.airborne, totals.given_up, totals.unusable];
         assert_eq!(ends.iter().map(|end| end.count).sum::<u64>(), totals.injected.count);
     }

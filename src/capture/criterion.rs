@@ -171,6 +171,12 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
         Ok(None)
     }
 
+    /// Temperature [K] below which the material is stiff on a wall, and whether the law for that is stated for it; `None` for one
+    /// without such a temperature.
+    fn stiff_below(&self) -> Option<(f64, bool)> {
+        None
+    }
+
     /// Whether a particle at a temperature [K] is a droplet, whose capture does not depend on the wall.
     fn is_droplet(&self, _temperature: f64) -> bool {
         false

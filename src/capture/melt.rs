@@ -114,6 +114,12 @@ impl Melt {
         }
     }
 
+    /// Temperature [K] below which it is stiff on a wall, and whether the law for that is stated for the material; `None` for a
+    /// liquid at every temperature.
+    pub fn stiff_below(&self) -> Option<(f64, bool)> {
+        self.stiffening.stiff_below().map(|temperature| (temperature, self.stiffening.holds()))
+    }
+
     /// As [`Self::holds_in_flight`], on a wall.
     pub fn holds_on_wall(&self, temperature: f64) -> bool {
         // Stiff slag has no viscosity that could be out of range.

@@ -108,6 +108,15 @@ impl Stiffening {
         }
     }
 
+    /// Temperature [K] below which it is stiff; `None` for a liquid at every temperature.
+    pub fn stiff_below(self) -> Option<f64> {
+        match self {
+            Self::Never => None,
+            Self::Below { temperature, .. } => Some(temperature),
+            Self::Crystals { liquidus, solidus } => Some(crystal_load::stiff_temperature(solidus, liquidus)),
+        }
+    }
+
     /// Whether the law is stated for the material.
     pub fn holds(self) -> bool {
         !matches!(self, Self::Below { stated: false, .. })

@@ -137,6 +137,10 @@ impl StickinessCriterion for MeltStickiness {
         self.melt.film_viscosity(temperature)
     }
 
+    fn stiff_below(&self) -> Option<(f64, bool)> {
+        self.melt.stiff_below()
+    }
+
     fn known_range(&self) -> [f64; 2] {
         self.melt.known_range()
     }

@@ -5,12 +5,14 @@
 //! of the particles. [`Model::apply_deposit`] sets the inputs of an impact from the deposit.
 //!
 //! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
-//! droplet, or char that encloses its ash. Powder neither melts again nor burns; melt on a wall that cools later is stiff by its
+//! droplet, or char that encloses its ash. Powder does not melt again; its carbon burns off where the solver asks for it
+//! ([`burn_off`]: `simulate` does). Melt on a wall that cools later is stiff by its
 //! viscosity.
 //!
 //! [`Model::add_captured`]: crate::Model::add_captured
 //! [`Model::apply_deposit`]: crate::Model::apply_deposit
 
+pub mod burn_off;
 pub mod cover;
 pub mod wetting;
 

@@ -21,6 +21,10 @@ impl Model {
             if let Some(slag) = &wall.slag {
                 text += &format!(", under {}", slag.name());
             }
+            if let Some((temperature, stated)) = wall.melt.as_ref().and_then(|melt| melt.stiff_below()) {
+                text += &format!(" that is stiff below {temperature:.0} K");
+                text += if stated { "" } else { " (outside the range of Watt's equation)" };
+            }
             if let Some(powder) = &wall.powder {
                 text += &format!(", covered by {}", powder.name());
             }

@@ -56,6 +56,33 @@ pub struct WallTotals {
     pub captured_conversion: Moments,
     /// Hits outside the range that a property or a term is stated for.
     pub outside_range: Option<u64>,
+    /// How long particles stay near the wall, where the source follows them there.
+    pub near_wall: Option<NearWall>,
+}
+
+/// Stays of particles near a wall, and in the cross-section of the pipe that it belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct NearWall {
+    /// Gap up to which a particle is near the wall [m].
+    pub distance: f64,
+    /// Volume of the layer near the wall over that of the pipe [1]; `None` for a wall that is no pipe.
+    pub volumes: Option<f64>,
+    /// Time near the wall [s] of each followed particle that came near.
+    pub stays: Moments,
+    /// Number of real particles times time [s] near the wall, and mass times time [kg s].
+    pub near: [Mass; 2],
+    /// The same in the whole cross-section between the ends of the wall.
+    pub section: [Mass; 2],
+}
+
+impl NearWall {
+    /// Mean concentration near the wall over that in the whole cross-section [1]: by number and by mass. 1 when the particles are
+    /// spread evenly; `None` without a cross-section.
+    pub fn concentration(&self) -> Option<[f64; 2]> {
+        let volumes = self.volumes?;
+        let ratio = |of: usize| share(self.near[of].total(), volumes * self.section[of].total());
+        Some([ratio(0), ratio(1)])
+    }
 }
 
 /// Values of one wall over time, in the order of time.
@@ -206,6 +233,8 @@ pub struct RunResults {
     pub captures: Vec<Capture>,
     /// Maps of the walls whose surface can be unrolled.
     pub maps: Vec<WallMap>,
+    /// Injections of a case with several: name, injected and captured.
+    pub injections: Vec<(String, Amount, Amount)>,
     /// The pipes of a standalone case.
     pub pipe: Option<PipeZones>,
     /// Whether the particles contain carbon.

@@ -7,15 +7,18 @@ use nalgebra::Vector3;
 use super::burning::Burning;
 use super::gas::Gas;
 use super::geometry::vector;
-use super::injection::{Injection, SWEEPABLE};
+use super::injection::{Injection, SWEEPABLE, model_file};
 use super::profile::Profile;
 use super::surface::{Surface, SurfaceKind};
+use super::wall_deposits::DepositSettings;
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Section};
 use crate::model::Model;
 
 /// Number of low bits of the key of random draws that count the hits of a particle.
 pub(super) const HIT_BITS: u32 = 24;
+/// Gap up to which a particle is near a wall, over the mean diameter of the particles.
+const NEAR_WALL_DIAMETERS: f64 = 5.0;
 
 /// Everything that a run depends on. Only a sweep changes it after reading.
 #[derive(Debug)]
@@ -36,12 +39,16 @@ pub struct Case {
     pub gravity: Vector3<f64>,
     /// The gas.
     pub gas: Gas,
-    /// Where particles come from.
-    pub injection: Injection,
+    /// Where particles come from, one or more.
+    pub injections: Vec<Injection>,
     /// Walls and exits.
     pub surfaces: Vec<Surface>,
-    /// The impact model.
+    /// The impact model of injections without their own.
     pub model: Model,
+    /// The memory of the walls, if they keep one.
+    pub deposit: Option<DepositSettings>,
+    /// Gap between particle and wall [m] up to which a particle is near the wall.
+    pub near_wall_distance: f64,
     /// Largest number of rows of `impacts.csv`.
     pub recorded: u64,
     /// A quantity that is varied over a list of values.
@@ -120,24 +127,29 @@ impl Case {
         let gas_section = top.required_section("gas")?;
         let gas = Gas::read(&gas_section)?;
         gas_section.finish()?;
-        let particles = top.required_section("particles")?;
-        let injection = Injection::read(&particles, burning)?;
-        particles.finish()?;
+        let injections = read_injections(top, burning, &model, folder)?;
+        let surfaces = Surface::read_all(top, &model)?;
+        let deposit = top.section("deposit")?.map(|s| DepositSettings::read(&s, &surfaces)).transpose()?;
         let run = top.required_section("run")?;
         let hit_limit = whole(&run, "hit_limit", (1u64 << HIT_BITS) as f64)?.unwrap_or(1000);
         let time_limit = run.number_within("time_limit", f64::MIN_POSITIVE, f64::INFINITY)?;
+        let near_wall_distance = run.number_within("near_wall_distance", f64::MIN_POSITIVE, f64::INFINITY)?;
+        let seed = whole(&run, "seed", 2f64.powi(53))?.unwrap_or(1);
         let case = Self {
             title,
             about,
-            seed: whole(&run, "seed", 2f64.powi(53))?.unwrap_or(1),
+            seed,
             time_limit: time_limit.ok_or_else(|| run.missing("time_limit", "a time [s]"))?,
             hit_limit,
             tolerance: run.number_within("tolerance", 1e-13, 1e-3)?.unwrap_or(1e-6),
             gravity: vector(&run, "gravity")?.unwrap_or(Vector3::new(0.0, 0.0, -9.81)),
             recorded: whole(&run, "recorded_impacts", 1e9)?.unwrap_or(100_000),
+            near_wall_distance: near_wall_distance
+                .unwrap_or_else(|| NEAR_WALL_DIAMETERS * mean_diameter(&injections, seed)),
             gas,
-            injection,
-            surfaces: Surface::read_all(top, &model)?,
+            injections,
+            surfaces,
+            deposit,
             sweep: top.section("sweep")?.map(|s| read_sweep(&s)).transpose()?,
             model,
         };
@@ -146,13 +158,35 @@ impl Case {
         Ok(case)
     }
 
+    /// Number of all particles.
+    pub fn count(&self) -> u64 {
+        self.injections.iter().map(|injection| injection.count).sum()
+    }
+
+    /// The impact model of an injection.
+    pub fn model_of<'a>(&'a self, injection: &'a Injection) -> &'a Model {
+        injection.model.as_ref().unwrap_or(&self.model)
+    }
+
+    /// The injection that a particle comes from, by its index, and its number among the injection's particles. Particles
+    /// are numbered through all injections, in their order.
+    pub(super) fn origin(&self, number: u64) -> Option<(usize, u64)> {
+        let mut own = number;
+        for (index, injection) in self.injections.iter().enumerate() {
+            if own < injection.count {
+                return Some((index, own));
+            }
+            own -= injection.count;
+        }
+        None
+    }
+
     /// Density of an unburnt particle [kg/m³] that starts at a temperature [K].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] when neither the case nor the model gives it at this temperature.
-    pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
-        let of_model = || Ok(self.model.particle().mechanical(temperature)?.density);
-        self.injection.density.map_or_else(of_model, Ok)
+    pub fn density(&self, injection: &Injection, temperature: f64) -> Result<f64, ImpactError> {
+        injection.density.map_or_else(|| self.model_of(injection).particle().density(temperature), Ok)
     }
 
     /// Sets the swept quantity.
@@ -171,10 +205,12 @@ impl Case {
                 }
             }
         }
-        if everything {
-            self.injection.centre("particle_temperature", value);
-        } else if SWEEPABLE.contains(&key) {
-            self.injection.centre(key, value);
+        for injection in &mut self.injections {
+            if everything {
+                injection.centre("particle_temperature", value);
+            } else if SWEEPABLE.contains(&key) {
+                injection.centre(key, value);
+            }
         }
         Ok(())
     }
@@ -197,12 +233,57 @@ fn read_model(top: &Section<'_>, folder: &Path) -> Result<Model, InputError> {
     }
     let named = top.text("model")?;
     let named = named.ok_or_else(|| top.missing("model", "the model file, or a table [model],"))?;
-    let path = folder.join(&named);
-    if !path.is_file() {
-        let problem = format!("there is no file {}; the name is relative to the case file", path.display());
-        return Err(top.fault("model", problem));
+    model_file(top, &named, folder)
+}
+
+/// One `[particles]`, or several `[[particles]]` with names.
+fn read_injections(
+    top: &Section<'_>,
+    burning: Burning,
+    model: &Model,
+    folder: &Path,
+) -> Result<Vec<Injection>, InputError> {
+    let read = |section: &Section<'_>| {
+        let injection = Injection::read(section, burning, model, folder)?;
+        section.finish()?;
+        Ok(injection)
+    };
+    if !top.has("particles") || top.is_section("particles") {
+        return Ok(vec![read(&top.required_section("particles")?)?]);
     }
-    Model::from_file(&path)
+    let sections = top.sections("particles")?;
+    if sections.is_empty() {
+        return Err(top.missing("particles", "at least one [[particles]]"));
+    }
+    let mut injections: Vec<Injection> = Vec::new();
+    for section in &sections {
+        let injection = read(section)?;
+        section.required_text("name")?;
+        if injections.iter().any(|earlier| earlier.name == injection.name) {
+            let problem = format!("the name `{}` is given twice; rename one", injection.name);
+            return Err(section.fault("name", problem));
+        }
+        if let Some(first) = injections.first()
+            && std::mem::discriminant(&first.weight) != std::mem::discriminant(&injection.weight)
+        {
+            let problem = "has to be the same in all [[particles]], so that their masses can be compared";
+            return Err(section.fault("sizes_count", problem));
+        }
+        injections.push(injection);
+    }
+    Ok(injections)
+}
+
+/// Mean diameter [m] of the first thousand particles of each injection.
+fn mean_diameter(injections: &[Injection], seed: u64) -> f64 {
+    let drawn = |injection: &Injection| {
+        let numbers = 0..injection.count.min(1000);
+        let sum: f64 = numbers.clone().map(|number| injection.draw(seed, number).0).sum();
+        (sum, numbers.end as f64)
+    };
+    let (sum, count) =
+        injections.iter().map(drawn).fold((0.0, 0.0), |(a, b), (sum, count)| (a + sum, b + count));
+    sum / count
 }
 
 fn read_sweep(section: &Section<'_>) -> Result<Sweep, InputError> {
@@ -239,7 +320,7 @@ fn read_reference(section: &Section<'_>) -> Result<Reference, InputError> {
 }
 
 /// A whole number that is not negative; `None` when the key is absent.
-fn whole(section: &Section<'_>, key: &str, high: f64) -> Result<Option<u64>, InputError> {
+pub(super) fn whole(section: &Section<'_>, key: &str, high: f64) -> Result<Option<u64>, InputError> {
     match section.number_within(key, 0.0, high)? {
         Some(value) if value.fract() != 0.0 => Err(section.fault(key, "a whole number")),
         value => Ok(value.map(|value| value as u64)),

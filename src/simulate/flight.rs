@@ -1,7 +1,8 @@
 //! The path of one particle from one contact to the next.
 //!
-//! State: position [m], velocity [m/s], temperature [K], carbon conversion [1].
+//! State: position [m], velocity [m/s], temperature without the heat of fusion [K] ([`super::fusion`]), carbon conversion [1].
 //! `dx/dt = v`, `dv/dt = (u - v)/tau + g (1 - rho_g/rho_p)`, `m c_p dT/dt = heat`, `dX/dt` from [`super::burning`].
+//! Diameter and density follow the conversion ([`super::shrinkage`]), also where a contact is looked for.
 //! Dormand–Prince 5(4) with its own step control; contacts are found on its dense output by bisection.
 
 use std::f64::consts::PI;
@@ -15,8 +16,11 @@ use nalgebra::{SVector, Vector3};
 
 use super::burning::Burning;
 use super::drag;
-use super::gas::Gas;
+use super::fusion::Fusion;
+use super::gas::{Gas, GasState};
 use super::heating;
+use super::near_wall::StayTimes;
+use super::shrinkage::Shrinkage;
 use super::surface::Surface;
 
 /// Position, velocity, temperature, conversion.
@@ -47,15 +51,19 @@ pub fn state(position: &Vector3<f64>, velocity: &Vector3<f64>, temperature: f64,
     state
 }
 
-/// Properties of a particle that stay constant in flight.
+/// What a particle consists of.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
-    /// Diameter [m].
+    /// Diameter before any carbon is gone [m].
     pub diameter: f64,
     /// Density before any carbon is gone [kg/m³].
     pub density: f64,
+    /// How size and density follow the conversion.
+    pub shrinkage: Shrinkage,
     /// Heat capacity [J/(kg K)]; without it the temperature stays.
     pub heat_capacity: Option<f64>,
+    /// Melting, where the case gives a heat of fusion.
+    pub fusion: Option<Fusion>,
     /// Emissivity [1] and temperature of the surroundings [K].
     pub radiation: Option<(f64, f64)>,
     /// Law of carbon conversion.
@@ -63,14 +71,26 @@ pub struct Body {
 }
 
 impl Body {
+    /// Diameter [m] at a conversion [1].
+    pub fn diameter_at(&self, conversion: f64) -> f64 {
+        let left = self.shrinkage.volume_left(conversion);
+        if left == 1.0 { self.diameter } else { self.diameter * left.cbrt() }
+    }
+
     /// Density [kg/m³] at a conversion [1].
     pub fn density_at(&self, conversion: f64) -> f64 {
-        self.density * self.burning.mass_left(conversion)
+        self.density * self.shrinkage.mass_left(conversion) / self.shrinkage.volume_left(conversion)
     }
 
     /// Mass [kg] at a conversion [1].
     pub fn mass_at(&self, conversion: f64) -> f64 {
-        PI / 6.0 * self.diameter.powi(3) * self.density_at(conversion)
+        PI / 6.0 * self.diameter.powi(3) * self.density * self.shrinkage.mass_left(conversion)
+    }
+
+    /// Temperature [K] of a state.
+    pub fn temperature(&self, state: &State) -> f64 {
+        let sensible = state[TEMPERATURE];
+        self.fusion.map_or(sensible, |fusion| fusion.temperature(sensible))
     }
 }
 
@@ -88,21 +108,24 @@ pub struct ParticleMotion<'a> {
 impl ODE<f64, State> for ParticleMotion<'_> {
     fn diff(&self, _time: f64, y: &State, rate: &mut State) {
         let body = &self.body;
-        let (temperature, conversion) = (y[TEMPERATURE], y[CONVERSION]);
+        let (temperature, conversion) = (body.temperature(y), y[CONVERSION]);
+        let diameter = body.diameter_at(conversion);
         let gas = self.gas.at(&position(y));
         let slip = gas.velocity - velocity(y);
-        let reynolds = gas.density * slip.norm() * body.diameter / gas.viscosity;
+        let reynolds = gas.density * slip.norm() * diameter / gas.viscosity;
         let density = body.density_at(conversion);
-        let response = drag::response_rate(reynolds, gas.viscosity, density, body.diameter)
-            / drag::slip_factor(gas.mean_free_path, body.diameter);
+        let response = drag::response_rate(reynolds, gas.viscosity, density, diameter)
+            / drag::slip_factor(gas.mean_free_path, diameter);
         let acceleration = slip * response + self.gravity * (1.0 - gas.density / density);
         let heating = body.heat_capacity.map_or(0.0, |capacity| {
             let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;
-            let nusselt = heating::nusselt(reynolds, prandtl);
+            let dense = heating::nusselt(reynolds, prandtl);
+            let GasState { mean_free_path, accommodation, .. } = gas;
+            let nusselt = heating::thin_gas_nusselt(dense, mean_free_path, diameter, prandtl, accommodation);
             let difference = gas.temperature - temperature;
-            let mut heat = heating::convection(nusselt, gas.conductivity, body.diameter, difference);
+            let mut heat = heating::convection(nusselt, gas.conductivity, diameter, difference);
             if let Some((emissivity, surroundings)) = body.radiation {
-                heat += heating::radiation(emissivity, body.diameter, surroundings, temperature);
+                heat += heating::radiation(emissivity, diameter, surroundings, temperature);
             }
             heat / (body.mass_at(conversion) * capacity)
         });
@@ -138,7 +161,7 @@ pub enum FlightError {
 /// Integration steps of one flight before it is given up.
 const STEP_LIMIT: usize = 200_000;
 /// Points on a step's dense output at which contact is checked.
-const PLACES: u32 = 8;
+pub(super) const PLACES: u32 = 8;
 /// Halvings of the interval in which a contact lies.
 const HALVINGS: u32 = 60;
 
@@ -156,6 +179,18 @@ pub fn fly(
     until: f64,
     start: &State,
     tolerance: f64,
+) -> Result<FlightEnd, FlightError> {
+    fly_timed(motion, surfaces, [time, until], start, tolerance, &mut StayTimes::default())
+}
+
+/// [`fly`] from `time` to `until`, adding the time that the particle spends near the walls to `stays`.
+pub(super) fn fly_timed(
+    motion: &ParticleMotion<'_>,
+    surfaces: &[Surface],
+    [time, until]: [f64; 2],
+    start: &State,
+    tolerance: f64,
+    stays: &mut StayTimes,
 ) -> Result<FlightEnd, FlightError> {
     let (mut now, mut here) = (time, *start);
     let mut steps = 0;
@@ -200,7 +235,10 @@ pub fn fly(
             if !solver.y().iter().all(|value| value.is_finite()) {
                 return Err(FlightError::NotFinite);
             }
-            if let Some(arrival) = contact(&mut solver, surfaces, motion.body.diameter) {
+            let arrival = contact(&mut solver, surfaces, &motion.body);
+            let end = arrival.map_or_else(|| (solver.t(), *solver.y()), |end| (end.time, end.state));
+            stays.add(&mut solver, surfaces, &motion.body, end);
+            if let Some(arrival) = arrival {
                 return Ok(arrival);
             }
         }
@@ -214,21 +252,25 @@ fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
     [length, length, length, 100.0, 100.0, 100.0, 1e4, 10.0].map(|scale| tolerance * scale).to_vec()
 }
 
+/// How far [m] from its start a particle can have come in a step, with a margin for a curved path.
+pub(super) fn reach(duration: f64, before: &State, after: &State) -> f64 {
+    2.0 * duration * velocity(before).norm().max(velocity(after).norm())
+}
+
 /// The first contact in the step that the solver has just taken.
-fn contact<S>(solver: &mut S, surfaces: &[Surface], diameter: f64) -> Option<FlightEnd>
+fn contact<S>(solver: &mut S, surfaces: &[Surface], body: &Body) -> Option<FlightEnd>
 where
     S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
 {
     let (from, to) = (solver.t_prev(), solver.t());
     let (before, after) = (*solver.y_prev(), *solver.y());
-    // How far from its start the particle can have come in this step, with a margin for a curved path.
-    let reach = 2.0 * (to - from) * velocity(&before).norm().max(velocity(&after).norm());
+    let reach = reach(to - from, &before, &after);
     let mut first: Option<FlightEnd> = None;
     for (index, surface) in surfaces.iter().enumerate() {
-        let gap = |state: &State| surface.gap(&position(state), diameter);
+        let gap = |state: &State| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
         let at_start = gap(&before);
         // Rounding may leave a particle that has just rebounded a hair behind the wall.
-        if at_start > reach || at_start < -1e-6 * diameter {
+        if at_start > reach || at_start < -1e-6 * body.diameter {
             continue;
         }
         if let Some(arrival) = crossing(solver, &gap, [from, to], &after)

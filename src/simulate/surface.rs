@@ -4,6 +4,8 @@
 //! its centre does. OpenFOAM's clouds by default let the centre touch the wall; for a target that is flat on the
 //! scale of a particle the difference is a shift of the hit by one radius.
 
+use std::f64::consts::PI;
+
 use nalgebra::Vector3;
 
 use super::geometry::{across, direction, required_vector, required_within};
@@ -73,11 +75,43 @@ impl Shape {
     pub fn covers(&self, position: &Vector3<f64>) -> bool {
         match self {
             Self::Plane { radius: None, .. } => true,
-            Self::Plane { point, normal, radius: Some(radius) } => {
-                let offset = position - point;
-                (offset - normal * normal.dot(&offset)).norm() <= *radius
-            }
+            Self::Plane { radius: Some(radius), .. } => self.coordinate(position) <= *radius,
             Self::Pipe { zone: [from, to], .. } => (*from..*to).contains(&position.z),
+        }
+    }
+
+    /// Where its bins begin and end [m]: along the axis of a pipe, from the middle of a disc outwards; `None` without an end.
+    pub fn extent(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Plane { radius, .. } => radius.map(|radius| [0.0, radius]),
+            Self::Pipe { zone, .. } => zone.iter().all(|end| end.is_finite()).then_some(zone),
+        }
+    }
+
+    /// The coordinate of [`Shape::extent`] at a point near the surface [m].
+    pub fn coordinate(&self, position: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Plane { point, normal, .. } => {
+                let offset = position - point;
+                (offset - normal * normal.dot(&offset)).norm()
+            }
+            Self::Pipe { .. } => position.z,
+        }
+    }
+
+    /// A point of the surface [m] with a coordinate of [`Shape::extent`]; all of them lie on one line.
+    pub fn point_at(&self, coordinate: f64) -> Vector3<f64> {
+        match self {
+            Self::Plane { point, normal, .. } => point + coordinate * across(normal)[0],
+            Self::Pipe { radius, .. } => Vector3::new(*radius, 0.0, coordinate),
+        }
+    }
+
+    /// Area [m²] between two coordinates of [`Shape::extent`].
+    pub fn area_between(&self, [from, to]: [f64; 2]) -> f64 {
+        match self {
+            Self::Plane { .. } => PI * (to * to - from * from),
+            Self::Pipe { radius, .. } => 2.0 * PI * radius * (to - from),
         }
     }
 
@@ -196,6 +230,14 @@ mod tests {
         assert!((pipe.distance(&point) - 0.05).abs() < 1e-15);
         assert_eq!(pipe.normal(&point), Vector3::new(0.0, -1.0, 0.0));
         assert!(!pipe.covers(&Vector3::new(0.2, 0.0, 1.0)));
+        assert!(
+            (pipe.area_between([0.0, 1.0]) - 0.4 * PI).abs() < 1e-15 && pipe.extent() == Some([0.0, 1.0])
+        );
+        assert!(
+            (plane.area_between([0.5, 1.0]) - 0.75 * PI).abs() < 1e-15 && plane.extent() == Some([0.0, 1.0])
+        );
+        assert!((plane.coordinate(&plane.point_at(0.7)) - 0.7).abs() < 1e-15);
+        assert!(plane.distance(&plane.point_at(0.7)).abs() < 1e-15);
         let [along, around] = pipe.unrolled(&Vector3::new(0.0, 0.2, 0.4));
         assert!((along - 0.4).abs() < 1e-15 && (around - 0.2 * std::f64::consts::FRAC_PI_2).abs() < 1e-15);
     }

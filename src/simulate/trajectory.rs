@@ -5,11 +5,14 @@ use nalgebra::Vector3;
 use super::case::{Case, HIT_BITS};
 use super::drag;
 use super::flight::{
-    Body, CONVERSION, FlightEnd, ParticleMotion, State, TEMPERATURE, fly, position, velocity,
+    Body, CONVERSION, FlightEnd, ParticleMotion, State, TEMPERATURE, fly_timed, position, velocity,
 };
 use super::geometry::across;
 use super::injection::{Injection, ParticleWeight};
+use super::near_wall::{StayTime, StayTimes};
+use super::shrinkage::Shrinkage;
 use super::surface::{Shape, Surface, SurfaceKind};
+use super::wall_deposits::WallDeposits;
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::rng::ImpactRng;
 
@@ -44,6 +47,8 @@ pub struct Hit {
     pub impact: Impact,
     /// Its outcome.
     pub outcome: Outcome,
+    /// Density of the particle [kg/m³].
+    pub density: f64,
     /// Mass of all real particles that this one represents [kg].
     pub mass: f64,
 }
@@ -55,8 +60,16 @@ pub struct Trajectory {
     pub fate: Fate,
     /// Its hits in order.
     pub hits: Vec<Hit>,
-    /// Diameter [m].
+    /// Index of its injection.
+    pub injection: usize,
+    /// Time of its start since the start of the feed [s]; 0 in a case without deposit.
+    pub released: f64,
+    /// Diameter at the end [m].
     pub diameter: f64,
+    /// Number of real particles that it represents [1].
+    pub weight: f64,
+    /// Time near each surface, in the order of the surfaces.
+    pub stays: Vec<StayTime>,
     /// Mass of all real particles that it represents, at the start and at the end [kg].
     pub mass: [f64; 2],
     /// Where it ended [m].
@@ -67,32 +80,36 @@ pub struct Trajectory {
     pub conversion: f64,
 }
 
-/// Follows the particle with this number.
-pub(super) fn follow(case: &Case, number: u64) -> Trajectory {
-    let (diameter, mut start) = case.injection.draw(case.seed, number);
-    let (density, trouble) = match case.density(start[TEMPERATURE]) {
-        Ok(density) => (density, None),
-        Err(error) => (1.0, Some(error.to_string())),
+/// Follows the particle with this number; the walls stay as they are.
+pub(super) fn follow(case: &Case, walls: Option<&WallDeposits>, number: u64) -> Trajectory {
+    let (index, own) = case.origin(number).unwrap_or_default();
+    let injection = &case.injections[index];
+    let (diameter, mut start) = injection.draw(case.seed, number);
+    let (body, trouble) = match body(case, injection, diameter, start[TEMPERATURE]) {
+        Ok(body) => (body, None),
+        Err(reason) => (nothing_known(diameter, injection), Some(reason)),
     };
-    let Injection { heat_capacity, radiation, burning, .. } = case.injection;
-    let body = Body { diameter, density, heat_capacity, radiation, burning };
-    if case.injection.relative_to_gas {
+    start[TEMPERATURE] = body.fusion.map_or(start[TEMPERATURE], |fusion| fusion.sensible(start[TEMPERATURE]));
+    if injection.relative_to_gas {
         let speed = velocity(&start) + case.gas.at(&position(&start)).velocity;
         start.fixed_rows_mut::<3>(3).copy_from(&speed);
     }
     let mut tracker = Tracker {
         case,
+        injection,
+        walls,
         number,
         motion: ParticleMotion { gas: &case.gas, gravity: case.gravity, body },
         time: 0.0,
         state: start,
         spin: Vector3::zeros(),
-        weight: match case.injection.weight {
+        weight: match injection.weight {
             ParticleWeight::One => 1.0,
             ParticleWeight::EqualShare(mass) => {
-                mass / (case.injection.count as f64 * body.mass_at(start[CONVERSION]))
+                mass / (injection.count as f64 * body.mass_at(start[CONVERSION]))
             }
         },
+        stays: StayTimes::new(case.near_wall_distance, case.surfaces.len()),
         hits: Vec::new(),
     };
     let mass = tracker.mass();
@@ -102,17 +119,41 @@ pub(super) fn follow(case: &Case, number: u64) -> Trajectory {
     };
     Trajectory {
         fate,
-        diameter,
+        injection: index,
+        released: case.deposit.map_or(0.0, |deposit| deposit.release(own, injection.count)),
+        diameter: tracker.diameter(),
+        weight: tracker.weight,
         mass: [mass, tracker.mass()],
         position: position(&tracker.state),
-        temperature: tracker.state[TEMPERATURE],
+        temperature: body.temperature(&tracker.state),
         conversion: tracker.state[CONVERSION].clamp(0.0, 1.0),
+        stays: tracker.stays.times,
         hits: tracker.hits,
+    }
+}
+
+fn body(case: &Case, injection: &Injection, diameter: f64, temperature: f64) -> Result<Body, String> {
+    let density = case.density(injection, temperature).map_err(|error| error.to_string())?;
+    injection.body(diameter, density, temperature, case.model_of(injection))
+}
+
+/// Stands for a particle that cannot be used.
+fn nothing_known(diameter: f64, injection: &Injection) -> Body {
+    Body {
+        diameter,
+        density: 1.0,
+        shrinkage: Shrinkage::NONE,
+        heat_capacity: None,
+        fusion: None,
+        radiation: None,
+        burning: injection.burning,
     }
 }
 
 struct Tracker<'a> {
     case: &'a Case,
+    injection: &'a Injection,
+    walls: Option<&'a WallDeposits>,
     number: u64,
     motion: ParticleMotion<'a>,
     time: f64,
@@ -121,6 +162,7 @@ struct Tracker<'a> {
     spin: Vector3<f64>,
     /// Number of real particles that this one represents.
     weight: f64,
+    stays: StayTimes,
     hits: Vec<Hit>,
 }
 
@@ -129,10 +171,14 @@ impl Tracker<'_> {
         self.weight * self.motion.body.mass_at(self.state[CONVERSION])
     }
 
+    fn diameter(&self) -> f64 {
+        self.motion.body.diameter_at(self.state[CONVERSION])
+    }
+
     /// The wall that the particle starts in or behind, if it does.
     fn misplaced(&self) -> Option<String> {
         let here = position(&self.state);
-        let behind = |s: &&Surface| s.shape.covers(&here) && s.gap(&here, self.motion.body.diameter) < 0.0;
+        let behind = |s: &&Surface| s.shape.covers(&here) && s.gap(&here, self.diameter()) < 0.0;
         let wall = self.case.surfaces.iter().find(behind)?;
         Some(format!("starts in or behind `{}`; move the start or turn the normal", wall.name))
     }
@@ -141,7 +187,8 @@ impl Tracker<'_> {
         loop {
             let case = self.case;
             let (from, until) = (self.time, case.time_limit);
-            let end = fly(&self.motion, &case.surfaces, from, until, &self.state, case.tolerance);
+            let (start, stays) = (&self.state, &mut self.stays);
+            let end = fly_timed(&self.motion, &case.surfaces, [from, until], start, case.tolerance, stays);
             let FlightEnd { time, state, surface } = match end {
                 Ok(end) => end,
                 Err(lost) => return Fate::Unusable(lost.to_string()),
@@ -165,9 +212,9 @@ impl Tracker<'_> {
     fn let_spin_decay(&mut self, duration: f64, end: &State) {
         let gas = self.case.gas.at(&position(end));
         let body = &self.motion.body;
-        let density = body.density_at(end[CONVERSION]);
-        let rate = drag::spin_decay_rate(gas.viscosity, density, body.diameter);
-        self.spin *= (-duration * rate / drag::slip_factor(gas.mean_free_path, body.diameter)).exp();
+        let (density, diameter) = (body.density_at(end[CONVERSION]), body.diameter_at(end[CONVERSION]));
+        let rate = drag::spin_decay_rate(gas.viscosity, density, diameter);
+        self.spin *= (-duration * rate / drag::slip_factor(gas.mean_free_path, diameter)).exp();
     }
 
     /// Resolves the hit on a surface; `None` when the particle flies on.
@@ -180,21 +227,28 @@ impl Tracker<'_> {
         let frame = WallFrame::new(&surface.shape, &here, &velocity(&self.state));
         let spin_axis = frame.normal.cross(&frame.along);
         let gas = self.case.gas.at(&here).velocity;
+        let density = self.motion.body.density_at(self.state[CONVERSION]);
         let impact = Impact {
             normal_speed: frame.normal_speed,
             tangential_speed: frame.tangential_speed,
-            diameter: self.motion.body.diameter,
-            particle_temperature: self.state[TEMPERATURE],
+            diameter: self.diameter(),
+            particle_temperature: self.motion.body.temperature(&self.state),
+            particle_density: density,
             wall_temperature: temperature.at(&here),
             conversion: self.state[CONVERSION].clamp(0.0, 1.0),
             gas_speed: (gas - frame.normal * frame.normal.dot(&gas)).norm(),
             spin: self.spin.dot(&spin_axis),
             ..Impact::default()
         };
+        let (model, wall) = (self.case.model_of(self.injection), self.injection.wall(*wall));
+        let impact = match self.walls.and_then(|walls| walls.at(self.case, index, &here)) {
+            Some((deposit, voidage)) => model.apply_deposit(wall, deposit, voidage, &impact)?,
+            None => impact,
+        };
         let key = (self.number << HIT_BITS) | self.hits.len() as u64;
-        let outcome = self.case.model.resolve(*wall, &impact, ImpactRng::new(self.case.seed, key))?;
-        let mass = self.mass();
-        self.hits.push(Hit { time: self.time, surface: index, position: here, impact, outcome, mass });
+        let outcome = model.resolve(wall, &impact, ImpactRng::new(self.case.seed, key))?;
+        let (time, mass) = (self.time, self.mass());
+        self.hits.push(Hit { time, surface: index, position: here, impact, outcome, density, mass });
         if outcome.stuck {
             return Ok(Some(Fate::Stuck(index)));
         }

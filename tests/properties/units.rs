@@ -46,6 +46,9 @@ impl Units {
             "Pa" => kilogram / (metre * second * second),
             "Pa s" => kilogram / (metre * second),
             "J/m2" | "N/m" => kilogram / (second * second),
+            "J/kg" => (metre / second).powi(2),
+            "J/(kg K)" => (metre / second).powi(2) / kelvin,
+            "W/(m K)" => kilogram * metre / (second.powi(3) * kelvin),
             other => unreachable!("a unit this test does not know: {other}"),
         }
     }

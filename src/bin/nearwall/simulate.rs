@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nearwall::atomic_file::{AtomicFile, of_csv, refused};
 use nearwall::report::{percent, standalone_page};
 use nearwall::results::share;
-use nearwall::results::standalone::{ImpactRecorder, Run, run as run_case, summary};
+use nearwall::results::standalone::{ImpactRecorder, Run, run as run_case, summary, write_deposits};
 use nearwall::simulate::Case;
 
 use crate::{CommandResult, progress};
@@ -13,7 +13,8 @@ use crate::{CommandResult, progress};
 /// Follows particles through a prescribed gas until walls capture them or they leave
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall simulate tutorials/standalone/waxRig.toml -o waxRig\n\n\
-    Writes impacts.csv (every hit, up to a number of rows), summary.json and report.html into the folder.")]
+    Writes impacts.csv (every hit, up to a number of rows), summary.json and report.html into the folder;\n\
+    with a [deposit], also deposit.csv (what lies on the walls over time).")]
 pub struct Arguments {
     /// The case file
     case: PathBuf,
@@ -35,19 +36,19 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         let [hits, captured] = totals.first_hits();
         text += &format!(
             "{} injected = {} stuck + {} escaped + {} airborne + {} given up + {} unusable; first hits captured {}; balance of mass {:.1e}\n",
-            totals.injected.count,
-            totals.captured.count,
-            totals.escaped.count,
-            totals.airborne.count,
-            totals.given_up.count,
-            totals.unusable.count,
+            totals.ends.injected.count,
+            totals.ends.captured.count,
+            totals.ends.escaped.count,
+            totals.ends.airborne.count,
+            totals.ends.given_up.count,
+            totals.ends.unusable.count,
             percent(share(captured as f64, hits as f64)),
-            totals.balance_error()
+            totals.ends.balance_error()
         );
         if let Some(trouble) = &totals.first_trouble {
             eprintln!(
                 "nearwall: {} particles could not be used; the first: {trouble}",
-                totals.unusable.count
+                totals.ends.unusable.count
             );
         }
     }
@@ -55,7 +56,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     crate::print(&format!("{text}open {}\n", page.display()))
 }
 
-/// Runs a case and writes its three files into a folder, which is created if it does not exist.
+/// Runs a case and writes its files into a folder, which is created if it does not exist.
 fn write(case: &mut Case, folder: &Path) -> Result<Vec<Run>, Box<dyn std::error::Error>> {
     std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
     let open = |name: &str| AtomicFile::new(&folder.join(name), &[]);
@@ -63,7 +64,7 @@ fn write(case: &mut Case, folder: &Path) -> Result<Vec<Run>, Box<dyn std::error:
     let at_impacts = |error: csv::Error| refused(&folder.join("impacts.csv"), &of_csv(error));
     let mut recorder = ImpactRecorder::new(impacts, case).map_err(at_impacts)?;
     let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len() as u64);
-    let bar = progress::count(runs * case.injection.count, "particles");
+    let bar = progress::count(runs * case.count(), "particles");
     let runs = run_case(case, |case, value, number, trajectory| {
         bar.inc(1);
         recorder.record(case, value, number, trajectory).map_err(at_impacts)
@@ -73,6 +74,11 @@ fn write(case: &mut Case, folder: &Path) -> Result<Vec<Run>, Box<dyn std::error:
     let impacts = recorder.finish().map_err(|error| at_impacts(error.into()))?;
     json.put(&(serde_json::to_string_pretty(&summary(case, &runs))? + "\n"))?;
     html.put(&standalone_page(case, &runs, left_out)?)?;
-    AtomicFile::commit(vec![impacts, json, html])?;
+    let mut files = vec![impacts, json, html];
+    if case.deposit.is_some() {
+        let at_deposit = |error: csv::Error| refused(&folder.join("deposit.csv"), &of_csv(error));
+        files.push(write_deposits(open("deposit.csv")?, case, &runs).map_err(at_deposit)?);
+    }
+    AtomicFile::commit(files)?;
     Ok(runs)
 }

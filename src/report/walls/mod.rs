@@ -8,6 +8,8 @@ mod balance;
 mod captured;
 mod conversion;
 mod deposit;
+mod injections;
+mod near_wall;
 mod places;
 mod rebound;
 mod sweep;
@@ -19,7 +21,7 @@ use crate::results::{Moments, RunResults, WallModel, WallTotals};
 use crate::simulate::Case;
 
 /// The sections of a page: heading, figures, and the table under them.
-const SECTIONS: [PageSection; 8] = [
+const SECTIONS: [PageSection; 10] = [
     (
         "Where material is captured",
         &[captured::by_wall, captured::regimes, captured::hit_regimes, places::along, captured::history],
@@ -29,8 +31,10 @@ const SECTIONS: [PageSection; 8] = [
     ("Which sizes are captured", &[captured::sizes], nothing),
     ("What arrives at the walls", &[arriving::figures], arriving::table),
     ("How particles rebound", &[rebound::normal, rebound::tangential], rebound::table),
+    ("How densely particles linger at the walls", &[near_wall::figures], near_wall::table),
     ("Where captured particles lie", &[places::maps, places::scatter], nothing),
     ("What lies on the walls over time", &[deposit::figures], nothing),
+    ("Which injection is captured", &[], injections::table),
     ("Balance", &[], balance::table),
 ];
 
@@ -76,7 +80,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
     match (&case.sweep, runs) {
         (Some(sweep), _) => sweep::add_to(&mut page, case, sweep, runs),
         (None, [run]) => {
-            let results = [run.totals.results(case)];
+            let results = [run.results(case)];
             Comparison::new(&results).add_to(&mut page);
         }
         _ => {}
@@ -93,7 +97,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
             case.recorded
         ));
     }
-    page.foot(&format!("Seed {}, {} particles.", case.seed, case.injection.count));
+    page.foot(&format!("Seed {}, {} particles.", case.seed, case.count()));
     page.html()
 }
 

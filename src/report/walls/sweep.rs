@@ -38,7 +38,7 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
     let most = runs.iter().max_by(|a, b| later(a).total_cmp(&later(b))).filter(|run| later(run) > 0.1);
     if let Some(run) = most {
         let totals = &run.totals;
-        let text = later_captures(totals.first_hits(), totals.captured.count, totals.has_carbon);
+        let text = later_captures(totals.first_hits(), totals.ends.captured.count, totals.has_carbon);
         page.text(format!("At {} = {}: {text}", axis.label, number(axis.value(run))));
     }
     for reference in &sweep.references {
@@ -47,11 +47,11 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
     if let Some(trouble) = runs.iter().find_map(|run| run.totals.first_trouble.as_ref()) {
         page.text(format!("Some particles could not be used. The first: {trouble}."));
     }
-    let most = runs.iter().max_by_key(|run| run.totals.captured.count);
-    if let Some(run) = most.filter(|run| run.totals.captured.count > 0) {
+    let most = runs.iter().max_by_key(|run| run.totals.ends.captured.count);
+    if let Some(run) = most.filter(|run| run.totals.ends.captured.count > 0) {
         let heading = format!("Where particles are captured at {} = {}", axis.label, number(axis.value(run)));
         page.heading(heading);
-        page.figures(map_figures(&run.totals.results(case)));
+        page.figures(map_figures(&run.results(case)));
     }
 }
 
@@ -82,7 +82,7 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
 }
 
 fn captured_mass(totals: &RunTotals) -> f64 {
-    share(totals.captured.mass(), totals.injected.mass())
+    share(totals.ends.captured.mass(), totals.ends.injected.mass())
 }
 
 fn restitution(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
@@ -143,7 +143,7 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         ("e_n of first hits, captured = 0", &|run| mean(run, |wall| &wall.first_e_n)),
         ("e_n of rebounds, all hits", &|run| mean(run, |wall| &wall.e_n)),
         ("speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
-        ("mass balance", &|run| format!("{:.1e}", run.totals.balance_error())),
+        ("mass balance", &|run| format!("{:.1e}", run.totals.ends.balance_error())),
     ];
     Table::of_items("", 0, runs, &columns)
 }

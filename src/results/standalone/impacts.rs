@@ -8,19 +8,24 @@ use crate::simulate::{Case, Hit, Trajectory};
 /// Columns before and after the inputs of the data file.
 const BEFORE: [&str; 4] = ["time", "wall", "particle", "hit"];
 const AFTER: [&str; 7] = ["x", "y", "z", "e_n", "e_t", "outcome", "regime"];
-/// Inputs that a standalone case does not set; the file has no column for them.
-const LEFT_OUT: [&str; 5] = ["layer_thickness", "film_thickness", "roughness", "coverage", "melt_thickness"];
+/// Inputs that no standalone case sets; the file has no column for them.
+const LEFT_OUT: [&str; 1] = ["roughness"];
+/// Inputs that the deposit of a case sets; without one the file has no column for them.
+const OF_DEPOSIT: [&str; 4] = ["layer_thickness", "film_thickness", "coverage", "melt_thickness"];
+/// The column of the injection, in a case with several.
+const INJECTION: &str = "injection";
 
 /// Writes impacts as a data file that `nearwall predict` and `nearwall diagnose` read, up to a number of rows.
 ///
-/// The rows are all hits of the first particles: a fair sample, since particles are drawn alike. The first particle
-/// whose hits do not all fit ends the record. Each value of a sweep has an equal number of rows.
+/// The rows are all hits of the first particles of each injection: a fair sample, since particles are drawn alike (in a case
+/// with a deposit, of the time of the first particles). The first particle whose hits do not all fit ends the record. Each
+/// injection and each value of a sweep has an equal number of rows.
 pub struct ImpactRecorder<W: Write> {
     writer: csv::Writer<W>,
-    /// Rows for each run of the case.
+    /// Rows for each injection in each run of the case.
     limit: u64,
-    /// Rows left in this run.
-    left: u64,
+    /// Rows left for each injection in this run.
+    left: Vec<u64>,
     /// Value of the swept quantity in this run.
     value: Option<f64>,
     /// Hits that did not fit into the file.
@@ -35,12 +40,14 @@ impl<W: Write> ImpactRecorder<W> {
     pub fn new(sink: W, case: &Case) -> csv::Result<Self> {
         let mut writer = csv::Writer::from_writer(sink);
         let swept = case.sweep.as_ref().map(|sweep| &sweep.key);
-        let inputs = inputs().map(|input| input.name);
-        let header = BEFORE.into_iter().chain(inputs).chain(AFTER).map(str::to_owned);
+        let inputs = inputs(case).map(|input| input.name);
+        let injection = (case.injections.len() > 1).then_some(INJECTION);
+        let header = BEFORE.into_iter().chain(inputs).chain(AFTER).chain(injection).map(str::to_owned);
         writer.write_record(header.chain(swept.map(|key| format!("swept_{key}"))))?;
         let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len().max(1));
-        let limit = case.recorded / runs as u64;
-        Ok(Self { writer, limit, left: limit, value: None, left_out: 0 })
+        let injections = case.injections.len();
+        let limit = case.recorded / (runs * injections) as u64;
+        Ok(Self { writer, limit, left: vec![limit; injections], value: None, left_out: 0 })
     }
 
     /// Writes the hits of a particle.
@@ -55,32 +62,45 @@ impl<W: Write> ImpactRecorder<W> {
         trajectory: &Trajectory,
     ) -> csv::Result<()> {
         if value != self.value {
-            (self.value, self.left) = (value, self.limit);
+            self.value = value;
+            self.left.fill(self.limit);
         }
         let rows = trajectory.hits.len() as u64;
-        if rows > self.left {
+        let left = &mut self.left[trajectory.injection];
+        if rows > *left {
             self.left_out += rows;
-            self.left = 0;
+            *left = 0;
             return Ok(());
         }
-        self.left -= rows;
+        *left -= rows;
         for (index, hit) in trajectory.hits.iter().enumerate() {
-            self.row(case, number, index, hit)?;
+            self.row(case, trajectory, number, index, hit)?;
         }
         Ok(())
     }
 
-    fn row(&mut self, case: &Case, number: u64, index: usize, hit: &Hit) -> csv::Result<()> {
+    fn row(
+        &mut self,
+        case: &Case,
+        trajectory: &Trajectory,
+        number: u64,
+        index: usize,
+        hit: &Hit,
+    ) -> csv::Result<()> {
         let outcome = &hit.outcome;
         let surface = case.surfaces[hit.surface].name.clone();
-        let mut cells = vec![text(hit.time), surface, number.to_string(), (index + 1).to_string()];
-        cells.extend(inputs().map(|input| text((input.value)(&hit.impact))));
+        let mut cells =
+            vec![text(trajectory.released + hit.time), surface, number.to_string(), (index + 1).to_string()];
+        cells.extend(inputs(case).map(|input| text((input.value)(&hit.impact))));
         cells.extend(hit.position.iter().map(|coordinate| text(*coordinate)));
         for restitution in [outcome.normal_restitution, outcome.tangential_restitution] {
             cells.push(if outcome.stuck { String::new() } else { text(restitution) });
         }
         cells.push(if outcome.stuck { "stick" } else { "rebound" }.to_owned());
         cells.push(outcome.regime.name().to_owned());
+        if case.injections.len() > 1 {
+            cells.push(case.injections[trajectory.injection].name.clone());
+        }
         cells.extend(self.value.map(text));
         self.writer.write_record(&cells)
     }
@@ -94,12 +114,17 @@ impl<W: Write> ImpactRecorder<W> {
     }
 }
 
-fn inputs() -> impl Iterator<Item = &'static crate::impact::Input> {
-    INPUTS.iter().filter(|input| !LEFT_OUT.contains(&input.name))
+fn inputs(case: &Case) -> impl Iterator<Item = &'static crate::impact::Input> {
+    let deposit = case.deposit.is_some();
+    INPUTS.iter().filter(move |input| {
+        !LEFT_OUT.contains(&input.name) && (deposit || !OF_DEPOSIT.contains(&input.name))
+    })
 }
 
 /// The shortest text that reads back as the same number.
-fn text(number: f64) -> String {
+pub(super) fn text(number: f64) -> String {
+    // Without the sign of a negative zero.
+    let number = number + 0.0;
     if number != 0.0 && !(1e-3..1e6).contains(&number.abs()) {
         format!("{number:e}")
     } else {

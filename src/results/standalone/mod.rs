@@ -1,14 +1,18 @@
-//! Results of standalone cases: sums over the trajectories of [`crate::simulate`], `summary.json` and `impacts.csv`.
+//! Results of standalone cases: sums over the trajectories of [`crate::simulate`], `summary.json`, `impacts.csv` and
+//! `deposit.csv`.
 
+mod deposits;
 mod impacts;
 mod summary;
 mod totals;
 
+pub use deposits::write as write_deposits;
 pub use impacts::ImpactRecorder;
 pub use summary::{Summary, summary};
-pub use totals::{RESTITUTION_STEP, RunTotals};
+pub use totals::{Ends, RESTITUTION_STEP, RunTotals};
 
-use crate::simulate::{self, Case, Trajectory};
+use crate::results::RunResults;
+use crate::simulate::{self, Case, DepositHistory, Trajectory};
 
 /// Results of a case at one value of its sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +21,15 @@ pub struct Run {
     pub value: Option<f64>,
     /// Sums over all particles.
     pub totals: RunTotals,
+    /// What lay on the walls over time, where the case keeps it.
+    pub deposits: Option<DepositHistory>,
+}
+
+impl Run {
+    /// The results for the page.
+    pub fn results(&self, case: &Case) -> RunResults {
+        RunResults { deposits: deposits::by_wall(case, self), ..self.totals.results(case) }
+    }
 }
 
 /// Runs a case once, or once for each value of its sweep. `observer` receives each trajectory in order with the swept
@@ -28,15 +41,24 @@ pub fn run<E: From<String>>(
     case: &mut Case,
     mut observer: impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
 ) -> Result<Vec<Run>, E> {
-    let mut runs: Vec<Run> = Vec::new();
-    simulate::run(case, |case, value, number, trajectory| {
-        if number == 0 {
-            runs.push(Run { value, totals: RunTotals::new(&case.surfaces) });
-        }
-        if let Some(run) = runs.last_mut() {
-            run.totals.add(trajectory);
-        }
+    let Some(sweep) = case.sweep.clone() else { return Ok(vec![run_once(case, None, &mut observer)?]) };
+    let mut runs = Vec::new();
+    for value in sweep.values {
+        case.set(&sweep.key, value)?;
+        runs.push(run_once(case, Some(value), &mut observer)?);
+    }
+    Ok(runs)
+}
+
+fn run_once<E: From<String>>(
+    case: &Case,
+    value: Option<f64>,
+    observer: &mut impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
+) -> Result<Run, E> {
+    let mut totals = RunTotals::new(case);
+    let deposits = simulate::run_once(case, value, &mut |case, value, number, trajectory| {
+        totals.add(trajectory);
         observer(case, value, number, trajectory)
     })?;
-    Ok(runs)
+    Ok(Run { value, totals, deposits })
 }

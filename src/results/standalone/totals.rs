@@ -2,10 +2,10 @@
 
 use super::summary::over;
 use crate::results::{
-    Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, PipeZones, RunResults, WallMap, WallModel,
-    WallTotals, bin,
+    Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, NearWall, PipeZones, RunResults, WallMap,
+    WallModel, WallTotals, bin,
 };
-use crate::simulate::{Case, Fate, Hit, Shape, Surface, SurfaceKind, Trajectory};
+use crate::simulate::{Case, Fate, Hit, Shape, StayTime, SurfaceKind, Trajectory};
 
 /// Bins of the restitution histograms.
 const RESTITUTION_BINS: usize = 60;
@@ -59,9 +59,33 @@ impl WallTotals {
     }
 }
 
-/// Sums over all particles of a run.
+impl NearWall {
+    fn new(distance: f64, shape: &Shape) -> Self {
+        let volumes = match shape {
+            Shape::Pipe { radius, .. } => {
+                let inner = (radius - distance).max(0.0);
+                Some(1.0 - (inner / radius).powi(2))
+            }
+            Shape::Plane { .. } => None,
+        };
+        Self { distance, volumes, ..Self::default() }
+    }
+
+    /// Adds a particle that stands for `weight` real ones of `mass` in all [kg].
+    fn add(&mut self, stay: &StayTime, weight: f64, mass: f64) {
+        if stay.near > 0.0 {
+            self.stays.add(stay.near);
+        }
+        for (sums, time) in [(&mut self.near, stay.near), (&mut self.section, stay.section)] {
+            sums[0].add(weight * time);
+            sums[1].add(mass * time);
+        }
+    }
+}
+
+/// How particles ended.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct RunTotals {
+pub struct Ends {
     /// Particles that started.
     pub injected: Amount,
     /// Mass that reacted away during the flights [kg].
@@ -76,6 +100,38 @@ pub struct RunTotals {
     pub given_up: Amount,
     /// Not decided or not followed.
     pub unusable: Amount,
+}
+
+impl Ends {
+    fn add(&mut self, trajectory: &Trajectory) {
+        let [before, after] = trajectory.mass;
+        self.injected.add(before);
+        self.reacted.add(before - after);
+        let end = match &trajectory.fate {
+            Fate::Stuck(_) => &mut self.captured,
+            Fate::Escaped(_) => &mut self.escaped,
+            Fate::Airborne => &mut self.airborne,
+            Fate::GivenUp => &mut self.given_up,
+            Fate::Unusable(_) => &mut self.unusable,
+        };
+        end.add(after);
+    }
+
+    /// Injected - stuck - escaped - airborne - given up - unusable - reacted mass, over injected [1].
+    pub fn balance_error(&self) -> f64 {
+        let ends = [&self.captured, &self.escaped, &self.airborne, &self.given_up, &self.unusable];
+        let accounted = ends.iter().map(|amount| amount.mass()).sum::<f64>() + self.reacted.total();
+        over(self.injected.mass() - accounted, self.injected.mass())
+    }
+}
+
+/// Sums over all particles of a run.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunTotals {
+    /// How all particles ended.
+    pub ends: Ends,
+    /// How those of each injection ended, in the order of the case.
+    pub injections: Vec<Ends>,
     /// Why the first unusable particle could not be used.
     pub first_trouble: Option<String>,
     /// Index of each wall's surface, and its totals.
@@ -89,11 +145,14 @@ pub struct RunTotals {
 }
 
 impl RunTotals {
-    pub(super) fn new(surfaces: &[Surface]) -> Self {
-        let mut totals = Self::default();
-        for (index, surface) in surfaces.iter().enumerate() {
+    pub(super) fn new(case: &Case) -> Self {
+        let mut totals = Self { injections: vec![Ends::default(); case.injections.len()], ..Self::default() };
+        for (index, surface) in case.surfaces.iter().enumerate() {
             match surface.kind {
-                SurfaceKind::Wall { .. } => totals.walls.push((index, WallTotals::empty())),
+                SurfaceKind::Wall { .. } => {
+                    let near_wall = Some(NearWall::new(case.near_wall_distance, &surface.shape));
+                    totals.walls.push((index, WallTotals { near_wall, ..WallTotals::empty() }));
+                }
                 SurfaceKind::Exit => totals.exits.push((index, Amount::default())),
             }
         }
@@ -101,17 +160,21 @@ impl RunTotals {
     }
 
     pub(super) fn add(&mut self, trajectory: &Trajectory) {
-        let [before, after] = trajectory.mass;
-        self.injected.add(before);
-        self.reacted.add(before - after);
+        let [_, after] = trajectory.mass;
+        self.ends.add(trajectory);
+        self.injections[trajectory.injection].add(trajectory);
         for (number, hit) in trajectory.hits.iter().enumerate() {
             if let Some((_, wall)) = self.walls.iter_mut().find(|(surface, _)| *surface == hit.surface) {
                 wall.add(hit, number == 0);
             }
         }
+        for (surface, wall) in &mut self.walls {
+            if let (Some(near), Some(stay)) = (&mut wall.near_wall, trajectory.stays.get(*surface)) {
+                near.add(stay, trajectory.weight, after);
+            }
+        }
         match &trajectory.fate {
             Fate::Stuck(surface) => {
-                self.captured.add(after);
                 self.has_carbon |= trajectory.conversion < 1.0;
                 if let Some(hit) = trajectory.hits.last() {
                     self.captures.push(Capture {
@@ -124,25 +187,15 @@ impl RunTotals {
                 }
             }
             Fate::Escaped(surface) => {
-                self.escaped.add(after);
                 if let Some((_, amount)) = self.exits.iter_mut().find(|(index, _)| index == surface) {
                     amount.add(after);
                 }
             }
-            Fate::Airborne => self.airborne.add(after),
-            Fate::GivenUp => self.given_up.add(after),
             Fate::Unusable(reason) => {
-                self.unusable.add(after);
                 self.first_trouble.get_or_insert_with(|| reason.clone());
             }
+            Fate::Airborne | Fate::GivenUp => {}
         }
-    }
-
-    /// Injected - stuck - escaped - airborne - given up - unusable - reacted mass, over injected [1].
-    pub fn balance_error(&self) -> f64 {
-        let ends = [&self.captured, &self.escaped, &self.airborne, &self.given_up, &self.unusable];
-        let accounted = ends.iter().map(|amount| amount.mass()).sum::<f64>() + self.reacted.total();
-        over(self.injected.mass() - accounted, self.injected.mass())
     }
 
     /// First hits on any wall, and how many of them were captured.
@@ -156,14 +209,14 @@ impl RunTotals {
     /// Share of all particles that were captured at a later hit than their first [1].
     pub fn captured_later(&self) -> f64 {
         let [_, first] = self.first_hits();
-        over(self.captured.count.saturating_sub(first) as f64, self.injected.count as f64)
+        over(self.ends.captured.count.saturating_sub(first) as f64, self.ends.injected.count as f64)
     }
 
     /// The results for the page.
     pub fn results(&self, case: &Case) -> RunResults {
         let surface = |index: usize| &case.surfaces[index];
         let end = case.time_limit;
-        let injected = self.injected.mass();
+        let injected = self.ends.injected.mass();
         let history = |(index, totals): &(usize, WallTotals)| History {
             wall: surface(*index).name.clone(),
             rows: vec![(end, totals.clone())],
@@ -174,14 +227,22 @@ impl RunTotals {
             walls: self.walls.iter().map(history).collect(),
             injected: vec![[end, injected]],
             balance: self.balance(case),
-            residual: Some(self.balance_error()),
+            residual: Some(self.ends.balance_error()),
             captures: self.captures.clone(),
             maps: self.maps(case),
             pipe: self.pipe(case),
+            injections: self.by_injection(case),
             has_carbon: self.has_carbon,
-            trouble: self.first_trouble.clone().map(|reason| (self.unusable.count, reason)),
+            trouble: self.first_trouble.clone().map(|reason| (self.ends.unusable.count, reason)),
             ..RunResults::default()
         }
+    }
+
+    /// The injections of a case with several, for the page.
+    fn by_injection(&self, case: &Case) -> Vec<(String, Amount, Amount)> {
+        let ends = case.injections.iter().zip(&self.injections);
+        let named = ends.map(|(injection, ends)| (injection.name.clone(), ends.injected, ends.captured));
+        if self.injections.len() > 1 { named.collect() } else { Vec::new() }
     }
 
     fn balance(&self, case: &Case) -> Vec<BalanceLine> {
@@ -191,14 +252,17 @@ impl RunTotals {
             mass: Some(amount.mass()),
         };
         let mut lines =
-            vec![line("injected".into(), &self.injected), line("captured".into(), &self.captured)];
+            vec![line("injected".into(), &self.ends.injected), line("captured".into(), &self.ends.captured)];
         for (surface, amount) in &self.exits {
             lines.push(line(format!("left through {}", case.surfaces[*surface].name), amount));
         }
-        lines.push(line("airborne at the time limit".into(), &self.airborne));
-        lines.push(line(format!("given up (more than {} hits, or at rest)", case.hit_limit), &self.given_up));
-        lines.push(line("unusable".into(), &self.unusable));
-        let reacted = Some(self.reacted.total());
+        lines.push(line("airborne at the time limit".into(), &self.ends.airborne));
+        lines.push(line(
+            format!("given up (more than {} hits, or at rest)", case.hit_limit),
+            &self.ends.given_up,
+        ));
+        lines.push(line("unusable".into(), &self.ends.unusable));
+        let reacted = Some(self.ends.reacted.total());
         lines.push(BalanceLine { what: "reacted".into(), count: None, mass: reacted });
         lines
     }

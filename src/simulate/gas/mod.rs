@@ -31,6 +31,7 @@ pub struct Gas {
     /// In the order of [`PROPERTIES`].
     properties: [Property; 4],
     mean_free_path: f64,
+    accommodation: f64,
 }
 
 /// Keys and units of the properties that depend on the temperature.
@@ -54,6 +55,8 @@ pub struct GasState {
     pub heat_capacity: f64,
     /// Mean free path of the molecules [m]; 0 for a dense gas.
     pub mean_free_path: f64,
+    /// Share of the exchanged heat that molecules take over on hitting a particle [1]; acts in a thin gas.
+    pub accommodation: f64,
 }
 
 impl Gas {
@@ -84,6 +87,7 @@ impl Gas {
             temperature,
             properties: [density?, viscosity?, conductivity?, heat_capacity?],
             mean_free_path: section.number_within("mean_free_path", 0.0, f64::INFINITY)?.unwrap_or(0.0),
+            accommodation: section.number_within("accommodation", 1e-3, 1.0)?.unwrap_or(1.0),
         };
         gas.check(section)?;
         Ok(gas)
@@ -95,8 +99,18 @@ impl Gas {
         // `check` made sure that every property is known at every temperature of the gas.
         let [density, viscosity, conductivity, heat_capacity] =
             self.properties.each_ref().map(|property| property.at(temperature).unwrap_or(f64::NAN));
-        let (velocity, mean_free_path) = (self.field.velocity(position), self.mean_free_path);
-        GasState { velocity, temperature, density, viscosity, conductivity, heat_capacity, mean_free_path }
+        let velocity = self.field.velocity(position);
+        let Self { mean_free_path, accommodation, .. } = *self;
+        GasState {
+            velocity,
+            temperature,
+            density,
+            viscosity,
+            conductivity,
+            heat_capacity,
+            mean_free_path,
+            accommodation,
+        }
     }
 
     /// The same gas at one temperature [K] everywhere.

@@ -76,7 +76,8 @@ fn speed_at_plate(hits: &[Hit]) -> [f64; 2] {
 /// The part on the plate.
 pub(super) fn part(extent: Extent) -> Result<Part> {
     let mut case = read("validation/troiano/rig.toml", include_str!("../../troiano/rig.toml"))?;
-    case.injection.count = extent.count(case.injection.count as usize) as u64;
+    let count = &mut case.injections[0].count;
+    *count = extent.count(*count as usize) as u64;
     let hits = hits(&mut case)?;
     let speed = speed_at_plate(&hits);
     let frames = Frames::new();
