@@ -84,7 +84,7 @@ impl Burning {
                     * (1.0 - conversion).max(0.0)
             }
             // Fades out over the last thousandth, so that the path stays smooth.
-            ConversionLaw::FixedRate(rate) => rate * (1.0 - conversion).min(FADE).max(0.0) / FADE,
+            ConversionLaw::FixedRate(rate) => rate * (1.0 - conversion).clamp(0.0, FADE) / FADE,
         }
     }
 

@@ -3,7 +3,7 @@
 //! The particles of each injection are released evenly over the duration of the feed. The duration has equal steps. Particles
 //! that are released in a step meet the walls as they were at its beginning; at its end the captured ones are added
 //! ([`crate::Model::add_captured`], [`Deposit::with`]) and the carbon of the powder burns for the length of the step, by the case's law of
-//! conversion at the temperature of the wall ([`burn_off`]). So the flight has to be short against a step, and what one step adds has to
+//! conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over the step. So the flight has to be short against a step, and what one step adds has to
 //! be small. The sums go in the order of the particles, so that they do not depend on the number of threads. A wall has equal bins along
 //! a pipe, or rings of equal width on a disc; each is one [`Deposit`].
 
@@ -19,6 +19,14 @@ use super::trajectory::{Fate, Trajectory};
 use crate::deposit::{Deposit, DepositSource, burn_off};
 use crate::impact::Impact;
 use crate::input::{InputError, Section};
+
+/// Largest number of states that are kept of one wall.
+const MOST_STATES: u64 = 1_000_000;
+
+/// Sub-steps for each time in which the powder burns down by a factor e.
+const PARTS_PER_TIME: f64 = 4.0;
+/// Largest number of sub-steps; powder that burns faster covers nothing.
+const MOST_PARTS: f64 = 64.0;
 
 /// A `[deposit]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +55,10 @@ impl DepositSettings {
             bins: whole(section, "bins", 1e4)?.unwrap_or(10).max(1) as usize,
         };
         section.finish()?;
+        if settings.steps.saturating_mul(settings.bins as u64) > MOST_STATES {
+            let problem = format!("`steps` times `bins` is more than {MOST_STATES}, which no table can show");
+            return Err(section.fault("steps", problem));
+        }
         Ok(settings)
     }
 
@@ -173,7 +185,7 @@ impl WallDeposits {
         Ok(())
     }
 
-    /// Adds what was captured in this step, and lets the powder burn for its length.
+    /// Adds what was captured in this step, and lets the powder burn.
     pub(super) fn end_step(&mut self, case: &Case) -> Result<(), String> {
         let duration = self.settings.step();
         for (surface, bins) in case.surfaces.iter().zip(&mut self.walls) {
@@ -201,17 +213,34 @@ impl WallDeposits {
 }
 
 impl Bin {
-    /// Returns the mass that burns [kg/m²].
+    /// What was captured arrives evenly over the step while the powder burns: sub-steps of half the burning, a part of the
+    /// captured particles, and the other half. Returns the mass that burns [kg/m²].
     fn end_step(&mut self, case: &Case, wall: usize, temperature: f64, duration: f64) -> Result<f64, String> {
-        let powder = self.deposit.powder + self.source.powder;
-        self.deposit = self.deposit.with(&std::mem::take(&mut self.source));
-        // Melt buries powder of every kind alike.
-        let kept = if powder > 0.0 { self.deposit.powder / powder } else { 0.0 };
-        let carbon = self.powder.with(&std::mem::take(&mut self.powder_source)).times(kept);
-        self.powder = carbon;
+        let rate = case.injections.first().map_or(0.0, |injection| injection.burning.rate(temperature, 0.0));
+        let has_carbon = self.powder.left + self.powder_source.left > 0.0;
+        let parts =
+            if has_carbon { (PARTS_PER_TIME * rate * duration).ceil().clamp(1.0, MOST_PARTS) } else { 1.0 };
+        let source = part_of(&std::mem::take(&mut self.source), parts);
+        let carbon = std::mem::take(&mut self.powder_source).times(1.0 / parts);
+        let half = 0.5 * duration / parts;
+        let mut burnt = 0.0;
+        for _ in 0..parts as u32 {
+            burnt += self.burn(case, wall, temperature, half)?;
+            let powder = self.deposit.powder + source.powder;
+            self.deposit = self.deposit.with(&source);
+            // Melt buries powder of every kind alike.
+            let kept = if powder > 0.0 { self.deposit.powder / powder } else { 0.0 };
+            self.powder = self.powder.with(&carbon).times(kept);
+            burnt += self.burn(case, wall, temperature, half)?;
+        }
+        Ok(burnt)
+    }
+
+    /// Lets the powder burn; returns the mass that is gone [kg/m²].
+    fn burn(&mut self, case: &Case, wall: usize, temperature: f64, duration: f64) -> Result<f64, String> {
         // The law is that of the case, the same for all injections.
         let Some(injection) = case.injections.first() else { return Ok(0.0) };
-        let law = injection.burning;
+        let (law, carbon) = (injection.burning, self.powder);
         if carbon.left <= 0.0 {
             return Ok(0.0);
         }
@@ -231,6 +260,14 @@ impl Bin {
         self.powder = PowderCarbon { left: carbon.left * left, unburnt };
         Ok(carbon.left * (1.0 - left))
     }
+}
+
+/// One of so many equal parts.
+fn part_of(source: &DepositSource, parts: f64) -> DepositSource {
+    let DepositSource { molten, powder, solid, cover, buried, converted } = *source;
+    let [molten, powder, solid, cover, buried, converted] =
+        [molten, powder, solid, cover, buried, converted].map(|value| value / parts);
+    DepositSource { molten, powder, solid, cover, buried, converted }
 }
 
 /// Whether ash without carbon is molten on a wall of the case's model at a temperature [K].

@@ -51,9 +51,12 @@ fn masses(index: usize, label: &str, wall: &History<DepositState>) -> Figure {
     let title = format!("Deposit on {}, {label}", wall.wall);
     let mut chart = Chart::new(&title, "time [s]", "mass [kg]");
     for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg"), ("drained", "drained_kg")] {
-        chart = chart.line(name, &line(wall, column));
+        let points = line(wall, column);
+        if column != "drained_kg" || points.iter().any(|[_, mass]| *mass > 0.0) {
+            chart = chart.line(name, &points);
+        }
     }
-    let caption = "Molten mass and powder in the deposit of the patch, with their mass at capture, and the mass that \
-                   drained from it as a film.";
+    let caption = "Molten mass and powder in the deposit of the wall, and, where it runs down, the mass that drained from \
+                   it as a film. In OpenFOAM with the mass at capture; a standalone case counts out what burns off.";
     chart.figure(&format!("wall-deposit-{}", index + 1), caption)
 }
