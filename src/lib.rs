@@ -43,7 +43,7 @@
 //!
 //! # Around an impact
 //! [`input`] reads TOML files with errors that name line and key. A [`deposit`] is what earlier particles left on a piece of wall;
-//! a code may keep one for each face and pass it to later impacts. [`c_api`] is the C interface. With the feature `command`,
+//! a code may keep one for each face and pass it to later impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface. With the feature `command`,
 //! `dataset` reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas
 //! flow, and `report` draws the pages.
 
@@ -60,6 +60,7 @@ pub mod deposit;
 #[cfg(feature = "command")]
 pub mod diagnose;
 pub mod effect;
+pub mod erosion;
 pub mod impact;
 pub mod input;
 pub mod material;
