@@ -62,7 +62,9 @@ mod tests {
     use approx::assert_relative_eq;
 
     fn eroded(speed: f64, degrees: f64) -> f64 {
-        model("[erosion]\nlaw = \"finnie\"\nflow_stress = 1e9\n").erosion(0, &at(speed, degrees), 1.0).unwrap()
+        model("[erosion]\nlaw = \"finnie\"\nflow_stress = 1e9\n")
+            .erosion(0, &at(speed, degrees), 1.0)
+            .unwrap()
     }
 
     /// By hand with psi = K = 2: 1 kg at 100 m/s has m v²/(p psi K) = 2.5e-6 m³. At 15° times sin 30° - 3 sin² 15° = 0.299038106;

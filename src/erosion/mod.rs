@@ -89,7 +89,11 @@ e_t = 0.7
     fn every_law_is_documented() {
         let page = include_str!("../../docs/model-file.md");
         for law in EROSION_LAWS {
-            assert!(page.contains(&format!("`{}`", law.name)), "docs/model-file.md does not name {}", law.name);
+            assert!(
+                page.contains(&format!("`{}`", law.name)),
+                "docs/model-file.md does not name {}",
+                law.name
+            );
         }
     }
 
@@ -108,12 +112,18 @@ e_t = 0.7
 
     #[test]
     fn faults_are_named() {
-        let error = |text: &str| Model::from_toml("m.toml", &format!("{BASE}{text}")).unwrap_err().to_string();
+        let error =
+            |text: &str| Model::from_toml("m.toml", &format!("{BASE}{text}")).unwrap_err().to_string();
         assert!(error("[erosion]\n").contains("one of finnie, oka"));
         assert!(error("[erosion]\nlaw = \"finie\"\n").contains("did you mean `finnie`"));
         assert!(error("[erosion]\nlaw = \"finnie\"\n").contains("flow_stress"));
-        assert!(error("[erosion]\nlaw = \"finnie\"\nflow_stress = 1\n").contains("1e3") || error("[erosion]\nlaw = \"finnie\"\nflow_stress = 1\n").contains("1000"));
-        assert!(error("[erosion]\nlaw = \"oka\"\nhardness = 2e9\nflow_stress = 1e9\n").contains("unknown key"));
+        assert!(
+            error("[erosion]\nlaw = \"finnie\"\nflow_stress = 1\n").contains("1e3")
+                || error("[erosion]\nlaw = \"finnie\"\nflow_stress = 1\n").contains("1000")
+        );
+        assert!(
+            error("[erosion]\nlaw = \"oka\"\nhardness = 2e9\nflow_stress = 1e9\n").contains("unknown key")
+        );
         assert!(model("").erosion(7, &at(1.0, 45.0), 1.0).is_err());
         let eroded = model("[erosion]\nlaw = \"finnie\"\nflow_stress = 1e9\n");
         assert!(eroded.erosion(0, &at(1.0, 45.0), -1.0).is_err());
@@ -126,7 +136,8 @@ e_t = 0.7
         for text in ["finnie\"\nflow_stress = 1e9\n", "oka\"\nhardness = 2e9\n"] {
             let model = model(&format!("[erosion]\nlaw = \"{text}"));
             for degrees in [0.0, 1e-9, 10.0, 45.0, 89.999_999, 90.0] {
-                let volumes = [0.0, 1e-6, 1.0, 30.0, 300.0].map(|v| model.erosion(0, &at(v, degrees), 1.0).unwrap());
+                let volumes =
+                    [0.0, 1e-6, 1.0, 30.0, 300.0].map(|v| model.erosion(0, &at(v, degrees), 1.0).unwrap());
                 assert!(volumes.is_sorted() && volumes[0] == 0.0, "{text} {degrees}: {volumes:?}");
                 assert!(volumes[4].is_finite());
             }

@@ -87,7 +87,8 @@ impl Erosion for Oka {
         if speed == 0.0 {
             return 0.0;
         }
-        let (hardness, Particles { rate, speed: of_speed, diameter, angle, .. }) = (self.hardness, self.particles);
+        let (hardness, Particles { rate, speed: of_speed, diameter, angle, .. }) =
+            (self.hardness, self.particles);
         let sine = impact.normal_speed / speed;
         let head_on = rate[0]
             * hardness.powf(rate[1])
@@ -118,10 +119,13 @@ mod tests {
     /// At the reference state and 1 GPa, `E_90` is `K` for each kind of particles.
     #[test]
     fn the_reference_state_gives_the_leading_constant() {
-        for (kind, speed, diameter, rate) in
-            [("silica", 104.0, 326e-6, 65.0), ("silicon-carbide", 99.0, 326e-6, 45.0), ("glass-beads", 100.0, 200e-6, 27.0)]
-        {
-            let found = eroded(1e9, &format!("particles = \"{kind}\"\n"), &Impact { diameter, ..at(speed, 90.0) });
+        for (kind, speed, diameter, rate) in [
+            ("silica", 104.0, 326e-6, 65.0),
+            ("silicon-carbide", 99.0, 326e-6, 45.0),
+            ("glass-beads", 100.0, 200e-6, 27.0),
+        ] {
+            let found =
+                eroded(1e9, &format!("particles = \"{kind}\"\n"), &Impact { diameter, ..at(speed, 90.0) });
             assert_relative_eq!(found, rate, max_relative = 1e-12);
         }
     }

@@ -32,7 +32,8 @@ impl Model {
     /// [`InputError`] naming line, column and key.
     pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
         // A misspelt table name is reported before the errors that follow from it.
-        for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "erosion", "materials"] {
+        for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "erosion", "materials"]
+        {
             top.has(key);
         }
         top.finish()?;
@@ -146,7 +147,8 @@ impl WallReader<'_> {
             }
             _ => None,
         };
-        let own_erosion = section.section("erosion")?.map(|table| finished(table, erosion::read)).transpose()?;
+        let own_erosion =
+            section.section("erosion")?.map(|table| finished(table, erosion::read)).transpose()?;
         Ok(Wall {
             name: name.to_owned(),
             pattern: read_pattern(name, section)?,
