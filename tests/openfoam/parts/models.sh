@@ -35,10 +35,10 @@ case_erosion() {
     local f mine theirs depth
     build kinematic "$work/erosion" || return
     cat >> constant/kinematicCloudProperties <<'END'
-subModels { injectionModels { model2 { $model1; U0 (3 0.1 -0.45); massTotal 2e-6; } } }
-cloudFunctions { finnie { type particleErosion; patches (floor); p 2e9; psi 1.5; K 2.5; } }
+subModels { injectionModels { model2 { $:subModels.injectionModels.model1; U0 (1 0.1 -0.45); massTotal 2e-6; } } }
+cloudFunctions { finnie { type particleErosion; patches (floor); p 2e9; psi 1.5; K 3; } }
 END
-    printf '[erosion]\nlaw = "finnie"\nflow_stress = 2e9\ndepth_ratio = 1.5\nforce_ratio = 2.5\n' >> constant/nearWall.toml
+    printf '[erosion]\nlaw = "finnie"\nflow_stress = 2e9\ndepth_ratio = 1.5\nforce_ratio = 3\n' >> constant/nearWall.toml
     settings 0.2 0.1 startTime ascii
     solve erosion serial "$solver" || return
     f="$(folder kinematicCloud)/floor.dat"
@@ -77,7 +77,7 @@ floor_sum() {
 two_injectors() { # folder
     build kinematic "$1" || return
     cat >> constant/kinematicCloudProperties <<'END'
-subModels { injectionModels { model1 { injectorID 3; } minerals { $model1; injectorID 5; massTotal 2e-6; } } }
+subModels { injectionModels { model1 { injectorID 3; } minerals { $:subModels.injectionModels.model1; injectorID 5; massTotal 2e-6; } } }
 END
     sed 's/e_n = .*/e_n = 0.9/; s/^\[walls.floor\]/[walls.other]/' constant/nearWall.toml > constant/minerals.toml
     sed -i '1i injectors { minerals { model "<constant>/minerals.toml"; } }' constant/interaction
@@ -154,14 +154,14 @@ e_t = 0.75
 [capture]
 model = "viscosity"
 law = "urbain"
-reference_viscosity = 1e-12
+reference_viscosity = 1e-7
 [materials.melt]
 density = 1000
 youngs_modulus = 1e9
 poisson_ratio = 0.4
 yield_strength = 1e7
 surface_energy = 0.03
-viscosity = 0.1
+viscosity = 1e8
 [[effects]]
 kind = "liquid-film"
 viscosity = 0.001
