@@ -342,6 +342,24 @@ nw_status nw_speeds(const struct nw_model *model,
                     double *yielding,
                     double *sticking);
 
+// Computes the density [kg/m3] of the particle's material for an impact, which is taken where its `rho_p` is 0.
+//
+// # Safety
+// `model` is a loaded model, `impact` begins with its `struct_size`, `density` can be written.
+nw_status nw_particle_density(const struct nw_model *model,
+                              const struct nw_impact *impact,
+                              double *density);
+
+// Computes the volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one; 0 if the model
+// file gives the wall no erosion law. Independent of what becomes of the particles.
+//
+// # Safety
+// `model` is a loaded model, `impact` begins with its `struct_size`, `volume` can be written.
+nw_status nw_erosion(const struct nw_model *model,
+                     const struct nw_impact *impact,
+                     double mass,
+                     double *volume);
+
 // Returns the temperatures [K] of particle and wall for which all property tables of a wall are defined: lowest and
 // highest, 0 and infinity without a limit. Outputs may be null.
 //

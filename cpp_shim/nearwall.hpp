@@ -228,6 +228,16 @@ public:
         return nw_resolve(raw_, &impact, &outcome);
     }
 
+    // Density [kg/m3] of the particle's material, which is taken where the impact's `rho_p` is 0; no exceptions.
+    nw_status particle_density(const nw_impact& impact, double& density) const noexcept {
+        return nw_particle_density(raw_, &impact, &density);
+    }
+
+    // Volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one; no exceptions.
+    nw_status erosion(const nw_impact& impact, double mass, double& volume) const noexcept {
+        return nw_erosion(raw_, &impact, mass, &volume);
+    }
+
     // The initial deposit of a wall in the model file; throws for an unknown wall.
     nw_deposit initial_deposit(std::uint32_t wall, double voidage) const {
         nw_deposit deposit = make_deposit(wall);

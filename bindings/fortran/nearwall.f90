@@ -214,6 +214,23 @@ module nearwall
       integer(c_int32_t) :: nw_speeds
     end function nw_speeds
 
+    function nw_particle_density(model, impact, density) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_impact), intent(in) :: impact
+      real(c_double), intent(inout) :: density
+      integer(c_int32_t) :: nw_particle_density
+    end function nw_particle_density
+
+    function nw_erosion(model, impact, mass, volume) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_impact), intent(in) :: impact
+      real(c_double), value :: mass
+      real(c_double), intent(inout) :: volume
+      integer(c_int32_t) :: nw_erosion
+    end function nw_erosion
+
     function nw_temperature_ranges(model, wall, particle_low, particle_high, wall_low, wall_high) bind(c)
       import
       type(c_ptr), value :: model

@@ -98,6 +98,8 @@ FUNCTIONS = {
     "nw_outcome_init": (c_int32, [POINTER(nw_outcome)]),
     "nw_resolve": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(nw_outcome)]),
     "nw_speeds": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
+    "nw_particle_density": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double)]),
+    "nw_erosion": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
     "nw_temperature_ranges": (c_int32, [c_void_p, c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "nw_resolve_batch": (c_int32, [c_void_p, POINTER(nw_impacts), POINTER(nw_outcomes), POINTER(c_size_t)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
@@ -271,6 +273,18 @@ class Model:
         found = [c_double() for _ in range(3)]
         _check(_library.nw_speeds(self._handle, byref(impact), *map(byref, found)))
         return Speeds(*(number.value for number in found))
+
+    def particle_density(self, **inputs):
+        """Density [kg/m3] of the particle's material, which is taken where the input rho_p is 0."""
+        impact, found = _impact(0, inputs), c_double()
+        _check(_library.nw_particle_density(self._handle, byref(impact), byref(found)))
+        return found.value
+
+    def erosion(self, mass, wall=0, **inputs):
+        """Volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one."""
+        impact, found = _impact(wall, inputs), c_double()
+        _check(_library.nw_erosion(self._handle, byref(impact), mass, byref(found)))
+        return found.value
 
     def temperature_ranges(self, wall=0):
         """Temperatures [K] for which the properties of particle and wall are defined."""

@@ -238,7 +238,7 @@ nw_status Foam::nearWall::wallMemory::addToSource
     const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
     const scalar volume =
         e.particles*constant::mathematical::pi/6*pow3(e.impact.d);
-    return model_->add_captured(e.impact, e.mass/area, e.mass/volume, sum);
+    return e.model->add_captured(e.impact, e.mass/area, e.mass/volume, sum);
 }
 
 

@@ -22,7 +22,7 @@ Foam::nearWallInteraction<CloudType>::checkedCoeffs() const
         ({
             "model", "patches", "stuck", "writeFields", "seed",
             "statisticsInterval", "particleTemperature", "carbon", "record",
-            "memory"
+            "memory", "injectors"
         }),
         "nearWallInteraction"
     );
@@ -90,8 +90,8 @@ void Foam::nearWallInteraction<CloudType>::makeMemory()
             coeffs().subDict("memory"),
             mesh(),
             this->owner().name(),
-            rules_,
-            model_,
+            rules(),
+            models_.ofCloud().model,
             this->owner().g().value(),
             saved("memory"),
             tableFolder()
@@ -103,13 +103,14 @@ void Foam::nearWallInteraction<CloudType>::makeMemory()
 template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::reportSetup() const
 {
-    Info<< "    nearWallInteraction, model: "
-        << nearWall::wallModelOrigin(coeffs(), mesh().time()).c_str() << nl
-        << "    nearWallInteraction, patches:" << nl;
-    forAll(rules_, patchi)
+    models_.report(coeffs(), mesh().time());
+    Info<< "    nearWallInteraction, patches:" << nl;
+    forAll(rules(), patchi)
     {
-        rules_[patchi].report(mesh().boundaryMesh()[patchi].name());
+        rules()[patchi].report(mesh().boundaryMesh()[patchi].name());
     }
+    Info<< "    nearWallInteraction: impacts have the density rho and the"
+        << " diameter d of their parcel" << nl;
     Info<< endl;
     nearWall::report(stuck_, run_->deposit->name());
     if (!nearWall::hasTemperature(static_cast<const parcelType*>(nullptr)))
@@ -139,11 +140,11 @@ Foam::nearWallInteraction<CloudType>::runState::runState
     const nearWallInteraction& m
 )
 :
-    totals(m.mesh(), m.rules_, m.saved("patches"), m.tableFolder()),
+    totals(m.mesh(), m.rules(), m.saved("patches"), m.tableFolder()),
     distributions
     (
         m.mesh(),
-        nearWall::injectorNames(m.owner().injectors()),
+        m.injectors_,
         m.saved("statistics"),
         m.tableFolder()
     ),
@@ -151,11 +152,13 @@ Foam::nearWallInteraction<CloudType>::runState::runState
     (
         m.coeffs(),
         m.mesh(),
-        m.rules_,
-        nearWall::injectorNames(m.owner().injectors()),
+        m.rules(),
+        m.injectors_,
         m.saved("record"),
         m.tableFolder()
     ),
+    stay(m.mesh(), m.rules(), m.saved("nearWallStay"), m.tableFolder()),
+    density(m.models_.all().size()),
     balance
     (
         std::make_shared<massBalance>
@@ -167,7 +170,13 @@ Foam::nearWallInteraction<CloudType>::runState::runState
 {
     if (nearWall::readOr<Switch>(m.coeffs(), "writeFields", Switch(true)))
     {
-        fields.reset(new nearWall::wallHitFields(m.mesh(), m.owner().name()));
+        fields.reset
+        (
+            new nearWall::wallHitFields
+            (
+                m.mesh(), m.owner().name(), m.models_.erodes()
+            )
+        );
     }
 }
 
@@ -180,8 +189,8 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
 )
 :
     PatchInteractionModel<CloudType>(dict, owner, typeName),
-    model_(nearWall::readWallModel(checkedCoeffs(), mesh().time())),
-    rules_(patchRule::read(coeffs(), mesh(), *model_)),
+    injectors_(owner.injectors()),
+    models_(checkedCoeffs(), mesh(), injectors_),
     stuck_(nearWall::readStuckTreatment(coeffs())),
     seed_(nearWall::readOr<label>(coeffs(), "seed", 1)),
     statisticsInterval_
@@ -288,12 +297,22 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     e.impact.v_n = v.vn;
     e.impact.v_t = v.vt;
     e.impact.d = p.d();
+    e.impact.rho_p = p.rho();
     e.impact.T_p = nearWall::temperature(p, particleTemperature_);
     e.impact.conversion = conversionOf(p);
+    return e;
+}
 
-    const patchRule& rule = rules_[e.patch];
-    if (rule.type != patchRule::interact) return e;
 
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::meetWall
+(
+    impactEvent& e,
+    const parcelType& p,
+    const relativeVelocity& v
+)
+{
+    const patchRule& rule = rules()[e.patch];
     const vector gas(this->owner().U()[p.cell()] - v.wall);
     e.impact.wall = rule.wall;
     e.impact.T_w =
@@ -305,7 +324,14 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     e.impact.seed = seed_;
     e.impact.key = keyOf(p);
     if (run_->memory) run_->memory->applyDeposit(e);
-    return e;
+
+    // The deposit is that of the cloud's model, whichever model decides
+    const label place = models_.place(e.injector);
+    const nearWall::parcelModels::entry& decides = models_.all()[place];
+    e.model = decides.model.get();
+    e.impact.wall = decides.rules[e.patch].wall;
+    run_->density.add(place, e);
+    if (models_.isUnknown(e.injector)) ++run_->unknownInjector;
 }
 
 
@@ -323,10 +349,11 @@ void Foam::nearWallInteraction<CloudType>::interact
     if (v.vn <= 0) return;
 
     impactEvent e(eventOf(p, pp, v));
+    meetWall(e, p, v);
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
-    const nw_status status = model_->resolve(e.impact, outcome);
+    const nw_status status = e.model->resolve(e.impact, outcome);
     if (status != NW_OK)
     {
         handleUnusable(p, v, e, status, keepParticle);
@@ -335,6 +362,7 @@ void Foam::nearWallInteraction<CloudType>::interact
 
     e.regime = min(label(outcome.regime), label(3));
     e.outsideRange = outcome.flags & NW_OUTSIDE_VALID_RANGE;
+    if (models_.erodes()) e.model->erosion(e.impact, e.mass, e.eroded);
     if (outcome.stuck)
     {
         stick(p, e, keepParticle);
@@ -501,7 +529,7 @@ bool Foam::nearWallInteraction<CloudType>::correct
     bool& keepParticle
 )
 {
-    const patchRule& rule = rules_[pp.index()];
+    const patchRule& rule = rules()[pp.index()];
     if (rule.type == patchRule::pass) return false;
 
     if (rule.type == patchRule::interact)
@@ -564,14 +592,25 @@ Foam::nearWallInteraction<CloudType>::content() const
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::reportBalance
+void Foam::nearWallInteraction<CloudType>::measureStay()
+{
+    const scalar duration = mesh().time().deltaTValue();
+    run_->stay.beginStep(duration);
+    for (const parcelType& p : this->owner())
+    {
+        if (!nearWall::isMoving(p)) continue;
+        run_->stay.add(p.cell(), p.nParticle()*p.mass()*duration);
+    }
+}
+
+
+template<class CloudType>
+Foam::scalar Foam::nearWallInteraction<CloudType>::finishBalance
 (
     Ostream& os,
     const bool writeRow
 )
 {
-    // A steady cloud forgets its parcels after each iteration
-    if (this->owner().solution().steadyState()) return;
 
     massBalance& balance = *run_->balance;
     if (fullCloudType* const cloud = solverCloud())
@@ -590,11 +629,12 @@ void Foam::nearWallInteraction<CloudType>::reportBalance
     {
         this->setModelProperty("balance", balance.saved(totals));
     }
+    return totals[massBalance::injected];
 }
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
+void Foam::nearWallInteraction<CloudType>::finishUnusable(Ostream& os)
 {
     const label n = returnReduce(run_->unusable, sumOp<label>());
     const label status = returnReduce(run_->unusableStatus, maxOp<label>());
@@ -611,7 +651,23 @@ void Foam::nearWallInteraction<CloudType>::reportUnusable(Ostream& os)
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::reportMemory
+void Foam::nearWallInteraction<CloudType>::finishUnknownInjectors(Ostream& os)
+{
+    if (models_.all().size() == 1) return;
+
+    const label n = returnReduce(run_->unknownInjector, sumOp<label>());
+    run_->unknownInjector = 0;
+    if (n == 0) return;
+
+    os  << "    nearWallInteraction, warning: " << n << " impact"
+        << (n == 1 ? "" : "s") << " of parcels without the number of an"
+        << " injector (in the step of their injection OpenFOAM has not set it"
+        << " yet); the cloud's model decided" << nl;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::finishMemory
 (
     Ostream& os,
     const bool writeRow
@@ -645,9 +701,21 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 
     const List<scalarList> totals(run_->totals.totals());
     run_->totals.report(NEARWALL_INFO_STREAM, totals);
-    reportUnusable(NEARWALL_INFO_STREAM);
-    reportMemory(NEARWALL_INFO_STREAM, writeRow);
-    reportBalance(NEARWALL_INFO_STREAM, writeRow);
+    run_->density.report(NEARWALL_INFO_STREAM, models_);
+    finishUnusable(NEARWALL_INFO_STREAM);
+    finishUnknownInjectors(NEARWALL_INFO_STREAM);
+    finishMemory(NEARWALL_INFO_STREAM, writeRow);
+
+    // A steady cloud forgets its parcels after each iteration
+    if (!this->owner().solution().steadyState())
+    {
+        measureStay();
+        const scalar injected = finishBalance(NEARWALL_INFO_STREAM, writeRow);
+        if (time.writeTime())
+        {
+            this->setModelProperty("nearWallStay", run_->stay.write(injected));
+        }
+    }
 
     if (writeRow) run_->totals.writeRows(time.value(), totals);
     if (!time.writeTime()) return;

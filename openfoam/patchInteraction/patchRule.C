@@ -132,6 +132,7 @@ struct ruleReader
     const polyPatch& pp;
     const fvMesh& mesh;
     const nearwall::model& model;
+    const string& modelName;
     patchRule& rule;
 
     //- Find the wall in the model: the given one, or by patch, group, default
@@ -157,11 +158,12 @@ struct ruleReader
         }
 
         FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name() << "': the wall model has no wall '"
+            << "Patch '" << pp.name() << "': " << modelName.c_str()
+            << " has no wall '"
             << names[0].c_str() << "'" << (given ? "" : " and no default")
             << "." << nl << "    Add [walls." << names[0].c_str() << "]"
             << (given ? "" : " or [walls.default]")
-            << " to the model, or name one of its walls: " << pp.name()
+            << " to that model, or name one of its walls: " << pp.name()
             << " { type interact; wall ...; }" << exit(FatalIOError);
     }
 
@@ -240,8 +242,8 @@ struct ruleReader
         FatalIOErrorInFunction(dict)
             << "Patch '" << pp.name() << "': the wall temperature is " << lowest
             << " to " << highest << " K, but the properties of wall '"
-            << rule.wallName.c_str() << "' are known from " << known.wall_low
-            << " to " << known.wall_high << " K." << nl << "    Correct "
+            << rule.wallName.c_str() << "' in " << modelName.c_str()
+            << " are known from " << known.wall_low << " to " << known.wall_high << " K." << nl << "    Correct "
             << source.c_str() << ", or extend the property tables of the wall's"
             << " material in the model." << exit(FatalIOError);
     }
@@ -254,7 +256,8 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
 (
     const dictionary& coeffs,
     const fvMesh& mesh,
-    const nearwall::model& model
+    const nearwall::model& model,
+    const string& modelName
 )
 {
     const polyBoundaryMesh& pbm = mesh.boundaryMesh();
@@ -289,7 +292,7 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
 
         if (rule.type == interact)
         {
-            const ruleReader reader{dict, pp, mesh, model, rule};
+            const ruleReader reader{dict, pp, mesh, model, modelName, rule};
             reader.readWall();
             reader.readTemperature();
             reader.checkTemperature();

@@ -114,6 +114,7 @@ std::vector<column> makeColumns()
         "capture_by_particles", nullptr, "stick_particles", "hit_particles"
     });
     all.push_back({"capture_by_mass", nullptr, "stick_mass_kg", "hit_mass_kg"});
+    sum("eroded_volume_m3", [](E e) { return e.eroded; });
     sum("outside_range", [](E e) { return scalar(e.outsideRange); });
     return all;
 }
@@ -132,10 +133,13 @@ scalar total(const scalarList& totals, const std::string& name)
     label i = 0;
     for (const column& c : columns())
     {
-        if (c.name == name) break;
+        if (c.add && c.name == name) return totals[i];
         if (c.add) ++i;
     }
-    return totals[i];
+    FatalErrorInFunction
+        << "The table of a patch has no sum '" << name.c_str() << "'."
+        << abort(FatalError);
+    return 0;
 }
 
 

@@ -30,7 +30,8 @@ Foam::volScalarField Foam::nearWall::readWallField
 Foam::nearWall::wallHitFields::wallHitFields
 (
     const fvMesh& mesh,
-    const word& cloudName
+    const word& cloudName,
+    const bool erodes
 )
 :
     depositedMass_
@@ -42,7 +43,17 @@ Foam::nearWall::wallHitFields::wallHitFields
     (
         readWallField(mesh, cloudName + ":meanImpactSpeed", dimVelocity)
     )
-{}
+{
+    if (!erodes) return;
+
+    erodedDepth_.reset
+    (
+        new volScalarField
+        (
+            readWallField(mesh, cloudName + ":erodedDepth", dimLength)
+        )
+    );
+}
 
 
 void Foam::nearWall::wallHitFields::add(const impactEvent& e)
@@ -52,11 +63,14 @@ void Foam::nearWall::wallHitFields::add(const impactEvent& e)
     n += 1;
     mean += (e.speed - mean)/n;
 
+    const scalar area =
+        hitCount_.mesh().magSf().boundaryField()[e.patch][e.face];
     if (e.result == impactEvent::stuck)
     {
-        const scalarField& area =
-            depositedMass_.mesh().magSf().boundaryField()[e.patch];
-        depositedMass_.boundaryFieldRef()[e.patch][e.face] +=
-            e.mass/area[e.face];
+        depositedMass_.boundaryFieldRef()[e.patch][e.face] += e.mass/area;
+    }
+    if (erodedDepth_)
+    {
+        erodedDepth_->boundaryFieldRef()[e.patch][e.face] += e.eroded/area;
     }
 }

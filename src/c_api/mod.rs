@@ -247,6 +247,61 @@ pub unsafe extern "C" fn nw_speeds(
     guarded_status(speeds)
 }
 
+/// Computes the density [kg/m3] of the particle's material for an impact, which is taken where its `rho_p` is 0.
+///
+/// # Safety
+/// `model` is a loaded model, `impact` begins with its `struct_size`, `density` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_particle_density(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    density: *mut f64,
+) -> nw_status {
+    let found = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        if density.is_null() {
+            return Err(NW_NULL_POINTER);
+        }
+        let impact = impact.to_impact();
+        impact.check()?;
+        let found = model.inner().particle_density(&impact)?;
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { density.write_unaligned(found) };
+        Ok(())
+    };
+    guarded_status(found)
+}
+
+/// Computes the volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one; 0 if the model
+/// file gives the wall no erosion law. Independent of what becomes of the particles.
+///
+/// # Safety
+/// `model` is a loaded model, `impact` begins with its `struct_size`, `volume` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_erosion(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    mass: f64,
+    volume: *mut f64,
+) -> nw_status {
+    let erode = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        if volume.is_null() {
+            return Err(NW_NULL_POINTER);
+        }
+        let found = model.inner().erosion(impact.wall as usize, &impact.to_impact(), mass)?;
+        if !found.is_finite() {
+            return Err(NW_BAD_STATE);
+        }
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { volume.write_unaligned(found) };
+        Ok(())
+    };
+    guarded_status(erode)
+}
+
 /// Returns the temperatures [K] of particle and wall for which all property tables of a wall are defined: lowest and
 /// highest, 0 and infinity without a limit. Outputs may be null.
 ///

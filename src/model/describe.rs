@@ -37,6 +37,9 @@ impl Model {
             if wall.layer_thickness > 0.0 {
                 text += &format!(", layer {} m", wall.layer_thickness);
             }
+            if let Some(erosion) = &wall.erosion {
+                text += &format!(", eroded by {}", erosion.describe());
+            }
             lines.push(("wall", text));
         }
         lines.push(("normal", self.describe_normal()));

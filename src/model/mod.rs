@@ -225,6 +225,29 @@ impl Model {
         Ok((outcome, trace))
     }
 
+    /// Volume of wall [m³] that particles of a total `mass` [kg] remove by impacts like this one; 0 where the model file gives the wall
+    /// no erosion law. Independent of what becomes of the particles.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for an impact or a mass without physical meaning, or an unknown wall.
+    pub fn erosion(&self, wall: usize, impact: &Impact, mass: f64) -> Result<f64, ImpactError> {
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        impact.check()?;
+        if !(mass.is_finite() && mass >= 0.0) {
+            let reason = "must be finite and not negative";
+            return Err(ImpactError::Unusable { quantity: "mass", value: mass, reason });
+        }
+        Ok(wall.erosion.as_ref().map_or(0.0, |law| mass * law.volume_per_mass(impact)))
+    }
+
+    /// Density [kg/m³] of the particle's material, which an impact without a density of its own takes.
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside a table.
+    pub fn particle_density(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        self.particle.density_of_materials(impact)
+    }
+
     /// Adhesive, yield and sticking velocity of an impact's particle and wall; random numbers are at their median, 0.5.
     ///
     /// # Errors

@@ -41,6 +41,16 @@ impl Particle {
         self.material.holds_at(temperature) && self.ash.iter().all(|ash| ash.holds_at(temperature))
     }
 
+    /// Density [kg/m³] of the materials for an impact, whatever density the impact gives.
+    ///
+    /// # Errors
+    /// [`ImpactError::OutOfRange`] outside a table.
+    pub(super) fn density_of_materials(&self, impact: &Impact) -> Result<f64, ImpactError> {
+        let char = self.material.density(impact.particle_temperature)?;
+        let Some(ash) = &self.ash else { return Ok(char) };
+        Ok(char + (ash.density(impact.particle_temperature)? - char) * impact.conversion)
+    }
+
     /// The contact with a wall for an impact; the density is that of the impact where it is given. Work of adhesion as in
     /// [`Contact::new`].
     ///

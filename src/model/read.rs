@@ -1,11 +1,14 @@
 //! Reads a model from TOML: every key is checked, nothing is assumed silently.
 
+use std::sync::Arc;
+
 use regex_lite::Regex;
 
 use super::wall::{Adhesion, Wall};
 use super::{Model, Particle};
 use crate::capture::{Capture, Criterion};
 use crate::effect::Term;
+use crate::erosion::{self, Erosion};
 use crate::input::{Document, InputError, Limits, Section};
 use crate::material::{Library, Material};
 use crate::normal::{Contact, NormalLaw};
@@ -29,7 +32,8 @@ impl Model {
     /// [`InputError`] naming line, column and key.
     pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
         // A misspelt table name is reported before the errors that follow from it.
-        for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "materials"] {
+        for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "erosion", "materials"]
+        {
             top.has(key);
         }
         top.finish()?;
@@ -52,8 +56,9 @@ impl Model {
         })?;
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
-        let reader =
-            WallReader { library: &library, criterion: capture.criterion, particle: &particle, adhesion };
+        let erosion = top.section("erosion")?.map(|section| finished(section, erosion::read)).transpose()?;
+        let criterion = capture.criterion;
+        let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;
         let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
         if capture.criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
@@ -104,6 +109,8 @@ struct WallReader<'a> {
     criterion: Option<Criterion>,
     particle: &'a Particle,
     adhesion: Adhesion,
+    /// The law of walls without one of their own.
+    erosion: Option<Arc<dyn Erosion>>,
 }
 
 impl WallReader<'_> {
@@ -140,6 +147,8 @@ impl WallReader<'_> {
             }
             _ => None,
         };
+        let own_erosion =
+            section.section("erosion")?.map(|table| finished(table, erosion::read)).transpose()?;
         Ok(Wall {
             name: name.to_owned(),
             pattern: read_pattern(name, section)?,
@@ -150,6 +159,7 @@ impl WallReader<'_> {
             layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
+            erosion: own_erosion.or_else(|| self.erosion.clone()),
             adhesion: self.adhesion,
             prepared,
         })

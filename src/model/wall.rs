@@ -7,6 +7,7 @@ use regex_lite::Regex;
 use super::particle::Particle;
 use crate::capture::StickinessCriterion;
 use crate::deposit::cover;
+use crate::erosion::Erosion;
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
 use crate::normal::Contact;
@@ -26,6 +27,8 @@ pub struct Wall {
     pub(super) layer_thickness: f64,
     pub(super) film_thickness: f64,
     pub(super) coverage: f64,
+    /// How impacts erode it, where the model file says so.
+    pub(super) erosion: Option<Arc<dyn Erosion>>,
     pub(super) adhesion: Adhesion,
     /// The contact with the particle, where no property depends on temperature.
     pub(super) prepared: Option<Contact>,

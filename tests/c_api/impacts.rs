@@ -65,6 +65,40 @@ fn golden_random_and_hostile_impacts_have_the_bits_of_the_rust_library() {
     }
 }
 
+/// Density and erosion of particles, by both libraries, to the last bit; a wall without a law loses nothing.
+#[test]
+fn density_and_erosion_are_those_of_the_rust_library() {
+    let calls = Calls::load();
+    let text = format!("{EVERY_REGIME}\n[erosion]\nlaw = \"oka\"\nhardness = 2e9\n");
+    let (rust, model, plain) =
+        (Model::from_toml("m", &text).unwrap(), calls.parse(&text), calls.parse(EVERY_REGIME));
+    for case in [random_cases(seed(), 200), hostile_cases()].concat() {
+        let impact = c_case(&case);
+        let (mut density, mut volume, mut none) = (-1.0, -1.0, -1.0);
+        let statuses = unsafe {
+            [
+                (calls.nw_particle_density)(model, &raw const impact, &raw mut density),
+                (calls.nw_erosion)(model, &raw const impact, 0.25, &raw mut volume),
+                (calls.nw_erosion)(plain, &raw const impact, 0.25, &raw mut none),
+            ]
+        };
+        match case.1.check().and_then(|()| rust.particle_density(&case.1)) {
+            Ok(theirs) => assert_eq!((statuses[0], density), (NW_OK, theirs)),
+            Err(error) => assert_eq!((statuses[0], density), (status_of(&error), -1.0)),
+        }
+        match rust.erosion(case.0, &case.1, 0.25) {
+            Ok(theirs) if theirs.is_finite() => assert_eq!((statuses[1], volume, none), (NW_OK, theirs, 0.0)),
+            Ok(_) => assert_eq!((statuses[1], volume), (NW_BAD_STATE, -1.0)),
+            Err(error) => assert_eq!((statuses[1], volume, none), (status_of(&error), -1.0, -1.0)),
+        }
+    }
+    let impact = nw_impact::default();
+    let status = unsafe { (calls.nw_erosion)(model, &raw const impact, 1.0, null_mut()) };
+    assert_eq!(status, NW_NULL_POINTER);
+    calls.free(model);
+    calls.free(plain);
+}
+
 #[test]
 fn initialised_structs_are_the_defaults() {
     let calls = Calls::load();

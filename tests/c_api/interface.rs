@@ -15,6 +15,8 @@ macro_rules! for_each_function {
             nw_outcome_init: unsafe extern "C" fn(*mut nw_outcome) -> i32,
             nw_resolve: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32,
             nw_speeds: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64, *mut f64, *mut f64) -> i32,
+            nw_particle_density: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64) -> i32,
+            nw_erosion: unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, *mut f64) -> i32,
             nw_temperature_ranges: unsafe extern "C" fn(*const nw_model, u32, *mut f64, *mut f64, *mut f64, *mut f64) -> i32,
             nw_resolve_batch: unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
             nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,

@@ -94,6 +94,28 @@ pub fn speeds(bytes: &mut Bytes<'_>, model: *const nw_model) {
     }
 }
 
+/// The density of the particles and what they erode.
+pub fn of_particles(bytes: &mut Bytes<'_>, model: *const nw_model) {
+    let impact = impact(bytes);
+    let mass = bytes.number();
+    let mut asked = GuardedBuffer::holding(bytes, impact);
+    let mut buffers: [GuardedBuffer; 2] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));
+    let from: *const nw_impact = asked.start_or_null(bytes);
+    let [density, volume] = buffers.each_mut().map(|buffer| buffer.start_or_null::<f64>(bytes));
+    // SAFETY: each is null or what it should be.
+    let statuses =
+        unsafe { [nw_particle_density(model, from, density), nw_erosion(model, from, mass, volume)] };
+    for (buffer, status) in buffers.iter_mut().zip(statuses) {
+        known(status);
+        buffer.assert_guard_intact();
+        if status == NW_OK {
+            assert!(buffer.f64() >= 0.0, "{} of {impact:?}, {mass} kg", buffer.f64());
+        } else {
+            buffer.assert_untouched();
+        }
+    }
+}
+
 pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let wall = [0, 1, 2, u32::MAX][bytes.below(4)];
     let mut buffers: [GuardedBuffer; 4] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));

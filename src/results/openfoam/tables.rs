@@ -17,6 +17,7 @@ const BALANCE: &str = "balance.dat";
 const CLASSES: &str = ".distributions.dat";
 const DEPOSIT: &str = ".wall.dat";
 const FLUX: &str = ".flux.dat";
+const STAY: &str = ".nearWall.dat";
 
 /// The quantities of a table of classes.
 const QUANTITIES: [(&str, Quantity); 3] =
@@ -34,7 +35,7 @@ const BALANCE_LINES: [(&str, &[&str]); 6] = [
 
 /// Fills in what the tables in a cloud's folder state.
 pub(super) fn read_into(results: &mut RunResults, folder: &Path) {
-    results.walls = histories(folder, ".dat", &[BALANCE, CLASSES, DEPOSIT, FLUX], wall_totals);
+    results.walls = histories(folder, ".dat", &[BALANCE, CLASSES, DEPOSIT, FLUX, STAY], wall_totals);
     results.classes = histories(folder, CLASSES, &[], class).into_iter().map(by_time).collect();
     results.deposits = histories(folder, DEPOSIT, &[], deposit_state);
     let balance = histories(folder, BALANCE, &[], |row| {

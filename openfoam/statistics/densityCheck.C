@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "densityCheck.H"
+
+void Foam::nearWall::densityCheck::report
+(
+    Ostream& os,
+    const parcelModels& models
+)
+{
+    // Assumed: the density of a material is known to some 50 %
+    const scalar allowed = 1.5;
+
+    for (std::size_t i = 0; i < first_.size(); ++i)
+    {
+        densities& found = first_[i];
+        if (found.isDone) continue;
+
+        const bool seen = found.material > 0 && found.parcel > 0;
+        const scalar ratio = seen ? found.parcel/found.material : 1;
+        const scalar factor = seen ? max(ratio, 1/ratio) : 0;
+        const scalar largest = returnReduce(factor, maxOp<scalar>());
+        found.isDone = largest > 0;
+        if (largest <= allowed) continue;
+
+        // Those of the rank with the largest factor
+        const bool mine = factor == largest;
+        const scalar parcel =
+            returnReduce(mine ? found.parcel : 0, maxOp<scalar>());
+        const scalar material =
+            returnReduce(mine ? found.material : 0, maxOp<scalar>());
+        const word& injector = models.all()[i].injector;
+        os  << "    nearWallInteraction, warning: parcels";
+        if (!injector.empty()) os << " of injector " << injector;
+        os  << " have a density of " << parcel << " kg/m3, the material in the"
+            << " model " << material << " kg/m3; impacts have that of the"
+            << " parcels. Is it the right material?" << nl;
+    }
+}
