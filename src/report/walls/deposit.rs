@@ -9,30 +9,39 @@ use crate::results::openfoam::deposit::{DepositState, value};
 pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
     let all = comparison.each().flat_map(|(label, run)| run.deposits.iter().map(move |wall| (label, wall)));
     let walls: Vec<(&String, &History<DepositState>)> = all.filter(|(_, wall)| is_something(wall)).collect();
+    // A single run needs no name.
+    let single = comparison.is_single();
+    let titled = |(label, wall): &(&String, &History<DepositState>)| {
+        if single {
+            format!("Deposit on {}", wall.wall)
+        } else {
+            format!("Deposit on {}, {label}", wall.wall)
+        }
+    };
     let mut figures: Vec<Figure> =
-        walls.iter().enumerate().map(|(index, (label, wall))| masses(index, label, wall)).collect();
+        walls.iter().enumerate().map(|(index, wall)| masses(index, &titled(wall), wall.1)).collect();
     if walls.is_empty() {
         return figures;
     }
     let over_time = |title: &str, y_label: &str, [mean, most]: [&str; 2]| {
         let chart = Chart::new(title, "time [s]", y_label);
         walls.iter().fold(chart, |chart, (label, wall)| {
-            let name = &wall.wall;
+            let name = if single { wall.wall.clone() } else { format!("{label}: {}", wall.wall) };
             chart
-                .line(&format!("{label}: {name}, mean"), &line(wall, mean))
-                .line(&format!("{label}: {name}, maximum"), &line(wall, most))
+                .line(&format!("{name}, mean"), &line(wall, mean))
+                .line(&format!("{name}, maximum"), &line(wall, most))
         })
     };
     let coverage =
         over_time("Share of the wall covered by powder", "coverage [1]", ["coverage_mean", "coverage_max"]);
     figures.push(coverage.figure(
         "wall-coverage",
-        "Mean over the area of the patch, and the face with the largest coverage. Covered area is not sticky.",
+        "Mean over the area of the wall, and the face or bin with the largest coverage. Covered area is not sticky.",
     ));
     let thickness = ["layer_thickness_mean_m", "layer_thickness_max_m"];
     figures.push(over_time("Powder on the wall", "thickness of the layer [m]", thickness).figure(
         "wall-layer",
-        "Mean over the area of the patch, and the thickest face, with the powder spread evenly on it. Powder damps \
+        "Mean over the area of the wall, and the thickest face or bin, with the powder spread evenly on it. Powder damps \
          rebounds.",
     ));
     figures
@@ -47,9 +56,8 @@ fn line(wall: &History<DepositState>, column: &str) -> Vec<[f64; 2]> {
     thinned(&wall.rows).map(|(time, state)| [*time, value(state, column)]).collect()
 }
 
-fn masses(index: usize, label: &str, wall: &History<DepositState>) -> Figure {
-    let title = format!("Deposit on {}, {label}", wall.wall);
-    let mut chart = Chart::new(&title, "time [s]", "mass [kg]");
+fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
+    let mut chart = Chart::new(title, "time [s]", "mass [kg]");
     for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg"), ("drained", "drained_kg")] {
         let points = line(wall, column);
         if column != "drained_kg" || points.iter().any(|[_, mass]| *mass > 0.0) {

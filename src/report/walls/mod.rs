@@ -90,6 +90,15 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
          and Marshall, and the stated law of carbon conversion. There is no turbulence and no action on the gas. A \
          particle touches a wall with its surface, half a diameter from its centre. The impact model decides each hit; \
          its random draw depends only on seed, particle and hit number.");
+    if let Some(deposit) = &case.deposit {
+        page.text(format!(
+            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its beginning; at \
+             its end the captured ones are added, and the carbon in the powder burns by the law of the case at the \
+             temperature of the wall. deposit.csv has every wall, bin and time.",
+            number(deposit.duration),
+            deposit.steps
+        ));
+    }
     if left_out > 0 {
         page.note(format!(
             "impacts.csv contains all hits of the first particles (of each value of a sweep), at most {} rows; \
