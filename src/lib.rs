@@ -45,7 +45,7 @@
 //! [`input`] reads TOML files with errors that name line and key. A [`deposit`] is what earlier particles left on a piece of wall;
 //! a code may keep one for each face and pass it to later impacts. [`c_api`] is the C interface. With the feature `command`,
 //! `dataset` reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas
-//! flow, and `report` draws the pages.
+//! flow, `map` shows a model over two inputs, and `report` draws the pages.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -62,6 +62,8 @@ pub mod diagnose;
 pub mod effect;
 pub mod impact;
 pub mod input;
+#[cfg(feature = "command")]
+pub mod map;
 pub mod material;
 pub mod model;
 pub mod normal;

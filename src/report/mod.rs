@@ -7,6 +7,7 @@
 mod chart;
 mod diagnosis;
 mod format;
+mod map;
 mod page;
 pub mod sweep;
 mod walls;
@@ -14,5 +15,6 @@ mod walls;
 pub use chart::{BarChart, Chart, ErrorBars, Figure, FigureMap, round_edges};
 pub use diagnosis::page as diagnosis_page;
 pub use format::{number, percent};
+pub use map::page as map_page;
 pub use page::{Page, RowStatus, Table};
 pub use walls::{openfoam_page, standalone_page};

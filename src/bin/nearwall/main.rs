@@ -2,6 +2,7 @@
 
 mod check;
 mod diagnose;
+mod map;
 mod materials;
 mod predict;
 mod progress;
@@ -22,6 +23,7 @@ enum Command {
     Predict(predict::Arguments),
     Diagnose(diagnose::Arguments),
     Simulate(simulate::Arguments),
+    Map(map::Arguments),
     Report(report::Arguments),
     Materials(materials::Arguments),
     Check(check::Arguments),
@@ -33,6 +35,7 @@ fn main() -> std::process::ExitCode {
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Map(arguments) => map::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),
