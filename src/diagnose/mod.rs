@@ -6,6 +6,7 @@
 
 mod advice;
 mod candidate;
+pub mod comparison;
 mod cross_validation;
 mod curve;
 mod data_split;

@@ -5,6 +5,7 @@
 //! show [`crate::results`], [`sweep`] a table of runs.
 
 mod chart;
+mod compare;
 mod diagnosis;
 mod format;
 mod map;
@@ -13,6 +14,7 @@ pub mod sweep;
 mod walls;
 
 pub use chart::{BarChart, Chart, ErrorBars, Figure, FigureMap, round_edges};
+pub use compare::{page as comparison_page, text as comparison_text};
 pub use diagnosis::page as diagnosis_page;
 pub use format::{number, percent};
 pub use map::page as map_page;

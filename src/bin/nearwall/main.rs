@@ -1,6 +1,7 @@
 //! The command `nearwall`: one file for each subcommand. This file selects it and prints errors.
 
 mod check;
+mod compare;
 mod diagnose;
 mod map;
 mod materials;
@@ -22,6 +23,7 @@ type CommandResult = Result<(), Box<dyn std::error::Error>>;
 enum Command {
     Predict(predict::Arguments),
     Diagnose(diagnose::Arguments),
+    Compare(compare::Arguments),
     Simulate(simulate::Arguments),
     Map(map::Arguments),
     Report(report::Arguments),
@@ -34,6 +36,7 @@ fn main() -> std::process::ExitCode {
     let done = match Command::parse() {
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),

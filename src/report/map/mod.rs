@@ -31,7 +31,7 @@ pub fn page(map: &Map, file: &str) -> Result<String, askama::Error> {
     page.figures([regimes(map), capture(map), restitution(map, 0), restitution(map, 1)]);
     let fixed = map.fixed_inputs();
     let row = |(input, value): (&crate::impact::Input, f64)| {
-        vec![input.name.to_owned(), with_unit(value, input.unit), input.about.to_owned()]
+        vec![input.name.to_owned(), with_unit(value, input.unit), input.about.replace('`', "")]
     };
     let mut table = Table::new(
         "Inputs that are the same in all impacts.",
@@ -108,7 +108,7 @@ fn capture(map: &Map) -> Figure {
 fn restitution(map: &Map, which: usize) -> Figure {
     let values = map.cells.iter().flatten().filter_map(|cell| Some(cell.restitution?[which]));
     let [low, high] = values.fold([0.0_f64, 0.0], |[low, high], value| [low.min(value), high.max(value)]);
-    let edges = round_edges(low, high.max(low + 1e-3), 5);
+    let edges = round_edges(low, high.max(low + 0.1), 5);
     let scale = ColourScale::new(edges[0], edges[edges.len() - 1]);
     let fills = fills(map, |cell| cell.restitution.map(|pair| scale.colour(pair[which])));
     let [id, title] =

@@ -326,9 +326,19 @@ fn widest_place(inside: &[bool], columns: usize, [width, height]: [f64; 2]) -> O
         }
         depth = next;
     }
-    let best = (0..inside.len()).max_by_key(|cell| depth[*cell])?;
-    let reach = depth[best] as f64 - 0.5;
-    (depth[best] > 0 && reach * height >= NAME[1] && (2.0 * reach + 1.0) * width >= NAME[0]).then_some(best)
+    let most = depth.iter().copied().max().filter(|most| *most > 0)?;
+    let reach = most as f64 - 0.5;
+    if reach * height < NAME[1] || (2.0 * reach + 1.0) * width < NAME[0] {
+        return None;
+    }
+    // Of several such cells, the one nearest to their middle.
+    let widest: Vec<usize> = (0..inside.len()).filter(|cell| depth[*cell] == most).collect();
+    let place = |cell: usize| [(cell % columns) as f64, (cell / columns) as f64];
+    let middle =
+        |axis: usize| widest.iter().map(|cell| place(*cell)[axis]).sum::<f64>() / widest.len() as f64;
+    let middle = [middle(0), middle(1)];
+    let distance = |cell: usize| (place(cell)[0] - middle[0]).hypot(place(cell)[1] - middle[1]);
+    widest.iter().copied().min_by(|a, b| distance(*a).total_cmp(&distance(*b)))
 }
 
 #[cfg(test)]
