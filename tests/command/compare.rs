@@ -129,7 +129,7 @@ fn the_planted_law_is_first_and_its_twin_is_not_told_apart() {
     let normal = |scatter: f64| -0.5 - (scatter * (2.0 * std::f64::consts::PI).sqrt()).ln();
     assert!((best_likelihood - normal(0.03) - normal(0.05)).abs() < 0.15, "{best_likelihood}");
     for part in [
-        &format!("{best} describes these data best. It cannot be told apart from {twin}."),
+        &format!("{best} has the highest log likelihood. These data cannot tell it apart from {twin}."),
         "harder.toml",
         "cannot be told apart",
         "Root mean square error of e_n",

@@ -153,9 +153,9 @@ fn verdict(models: &[ModelResult], rows: GroupedRows) -> String {
         others.iter().filter(told).map(|model| model.model.as_str()).collect::<Vec<_>>().join(", ")
     };
     let (equal, worse) = (list(false), list(true));
-    let mut text = format!("{} describes these data best.", best.model);
+    let mut text = format!("{} has the highest log likelihood.", best.model);
     if !equal.is_empty() {
-        text += &format!(" It cannot be told apart from {equal}.");
+        text += &format!(" These data cannot tell it apart from {equal}.");
     }
     if !worse.is_empty() {
         text += &format!(" Worse, beyond chance: {worse}.");
