@@ -118,7 +118,8 @@ fn depends_on(model: &Model, wall: usize, fixed: &Impact, axis: &Axis) -> bool {
         let decide = |value: f64| {
             let mut impact = Impact { normal_speed: speed, ..*fixed };
             (axis.input().set)(&mut impact, value);
-            draws.decide(model, wall, &impact).ok()
+            // The range that a law is stated for is no outcome.
+            draws.decide(model, wall, &impact).ok().map(|cell| Cell { outside_range: false, ..cell })
         };
         let mut outcomes = axis.with_points(16).values().into_iter().filter_map(decide);
         outcomes.next().is_some_and(|first| outcomes.any(|other| other != first))

@@ -165,7 +165,7 @@ fn wrong_usage_is_exit_2_and_a_fault_of_the_input_exit_1() {
     let folder = folder(&[("m.toml", WAX), ("p.toml", PATCHWORK)]);
     let at = folder.path();
     for (axis, part) in
-        [("vn=1:2", "did you mean `v_n`"), ("v_n=2:1", "not below"), ("v_n", "INPUT=LOW:HIGH")]
+        [("coverge=0:1", "did you mean `coverage`"), ("v_n=2:1", "not below"), ("v_n", "INPUT=LOW:HIGH")]
     {
         let output = nearwall(at, &["map", "m.toml", "--x", axis]);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
