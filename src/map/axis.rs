@@ -207,7 +207,7 @@ mod tests {
         for (text, part) in [
             ("v_n", "INPUT=LOW:HIGH"),
             ("v_n=1", "LOW:HIGH:POINTS"),
-            ("Tw=300:400", "did you mean `T_w`"),
+            ("coverge=0:1", "did you mean `coverage`"),
             ("v_n=2:1", "not below"),
             ("v_n=1:1", "not below"),
             ("v_n=a:1", "`a` is not a number"),

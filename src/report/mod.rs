@@ -1,8 +1,9 @@
-//! Pages of results, as `diagnose`, `simulate` and `report` write them.
+//! Pages of results, as the command writes them.
 //!
 //! A [`Chart`], [`BarChart`] or [`FigureMap`] becomes a [`Figure`]: an SVG with a title and a caption. A [`Page`] is a
 //! self-contained HTML file of text, tables and figures, readable on paper. [`standalone_page`] and [`openfoam_page`]
-//! show [`crate::results`], [`sweep`] a table of runs.
+//! show [`crate::results`], [`sweep`] a table of runs, [`map_page`] a map of a model, [`comparison_page`] several models on
+//! one data file.
 
 mod chart;
 mod compare;

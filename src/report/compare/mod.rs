@@ -150,8 +150,9 @@ fn with_interval(value: f64, ci95: Option<[f64; 2]>) -> String {
 
 /// A measure of all models with its intervals; `None` where nothing was measured.
 fn figure(comparison: &Comparison, measure: &Shown) -> Option<Figure> {
-    let measured = |model: &ModelResult| Some((short(&model.model), (measure.of)(&model.errors)?));
-    let models: Vec<(String, Interval)> = comparison.models.iter().filter_map(measured).collect();
+    let names = short_names(&comparison.models);
+    let measured = |(model, name): (&ModelResult, String)| Some((name, (measure.of)(&model.errors)?));
+    let models: Vec<(String, Interval)> = comparison.models.iter().zip(names).filter_map(measured).collect();
     if models.is_empty() {
         return None;
     }
@@ -169,8 +170,16 @@ fn figure(comparison: &Comparison, measure: &Shown) -> Option<Figure> {
     Some(chart.figure(measure.id, caption))
 }
 
-/// The file name of a path, without the ending.
-fn short(path: &str) -> String {
-    let name = path.rsplit(['/', '\\']).next().unwrap_or(path);
-    name.strip_suffix(".toml").unwrap_or(name).to_owned()
+/// The models' file names without folder and ending, or as they are where two would be the same.
+fn short_names(models: &[ModelResult]) -> Vec<String> {
+    let short = |model: &ModelResult| {
+        let name = model.model.rsplit(['/', '\\']).next().unwrap_or_default();
+        name.strip_suffix(".toml").unwrap_or(name).to_owned()
+    };
+    let names: Vec<String> = models.iter().map(short).collect();
+    let mut unique = names.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    let full = || models.iter().map(|model| model.model.clone()).collect();
+    if unique.len() == names.len() { names } else { full() }
 }
