@@ -45,8 +45,8 @@
 //! [`input`] reads TOML files with errors that name line and key. [`law`] has what laws by name share: parameters, source and
 //! range. A [`deposit`] is what earlier particles left on a piece of wall; a code may keep one for each face and pass it to later
 //! impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface. With the feature `command`, `dataset`
-//! reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas flow, and
-//! `report` draws the pages.
+//! reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas flow,
+//! `map` shows a model over two inputs, and `report` draws the pages.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -65,6 +65,8 @@ pub mod erosion;
 pub mod impact;
 pub mod input;
 pub mod law;
+#[cfg(feature = "command")]
+pub mod map;
 pub mod material;
 pub mod model;
 pub mod normal;

@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use crate::dataset::Measurement;
+use crate::effect::stream;
 use crate::model::Model;
 use crate::rng::ImpactRng;
 
@@ -29,7 +30,7 @@ pub(super) struct Forecast {
 }
 
 /// Steps of the lattice of draws, one a stream. They are odd, so each stream visits all places.
-const STEPS: [usize; 4] = [1, 3, 5, 7];
+const STEPS: [usize; 5] = [1, 3, 5, 7, 9];
 /// Largest reach of a draw [1].
 const LARGEST_REACH: f64 = 0.1;
 /// Number of predictions from which threads pay off.
@@ -38,7 +39,10 @@ const PARALLEL: usize = 20_000;
 impl Forecast {
     /// Predicts the rows with these indices, `draws` times each if the model is stochastic.
     pub fn new(model: &Model, all: &[Measurement], rows: &[usize], draws: usize) -> Self {
-        let streams: Vec<u64> = model.terms().iter().filter_map(|t| t.kind().stream).collect();
+        let mut streams: Vec<u64> = model.terms().iter().filter_map(|t| t.kind().stream).collect();
+        if rows.iter().any(|&row| model.draws_place(all[row].wall, &all[row].impact)) {
+            streams.push(stream::COVER);
+        }
         let draws = if streams.is_empty() { 1 } else { draws };
         let predict = |&index: &usize| {
             let lattice = Lattice::new(index, &streams, draws);
@@ -125,13 +129,14 @@ fn set_reach(predictions: &mut [Prediction]) {
 
 fn predict(model: &Model, row: &Measurement, streams: &[u64], lattice: &Lattice, draw: usize) -> Prediction {
     let weight = streams.iter().map(|&stream| density(lattice.place(draw, stream))).product::<f64>();
-    let (restitution, capture) =
-        match model.resolve_with(row.wall, &row.impact, |stream| stretched(lattice.place(draw, stream))) {
-            Ok(outcome) => {
-                ([outcome.normal_restitution, outcome.tangential_restitution], outcome.sticking_probability)
-            }
-            // Unreachable: rows that the base model refuses were removed, and no effect narrows a property's range.
-            Err(_) => ([0.0; 2], 0.5),
-        };
+    let (restitution, capture) = match model
+        .resolve_place_with(row.wall, &row.impact, |stream| stretched(lattice.place(draw, stream)))
+    {
+        Ok(outcome) => {
+            ([outcome.normal_restitution, outcome.tangential_restitution], outcome.sticking_probability)
+        }
+        // Unreachable: rows that the base model refuses were removed, and no effect narrows a property's range.
+        Err(_) => ([0.0; 2], 0.5),
+    };
     Prediction { restitution, capture, weight, reach: [0.0; 2] }
 }

@@ -3,9 +3,11 @@
 //! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, fitted and cross-validated →
 //! forward selection → extended model → gain on held-out rows → record. Effects are known only through their
 //! [`crate::effect::EffectInfo`], so every effect of the list is a candidate. Method and limits: `docs/diagnosis.md`.
+//! [`comparison`] ranks several models with the same likelihood.
 
 mod advice;
 mod candidate;
+pub mod comparison;
 mod cross_validation;
 mod curve;
 mod data_split;

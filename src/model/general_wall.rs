@@ -42,26 +42,47 @@ impl Model {
         mut trace: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
         let (wall, arriving) = self.at_wall(wall, impact)?;
-        if arriving.coverage == 0.0 || !wall.is_patchwork(&arriving) {
-            return self.evaluate_place(wall, &arriving, Place::Anywhere, &uniform, &mut trace);
-        }
-        let covered_share = arriving.coverage;
-        let [met, other] = if uniform(stream::COVER) < 1.0 - covered_share {
-            [Place::Bare, Place::Covered]
-        } else {
-            [Place::Covered, Place::Bare]
-        };
+        let met = place_met(wall, &arriving, &uniform);
         let outcome = self.evaluate_place(wall, &arriving, met, &uniform, &mut trace)?;
-        let share = |place| if place == Place::Covered { covered_share } else { 1.0 - covered_share };
-        if share(other) == 0.0 {
+        let (other, share) = match met {
+            Place::Anywhere => return Ok(outcome),
+            Place::Bare => (Place::Covered, arriving.coverage),
+            Place::Covered => (Place::Bare, 1.0 - arriving.coverage),
+        };
+        if share == 0.0 {
             return Ok(outcome);
         }
         let elsewhere = self.evaluate_place(wall, &arriving, other, &uniform, &mut |_, _, _| {})?;
         let sticking_probability =
-            share(met) * outcome.sticking_probability + share(other) * elsewhere.sticking_probability;
+            (1.0 - share) * outcome.sticking_probability + share * elsewhere.sticking_probability;
         trace("cover", "p_stick", sticking_probability);
         let outside_range = outcome.outside_range | elsewhere.outside_range;
         Ok(Outcome { sticking_probability, outside_range, ..outcome })
+    }
+
+    /// Decides an impact with the caller's random numbers; the probability of capture is that of the place met, covered or bare. For
+    /// averages over the random draws in which a rebound counts where it happens.
+    ///
+    /// # Errors
+    /// As [`Model::resolve`].
+    #[cfg(feature = "command")]
+    pub(crate) fn resolve_place_with(
+        &self,
+        wall: usize,
+        impact: &Impact,
+        uniform: impl Fn(u64) -> f64,
+    ) -> Result<Outcome, ImpactError> {
+        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let met = place_met(wall, &arriving, &uniform);
+        self.evaluate_place(wall, &arriving, met, &uniform, &mut |_, _, _| {})
+    }
+
+    /// Whether a draw decides if the impact meets the covered or the bare share of the wall.
+    #[cfg(feature = "command")]
+    pub(crate) fn draws_place(&self, wall: usize, impact: &Impact) -> bool {
+        self.at_wall(wall, impact).is_ok_and(|(wall, arriving)| {
+            wall.is_patchwork(&arriving) && arriving.coverage > 0.0 && arriving.coverage < 1.0
+        })
     }
 
     /// Decides an impact at one place of a wall.
@@ -161,6 +182,17 @@ impl Model {
     }
 }
 
+/// The place that an impact meets.
+fn place_met(wall: &Wall, arriving: &Impact, uniform: &impl Fn(u64) -> f64) -> Place {
+    if arriving.coverage == 0.0 || !wall.is_patchwork(arriving) {
+        Place::Anywhere
+    } else if uniform(stream::COVER) < 1.0 - arriving.coverage {
+        Place::Bare
+    } else {
+        Place::Covered
+    }
+}
+
 impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for GeneralWall<'_, U, T> {
     type Contact = Contact;
     type Fault = ImpactError;
@@ -219,7 +251,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             return NormalRebound { restitution: e_n, held: false };
         }
         let law = self.model.normal;
-        self.left_range |= !law.holds_for(contact, impact);
+        self.left_range = !law.holds_for(contact, impact);
         let e_n = law.rebound(contact, impact);
         self.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
         NormalRebound::of(e_n)
@@ -295,6 +327,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             Some(OnMelt::Held) | None => stickiness.wall,
         };
         let probability = model.capture.combination.probability(Stickiness { wall, ..stickiness });
+        if wall >= 1.0 {
+            // The slag holds the particle, whatever the law of a dry contact says.
+            self.left_range = false;
+        }
         let dry_rebound = probability < 1.0 && self.on_melt.is_none() && stickiness.is_wall_sticky();
         self.left_range |= dry_rebound && model.normal.is_contact_law();
         probability

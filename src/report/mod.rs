@@ -1,18 +1,23 @@
-//! Pages of results, as `diagnose`, `simulate` and `report` write them.
+//! Pages of results, as the command writes them.
 //!
 //! A [`Chart`], [`BarChart`] or [`FigureMap`] becomes a [`Figure`]: an SVG with a title and a caption. A [`Page`] is a
 //! self-contained HTML file of text, tables and figures, readable on paper. [`standalone_page`] and [`openfoam_page`]
-//! show [`crate::results`], [`sweep`] a table of runs.
+//! show [`crate::results`], [`sweep`] a table of runs, [`map_page`] a map of a model, [`comparison_page`] several models on
+//! one data file.
 
 mod chart;
+mod compare;
 mod diagnosis;
 mod format;
+mod map;
 mod page;
 pub mod sweep;
 mod walls;
 
 pub use chart::{BarChart, Chart, ErrorBars, Figure, FigureMap, round_edges};
+pub use compare::{page as comparison_page, text as comparison_text};
 pub use diagnosis::page as diagnosis_page;
 pub use format::{number, percent};
+pub use map::page as map_page;
 pub use page::{Page, RowStatus, Table};
 pub use walls::{openfoam_page, standalone_page};

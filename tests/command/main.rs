@@ -6,9 +6,11 @@
 mod common;
 
 mod arguments;
+mod compare;
 mod diagnose;
 #[cfg(unix)]
 mod faults;
+mod map;
 mod pages;
 mod published;
 mod report;

@@ -1,7 +1,9 @@
 //! The command `nearwall`: one file for each subcommand. This file selects it and prints errors.
 
 mod check;
+mod compare;
 mod diagnose;
+mod map;
 mod materials;
 mod predict;
 mod progress;
@@ -21,7 +23,9 @@ type CommandResult = Result<(), Box<dyn std::error::Error>>;
 enum Command {
     Predict(predict::Arguments),
     Diagnose(diagnose::Arguments),
+    Compare(compare::Arguments),
     Simulate(simulate::Arguments),
+    Map(map::Arguments),
     Report(report::Arguments),
     Materials(materials::Arguments),
     Check(check::Arguments),
@@ -32,7 +36,9 @@ fn main() -> std::process::ExitCode {
     let done = match Command::parse() {
         Command::Predict(arguments) => predict::run(&arguments),
         Command::Diagnose(arguments) => diagnose::run(&arguments),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Map(arguments) => map::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),
         Command::Check(arguments) => check::run(&arguments),

@@ -1,0 +1,68 @@
+//! Groups of rows: the series of measurements where the file names them, else single rows.
+
+use std::collections::BTreeMap;
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use crate::dataset::{Measurements, Values};
+
+/// The column that names groups.
+const COLUMN: &str = "series";
+/// Parts of the rows: the scatter for one is estimated on the others.
+const FOLDS: usize = 5;
+/// Largest number of groups; single rows beyond it are bundled.
+const MOST_GROUPS: usize = 20_000;
+
+/// The group of every row.
+pub(super) struct Groups {
+    /// `series`, or `row`.
+    pub by: &'static str,
+    /// Number of the group of each row.
+    pub of_row: Vec<usize>,
+    pub count: usize,
+}
+
+impl Groups {
+    /// The series of the rows, if there are at least two; a row without one is a group of its own.
+    pub fn of(data: &Measurements) -> Self {
+        let rows = data.rows.len();
+        let series = data.columns.iter().find(|column| column.name == COLUMN).and_then(|column| {
+            let Values::Labels { of_row, .. } = &column.values else { return None };
+            let mut numbers: BTreeMap<Option<usize>, usize> = BTreeMap::new();
+            let mut count = 0;
+            let mut number = |label: &Option<usize>| {
+                let known = numbers.get(label).filter(|_| label.is_some()).copied();
+                known.unwrap_or_else(|| {
+                    numbers.insert(*label, count);
+                    count += 1;
+                    count - 1
+                })
+            };
+            let of_row = of_row.iter().map(&mut number).collect();
+            (count > 1).then_some((of_row, count))
+        });
+        match series {
+            Some((of_row, count)) => Self { by: COLUMN, of_row, count },
+            None => {
+                let count = rows.min(MOST_GROUPS);
+                Self { by: "row", of_row: (0..rows).map(|row| row % MOST_GROUPS).collect(), count }
+            }
+        }
+    }
+
+    /// The part of every row, whole groups together.
+    pub fn folds(&self, seed: u64) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.count).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        for place in (1..order.len()).rev() {
+            let other = (random.next_u64() % (place as u64 + 1)) as usize;
+            order.swap(place, other);
+        }
+        let mut fold = vec![0; self.count];
+        for (place, group) in order.into_iter().enumerate() {
+            fold[group] = place % FOLDS.min(self.count);
+        }
+        self.of_row.iter().map(|group| fold[*group]).collect()
+    }
+}
