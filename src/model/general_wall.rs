@@ -207,7 +207,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             && melt.is_none_or(|melt| melt.holds_on_wall(arriving.wall_temperature))
             && model.melt_holds(arriving)
             && model.tangential.holds_for(arriving)
-            && model.particle.holds_at(arriving.particle_temperature)
+            && model.particle.holds_for(arriving)
             && wall.material.holds_at(arriving.wall_temperature)
             && model.terms.iter().all(|term| term.holds_for(arriving)))
     }

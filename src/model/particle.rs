@@ -36,9 +36,11 @@ impl Particle {
         self.ash.is_none() && self.material.is_constant()
     }
 
-    /// Whether every mechanical property is stated to hold at a temperature [K].
-    pub(super) fn holds_at(&self, temperature: f64) -> bool {
-        self.material.holds_at(temperature) && self.ash.iter().all(|ash| ash.holds_at(temperature))
+    /// Whether every mechanical property is stated to hold for an impact: those of the material up to half of the conversion, those of
+    /// the ash beyond.
+    pub(super) fn holds_for(&self, impact: &Impact) -> bool {
+        let ash = self.ash.as_ref().filter(|_| impact.conversion > 0.5);
+        ash.unwrap_or(&self.material).holds_at(impact.particle_temperature)
     }
 
     /// Density [kg/m³] of the materials for an impact, whatever density the impact gives.

@@ -145,7 +145,7 @@ fn shape() -> Claim {
         "Fig 7b",
         "flattening, recoil and freezing from below",
         "described in words",
-        "The droplet criterion has no shape and omits freezing, which favours capture.",
+        "The droplet criterion has no shape. Freezing, which arrests a drop, counts where `contact_angle` lets drops bounce.",
     )
 }
 
