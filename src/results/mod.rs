@@ -56,6 +56,8 @@ pub struct WallTotals {
     pub captured_conversion: Moments,
     /// Hits outside the range that a property or a term is stated for.
     pub outside_range: Option<u64>,
+    /// Volume of wall that impacts removed [m³].
+    pub eroded: Option<f64>,
     /// How long particles stay near the wall, where the source follows them there.
     pub near_wall: Option<NearWall>,
 }

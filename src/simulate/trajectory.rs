@@ -49,6 +49,8 @@ pub struct Hit {
     pub outcome: Outcome,
     /// Density of the particle [kg/m³].
     pub density: f64,
+    /// Volume of wall that the real particles remove [m³].
+    pub eroded: f64,
     /// Mass of all real particles that this one represents [kg].
     pub mass: f64,
 }
@@ -248,7 +250,8 @@ impl Tracker<'_> {
         let key = (self.number << HIT_BITS) | self.hits.len() as u64;
         let outcome = model.resolve(wall, &impact, ImpactRng::new(self.case.seed, key))?;
         let (time, mass) = (self.time, self.mass());
-        self.hits.push(Hit { time, surface: index, position: here, impact, outcome, density, mass });
+        let eroded = model.erosion(wall, &impact, mass)?;
+        self.hits.push(Hit { time, surface: index, position: here, impact, outcome, density, eroded, mass });
         if outcome.stuck {
             return Ok(Some(Fate::Stuck(index)));
         }

@@ -8,7 +8,8 @@ use std::process::Command;
 use nalgebra::{Complex, Vector3};
 use nearwall::results::standalone::{ImpactRecorder, Run, run};
 use nearwall::simulate::{
-    Body, Burning, Case, Fate, Fusion, ParticleMotion, Shrinkage, Trajectory, fly, position, state, velocity,
+    Body, Burning, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly, position, state,
+    velocity,
 };
 
 /// A model with constant restitution, whose stickiness is a known number at each temperature.
@@ -375,6 +376,25 @@ fn what_goes_in_is_what_ends_somewhere() {
     let hits: usize = trajectories.iter().map(|trajectory| trajectory.hits.len()).sum();
     assert_eq!(runs[0].totals.walls[0].1.hits.unwrap().count, hits as u64);
     assert_eq!(runs[0].totals.walls[0].1.regime_hits.unwrap().iter().sum::<u64>(), hits as u64);
+}
+
+/// The eroded volume of a wall is Finnie's formula over the hits, `p` 2e9 Pa and `psi`, `K` 2, written here with the angle.
+#[test]
+fn erosion_sums_over_the_hits() {
+    let text = rig(100, 300.0, 5) + "[model.erosion]\nlaw = \"finnie\"\nflow_stress = 2e9\n";
+    let (trajectories, runs) = trajectories(&mut case(&text));
+    let volume = |hit: &Hit| {
+        let (angle, energy) = (hit.impact.angle_from_surface(), hit.mass * hit.impact.speed().powi(2));
+        let sine = angle.sin();
+        let cut = match angle.tan() <= 1.0 / 3.0 {
+            true => (2.0 * angle).sin() - 3.0 * sine * sine,
+            false => angle.cos().powi(2) / 3.0,
+        };
+        energy * cut / (2e9 * 2.0 * 2.0)
+    };
+    let expected: f64 = trajectories.iter().flat_map(|trajectory| &trajectory.hits).map(volume).sum();
+    assert!(expected > 0.0);
+    near(runs[0].totals.walls[0].1.eroded.unwrap(), expected, 1e-9);
 }
 
 /// First hits stick with the logistic probability of the effect: the count is binomial.

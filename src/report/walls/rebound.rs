@@ -50,6 +50,10 @@ pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
             }),
             ("e_n of rebounds, all hits", |c, run, wall| Some(spread(&c.totals(run, wall)?.e_n))),
             ("e_t of rebounds, all hits", |c, run, wall| Some(spread(&c.totals(run, wall)?.e_t))),
+            ("eroded volume [m³]", |c, run, wall| {
+                let eroded = c.totals(run, wall)?.eroded.filter(|volume| *volume > 0.0)?;
+                Some(format!("{eroded:.3e}"))
+            }),
             ("outside validity", |c, run, wall| {
                 let totals = c.totals(run, wall)?;
                 Some(percent(share(totals.outside_range? as f64, totals.hits?.count as f64)))

@@ -23,6 +23,7 @@ impl WallTotals {
             conversions: Some([0.0; CONVERSION_BINS]),
             restitutions: [vec![0; RESTITUTION_BINS], vec![0; RESTITUTION_BINS]],
             outside_range: Some(0),
+            eroded: Some(0.0),
             ..Self::default()
         }
     }
@@ -36,6 +37,7 @@ impl WallTotals {
         self.speed.add(hit.impact.speed());
         self.angle.add(hit.impact.angle_from_surface().to_degrees());
         *self.outside_range.get_or_insert_default() += u64::from(outcome.outside_range);
+        *self.eroded.get_or_insert_default() += hit.eroded;
         if first {
             let [hits, captured] = self.first_hits.get_or_insert_default();
             *hits += 1;
