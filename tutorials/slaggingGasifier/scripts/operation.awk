@@ -1,0 +1,34 @@
+# One line of the table of operating points, from what a finished run wrote. Arguments: the lists active, origProcId and
+# origId of the cloud at the end, then the arrivals at walls and at the outlet (patchPostProcessing). Variables: run, coal [kg]
+# injected.
+# A parcel that is at rest at the end was captured at its last arrival.
+BEGIN { pi = atan2(0, -1); fixed_carbon = 0.504*coal }          # 0.6 char, 0.84 of it carbon: constant/coalCloud1Properties
+function list_of(name) { return name ~ /active$/ ? "active" : name ~ /origProcId$/ ? "proc" : name ~ /origId$/ ? "id" : "" }
+FNR == 1 { list = list_of(FILENAME); patch = FILENAME; sub(/.*\//, "", patch); sub(/\.post$/, "", patch); inside = 0; n = 0 }
+list != "" && /^\(/ { inside = 1; next }
+list != "" && /^\)/ { inside = 0 }
+list != "" { if (inside) of[list, n++] = $1; if (list == "id") parcels = n; next }
+/^#/ { next }
+!mapped { for (i = 0; i < parcels; i++) at_rest[of["proc", i] + 0, of["id", i]] = of["active", i] == 0; mapped = 1 }
+{
+    while (match($0, /[0-9]+\{[^}]*\}/)) {                      # a list of equal values: 3{0} for 3(0 0 0)
+        split(substr($0, RSTART, RLENGTH), equal, /[{}]/)
+        full = equal[1] " "
+        for (i = 0; i < equal[1]; i++) full = full equal[2] " "
+        $0 = substr($0, 1, RSTART - 1) full substr($0, RSTART + RLENGTH)
+    }
+    gsub(/[()]/, " ")
+    mass = $9*$14*pi/6*$10^3
+    carbon = mass*$20*$28
+}
+patch == "outlet" { escaped += carbon; next }
+{ arriving += mass; arrivals++ }
+at_rest[$6, $7] && $1 >= last[$6, $7] { last[$6, $7] = $1; captured[$6, $7] = mass; caught[$6, $7] = carbon; on[$6, $7] = patch }
+END {
+    for (parcel in captured) {
+        mass_captured += captured[parcel]
+        if (on[parcel] ~ /[sS]lagWall/) in_slag += caught[parcel]
+    }
+    printf "%s,%d,%.1f,%.1f,%.1f,%.2f\n", run, arrivals, 100*mass_captured/arriving, 100*mass_captured/coal, \
+        100*in_slag/fixed_carbon, 100*escaped/fixed_carbon
+}
