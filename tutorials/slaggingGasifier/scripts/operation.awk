@@ -22,13 +22,13 @@ list != "" { if (inside) of[list, n++] = $1; if (list == "id") parcels = n; next
     carbon = mass*$20*$28
 }
 patch == "outlet" { escaped += carbon; next }
-{ arriving += mass; arrivals++ }
+patch ~ /[sS]lagWall$/ { arriving += mass; arrivals++ }
 at_rest[$6, $7] && $1 >= last[$6, $7] { last[$6, $7] = $1; captured[$6, $7] = mass; caught[$6, $7] = carbon; on[$6, $7] = patch }
 END {
     for (parcel in captured) {
-        mass_captured += captured[parcel]
-        if (on[parcel] ~ /[sS]lagWall/) in_slag += caught[parcel]
+        if (on[parcel] ~ /[sS]lagWall$/) { in_slag += captured[parcel]; carbon_in_slag += caught[parcel] }
+        else elsewhere += captured[parcel]
     }
-    printf "%s,%d,%.1f,%.1f,%.1f,%.2f\n", run, arrivals, 100*mass_captured/arriving, 100*mass_captured/coal, \
-        100*in_slag/fixed_carbon, 100*escaped/fixed_carbon
+    printf "%s,%d,%.1f,%.2f,%.2f,%.2f,%.2f\n", run, arrivals, 100*in_slag/arriving, 100*in_slag/coal, \
+        100*elsewhere/coal, 100*carbon_in_slag/fixed_carbon, 100*escaped/fixed_carbon
 }
