@@ -9,7 +9,7 @@ list != "" && /^\(/ { inside = 1; next }
 list != "" && /^\)/ { inside = 0 }
 list != "" { if (inside) of[list, n++] = $1; if (list == "id") parcels = n; next }
 /^#/ { next }
-!mapped { for (i = 0; i < parcels; i++) at_rest[of["proc", i] + 0, of["id", i]] = of["active", i] == 0; mapped = 1 }
+!mapped { for (i = 0; i < parcels; i++) at_rest[of["proc", i] + 0, of["id", i]] = of["active", i] == "0"; mapped = 1 }
 {
     while (match($0, /[0-9]+\{[^}]*\}/)) {                      # a list of equal values: 3{0} for 3(0 0 0)
         split(substr($0, RSTART, RLENGTH), equal, /[{}]/)
@@ -23,12 +23,14 @@ list != "" { if (inside) of[list, n++] = $1; if (list == "id") parcels = n; next
 }
 patch == "outlet" { escaped += carbon; next }
 patch ~ /[sS]lagWall$/ { arriving += mass; arrivals++ }
-at_rest[$6, $7] && $1 >= last[$6, $7] { last[$6, $7] = $1; captured[$6, $7] = mass; caught[$6, $7] = carbon; on[$6, $7] = patch }
+at_rest[$6, $7] && $1 >= last[$6, $7] { last[$6, $7] = $1; captured[$6, $7] = mass; caught[$6, $7] = carbon; on[$6, $7] = patch; z[$6, $7] = $5 }
 END {
     for (parcel in captured) {
-        if (on[parcel] ~ /[sS]lagWall$/) { in_slag += captured[parcel]; carbon_in_slag += caught[parcel] }
-        else elsewhere += captured[parcel]
+        if (on[parcel] !~ /[sS]lagWall$/) { elsewhere += captured[parcel]; continue }
+        in_slag += captured[parcel]
+        carbon_in_slag += caught[parcel]
+        if (z[parcel] > -0.15) dome += captured[parcel]
     }
-    printf "%s,%d,%.1f,%.2f,%.2f,%.2f,%.2f\n", run, arrivals, 100*in_slag/arriving, 100*in_slag/coal, \
-        100*elsewhere/coal, 100*carbon_in_slag/fixed_carbon, 100*escaped/fixed_carbon
+    printf "%s,%d,%.1f,%.2f,%.1f,%.2f,%.2f,%.2f\n", run, arrivals, (arriving ? 100*in_slag/arriving : 0), 100*in_slag/coal, \
+        (in_slag ? 100*dome/in_slag : 0), 100*elsewhere/coal, 100*carbon_in_slag/fixed_carbon, 100*escaped/fixed_carbon
 }
