@@ -7,8 +7,8 @@ use crate::results::{ByConversion, CONVERSION_BINS, bin, share};
 /// Captured mass by conversion at capture.
 pub(super) fn captured(comparison: &Comparison<'_>) -> Vec<Figure> {
     let single = comparison.is_single();
-    let whole = if single { "injected" } else { "the case's captured mass" };
-    let chart = chart("Carbon conversion at capture", &format!("captured mass [% of {whole}]"));
+    let quantity = if single { "captured mass [% of injected]" } else { "share of the captured mass [%]" };
+    let chart = chart("Carbon conversion at capture", quantity);
     let caption = ["conversion", "1 is without carbon. Each tenth of the conversion is one class."];
     comparison.histogram(caption, chart, &edges(), |series| {
         let masses = series.run.captured_by_conversion(&series.walls, comparison.time)?;
