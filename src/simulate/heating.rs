@@ -2,7 +2,7 @@
 //!
 //! `Nu = 2 + 0.6 Re^(1/2) Pr^(1/3)`, heat flow `Nu k pi d (T_g - T_p)`; a grey sphere in surroundings of one
 //! temperature absorbs `epsilon sigma pi d² (T_r⁴ - T_p⁴)`. The particle has one temperature throughout (Biot number
-//! well below 0.1); [`super::fusion`] gives its heat of fusion. Heat of reaction is left out.
+//! well below 0.1); `fusion.rs` gives its heat of fusion. Heat of reaction is left out.
 
 use std::f64::consts::PI;
 
