@@ -137,7 +137,9 @@ def compare_deposit(impacts, output, *others):
             speed = films.setdefault(T_w[number], velocity / molten**2) * molten**2
             assert abs(velocity / speed - 1) < 1e-12, f"impact {number}: {velocity!r} m/s, {speed!r} by the square"
     ends = rows[-1][4], rows[-1][5]
-    assert min(ends) > 0 and len(films) > 2 and len({row[0] for row in rows}) == 2, (ends, films)
+    # Coal slag is stiff below 1528 K.
+    flowing = {temperature for temperature in T_w if temperature > 1528}
+    assert min(ends) > 0 and films.keys() == flowing and len({row[0] for row in rows}) == 2, (ends, films)
     print(f"{len(rows)} impacts in {1 + len(others)} languages, the same bits; {ends[0]:.3f} kg/m2 of melt and {ends[1]:.3f} of powder")
 
 

@@ -102,8 +102,8 @@ program module_test
   call must(status == NW_OK, 'where a deposit begins')
   status = nw_deposit_source_add(model, impact, 0.25d0, 2500.0d0, source)
   call must(status == NW_OK, 'a cold particle')
-  impact%T_p = 1600.0d0
-  impact%T_w = 1600.0d0
+  impact%T_p = 1700.0d0
+  impact%T_w = 1700.0d0
   status = nw_deposit_source_add(model, impact, 0.5d0, 2500.0d0, source)
   call must(status == NW_OK .and. source%count == 2, 'a hot particle')
   call must(same(source%powder, 0.25d0) .and. same(source%molten, 0.5d0), 'powder and melt')
