@@ -1,8 +1,8 @@
 //! `liquid-film`: a liquid film on the wall slows the particle on approach and on rebound.
 //!
-//! `e_n -> e_n (1 - St_c/St)`, and the particle is held where `St <= St_c`, with `St = rho d v_n/(9 mu)` and
-//! `St_c = (1 + 1/e_n) ln(h/h_a)` for a film thicker than `h_a`, 0 otherwise. `rho` particle density [kg/m³], `d` diameter [m],
-//! `mu` the film's `viscosity` [Pa s], `h` its thickness [m], `h_a` the `asperity` [m] at which the solids touch, `e_n` the dry
+//! `e_n -> e_n (1 - St_c/St)`, and the particle is held where `St <= St_c`, with `St = rho d v_n/(9 mu)` and `St_c = (1 +
+//! 1/e_n) ln(h/h_a)` for a film thicker than `h_a`, 0 otherwise. `rho` particle density [kg/m³], `d` diameter [m], `mu` the
+//! film's `viscosity` [Pa s], `h` its thickness [m], `h_a` the `asperity` [m] at which the solids touch, `e_n` the dry
 //! restitution.
 //!
 //! Derived from the lubrication force `6 pi mu R² v/x` on a sphere at a distance `x` from a plane: crossing the film costs
@@ -11,9 +11,10 @@
 //! plane and observed the same law. Meant for walls covered with slag.
 //!
 //! Valid for films thin against `d` and slow flow within them; it neglects capillary and inertial forces, cavitation on
-//! rebound and deformation by the pressure of the film, which lowers `St_c`. The film is the caller's `film_thickness`, or the melt of
-//! earlier particles where that is thicker; without a `viscosity` its viscosity is that of the slag at the wall's temperature. Under a powder layer the film does not act (Troiano et al., Fig 10, found
-//! powder on syrup like powder on a dry target).
+//! rebound and deformation by the pressure of the film, which lowers `St_c`. The film is the caller's `film_thickness`, or
+//! the melt of earlier particles where that is thicker; without a `viscosity` its viscosity is that of the slag at the
+//! wall's temperature. Under a powder layer the film does not act (Troiano et al., Fig 10, found powder on syrup like
+//! powder on a dry target).
 
 use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;
