@@ -101,15 +101,21 @@ pub(super) struct DataSplit {
     pub draws: usize,
 }
 
+/// The numbers below `count` in random order; the same seed gives the same order.
+pub(super) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..count).collect();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    for place in (1..count).rev() {
+        let other = (random.next_u64() % (place as u64 + 1)) as usize;
+        order.swap(place, other);
+    }
+    order
+}
+
 impl DataSplit {
     /// Shuffles and splits the rows; the same seed gives the same split.
     pub fn new(base: &Model, data: Measurements, seed: u64) -> Self {
-        let mut order: Vec<usize> = (0..data.rows.len()).collect();
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        for place in (1..order.len()).rev() {
-            let other = (random.next_u64() % (place as u64 + 1)) as usize;
-            order.swap(place, other);
-        }
+        let mut order = shuffled(data.rows.len(), seed);
         let mut held_out = order.split_off(order.len() - order.len() / 4);
         held_out.truncate(GAIN_ROWS);
         order.truncate(FIT_ROWS);

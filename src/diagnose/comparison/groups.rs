@@ -2,9 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
-
+use super::super::data_split::shuffled;
 use crate::dataset::{Measurements, Values};
 
 /// The column that names groups.
@@ -53,14 +51,8 @@ impl Groups {
 
     /// The part of every row, whole groups together.
     pub fn folds(&self, seed: u64) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..self.count).collect();
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        for place in (1..order.len()).rev() {
-            let other = (random.next_u64() % (place as u64 + 1)) as usize;
-            order.swap(place, other);
-        }
         let mut fold = vec![0; self.count];
-        for (place, group) in order.into_iter().enumerate() {
+        for (place, group) in shuffled(self.count, seed).into_iter().enumerate() {
             fold[group] = place % FOLDS.min(self.count);
         }
         self.of_row.iter().map(|group| fold[*group]).collect()

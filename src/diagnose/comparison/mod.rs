@@ -10,7 +10,7 @@ mod measure;
 mod record;
 mod score;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::implausible;
 use crate::dataset::{Measurement, Measurements};
@@ -66,7 +66,7 @@ pub fn compare(candidates: &[Candidate<'_>], seed: u64) -> Result<Comparison, Co
     }
     let common: Vec<Measurements> = candidates
         .iter()
-        .map(|candidate| candidate.data.without(|row| (!lines.contains_key(&row.line)).then(String::new)))
+        .map(|candidate| candidate.data.without(|row| (!lines.contains(&row.line)).then(String::new)))
         .collect();
     let groups = Groups::of(&common[0]);
     let folds = groups.folds(seed);
@@ -83,7 +83,7 @@ pub fn compare(candidates: &[Candidate<'_>], seed: u64) -> Result<Comparison, Co
 }
 
 /// The lines of the rows that every model decides.
-fn common_lines(candidates: &[Candidate<'_>]) -> BTreeMap<u64, ()> {
+fn common_lines(candidates: &[Candidate<'_>]) -> BTreeSet<u64> {
     let mut counts: BTreeMap<u64, usize> = BTreeMap::new();
     for candidate in candidates {
         for row in candidate.data.rows.iter().filter(|row| refusal(candidate.model, row).is_none()) {
@@ -91,7 +91,7 @@ fn common_lines(candidates: &[Candidate<'_>]) -> BTreeMap<u64, ()> {
         }
     }
     let in_all = counts.into_iter().filter(|(_, count)| *count == candidates.len());
-    in_all.map(|(line, _)| (line, ())).collect()
+    in_all.map(|(line, _)| line).collect()
 }
 
 /// Why a model cannot decide a row.
