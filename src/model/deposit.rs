@@ -152,7 +152,7 @@ fn check_voidage(voidage: f64) -> Result<(), ImpactError> {
     Err(ImpactError::Unusable { quantity: "voidage", value: voidage, reason })
 }
 
-fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> {
+pub(super) fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }

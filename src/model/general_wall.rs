@@ -170,9 +170,10 @@ impl Model {
         place: Place,
     ) -> Result<Option<f64>, ImpactError> {
         let Some(criterion) = &self.stickiness else { return Ok(None) };
-        let material = wall.partner(place);
-        let molten = place != Place::Covered && self.melt_met(wall, impact)?.is_some();
-        if molten { Ok(None) } else { criterion.droplet_rebound(impact, material) }
+        // Only the droplet criterion has such rebounds; the viscosity of the melt is computed for them alone.
+        let rebound = criterion.droplet_rebound(impact, wall.partner(place))?;
+        let molten = || Ok(place != Place::Covered && self.melt_met(wall, impact)?.is_some());
+        if rebound.is_some() && molten()? { Ok(None) } else { Ok(rebound) }
     }
 
     /// Share of `e_n` [1] that full stickiness of the particle takes: all of it by a capture criterion.

@@ -233,10 +233,7 @@ impl Model {
     pub fn erosion(&self, wall: usize, impact: &Impact, mass: f64) -> Result<f64, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         impact.check()?;
-        if !(mass.is_finite() && mass >= 0.0) {
-            let reason = "must be finite and not negative";
-            return Err(ImpactError::Unusable { quantity: "mass", value: mass, reason });
-        }
+        deposit::at_least_zero("mass", mass)?;
         Ok(wall.erosion.as_ref().map_or(0.0, |law| mass * law.volume_per_mass(impact)))
     }
 

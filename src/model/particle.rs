@@ -6,7 +6,7 @@
 
 use crate::impact::{Impact, ImpactError};
 use crate::material::{Material, Mechanical};
-use crate::normal::Contact;
+use crate::normal::{self, Contact};
 
 /// A `[particle]` table.
 #[derive(Debug, Clone)]
@@ -65,16 +65,17 @@ impl Particle {
         yield_ratio: f64,
         work_of_adhesion: Option<f64>,
     ) -> Result<Contact, ImpactError> {
-        let of = |solid: &Mechanical| Contact::new(solid, wall, yield_ratio, work_of_adhesion);
         let char = self.material.mechanical(impact.particle_temperature)?;
         let mut contact = match &self.ash {
-            None => of(&char),
+            None => Contact::new(&char, wall, yield_ratio, work_of_adhesion),
             Some(ash) => {
                 let ash = ash.mechanical(impact.particle_temperature)?;
                 let share = impact.conversion;
-                // A work of adhesion fitted to ash holds for ash; so the two contacts are mixed, not the materials.
-                let work = (1.0 - share) * of(&char).work_of_adhesion + share * of(&ash).work_of_adhesion;
-                Contact { work_of_adhesion: work, ..of(&char.mixed(&ash, share)) }
+                // A work of adhesion fitted to ash holds for ash: those of the two solids are mixed.
+                let [of_char, of_ash] =
+                    [&char, &ash].map(|solid| normal::work_of_adhesion(solid, wall, work_of_adhesion));
+                let work = (1.0 - share) * of_char + share * of_ash;
+                Contact::new(&char.mixed(&ash, share), wall, yield_ratio, Some(work))
             }
         };
         if impact.particle_density > 0.0 {

@@ -25,7 +25,7 @@
 //! assumed here). Above yield the rebound speed is `v_y` at any speed while the area of contact grows, so fast particles stick again.
 //! `w_crit/l` counts as at most one half: beyond that no solid is meant.
 
-use super::{Contact, ListedLaw};
+use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
 use crate::law::{FitLimit, Origin, Parameter, Search, Values};
 
@@ -37,7 +37,7 @@ pub(crate) static ORIGIN: Origin = Origin {
 };
 
 /// The law.
-pub(super) static BONS: ListedLaw = ListedLaw {
+pub(super) static BONS: ListedNormalLaw = ListedNormalLaw {
     name: "bons",
     origin: &ORIGIN,
     parameters: &[

@@ -25,12 +25,12 @@
 //! measured critical velocities of fly ash on steel are 0.19 to 1.92 m/s at 65 to 104 µm (Energies 6 (2013) 3245 and 4288) and
 //! some 1 m/s at 23 µm (Energies 14 (2021) 5231), the law says 0.001 to 0.002 and 0.01 m/s.
 
-use super::{Contact, ListedLaw};
+use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
 use crate::law::{FitLimit, Origin, Parameter, Search, Values};
 
 /// The law.
-pub(super) static BRACH_DUNN: ListedLaw = ListedLaw {
+pub(super) static BRACH_DUNN: ListedNormalLaw = ListedNormalLaw {
     name: "brach-dunn",
     origin: &Origin {
         source: "Brach & Dunn 1992",

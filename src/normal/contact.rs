@@ -29,19 +29,18 @@ pub struct Contact {
 impl Contact {
     /// The contact of two solids.
     ///
-    /// `yield_ratio` is `c = p_y / sigma_y` [1]; the weaker solid yields first. `work_of_adhesion` [J/m²]
-    /// replaces the particle's own, which replaces the default `W = 2 sqrt(gamma_1 gamma_2)`.
+    /// `yield_ratio` is `c = p_y / sigma_y` [1]; the weaker solid yields first. `work_of_adhesion` [J/m²] as in
+    /// [`work_of_adhesion`].
     pub fn new(
         particle: &Mechanical,
         wall: &Mechanical,
         yield_ratio: f64,
         work_of_adhesion: Option<f64>,
     ) -> Self {
-        let geometric = 2.0 * (particle.surface_energy * wall.surface_energy).sqrt();
         Self {
             density: particle.density,
             reduced_modulus: reduced_modulus(particle, wall),
-            work_of_adhesion: work_of_adhesion.or(particle.work_of_adhesion).unwrap_or(geometric),
+            work_of_adhesion: self::work_of_adhesion(particle, wall, work_of_adhesion),
             yield_strength: particle.yield_strength.min(wall.yield_strength),
             yield_ratio,
             stiffness_ratio: stiffness_ratio(particle, wall),
@@ -60,6 +59,12 @@ impl Contact {
     pub fn limiting_pressure(&self) -> f64 {
         self.yield_ratio * self.yield_strength
     }
+}
+
+/// Work of adhesion `W` [J/m²] of two solids: the one `given`, else the particle's own, else `2 sqrt(gamma_1 gamma_2)`.
+pub fn work_of_adhesion(particle: &Mechanical, wall: &Mechanical, given: Option<f64>) -> f64 {
+    let geometric = || 2.0 * (particle.surface_energy * wall.surface_energy).sqrt();
+    given.or(particle.work_of_adhesion).unwrap_or_else(geometric)
 }
 
 /// Reduced modulus `E*` [Pa]: `1/E* = (1-nu1²)/E1 + (1-nu2²)/E2` (Hertz).

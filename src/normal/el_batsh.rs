@@ -20,7 +20,7 @@
 use std::f64::consts::PI;
 
 use super::brach_dunn::critical_velocity;
-use super::{Contact, ListedLaw};
+use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
 use crate::law::{FitLimit, Origin, Parameter, Search, Values};
 
@@ -28,7 +28,7 @@ use crate::law::{FitLimit, Origin, Parameter, Search, Values};
 const POISSON_RATIO: f64 = 0.27;
 
 /// The law.
-pub(super) static EL_BATSH: ListedLaw = ListedLaw {
+pub(super) static EL_BATSH: ListedNormalLaw = ListedNormalLaw {
     name: "el-batsh",
     origin: &Origin {
         source: "El-Batsh & Haselbacher 2002; modulus of Ai & Fletcher",

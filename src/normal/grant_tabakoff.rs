@@ -15,7 +15,7 @@
 //! Quartz sand of 20 to 200 µm on 2024 aluminium at some 60 to 190 m/s (particles, target and range from memory). Speed, size and
 //! materials do not enter: elsewhere the outcome is marked as outside the range.
 
-use super::ListedLaw;
+use super::ListedNormalLaw;
 use crate::law::{FitLimit, Origin, Parameter, Search, polynomial};
 
 /// The case of the fit, for both restitutions.
@@ -32,7 +32,7 @@ pub(crate) static DEVIATION: [Parameter; 1] =
         .about("standard deviations added to the mean")];
 
 /// The law.
-pub(super) static GRANT_TABAKOFF: ListedLaw = ListedLaw {
+pub(super) static GRANT_TABAKOFF: ListedNormalLaw = ListedNormalLaw {
     name: "grant-tabakoff",
     origin: &ORIGIN,
     parameters: &DEVIATION,

@@ -1,7 +1,7 @@
 //! Normal restitution: the share of the speed towards the wall that a particle keeps. One law a file.
 //!
 //! The laws of [`NormalLaw`] with a variant of their own can be prepared for vectors. All others are listed in [`LISTED_LAWS`]: a
-//! new one is one file with a [`ListedLaw`] and one line there; the model file and `nearwall check` then know it, and tests demand
+//! new one is one file with a [`ListedNormalLaw`] and one line there; the model file and `nearwall check` then know it, and tests demand
 //! its row in the documents.
 
 mod bons;
@@ -16,7 +16,7 @@ mod thornton_ning;
 mod whitaker_bons;
 
 pub(crate) use bons::ORIGIN as BONS;
-pub use contact::{Contact, LARGEST_CONTACT_RADIUS, reduced_modulus, stiffness_ratio};
+pub use contact::{Contact, LARGEST_CONTACT_RADIUS, reduced_modulus, stiffness_ratio, work_of_adhesion};
 pub use thornton_ning::{
     Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
 };
@@ -26,7 +26,7 @@ use crate::input::{InputError, Section};
 use crate::law::{Origin, Parameter, Values, read_values};
 
 /// Every listed law.
-pub static LISTED_LAWS: [&ListedLaw; 6] = [
+pub static LISTED_LAWS: [&ListedNormalLaw; 6] = [
     &brach_dunn::BRACH_DUNN,
     &el_batsh::EL_BATSH,
     &bons::BONS,
@@ -37,7 +37,7 @@ pub static LISTED_LAWS: [&ListedLaw; 6] = [
 
 /// A law that may depend on every input of an impact, with its parameters and the case to which it was fitted.
 #[derive(Debug)]
-pub struct ListedLaw {
+pub struct ListedNormalLaw {
     /// The name in model files.
     pub name: &'static str,
     /// Source, case and range.
@@ -51,7 +51,7 @@ pub struct ListedLaw {
 }
 
 /// Laws are equal when their names are.
-impl PartialEq for ListedLaw {
+impl PartialEq for ListedNormalLaw {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
@@ -83,7 +83,7 @@ pub enum NormalLaw {
     /// A law of [`LISTED_LAWS`].
     Listed {
         /// The law.
-        law: &'static ListedLaw,
+        law: &'static ListedNormalLaw,
         /// The values of its parameters.
         values: Values,
     },
@@ -98,7 +98,7 @@ impl NormalLaw {
         let mut names = vec!["thornton-ning", "thornton-ning-raised-pull-off", "constant"];
         names.extend(LISTED_LAWS.map(|law| law.name));
         let word = section.choice("model", &names)?;
-        let named = |law: &&&'static ListedLaw| Some(law.name) == word.as_deref();
+        let named = |law: &&&'static ListedNormalLaw| Some(law.name) == word.as_deref();
         if let Some(&law) = LISTED_LAWS.iter().find(named) {
             return Ok(Self::Listed { law, values: read_values(section, law.parameters)? });
         }

@@ -8,7 +8,7 @@
 //! 100 m/s is assumed), nor is the scatter. The fits for other alloys (Tabakoff, Hamed & Murugan 1996) were not found.
 //! Stated for 5 to 70°, where the tangential fit of the same source stays below 1.
 
-use super::ListedLaw;
+use super::ListedNormalLaw;
 use crate::law::{FitLimit, Origin, polynomial};
 
 /// The case of the fit, for both restitutions.
@@ -19,7 +19,7 @@ pub(crate) static ORIGIN: Origin = Origin {
 };
 
 /// The law.
-pub(super) static TABAKOFF_WAKEMAN: ListedLaw = ListedLaw {
+pub(super) static TABAKOFF_WAKEMAN: ListedNormalLaw = ListedNormalLaw {
     name: "tabakoff-wakeman",
     origin: &ORIGIN,
     parameters: &[],

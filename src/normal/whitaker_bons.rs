@@ -12,11 +12,11 @@
 //! The case of its fit is not known to us; the limits are those of `bons` (assumed).
 
 use super::bons::{elastic_plastic, yield_velocity};
-use super::{ListedLaw, bons};
+use super::{ListedNormalLaw, bons};
 use crate::law::{Origin, Parameter, Search};
 
 /// The law.
-pub(super) static WHITAKER_BONS: ListedLaw = ListedLaw {
+pub(super) static WHITAKER_BONS: ListedNormalLaw = ListedNormalLaw {
     name: "whitaker-bons",
     origin: &Origin {
         source: "Whitaker & Bons 2018, as coded in an open CFD code",

@@ -9,11 +9,11 @@
 //! friction of an earlier version), with friction after Barker et al. 2013 and the cosine by Bons et al. The lift of adhesion and the
 //! shear of the gas, which the paper adds, are left out.
 
-use super::{ListedLaw, Rebound};
+use super::{ListedTangentialLaw, Rebound};
 use crate::law::{Parameter, Search};
 
 /// The law.
-pub(super) static BONS: ListedLaw = ListedLaw {
+pub(super) static BONS: ListedTangentialLaw = ListedTangentialLaw {
     name: "bons",
     origin: &crate::normal::BONS,
     parameters: &[Parameter::new("friction", "1", (0.0, 2.0), Search::Linear(0.03, 0.9))

@@ -12,12 +12,12 @@
 //! code has `0.98723 - 0.030354 b + 7.1913e-4 b² - 4.2979e-6 b³` with `b` in degrees, another curve: higher by 0.03 at 60°, lower
 //! by 0.04 head-on.
 
-use super::{ListedLaw, Rebound};
+use super::{ListedTangentialLaw, Rebound};
 use crate::law::polynomial;
 use crate::normal::grant_tabakoff::{DEVIATION, ORIGIN};
 
 /// The law.
-pub(super) static GRANT_TABAKOFF: ListedLaw = ListedLaw {
+pub(super) static GRANT_TABAKOFF: ListedTangentialLaw = ListedTangentialLaw {
     name: "grant-tabakoff",
     origin: &ORIGIN,
     parameters: &DEVIATION,

@@ -33,11 +33,11 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use super::{ImpactKinematics, ListedLaw, Rebound};
+use super::{ImpactKinematics, ListedTangentialLaw, Rebound};
 use crate::law::{Origin, Parameter, Search, Values};
 
 /// The law.
-pub(super) static MAW_BARBER_FAWCETT: ListedLaw = ListedLaw {
+pub(super) static MAW_BARBER_FAWCETT: ListedTangentialLaw = ListedTangentialLaw {
     name: "maw-barber-fawcett",
     origin: &Origin {
         source: "Maw, Barber & Fawcett 1976, 1981",

@@ -1,7 +1,7 @@
 //! Tangential restitution: the share of the speed along the wall that a particle keeps. One law a file.
 //!
 //! The laws of [`TangentialLaw`] with a variant of their own can be prepared for vectors. All others are listed in
-//! [`LISTED_LAWS`]: a new one is one file with a [`ListedLaw`] and one line there; the model file and `nearwall check` then know
+//! [`LISTED_LAWS`]: a new one is one file with a [`ListedTangentialLaw`] and one line there; the model file and `nearwall check` then know
 //! it, and tests demand its row in the documents.
 
 mod bons;
@@ -19,7 +19,7 @@ use crate::input::{InputError, Section};
 use crate::law::{Origin, Parameter, Values, read_values};
 
 /// Every listed law.
-pub static LISTED_LAWS: [&ListedLaw; 4] = [
+pub static LISTED_LAWS: [&ListedTangentialLaw; 4] = [
     &maw_barber_fawcett::MAW_BARBER_FAWCETT,
     &bons::BONS,
     &grant_tabakoff::GRANT_TABAKOFF,
@@ -28,7 +28,7 @@ pub static LISTED_LAWS: [&ListedLaw; 4] = [
 
 /// A law with its parameters and the case to which it was fitted.
 #[derive(Debug)]
-pub struct ListedLaw {
+pub struct ListedTangentialLaw {
     /// The name in model files.
     pub name: &'static str,
     /// Source, case and range.
@@ -40,7 +40,7 @@ pub struct ListedLaw {
 }
 
 /// Laws are equal when their names are.
-impl PartialEq for ListedLaw {
+impl PartialEq for ListedTangentialLaw {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
@@ -116,7 +116,7 @@ pub enum TangentialLaw {
     /// A law of [`LISTED_LAWS`].
     Listed {
         /// The law.
-        law: &'static ListedLaw,
+        law: &'static ListedTangentialLaw,
         /// The values of its parameters.
         values: Values,
     },
@@ -131,7 +131,7 @@ impl TangentialLaw {
         let mut names = vec!["constant", "sliding", "sliding-rolling"];
         names.extend(LISTED_LAWS.map(|law| law.name));
         let word = section.choice("model", &names)?;
-        let named = |law: &&&'static ListedLaw| Some(law.name) == word.as_deref();
+        let named = |law: &&&'static ListedTangentialLaw| Some(law.name) == word.as_deref();
         if let Some(&law) = LISTED_LAWS.iter().find(named) {
             return Ok(Self::Listed { law, values: read_values(section, law.parameters)? });
         }

@@ -6,12 +6,12 @@
 //! Source as for the normal law of the same name, the only one; an older version of that code has other powers of ten, which make
 //! `e_t` negative at 15°.
 
-use super::{ListedLaw, Rebound};
+use super::{ListedTangentialLaw, Rebound};
 use crate::law::polynomial;
 use crate::normal::tabakoff_wakeman::ORIGIN;
 
 /// The law.
-pub(super) static TABAKOFF_WAKEMAN: ListedLaw = ListedLaw {
+pub(super) static TABAKOFF_WAKEMAN: ListedTangentialLaw = ListedTangentialLaw {
     name: "tabakoff-wakeman",
     origin: &ORIGIN,
     parameters: &[],
