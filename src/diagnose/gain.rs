@@ -40,6 +40,8 @@ pub(super) fn gain(
     let log_score = |rows: &Evaluation<'_>| average(rows.scores().into_iter()).unwrap_or(f64::NAN);
     Some(Gain {
         held_out_rows: squares.len(),
+        measured: "held-out",
+        noise_floor: None,
         observable: observable.name(),
         rmse_before: rmse(0),
         rmse_after: rmse(1),

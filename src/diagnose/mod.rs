@@ -29,8 +29,9 @@ mod smooth;
 mod verdict;
 
 pub use record::{
-    Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, FittedCurve, Gain, Measure,
-    Misfit, NotExamined, Options, Rows, Sample, SampleRow, ScatterFound, Unexplained,
+    Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, Fit, FitTest, FittedCurve,
+    Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows, Sample, SampleRow,
+    ScatterFound, Unexplained,
 };
 
 use crate::dataset::{BadRow, Measurements};

@@ -24,7 +24,7 @@ impl Default for Options {
 /// The result of a diagnosis.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Diagnosis {
-    /// `nearwall.diagnosis/1`.
+    /// `nearwall.diagnosis/2`.
     pub schema: &'static str,
     /// Seed of the data split.
     pub seed: u64,
@@ -36,10 +36,18 @@ pub struct Diagnosis {
     pub rows: Rows,
     /// Errors of the base model on all used rows.
     pub base: Errors,
+    /// Goodness of fit of the base and of the extended model.
+    pub fit: Fit,
+    /// Rows that share an error, if any.
+    pub groups: Option<GroupsFound>,
     /// The columns with which the base model's residuals vary, the largest gain first.
     pub misfit: Vec<Misfit>,
     /// The causes, in the order in which they were found.
     pub findings: Vec<Finding>,
+    /// Causes of which one is significant, if these data cannot tell which; then there is no finding for them.
+    pub undecided: Vec<String>,
+    /// Slips of input and artefacts of measurement that explain the misfit as well as a cause does.
+    pub rivals: Vec<Rival>,
     /// Parameters of the base model's own laws with a significantly different value.
     pub calibration: Vec<Calibration>,
     /// Scatter about the extended model.
@@ -105,9 +113,19 @@ pub struct Finding {
     pub observable: &'static str,
     /// The columns that it depends on.
     pub variables: Vec<String>,
-    /// Cross-validated gain in log score [nats].
+    /// Gain in log likelihood on all fitted rows [nats].
     pub gain: f64,
-    /// Of the paired test of the cross-validated gain.
+    /// Fall of chi-square, twice the gain [1].
+    pub chi_square: f64,
+    /// Significance in standard deviations of a normal distribution, after correction for the number of candidates [1].
+    pub sigma: f64,
+    /// Share of resampled data sets that name this cause [1].
+    pub certainty: f64,
+    /// p-value of the test that a free curve over its inputs fits no better; small values speak against the law's shape.
+    pub lack_of_fit: Option<f64>,
+    /// Pairs of parameters of which the data determine only a product or a ratio, as sentences.
+    pub not_separable: Vec<String>,
+    /// Of the test against the model without the cause.
     pub p_value: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,
@@ -228,18 +246,93 @@ pub struct NotExamined {
 pub struct Gain {
     /// Number of rows.
     pub held_out_rows: usize,
+    /// `held-out` if `extended.toml` itself was run on rows that no fit and no choice saw; `cross-validated` with few rows, where each
+    /// row is predicted by a model file that was chosen and fitted without it.
+    pub measured: &'static str,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
     /// Root mean square error of the base model [1]; for `outcome` of the probability of capture.
     pub rmse_before: f64,
     /// Root mean square error of the extended model [1].
     pub rmse_after: f64,
-    /// 95 % interval of `rmse_after / rmse_before`, by a bootstrap over rows.
+    /// 95 % interval of `rmse_after / rmse_before`, by a bootstrap over groups of rows.
     pub ci95: [f64; 2],
+    /// Scatter of the measurements that no model removes [1]; `None` where it is not known.
+    pub noise_floor: Option<f64>,
     /// Mean log score of a row under the base model, all observables together [nats].
     pub log_score_before: f64,
     /// The same under the extended model [nats].
     pub log_score_after: f64,
+}
+
+/// Goodness of fit before and after.
+#[derive(Debug, Clone, Serialize, Default)]
+pub struct Fit {
+    /// Of the base model.
+    pub base: FitTest,
+    /// Of the extended model.
+    pub extended: FitTest,
+    /// The rows with the largest misfits of the base model, in stated standard errors, the largest first.
+    pub largest: Vec<LargeMisfit>,
+}
+
+/// A goodness-of-fit test.
+#[derive(Debug, Clone, Serialize, Default)]
+pub struct FitTest {
+    /// What the misfit is compared with: `stated errors`, `replicates`, `structure` (does any column shape the residuals) or
+    /// `none`.
+    pub against: &'static str,
+    /// Chi-square [1]; `None` for a test of structure.
+    pub chi_square: Option<f64>,
+    /// Degrees of freedom.
+    pub degrees_of_freedom: Option<usize>,
+    /// Probability of a misfit at least as large by chance.
+    pub p_value: Option<f64>,
+}
+
+/// A row far from the model.
+#[derive(Debug, Clone, Serialize)]
+pub struct LargeMisfit {
+    /// Line in the file.
+    pub line: u64,
+    /// `e_n` or `e_t`.
+    pub observable: &'static str,
+    /// Measured value [1].
+    pub measured: f64,
+    /// Predicted value [1].
+    pub predicted: f64,
+    /// Measured minus predicted value in standard errors [1].
+    pub standard_errors: f64,
+}
+
+/// Rows that share an error.
+#[derive(Debug, Clone, Serialize)]
+pub struct GroupsFound {
+    /// The column that tells the groups apart.
+    pub column: String,
+    /// Number of groups.
+    pub count: usize,
+    /// Whether the user or the format declares the column as groups; otherwise it was noticed.
+    pub declared: bool,
+    /// Standard deviation of the shared error of `e_n` and `e_t` [1].
+    pub scatter: [f64; 2],
+    /// Its share of the variance of the residuals of `e_n` and `e_t` [1].
+    pub share: [f64; 2],
+}
+
+/// A slip of input or an artefact of measurement that explains the misfit.
+#[derive(Debug, Clone, Serialize)]
+pub struct Rival {
+    /// For instance `slip:diameter-is-radius`, `artefact:truncation`.
+    pub id: String,
+    /// `e_n`, `e_t` or `outcome`.
+    pub observable: &'static str,
+    /// Gain in log likelihood on the rows of the search [nats].
+    pub gain: f64,
+    /// Gain minus that of the best cause [nats]; positive if it explains more.
+    pub lead: f64,
+    /// What it says, in one sentence: "These numbers fit if d were twice as large: is the radius given?".
+    pub explanation: String,
 }
 
 /// Rows for figures.

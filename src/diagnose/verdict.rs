@@ -60,7 +60,7 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, discoveries: &[Discovery], opt
     };
     let trends = hypothesis.scatter_trends.iter();
     Diagnosis {
-        schema: "nearwall.diagnosis/1",
+        schema: "nearwall.diagnosis/2",
         seed: options.seed,
         level: options.level,
         findings,

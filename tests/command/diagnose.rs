@@ -102,7 +102,7 @@ fn a_planted_layer_is_found_and_the_three_files_are_consistent() {
     assert!(printed.contains("powder-layer") && printed.contains("report.html"), "{printed}");
 
     let json = json(folder);
-    assert_eq!(json["schema"], "nearwall.diagnosis/1");
+    assert_eq!(json["schema"], "nearwall.diagnosis/2");
     assert_eq!((json["seed"].as_u64(), json["level"].as_f64()), (Some(1), Some(0.05)));
     assert_eq!((json["rows"]["read"].as_u64(), json["rows"]["used"].as_u64()), (Some(302), Some(300)));
     assert_eq!(json["rows"]["held_out"], 75);
