@@ -2,10 +2,11 @@
 
 use std::io::Read;
 
-use super::column::{Cells, Values};
-use super::column_map::ColumnMap;
+use super::column::{Cells, Values, names_groups};
+use super::column_map::{ColumnMap, ONLY_MAPPED};
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
+use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
 use super::notes::{self, NoteCounts};
@@ -21,6 +22,7 @@ struct Builder<'a> {
     named: NamedColumns,
     inputs: InputColumns,
     velocity: ImpactVelocity,
+    errors: InputErrorColumns,
     /// The possible causes, each with its index in a row.
     causes: Vec<(usize, Cells)>,
     rows: Vec<Measurement>,
@@ -50,8 +52,9 @@ impl<'a> Builder<'a> {
         }
         walls.check(named.index("wall").is_some())?;
         let causes = causes(headers, map, &named);
+        let errors = InputErrorColumns::new(&named);
         let (rows, rejected, counts) = Default::default();
-        Ok(Self { map, walls, named, inputs, velocity, causes, rows, rejected, counts })
+        Ok(Self { map, walls, named, inputs, velocity, errors, causes, rows, rejected, counts })
     }
 
     /// Adds the next record: its line, or why it cannot be used.
@@ -74,14 +77,16 @@ impl<'a> Builder<'a> {
         let (mut impact, mut stated) = self.inputs.read(cells)?;
         self.velocity.complete(cells, &mut impact, &mut stated)?;
         impact.check().map_err(|error| error.to_string())?;
+        let input_errors = self.errors.read(cells, &impact, &self.velocity)?;
         let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
         let wall = self.walls.of(wall).map_err(|error| error.to_string())?;
         let (e_n, e_t, captured) = (None, None, None);
+        let (impacts, rebounds) = (1.0, 1.0);
         let mut row =
-            Measurement { line, impact, stated, wall, impacts: 1.0, rebounds: 1.0, e_n, e_t, captured };
+            Measurement { line, impact, input_errors, stated, wall, impacts, rebounds, e_n, e_t, captured };
         let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
         let remarks = observed.read_into(&mut row)?;
-        self.counts.count(&row, remarks);
+        self.counts.count(&row, remarks, self.map.detection);
         Ok(row)
     }
 
@@ -128,8 +133,9 @@ impl<'a> Builder<'a> {
                 columns.push(column);
             }
         }
-        let file = file.to_owned();
-        Ok(Measurements { file, rows: self.rows, columns, given, read, rejected: self.rejected, notes })
+        let (file, detection) = (file.to_owned(), self.map.detection);
+        let (rows, rejected) = (self.rows, self.rejected);
+        Ok(Measurements { file, rows, columns, given, detection, read, rejected, notes })
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
@@ -145,7 +151,7 @@ impl<'a> Builder<'a> {
                 "column `{column}` is only a possible cause; rename it if it is the input `{name}` in SI units"
             ));
         }
-        for column in unused.filter(|column| ["speed", "angle"].contains(column)) {
+        for column in unused.filter(|column| ONLY_MAPPED.contains(column)) {
             notes.push(format!(
                 "column `{column}` is only a possible cause; a column map can convert it to v_n and v_t"
             ));
@@ -187,13 +193,17 @@ impl Measurements {
     }
 }
 
-/// The possible causes: all columns without another meaning, and the labels `wall` and `series`.
+/// The possible causes: all columns without another meaning, and the labels `wall` and `series`. The numbers of a column
+/// that tells groups apart are labels too.
 fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, Cells)> {
     let cause = |(index, header): (usize, &str)| match named.name_of(index) {
         Some(name @ ("wall" | "series")) => Some((index, Cells::new(name, true))),
         Some(_) => None,
         None if map.ignores(header) => None,
-        None => Some((index, Cells::new(header, map.labels.iter().any(|label| label == header)))),
+        None => {
+            let as_labels = names_groups(header) || map.labels.iter().any(|label| label == header);
+            Some((index, Cells::new(header, as_labels)))
+        }
     };
     headers.iter().enumerate().filter_map(cause).collect()
 }

@@ -133,6 +133,12 @@ mod tests {
     }
 
     #[test]
+    fn standard_errors_resemble_no_input() {
+        let reader = ImpactReader::new("t.csv", "v_n,v_n_err,T_p_err,d_err\n".as_bytes()).unwrap();
+        assert!(reader.near_misses().is_empty(), "{:?}", reader.near_misses());
+    }
+
+    #[test]
     fn header_faults_are_named() {
         let message = ImpactReader::new("t.csv", "speed,d\n".as_bytes()).err().unwrap().to_string();
         assert!(message.contains("no column `v_n`") && message.contains("speed, d"), "{message}");
