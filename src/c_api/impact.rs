@@ -79,7 +79,7 @@ macro_rules! define_structs {
         impl nw_impact {
             /// The inputs.
             pub fn to_impact(self) -> Impact {
-                Impact { $($field: self.$name,)* }
+                Impact { $($field: self.$name,)* ..Impact::default() }
             }
         }
 
@@ -101,7 +101,7 @@ macro_rules! define_structs {
             pub(super) unsafe fn entry(&self, index: usize) -> (usize, Impact, ImpactRng) {
                 // SAFETY: the caller's promise.
                 unsafe {
-                    let impact = Impact { $($field: get(self.$name, index, $default),)* };
+                    let impact = Impact { $($field: get(self.$name, index, $default),)* ..Impact::default() };
                     let wall = get(self.walls, index, self.wall) as usize;
                     (wall, impact, ImpactRng::new(self.seed, get(self.key, index, index as u64)))
                 }

@@ -15,6 +15,8 @@ pub struct Measurements {
     pub columns: Vec<Column>,
     /// The inputs that a column states, or two columns together.
     pub given: Vec<&'static str>,
+    /// The inputs that the model declares and a column states, by place in [`Impact::extra`].
+    pub given_extra: Vec<usize>,
     /// Number of usable and rejected rows.
     pub read: usize,
     /// The rejected rows, with the reason.
