@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{Cells, Values, names_groups};
+use super::column::{Cells, Values};
 use super::column_map::{ColumnMap, ONLY_MAPPED};
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
@@ -10,7 +10,7 @@ use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
 use super::notes::{self, NoteCounts};
-use super::number::{NamedColumns, is_blank};
+use super::number::{NamedColumns, NumberStyle, is_blank};
 use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
@@ -43,6 +43,14 @@ impl<'a> Builder<'a> {
         let headers = table.headers();
         let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem))?;
         let inputs = InputColumns::new(|name| named.column(name));
+        let style = NumberStyle { markers: true, ..map.style };
+        let unnamed = |name: &str| {
+            let own = |(index, header): &(usize, &str)| *header == name && named.name_of(*index).is_none();
+            headers.iter().enumerate().find(own).map(|(index, _)| index).filter(|_| !map.ignores(name))
+        };
+        let inputs = inputs.with_extra(walls.model().extra_inputs(), style, |name| {
+            named.index(name).or_else(|| unnamed(name))
+        });
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
             .map_err(|problem| table.column_fault(&problem, true))?;
@@ -51,7 +59,11 @@ impl<'a> Builder<'a> {
             return Err(table.column_fault(&problem, true));
         }
         walls.check(named.index("wall").is_some())?;
-        let causes = causes(headers, map, &named);
+        let mut causes = causes(headers, map, &named);
+        // A column of groups tells rows apart also where the model has an input of its name.
+        let groups = |index: usize| headers.get(index).is_some_and(|header| map.reads_labels(header));
+        let is_series = |index: usize| named.name_of(index) == Some("series");
+        causes.retain(|(index, _)| !inputs.is_extra(*index) || is_series(*index) || groups(*index));
         let errors = InputErrorColumns::new(&named);
         let (rows, rejected, counts) = Default::default();
         Ok(Self { map, walls, named, inputs, velocity, errors, causes, rows, rejected, counts })
@@ -117,6 +129,9 @@ impl<'a> Builder<'a> {
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
         let mut notes = self.header_notes(headers, &given);
         notes.extend(self.counts.notes(&given, self.rows.len()));
+        notes.extend(self.extra_notes());
+        let extra = self.inputs.extra().enumerate().filter(|(_, (_, given))| *given);
+        let given_extra: Vec<usize> = extra.map(|(place, _)| place).collect();
         let mut columns = Vec::new();
         for (_, cells) in self.causes {
             let (column, invalid) = cells.finish(|cell| self.map.parse(cell));
@@ -135,7 +150,38 @@ impl<'a> Builder<'a> {
         }
         let (file, detection) = (file.to_owned(), self.map.detection);
         let (rows, rejected) = (self.rows, self.rejected);
-        Ok(Measurements { file, rows, columns, given, detection, read, rejected, notes })
+        Ok(Measurements { file, rows, columns, given, given_extra, detection, read, rejected, notes })
+    }
+
+    /// The assumed values of the inputs that the model declares.
+    fn extra_notes(&self) -> Vec<String> {
+        let absent: Vec<String> = self
+            .inputs
+            .extra()
+            .filter_map(|(i, given)| if given { None } else { i.describe_default() })
+            .collect();
+        let mut notes = Vec::new();
+        if !absent.is_empty() {
+            notes.push(format!("not in the file, assumed: {}", absent.join(", ")));
+        }
+        for (place, (input, _)) in self.inputs.extra().enumerate().filter(|(_, (_, given))| *given) {
+            let count = |test: &dyn Fn(f64) -> bool| {
+                self.rows.iter().filter(|row| test(row.impact.extra[place])).count()
+            };
+            let (blank, unknown) = (count(&f64::is_nan), count(&|value| input.is_unknown(value)));
+            let (name, rows) = (&input.name, self.rows.len());
+            if blank > 0 {
+                let taken =
+                    if input.default.is_nan() { "without a correction" } else { "taken as the default" };
+                notes.push(format!("{name} is blank in {blank} of {rows} rows, {taken}"));
+            }
+            if unknown > 0 {
+                notes.push(format!(
+                    "{name} is no label of the model in {unknown} of {rows} rows, without a correction"
+                ));
+            }
+        }
+        notes
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
@@ -200,10 +246,7 @@ fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) ->
         Some(name @ ("wall" | "series")) => Some((index, Cells::new(name, true))),
         Some(_) => None,
         None if map.ignores(header) => None,
-        None => {
-            let as_labels = names_groups(header) || map.labels.iter().any(|label| label == header);
-            Some((index, Cells::new(header, as_labels)))
-        }
+        None => Some((index, Cells::new(header, map.reads_labels(header)))),
     };
     headers.iter().enumerate().filter_map(cause).collect()
 }

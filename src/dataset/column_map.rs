@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::column::names_groups;
 use super::csv_table::Layout;
 use super::detection::Detection;
 use super::impact_velocity::{AngleFrom, over_determined};
@@ -157,6 +158,11 @@ impl ColumnMap {
 
     fn source(&self, name: &str) -> Option<&Source> {
         self.sources.iter().find(|source| source.name == name)
+    }
+
+    /// Whether the numbers of this column are labels.
+    pub(super) fn reads_labels(&self, column: &str) -> bool {
+        names_groups(column) || self.labels.iter().any(|label| label == column)
     }
 
     /// Whether this column is not used at all.

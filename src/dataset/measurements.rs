@@ -20,6 +20,8 @@ pub struct Measurements {
     pub given: Vec<&'static str>,
     /// The rebounds that the apparatus cannot see.
     pub detection: Detection,
+    /// The inputs that the model declares and a column states, by place in [`Impact::extra`].
+    pub given_extra: Vec<usize>,
     /// Number of usable and rejected rows.
     pub read: usize,
     /// The rejected rows, with the reason.

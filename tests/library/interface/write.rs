@@ -129,8 +129,12 @@ pub fn python(header: &Header) -> String {
     writeln!(text, "INPUTS = (\n{})\n", wrapped(names, "    ")).unwrap();
     for Struct { name, fields } in &header.structs {
         let fields = fields.iter().map(|Field { name, kind, length }| {
-            let length = length.as_ref().map_or(String::new(), |l| format!(" * {}", l.trim_start_matches("NW_")));
-            format!("(\"{name}\", {}{length})", if target(kind).is_some() { "c_void_p" } else { value(kind)[1] })
+            let length =
+                length.as_ref().map_or(String::new(), |l| format!(" * {}", l.trim_start_matches("NW_")));
+            format!(
+                "(\"{name}\", {}{length})",
+                if target(kind).is_some() { "c_void_p" } else { value(kind)[1] }
+            )
         });
         let fields = wrapped(fields, "        ");
         writeln!(text, "\nclass {name}(Structure):\n    _fields_ = [\n{fields}]\n").unwrap();
