@@ -14,7 +14,7 @@ program module_test
   integer(c_int32_t), target :: stuck(count), regime(count)
   integer(c_int64_t), target :: key(count)
   integer(c_size_t) :: first_bad
-  integer(c_int32_t) :: status, wall
+  integer(c_int32_t) :: status, wall, number
   real(c_double) :: adhesive, yielding, sticking, low, high, wall_low, wall_high, velocity
   character(len=512) :: message
   character(len=1024) :: path
@@ -59,8 +59,8 @@ program module_test
     'input = "humidity"'//nl//'on = "e_n"'//nl//'knots = [0, 1]'//nl//'values = [0, 0.2]'//nl
   status = nw_model_parse(declared, len(declared, c_size_t), 'mine'//c_null_char, copy, room, size(room, kind=c_size_t))
   call must(status == NW_OK, 'a model with an input of its own')
-  status = nw_extra_input_count(copy, wall)
-  call must(status == NW_OK .and. wall == 1, 'the number of its inputs')
+  status = nw_extra_input_count(copy, number)
+  call must(status == NW_OK .and. number == 1, 'the number of its inputs')
   status = nw_extra_input_name(copy, 0_c_int32_t, room, size(room, kind=c_size_t))
   call must(status == NW_OK .and. room(1) == 'h' .and. room(9) == c_null_char, 'the name of its input')
   call must(nw_extra_input_default(copy, 1_c_int32_t, low) == NW_UNKNOWN_INPUT, 'an input that is not declared')
