@@ -483,6 +483,17 @@ nw_status nw_extra_input_default(const struct nw_model *model,
                                  uint32_t index,
                                  double *value);
 
+// Returns a word of an input of words: at most `text_size` bytes with the closing zero, cut between characters. The
+// input's value for it is `word`, from 0. The status is `NW_UNKNOWN_INPUT` beyond the last one, and for a number.
+//
+// # Safety
+// `model` is a loaded model, `text` has room for `text_size` bytes.
+nw_status nw_extra_input_word(const struct nw_model *model,
+                              uint32_t index,
+                              uint32_t word,
+                              char *text,
+                              size_t text_size);
+
 // Converts a text to the value of an input that the model file declares: a number, or one of the input's words. On
 // failure `message` (may be null) receives the reason with the known words, as in `nw_model_load`.
 //

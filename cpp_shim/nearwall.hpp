@@ -237,6 +237,17 @@ public:
         return value;
     }
 
+    // Words of an input of words, the value of each being its place; empty for a number.
+    std::vector<std::string> extra_input_words(std::uint32_t index) const {
+        std::vector<std::string> words;
+        detail::message m;
+        while (nw_extra_input_word(raw_, index, static_cast<std::uint32_t>(words.size()), m.text,
+                                   sizeof(m.text)) == NW_OK) {
+            words.push_back(m.text);
+        }
+        return words;
+    }
+
     // Value of a text, a number or one of the input's words; throws with the known words.
     double extra_input_value(std::uint32_t index, const std::string& text) const {
         const char* c_text = detail::c_text(text, NW_BAD_STATE, "the value");

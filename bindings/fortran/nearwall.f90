@@ -335,6 +335,16 @@ module nearwall
       integer(c_int32_t) :: nw_extra_input_default
     end function nw_extra_input_default
 
+    function nw_extra_input_word(model, index, word, text, text_size) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: index
+      integer(c_int32_t), value :: word
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_size_t), value :: text_size
+      integer(c_int32_t) :: nw_extra_input_word
+    end function nw_extra_input_word
+
     function nw_extra_input_value(model, index, text, value, message, message_size) bind(c)
       import
       type(c_ptr), value :: model

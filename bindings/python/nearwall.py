@@ -115,6 +115,7 @@ FUNCTIONS = {
     "nw_extra_input_count": (c_int32, [c_void_p, POINTER(c_uint32)]),
     "nw_extra_input_name": (c_int32, [c_void_p, c_uint32, c_char_p, c_size_t]),
     "nw_extra_input_default": (c_int32, [c_void_p, c_uint32, POINTER(c_double)]),
+    "nw_extra_input_word": (c_int32, [c_void_p, c_uint32, c_uint32, c_char_p, c_size_t]),
     "nw_extra_input_value": (c_int32, [c_void_p, c_uint32, c_char_p, POINTER(c_double), c_char_p, c_size_t]),
 }
 # END GENERATED
@@ -247,6 +248,13 @@ class Model:
         value = c_double()
         _check(_library.nw_extra_input_default(self._handle, self.extra_inputs.index(name), byref(value)))
         return value.value
+
+    def extra_input_words(self, name):
+        """Words of an input of words in the model file, the value of each being its place; empty for a number."""
+        index, words, word = self.extra_inputs.index(name), [], ctypes.create_string_buffer(2048)
+        while _library.nw_extra_input_word(self._handle, index, len(words), word, len(word)) == OK:
+            words.append(word.value.decode(errors="replace"))
+        return words
 
     def extra_input_value(self, name, text):
         """Value of a text, a number or one of the words of an input of the model file."""

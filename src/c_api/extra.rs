@@ -81,6 +81,32 @@ pub unsafe extern "C" fn nw_extra_input_default(
     guarded_status(found)
 }
 
+/// Returns a word of an input of words: at most `text_size` bytes with the closing zero, cut between characters. The
+/// input's value for it is `word`, from 0. The status is `NW_UNKNOWN_INPUT` beyond the last one, and for a number.
+///
+/// # Safety
+/// `model` is a loaded model, `text` has room for `text_size` bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_extra_input_word(
+    model: *const nw_model,
+    index: u32,
+    word: u32,
+    text: *mut c_char,
+    text_size: usize,
+) -> nw_status {
+    let found = || {
+        // SAFETY: the caller's promise.
+        let label = unsafe { input(model, index)? }.labels.get(word as usize).ok_or(NW_UNKNOWN_INPUT)?;
+        if text.is_null() || text_size == 0 {
+            return Err(NW_NULL_POINTER);
+        }
+        // SAFETY: not null, with room for `text_size` bytes by the caller's promise.
+        unsafe { put_text(label, text, text_size) };
+        Ok(())
+    };
+    guarded_status(found)
+}
+
 /// Converts a text to the value of an input that the model file declares: a number, or one of the input's words. On
 /// failure `message` (may be null) receives the reason with the known words, as in `nw_model_load`.
 ///

@@ -66,6 +66,8 @@ program module_test
   call must(nw_extra_input_default(copy, 1_c_int32_t, low) == NW_UNKNOWN_INPUT, 'an input that is not declared')
   status = nw_extra_input_default(copy, 0_c_int32_t, low)
   call must(status == NW_OK .and. abs(low - 0.4d0) < 1d-15, 'its default')
+  call must(nw_extra_input_word(copy, 0_c_int32_t, 0_c_int32_t, room, size(room, kind=c_size_t)) == NW_UNKNOWN_INPUT, &
+    'a number has no words')
   status = nw_extra_input_value(copy, 0_c_int32_t, '0.9'//c_null_char, high, room, size(room, kind=c_size_t))
   call must(status == NW_OK .and. abs(high - 0.9d0) < 1d-15, 'its value of a text')
   impact%v_n = 2.0d0

@@ -101,6 +101,7 @@ damp = nearwall.Model.from_toml(PLAIN)
 assert damp.extra_inputs == ["humidity", "plate"] and model.extra_inputs == []
 assert damp.extra_input_default("humidity") == 0.4 and numpy.isnan(damp.extra_input_default("plate"))
 assert damp.extra_input_value("plate", "glass") == 1.0
+assert damp.extra_input_words("plate") == ["steel", "glass"] and damp.extra_input_words("humidity") == []
 part = damp.resolve(v_n[:3], v_t=1.0, humidity=numpy.array([0.0, numpy.nan, 1.0]), plate="glass")
 assert numpy.allclose(part.e_n, [0.5, 0.58, 0.7], atol=1e-15) and numpy.allclose(part.e_t, 0.66, atol=1e-15), part
 assert numpy.allclose(damp.resolve(2.0, v_t=1.0).e_t, 0.76, atol=1e-15)

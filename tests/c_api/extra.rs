@@ -40,6 +40,15 @@ impl Loaded {
         Ok(unsafe { CStr::from_ptr(name.as_ptr()) }.to_str().unwrap().to_owned())
     }
 
+    fn word(&self, index: u32, place: u32) -> Result<String, i32> {
+        let mut word = [0; 40];
+        let status = unsafe {
+            (self.calls.nw_extra_input_word)(self.model, index, place, word.as_mut_ptr(), word.len())
+        };
+        let text = unsafe { CStr::from_ptr(word.as_ptr()) }.to_str().unwrap().to_owned();
+        if status == NW_OK { Ok(text) } else { Err(status) }
+    }
+
     /// The value of a text, or status and message.
     fn value(&self, index: u32, text: &str) -> Result<f64, (i32, String)> {
         let (text, mut value, mut message) = (CString::new(text).unwrap(), UNTOUCHED, [0; 200]);
@@ -85,6 +94,12 @@ fn names_defaults_and_words_are_those_of_the_file() {
     assert_eq!(loaded.name(2, 40), Err(NW_UNKNOWN_INPUT));
     assert_eq!(loaded.name(0, 0), Err(NW_NULL_POINTER));
 
+    assert_eq!([0, 1].map(|place| loaded.word(1, place).unwrap()), ["steel", "glass"]);
+    assert_eq!(
+        [(0, 0), (1, 2), (9, 0)].map(|(i, w)| loaded.word(i, w)),
+        [const { Err(NW_UNKNOWN_INPUT) }; 3]
+    );
+
     let default = |index| {
         let mut value = UNTOUCHED;
         let status = unsafe { (calls.nw_extra_input_default)(model, index, &raw mut value) };
@@ -113,6 +128,7 @@ fn null_pointers_are_refused() {
             (calls.nw_extra_input_count)(model, null_mut()),
             (calls.nw_extra_input_name)(model, 0, null_mut(), 5),
             (calls.nw_extra_input_name)(null(), 0, null_mut(), 5),
+            (calls.nw_extra_input_word)(model, 1, 0, null_mut(), 5),
             (calls.nw_extra_input_default)(model, 0, null_mut()),
             (calls.nw_extra_input_default)(null(), 0, &raw mut value),
             (calls.nw_extra_input_value)(model, 0, null(), &raw mut value, null_mut(), 0),
@@ -120,7 +136,7 @@ fn null_pointers_are_refused() {
             (calls.nw_extra_input_value)(null(), 0, text, &raw mut value, null_mut(), 0),
         ]
     };
-    assert_eq!((statuses, value), ([NW_NULL_POINTER; 8], UNTOUCHED));
+    assert_eq!((statuses, value), ([NW_NULL_POINTER; 9], UNTOUCHED));
 }
 
 #[test]

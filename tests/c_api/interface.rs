@@ -29,6 +29,7 @@ macro_rules! for_each_function {
             nw_extra_input_count: unsafe extern "C" fn(*const nw_model, *mut u32) -> i32,
             nw_extra_input_name: unsafe extern "C" fn(*const nw_model, u32, *mut c_char, usize) -> i32,
             nw_extra_input_default: unsafe extern "C" fn(*const nw_model, u32, *mut f64) -> i32,
+            nw_extra_input_word: unsafe extern "C" fn(*const nw_model, u32, u32, *mut c_char, usize) -> i32,
             nw_extra_input_value: unsafe extern "C" fn(*const nw_model, u32, *const c_char, *mut f64, *mut c_char, usize) -> i32,
         }
     };

@@ -81,10 +81,10 @@ pub fn extra(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let known_words = [c"glass", c"steel", c"0.3", c"inf", c"", c"gl\xc3\xa9", c"\xff"];
     let text = known_words[bytes.below(known_words.len())].as_ptr();
     let text = if bytes.byte() == 0 { null() } else { text };
-    let mut texts: [GuardedBuffer; 2] = std::array::from_fn(|_| GuardedBuffer::new(bytes, size));
+    let mut texts: [GuardedBuffer; 3] = std::array::from_fn(|_| GuardedBuffer::new(bytes, size));
     let mut numbers: [GuardedBuffer; 2] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));
     let mut count = GuardedBuffer::new(bytes, 4);
-    let [name, message] = texts.each_mut().map(|buffer| buffer.start_or_null(bytes));
+    let [name, message, word] = texts.each_mut().map(|buffer| buffer.start_or_null(bytes));
     let [default, value] = numbers.each_mut().map(|buffer| buffer.start_or_null::<f64>(bytes));
     let to_count = count.start_or_null::<u32>(bytes);
     let model = if bytes.byte() == 0 { null() } else { model };
@@ -95,6 +95,7 @@ pub fn extra(bytes: &mut Bytes<'_>, model: *const nw_model) {
             nw_extra_input_value(model, index, text, value, message, size),
             nw_extra_input_default(model, index, default),
             nw_extra_input_count(model, to_count),
+            nw_extra_input_word(model, index, size as u32 % 3, word, size),
         ]
     };
     statuses.into_iter().for_each(known);
@@ -105,9 +106,9 @@ pub fn extra(bytes: &mut Bytes<'_>, model: *const nw_model) {
             buffer.assert_untouched();
         }
     }
-    texts[1].assert_guard_intact();
-    let written = [(&texts[0], statuses[0] == NW_OK), (&texts[1], statuses[1] != NW_OK && size > 0)];
-    for (buffer, written) in written.into_iter().filter(|(buffer, _)| buffer.is_changed()) {
+    let written = [statuses[0] == NW_OK, statuses[1] != NW_OK && size > 0, statuses[4] == NW_OK];
+    texts.iter().for_each(GuardedBuffer::assert_guard_intact);
+    for (buffer, written) in texts.iter().zip(written).filter(|(buffer, _)| buffer.is_changed()) {
         assert!(written, "written without need");
         let text = CStr::from_bytes_until_nul(buffer.inside()).expect("a closing zero");
         text.to_str().expect("whole characters");
