@@ -9,6 +9,7 @@ mod arguments;
 mod compare;
 mod diagnose;
 #[cfg(unix)]
+mod extra_inputs;
 mod faults;
 mod map;
 mod pages;
