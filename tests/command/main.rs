@@ -8,8 +8,8 @@ mod common;
 mod arguments;
 mod compare;
 mod diagnose;
-#[cfg(unix)]
 mod extra_inputs;
+#[cfg(unix)]
 mod faults;
 mod map;
 mod pages;
