@@ -213,7 +213,7 @@ fn interpolated(axes: &[CurveAxis], values: &[f64], impact: &Impact) -> Option<f
         let [value] = values else { return None };
         return Some(*value);
     };
-    if axis.knots.is_empty() || values.len() % axis.knots.len() != 0 {
+    if axis.knots.is_empty() || !values.len().is_multiple_of(axis.knots.len()) {
         return None;
     }
     let block = values.len() / axis.knots.len();

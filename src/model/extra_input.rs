@@ -17,7 +17,7 @@ const OBSERVED_ERROR: &str = "_err";
 const UNKNOWN_LABEL: f64 = -1.0;
 
 /// An input that a model file declares.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct ExtraInput {
     /// Its name in data files, model files, C and OpenFOAM.
     pub name: String,
@@ -25,6 +25,14 @@ pub struct ExtraInput {
     pub default: f64,
     /// The words of an input of words; empty for a number.
     pub labels: Vec<String>,
+}
+
+/// An input without a default equals itself.
+impl PartialEq for ExtraInput {
+    fn eq(&self, other: &Self) -> bool {
+        let bits = |input: &Self| input.default.to_bits();
+        self.name == other.name && bits(self) == bits(other) && self.labels == other.labels
+    }
 }
 
 impl ExtraInput {
