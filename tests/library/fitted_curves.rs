@@ -225,6 +225,18 @@ fn a_range_may_name_a_declared_input() {
 }
 
 #[test]
+fn the_example_of_the_page_is_read() {
+    let page = include_str!("../../docs/model-file.md");
+    let section = page.split("\n## ").find(|section| section.starts_with("Fitted curves")).unwrap();
+    let example = section.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let commented = example.replace("\n# ", "\n");
+    for text in [example, &commented] {
+        let model = model(text);
+        assert_eq!((model.terms().len(), model.extra_inputs().len()), (4, 2));
+    }
+}
+
+#[test]
 fn errors_name_the_key_and_the_remedy() {
     let curve = |from: &str, to: &str| fault(&CURVE.replace(from, to));
     let part = |message: String, parts: &[&str]| {
