@@ -1,6 +1,6 @@
-//! Inputs that a model file declares, in the command: columns of `predict` and of measured data, `check` and `--explain`.
+//! Inputs that a model file declares, in the command: columns of `predict`, `compare` and `check`; and means over chance in `predict`.
 
-use crate::runner::{WAX, folder, nearwall, refused};
+use crate::runner::{WAX, done, folder, nearwall, refused};
 
 const INPUTS: &str = r#"
 [inputs.humidity]
@@ -88,4 +88,44 @@ fn a_declared_name_that_is_taken_is_refused() {
         &["predict", "--model", "m.toml", "i.csv"],
         &["inputs", "`e_n` is an observed column of data files"],
     );
+}
+
+/// Noise of +-0.01 about the curve: the model that knows the column wins, and only its residual is the noise.
+#[test]
+fn compare_gives_declared_inputs_to_each_model() {
+    let row = |row: usize| {
+        let humidity = (row * 37) % 101;
+        let noise = if row % 3 == 0 { 0.01 } else { -0.01 };
+        format!("1,{humidity},{}\n", 0.76 - 0.001 * humidity as f64 + noise)
+    };
+    let rows: String = (0..60).map(row).collect();
+    let files = [
+        ("plain.toml", WAX.to_owned()),
+        ("curve.toml", format!("{WAX}{INPUTS}")),
+        ("lab.csv", format!("v_n,humidity,e_t\n{rows}")),
+    ];
+    let folder = folder(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
+    done(folder.path(), &["compare", "lab.csv", "--models", "plain.toml", "curve.toml", "--out", "out"]);
+    let json = std::fs::read_to_string(folder.path().join("out/compare.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let best = &json["models"][0];
+    assert_eq!(best["model"], "curve.toml");
+    assert!((best["rmse_e_t"]["value"].as_f64().unwrap() - 0.01).abs() < 1e-9, "{best}");
+}
+
+/// A quarter of the particles are agglomerates with `e_n` of 0.8 on average: the row has the mean, not one draw.
+#[test]
+fn predict_averages_what_is_drawn_by_chance() {
+    let chance = "[[effects]]\nkind = \"agglomerates\"\nfraction = 0.25\nrestitution = 0.8\nspread = 0.1\n";
+    let rows = "v_n,d\n1,75e-6\n2,75e-6\n";
+    let e_n = |model: &str| {
+        let folder = folder(&[("m.toml", model), ("i.csv", rows)]);
+        let table = done(folder.path(), &["predict", "--model", "m.toml", "i.csv"]);
+        let e_n = |line: &str| line.split(',').nth(2).unwrap().parse::<f64>().unwrap();
+        table.lines().skip(1).map(e_n).collect::<Vec<_>>()
+    };
+    let mean = e_n(&format!("{WAX}{chance}"));
+    for (mean, plain) in mean.into_iter().zip(e_n(WAX)) {
+        assert!((mean - (0.75 * plain + 0.25 * 0.8)).abs() < 0.01, "{mean}, plain {plain}");
+    }
 }

@@ -1,9 +1,11 @@
 //! Fitted curves, level shifts and the inputs that a model file declares, against numbers by hand; the mean over draws against
 //! plain random draws.
 
+use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
 use nearwall::impact::{EXTRA_INPUTS, INPUTS};
 use nearwall::model::ExtraInput;
+use nearwall::model::block::{BLOCK, Block, Outcomes};
 use nearwall::{Impact, ImpactRng, Model, Outcome};
 
 use crate::common::random::seed;
@@ -222,6 +224,76 @@ fn a_range_may_name_a_declared_input() {
     infinite.extra[0] = f64::INFINITY;
     let error = model.resolve(0, &infinite, ImpactRng::default()).unwrap_err().to_string();
     assert_eq!(error, "dose = inf: must be finite");
+}
+
+const DECLARED: &str = "[inputs.humidity]\ndefault = 40\n[inputs.operator]\nlabels = [\"Ann\", \"Bob\"]\n\
+                        [[effects]]\nkind = \"fitted-curve\"\ninput = \"humidity\"\non = \"e_t\"\n\
+                        knots = [0, 100]\nvalues = [0, -0.1]\n";
+
+#[test]
+fn blocks_have_declared_inputs_and_laws_alone_stay_prepared() {
+    let model = model(DECLARED);
+    assert!(!model.is_prepared(0) && self::model("").is_prepared(0));
+    let mut block = Block { length: 3, ..Block::default() };
+    let mut outcomes = Outcomes::default();
+    model.resolve_block(0, &block, 1, &mut outcomes).unwrap();
+    assert!(outcomes.tangential_restitution[..3].iter().all(|e_t| (e_t - 0.76).abs() < 1e-12));
+    block.extra = vec![[f64::NAN; BLOCK]];
+    block.extra[0][1] = 100.0;
+    model.resolve_block(0, &block, 1, &mut outcomes).unwrap();
+    for (e_t, expected) in outcomes.tangential_restitution.into_iter().zip([0.76, 0.7, 0.76]) {
+        close(e_t, expected);
+    }
+}
+
+#[test]
+fn measured_data_state_declared_inputs() {
+    let model = model(DECLARED);
+    let walls = WallChoice::new(&model, None).unwrap();
+    let read = |text: &str, map: &str| {
+        let map = ColumnMap::from_toml("map.toml", map).unwrap();
+        Measurements::read("t.csv", text.as_bytes(), Some(&map), &walls).unwrap()
+    };
+    let data = read(
+        "v_n;e_t;humidity;operator;plate\n1;0,5;12,5;Bob;3\n1;0,5;NA;;3\n1;0,5;20;Eve;3\n1;0,5;wet;Ann;3\n",
+        "separator = \";\"\ndecimal = \",\"\n",
+    );
+    assert_eq!((data.given, data.given_extra), (vec!["v_n"], vec![0, 1]));
+    let extra: Vec<_> = data.rows.iter().map(|row| [row.impact.extra[0], row.impact.extra[1]]).collect();
+    assert_eq!(extra[0], [12.5, 1.0]);
+    assert!(extra[1].iter().all(|value| value.is_nan()));
+    assert!(extra[2][0] == 20.0 && model.extra_inputs()[1].is_unknown(extra[2][1]));
+    assert_eq!(data.rejected[0].reason, "humidity `wet` is not a number");
+    assert_eq!(data.columns.iter().map(|column| column.name.as_str()).collect::<Vec<_>>(), ["plate"]);
+    for note in [
+        "humidity is blank in 1 of 3 rows, taken as the default",
+        "operator is blank in 1 of 3 rows, without a correction",
+        "operator is no label of the model in 1 of 3 rows, without a correction",
+    ] {
+        assert!(data.notes.iter().any(|own| own == note), "{note} is not in {:?}", data.notes);
+    }
+    let data = read("v_n,e_t\n1,0.5\n", "");
+    assert_eq!(
+        (data.given_extra.len(), data.rows[0].impact),
+        (0, Impact { normal_speed: 1.0, ..Impact::default() })
+    );
+    assert!(
+        data.notes.iter().any(|note| note == "not in the file, assumed: humidity = 40"),
+        "{:?}",
+        data.notes
+    );
+}
+
+#[test]
+fn the_example_of_the_page_is_read() {
+    let page = include_str!("../../docs/model-file.md");
+    let section = page.split("\n## ").find(|section| section.starts_with("Fitted curves")).unwrap();
+    let example = section.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let commented = example.replace("\n# ", "\n");
+    for text in [example, &commented] {
+        let model = model(text);
+        assert_eq!((model.terms().len(), model.extra_inputs().len()), (4, 2));
+    }
 }
 
 #[test]
