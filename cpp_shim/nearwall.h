@@ -36,6 +36,9 @@
 // Version of the binary interface; it rises when a struct, a function or a constant changes.
 #define NW_ABI_VERSION 1
 
+// Length of the arrays `extra`: a model file declares at most this many inputs.
+#define NW_EXTRA_INPUTS 8
+
 // Bit of `flags`: a property or a fitted term was used outside its stated range.
 #define NW_OUTSIDE_VALID_RANGE 1
 
@@ -86,6 +89,8 @@ typedef struct nw_impact {
   double melt_thickness;
   // Speed of the gas along the wall [m/s], not negative.
   double v_gas;
+  // The inputs that the model file declares, in the order of `nw_extra_input_name`; NaN for the default.
+  double extra[NW_EXTRA_INPUTS];
 } nw_impact;
 
 // Result of an impact.
@@ -152,6 +157,8 @@ typedef struct nw_impacts {
   const double *melt_thickness;
   // Speed of the gas along the wall [m/s], not negative.
   const double *v_gas;
+  // The inputs that the model file declares, in the order of `nw_extra_input_name`; NaN for the default.
+  const double *extra[NW_EXTRA_INPUTS];
 } nw_impacts;
 
 // Arrays that receive the outcomes, each with room for `count` entries of `nw_impacts`; null if not wanted. They must
@@ -242,6 +249,9 @@ typedef struct nw_deposit_source {
 
 // An internal error; please report it.
 #define NW_PANIC 9
+
+// The model file declares no input with this index; `nw_extra_input_count` returns their number.
+#define NW_UNKNOWN_INPUT 10
 
 // Non-sticky particle, non-sticky wall.
 #define NW_NSP_NSW 0
@@ -446,6 +456,56 @@ nw_status nw_film_velocity(const struct nw_model *model,
                            double T_w,
                            double gravity_along,
                            double *velocity);
+
+// Counts the inputs that the model file declares under `[inputs]`. Their values are the first entries of `extra`.
+//
+// # Safety
+// `model` is a loaded model, `count` can be written.
+nw_status nw_extra_input_count(const struct nw_model *model,
+                               uint32_t *count);
+
+// Returns the name of an input that the model file declares: at most `name_size` bytes with the closing zero, cut
+// between characters. `index` is its place in `extra`.
+//
+// # Safety
+// `model` is a loaded model, `name` has room for `name_size` bytes.
+nw_status nw_extra_input_name(const struct nw_model *model,
+                              uint32_t index,
+                              char *name,
+                              size_t name_size);
+
+// Returns the value that an impact takes where its entry of `extra` is NaN; NaN if the model file states no default. A
+// curve over an input without value changes nothing.
+//
+// # Safety
+// `model` is a loaded model, `value` can be written.
+nw_status nw_extra_input_default(const struct nw_model *model,
+                                 uint32_t index,
+                                 double *value);
+
+// Returns a word of an input of words: at most `text_size` bytes with the closing zero, cut between characters. The
+// input's value for it is `word`, from 0. The status is `NW_UNKNOWN_INPUT` beyond the last one, and for a number.
+//
+// # Safety
+// `model` is a loaded model, `text` has room for `text_size` bytes.
+nw_status nw_extra_input_word(const struct nw_model *model,
+                              uint32_t index,
+                              uint32_t word,
+                              char *text,
+                              size_t text_size);
+
+// Converts a text to the value of an input that the model file declares: a number, or one of the input's words. On
+// failure `message` (may be null) receives the reason with the known words, as in `nw_model_load`.
+//
+// # Safety
+// `model` is a loaded model, `text` is zero-terminated, `value` can be written, `message` has room for `message_size`
+// bytes or is null.
+nw_status nw_extra_input_value(const struct nw_model *model,
+                               uint32_t index,
+                               const char *text,
+                               double *value,
+                               char *message,
+                               size_t message_size);
 
 #ifdef __cplusplus
 }  // extern "C"

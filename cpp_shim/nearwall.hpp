@@ -216,6 +216,47 @@ public:
                nw_model_find_wall(raw_, name.c_str(), &wall) == NW_OK;
     }
 
+    // Names of the inputs that the model file declares, in the order of nw_impact.extra.
+    std::vector<std::string> extra_inputs() const {
+        std::uint32_t count = 0;
+        detail::check(nw_extra_input_count(raw_, &count), std::string("nw_extra_input_count"));
+        std::vector<std::string> names;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            detail::message m;
+            detail::check(nw_extra_input_name(raw_, i, m.text, sizeof(m.text)),
+                          std::string("nw_extra_input_name"));
+            names.push_back(m.text);
+        }
+        return names;
+    }
+
+    // Value where the entry of nw_impact.extra is NaN; NaN if the model file states none.
+    double extra_input_default(std::uint32_t index) const {
+        double value = 0;
+        detail::check(nw_extra_input_default(raw_, index, &value), std::string("nw_extra_input_default"));
+        return value;
+    }
+
+    // Words of an input of words, the value of each being its place; empty for a number.
+    std::vector<std::string> extra_input_words(std::uint32_t index) const {
+        std::vector<std::string> words;
+        detail::message m;
+        while (nw_extra_input_word(raw_, index, static_cast<std::uint32_t>(words.size()), m.text,
+                                   sizeof(m.text)) == NW_OK) {
+            words.push_back(m.text);
+        }
+        return words;
+    }
+
+    // Value of a text, a number or one of the input's words; throws with the known words.
+    double extra_input_value(std::uint32_t index, const std::string& text) const {
+        const char* c_text = detail::c_text(text, NW_BAD_STATE, "the value");
+        double value = 0;
+        detail::message m;
+        detail::check(nw_extra_input_value(raw_, index, c_text, &value, m.text, sizeof(m.text)), m);
+        return value;
+    }
+
     // Resolves one impact; throws if it is invalid.
     nw_outcome resolve(const nw_impact& impact) const {
         nw_outcome outcome = make_outcome();

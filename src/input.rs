@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 
 /// An error in a file of the user, with its remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -135,6 +135,38 @@ pub struct Section<'a> {
     known: RefCell<Vec<String>>,
 }
 
+/// What a list of texts has to be.
+const TEXTS: &str = "a list of texts in quotes";
+
+/// A list in a table.
+pub struct List<'s, 'a> {
+    section: &'s Section<'a>,
+    key: &'s str,
+    values: &'a DeArray<'a>,
+}
+
+impl List<'_, '_> {
+    /// Its entries as finite numbers.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an entry that is not a finite number.
+    pub fn numbers(&self) -> Result<Vec<f64>, InputError> {
+        self.values.iter().map(|value| self.section.to_number(self.key, value)).collect()
+    }
+
+    /// Its entries as texts.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an entry that is not a text.
+    pub fn texts(&self) -> Result<Vec<String>, InputError> {
+        let to_text = |value: Value<'_>| {
+            let text = value.get_ref().as_str().map(str::to_owned);
+            text.ok_or_else(|| self.section.wrong_type(self.key, TEXTS, value.get_ref()))
+        };
+        self.values.iter().map(to_text).collect()
+    }
+}
+
 /// A value with its place in the file.
 type Value<'a> = &'a Spanned<DeValue<'a>>;
 
@@ -248,7 +280,7 @@ impl<'a> Section<'a> {
     /// [`InputError::Fault`] when the value is not a list of finite numbers.
     pub fn numbers(&self, key: &str) -> Result<Option<Vec<f64>>, InputError> {
         let list = self.converted(key, "a list of numbers", DeValue::as_array)?;
-        list.map(|list| list.iter().map(|value| self.to_number(key, value)).collect()).transpose()
+        list.map(|values| List { section: self, key, values }.numbers()).transpose()
     }
 
     /// A list of texts, or `None` when the key is absent.
@@ -256,13 +288,30 @@ impl<'a> Section<'a> {
     /// # Errors
     /// [`InputError::Fault`] when the value is not a list of texts.
     pub fn texts(&self, key: &str) -> Result<Option<Vec<String>>, InputError> {
-        let expected = "a list of texts in quotes";
-        let list = self.converted(key, expected, DeValue::as_array)?;
-        let to_text = |value: Value<'a>| {
-            let text = value.get_ref().as_str().map(str::to_owned);
-            text.ok_or_else(|| self.wrong_type(key, expected, value.get_ref()))
+        let list = self.converted(key, TEXTS, DeValue::as_array)?;
+        list.map(|values| List { section: self, key, values }.texts()).transpose()
+    }
+
+    /// The lists in a list, or the list itself where its first entry is none; `None` when the key is absent.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] when the value is not a list, or lists and other values are mixed.
+    pub fn lists<'s>(&'s self, key: &'s str) -> Result<Option<Vec<List<'s, 'a>>>, InputError> {
+        let Some(outer) = self.converted(key, "a list", DeValue::as_array)? else { return Ok(None) };
+        if outer.first().is_none_or(|first| first.get_ref().as_array().is_none()) {
+            return Ok(Some(vec![List { section: self, key, values: outer }]));
+        }
+        let to_list = |value: Value<'a>| {
+            let values = value.get_ref().as_array();
+            let values = values.ok_or_else(|| self.wrong_type(key, "a list of lists", value.get_ref()))?;
+            Ok(List { section: self, key, values })
         };
-        list.map(|list| list.iter().map(to_text).collect()).transpose()
+        outer.iter().map(to_list).collect::<Result<_, _>>().map(Some)
+    }
+
+    /// Whether the value of `key` is a list (some keys take a text or a list).
+    pub fn is_list(&self, key: &str) -> bool {
+        matches!(self.find(key).map(Spanned::get_ref), Some(DeValue::Array(_)))
     }
 
     /// A pair `[low, high]` with `low <= high`, or `None` when the key is absent.

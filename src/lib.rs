@@ -36,8 +36,10 @@
 //! 4. [`normal`]: the normal law gives `e_n`, or says that adhesion holds the particle. Effects change `e_n`; a sticky particle
 //!    loses part of it.
 //! 5. [`tangential`]: the tangential law gives `e_t` and the spin. Effects change them.
-//! 6. [`capture`] again: the probability of capture and the random draw ([`rng`]) decide whether the particle stays.
-//! 7. [`Outcome`]: `e_n`, `e_t`, spin, probability, regime, and whether a law was used outside its stated range.
+//! 6. [`capture`] again: the probability of capture.
+//! 7. Fitted corrections ([`effect::FittedCurve`]) of `e_n`, `e_t` and the probability, where a model has them; then the random draw
+//!    ([`rng`]) decides whether the particle stays.
+//! 8. [`Outcome`]: `e_n`, `e_t`, spin, probability, regime, and whether a law was used outside its stated range.
 //!
 //! An [`effect`] is a named, removable term that acts on some of these steps. `src/model/evaluation.rs` holds the order.
 //!

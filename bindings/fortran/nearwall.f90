@@ -25,6 +25,7 @@ module nearwall
 
   ! GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
   integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 1
+  integer(c_int32_t), parameter :: NW_EXTRA_INPUTS = 8
   integer(c_int32_t), parameter :: NW_OUTSIDE_VALID_RANGE = 1
   integer(c_int32_t), parameter :: NW_OK = 0
   integer(c_int32_t), parameter :: NW_NULL_POINTER = 1
@@ -36,6 +37,7 @@ module nearwall
   integer(c_int32_t), parameter :: NW_BAD_STATE = 7
   integer(c_int32_t), parameter :: NW_OUT_OF_RANGE = 8
   integer(c_int32_t), parameter :: NW_PANIC = 9
+  integer(c_int32_t), parameter :: NW_UNKNOWN_INPUT = 10
   integer(c_int32_t), parameter :: NW_NSP_NSW = 0
   integer(c_int32_t), parameter :: NW_NSP_SW = 1
   integer(c_int32_t), parameter :: NW_SP_NSW = 2
@@ -60,6 +62,7 @@ module nearwall
     real(c_double) :: film_thickness
     real(c_double) :: melt_thickness
     real(c_double) :: v_gas
+    real(c_double) :: extra(NW_EXTRA_INPUTS)
   end type nw_impact
 
   type, bind(c) :: nw_outcome
@@ -74,7 +77,7 @@ module nearwall
   end type nw_outcome
 
   type, bind(c) :: nw_impacts
-    integer(c_int32_t) :: struct_size = 152
+    integer(c_int32_t) :: struct_size = 216
     integer(c_int32_t) :: wall = 0
     integer(c_size_t) :: count = 0
     integer(c_int64_t) :: seed = 0
@@ -94,6 +97,7 @@ module nearwall
     type(c_ptr) :: film_thickness = c_null_ptr
     type(c_ptr) :: melt_thickness = c_null_ptr
     type(c_ptr) :: v_gas = c_null_ptr
+    type(c_ptr) :: extra(NW_EXTRA_INPUTS) = c_null_ptr
   end type nw_impacts
 
   type, bind(c) :: nw_outcomes
@@ -306,6 +310,51 @@ module nearwall
       real(c_double), intent(inout) :: velocity
       integer(c_int32_t) :: nw_film_velocity
     end function nw_film_velocity
+
+    function nw_extra_input_count(model, count) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), intent(inout) :: count
+      integer(c_int32_t) :: nw_extra_input_count
+    end function nw_extra_input_count
+
+    function nw_extra_input_name(model, index, name, name_size) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: index
+      character(kind=c_char), intent(inout) :: name(*)
+      integer(c_size_t), value :: name_size
+      integer(c_int32_t) :: nw_extra_input_name
+    end function nw_extra_input_name
+
+    function nw_extra_input_default(model, index, value) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: index
+      real(c_double), intent(inout) :: value
+      integer(c_int32_t) :: nw_extra_input_default
+    end function nw_extra_input_default
+
+    function nw_extra_input_word(model, index, word, text, text_size) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: index
+      integer(c_int32_t), value :: word
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_size_t), value :: text_size
+      integer(c_int32_t) :: nw_extra_input_word
+    end function nw_extra_input_word
+
+    function nw_extra_input_value(model, index, text, value, message, message_size) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: index
+      character(kind=c_char), intent(in) :: text(*)
+      real(c_double), intent(inout) :: value
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_size_t), value :: message_size
+      integer(c_int32_t) :: nw_extra_input_value
+    end function nw_extra_input_value
 
   end interface
   ! END GENERATED

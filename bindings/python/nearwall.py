@@ -20,6 +20,7 @@ import numpy
 
 # GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
 ABI_VERSION = 1
+EXTRA_INPUTS = 8
 OUTSIDE_VALID_RANGE = 1
 OK = 0
 NULL_POINTER = 1
@@ -31,6 +32,7 @@ UNKNOWN_WALL = 6
 BAD_STATE = 7
 OUT_OF_RANGE = 8
 PANIC = 9
+UNKNOWN_INPUT = 10
 NSP_NSW = 0
 NSP_SW = 1
 SP_NSW = 2
@@ -48,7 +50,7 @@ class nw_impact(Structure):
         ("v_n", c_double), ("v_t", c_double), ("omega", c_double), ("d", c_double), ("T_p", c_double),
         ("rho_p", c_double), ("conversion", c_double), ("T_w", c_double), ("roughness", c_double),
         ("coverage", c_double), ("layer_thickness", c_double), ("film_thickness", c_double),
-        ("melt_thickness", c_double), ("v_gas", c_double)]
+        ("melt_thickness", c_double), ("v_gas", c_double), ("extra", c_double * EXTRA_INPUTS)]
 
 
 class nw_outcome(Structure):
@@ -63,7 +65,8 @@ class nw_impacts(Structure):
         ("walls", c_void_p), ("key", c_void_p), ("v_n", c_void_p), ("v_t", c_void_p), ("omega", c_void_p),
         ("d", c_void_p), ("T_p", c_void_p), ("rho_p", c_void_p), ("conversion", c_void_p), ("T_w", c_void_p),
         ("roughness", c_void_p), ("coverage", c_void_p), ("layer_thickness", c_void_p),
-        ("film_thickness", c_void_p), ("melt_thickness", c_void_p), ("v_gas", c_void_p)]
+        ("film_thickness", c_void_p), ("melt_thickness", c_void_p), ("v_gas", c_void_p),
+        ("extra", c_void_p * EXTRA_INPUTS)]
 
 
 class nw_outcomes(Structure):
@@ -109,6 +112,11 @@ FUNCTIONS = {
     "nw_deposit_add": (c_int32, [POINTER(nw_deposit_source), POINTER(nw_deposit)]),
     "nw_deposit_apply": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_impact)]),
     "nw_film_velocity": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, c_double, POINTER(c_double)]),
+    "nw_extra_input_count": (c_int32, [c_void_p, POINTER(c_uint32)]),
+    "nw_extra_input_name": (c_int32, [c_void_p, c_uint32, c_char_p, c_size_t]),
+    "nw_extra_input_default": (c_int32, [c_void_p, c_uint32, POINTER(c_double)]),
+    "nw_extra_input_word": (c_int32, [c_void_p, c_uint32, c_uint32, c_char_p, c_size_t]),
+    "nw_extra_input_value": (c_int32, [c_void_p, c_uint32, c_char_p, POINTER(c_double), c_char_p, c_size_t]),
 }
 # END GENERATED
 
@@ -197,23 +205,13 @@ def _text(name, value):
     return data
 
 
-def _impact(wall, inputs):
-    """One impact from numbers."""
-    impact = nw_impact()
-    _check(_library.nw_impact_init(byref(impact)))
-    impact.wall = _index("wall", wall, 32)
-    for name, value in inputs.items():
-        if name not in INPUTS:
-            raise TypeError(f"no such input: {name}")
-        setattr(impact, name, value)
-    return impact
-
-
 class Model:
     """A loaded model."""
 
     def __init__(self, handle):
         self._handle = handle
+        #: Names of the inputs that the model file declares.
+        self.extra_inputs = self._extra_inputs()
 
     @classmethod
     def from_file(cls, path):
@@ -236,6 +234,57 @@ class Model:
             _library.nw_model_free(self._handle)
             self._handle = None
 
+    def _extra_inputs(self):
+        count, name = c_uint32(), ctypes.create_string_buffer(2048)
+        _check(_library.nw_extra_input_count(self._handle, byref(count)))
+        names = []
+        for index in range(count.value):
+            _check(_library.nw_extra_input_name(self._handle, index, name, len(name)))
+            names.append(name.value.decode(errors="replace"))
+        return names
+
+    def extra_input_default(self, name):
+        """Value of an input of the model file where an impact does not state it; NaN if the file has none."""
+        value = c_double()
+        _check(_library.nw_extra_input_default(self._handle, self.extra_inputs.index(name), byref(value)))
+        return value.value
+
+    def extra_input_words(self, name):
+        """Words of an input of words in the model file, the value of each being its place; empty for a number."""
+        index, words, word = self.extra_inputs.index(name), [], ctypes.create_string_buffer(2048)
+        while _library.nw_extra_input_word(self._handle, index, len(words), word, len(word)) == OK:
+            words.append(word.value.decode(errors="replace"))
+        return words
+
+    def extra_input_value(self, name, text):
+        """Value of a text, a number or one of the words of an input of the model file."""
+        value, message = c_double(), ctypes.create_string_buffer(2048)
+        index, text = self.extra_inputs.index(name), _text(name, text)
+        status = _library.nw_extra_input_value(self._handle, index, text, byref(value), message, len(message))
+        _check(status, message.value.decode(errors="replace"))
+        return value.value
+
+    def _numbers(self, inputs):
+        """The inputs with a number for each word."""
+        unknown = set(inputs) - set(INPUTS) - set(self.extra_inputs)
+        if unknown:
+            raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
+        words = {name: self.extra_input_value(name, value) for name, value in inputs.items()
+                 if isinstance(value, str) and name not in INPUTS}
+        return {**inputs, **words}
+
+    def _impact(self, wall, inputs):
+        """One impact from numbers and words."""
+        impact = nw_impact()
+        _check(_library.nw_impact_init(byref(impact)))
+        impact.wall = _index("wall", wall, 32)
+        for name, value in self._numbers(inputs).items():
+            if name in INPUTS:
+                setattr(impact, name, value)
+            else:
+                impact.extra[self.extra_inputs.index(name)] = value
+        return impact
+
     def find_wall(self, name):
         """Index of the wall of a patch."""
         wall = c_uint32()
@@ -243,11 +292,10 @@ class Model:
         return wall.value
 
     def resolve(self, v_n, wall=0, seed=0, key=None, **inputs):
-        """Resolves len(v_n) impacts. `inputs` are those of INPUTS, arrays of float64 or numbers; `wall` is an index or an
-        array of uint32; `key` is an array of uint64 with a unique number for each impact, by default its index."""
-        unknown = set(inputs) - set(INPUTS)
-        if unknown:
-            raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
+        """Resolves len(v_n) impacts. `inputs` are those of INPUTS and of `extra_inputs`, arrays of float64 or numbers, for
+        an input of words also one word; `wall` is an index or an array of uint32; `key` is an array of uint64 with a unique
+        number for each impact, by default its index."""
+        inputs = self._numbers(inputs)
         count = 1 if numpy.ndim(v_n) == 0 else len(v_n)
         columns = {name: _column(name, value, count, numpy.float64) for name, value in inputs.items()}
         columns["v_n"] = _column("v_n", v_n, count, numpy.float64)
@@ -258,7 +306,12 @@ class Model:
         if numpy.ndim(wall) > 0:
             columns["walls"], wall = _column("wall", wall, count, numpy.uint32), 0
         impacts = nw_impacts(struct_size=ctypes.sizeof(nw_impacts), wall=_index("wall", wall, 32), count=count,
-                           seed=_index("seed", seed, 64), **{name: column.ctypes.data for name, column in columns.items()})
+                           seed=_index("seed", seed, 64))
+        for name, column in columns.items():
+            if name in self.extra_inputs:
+                impacts.extra[self.extra_inputs.index(name)] = column.ctypes.data
+            else:
+                setattr(impacts, name, column.ctypes.data)
         found = Outcomes(*(numpy.empty(count, numpy.float64 if i < 4 else numpy.uint32) for i in range(7)))
         outcomes = nw_outcomes(ctypes.sizeof(nw_outcomes), *(column.ctypes.data for column in found))
         none = ctypes.c_size_t(-1).value
@@ -269,20 +322,20 @@ class Model:
 
     def speeds(self, wall=0, **inputs):
         """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers, named as in `resolve`."""
-        impact = _impact(wall, inputs)
+        impact = self._impact(wall, inputs)
         found = [c_double() for _ in range(3)]
         _check(_library.nw_speeds(self._handle, byref(impact), *map(byref, found)))
         return Speeds(*(number.value for number in found))
 
     def particle_density(self, **inputs):
         """Density [kg/m3] of the particle's material, which is taken where the input rho_p is 0."""
-        impact, found = _impact(0, inputs), c_double()
+        impact, found = self._impact(0, inputs), c_double()
         _check(_library.nw_particle_density(self._handle, byref(impact), byref(found)))
         return found.value
 
     def erosion(self, mass, wall=0, **inputs):
         """Volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one."""
-        impact, found = _impact(wall, inputs), c_double()
+        impact, found = self._impact(wall, inputs), c_double()
         _check(_library.nw_erosion(self._handle, byref(impact), mass, byref(found)))
         return found.value
 
@@ -300,7 +353,7 @@ class Model:
 
     def apply_deposit(self, deposit, voidage, T_w):
         """Arguments of `resolve` for impacts on a deposit, whose wall has T_w [K]: resolve(..., **apply_deposit(...))."""
-        impact = _impact(deposit.wall, {"T_w": T_w})
+        impact = self._impact(deposit.wall, {"T_w": T_w})
         _check(_library.nw_deposit_apply(self._handle, byref(deposit), voidage, byref(impact)))
         names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
         return {name: getattr(impact, name) for name in names}
@@ -308,7 +361,7 @@ class Model:
     def add_captured(self, source, mass, density, T_w, wall=0, **inputs):
         """Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. The wall temperature T_w [K]
         decides whether it counts as molten; inputs are numbers, named as in `resolve`."""
-        impact = _impact(wall, {"T_w": T_w, **inputs})
+        impact = self._impact(wall, {"T_w": T_w, **inputs})
         _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(source)))
 
     def film_velocity(self, deposit, T_w, gravity_along):

@@ -81,6 +81,8 @@ fn measured(file: &[u8], map: &ColumnMap, walls: &WallChoice<'_>) {
         row.impact.check().expect("a row that can be used");
         assert!(row.impacts >= 1.0 && row.rebounds >= 0.0, "{row:?}");
         assert!(row.captured.is_none_or(|share| (0.0..=1.0).contains(&share)), "{row:?}");
+        assert!(row.input_errors.each().all(|(_, error)| error > 0.0 && error.is_finite()), "{row:?}");
+        assert!(data.detection.least_e_n(&row.impact) >= 0.0, "{row:?}");
         for reading in [row.e_n, row.e_t].into_iter().flatten() {
             assert!(reading.value.is_finite(), "{row:?}");
         }

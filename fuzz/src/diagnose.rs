@@ -49,7 +49,7 @@ pub fn diagnose(bytes: &[u8]) {
         (row.line > most || long).then(|| "more than the fuzzer has time for".to_owned())
     });
     let options = Options { seed: u64::from(choice >> 4), ..Options::default() };
-    let (diagnosis, extended) = match judge(&model, text_of_model, &data, options, &|| ()) {
+    let (diagnosis, extended) = match judge(&model, text_of_model, &data, &options, &|| ()) {
         Ok(found) => found,
         Err(error) => {
             let said = error.to_string();
@@ -82,7 +82,7 @@ fn cell(bytes: &mut Bytes<'_>, pattern: u8, usual: f64, row: usize) -> String {
 }
 
 /// Columns, with a value that is usual there.
-const NAMES: [(&str, f64); 21] = [
+const NAMES: [(&str, f64); 24] = [
     ("v_n", 1.0),
     ("e_n", 0.2),
     ("e_t", 0.3),
@@ -104,6 +104,9 @@ const NAMES: [(&str, f64); 21] = [
     ("capture_efficiency", 0.05),
     ("rig", 1.0),
     ("\"a\\\nb\"", 1.0),
+    ("d_err", 1e-6),
+    ("T_p_err", 2.0),
+    ("batch", 1.0),
 ];
 
 fn table(bytes: &mut Bytes<'_>) -> String {

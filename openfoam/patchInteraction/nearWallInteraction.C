@@ -22,7 +22,7 @@ Foam::nearWallInteraction<CloudType>::checkedCoeffs() const
         ({
             "model", "patches", "stuck", "writeFields", "seed",
             "statisticsInterval", "particleTemperature", "carbon", "record",
-            "memory", "injectors"
+            "memory", "injectors", "extraInputs"
         }),
         "nearWallInteraction"
     );
@@ -154,6 +154,7 @@ Foam::nearWallInteraction<CloudType>::runState::runState
         m.mesh(),
         m.rules(),
         m.injectors_,
+        m.models_.extraInputs(),
         m.saved("record"),
         m.tableFolder()
     ),
@@ -329,7 +330,13 @@ void Foam::nearWallInteraction<CloudType>::meetWall
     const label place = models_.place(e.injector);
     const nearWall::parcelModels::entry& decides = models_.all()[place];
     e.model = decides.model.get();
-    e.impact.wall = decides.rules[e.patch].wall;
+    e.rule = &decides.rules[e.patch];
+    e.impact.wall = e.rule->wall;
+    for (std::size_t i = 0; i < e.rule->extraInputs.size(); ++i)
+    {
+        e.impact.extra[i] =
+            e.rule->extraInputs[i].valueOn(mesh(), e.patch, e.face);
+    }
     run_->density.add(place, e);
     if (models_.isUnknown(e.injector)) ++run_->unknownInjector;
 }

@@ -4,6 +4,8 @@
 #include "parcelModels.H"
 #include "dictionaryChecks.H"
 
+#include <algorithm>
+
 namespace
 {
 
@@ -90,7 +92,26 @@ Foam::nearWall::parcelModels::parcelModels
         );
         if (injectors.isOnly(name)) places_[-1] = places_[id];
     }
+    std::vector<wallModelPtr> models;
+    for (const entry& each : all_) models.push_back(each.model);
+    extraInput::checkNames(coeffs, models);
     erodes_ = findErosion();
+}
+
+
+std::vector<std::string> Foam::nearWall::parcelModels::extraInputs() const
+{
+    std::vector<std::string> names;
+    for (const entry& each : all_)
+    {
+        for (const std::string& name : each.model->extra_inputs())
+        {
+            const bool isNew =
+                std::find(names.begin(), names.end(), name) == names.end();
+            if (isNew) names.push_back(name);
+        }
+    }
+    return names;
 }
 
 

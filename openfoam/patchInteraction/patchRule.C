@@ -27,7 +27,10 @@ wordList knownKeys(const patchRule::ruleType type)
 {
     if (type == patchRule::interact)
     {
-        return wordList({"type", "wall", "wallTemperature", "field"});
+        return wordList
+        (
+            {"type", "wall", "wallTemperature", "field", "extraInputs"}
+        );
     }
     if (type == patchRule::rebound) return wordList({"type", "e", "mu"});
     return wordList({"type"});
@@ -296,6 +299,8 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
             reader.readWall();
             reader.readTemperature();
             reader.checkTemperature();
+            rule.extraInputs =
+                extraInput::read(coeffs, dict, pp, mesh, model, modelName);
         }
         if (rule.type == rebound)
         {
@@ -330,6 +335,11 @@ void Foam::nearWall::patchRule::report(const word& patchName) const
         Info<< ", wall '" << wallName.c_str() << "', temperature ";
         if (temperatureFromField) Info<< "from field " << temperatureField;
         else Info<< temperature << " K";
+        for (const extraInput& input : extraInputs)
+        {
+            Info<< ", " << input.name.c_str() << " "
+                << (input.fromField ? "from field" : input.text(input.value).c_str());
+        }
     }
     Info<< (named ? "" : " (not named, default)") << nl;
 }

@@ -24,8 +24,9 @@ using namespace Foam::nearWall;
 #define INPUT_VALUE(input) scalar(e.impact.input),
 
 //- Names of the columns: numbers, the first of which identify an impact, then
-//  the others as impactRecorder::add() writes them
-const std::string header
+//  the others as impactRecorder::add() writes them; those of the inputs that
+//  the models declare follow
+const std::string firstColumns
 (
     "time,x,y,z," NW_IMPACT_INPUTS(INPUT_NAME)
     "patch,wall,injector,mass,regime,outcome,e_n,e_t"
@@ -76,14 +77,30 @@ label halvingsOf(std::uint64_t hash)
 }
 
 
-//- Read the identifying numbers of a line; false for an incomplete line
-bool readIdentity(const std::string& line, scalar* id)
+//- Number of commas between the cells of a line; a quoted cell may have others
+label commas(const std::string& line)
 {
-    const auto commas = [](const std::string& s)
+    label n = 0;
+    bool quoted = false;
+    for (const char c : line)
     {
-        return std::count(s.begin(), s.end(), ',');
-    };
-    if (commas(line) < commas(header)) return false;
+        if (c == '"') quoted = !quoted;
+        n += c == ',' && !quoted;
+    }
+    return n;
+}
+
+
+//- Read the identifying numbers of a line; false for a line of another number
+//  of columns, which is incomplete or of another model
+bool readIdentity
+(
+    const std::string& line,
+    const std::string& header,
+    scalar* id
+)
+{
+    if (commas(line) != commas(header)) return false;
 
     const char* at = line.c_str();
     for (label i = 0; i < nIdentifying; ++i)
@@ -107,6 +124,27 @@ std::string csvCell(const std::string& name)
 }
 
 
+//- The names of all columns
+std::string headerOf(const std::vector<std::string>& extraInputs)
+{
+    std::string header(firstColumns);
+    for (const std::string& name : extraInputs) header += "," + csvCell(name);
+    return header;
+}
+
+
+//- The value of an input that a model declares, blank where it has none
+std::string extraText(const impactEvent& e, const std::string& name)
+{
+    const std::vector<extraInput>& inputs = e.rule->extraInputs;
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+    {
+        if (inputs[i].name == name) return inputs[i].text(e.impact.extra[i]);
+    }
+    return std::string();
+}
+
+
 std::string fraction(const label level)
 {
     return level ? "1 in " + exactText(std::pow(2.0, level)) : "all";
@@ -121,6 +159,7 @@ Foam::nearWall::impactRecorder::impactRecorder
     const fvMesh& mesh,
     const List<patchRule>& rules,
     const injectorNames& injectors,
+    const std::vector<std::string>& extraInputs,
     const dictionary& saved,
     const fileName& folder
 )
@@ -128,6 +167,8 @@ Foam::nearWall::impactRecorder::impactRecorder
     mesh_(mesh),
     rules_(rules),
     injectors_(injectors),
+    extraInputs_(extraInputs),
+    header_(headerOf(extraInputs)),
     maxRows_(0),
     recorded_(rules.size(), false),
     file_(folder/"impacts.csv"),
@@ -217,6 +258,10 @@ void Foam::nearWall::impactRecorder::add(const impactEvent& e)
         e.result == impactEvent::stuck
       ? ",stick,,"
       : ",rebound," + exactText(e.en) + "," + exactText(e.et);
+    for (const std::string& name : extraInputs_)
+    {
+        r.text += "," + csvCell(extraText(e, name));
+    }
     rows_.push_back(r);
 
     // The sample of all ranks is larger than that of one: halving here gives
@@ -260,7 +305,7 @@ Foam::nearWall::impactRecorder::gathered() const
         for (const string& text : list)
         {
             scalar id[nIdentifying];
-            readIdentity(text, id);
+            readIdentity(text, header_, id);
             rows.push_back(row{id[0], hashOf(id), text});
         }
     }
@@ -293,7 +338,7 @@ void Foam::nearWall::impactRecorder::rewrite
     {
         std::ofstream to(newFile.c_str());
         to  << "# nearWallInteraction, recorded impacts: " << fraction(level_)
-            << " since the start of the case, evenly chosen\n" << header
+            << " since the start of the case, evenly chosen\n" << header_
             << '\n';
 
         std::ifstream rows(from.c_str());
@@ -301,7 +346,7 @@ void Foam::nearWall::impactRecorder::rewrite
         while (std::getline(rows, line))
         {
             scalar id[nIdentifying];
-            if (!readIdentity(line, id) || id[0] > until) continue;
+            if (!readIdentity(line, header_, id) || id[0] > until) continue;
             const label halvings = halvingsOf(hashOf(id));
             if (halvings < level_) continue;
             inFile_[halvings] += 1;

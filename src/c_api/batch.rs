@@ -112,7 +112,9 @@ impl nw_impacts {
             unsafe {
                 let wall = get(self.walls, start, self.wall);
                 let walls = start..start + block.length;
-                if walls.clone().all(|index| get(self.walls, index, wall) == wall) {
+                // A block has no columns for the inputs that the model file declares.
+                let plain = self.extra.iter().all(|array| array.is_null());
+                if plain && walls.clone().all(|index| get(self.walls, index, wall) == wall) {
                     self.load(start, &mut block);
                     model.resolve_block(wall as usize, &block, self.seed, &mut results)?;
                     outcomes.store(start, block.length, &results);

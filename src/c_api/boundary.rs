@@ -17,6 +17,18 @@ pub(super) struct Fault {
     message: Option<String>,
 }
 
+impl Fault {
+    /// A status with a message. A zero in it would end the text in C.
+    pub(super) fn new(status: nw_status, message: &str) -> Self {
+        Self { status, message: Some(without_zero(message)) }
+    }
+}
+
+/// The text with a visible sign for each zero, which a TOML key or word may hold ("\u0000").
+fn without_zero(text: &str) -> String {
+    text.replace('\0', "\u{2400}")
+}
+
 impl From<nw_status> for Fault {
     fn from(status: nw_status) -> Self {
         Self { status, message: None }
@@ -29,8 +41,7 @@ impl From<InputError> for Fault {
             InputError::Unreadable { .. } => NW_FILE,
             InputError::Fault { .. } => NW_MODEL,
         };
-        // A TOML key may hold a zero ("\u0000"), which would end the text in C.
-        Self { status, message: Some(error.to_string().replace('\0', "\u{2400}")) }
+        Self::new(status, &error.to_string())
     }
 }
 
@@ -173,17 +184,27 @@ pub(super) unsafe fn report(result: Result<(), Fault>, message: *mut c_char, siz
     if !message.is_null() && size > 0 {
         let plain = status_text(fault.status).to_str().unwrap_or_default();
         let text = fault.message.as_deref().unwrap_or(plain);
-        let mut length = text.len().min(size - 1);
-        while !text.is_char_boundary(length) {
-            length -= 1;
-        }
-        // SAFETY: `length + 1 <= size` bytes, which the caller's promise covers; the texts do not overlap.
-        unsafe {
-            std::ptr::copy_nonoverlapping(text.as_ptr(), message.cast::<u8>(), length);
-            message.add(length).write(0);
-        }
+        // SAFETY: not null, with room for `size` bytes by the caller's promise.
+        unsafe { put_text(text, message, size) };
     }
     fault.status
+}
+
+/// Copies a text without a zero inside, cut between characters to fit with its closing zero.
+///
+/// # Safety
+/// `buffer` has room for `size` bytes, which is not 0.
+pub(super) unsafe fn put_text(text: &str, buffer: *mut c_char, size: usize) {
+    let text = without_zero(text);
+    let mut length = text.len().min(size - 1);
+    while !text.is_char_boundary(length) {
+        length -= 1;
+    }
+    // SAFETY: `length + 1 <= size` bytes, which the caller's promise covers; the texts do not overlap.
+    unsafe {
+        std::ptr::copy_nonoverlapping(text.as_ptr(), buffer.cast::<u8>(), length);
+        buffer.add(length).write(0);
+    }
 }
 
 #[cfg(test)]

@@ -2,8 +2,9 @@
 #![allow(non_camel_case_types)]
 
 use super::boundary::get;
+use super::extra::NW_EXTRA_INPUTS;
 use super::types::zero_by_default;
-use crate::impact::{INPUTS, Impact, for_each_input};
+use crate::impact::{ExtraInputs, INPUTS, Impact, for_each_input};
 use crate::rng::ImpactRng;
 
 /// Items, and their text for cbindgen, which does not expand macros.
@@ -40,6 +41,8 @@ macro_rules! define_structs {
                     #[doc = $about]
                     pub $name: f64,
                 )*
+                /// The inputs that the model file declares, in the order of `nw_extra_input_name`; NaN for the default.
+                pub extra: [f64; NW_EXTRA_INPUTS],
             }
 
             /// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array means the value that
@@ -65,6 +68,8 @@ macro_rules! define_structs {
                     #[doc = $about]
                     pub $name: *const f64,
                 )*
+                /// The inputs that the model file declares, in the order of `nw_extra_input_name`; NaN for the default.
+                pub extra: [*const f64; NW_EXTRA_INPUTS],
             }
         }
 
@@ -72,14 +77,15 @@ macro_rules! define_structs {
         impl From<&Impact> for nw_impact {
             fn from(impact: &Impact) -> Self {
                 let struct_size = size_of::<Self>() as u32;
-                Self { struct_size, wall: 0, seed: 0, key: 0, $($name: impact.$field,)* }
+                let extra = impact.extra.0;
+                Self { struct_size, wall: 0, seed: 0, key: 0, $($name: impact.$field,)* extra }
             }
         }
 
         impl nw_impact {
             /// The inputs.
             pub fn to_impact(self) -> Impact {
-                Impact { $($field: self.$name,)* }
+                Impact { $($field: self.$name,)* extra: ExtraInputs(self.extra) }
             }
         }
 
@@ -101,7 +107,8 @@ macro_rules! define_structs {
             pub(super) unsafe fn entry(&self, index: usize) -> (usize, Impact, ImpactRng) {
                 // SAFETY: the caller's promise.
                 unsafe {
-                    let impact = Impact { $($field: get(self.$name, index, $default),)* };
+                    let extra = ExtraInputs(self.extra.map(|array| get(array, index, f64::NAN)));
+                    let impact = Impact { $($field: get(self.$name, index, $default),)* extra };
                     let wall = get(self.walls, index, self.wall) as usize;
                     (wall, impact, ImpactRng::new(self.seed, get(self.key, index, index as u64)))
                 }

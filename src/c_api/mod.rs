@@ -10,6 +10,7 @@
 mod batch;
 mod boundary;
 mod deposit;
+mod extra;
 mod impact;
 mod types;
 
@@ -23,6 +24,7 @@ use crate::rng::ImpactRng;
 pub use batch::*;
 use boundary::{Fault, check_size, guarded, guarded_status, initialise, put, reader, report, sized};
 pub use deposit::*;
+pub use extra::*;
 pub use impact::*;
 use types::status_text;
 pub use types::*;

@@ -61,6 +61,8 @@ pub const NW_BAD_STATE: nw_status = 7;
 pub const NW_OUT_OF_RANGE: nw_status = 8;
 /// An internal error; please report it.
 pub const NW_PANIC: nw_status = 9;
+/// The model file declares no input with this index; `nw_extra_input_count` returns their number.
+pub const NW_UNKNOWN_INPUT: nw_status = 10;
 
 /// The text of a status.
 pub(super) fn status_text(status: nw_status) -> &'static CStr {
@@ -79,6 +81,7 @@ pub(super) fn status_text(status: nw_status) -> &'static CStr {
             c"a material property is not defined at the temperature of the impact; see nw_temperature_ranges"
         }
         NW_PANIC => c"internal error; please report it",
+        NW_UNKNOWN_INPUT => c"the model file declares no such input",
         _ => c"unknown status",
     }
 }

@@ -3,13 +3,14 @@
 use std::io::Read;
 
 use super::column::{Cells, Values};
-use super::column_map::ColumnMap;
+use super::column_map::{ColumnMap, ONLY_MAPPED};
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
+use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements};
 use super::notes::{self, NoteCounts};
-use super::number::{NamedColumns, is_blank};
+use super::number::{NamedColumns, NumberStyle, is_blank};
 use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
@@ -21,6 +22,7 @@ struct Builder<'a> {
     named: NamedColumns,
     inputs: InputColumns,
     velocity: ImpactVelocity,
+    errors: InputErrorColumns,
     /// The possible causes, each with its index in a row.
     causes: Vec<(usize, Cells)>,
     rows: Vec<Measurement>,
@@ -41,6 +43,14 @@ impl<'a> Builder<'a> {
         let headers = table.headers();
         let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem))?;
         let inputs = InputColumns::new(|name| named.column(name));
+        let style = NumberStyle { markers: true, ..map.style };
+        let unnamed = |name: &str| {
+            let own = |(index, header): &(usize, &str)| *header == name && named.name_of(*index).is_none();
+            headers.iter().enumerate().find(own).map(|(index, _)| index).filter(|_| !map.ignores(name))
+        };
+        let inputs = inputs.with_extra(walls.model().extra_inputs(), style, |name| {
+            named.index(name).or_else(|| unnamed(name))
+        });
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
             .map_err(|problem| table.column_fault(&problem, true))?;
@@ -49,9 +59,14 @@ impl<'a> Builder<'a> {
             return Err(table.column_fault(&problem, true));
         }
         walls.check(named.index("wall").is_some())?;
-        let causes = causes(headers, map, &named);
+        let mut causes = causes(headers, map, &named);
+        // A column of groups tells rows apart also where the model has an input of its name.
+        let groups = |index: usize| headers.get(index).is_some_and(|header| map.reads_labels(header));
+        let is_series = |index: usize| named.name_of(index) == Some("series");
+        causes.retain(|(index, _)| !inputs.is_extra(*index) || is_series(*index) || groups(*index));
+        let errors = InputErrorColumns::new(&named);
         let (rows, rejected, counts) = Default::default();
-        Ok(Self { map, walls, named, inputs, velocity, causes, rows, rejected, counts })
+        Ok(Self { map, walls, named, inputs, velocity, errors, causes, rows, rejected, counts })
     }
 
     /// Adds the next record: its line, or why it cannot be used.
@@ -74,14 +89,16 @@ impl<'a> Builder<'a> {
         let (mut impact, mut stated) = self.inputs.read(cells)?;
         self.velocity.complete(cells, &mut impact, &mut stated)?;
         impact.check().map_err(|error| error.to_string())?;
+        let input_errors = self.errors.read(cells, &impact, &self.velocity)?;
         let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
         let wall = self.walls.of(wall).map_err(|error| error.to_string())?;
         let (e_n, e_t, captured) = (None, None, None);
+        let (impacts, rebounds) = (1.0, 1.0);
         let mut row =
-            Measurement { line, impact, stated, wall, impacts: 1.0, rebounds: 1.0, e_n, e_t, captured };
+            Measurement { line, impact, input_errors, stated, wall, impacts, rebounds, e_n, e_t, captured };
         let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
         let remarks = observed.read_into(&mut row)?;
-        self.counts.count(&row, remarks);
+        self.counts.count(&row, remarks, self.map.detection);
         Ok(row)
     }
 
@@ -112,6 +129,9 @@ impl<'a> Builder<'a> {
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
         let mut notes = self.header_notes(headers, &given);
         notes.extend(self.counts.notes(&given, self.rows.len()));
+        notes.extend(self.extra_notes());
+        let extra = self.inputs.extra().enumerate().filter(|(_, (_, given))| *given);
+        let given_extra: Vec<usize> = extra.map(|(place, _)| place).collect();
         let mut columns = Vec::new();
         for (_, cells) in self.causes {
             let (column, invalid) = cells.finish(|cell| self.map.parse(cell));
@@ -128,8 +148,40 @@ impl<'a> Builder<'a> {
                 columns.push(column);
             }
         }
-        let file = file.to_owned();
-        Ok(Measurements { file, rows: self.rows, columns, given, read, rejected: self.rejected, notes })
+        let (file, detection) = (file.to_owned(), self.map.detection);
+        let (rows, rejected) = (self.rows, self.rejected);
+        Ok(Measurements { file, rows, columns, given, given_extra, detection, read, rejected, notes })
+    }
+
+    /// The assumed values of the inputs that the model declares.
+    fn extra_notes(&self) -> Vec<String> {
+        let absent: Vec<String> = self
+            .inputs
+            .extra()
+            .filter_map(|(i, given)| if given { None } else { i.describe_default() })
+            .collect();
+        let mut notes = Vec::new();
+        if !absent.is_empty() {
+            notes.push(format!("not in the file, assumed: {}", absent.join(", ")));
+        }
+        for (place, (input, _)) in self.inputs.extra().enumerate().filter(|(_, (_, given))| *given) {
+            let count = |test: &dyn Fn(f64) -> bool| {
+                self.rows.iter().filter(|row| test(row.impact.extra[place])).count()
+            };
+            let (blank, unknown) = (count(&f64::is_nan), count(&|value| input.is_unknown(value)));
+            let (name, rows) = (&input.name, self.rows.len());
+            if blank > 0 {
+                let taken =
+                    if input.default.is_nan() { "without a correction" } else { "taken as the default" };
+                notes.push(format!("{name} is blank in {blank} of {rows} rows, {taken}"));
+            }
+            if unknown > 0 {
+                notes.push(format!(
+                    "{name} is no label of the model in {unknown} of {rows} rows, without a correction"
+                ));
+            }
+        }
+        notes
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
@@ -145,7 +197,7 @@ impl<'a> Builder<'a> {
                 "column `{column}` is only a possible cause; rename it if it is the input `{name}` in SI units"
             ));
         }
-        for column in unused.filter(|column| ["speed", "angle"].contains(column)) {
+        for column in unused.filter(|column| ONLY_MAPPED.contains(column)) {
             notes.push(format!(
                 "column `{column}` is only a possible cause; a column map can convert it to v_n and v_t"
             ));
@@ -187,13 +239,14 @@ impl Measurements {
     }
 }
 
-/// The possible causes: all columns without another meaning, and the labels `wall` and `series`.
+/// The possible causes: all columns without another meaning, and the labels `wall` and `series`. The numbers of a column
+/// that tells groups apart are labels too.
 fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, Cells)> {
     let cause = |(index, header): (usize, &str)| match named.name_of(index) {
         Some(name @ ("wall" | "series")) => Some((index, Cells::new(name, true))),
         Some(_) => None,
         None if map.ignores(header) => None,
-        None => Some((index, Cells::new(header, map.labels.iter().any(|label| label == header)))),
+        None => Some((index, Cells::new(header, map.reads_labels(header)))),
     };
     headers.iter().enumerate().filter_map(cause).collect()
 }

@@ -27,6 +27,16 @@ pub enum Values {
     },
 }
 
+/// Names of columns that tell groups of rows apart.
+const GROUPS: [&str; 10] =
+    ["series", "day", "date", "batch", "burst", "lab", "laboratory", "session", "run", "campaign"];
+
+/// Whether a column of this name tells groups of rows apart that may share an error: `series`, `day`, `date`, `batch`,
+/// `burst`, `lab`, `laboratory`, `session`, `run` or `campaign`, in upper or lower case. Its numbers are labels.
+pub fn names_groups(name: &str) -> bool {
+    GROUPS.iter().any(|group| group.eq_ignore_ascii_case(name))
+}
+
 /// The cells of a column while the file is read; whether all are numbers is known at the end.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
@@ -126,6 +136,12 @@ pub(super) mod tests {
     /// A column of labels.
     pub fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {
         Values::Labels { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
+    }
+
+    #[test]
+    fn groups_have_names_in_any_case() {
+        assert!(["series", "Day", "BATCH", "laboratory"].into_iter().all(names_groups));
+        assert!(!["days", "humidity", "", "wall"].into_iter().any(names_groups));
     }
 
     #[test]

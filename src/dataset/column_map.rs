@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use super::column::names_groups;
 use super::csv_table::Layout;
+use super::detection::Detection;
 use super::impact_velocity::{AngleFrom, over_determined};
 use super::number::{NamedColumns, NumberColumn, NumberStyle};
 use super::observed::OutcomeWords;
-use super::unit::{Dimension, Unit, names};
+use super::unit::{Dimension, Unit, is_error, names, read_unit};
 use crate::input::{Document, InputError, Section, unknown};
 
 /// The format of a file of impacts. The default is nearwall's own: names as in [`INPUTS`], SI units, commas.
@@ -23,6 +25,7 @@ pub struct ColumnMap {
     sources: Vec<Source>,
     pub(super) ignored: Vec<String>,
     pub(super) labels: Vec<String>,
+    pub(super) detection: Detection,
 }
 
 /// One line of `[columns]`.
@@ -37,6 +40,11 @@ struct Source {
 const LAST_HEADER_LINE: f64 = 10_000.0;
 
 impl ColumnMap {
+    /// The column of standard errors of `speed`.
+    pub(super) const SPEED_ERROR: &str = "speed_err";
+    /// The column of standard errors of `angle`.
+    pub(super) const ANGLE_ERROR: &str = "angle_err";
+
     /// Reads a column map.
     ///
     /// # Errors
@@ -60,10 +68,12 @@ impl ColumnMap {
             map.style.decimal_comma = top.choice("decimal", &[".", ","])?.is_some_and(|mark| mark == ",");
             map.ignored = read_names(top, "ignore")?;
             map.labels = read_names(top, "labels")?;
+            map.detection = Detection::read(top)?;
             if let Some(columns) = top.section("columns")? {
                 for (name, dimension) in names() {
                     map.read_source(&columns, name, dimension)?;
                 }
+                map.check_errors(&columns)?;
                 columns.finish()?;
                 if let Some(problem) = over_determined(|key| map.source(key).is_some()) {
                     return Err(top.fault("columns", problem));
@@ -87,7 +97,8 @@ impl ColumnMap {
             let details = columns.required_section(name)?;
             let column = details.required_text("column")?;
             let unit = read_unit(&details, dimension)?;
-            if dimension == Dimension::Angle {
+            let unit = if is_error(name) { unit.of_difference() } else { unit };
+            if name == "angle" {
                 self.from = Some(read_from(&details)?);
             }
             if name == "outcome" {
@@ -98,8 +109,14 @@ impl ColumnMap {
         } else {
             (columns.required_text(name)?, Unit::SI)
         };
-        if dimension == Dimension::Angle && self.from.is_none() {
-            return Err(columns.fault(name, format!("state its unit and its origin: {ANGLE_EXAMPLE}")));
+        match name {
+            "angle" if self.from.is_none() => {
+                return Err(columns.fault(name, format!("state its unit and its origin: {ANGLE_EXAMPLE}")));
+            }
+            Self::ANGLE_ERROR if !columns.is_section(name) => {
+                return Err(columns.fault(name, "state its unit: { column = \"...\", unit = \"deg\" }"));
+            }
+            _ => {}
         }
         let column = column.trim().to_owned();
         if let Some(other) = self.sources.iter().find(|other| other.column == column) {
@@ -115,8 +132,37 @@ impl ColumnMap {
         Ok(())
     }
 
+    /// Refuses the error of a quantity that the map does not give.
+    fn check_errors(&self, columns: &Section<'_>) -> Result<(), InputError> {
+        for (error, of) in [(Self::SPEED_ERROR, "speed"), (Self::ANGLE_ERROR, "angle")] {
+            if self.source(error).is_some() && self.source(of).is_none() {
+                return Err(
+                    columns.fault(error, format!("is the standard error of `{of}`, which has no column"))
+                );
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads the numbers of this column, named as in the file or as in nearwall, as labels. Returns its name in
+    /// [`super::Measurements::columns`], if it is one of them.
+    pub fn label(&mut self, column: &str) -> String {
+        match self.sources.iter().find(|source| source.column == column || source.name == column) {
+            Some(source) => source.name.to_owned(),
+            None => {
+                self.labels.push(column.to_owned());
+                column.to_owned()
+            }
+        }
+    }
+
     fn source(&self, name: &str) -> Option<&Source> {
         self.sources.iter().find(|source| source.name == name)
+    }
+
+    /// Whether the numbers of this column are labels.
+    pub(super) fn reads_labels(&self, column: &str) -> bool {
+        names_groups(column) || self.labels.iter().any(|label| label == column)
     }
 
     /// Whether this column is not used at all.
@@ -145,7 +191,7 @@ impl ColumnMap {
         let taken = self.ignores(name) || self.sources.iter().any(|source| source.column == name);
         let own = if taken { None } else { place(name) };
         match (self.source(name), own) {
-            (None, _) if name == "speed" || name == "angle" => Ok(None),
+            (None, _) if ONLY_MAPPED.contains(&name) => Ok(None),
             (None, None) => Ok(None),
             (None, Some(index)) => found(index, Unit::SI),
             (Some(source), Some(_)) => Err(format!(
@@ -171,23 +217,11 @@ impl ColumnMap {
     }
 }
 
+/// Names that only a map can give to a column: their meaning needs a unit, or depends on other columns.
+pub(super) const ONLY_MAPPED: [&str; 4] = ["speed", ColumnMap::SPEED_ERROR, "angle", ColumnMap::ANGLE_ERROR];
+
 /// An example of an angle's entry.
 const ANGLE_EXAMPLE: &str = r#"angle = { column = "...", unit = "deg", from = "surface" } (0 is glancing) or from = "normal" (0 is head-on)"#;
-
-fn read_unit(details: &Section<'_>, dimension: Dimension) -> Result<Unit, InputError> {
-    let units = dimension.units();
-    if units.is_empty() {
-        return Ok(Unit::SI);
-    }
-    match details.text("unit")? {
-        Some(word) => dimension.unit(&word).ok_or_else(|| {
-            let known: Vec<&str> = units.iter().map(|unit| unit.name).collect();
-            details.fault("unit", unknown(&word, "unit", &known))
-        }),
-        None if dimension == Dimension::Angle => Err(details.missing("unit", "\"deg\" or \"rad\"")),
-        None => Ok(Unit::SI),
-    }
-}
 
 fn read_from(details: &Section<'_>) -> Result<AngleFrom, InputError> {
     let word = details.choice("from", &AngleFrom::WORDS)?;
@@ -279,7 +313,40 @@ mod tests {
                 "{message}"
             );
         }
+        let with_error = |entry: &str| {
+            angle(&format!("{{ column = \"t\", unit = \"deg\", from = \"normal\" }}\nangle_err = {entry}"))
+        };
+        assert!(with_error("\"e\"").contains("columns.angle_err: state its unit"));
+        assert!(with_error("{ column = \"e\" }").contains("columns.angle_err.unit: missing"));
+        assert!(
+            with_error("{ column = \"e\", unit = \"deg\", from = \"normal\" }")
+                .contains("unknown key `from`")
+        );
+        assert!(
+            fault("[columns]\nv_n = \"V\"\nspeed_err = \"s\"\n")
+                .contains("standard error of `speed`, which has no")
+        );
         assert!(angle("{ column = \"t\", unit = \"deg\", from = \"wall\" }").contains("surface, normal"));
+    }
+
+    #[test]
+    fn detection_limits_have_units_and_bounds() {
+        let read = |text: &str| ColumnMap::from_toml("map.toml", text).unwrap().detection;
+        let limits = read(
+            "[detection]\ne_n = { value = 20, unit = \"%\" }\nrebound_speed = { value = 5, unit = \"cm/s\" }\n",
+        );
+        assert_eq!((limits.e_n, limits.rebound_speed), (Some(0.2), Some(0.05)));
+        let impact = |normal_speed| crate::Impact { normal_speed, ..crate::Impact::default() };
+        assert_eq!([0.1, 1.0].map(|speed| limits.least_e_n(&impact(speed))), [0.5, 0.2]);
+        let limits = read("[detection]\nrebound_speed = 0.1\n");
+        assert_eq!([0.5, 0.0].map(|speed| limits.least_e_n(&impact(speed))), [0.2, f64::INFINITY]);
+        assert_eq!(Detection::default().least_e_n(&impact(0.0)), 0.0);
+        assert!(fault("[detection]\n").contains("detection.e_n: missing"));
+        assert!(fault("[detection]\ne_n = 0\n").contains("must be above 0"));
+        assert!(fault("[detection]\nspeed = 0.2\n").contains("unknown key `speed`"));
+        assert!(
+            fault("[detection]\nrebound_speed = { value = 1, unit = \"m\" }\n").contains("unknown unit `m`")
+        );
     }
 
     #[test]

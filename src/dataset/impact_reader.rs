@@ -10,6 +10,7 @@ use super::number::{NumberColumn, NumberStyle};
 use super::unit::Unit;
 use super::{BadRow, DatasetError};
 use crate::impact::{INPUTS, Impact};
+use crate::model::ExtraInput;
 
 /// One row of the file.
 #[derive(Debug, Clone)]
@@ -45,6 +46,14 @@ impl<R: Read> ImpactReader<R> {
         Ok(Self { table, inputs })
     }
 
+    /// The same with the inputs that a model declares.
+    #[must_use]
+    pub fn with_extra_inputs(self, inputs: &[ExtraInput]) -> Self {
+        let Self { table, inputs: known } = self;
+        let inputs = known.with_extra(inputs, NumberStyle::default(), |name| table.column(name));
+        Self { table, inputs }
+    }
+
     /// The column names.
     pub fn headers(&self) -> &csv::StringRecord {
         self.table.headers()
@@ -60,9 +69,15 @@ impl<R: Read> ImpactReader<R> {
         INPUTS.iter().map(|input| input.name).filter(|name| !self.inputs.gives(name)).collect()
     }
 
+    /// The inputs that the model declares without a column.
+    pub fn absent_extra(&self) -> impl Iterator<Item = &ExtraInput> {
+        self.inputs.extra().filter(|(_, given)| !given).map(|(input, _)| input)
+    }
+
     /// Unused columns whose name resembles an absent input, each with that input's name.
     pub fn near_misses(&self) -> Vec<(&str, &'static str)> {
-        notes::near_misses(self.headers().iter(), &self.absent())
+        let unused = self.headers().iter().enumerate().filter(|(index, _)| !self.inputs.is_extra(*index));
+        notes::near_misses(unused.map(|(_, name)| name), &self.absent())
     }
 
     /// The next row, or `None` at the end.
@@ -130,6 +145,12 @@ mod tests {
     fn columns_that_resemble_inputs_are_named() {
         let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t [m/s],operator\n".as_bytes()).unwrap();
         assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t [m/s]", "v_t")]);
+    }
+
+    #[test]
+    fn standard_errors_resemble_no_input() {
+        let reader = ImpactReader::new("t.csv", "v_n,v_n_err,T_p_err,d_err\n".as_bytes()).unwrap();
+        assert!(reader.near_misses().is_empty(), "{:?}", reader.near_misses());
     }
 
     #[test]

@@ -162,6 +162,28 @@ impl ImpactVelocity {
         stated[position("v_t")] = true;
         Ok(())
     }
+
+    /// Standard errors of `v_n` and `v_t` [m/s] of this impact, to first order, from those of the columns that determine
+    /// them: of both speeds [m/s], of the magnitude `speed` [m/s] and of `angle` [rad].
+    pub(super) fn propagate(&self, impact: &Impact, own: [f64; 2], speed: f64, angle: f64) -> [f64; 2] {
+        let speeds = [impact.normal_speed, impact.tangential_speed];
+        let magnitude = impact.speed();
+        // A quotient of 0 and 0 belongs to a particle at rest.
+        let ratio = |part: f64, of: f64| if of == 0.0 { 0.0 } else { part / of };
+        // Error of `of`, which is the known speed times the tangent of an angle.
+        let by_angle = |of: f64, known: f64, error: f64| {
+            (ratio(of, known) * error).hypot(ratio(magnitude * magnitude, known) * angle)
+        };
+        match self {
+            Self::Speeds => own,
+            Self::SpeedAndAngle(..) => {
+                let [n, t] = speeds;
+                [(n, t), (t, n)].map(|(part, other)| (ratio(part, magnitude) * speed).hypot(other * angle))
+            }
+            Self::NormalAndAngle(_) => [own[0], by_angle(speeds[1], speeds[0], own[0])],
+            Self::TangentialAndAngle(_) => [by_angle(speeds[0], speeds[1], own[1]), own[1]],
+        }
+    }
 }
 
 /// The wanted speed [m/s] from the given one; both sines [1].

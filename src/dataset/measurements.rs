@@ -1,8 +1,11 @@
 //! Measured impacts with every column that may be a cause.
 
-use super::BadRow;
-use super::column::Column;
+use super::column::{Column, Values};
+use super::detection::Detection;
+use super::input_errors::InputErrors;
+use super::{BadRow, DatasetError};
 use crate::impact::{INPUTS, Impact};
+use crate::input::unknown;
 
 /// The content of a file of measured impacts.
 #[derive(Debug, Clone)]
@@ -15,6 +18,10 @@ pub struct Measurements {
     pub columns: Vec<Column>,
     /// The inputs that a column states, or two columns together.
     pub given: Vec<&'static str>,
+    /// The rebounds that the apparatus cannot see.
+    pub detection: Detection,
+    /// The inputs that the model declares and a column states, by place in [`Impact::extra`].
+    pub given_extra: Vec<usize>,
     /// Number of usable and rejected rows.
     pub read: usize,
     /// The rejected rows, with the reason.
@@ -30,6 +37,8 @@ pub struct Measurement {
     pub line: u64,
     /// The impact; inputs that the row does not state have their default.
     pub impact: Impact,
+    /// Standard errors of the inputs.
+    pub input_errors: InputErrors,
     /// For each of [`INPUTS`] whether the row states it.
     pub stated: [bool; INPUTS.len()],
     /// Index of the model's wall that is hit.
@@ -56,6 +65,26 @@ pub struct Reading {
 }
 
 impl Measurements {
+    /// Checks that a column of labels has this name, so that it can tell groups of rows apart.
+    ///
+    /// # Errors
+    /// [`DatasetError::Group`] naming the columns of labels.
+    pub fn check_group(&self, name: &str) -> Result<(), DatasetError> {
+        let is_label = |column: &&Column| matches!(column.values, Values::Labels { .. });
+        let labels: Vec<&str> =
+            self.columns.iter().filter(is_label).map(|column| column.name.as_str()).collect();
+        if labels.contains(&name) {
+            return Ok(());
+        }
+        let problem = match INPUTS.iter().any(|input| input.name == name) {
+            true => {
+                format!("`{name}` is an input and cannot be the group; choose one of {}", labels.join(", "))
+            }
+            false => unknown(name, "group column", &labels),
+        };
+        Err(DatasetError::Group { file: self.file.clone(), problem })
+    }
+
     /// The data without the rows for which `fault` returns a reason; those rows become rejected rows.
     #[must_use]
     pub fn without(&self, fault: impl Fn(&Measurement) -> Option<String>) -> Self {
@@ -387,6 +416,126 @@ mod tests {
         assert_eq!((data.rows.len(), data.rows[1].line), (2, 4));
     }
 
+    /// The stated input errors of a row by name.
+    fn errors(data: &Measurements, row: usize) -> Vec<(&'static str, f64)> {
+        data.rows[row].input_errors.each().map(|(input, error)| (input.name, error)).collect()
+    }
+
+    #[test]
+    fn standard_errors_of_inputs_are_no_causes() {
+        let data = read(
+            "v_n,d,T_p,e_n,v_n_err,v_t_err,d_err,T_p_err,T_w_err\n\
+             2,1e-4,350,0.5,0.1,0.2,5e-6,3,4\n2,1e-4,350,0.5,,,0,,\n2,1e-4,350,0.5,-0.1,,,,\n\
+             2,1e-4,350,0.5,,,inf,,\n2,1e-4,350,0.5,,,,x,\n2,1e-4,350,0.5,,,75,,\n",
+        );
+        let all = [("v_n", 0.1), ("v_t", 0.2), ("d", 5e-6), ("T_p", 3.0), ("T_w", 4.0)];
+        assert_eq!(errors(&data, 0), all);
+        assert_eq!((errors(&data, 1), data.rows[1].input_errors.of("d")), (vec![], 0.0));
+        assert_eq!(data.rows[0].input_errors.of("T_w"), 4.0);
+        assert_eq!(
+            reasons(&data),
+            ["4: v_n_err is negative", "5: d_err is not finite", "6: T_p_err `x` is not a number"]
+        );
+        assert!(data.columns.is_empty() && data.given == ["v_n", "d", "T_p"], "{:?}", data.columns);
+        for part in [
+            "the standard error of v_n is given in 1 of 3 rows; in the others v_n counts as exact",
+            "in 1 of 3 rows d_err is above d; check its unit",
+        ] {
+            assert!(data.notes.iter().any(|note| note == part), "`{part}` is not in {:#?}", data.notes);
+        }
+        assert!(!data.notes.iter().any(|note| note.contains("possible cause")), "{:#?}", data.notes);
+    }
+
+    #[test]
+    fn standard_errors_have_units_without_offset() {
+        let data = mapped(
+            "V,size,temp,e_n,dV,dsize,dtemp\n200,75,20,0.5,10,5,9\n",
+            "[columns]\nv_n = { column = \"V\", unit = \"cm/s\" }\nd = { column = \"size\", unit = \"um\" }\n\
+             T_p = { column = \"temp\", unit = \"C\" }\nv_n_err = { column = \"dV\", unit = \"cm/s\" }\n\
+             d_err = { column = \"dsize\", unit = \"um\" }\nT_p_err = { column = \"dtemp\", unit = \"F\" }\n",
+        );
+        assert_eq!(errors(&data, 0), [("v_n", 0.1), ("d", 5e-6), ("T_p", 5.0)]);
+        assert_eq!(data.rows[0].impact.particle_temperature, 293.15);
+    }
+
+    #[test]
+    fn errors_of_speed_and_angle_are_propagated() {
+        let errors = |columns: &str, row: &str, speed: &str| {
+            let map = format!(
+                "[columns]\n{speed} = \"V\"\n{}\
+                 angle = {{ column = \"a\", unit = \"deg\", from = \"surface\" }}\n\
+                 angle_err = {{ column = \"da\", unit = \"rad\" }}\n",
+                if speed == "speed" { "speed_err = \"dV\"\n" } else { "" }
+            );
+            let data = mapped(&format!("V,a,e_n,{columns}\n{row}\n"), &map);
+            assert_eq!(data.rejected, []);
+            ["v_n", "v_t"].map(|name| data.rows[0].input_errors.of(name))
+        };
+        let near = |found: [f64; 2], expected: [f64; 2]| {
+            assert!(
+                found.iter().zip(expected).all(|(f, e)| (f - e).abs() < 1e-12),
+                "{found:?}, {expected:?}"
+            );
+        };
+        let root = 3f64.sqrt();
+        // 2 m/s at 30 degrees: v_n = 1, v_t = sqrt 3; d v_n = dV / 2 and dv_n = v_t da; dv_t = dV sqrt 3 / 2 and v_n da.
+        near(errors("dV,da", "2,30,0.5,0.2,0", "speed"), [0.1, 0.1 * root]);
+        near(errors("dV,da", "2,30,0.5,,0.01", "speed"), [0.01 * root, 0.01]);
+        near(errors("dV,da", "2,30,0.5,0.2,0.1", "speed"), [0.04f64.sqrt(), 0.04f64.sqrt()]);
+        near(errors("dV,da", "0,30,0.5,0.2,0.1", "speed"), [0.0, 0.0]);
+        // An error of v_n itself is taken as it is; a blank one is propagated.
+        near(errors("dV,da,v_n_err", "2,30,0.5,0.2,0,0.3", "speed"), [0.3, 0.1 * root]);
+        near(errors("dV,da,v_n_err", "2,30,0.5,0.2,0,", "speed"), [0.1, 0.1 * root]);
+        // v_t = v_n / tan a: at 45 degrees dv_t = dv_n, and 2 v_n da.
+        near(errors("da,v_n_err", "1,45,0.5,0,0.1", "v_n"), [0.1, 0.1]);
+        near(errors("da,v_n_err", "1,45,0.5,0.01,", "v_n"), [0.0, 0.02]);
+        near(errors("da,v_t_err", "1,45,0.5,0.01,0.1", "v_t"), [0.0104f64.sqrt(), 0.1]);
+    }
+
+    #[test]
+    fn columns_of_groups_are_labels() {
+        let map = "[columns]\nseries = \"plate\"\n";
+        let model = Model::from_toml("m.toml", MODEL).unwrap();
+        let text = "v_n,e_n,Batch,rig,plate,humidity\n1,0.5,1,1,7,30\n1,0.5,2,,8,40\n";
+        let grouped = |column: &str| {
+            let mut map = ColumnMap::from_toml("map.toml", map).unwrap();
+            let name = map.label(column);
+            let walls = WallChoice::new(&model, None).unwrap();
+            let data = Measurements::read("t.csv", text.as_bytes(), Some(&map), &walls).unwrap();
+            data.check_group(&name).map(|()| (name, data)).map_err(|error| error.to_string())
+        };
+        let (name, data) = grouped("rig").unwrap();
+        let column = |wanted: &str| data.columns.iter().find(|column| column.name == wanted).unwrap();
+        assert_eq!((name.as_str(), &column("rig").values), ("rig", &words(&["1"], &[Some(0), None])));
+        assert_eq!(column("Batch").values, words(&["1", "2"], &[Some(0), Some(1)]));
+        assert_eq!(column("humidity").values, Values::Numbers(vec![30.0, 40.0]));
+        // A mapped column may be named as in the file or as in nearwall.
+        assert_eq!(["plate", "series"].map(|column| grouped(column).unwrap().0), ["series", "series"]);
+        assert!(!data.notes.iter().any(|note| note.contains("does not exist")), "{:?}", data.notes);
+        let error = grouped("batsch").unwrap_err();
+        assert!(error.starts_with("t.csv: unknown group column `batsch`"), "{error}");
+        assert!(error.contains("(known here: Batch, series)"), "{error}");
+        assert!(grouped("v_n").unwrap_err().contains("`v_n` is an input and cannot be the group"));
+    }
+
+    #[test]
+    fn rebounds_below_the_detection_limit_and_missing_errors_are_noted() {
+        let data = mapped(
+            "v_n,e_n,e_n_err\n1,0.3,0.01\n1,0.1,0.01\n0.2,0.4,\n",
+            "[detection]\ne_n = 0.2\nrebound_speed = 0.1\n",
+        );
+        assert_eq!(
+            (data.rows.len(), data.detection.e_n, data.detection.rebound_speed),
+            (3, Some(0.2), Some(0.1))
+        );
+        for part in [
+            "in 2 of 3 rows e_n is below the detection limit of the column map; check the limit",
+            "e_n_err is given in 2 of 3 rows with e_n, unknown in the others",
+        ] {
+            assert!(data.notes.iter().any(|note| note == part), "`{part}` is not in {:#?}", data.notes);
+        }
+    }
+
     #[test]
     fn likely_mistakes_are_noted() {
         let data = mapped(
@@ -417,13 +566,15 @@ mod tests {
         let data = read(page.split("```\n").nth(1).unwrap());
         assert_eq!((data.rows.len(), data.rejected.len(), data.columns.len()), (2, 0, 2));
         let data = mapped(
-            "Rig\n\nwall temperature;size;temp;COR_n;V;theta;result;row id;plate\n% pause\n300;75;20;41,5;2;0;1;1;7\n\
-             300;75;20;41,5;2;0;Bounced;2;7\n",
+            "Rig\n\nwall temperature;size;temp;COR_n;V;theta;result;row id;plate;dV;dtheta;dsize\n% pause\n\
+             300;75;20;41,5;2;0;1;1;7;0,1;0;5\n300;75;20;41,5;2;0;Bounced;2;7;0,1;0;5\n",
             page.split("```toml\n").nth(1).unwrap().split("```").next().unwrap(),
         );
         assert_eq!(data.rejected, []);
         assert_eq!((data.rows[0].captured, data.rows[1].e_n), (Some(1.0), exact(0.415)));
         assert_eq!((data.rows[1].line, data.rows[1].impact.wall_temperature), (6, 300.0));
+        assert_eq!(errors(&data, 0), [("v_n", 0.1), ("d", 5e-6)]);
+        assert_eq!((data.detection.e_n, data.detection.rebound_speed), (Some(0.2), Some(0.05)));
         assert_eq!(
             data.columns,
             [Column { name: "plate".into(), values: words(&["7"], &[Some(0), Some(0)]) }]

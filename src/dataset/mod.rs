@@ -1,8 +1,8 @@
 //! Impacts in a CSV file: one row an impact, columns by name.
 //!
 //! [`ImpactReader`] reads impacts one at a time, in SI units, so a file may be larger than memory. [`Measurements`] reads
-//! a whole file with its observations and all columns that may be causes; a [`ColumnMap`] describes the columns of a
-//! laboratory's own file. The columns named in [`crate::impact::INPUTS`] are the inputs; only `v_n` is required, a blank
+//! a whole file with its observations, the standard errors of its inputs and all columns that may be causes; a
+//! [`ColumnMap`] describes the columns and the detection limit of a laboratory's own file. The columns named in [`crate::impact::INPUTS`] are the inputs; only `v_n` is required, a blank
 //! or absent input takes its value in [`crate::Impact::default`]. A row that cannot be used becomes a [`BadRow`].
 //!
 //! Format for users: `docs/data-file.md`.
@@ -11,8 +11,10 @@ mod builder;
 mod column;
 mod column_map;
 mod csv_table;
+mod detection;
 mod impact_reader;
 mod impact_velocity;
+mod input_errors;
 mod inputs;
 mod lines;
 mod measurements;
@@ -22,9 +24,11 @@ mod observed;
 mod unit;
 mod wall_choice;
 
-pub use column::{Column, Values};
+pub use column::{Column, Values, names_groups};
 pub use column_map::ColumnMap;
+pub use detection::Detection;
 pub use impact_reader::{ImpactReader, Row};
+pub use input_errors::InputErrors;
 pub use measurements::{Measurement, Measurements, Reading};
 pub use notes::{assumed, unlikely};
 pub use wall_choice::{WallChoice, WallError};
@@ -48,6 +52,14 @@ pub enum DatasetError {
         /// Line of the header, counted from 1.
         line: u64,
         /// The error and the remedy.
+        problem: String,
+    },
+    /// The column that is to tell groups of rows apart cannot do so.
+    #[error("{file}: {problem}")]
+    Group {
+        /// The name of the file.
+        file: String,
+        /// The error, with the columns of the file.
         problem: String,
     },
     /// The wall is undetermined.

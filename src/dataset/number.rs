@@ -31,7 +31,7 @@ impl NumberStyle {
     }
 
     /// The error of a cell that is not a number, with the remedy if a column map can help.
-    fn not_a_number(self, name: &str, cell: &str) -> String {
+    pub(super) fn not_a_number(self, name: &str, cell: &str) -> String {
         let other = Self { decimal_comma: !self.decimal_comma, ..self };
         let hint = match (self.markers && other.parse(cell).is_some(), self.decimal_comma) {
             (false, _) => "",

@@ -1,6 +1,8 @@
 //! The units of a column map.
 
+use super::input_errors::INPUT_ERRORS;
 use crate::impact::INPUTS;
+use crate::input::{InputError, Section, unknown};
 
 /// A unit and its conversion to SI: `(value + offset) factor / divisor`.
 ///
@@ -17,6 +19,11 @@ pub(super) struct Unit {
 impl Unit {
     /// The SI unit of any dimension.
     pub(super) const SI: Self = part("SI", 1.0);
+
+    /// The unit of a difference, as a standard error: 1 °C is 1 K.
+    pub(super) fn of_difference(self) -> Self {
+        Self { offset: 0.0, ..self }
+    }
 
     /// A value in SI units (an angle in degrees).
     pub(super) fn to_si(self, value: f64) -> f64 {
@@ -89,9 +96,11 @@ impl Dimension {
 }
 
 /// The names that a column map accepts beyond the inputs of an impact.
-const MORE_NAMES: [(&str, Dimension); 12] = [
+const MORE_NAMES: [(&str, Dimension); 14] = [
     ("speed", Dimension::Speed),
+    ("speed_err", Dimension::Speed),
     ("angle", Dimension::Angle),
+    ("angle_err", Dimension::Angle),
     ("e_n", Dimension::Share),
     ("e_n_err", Dimension::Share),
     ("e_t", Dimension::Share),
@@ -114,7 +123,45 @@ pub(super) fn names() -> impl Iterator<Item = (&'static str, Dimension)> {
         "kg/m3" => Dimension::Density,
         _ => Dimension::Share,
     };
-    INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(MORE_NAMES)
+    let errors = INPUT_ERRORS.into_iter().map(move |(name, place)| (name, of_unit(INPUTS[place].unit)));
+    INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(errors).chain(MORE_NAMES)
+}
+
+/// Whether the column of this name holds standard errors, which are differences.
+pub(super) fn is_error(name: &str) -> bool {
+    name.ends_with("_err")
+}
+
+/// Reads the key `unit`, SI by default; an angle has no default.
+pub(super) fn read_unit(details: &Section<'_>, dimension: Dimension) -> Result<Unit, InputError> {
+    let units = dimension.units();
+    if units.is_empty() {
+        return Ok(Unit::SI);
+    }
+    match details.text("unit")? {
+        Some(word) => dimension.unit(&word).ok_or_else(|| {
+            let known: Vec<&str> = units.iter().map(|unit| unit.name).collect();
+            details.fault("unit", unknown(&word, "unit", &known))
+        }),
+        None if dimension == Dimension::Angle => Err(details.missing("unit", "\"deg\" or \"rad\"")),
+        None => Ok(Unit::SI),
+    }
+}
+
+/// Reads a number in SI units, or a table of `value` and `unit`; the result is in SI units.
+pub(super) fn read_quantity(
+    section: &Section<'_>,
+    key: &str,
+    dimension: Dimension,
+) -> Result<Option<f64>, InputError> {
+    if !section.is_section(key) {
+        return section.number(key);
+    }
+    let details = section.required_section(key)?;
+    let value = details.required_number("value")?;
+    let unit = read_unit(&details, dimension)?;
+    details.finish()?;
+    Ok(Some(unit.to_si(value)))
 }
 
 #[cfg(test)]
@@ -135,6 +182,8 @@ mod tests {
         assert!((si(Dimension::Temperature, "F", 212.0) - 373.15).abs() < 1e-12);
         assert!((si(Dimension::Spin, "rpm", 60.0) - std::f64::consts::TAU).abs() < 1e-12);
         assert_eq!(si(Dimension::Density, "g/cm3", 2.3), 2300.0);
+        assert_eq!(Dimension::Temperature.unit("C").unwrap().of_difference().to_si(5.0), 5.0);
+        assert!((Dimension::Temperature.unit("F").unwrap().of_difference().to_si(9.0) - 5.0).abs() < 1e-12);
         assert_eq!(si(Dimension::Share, "%", 35.0), 0.35);
         assert_eq!(si(Dimension::Angle, "rad", std::f64::consts::FRAC_PI_2), 90.0);
     }

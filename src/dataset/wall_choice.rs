@@ -49,6 +49,11 @@ impl<'a> WallChoice<'a> {
         Ok(Self { model, common: model.find_wall("default").or(only), fixed: false })
     }
 
+    /// The model.
+    pub(super) fn model(&self) -> &'a Model {
+        self.model
+    }
+
     /// Checks that every row has a wall; `column` tells whether the file has a column of walls.
     ///
     /// # Errors

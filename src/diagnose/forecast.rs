@@ -3,9 +3,7 @@
 use rayon::prelude::*;
 
 use crate::dataset::Measurement;
-use crate::effect::stream;
-use crate::model::Model;
-use crate::rng::ImpactRng;
+use crate::model::{DrawLattice, Model, RotatedLattice};
 
 /// The prediction of one row under one draw.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +27,6 @@ pub(super) struct Forecast {
     predictions: Vec<Prediction>,
 }
 
-/// Steps of the lattice of draws, one a stream. They are odd, so each stream visits all places.
-const STEPS: [usize; 5] = [1, 3, 5, 7, 9];
 /// Largest reach of a draw [1].
 const LARGEST_REACH: f64 = 0.1;
 /// Number of predictions from which threads pay off.
@@ -39,14 +35,12 @@ const PARALLEL: usize = 20_000;
 impl Forecast {
     /// Predicts the rows with these indices, `draws` times each if the model is stochastic.
     pub fn new(model: &Model, all: &[Measurement], rows: &[usize], draws: usize) -> Self {
-        let mut streams: Vec<u64> = model.terms().iter().filter_map(|t| t.kind().stream).collect();
-        if rows.iter().any(|&row| model.draws_place(all[row].wall, &all[row].impact)) {
-            streams.push(stream::COVER);
-        }
-        let draws = if streams.is_empty() { 1 } else { draws };
+        let place = rows.iter().any(|&row| model.draws_place(all[row].wall, &all[row].impact));
+        let lattice = DrawLattice::new(model, place, draws);
+        let draws = lattice.count();
         let predict = |&index: &usize| {
-            let lattice = Lattice::new(index, &streams, draws);
-            let predict = |draw| predict(model, &all[index], &streams, &lattice, draw);
+            let rotated = lattice.rotated(index as u64);
+            let predict = |draw| predict(model, &all[index], &rotated, draw);
             let mut predictions: Vec<Prediction> = (0..draws).map(predict).collect();
             set_reach(&mut predictions);
             predictions
@@ -71,41 +65,6 @@ impl Forecast {
     }
 }
 
-/// The draws of one row: a lattice with a random rotation for every row, even within a row and over all rows.
-struct Lattice {
-    /// Rotation of each stream, by its number.
-    rotations: [f64; STEPS.len()],
-    count: usize,
-}
-
-impl Lattice {
-    fn new(row: usize, streams: &[u64], count: usize) -> Self {
-        let random = ImpactRng::new(0, row as u64);
-        let mut rotations = [0.0; STEPS.len()];
-        for &stream in streams {
-            rotations[stream as usize % STEPS.len()] = random.uniform(stream);
-        }
-        Self { rotations, count }
-    }
-
-    /// The place of a draw, in 0 to 1.
-    fn place(&self, draw: usize, stream: u64) -> f64 {
-        let which = stream as usize % STEPS.len();
-        let place = ((draw * STEPS[which]) % self.count) as f64 / self.count as f64;
-        (place + self.rotations[which]).fract()
-    }
-}
-
-/// Moves places towards both ends, where rare branches and long tails are.
-fn stretched(place: f64) -> f64 {
-    0.3 * place + 0.7 * place * place * (3.0 - 2.0 * place)
-}
-
-/// The part of the unit interval that a stretched place represents: the derivative of [`stretched`].
-fn density(place: f64) -> f64 {
-    0.3 + 4.2 * place * (1.0 - place)
-}
-
 /// Half the mean distance to both neighbours: the geometric mean, so that equal draws have no reach.
 fn set_reach(predictions: &mut [Prediction]) {
     if predictions.len() < 2 {
@@ -127,16 +86,14 @@ fn set_reach(predictions: &mut [Prediction]) {
     }
 }
 
-fn predict(model: &Model, row: &Measurement, streams: &[u64], lattice: &Lattice, draw: usize) -> Prediction {
-    let weight = streams.iter().map(|&stream| density(lattice.place(draw, stream))).product::<f64>();
-    let (restitution, capture) = match model
-        .resolve_place_with(row.wall, &row.impact, |stream| stretched(lattice.place(draw, stream)))
-    {
+fn predict(model: &Model, row: &Measurement, lattice: &RotatedLattice<'_>, draw: usize) -> Prediction {
+    let uniform = |stream| lattice.uniform(draw, stream);
+    let (restitution, capture) = match model.resolve_place_with(row.wall, &row.impact, uniform) {
         Ok(outcome) => {
             ([outcome.normal_restitution, outcome.tangential_restitution], outcome.sticking_probability)
         }
         // Unreachable: rows that the base model refuses were removed, and no effect narrows a property's range.
         Err(_) => ([0.0; 2], 0.5),
     };
-    Prediction { restitution, capture, weight, reach: [0.0; 2] }
+    Prediction { restitution, capture, weight: lattice.weight(draw), reach: [0.0; 2] }
 }

@@ -81,7 +81,7 @@ pub fn diagnose(
     base: &Model,
     text: &str,
     data: &Measurements,
-    options: Options,
+    options: &Options,
     progress: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, String), DiagnosisError> {
     let data = plausible(base, data);

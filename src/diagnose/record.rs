@@ -7,17 +7,19 @@ use serde::Serialize;
 use crate::dataset::BadRow;
 
 /// Options of a diagnosis.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Seed of the data split; the same seed gives the same bytes.
     pub seed: u64,
     /// Accepted share of false discoveries [1].
     pub level: f64,
+    /// The column of labels that tells groups of rows apart; `None` for those that [`crate::dataset::names_groups`] accepts.
+    pub group: Option<String>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, level: 0.05 }
+        Self { seed: 1, level: 0.05, group: None }
     }
 }
 

@@ -38,7 +38,7 @@ pub(super) fn misfit(
 }
 
 /// The record without rows, errors, misfits, gains, verdict and sample.
-pub(super) fn record(hypothesis: &Hypothesis<'_>, discoveries: &[Discovery], options: Options) -> Diagnosis {
+pub(super) fn record(hypothesis: &Hypothesis<'_>, discoveries: &[Discovery], options: &Options) -> Diagnosis {
     let data = hypothesis.data;
     let builder = FindingBuilder { hypothesis, level: options.level };
     let mut findings: Vec<Finding> = Vec::new();

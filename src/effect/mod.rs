@@ -7,7 +7,9 @@ mod adhesion_energy;
 mod agglomerates;
 mod conversion_decline;
 mod conversion_transition;
+mod curve_reader;
 mod dry_on_melt;
+mod fitted_curve;
 mod gas_lift;
 mod liquid_film;
 mod melting_transition;
@@ -26,14 +28,19 @@ mod yield_ratio;
 
 use std::sync::Arc;
 
+pub(crate) use fitted_curve::shifted_probability;
+pub use fitted_curve::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve};
+
 use crate::impact::{INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
+use crate::law::describe_values;
 pub use crate::law::{Parameter, Search};
+use crate::model::ExtraInput;
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 pub use transition::Transition;
 
-/// Every effect.
+/// Every effect that is a law. A diagnosis takes its candidates from here.
 pub const EFFECTS: [&EffectInfo; 19] = [
     &yield_ratio::INFO,
     &adhesion_energy::INFO,
@@ -55,6 +62,9 @@ pub const EFFECTS: [&EffectInfo; 19] = [
     &strain_rate_hardening::INFO,
     &viscoelastic_loss::INFO,
 ];
+
+/// Corrections without a law, which a diagnosis fits where no law explains the data.
+pub const CURVES: [&EffectInfo; 2] = [&fitted_curve::FITTED_CURVE, &fitted_curve::LEVEL_SHIFT];
 
 /// Streams of [`ImpactRng`](crate::ImpactRng). Each random effect has its own, so that no two draw the same number.
 pub(crate) mod stream {
@@ -127,6 +137,11 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         None
     }
 
+    /// What the effect corrects after all laws and effects, in the last step of an impact; `None` for an effect that is a law.
+    fn correction(&self) -> Option<&FittedCurve> {
+        None
+    }
+
     /// Changes the result of the tangential law.
     fn tangential(&self, _kinematics: &ImpactKinematics, rebound: Rebound) -> Rebound {
         rebound
@@ -174,34 +189,53 @@ pub struct Term {
     kind: &'static EffectInfo,
     values: Vec<f64>,
     valid: Vec<(usize, [f64; 2])>,
+    /// The same for the inputs that the model file declares, by place in [`Impact::extra`].
+    valid_extra: Vec<(usize, [f64; 2])>,
     effect: Arc<dyn Effect>,
 }
 
 impl Term {
     /// The effect of this kind with the given parameters, in the order of [`EffectInfo::parameters`].
     pub fn new(kind: &'static EffectInfo, values: &[f64]) -> Self {
-        Self { kind, values: values.to_vec(), valid: Vec::new(), effect: (kind.build)(values).into() }
+        Self::of(kind, values.to_vec(), (kind.build)(values).into())
     }
 
-    /// Reads one `[[effects]]` table.
+    /// A correction without a law; without axes it is a level shift.
+    pub fn fitted_curve(curve: FittedCurve) -> Self {
+        if curve.axes.is_empty() {
+            return Self::of(&fitted_curve::LEVEL_SHIFT, curve.values.clone(), Arc::new(curve));
+        }
+        Self::of(&fitted_curve::FITTED_CURVE, Vec::new(), Arc::new(curve))
+    }
+
+    fn of(kind: &'static EffectInfo, values: Vec<f64>, effect: Arc<dyn Effect>) -> Self {
+        Self { kind, values, valid: Vec::new(), valid_extra: Vec::new(), effect }
+    }
+
+    /// Reads one `[[effects]]` table; `extra` are the inputs that the model file declares.
     ///
     /// # Errors
     /// [`InputError::Fault`] for an unknown kind, or a parameter that is unknown, missing or out of bounds.
-    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+    pub fn read(section: &Section<'_>, extra: &[ExtraInput]) -> Result<Self, InputError> {
         let id = section.required_text("kind")?;
-        let ids: Vec<&str> = EFFECTS.iter().map(|kind| kind.id).collect();
-        let Some(kind) = EFFECTS.iter().find(|kind| kind.id == id).copied() else {
-            return Err(section.fault("kind", unknown(&id, "effect", &ids)));
+        let law = EFFECTS.into_iter().find(|kind| kind.id == id);
+        let curve = CURVES.into_iter().find(|kind| kind.id == id);
+        let term = match (law, curve) {
+            (Some(kind), _) => {
+                let values = kind.parameters.iter().map(|parameter| parameter.read(section));
+                Self::new(kind, &values.collect::<Result<Vec<f64>, _>>()?)
+            }
+            (None, Some(kind)) => Self::fitted_curve(curve_reader::read(kind, section, extra)?),
+            (None, None) => {
+                let ids: Vec<&str> = EFFECTS.iter().chain(&CURVES).map(|kind| kind.id).collect();
+                return Err(section.fault("kind", unknown(&id, "effect", &ids)));
+            }
         };
-        let values = kind
-            .parameters
-            .iter()
-            .map(|parameter| parameter.read(section))
-            .collect::<Result<Vec<f64>, _>>()?;
         section.text("source")?;
-        let valid = section.section("valid")?.map_or(Ok(Vec::new()), |table| read_valid(&table))?;
+        let (valid, valid_extra) =
+            section.section("valid")?.map_or(Ok(Default::default()), |table| read_valid(&table, extra))?;
         section.finish()?;
-        Ok(Self { valid, ..Self::new(kind, &values) })
+        Ok(Self { valid, valid_extra, ..term })
     }
 
     /// What kind of effect it is.
@@ -233,20 +267,40 @@ impl Term {
     pub fn holds_for(&self, impact: &Impact) -> bool {
         let inside =
             |&(input, [low, high]): &(usize, [f64; 2])| (low..=high).contains(&(INPUTS[input].value)(impact));
-        self.valid.iter().all(inside)
+        let inside_extra = |&(input, [low, high]): &(usize, [f64; 2])| {
+            impact.extra.get(input).is_none_or(|value| (low..=high).contains(value))
+        };
+        self.valid.iter().all(inside) && self.valid_extra.iter().all(inside_extra)
+    }
+
+    /// Its kind and its numbers in words; `extra` are the inputs that the model file declares.
+    pub(crate) fn describe(&self, extra: &[ExtraInput]) -> String {
+        let details = match self.effect().correction() {
+            Some(curve) => curve.describe(extra),
+            None => describe_values(self.kind.parameters, &self.values).join(", "),
+        };
+        format!("{}: {details}", self.kind.id)
     }
 }
 
-/// Reads `valid = { v_n = [0.5, 3], ... }`: the range of each input in the data of a fit.
-fn read_valid(section: &Section<'_>) -> Result<Vec<(usize, [f64; 2])>, InputError> {
-    let mut valid = Vec::new();
+/// The range of some inputs, by place.
+type Ranges = Vec<(usize, [f64; 2])>;
+
+/// Reads `valid = { v_n = [0.5, 3], ... }`: the range of each input in the data of a fit, of [`INPUTS`] and of `extra`.
+fn read_valid(section: &Section<'_>, extra: &[ExtraInput]) -> Result<(Ranges, Ranges), InputError> {
+    let (mut valid, mut valid_extra) = (Vec::new(), Vec::new());
     for (index, input) in INPUTS.iter().enumerate() {
         if let Some(range) = section.range(input.name)? {
             valid.push((index, range));
         }
     }
+    for (index, input) in extra.iter().enumerate().filter(|(_, input)| !input.is_label()) {
+        if let Some(range) = section.range(&input.name)? {
+            valid_extra.push((index, range));
+        }
+    }
     section.finish()?;
-    Ok(valid)
+    Ok((valid, valid_extra))
 }
 
 /// A factor on a strength, clamped to twelve decades either way; beyond, numbers would overflow.

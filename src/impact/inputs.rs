@@ -46,6 +46,7 @@ macro_rules! for_each_input {
     };
 }
 
+use super::ExtraInputs;
 pub(crate) use for_each_input;
 
 /// One input of an impact.
@@ -102,11 +103,13 @@ macro_rules! define_impact {
                 #[doc = concat!("`", stringify!($name), "` in files and in C.")]
                 pub $field: f64,
             )*
+            /// Inputs that the model file declares.
+            pub extra: ExtraInputs,
         }
 
         impl Default for Impact {
             fn default() -> Self {
-                Self { $($field: $default,)* }
+                Self { $($field: $default,)* extra: ExtraInputs::default() }
             }
         }
 

@@ -1,7 +1,11 @@
 //! What arrives at a wall and what leaves it.
 
+mod extra;
 mod inputs;
 
+use std::borrow::Cow;
+
+pub use extra::{EXTRA_INPUTS, ExtraInputs};
 pub(crate) use inputs::for_each_input;
 pub use inputs::{Bounds, INPUTS, Impact, Input};
 
@@ -12,7 +16,7 @@ pub enum ImpactError {
     #[error("{quantity} = {value}: {reason}")]
     Unusable {
         /// The input's name as in the data file, for instance `v_n`.
-        quantity: &'static str,
+        quantity: Cow<'static, str>,
         /// Its value.
         value: f64,
         /// What it has to be.
@@ -38,7 +42,7 @@ pub enum ImpactError {
 }
 
 impl Impact {
-    /// Checks that every input is finite and has a physical meaning.
+    /// Checks that every input of [`INPUTS`] is finite and has a physical meaning. A model checks the inputs that it declares.
     ///
     /// # Errors
     /// [`ImpactError::Unusable`] naming the first input that is not.
@@ -52,7 +56,8 @@ impl Impact {
         for Input { name: quantity, bounds, value, .. } in &INPUTS {
             let value = value(self);
             if !bounds.allow(value) {
-                return Err(ImpactError::Unusable { quantity, value, reason: bounds.reason });
+                let (quantity, reason) = (Cow::Borrowed(*quantity), bounds.reason);
+                return Err(ImpactError::Unusable { quantity, value, reason });
             }
         }
         Ok(())

@@ -14,6 +14,8 @@ pub const BLOCK: usize = 128;
 pub struct Block {
     /// A column for each of [`INPUTS`], in their order and units.
     pub inputs: [[f64; BLOCK]; INPUTS.len()],
+    /// A column for each input that the model declares, in their order, NaN where an impact does not state it; may be shorter.
+    pub extra: Vec<[f64; BLOCK]>,
     /// Unique key of each impact, for its random numbers.
     pub keys: [u64; BLOCK],
     /// Number of impacts, at most [`BLOCK`].
@@ -43,7 +45,7 @@ impl Default for Block {
     fn default() -> Self {
         let impact = Impact::default();
         let inputs = std::array::from_fn(|input| [(INPUTS[input].value)(&impact); BLOCK]);
-        Self { inputs, keys: [0; BLOCK], length: 0 }
+        Self { inputs, extra: Vec::new(), keys: [0; BLOCK], length: 0 }
     }
 }
 
@@ -67,6 +69,9 @@ impl Block {
         let mut impact = Impact::default();
         for (input, column) in INPUTS.iter().zip(&self.inputs) {
             (input.set)(&mut impact, column[index]);
+        }
+        for (value, column) in impact.extra.iter_mut().zip(&self.extra) {
+            *value = column[index];
         }
         impact
     }

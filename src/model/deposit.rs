@@ -28,7 +28,7 @@ impl Model {
         at_least_zero("mass", mass)?;
         if !(density.is_finite() && density > 0.0) {
             let reason = "must be positive and finite";
-            return Err(ImpactError::Unusable { quantity: "density", value: density, reason });
+            return Err(ImpactError::Unusable { quantity: "density".into(), value: density, reason });
         }
         let molten = self.stickiness_as_melt(impact, impact.conversion) >= Stickiness::THRESHOLD;
         let Impact { diameter, conversion, .. } = *impact;
@@ -149,14 +149,14 @@ fn check_voidage(voidage: f64) -> Result<(), ImpactError> {
         return Ok(());
     }
     let reason = "must be at least 0 and below 1";
-    Err(ImpactError::Unusable { quantity: "voidage", value: voidage, reason })
+    Err(ImpactError::Unusable { quantity: "voidage".into(), value: voidage, reason })
 }
 
 pub(super) fn at_least_zero(quantity: &'static str, value: f64) -> Result<(), ImpactError> {
     if value.is_finite() && value >= 0.0 {
         return Ok(());
     }
-    Err(ImpactError::Unusable { quantity, value, reason: "must be finite and not negative" })
+    Err(ImpactError::Unusable { quantity: quantity.into(), value, reason: "must be finite and not negative" })
 }
 
 #[cfg(test)]

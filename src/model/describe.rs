@@ -42,6 +42,7 @@ impl Model {
             }
             lines.push(("wall", text));
         }
+        lines.extend(self.extra_inputs.iter().map(|input| ("input", input.describe())));
         lines.push(("normal", self.describe_normal()));
         lines.push((
             "tangential",
@@ -60,8 +61,7 @@ impl Model {
         );
         lines.push(("capture", capture));
         for term in &self.terms {
-            let parameters = describe_values(term.kind().parameters, term.values());
-            lines.push(("effect", format!("{}: {}", term.kind().id, parameters.join(", "))));
+            lines.push(("effect", term.describe(&self.extra_inputs)));
         }
         lines.extend(self.counted_twice().map(|note| ("note", note)));
         lines

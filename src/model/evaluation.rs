@@ -31,7 +31,7 @@ impl StepSet {
     pub const NORMAL: Self = Self(16);
     /// Random number of the capture.
     pub const DRAW: Self = Self(32);
-    /// Loss by stickiness, tangential law with the effects on `e_t`, and capture.
+    /// Loss by stickiness, tangential law with the effects on `e_t`, capture, and the fitted corrections.
     pub const REBOUND: Self = Self(64);
     /// Every step.
     pub const ALL: Self = Self(127);
@@ -61,6 +61,15 @@ impl NormalRebound {
     pub fn of(restitution: Option<f64>) -> Self {
         Self { restitution: restitution.unwrap_or(0.0), held: restitution.is_none() }
     }
+}
+
+/// What fitted corrections change.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corrected {
+    /// `e_n` and `e_t` [1] with regard to the mean wall.
+    pub restitution: [f64; 2],
+    /// Probability of capture [1].
+    pub probability: f64,
 }
 
 /// What is known of an impact between two steps. `C` is the contact of particle and wall.
@@ -167,6 +176,13 @@ pub(super) trait WallSteps {
     fn capture_probability(&mut self, _: &Impact, stickiness: Stickiness) -> f64 {
         stickiness.particle
     }
+
+    /// The outcome after the fitted corrections, which know no law.
+    #[inline(always)]
+    fn correct(&mut self, plain: Corrected) -> Corrected {
+        plain
+    }
+
     /// Whether a law was used outside the range that it is stated for, known after the last step.
     #[inline(always)]
     fn left_range(&self) -> bool {
@@ -227,9 +243,13 @@ pub(super) fn evaluate<S: WallSteps>(
             steps.turn_back(&state.impact, normal_restitution, rebound);
         // The probability is 1 if adhesion or a film holds the particle.
         let by_stickiness = steps.capture_probability(&state.impact, state.sticky);
-        state.probability = if state.normal.held { 1.0 } else { by_stickiness };
+        let probability = if state.normal.held { 1.0 } else { by_stickiness };
         state.outside_range |= steps.left_range();
-        steps.trace("capture", "p_stick", state.probability);
+        steps.trace("capture", "p_stick", probability);
+        let restitution = [state.normal_restitution, state.rebound.restitution];
+        let corrected = steps.correct(Corrected { restitution, probability });
+        [state.normal_restitution, state.rebound.restitution] = corrected.restitution;
+        state.probability = corrected.probability;
         state.captured = (state.probability >= 1.0) | (state.chance < state.probability);
     }
     Ok(())

@@ -3,12 +3,12 @@
 //! A wall with slag or powder is a patchwork: an impact meets its covered or its bare share. A draw decides which; the outcome is
 //! that of the share met, and its probability of capture is that of both, `c P_covered + (1 - c) P_bare`.
 
-use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
+use super::evaluation::{Corrected, ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
 use super::tilted_frame::TiltedFrame;
 use super::wall::Place;
 use super::{Model, Wall};
 use crate::capture::Stickiness;
-use crate::effect::{OnMelt, Term, stream};
+use crate::effect::{CurveTarget, OnMelt, Term, shifted_probability, stream};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
@@ -19,6 +19,8 @@ struct GeneralWall<'a, U, T> {
     model: &'a Model,
     wall: &'a Wall,
     place: Place,
+    /// The impact on the wall as a whole, covered or not: fitted corrections depend on it.
+    reaching: &'a Impact,
     /// The impact with regard to the mean wall.
     arriving: Impact,
     frame: TiltedFrame,
@@ -65,7 +67,6 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::resolve`].
-    #[cfg(feature = "command")]
     pub(crate) fn resolve_place_with(
         &self,
         wall: usize,
@@ -80,30 +81,36 @@ impl Model {
     /// Whether a draw decides if the impact meets the covered or the bare share of the wall.
     #[cfg(feature = "command")]
     pub(crate) fn draws_place(&self, wall: usize, impact: &Impact) -> bool {
-        self.at_wall(wall, impact).is_ok_and(|(wall, arriving)| {
-            wall.is_patchwork(&arriving) && arriving.coverage > 0.0 && arriving.coverage < 1.0
-        })
+        self.drawn_cover(wall, impact).is_some()
+    }
+
+    /// The covered share of the wall [1] where a draw decides if the impact meets it or the bare share.
+    pub(super) fn drawn_cover(&self, wall: usize, impact: &Impact) -> Option<f64> {
+        let (wall, arriving) = self.at_wall(wall, impact).ok()?;
+        let drawn = wall.is_patchwork(&arriving) && arriving.coverage > 0.0 && arriving.coverage < 1.0;
+        drawn.then_some(arriving.coverage)
     }
 
     /// Decides an impact at one place of a wall.
     fn evaluate_place(
         &self,
         wall: &Wall,
-        arriving: &Impact,
+        reaching: &Impact,
         place: Place,
         uniform: &impl Fn(u64) -> f64,
         trace: &mut impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
         let arriving = match place {
-            Place::Anywhere => *arriving,
-            Place::Bare => Impact { coverage: 0.0, layer_thickness: 0.0, ..*arriving },
-            Place::Covered => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*arriving },
+            Place::Anywhere => *reaching,
+            Place::Bare => Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching },
+            Place::Covered => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching },
         };
         let frame = TiltedFrame { tilt: 0.0 };
         let mut steps = GeneralWall {
             model: self,
             wall,
             place,
+            reaching,
             arriving,
             frame,
             on_melt: None,
@@ -117,11 +124,27 @@ impl Model {
         Ok(state.outcome())
     }
 
-    /// The wall with this index, and the impact with what the model file puts on that wall.
+    /// The wall with this index, and the impact with what the model file puts on that wall and assumes.
     pub(super) fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        Ok((wall, wall.apply_deposit(impact)))
+        let mut arriving = wall.apply_deposit(impact);
+        self.complete(&mut arriving)?;
+        Ok((wall, arriving))
+    }
+
+    /// Gives the inputs that the model file declares their default where the impact does not state them.
+    fn complete(&self, impact: &mut Impact) -> Result<(), ImpactError> {
+        for (input, value) in self.extra_inputs.iter().zip(impact.extra.iter_mut()) {
+            if value.is_nan() {
+                *value = input.default;
+            }
+            if value.is_infinite() {
+                let (quantity, reason) = (input.name.clone().into(), "must be finite");
+                return Err(ImpactError::Unusable { quantity, value: *value, reason });
+            }
+        }
+        Ok(())
     }
 
     /// The contact of particle and wall at their temperatures, with the effects on it.
@@ -335,6 +358,34 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         let dry_rebound = probability < 1.0 && self.on_melt.is_none() && stickiness.is_wall_sticky();
         self.left_range |= dry_rebound && model.normal.is_contact_law();
         probability
+    }
+
+    /// In the order of the file; the shifts of the log odds of capture are added up.
+    fn correct(&mut self, plain: Corrected) -> Corrected {
+        let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
+        let mut shift = 0.0;
+        for term in &self.model.terms {
+            let Some(curve) = term.effect().correction() else { continue };
+            let value = curve.value(self.reaching);
+            let (quantity, corrected) = match curve.on {
+                CurveTarget::NormalRestitution => ("e_n", &mut e_n),
+                CurveTarget::TangentialRestitution => ("e_t", &mut e_t),
+                CurveTarget::Capture => ("p_stick", &mut probability),
+            };
+            *corrected = match curve.on {
+                CurveTarget::Capture => {
+                    shift += value;
+                    shifted_probability(plain.probability, shift)
+                }
+                _ => curve.form.apply(*corrected, value),
+            };
+            (self.trace)(term.kind().id, quantity, *corrected);
+        }
+        if e_n < 0.0 && e_n != plain.restitution[0] {
+            e_n = 0.0;
+            (self.trace)("correction", "e_n", e_n);
+        }
+        Corrected { restitution: [e_n, e_t], probability }
     }
 
     fn left_range(&self) -> bool {

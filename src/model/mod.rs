@@ -3,12 +3,14 @@
 //! All callers go through [`Model::resolve`]: the command, the C library and OpenFOAM. The order of the steps stands in
 //! `evaluation.rs`: tilt of the wall, contact of the materials at their temperatures with the effects on it, stickiness of
 //! particle and wall, normal law, effects on `e_n`, loss by stickiness, tangential law, effects on `e_t`, back to the mean wall,
-//! capture. [`Model::explain`] runs the same steps and records the value after each term.
+//! capture, fitted corrections. [`Model::explain`] runs the same steps and records the value after each term.
 
 pub mod block;
 mod deposit;
 mod describe;
 mod evaluation;
+mod expectation;
+mod extra_input;
 mod general_wall;
 mod particle;
 mod prepared_wall;
@@ -21,7 +23,7 @@ use std::sync::Arc;
 
 use crate::capture::{Capture, StickinessCriterion};
 use crate::effect::Term;
-use crate::impact::{Impact, ImpactError, Outcome};
+use crate::impact::{EXTRA_INPUTS, Impact, ImpactError, Outcome};
 use crate::input::{Document, InputError};
 use crate::material::{Material, overlap};
 use crate::normal::{NormalLaw, Speeds};
@@ -29,6 +31,10 @@ use crate::rng::ImpactRng;
 use crate::tangential::TangentialLaw;
 
 pub use crate::deposit::WallMelt;
+pub use expectation::Expectation;
+#[cfg(feature = "command")]
+pub(crate) use expectation::{DrawLattice, RotatedLattice};
+pub use extra_input::ExtraInput;
 pub use particle::Particle;
 use prepared_wall::PreparedWall;
 use wall::Place;
@@ -44,6 +50,8 @@ pub struct Model {
     walls: Vec<Wall>,
     normal: NormalLaw,
     tangential: TangentialLaw,
+    /// Inputs that the model file declares.
+    extra_inputs: Vec<ExtraInput>,
     terms: Vec<Term>,
     /// Whether a term depends on the melt on the wall.
     uses_melt: bool,
@@ -101,6 +109,18 @@ impl Model {
     /// The walls, in the order of the file.
     pub fn walls(&self) -> &[Wall] {
         &self.walls
+    }
+
+    /// The inputs that the model file declares, in the order of [`Impact::extra`].
+    pub fn extra_inputs(&self) -> &[ExtraInput] {
+        &self.extra_inputs
+    }
+
+    /// The same model with other inputs of its own; those beyond the first [`EXTRA_INPUTS`] are left out.
+    #[must_use]
+    pub fn with_extra_inputs(&self, mut extra_inputs: Vec<ExtraInput>) -> Self {
+        extra_inputs.truncate(EXTRA_INPUTS);
+        Self { extra_inputs, ..self.clone() }.prepare()
     }
 
     /// The effects, in the order in which they act.

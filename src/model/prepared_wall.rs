@@ -80,7 +80,12 @@ impl PreparedWall {
     /// Prepares a wall; `None` where its impacts need the general steps.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
         let plain = model.capture.combination == Combination::default();
-        if model.stickiness.is_some() || wall.melt.is_some() || wall.powder.is_some() || !plain {
+        if model.stickiness.is_some()
+            || wall.melt.is_some()
+            || wall.powder.is_some()
+            || !plain
+            || !model.extra_inputs.is_empty()
+        {
             return None;
         }
         let mut contact = wall.prepared?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use regex_lite::Regex;
 
 use super::wall::{Adhesion, Wall};
-use super::{Model, Particle};
+use super::{Model, Particle, extra_input};
 use crate::capture::{Capture, Criterion};
 use crate::effect::Term;
 use crate::erosion::{self, Erosion};
@@ -21,6 +21,10 @@ const WORK_OF_ADHESION: Limits =
 const LAYER_THICKNESS: Limits =
     Limits { unit: "m", low: 0.0, high: 100.0, known: "no furnace is that large" };
 
+/// The tables of a model file.
+const TABLES: [&str; 9] =
+    ["particle", "walls", "normal", "tangential", "capture", "inputs", "effects", "erosion", "materials"];
+
 impl Model {
     pub(super) fn read(document: &Document) -> Result<Self, InputError> {
         document.read(Self::read_section)
@@ -32,8 +36,7 @@ impl Model {
     /// [`InputError`] naming line, column and key.
     pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
         // A misspelt table name is reported before the errors that follow from it.
-        for key in ["particle", "walls", "normal", "tangential", "capture", "effects", "erosion", "materials"]
-        {
+        for key in TABLES {
             top.has(key);
         }
         top.finish()?;
@@ -60,7 +63,10 @@ impl Model {
         let criterion = capture.criterion;
         let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;
-        let terms = top.sections("effects")?.iter().map(Term::read).collect::<Result<_, _>>()?;
+        let extra_inputs = extra_input::read(top)?;
+        let terms = top.sections("effects")?;
+        let terms =
+            terms.iter().map(|section| Term::read(section, &extra_inputs)).collect::<Result<_, _>>()?;
         if capture.criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
             let needs = capture.criterion.map_or("", Criterion::needs);
             let problem =
@@ -68,8 +74,18 @@ impl Model {
             return Err(top.fault("capture", problem));
         }
         let (uses_melt, prepared) = (false, Vec::new());
-        let model =
-            Self { particle, capture, stickiness, walls, normal, tangential, terms, uses_melt, prepared };
+        let model = Self {
+            particle,
+            capture,
+            stickiness,
+            walls,
+            normal,
+            tangential,
+            extra_inputs,
+            terms,
+            uses_melt,
+            prepared,
+        };
         Ok(model.prepare())
     }
 }

@@ -14,12 +14,13 @@ program module_test
   integer(c_int32_t), target :: stuck(count), regime(count)
   integer(c_int64_t), target :: key(count)
   integer(c_size_t) :: first_bad
-  integer(c_int32_t) :: status, wall
+  integer(c_int32_t) :: status, wall, number
   real(c_double) :: adhesive, yielding, sticking, low, high, wall_low, wall_high, velocity
   character(len=512) :: message
   character(len=1024) :: path
   character(kind=c_char) :: room(512)
-  character(len=*), parameter :: broken = 'x = = 1'
+  character(len=*), parameter :: broken = 'x = = 1', nl = new_line('a')
+  character(len=:), allocatable :: declared
   integer :: i
 
   call get_command_argument(1, path)
@@ -50,6 +51,33 @@ program module_test
   status = nw_deposit_source_init(source)
   call must(status == NW_OK .and. source%struct_size == c_sizeof(source), 'the size of source')
   call must(impacts%struct_size == c_sizeof(impacts) .and. outcomes%struct_size == c_sizeof(outcomes), 'the sizes of arrays')
+
+  ! Inputs that a model file declares: e_n = 0.5 + 0.2 humidity.
+  declared = '[particle]'//nl//'material = "montan-wax"'//nl//'[walls.default]'//nl//'material = "pyrex"'//nl// &
+    '[normal]'//nl//'model = "constant"'//nl//'e_n = 0.5'//nl//'[tangential]'//nl//'model = "constant"'//nl// &
+    'e_t = 0.76'//nl//'[inputs.humidity]'//nl//'default = 0.4'//nl//'[[effects]]'//nl//'kind = "fitted-curve"'//nl// &
+    'input = "humidity"'//nl//'on = "e_n"'//nl//'knots = [0, 1]'//nl//'values = [0, 0.2]'//nl
+  status = nw_model_parse(declared, len(declared, c_size_t), 'mine'//c_null_char, copy, room, size(room, kind=c_size_t))
+  call must(status == NW_OK, 'a model with an input of its own')
+  status = nw_extra_input_count(copy, number)
+  call must(status == NW_OK .and. number == 1, 'the number of its inputs')
+  status = nw_extra_input_name(copy, 0_c_int32_t, room, size(room, kind=c_size_t))
+  call must(status == NW_OK .and. room(1) == 'h' .and. room(9) == c_null_char, 'the name of its input')
+  call must(nw_extra_input_default(copy, 1_c_int32_t, low) == NW_UNKNOWN_INPUT, 'an input that is not declared')
+  status = nw_extra_input_default(copy, 0_c_int32_t, low)
+  call must(status == NW_OK .and. abs(low - 0.4d0) < 1d-15, 'its default')
+  call must(nw_extra_input_word(copy, 0_c_int32_t, 0_c_int32_t, room, size(room, kind=c_size_t)) == NW_UNKNOWN_INPUT, &
+    'a number has no words')
+  status = nw_extra_input_value(copy, 0_c_int32_t, '0.9'//c_null_char, high, room, size(room, kind=c_size_t))
+  call must(status == NW_OK .and. abs(high - 0.9d0) < 1d-15, 'its value of a text')
+  impact%v_n = 2.0d0
+  status = nw_resolve(copy, impact, outcome)
+  call must(status == NW_OK .and. abs(outcome%e_n - 0.58d0) < 1d-15, 'e_n at the default')
+  impact%extra(1) = high
+  status = nw_resolve(copy, impact, outcome)
+  call must(status == NW_OK .and. abs(outcome%e_n - 0.68d0) < 1d-15, 'e_n at a value')
+  call nw_model_free(copy)
+  status = nw_impact_init(impact)
 
   ! Arrays and single impacts: the same bits.
   do i = 1, count

@@ -68,4 +68,44 @@ refused(ValueError, lambda: model.resolve(v_n, seed=-1), "seed has to be between
 refused(ValueError, lambda: model.find_wall("default\0x"), "name has a zero byte in it")
 refused(ValueError, lambda: nearwall.Model.from_file("nearWall.toml\0x"), "path has a zero byte in it")
 refused(ValueError, lambda: model.resolve(v_n, d=d[:10]), "d has shape (10,), there are 1000 impacts")
+
+# Inputs that the model file declares: e_n = 0.5 + 0.2 humidity, e_t = 0.76, or 0.66 on glass.
+PLAIN = """[particle]
+material = "montan-wax"
+[walls.default]
+material = "pyrex"
+[normal]
+model = "constant"
+e_n = 0.5
+[tangential]
+model = "constant"
+e_t = 0.76
+[inputs.humidity]
+default = 0.4
+[inputs.plate]
+labels = ["steel", "glass"]
+[[effects]]
+kind = "fitted-curve"
+input = "humidity"
+on = "e_n"
+knots = [0, 1]
+values = [0, 0.2]
+[[effects]]
+kind = "fitted-curve"
+input = "plate"
+on = "e_t"
+knots = ["steel", "glass"]
+values = [0, -0.1]
+"""
+damp = nearwall.Model.from_toml(PLAIN)
+assert damp.extra_inputs == ["humidity", "plate"] and model.extra_inputs == []
+assert damp.extra_input_default("humidity") == 0.4 and numpy.isnan(damp.extra_input_default("plate"))
+assert damp.extra_input_value("plate", "glass") == 1.0
+assert damp.extra_input_words("plate") == ["steel", "glass"] and damp.extra_input_words("humidity") == []
+part = damp.resolve(v_n[:3], v_t=1.0, humidity=numpy.array([0.0, numpy.nan, 1.0]), plate="glass")
+assert numpy.allclose(part.e_n, [0.5, 0.58, 0.7], atol=1e-15) and numpy.allclose(part.e_t, 0.66, atol=1e-15), part
+assert numpy.allclose(damp.resolve(2.0, v_t=1.0).e_t, 0.76, atol=1e-15)
+assert damp.speeds(humidity=0.1, plate="steel").sticking >= 0
+refused(nearwall.Error, lambda: damp.resolve(v_n, plate="glas"), "did you mean `glass`? (known here: steel, glass)")
+refused(TypeError, lambda: model.resolve(v_n, humidity=0.1), "no such input: humidity")
 print(f"{checks} faults, {len(v_n)} impacts")

@@ -114,6 +114,31 @@ int deposit(const nearwall::model& model) {
     return 0;
 }
 
+// Inputs that a model file declares: e_n = 0.5 + 0.2 humidity, e_t = 0.76, or 0.66 on glass.
+int extra_inputs(const nearwall::model& without) {
+    const nearwall::model model = nearwall::model::from_toml(
+        "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n"
+        "[normal]\nmodel = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.76\n"
+        "[inputs.humidity]\ndefault = 0.4\n[inputs.plate]\nlabels = [\"steel\", \"glass\"]\n"
+        "[[effects]]\nkind = \"fitted-curve\"\ninput = \"humidity\"\non = \"e_n\"\nknots = [0, 1]\nvalues = [0, 0.2]\n"
+        "[[effects]]\nkind = \"fitted-curve\"\ninput = \"plate\"\non = \"e_t\"\nknots = [\"steel\", \"glass\"]\n"
+        "values = [0, -0.1]\n");
+    const std::vector<std::string> names = model.extra_inputs();
+    REQUIRE(names.size() == 2 && names[0] == "humidity" && names[1] == "plate");
+    REQUIRE(without.extra_inputs().empty());
+    REQUIRE(model.extra_input_words(0).empty() && model.extra_input_words(1).at(1) == "glass");
+    REQUIRE(model.extra_input_default(0) == 0.4 && std::isnan(model.extra_input_default(1)));
+    REQUIRE(thrown([&] { model.extra_input_default(2); }) == NW_UNKNOWN_INPUT);
+    REQUIRE(thrown([&] { model.extra_input_value(1, "glas"); }) == NW_BAD_STATE);
+    nw_impact impact = nearwall::make_impact();
+    impact.v_n = impact.v_t = 2.0;
+    REQUIRE(std::fabs(model.resolve(impact).e_n - 0.58) < 1e-15 && std::fabs(model.resolve(impact).e_t - 0.76) < 1e-15);
+    impact.extra[0] = 0.9;
+    impact.extra[1] = model.extra_input_value(1, "glass");
+    REQUIRE(std::fabs(model.resolve(impact).e_n - 0.68) < 1e-15 && std::fabs(model.resolve(impact).e_t - 0.66) < 1e-15);
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -139,6 +164,7 @@ int main(int argc, char** argv) try {
     REQUIRE(faults(*model, impacts) == 0);
     REQUIRE(arrays(*model) == 0);
     REQUIRE(deposit(*model) == 0);
+    REQUIRE(extra_inputs(*model) == 0);
 
     std::ofstream file((folder + "/outcomes.bin").c_str(), std::ios::binary);
     file.write(reinterpret_cast<const char*>(outcomes.data()),

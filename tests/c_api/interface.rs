@@ -26,6 +26,11 @@ macro_rules! for_each_function {
             nw_deposit_add: unsafe extern "C" fn(*const nw_deposit_source, *mut nw_deposit) -> i32,
             nw_deposit_apply: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *mut nw_impact) -> i32,
             nw_film_velocity: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, *mut f64) -> i32,
+            nw_extra_input_count: unsafe extern "C" fn(*const nw_model, *mut u32) -> i32,
+            nw_extra_input_name: unsafe extern "C" fn(*const nw_model, u32, *mut c_char, usize) -> i32,
+            nw_extra_input_default: unsafe extern "C" fn(*const nw_model, u32, *mut f64) -> i32,
+            nw_extra_input_word: unsafe extern "C" fn(*const nw_model, u32, u32, *mut c_char, usize) -> i32,
+            nw_extra_input_value: unsafe extern "C" fn(*const nw_model, u32, *const c_char, *mut f64, *mut c_char, usize) -> i32,
         }
     };
 }
@@ -33,9 +38,9 @@ macro_rules! for_each_function {
 macro_rules! for_each_struct {
     ($define:ident) => {
         $define! {
-            nw_impact { struct_size wall seed key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
+            nw_impact { struct_size wall seed key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
-            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas }
+            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
             nw_deposit { struct_size wall molten powder solid cover conversion }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
@@ -47,6 +52,7 @@ macro_rules! for_each_number {
     ($define:ident) => {
         $define! {
             NW_ABI_VERSION
+            NW_EXTRA_INPUTS
             NW_OUTSIDE_VALID_RANGE
             NW_OK
             NW_NULL_POINTER
@@ -58,6 +64,7 @@ macro_rules! for_each_number {
             NW_BAD_STATE
             NW_OUT_OF_RANGE
             NW_PANIC
+            NW_UNKNOWN_INPUT
             NW_NSP_NSW
             NW_NSP_SW
             NW_SP_NSW

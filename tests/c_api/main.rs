@@ -16,6 +16,7 @@ mod batch;
 mod calls;
 mod dependencies;
 mod deposit;
+mod extra;
 mod impacts;
 mod interface;
 mod library_file;

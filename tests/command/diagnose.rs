@@ -200,6 +200,17 @@ fn a_plate_that_no_effect_explains_is_shown_by_label() {
 }
 
 #[test]
+fn a_group_is_a_column_of_labels() {
+    let folder = folder(&measured(40, |_, _| 1.0));
+    let folder = folder.path();
+    let group = |name| [&DIAGNOSE[..], &["--group", name]].concat();
+    done(folder, &group("plate"));
+    let remedy = ["lab.csv", "unknown group column `plates`", "did you mean `plate`?", "(known here: plate)"];
+    refused(folder, &group("plates"), &remedy);
+    refused(folder, &group("d"), &["lab.csv", "`d` is an input", "plate"]);
+}
+
+#[test]
 fn a_correct_model_has_no_finding() {
     let folder = folder(&measured(120, |_, _| 1.0));
     let folder = folder.path();

@@ -8,6 +8,7 @@ mod common;
 mod arguments;
 mod compare;
 mod diagnose;
+mod extra_inputs;
 #[cfg(unix)]
 mod faults;
 mod map;

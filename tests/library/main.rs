@@ -1,4 +1,4 @@
-//! The library: the golden table, independent oracles, effects, listed laws, measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links
+//! The library: the golden table, independent oracles, effects, fitted curves, listed laws, measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links
 //! in the documents, and the C header with everything that is generated from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "the C interface is compared and fuzzed too")]
@@ -13,6 +13,7 @@ mod corpus;
 mod docs;
 mod droplet;
 mod effects;
+mod fitted_curves;
 mod golden;
 mod interface;
 mod laws;

@@ -45,6 +45,7 @@ struct nw_impact {
     film_thickness: f64,
     melt_thickness: f64,
     v_gas: f64,
+    extra: [f64; 8],
 }
 
 #[repr(C)]

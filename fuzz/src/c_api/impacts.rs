@@ -1,5 +1,6 @@
 //! Calls about impacts: one, many, and what can be asked of them.
 
+use std::ffi::CStr;
 use std::ptr::null;
 
 use nearwall::Impact;
@@ -19,6 +20,11 @@ pub fn impact(bytes: &mut Bytes<'_>) -> nw_impact {
         }
     }
     let mut impact = nw_impact::from(&inputs);
+    if which >> 19 & 3 == 3 {
+        for value in &mut impact.extra[..3] {
+            *value = bytes.number();
+        }
+    }
     // Bits of their own: a hostile melt has to meet a wall that is there.
     if which >> 13 & 7 == 7 {
         impact.wall = bytes.word() as u32;
@@ -66,6 +72,46 @@ pub fn one(bytes: &mut Bytes<'_>, model: *const nw_model) {
         // SAFETY: an outcome is plain bytes without padding.
         let bytes: [u8; size_of::<nw_outcome>()] = unsafe { std::mem::transmute(again) };
         assert!(bytes == buffer.inside(), "other bits on another address");
+    }
+}
+
+/// Names, defaults and values of the inputs that the model file declares.
+pub fn extra(bytes: &mut Bytes<'_>, model: *const nw_model) {
+    let (index, size) = (bytes.below(4) as u32, [0, 1, 3, 8, 40][bytes.below(5)]);
+    let known_words = [c"glass", c"steel", c"0.3", c"inf", c"", c"gl\xc3\xa9", c"\xff"];
+    let text = known_words[bytes.below(known_words.len())].as_ptr();
+    let text = if bytes.byte() == 0 { null() } else { text };
+    let mut texts: [GuardedBuffer; 3] = std::array::from_fn(|_| GuardedBuffer::new(bytes, size));
+    let mut numbers: [GuardedBuffer; 2] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));
+    let mut count = GuardedBuffer::new(bytes, 4);
+    let [name, message, word] = texts.each_mut().map(|buffer| buffer.start_or_null(bytes));
+    let [default, value] = numbers.each_mut().map(|buffer| buffer.start_or_null::<f64>(bytes));
+    let to_count = count.start_or_null::<u32>(bytes);
+    let model = if bytes.byte() == 0 { null() } else { model };
+    // SAFETY: each is null or what it should be.
+    let statuses = unsafe {
+        [
+            nw_extra_input_name(model, index, name, size),
+            nw_extra_input_value(model, index, text, value, message, size),
+            nw_extra_input_default(model, index, default),
+            nw_extra_input_count(model, to_count),
+            nw_extra_input_word(model, index, size as u32 % 3, word, size),
+        ]
+    };
+    statuses.into_iter().for_each(known);
+    let buffers = [(&texts[0], statuses[0]), (&numbers[1], statuses[1]), (&numbers[0], statuses[2])];
+    for (buffer, status) in buffers.into_iter().chain([(&count, statuses[3])]) {
+        buffer.assert_guard_intact();
+        if status != NW_OK {
+            buffer.assert_untouched();
+        }
+    }
+    let written = [statuses[0] == NW_OK, statuses[1] != NW_OK && size > 0, statuses[4] == NW_OK];
+    texts.iter().for_each(GuardedBuffer::assert_guard_intact);
+    for (buffer, written) in texts.iter().zip(written).filter(|(buffer, _)| buffer.is_changed()) {
+        assert!(written, "written without need");
+        let text = CStr::from_bytes_until_nul(buffer.inside()).expect("a closing zero");
+        text.to_str().expect("whole characters");
     }
 }
 
@@ -147,6 +193,10 @@ pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
         }
         (buffer.start_or_null::<f64>(bytes).cast_const(), buffer)
     });
+    let extra: [(*const f64, Vec<f64>); 2] = std::array::from_fn(|place| {
+        let values: Vec<f64> = cases.iter().map(|case| case.extra[place]).collect();
+        (if bytes.below(2) == 0 { null() } else { values.as_ptr() }, values)
+    });
     let keys: Vec<u64> = cases.iter().map(|case| case.key).collect();
     let walls: Vec<u32> = cases.iter().map(|case| case.wall).collect();
     let right = size_of::<nw_impacts>() as u32;
@@ -166,6 +216,9 @@ pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
         ..nw_impacts::default()
     };
     for (array, (column, _room)) in asked.columns_mut().into_iter().zip(&columns) {
+        *array = *column;
+    }
+    for (array, (column, _values)) in asked.extra.iter_mut().zip(&extra) {
         *array = *column;
     }
     let mut numbers: [GuardedBuffer; 4] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8 * count));
@@ -215,6 +268,12 @@ fn alike(
             if !array.is_null() {
                 // SAFETY: the array has `count` entries.
                 (input.set)(&mut inputs, unsafe { array.add(index).read_unaligned() });
+            }
+        }
+        for (array, value) in asked.extra.into_iter().zip(inputs.extra.iter_mut()) {
+            if !array.is_null() {
+                // SAFETY: the array has `count` entries.
+                *value = unsafe { array.add(index).read_unaligned() };
             }
         }
         let one = nw_impact {

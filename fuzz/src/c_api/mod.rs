@@ -15,12 +15,13 @@ mod impacts;
 use super::bytes::Bytes;
 use guarded_buffer::{GuardedBuffer, known};
 
-const MODELS: [&str; 3] = [
+const MODELS: [&str; 4] = [
     include_str!("../../../tutorials/slaggingGasifier/constant/nearWall.toml"),
     "[particle]\nmaterial = \"montan-wax\"\n[walls.\"w.*\"]\nmaterial = \"pyrex\"\n[walls.hot]\nmaterial = \
      \"stainless-steel\"\n[normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \
      \"sliding-rolling\"\nfriction = 0.3\n[[effects]]\nkind = \"melting-transition\"\ntemperature = 360\nwidth = 7\n",
     include_str!("../models/lying.toml"),
+    include_str!("../models/extra-inputs.toml"),
 ];
 
 /// Runs the program and asserts: no crash, no panic, nothing written on failure, nothing written outside the buffers.
@@ -41,7 +42,8 @@ pub fn c_api(bytes: &[u8]) {
             6 => impacts::batch(&mut bytes, model),
             7 => texts(&mut bytes),
             9 => impacts::of_particles(&mut bytes, model),
-            10.. => wall.call(&mut bytes, model),
+            10 => impacts::extra(&mut bytes, model),
+            11.. => wall.call(&mut bytes, model),
             _ => {
                 // SAFETY: our own model, freed once.
                 unsafe { nw_model_free(model) };

@@ -15,7 +15,7 @@ use crate::{CommandResult, progress};
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
-    nearwall diagnose lab.csv --columns lab.map.toml --model wax.toml --out diagnosis\n\n\
+    nearwall diagnose lab.csv --columns lab.map.toml --group batch --model wax.toml --out diagnosis\n\n\
     Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
     e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
     file and --columns, docs/diagnosis.md the method.")]
@@ -37,6 +37,10 @@ pub struct Arguments {
     /// Column map that renames and converts the columns of a laboratory's own file
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
+    /// Column that tells groups of rows apart that may share an error; its numbers are labels. By default columns such as
+    /// series, day, batch or lab (docs/data-file.md lists them)
+    #[arg(long, value_name = "COLUMN")]
+    group: Option<String>,
     /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
@@ -50,17 +54,22 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let document = Document::from_file(&arguments.model)?;
     let model = Model::from_toml(document.name(), document.text())?;
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
+    let mut map = map.unwrap_or_default();
+    let group = arguments.group.as_deref().map(|column| map.label(column));
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
     let walls = WallChoice::new(&model, arguments.wall.as_deref())?;
-    let data = Measurements::read(&file, source, map.as_ref(), &walls)?;
+    let data = Measurements::read(&file, source, Some(&map), &walls)?;
+    if let Some(group) = &group {
+        data.check_group(group)?;
+    }
     for note in &data.notes {
         eprintln!("nearwall: {note}");
     }
     let bar = progress::spinner("candidates tested");
-    let options = Options { seed: arguments.seed, level: arguments.level };
+    let options = Options { seed: arguments.seed, level: arguments.level, group };
     let (diagnosis, extended) =
-        diagnose(&model, document.text(), &data, options, &|| bar.inc(1)).map_err(|error| match error {
+        diagnose(&model, document.text(), &data, &options, &|| bar.inc(1)).map_err(|error| match error {
             DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
             DiagnosisError::Unextendable(_) => format!("{}: {error}", arguments.model.display()),
         })?;

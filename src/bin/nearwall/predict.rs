@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use nearwall::atomic_file::{AtomicFile, of_csv, refused};
 use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
 use nearwall::impact::INPUTS;
+use nearwall::model::ExtraInput;
 use nearwall::{ImpactRng, Model};
 
 use crate::{CommandResult, progress};
@@ -43,6 +44,9 @@ fn after_help() -> String {
     )
 }
 
+/// Draws of what a model draws by chance, for the mean of each row.
+const DRAWS: usize = 64;
+
 /// The columns that are added.
 const ADDED: [&str; 4] = ["e_n", "e_t", "p_stick", "regime"];
 
@@ -51,7 +55,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let file = arguments.impacts.display().to_string();
     let source = File::open(&arguments.impacts).map_err(|error| format!("{file}: {error}"))?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "predicting");
-    let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?;
+    let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?.with_extra_inputs(model.extra_inputs());
     let (walls, column) = (WallChoice::new(&model, arguments.wall.as_deref())?, reader.column("wall"));
     walls.check(column.is_some())?;
     let wall_of = |row: &Row| walls.of(column.and_then(|column| row.cells.get(column)));
@@ -78,8 +82,10 @@ fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
             "nearwall: {file}: column `{column}` is not used; rename it if it is the input `{input}` in SI units"
         );
     }
-    if let Some(assumed) = assumed(&reader.absent()) {
-        eprintln!("nearwall: not in {file}, assumed: {assumed}");
+    let own = reader.absent_extra().filter_map(ExtraInput::describe_default);
+    let assumed: Vec<String> = assumed(&reader.absent()).into_iter().chain(own).collect();
+    if !assumed.is_empty() {
+        eprintln!("nearwall: not in {file}, assumed: {}", assumed.join(", "));
     }
 }
 
@@ -107,10 +113,11 @@ fn predict(
     }
     writer.write_record(&header)?;
     let (mut done, mut left_out, mut outside) = (0_u64, 0_u64, 0_u64);
-    let mut warning = None;
+    let (mut warning, mut unknown) = (None, None);
     while let Some(next) = reader.next_row()? {
         let predicted = next.map_err(|bad| (bad.line, bad.reason)).and_then(|row| {
             warning = warning.take().or_else(|| unlikely(row.line, &row.impact));
+            unknown = unknown.take().or_else(|| unknown_label(model, &row));
             predict_row(model, wall_of, &row).map_err(|reason| (row.line, reason))
         });
         match predicted {
@@ -126,7 +133,7 @@ fn predict(
         }
     }
     writer.flush().map_err(csv::Error::from)?;
-    if let Some(warning) = warning {
+    for warning in warning.into_iter().chain(unknown) {
         eprintln!("nearwall: {warning}");
     }
     if outside > 0 {
@@ -146,14 +153,21 @@ fn predict(
 
 fn predict_row(model: &Model, wall_of: &WallOf<'_>, row: &Row) -> Result<(csv::StringRecord, bool), String> {
     let wall = wall_of(row).map_err(|error| error.to_string())?;
-    let outcome =
-        model.resolve(wall, &row.impact, ImpactRng::default()).map_err(|error| error.to_string())?;
+    let mean = model.expect(wall, &row.impact, DRAWS).map_err(|error| error.to_string())?;
     let mut record = row.cells.clone();
-    for value in [outcome.normal_restitution, outcome.tangential_restitution, outcome.sticking_probability] {
+    for value in [mean.normal_restitution, mean.tangential_restitution, mean.sticking_probability] {
         record.push_field(&format!("{value:.16e}"));
     }
-    record.push_field(outcome.regime.name());
-    Ok((record, outcome.outside_range))
+    record.push_field(mean.regime.name());
+    Ok((record, mean.outside_range))
+}
+
+/// A warning if a row has a word that the model file does not list.
+fn unknown_label(model: &Model, row: &Row) -> Option<String> {
+    let mut extra = model.extra_inputs().iter().zip(row.impact.extra.iter());
+    let (input, _) = extra.find(|(input, value)| input.is_unknown(**value))?;
+    let (line, name, known) = (row.line, &input.name, input.labels.join(", "));
+    Some(format!("line {line}: {name} is none of {known}; such rows are predicted without it"))
 }
 
 /// Prints the evaluation of one impact, one line per term.

@@ -9,6 +9,8 @@ use nearwall::impact::INPUTS;
 /// A field of a struct or an argument of a function.
 pub struct Field {
     pub name: String,
+    /// Number of entries of an array inside the struct: a number, or the name of one.
+    pub length: Option<String>,
     /// Its C type without `struct`, for instance `const nw_impact *`.
     pub kind: String,
 }
@@ -91,7 +93,7 @@ impl Header {
             } else if let Some((head, arguments)) =
                 statement.strip_suffix(')').and_then(|s| s.split_once('('))
             {
-                let Field { name, kind: result } = Field::parse(head);
+                let Field { name, kind: result, .. } = Field::parse(head);
                 let arguments = arguments.split(',').filter(|argument| *argument != "void");
                 header.functions.push(Function {
                     name,
@@ -113,7 +115,11 @@ impl Field {
     fn parse(text: &str) -> Self {
         let text = text.split_whitespace().filter(|word| *word != "struct").collect::<Vec<_>>().join(" ");
         let end = text.rfind([' ', '*']).unwrap() + 1;
-        Self { name: text[end..].to_owned(), kind: text[..end].trim().to_owned() }
+        let (name, length) = match text[end..].trim_end_matches(']').split_once('[') {
+            Some((name, length)) => (name, Some(length.to_owned())),
+            None => (&text[end..], None),
+        };
+        Self { name: name.to_owned(), length, kind: text[..end].trim().to_owned() }
     }
 }
 

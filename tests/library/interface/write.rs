@@ -65,23 +65,25 @@ fn fortran_type(header: &Header, Struct { name, fields }: &Struct) -> String {
     let mut text = format!("\n  type, bind(c) :: {name}\n");
     // Structs without a function that initialises them begin with their size, and without arrays.
     let initialised = header.functions.iter().any(|function| function.name == format!("{name}_init"));
-    for Field { name: field, kind } in fields {
+    for Field { name: field, kind, length } in fields {
+        let shape = length.as_ref().map_or(String::new(), |length| format!("({length})"));
         let (kind, default) = match (target(kind), field.as_str()) {
             (Some(_), _) => ("type(c_ptr)", "c_null_ptr".to_owned()),
-            (None, "struct_size") => (value(kind)[0], size(fields).to_string()),
+            (None, "struct_size") => (value(kind)[0], size(header, fields).to_string()),
             (None, _) => (value(kind)[0], "0".to_owned()),
         };
         let default = if initialised { String::new() } else { format!(" = {default}") };
-        writeln!(text, "    {kind} :: {field}{default}").unwrap();
+        writeln!(text, "    {kind} :: {field}{shape}{default}").unwrap();
     }
     text + &format!("  end type {name}\n")
 }
 
 /// Size of a struct [bytes] on a 64-bit machine.
-fn size(fields: &[Field]) -> usize {
+fn size(header: &Header, fields: &[Field]) -> usize {
     let end = fields.iter().fold(0_usize, |end, field| {
         let size = if field.kind.ends_with("int32_t") || field.kind == "nw_regime" { 4 } else { 8 };
-        end.next_multiple_of(size) + size
+        let length = field.length.as_ref().map_or(1, |length| header.number(length).parse().unwrap());
+        end.next_multiple_of(size) + size * length
     });
     end.next_multiple_of(8)
 }
@@ -90,7 +92,7 @@ fn fortran_function(header: &Header, Function { name, result, arguments }: &Func
     let kind = if result == "void" { "subroutine" } else { "function" };
     let names = wrapped(arguments.iter().map(|argument| argument.name.clone()), "");
     let mut text = format!("    {kind} {name}({names}) bind(c)\n      import\n");
-    for Field { name, kind } in arguments {
+    for Field { name, kind, .. } in arguments {
         let (declared, shape) = match target(kind) {
             None => (format!("{}, value", value(kind)[0]), ""),
             Some(("nw_model", _)) => ("type(c_ptr), value".to_owned(), ""),
@@ -126,8 +128,13 @@ pub fn python(header: &Header) -> String {
     writeln!(text, "\n# The inputs of an impact; nearwall.h describes them.").unwrap();
     writeln!(text, "INPUTS = (\n{})\n", wrapped(names, "    ")).unwrap();
     for Struct { name, fields } in &header.structs {
-        let fields = fields.iter().map(|Field { name, kind }| {
-            format!("(\"{name}\", {})", if target(kind).is_some() { "c_void_p" } else { value(kind)[1] })
+        let fields = fields.iter().map(|Field { name, kind, length }| {
+            let length =
+                length.as_ref().map_or(String::new(), |l| format!(" * {}", l.trim_start_matches("NW_")));
+            format!(
+                "(\"{name}\", {}{length})",
+                if target(kind).is_some() { "c_void_p" } else { value(kind)[1] }
+            )
         });
         let fields = wrapped(fields, "        ");
         writeln!(text, "\nclass {name}(Structure):\n    _fields_ = [\n{fields}]\n").unwrap();
@@ -184,8 +191,10 @@ pub fn rust_example(header: &Header, example: &str) -> String {
     text += "\n#[repr(C)]\nstruct nw_model {\n    _opaque: [u8; 0],\n}\n";
     for Struct { name, fields } in header.structs.iter().filter(|one| used(&one.name)) {
         writeln!(text, "\n#[repr(C)]\n#[derive(Default)]\nstruct {name} {{").unwrap();
-        for Field { name, kind } in fields {
-            writeln!(text, "    {name}: {},", rust_kind(header, kind)).unwrap();
+        for Field { name, kind, length } in fields {
+            let kind = rust_kind(header, kind);
+            let kind = length.as_ref().map_or(kind.clone(), |l| format!("[{kind}; {}]", header.number(l)));
+            writeln!(text, "    {name}: {kind},").unwrap();
         }
         text += "}\n";
     }

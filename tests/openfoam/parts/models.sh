@@ -179,3 +179,104 @@ END
     done
     expect_numbers film-effect "$found" "$(awk 'BEGIN { e = 12*(0.5 - 1.5*9*0.001*log(100)/0.1/2); printf "12 %.15g 12 %.15g", e, e }')"
 }
+
+# Inputs that the model declares: a number and a word for each patch, a field. By hand
+# e_n = 0.5 + 0.2 humidity, e_t = 0.75, or 0.5 on glass, and all dirt captures.
+damp_case() {   # folder
+    build kinematic "$1" || return
+    cat >> constant/nearWall.toml <<'TOML'
+[inputs.humidity]
+default = 0.4
+[inputs.plate]
+labels = ["steel", "glass"]
+[inputs.dirt]
+default = 0
+[[effects]]
+kind = "fitted-curve"
+input = "humidity"
+on = "e_n"
+knots = [0, 1]
+values = [0, 0.2]
+[[effects]]
+kind = "fitted-curve"
+input = "plate"
+on = "e_t"
+knots = ["steel", "glass"]
+values = [0, -0.25]
+[[effects]]
+kind = "fitted-curve"
+input = "dirt"
+on = "capture"
+knots = [0, 1]
+values = [0, 50]
+TOML
+    cat > constant/interaction <<'DICT'
+model "<constant>/nearWall.toml";
+record { }
+extraInputs { plate steel; humidity 0.1; }
+patches
+{
+    floor   { type interact; wallTemperature 300; extraInputs { humidity 0.9; plate glass; dirt field; } }
+    lid     { type interact; wallTemperature 300; }
+    sides   { type rebound; }
+}
+DICT
+    # Dirt on half of the floor, where x is large
+    field dirt volScalarField "0 0 0 0 0 0 0" 0 "type zeroGradient;" "type zeroGradient;"
+    sed -i 's/^    outlet/    floor { type fixedValue; value nonuniform List<scalar> 16(0 0 1 1 0 0 1 1 0 0 1 1 0 0 1 1); }\n&/' 0/dirt
+}
+
+case_extra-inputs() {
+    local said floor lid
+    damp_case "$work/extra-inputs" || return
+    solve extra-inputs serial "$solver" || return
+    floor="$(folder kinematicCloud)/floor.dat"; lid="$(folder kinematicCloud)/lid.dat"
+    said="$(last "$floor" sticks) $(last "$floor" rebounds) $(last "$lid" sticks) $(last "$lid" rebounds)"
+    if awk -v s="$said" 'BEGIN { split(s, n, " "); exit !(n[1] > 0 && n[2] > 0 && n[3] == 0 && n[4] > 0) }'
+    then ok "extra-inputs/capture (floor: $(last "$floor" sticks) on dirt, $(last "$floor" rebounds) rebound)"
+    else bad extra-inputs/capture "sticks and rebounds on floor, then lid: $said"; fi
+    for said in "floor $floor 0.68" "lid $lid 0.52"; do
+        # shellcheck disable=SC2086
+        set -- $said
+        if near "$(last "$2" e_n_sum)" "$(awk -v n="$(last "$2" rebounds)" -v e="$3" 'BEGIN { printf "%.17g", n*e }')" 1e-12
+        then ok "extra-inputs/by-hand-$1 (e_n $3)"; else bad "extra-inputs/by-hand-$1" "e_n_sum $(last "$2" e_n_sum), e_n $3"; fi
+    done
+    if grep -q "floor: interact.*humidity 0.9, plate glass, dirt from field" log.serial \
+        && grep -q "lid: interact.*humidity 0.1, plate steel, dirt 0" log.serial
+    then ok extra-inputs/log; else bad extra-inputs/log "$(grep 'interact' log.serial | tr '\n' ' ')"; fi
+
+    # The command reads the record, with a column for each input, and says the same bits
+    cp "$(folder kinematicCloud)/impacts.csv" .
+    nearwall predict --model constant/nearWall.toml impacts.csv -o predicted.csv > log.predict 2>&1 \
+        || { bad extra-inputs/predict "nearwall predict failed, see $PWD/log.predict"; return; }
+    if said="$(awk -F, '
+        /^#/ { next }
+        $1 == "time" { for (i = 1; i <= NF; i++) at[$i] = i; next }
+        { n++; stuck = $at["outcome"] == "stick"; captures += stuck; plates[$at["plate"]]++ }
+        stuck != ($at["p_stick"] == 1) { bad++ }
+        !stuck && ($at["e_n"] != $at["e_n_predicted"] || $at["e_t"] != $at["e_t_predicted"]) { bad++ }
+        END { print n " impacts, " captures " captured, " bad + 0 " differ"; exit bad || !captures || !plates["glass"] || !plates["steel"] }' predicted.csv)"
+    then ok "extra-inputs/predict ($said)"; else bad extra-inputs/predict "$said"; fi
+
+    check_balance extra-inputs/balance kinematicCloud 0
+    totals kinematicCloud 0 > totals.kinematicCloud
+    restart_of extra-inputs "$work/extra-inputs"
+    ranks_of extra-inputs "$work/extra-inputs"
+    refused_inputs
+}
+
+refused_inputs() {
+    damp_case "$work/extra-inputs-bad" || return
+    cp constant/interaction constant/interaction.good
+    refuse input-name     's/humidity 0.9/humidty 0.9/'  "no model declares the input 'humidty'" "humidity plate dirt" "[inputs.humidty]"
+    refuse input-top-name 's/humidity 0.1/wind 0.1/'     "no model declares the input 'wind'"
+    refuse input-missing  '/^extraInputs/d'              "has the input 'plate', which has no default" "extraInputs { plate steel; }"
+    refuse input-word     's/plate glass/plate glas/'    "'plate' must be one of its words or 'field'" "did you mean \`glass\`? (known here: steel, glass)"
+    refuse input-number   's/humidity 0.9/humidity damp/' "'humidity' must be a number or 'field'" "\`damp\` is not a finite number"
+    refuse input-two      's/humidity 0.9/humidity 0.9 1/' "'humidity' must be a number or 'field'"
+    refuse input-field    's/humidity 0.9/humidity field/' "no field 'humidity' is registered or in" "volScalarField"
+    refuse input-dict     's/^extraInputs.*/extraInputs 0.4;/' "'extraInputs' must be a dictionary" "humidity 0.4"
+    refuse input-of-other-type 's/{ type rebound;/{ type rebound; extraInputs { humidity 1; }/' "unknown key 'extraInputs'" "'sides', type rebound"
+    sed -i 's/16(0 0 1 1/16(0 0 1 0.5/' 0/dirt; mv 0/dirt 0/plate; sed -i 's/dirt/plate/' 0/plate
+    refuse input-places   's/plate glass; dirt field/plate field/' "the field 'plate' has values that are not the place of one of its words"
+}

@@ -1,0 +1,131 @@
+//! Inputs that a model file declares, in the command: columns of `predict`, `compare` and `check`; and means over chance in `predict`.
+
+use crate::runner::{WAX, done, folder, nearwall, refused};
+
+const INPUTS: &str = r#"
+[inputs.humidity]
+default = 40
+[inputs.operator]
+labels = ["Ann", "Bob"]
+[[effects]]
+kind = "fitted-curve"
+input = "humidity"
+on = "e_t"
+knots = [0, 100]
+values = [0, -0.1]
+[[effects]]
+kind = "fitted-curve"
+input = "operator"
+on = "e_t"
+form = "factor"
+knots = ["Bob"]
+values = [0.5]
+"#;
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// The predicted `e_t` of each row, and what was said.
+fn predicted(rows: &str) -> (Vec<f64>, String) {
+    let folder = folder(&[("m.toml", &format!("{WAX}{INPUTS}")), ("i.csv", rows)]);
+    let output = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let table = text(&output.stdout);
+    let place = table.lines().next().unwrap().split(',').position(|name| name == "e_t").unwrap();
+    let e_t = |line: &str| line.split(',').nth(place).unwrap().parse().unwrap();
+    (table.lines().skip(1).map(e_t).collect(), text(&output.stderr))
+}
+
+#[test]
+fn predict_reads_declared_inputs_by_their_column() {
+    let (e_t, said) = predicted("v_n,humidity,operator\n1,100,Ann\n1,50,Bob\n1,,\n1,0,Eve\n1,wet,Bob\n");
+    for (value, expected) in e_t.iter().zip([0.66, 0.71 * 1.5, 0.72, 0.76]) {
+        assert!((value - expected).abs() < 1e-12, "{e_t:?}");
+    }
+    assert_eq!(e_t.len(), 4);
+    assert!(said.contains("line 6 left out: humidity `wet` is not a number"), "{said}");
+    assert!(
+        said.contains("line 5: operator is none of Ann, Bob; such rows are predicted without it"),
+        "{said}"
+    );
+    assert!(!said.contains("humidity = 40"), "{said}");
+}
+
+#[test]
+fn predict_says_which_default_it_assumed() {
+    let (e_t, said) = predicted("v_n,d,T_p,T_w,conversion\n1,1e-4,300,300,1\n");
+    assert!((e_t[0] - 0.72).abs() < 1e-12, "{e_t:?}");
+    assert!(said.contains("not in i.csv, assumed: humidity = 40\n"), "{said}");
+    let (_, said) = predicted("v_n\n1\n");
+    assert!(said.contains("conversion = 1") && said.contains(", humidity = 40\n"), "{said}");
+}
+
+#[test]
+fn check_and_explain_show_inputs_and_corrections() {
+    let folder = folder(&[("m.toml", &format!("{WAX}{INPUTS}")), ("i.csv", "v_n,operator\n1,Bob\n")]);
+    let output = text(&nearwall(folder.path(), &["check", "m.toml"]).stdout);
+    for part in [
+        "humidity, default 40",
+        "operator, one of Ann, Bob, no default",
+        "e_t (1 + f), f 0.5 to 0.5 over operator",
+    ] {
+        assert!(output.contains(part), "{output}");
+    }
+    let output = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv", "--explain", "2"]);
+    let lines = text(&output.stdout);
+    let steps: Vec<&str> = lines.lines().filter(|line| line.starts_with("fitted-curve")).collect();
+    assert_eq!(steps.len(), 2, "{lines}");
+    assert!(steps[0].ends_with("0.720000") && steps[1].ends_with("1.080000"), "{lines}");
+}
+
+#[test]
+fn a_declared_name_that_is_taken_is_refused() {
+    let taken = format!("{WAX}[inputs.e_n]\ndefault = 1\n");
+    let folder = folder(&[("m.toml", &taken), ("i.csv", "v_n\n1\n")]);
+    refused(
+        folder.path(),
+        &["predict", "--model", "m.toml", "i.csv"],
+        &["inputs", "`e_n` is an observed column of data files"],
+    );
+}
+
+/// Noise of +-0.01 about the curve: the model that knows the column wins, and only its residual is the noise.
+#[test]
+fn compare_gives_declared_inputs_to_each_model() {
+    let row = |row: usize| {
+        let humidity = (row * 37) % 101;
+        let noise = if row % 3 == 0 { 0.01 } else { -0.01 };
+        format!("1,{humidity},{}\n", 0.76 - 0.001 * humidity as f64 + noise)
+    };
+    let rows: String = (0..60).map(row).collect();
+    let files = [
+        ("plain.toml", WAX.to_owned()),
+        ("curve.toml", format!("{WAX}{INPUTS}")),
+        ("lab.csv", format!("v_n,humidity,e_t\n{rows}")),
+    ];
+    let folder = folder(&files.each_ref().map(|(name, text)| (*name, text.as_str())));
+    done(folder.path(), &["compare", "lab.csv", "--models", "plain.toml", "curve.toml", "--out", "out"]);
+    let json = std::fs::read_to_string(folder.path().join("out/compare.json")).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let best = &json["models"][0];
+    assert_eq!(best["model"], "curve.toml");
+    assert!((best["rmse_e_t"]["value"].as_f64().unwrap() - 0.01).abs() < 1e-9, "{best}");
+}
+
+/// A quarter of the particles are agglomerates with `e_n` of 0.8 on average: the row has the mean, not one draw.
+#[test]
+fn predict_averages_what_is_drawn_by_chance() {
+    let chance = "[[effects]]\nkind = \"agglomerates\"\nfraction = 0.25\nrestitution = 0.8\nspread = 0.1\n";
+    let rows = "v_n,d\n1,75e-6\n2,75e-6\n";
+    let e_n = |model: &str| {
+        let folder = folder(&[("m.toml", model), ("i.csv", rows)]);
+        let table = done(folder.path(), &["predict", "--model", "m.toml", "i.csv"]);
+        let e_n = |line: &str| line.split(',').nth(2).unwrap().parse::<f64>().unwrap();
+        table.lines().skip(1).map(e_n).collect::<Vec<_>>()
+    };
+    let mean = e_n(&format!("{WAX}{chance}"));
+    for (mean, plain) in mean.into_iter().zip(e_n(WAX)) {
+        assert!((mean - (0.75 * plain + 0.25 * 0.8)).abs() < 0.01, "{mean}, plain {plain}");
+    }
+}
