@@ -22,7 +22,7 @@ struct GeneralWall<'a, U, T> {
     /// The impact on the wall as a whole, covered or not: fitted corrections depend on it.
     reaching: &'a Impact,
     /// The impact with regard to the mean wall.
-    arriving: Impact,
+    arriving: &'a Impact,
     frame: TiltedFrame,
     /// What the melt on the wall does to a dry particle, where a term says it.
     on_melt: Option<OnMelt>,
@@ -100,10 +100,17 @@ impl Model {
         uniform: &impl Fn(u64) -> f64,
         trace: &mut impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
+        let at_place;
         let arriving = match place {
-            Place::Anywhere => *reaching,
-            Place::Bare => Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching },
-            Place::Covered => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching },
+            Place::Anywhere => reaching,
+            Place::Bare => {
+                at_place = Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching };
+                &at_place
+            }
+            Place::Covered => {
+                at_place = Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching };
+                &at_place
+            }
         };
         let frame = TiltedFrame { tilt: 0.0 };
         let mut steps = GeneralWall {
@@ -119,7 +126,7 @@ impl Model {
             uniform,
             trace,
         };
-        let mut state = ImpactState { impact: arriving, ..ImpactState::default() };
+        let mut state = ImpactState { impact: *arriving, ..ImpactState::default() };
         evaluate(&mut steps, StepSet::ALL, &mut state)?;
         Ok(state.outcome())
     }
@@ -236,10 +243,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             && model.terms.iter().all(|term| term.holds_for(arriving)))
     }
 
-    fn turn(&mut self, arriving: &Impact) -> Impact {
-        let tilt = |term: &Term| term.effect().tilt(arriving, term.chance(self.uniform));
+    fn turn(&mut self, impact: &mut Impact) {
+        let tilt = |term: &Term| term.effect().tilt(impact, term.chance(self.uniform));
         self.frame = TiltedFrame { tilt: self.model.terms.iter().map(tilt).sum() };
-        self.frame.turn(arriving)
+        self.frame.turn(impact);
     }
 
     fn contact(&mut self, impact: &Impact) -> Result<Contact, ImpactError> {
@@ -334,8 +341,8 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     }
 
     fn turn_back(&self, impact: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {
-        let [e_n, e_t] = self.frame.turn_back(&self.arriving, impact, [e_n, rebound.restitution]);
-        (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(&self.arriving, rebound.spin) })
+        let [e_n, e_t] = self.frame.turn_back(self.arriving, impact, [e_n, rebound.restitution]);
+        (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(self.arriving, rebound.spin) })
     }
 
     /// A droplet's capture does not depend on the wall, and a dry particle leaves a melt that it rebounds from. A particle that
@@ -362,6 +369,9 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     /// In the order of the file; the shifts of the log odds of capture are added up.
     fn correct(&mut self, plain: Corrected) -> Corrected {
+        if !self.model.has_corrections {
+            return plain;
+        }
         let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
         let mut shift = 0.0;
         for term in &self.model.terms {

@@ -55,6 +55,8 @@ pub struct Model {
     terms: Vec<Term>,
     /// Whether a term depends on the melt on the wall.
     uses_melt: bool,
+    /// Whether a term is a fitted correction.
+    has_corrections: bool,
     /// For each wall its prepared form, where it has one.
     prepared: Vec<Option<PreparedWall>>,
 }
@@ -153,6 +155,7 @@ impl Model {
     /// Prepares the walls that can be prepared.
     fn prepare(mut self) -> Self {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
+        self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
         self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         self
     }
