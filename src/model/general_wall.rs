@@ -43,7 +43,8 @@ impl Model {
         uniform: impl Fn(u64) -> f64,
         mut trace: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
-        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let mut arriving = *impact;
+        let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
         let outcome = self.evaluate_place(wall, &arriving, met, &uniform, &mut trace)?;
         let (other, share) = match met {
@@ -73,7 +74,8 @@ impl Model {
         impact: &Impact,
         uniform: impl Fn(u64) -> f64,
     ) -> Result<Outcome, ImpactError> {
-        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let mut arriving = *impact;
+        let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
         self.evaluate_place(wall, &arriving, met, &uniform, &mut |_, _, _| {})
     }
@@ -86,7 +88,8 @@ impl Model {
 
     /// The covered share of the wall [1] where a draw decides if the impact meets it or the bare share.
     pub(super) fn drawn_cover(&self, wall: usize, impact: &Impact) -> Option<f64> {
-        let (wall, arriving) = self.at_wall(wall, impact).ok()?;
+        let mut arriving = *impact;
+        let wall = self.at_wall(wall, &mut arriving).ok()?;
         let drawn = wall.is_patchwork(&arriving) && arriving.coverage > 0.0 && arriving.coverage < 1.0;
         drawn.then_some(arriving.coverage)
     }
@@ -131,13 +134,13 @@ impl Model {
         Ok(state.outcome())
     }
 
-    /// The wall with this index, and the impact with what the model file puts on that wall and assumes.
-    pub(super) fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
+    /// The wall with this index. The impact receives what the model file puts on that wall and assumes.
+    pub(super) fn at_wall(&self, wall: usize, impact: &mut Impact) -> Result<&Wall, ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let mut arriving = wall.apply_deposit(impact);
-        self.complete(&mut arriving)?;
-        Ok((wall, arriving))
+        wall.apply_deposit(impact);
+        self.complete(impact)?;
+        Ok(wall)
     }
 
     /// Gives the inputs that the model file declares their default where the impact does not state them.

@@ -189,7 +189,8 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
-        let (wall, impact) = self.at_wall(wall, impact)?;
+        let mut impact = *impact;
+        let wall = self.at_wall(wall, &mut impact)?;
         self.contact(wall, &impact, Place::Bare, &|_| 0.5)?;
         self.contact(wall, &impact, Place::Covered, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
@@ -273,7 +274,8 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
-        let (wall, impact) = self.at_wall(wall, impact)?;
+        let mut impact = *impact;
+        let wall = self.at_wall(wall, &mut impact)?;
         let contact = self.contact(wall, &impact, Place::Anywhere, &|_| 0.5)?;
         Ok(self.normal.speeds_of(&contact, &impact))
     }
