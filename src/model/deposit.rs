@@ -24,7 +24,7 @@ impl Model {
         density: f64,
         arrivals: DepositSource,
     ) -> Result<DepositSource, ImpactError> {
-        self.at_wall(wall, impact)?;
+        self.at_wall(wall, &mut { *impact })?;
         at_least_zero("mass", mass)?;
         if !(density.is_finite() && density > 0.0) {
             let reason = "must be positive and finite";

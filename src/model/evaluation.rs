@@ -120,11 +120,9 @@ pub(super) trait WallSteps {
     /// Whether a property, a capture criterion or a fitted term is used outside the range that it is stated for.
     fn outside_range(&mut self, arriving: &Impact) -> bool;
 
-    /// The impact with regard to the local wall, which effects may tilt.
+    /// Turns the impact into the frame of the local wall, which effects may tilt.
     #[inline(always)]
-    fn turn(&mut self, arriving: &Impact) -> Impact {
-        *arriving
-    }
+    fn turn(&mut self, _: &mut Impact) {}
 
     /// The contact at the temperatures of the impact, with the effects on it.
     fn contact(&mut self, impact: &Impact) -> Result<Self::Contact, Self::Fault>;
@@ -208,7 +206,7 @@ pub(super) fn evaluate<S: WallSteps>(
         state.outside_range = steps.outside_range(&state.impact);
     }
     if selected.contains(StepSet::CONTACT) {
-        state.impact = steps.turn(&state.impact);
+        steps.turn(&mut state.impact);
         state.contact = steps.contact(&state.impact)?;
     }
     if selected.contains(StepSet::STICKINESS) {

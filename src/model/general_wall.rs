@@ -22,7 +22,7 @@ struct GeneralWall<'a, U, T> {
     /// The impact on the wall as a whole, covered or not: fitted corrections depend on it.
     reaching: &'a Impact,
     /// The impact with regard to the mean wall.
-    arriving: Impact,
+    arriving: &'a Impact,
     frame: TiltedFrame,
     /// What the melt on the wall does to a dry particle, where a term says it.
     on_melt: Option<OnMelt>,
@@ -43,7 +43,8 @@ impl Model {
         uniform: impl Fn(u64) -> f64,
         mut trace: impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
-        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let mut arriving = *impact;
+        let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
         let outcome = self.evaluate_place(wall, &arriving, met, &uniform, &mut trace)?;
         let (other, share) = match met {
@@ -73,7 +74,8 @@ impl Model {
         impact: &Impact,
         uniform: impl Fn(u64) -> f64,
     ) -> Result<Outcome, ImpactError> {
-        let (wall, arriving) = self.at_wall(wall, impact)?;
+        let mut arriving = *impact;
+        let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
         self.evaluate_place(wall, &arriving, met, &uniform, &mut |_, _, _| {})
     }
@@ -86,7 +88,8 @@ impl Model {
 
     /// The covered share of the wall [1] where a draw decides if the impact meets it or the bare share.
     pub(super) fn drawn_cover(&self, wall: usize, impact: &Impact) -> Option<f64> {
-        let (wall, arriving) = self.at_wall(wall, impact).ok()?;
+        let mut arriving = *impact;
+        let wall = self.at_wall(wall, &mut arriving).ok()?;
         let drawn = wall.is_patchwork(&arriving) && arriving.coverage > 0.0 && arriving.coverage < 1.0;
         drawn.then_some(arriving.coverage)
     }
@@ -100,10 +103,17 @@ impl Model {
         uniform: &impl Fn(u64) -> f64,
         trace: &mut impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
+        let at_place;
         let arriving = match place {
-            Place::Anywhere => *reaching,
-            Place::Bare => Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching },
-            Place::Covered => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching },
+            Place::Anywhere => reaching,
+            Place::Bare => {
+                at_place = Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching };
+                &at_place
+            }
+            Place::Covered => {
+                at_place = Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching };
+                &at_place
+            }
         };
         let frame = TiltedFrame { tilt: 0.0 };
         let mut steps = GeneralWall {
@@ -119,18 +129,18 @@ impl Model {
             uniform,
             trace,
         };
-        let mut state = ImpactState { impact: arriving, ..ImpactState::default() };
+        let mut state = ImpactState { impact: *arriving, ..ImpactState::default() };
         evaluate(&mut steps, StepSet::ALL, &mut state)?;
         Ok(state.outcome())
     }
 
-    /// The wall with this index, and the impact with what the model file puts on that wall and assumes.
-    pub(super) fn at_wall(&self, wall: usize, impact: &Impact) -> Result<(&Wall, Impact), ImpactError> {
+    /// The wall with this index. The impact receives what the model file puts on that wall and assumes.
+    pub(super) fn at_wall(&self, wall: usize, impact: &mut Impact) -> Result<&Wall, ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let mut arriving = wall.apply_deposit(impact);
-        self.complete(&mut arriving)?;
-        Ok((wall, arriving))
+        wall.apply_deposit(impact);
+        self.complete(impact)?;
+        Ok(wall)
     }
 
     /// Gives the inputs that the model file declares their default where the impact does not state them.
@@ -236,10 +246,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             && model.terms.iter().all(|term| term.holds_for(arriving)))
     }
 
-    fn turn(&mut self, arriving: &Impact) -> Impact {
-        let tilt = |term: &Term| term.effect().tilt(arriving, term.chance(self.uniform));
+    fn turn(&mut self, impact: &mut Impact) {
+        let tilt = |term: &Term| term.effect().tilt(impact, term.chance(self.uniform));
         self.frame = TiltedFrame { tilt: self.model.terms.iter().map(tilt).sum() };
-        self.frame.turn(arriving)
+        self.frame.turn(impact);
     }
 
     fn contact(&mut self, impact: &Impact) -> Result<Contact, ImpactError> {
@@ -334,8 +344,8 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     }
 
     fn turn_back(&self, impact: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {
-        let [e_n, e_t] = self.frame.turn_back(&self.arriving, impact, [e_n, rebound.restitution]);
-        (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(&self.arriving, rebound.spin) })
+        let [e_n, e_t] = self.frame.turn_back(self.arriving, impact, [e_n, rebound.restitution]);
+        (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(self.arriving, rebound.spin) })
     }
 
     /// A droplet's capture does not depend on the wall, and a dry particle leaves a melt that it rebounds from. A particle that
@@ -362,6 +372,9 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     /// In the order of the file; the shifts of the log odds of capture are added up.
     fn correct(&mut self, plain: Corrected) -> Corrected {
+        if !self.model.has_corrections {
+            return plain;
+        }
         let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
         let mut shift = 0.0;
         for term in &self.model.terms {

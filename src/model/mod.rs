@@ -55,6 +55,8 @@ pub struct Model {
     terms: Vec<Term>,
     /// Whether a term depends on the melt on the wall.
     uses_melt: bool,
+    /// Whether a term is a fitted correction.
+    has_corrections: bool,
     /// For each wall its prepared form, where it has one.
     prepared: Vec<Option<PreparedWall>>,
 }
@@ -153,6 +155,7 @@ impl Model {
     /// Prepares the walls that can be prepared.
     fn prepare(mut self) -> Self {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
+        self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
         self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         self
     }
@@ -186,7 +189,8 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
-        let (wall, impact) = self.at_wall(wall, impact)?;
+        let mut impact = *impact;
+        let wall = self.at_wall(wall, &mut impact)?;
         self.contact(wall, &impact, Place::Bare, &|_| 0.5)?;
         self.contact(wall, &impact, Place::Covered, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
@@ -270,7 +274,8 @@ impl Model {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
-        let (wall, impact) = self.at_wall(wall, impact)?;
+        let mut impact = *impact;
+        let wall = self.at_wall(wall, &mut impact)?;
         let contact = self.contact(wall, &impact, Place::Anywhere, &|_| 0.5)?;
         Ok(self.normal.speeds_of(&contact, &impact))
     }

@@ -73,7 +73,7 @@ impl Model {
                 format!("neither the particle nor the slag of a wall has {needs}; give one to a material");
             return Err(top.fault("capture", problem));
         }
-        let (uses_melt, prepared) = (false, Vec::new());
+        let (uses_melt, has_corrections, prepared) = (false, false, Vec::new());
         let model = Self {
             particle,
             capture,
@@ -84,6 +84,7 @@ impl Model {
             extra_inputs,
             terms,
             uses_melt,
+            has_corrections,
             prepared,
         };
         Ok(model.prepare())

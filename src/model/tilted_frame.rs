@@ -15,18 +15,15 @@ pub(super) struct TiltedFrame {
 }
 
 impl TiltedFrame {
-    /// The impact in the local frame.
-    pub fn turn(self, impact: &Impact) -> Impact {
+    /// Turns an impact into the local frame.
+    pub fn turn(self, impact: &mut Impact) {
         if self.tilt == 0.0 {
-            return *impact;
+            return;
         }
         let [normal, tangential] = self.speeds(impact);
-        Impact {
-            normal_speed: normal.max(0.0),
-            tangential_speed: tangential.abs(),
-            spin: impact.spin.copysign(impact.spin * tangential),
-            ..*impact
-        }
+        impact.normal_speed = normal.max(0.0);
+        impact.tangential_speed = tangential.abs();
+        impact.spin = impact.spin.copysign(impact.spin * tangential);
     }
 
     /// `e_n` and `e_t` [1] with regard to the mean wall, from those of the local frame. Without speed along the wall `e_t`
@@ -76,7 +73,8 @@ mod tests {
         let impact = Impact { normal_speed: 1.0, tangential_speed: 2.0, ..Impact::default() };
         for tilt in [-0.2, 0.0, 0.1, 0.3] {
             let frame = TiltedFrame { tilt };
-            let turned = frame.turn(&impact);
+            let mut turned = impact;
+            frame.turn(&mut turned);
             let [e_n, e_t] = frame.turn_back(&impact, &turned, [1.0, 1.0]);
             let out = 1f64.atan2(2.0) + 2.0 * tilt;
             let speed = 5f64.sqrt();
@@ -89,7 +87,9 @@ mod tests {
     fn spin_keeps_its_sense() {
         let impact = Impact { normal_speed: 1.0, tangential_speed: 0.1, spin: 5.0, ..Impact::default() };
         let frame = TiltedFrame { tilt: 0.3 };
-        assert_eq!(frame.turn(&impact).spin, -5.0);
+        let mut turned = impact;
+        frame.turn(&mut turned);
+        assert_eq!(turned.spin, -5.0);
         assert_eq!(frame.spin_back(&impact, -5.0), 5.0);
     }
 }

@@ -70,19 +70,16 @@ impl Wall {
         self.pattern.as_ref().is_some_and(|pattern| pattern.is_match(patch))
     }
 
-    /// The impact with the powder, the covering and the film that the model file puts on the wall.
+    /// Gives an impact the powder, the covering and the film that the model file puts on the wall.
     ///
     /// A layer whose coverage is not given covers like grains of the particle's diameter.
-    pub(super) fn apply_deposit(&self, impact: &Impact) -> Impact {
+    pub(super) fn apply_deposit(&self, impact: &mut Impact) {
         let by_layer = |thickness: f64| cover::share(cover::of_layer(thickness, impact.diameter));
         // A wall's memory knows its cover and gives it with the layer.
         let given = if impact.coverage > 0.0 { impact.coverage } else { by_layer(impact.layer_thickness) };
-        Impact {
-            layer_thickness: impact.layer_thickness.max(self.layer_thickness),
-            coverage: given.max(self.coverage).max(by_layer(self.layer_thickness)),
-            film_thickness: impact.film_thickness.max(self.film_thickness),
-            ..*impact
-        }
+        impact.coverage = given.max(self.coverage).max(by_layer(self.layer_thickness));
+        impact.layer_thickness = impact.layer_thickness.max(self.layer_thickness);
+        impact.film_thickness = impact.film_thickness.max(self.film_thickness);
     }
 
     /// Whether covered and bare share decide an impact differently.

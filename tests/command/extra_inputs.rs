@@ -93,9 +93,9 @@ fn a_declared_name_that_is_taken_is_refused() {
 /// Noise of +-0.01 about the curve: the model that knows the column wins, and only its residual is the noise.
 #[test]
 fn compare_gives_declared_inputs_to_each_model() {
-    let row = |row: usize| {
+    let row = |row: u64| {
         let humidity = (row * 37) % 101;
-        let noise = if row % 3 == 0 { 0.01 } else { -0.01 };
+        let noise = if row.is_multiple_of(3) { 0.01 } else { -0.01 };
         format!("1,{humidity},{}\n", 0.76 - 0.001 * humidity as f64 + noise)
     };
     let rows: String = (0..60).map(row).collect();
