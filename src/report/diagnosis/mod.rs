@@ -4,22 +4,27 @@ mod axis;
 mod cause;
 mod curve;
 mod data;
+mod fit;
 mod gain;
+mod groups;
 mod misfit;
 mod plot;
+mod rivals;
 mod spread;
+#[cfg(test)]
+mod tests;
 mod usage;
 
-use super::format::{number, once_in};
+use super::format::{number, once_in, whole_percent};
 use super::page::{Page, Table};
 use crate::dataset::BadRow;
-use crate::diagnose::{Calibration, Diagnosis};
+use crate::diagnose::{Calibration, Diagnosis, Finding};
 
 /// Most rejected rows listed.
 const REJECTED: usize = 50;
 
-/// The page: verdict, measured values with both models, residuals, causes, gain, what to measure next, how to run the
-/// extended model.
+/// The page: verdict, what to check in the data file, fit, rivals, measured values with both models, residuals, causes,
+/// gain, what to measure next, how to run the extended model.
 ///
 /// `names` are those of the data and the model file, `extended` is the text of the extended model.
 ///
@@ -29,9 +34,12 @@ pub fn page(diagnosis: &Diagnosis, names: &[String; 2], extended: &str) -> Resul
     let [data, model] = names;
     let mut page = Page::new(&format!("Diagnosis of {}", data.rsplit(['/', '\\']).next().unwrap_or(data)));
     page.verdict(vec![diagnosis.verdict.clone(), rows(diagnosis)]);
-    for note in &diagnosis.sample.notes {
-        page.note(format!("About the data file: {note}."));
-    }
+    rivals::add_notes(&mut page, diagnosis);
+    fit::add(&mut page, diagnosis);
+    rivals::add(&mut page, diagnosis);
+    rivals::add_undecided(&mut page, diagnosis);
+    add_overview(&mut page, &diagnosis.findings);
+    groups::add(&mut page, diagnosis);
     data::add(&mut page, diagnosis);
     misfit::add(&mut page, diagnosis);
     for (place, finding) in diagnosis.findings.iter().enumerate() {
@@ -68,11 +76,41 @@ fn cause_title(cause: &str) -> String {
     }
 }
 
+/// The causes with their certainty, and what they cannot be told from.
+fn add_overview(page: &mut Page, findings: &[Finding]) {
+    let row = |finding: &Finding| {
+        let others: Vec<String> =
+            finding.indistinguishable_from.iter().map(|other| cause_title(other)).collect();
+        let others = if others.is_empty() { "–".to_owned() } else { others.join(", ") };
+        vec![
+            cause_title(&finding.cause),
+            plot::title(finding.observable).to_owned(),
+            others,
+            cause::significance(finding),
+            once_in(finding.q_value),
+            whole_percent(finding.certainty),
+        ]
+    };
+    if findings.is_empty() {
+        return;
+    }
+    let header = [
+        "cause",
+        "acts on",
+        "cannot be told from",
+        "significance [sigma]",
+        "by chance once in",
+        "named in resampled data sets",
+    ];
+    page.heading("Causes at a glance");
+    page.table(Table::new("", 3, &header, findings.iter().map(row).collect()));
+}
+
 /// Recalibrated parameters of the base model, and the scatter.
 fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
     page.heading("Recalibrated parameters and scatter");
     if diagnosis.calibration.is_empty() {
-        page.text("The data support the base model's own parameters as they are.");
+        page.text("No parameter of the base model's own laws has a significantly different value.");
     } else {
         let row = |one: &Calibration| {
             let [from, value, low, high] = [one.from, one.value, one.low, one.high].map(number);
@@ -127,12 +165,11 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
     let Diagnosis { seed, level, .. } = diagnosis;
     page.heading("How it was judged");
     page.note(format!(
-        "Seed {seed} split the rows at random: three quarters for fits and choices, one quarter held out until the gain was \
-         measured. Candidates (every effect, every parameter of the laws, a free curve over every column) were fitted to four \
-         fifths of the first part and scored on the remaining fifth, five times over. sigma is the root of twice the gain in \
-         log likelihood on those rows. A candidate is accepted if its gain would happen by chance in at most a share of \
-         {level} of data sets, corrected for the number of candidates. docs/diagnosis.md of nearwall describes the method and \
-         its limits."
+        "Candidates are every effect of the library, every parameter of the base model's laws, and a free curve over every \
+         column. Each is fitted to a part of the rows and judged on the rest, in several deals of the rows that seed {seed} \
+         draws. Chi-square is minus twice the log likelihood. A candidate is accepted if so large a fall of chi-square \
+         happens by chance in at most a share of {level} of data sets, corrected for the number of candidates. \
+         docs/diagnosis.md of nearwall describes the method and its limits."
     ));
     let [data, model] = [data, model].map(quoted);
     page.code(format!(
