@@ -14,7 +14,7 @@ const MISSHAPEN: f64 = 0.01;
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, place: usize) {
     page.heading(match finding.cause.strip_prefix("unknown:") {
-        Some(column) => format!("Cause {}: unknown, depends on {column}", place + 1),
+        Some(_) => format!("Cause {}: unknown, depends on {}", place + 1, listed(&finding.variables, "and")),
         None => format!("Cause {}: {}", place + 1, finding.cause),
     });
     page.lead(finding.explanation.replace('`', ""));
@@ -89,7 +89,7 @@ fn shape(p_value: f64) -> String {
         );
     }
     format!(
-        "The shape of this law fits: so much better a free curve over its inputs fits by chance {by_chance}."
+        "The shape of this law fits: what a free curve over its inputs gains beyond it happens by chance {by_chance}."
     )
 }
 
@@ -118,7 +118,7 @@ fn add_alternatives(page: &mut Page, finding: &Finding) {
         return;
     }
     page.table(Table::new(
-        "Other candidates, compared on rows that they were not fitted to.",
+        "Other candidates, less what their number of parameters gains by chance.",
         1,
         &["alternative", "chi-square higher by", "data less likely by a factor of"],
         finding.alternatives.iter().map(row).collect(),

@@ -21,6 +21,11 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     }
     let (status, answer) = answer(diagnosis);
     let mut lines = vec![answer, sentence("base", &fit.base)];
+    if let Some((far, all)) = far_points(diagnosis).filter(|(far, _)| *far > 0) {
+        lines.push(format!(
+            "{far} of {all} points lie more than 3 stated standard errors from the base model."
+        ));
+    }
     if extends(diagnosis) && !fit.extended.against.is_empty() {
         lines.push(sentence("extended", &fit.extended));
     }
@@ -49,15 +54,20 @@ fn refuted(test: &FitTest) -> bool {
 }
 
 fn most_points_are_far(diagnosis: &Diagnosis) -> bool {
+    far_points(diagnosis).is_some_and(|(far, all)| 2 * far > all)
+}
+
+/// Number of points far from the base model, and of all points with a stated error; `None` where none has one.
+fn far_points(diagnosis: &Diagnosis) -> Option<(usize, usize)> {
     let rows = diagnosis.sample.rows.iter();
-    let deviations = rows.flat_map(|row| {
-        let pairs = row.values.iter().zip(row.errors);
-        pairs
-            .filter_map(|(numbers, error)| Some(((*numbers)?, error?)))
-            .map(|([measured, base, _], error)| (measured - base).abs() / error)
+    let points = rows.flat_map(|row| row.values.iter().zip(row.errors));
+    let deviations = points.filter_map(|(numbers, error)| {
+        let ([measured, base, _], error) = ((*numbers)?, error?);
+        Some((measured - base).abs() / error)
     });
     let (far, near): (Vec<f64>, Vec<f64>) = deviations.partition(|deviation| *deviation > FAR);
-    far.len() > near.len()
+    let all = far.len() + near.len();
+    (all > 0).then_some((far.len(), all))
 }
 
 /// Whether the extended model differs from the base model.
@@ -119,9 +129,9 @@ fn sentence(model: &str, test: &FitTest) -> String {
         (Some(chi_square), Some(freedom)) if freedom > 0 => {
             text += &format!(
                 "chi-square is {} with {freedom} degree{} of freedom, {} for each, where about 1 is expected.",
-                number(chi_square),
+                two_digits(chi_square),
                 if freedom == 1 { "" } else { "s" },
-                number(chi_square / freedom as f64)
+                two_digits(chi_square / freedom as f64)
             );
         }
         _ => {
@@ -134,6 +144,11 @@ fn sentence(model: &str, test: &FitTest) -> String {
         text += &format!(" {misfit} happens by chance {}.", by_chance(p_value));
     }
     text
+}
+
+/// A number with at most two decimals, whole from 100 on.
+fn two_digits(value: f64) -> String {
+    number(if value < 100.0 { (100.0 * value).round() / 100.0 } else { value.round() })
 }
 
 fn largest(rows: &[LargeMisfit]) -> Option<Table> {

@@ -47,8 +47,8 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     };
     if !diagnosis.misfit.is_empty() {
         page.table(Table::new(
-            "Fall of chi-square by a free curve over one column, on rows that it was not fitted to and beyond that of a \
-             constant offset.",
+            "Fall of chi-square by a free curve over one column, beyond that of a constant offset and less what its number of \
+             parameters gains by chance.",
             2,
             &["column", "observable", "fall of chi-square", "by chance once in"],
             diagnosis.misfit.iter().map(row).collect(),
@@ -62,7 +62,7 @@ fn summary(diagnosis: &Diagnosis) -> &'static str {
         "Each figure shows measured minus base model over one column. A correct model scatters evenly about zero. Means that \
          are off zero by several of their error bars show where it fails."
     } else if fit::base_is_refuted(diagnosis) || !diagnosis.undecided.is_empty() {
-        "The base model misses the data by more than chance allows (see the box above), but no single column is proven to \
+        "The base model misses the data by more than chance allows, but no single column is proven to \
          be the reason. Each figure shows measured minus base model over one column."
     } else {
         "No column stands out beyond chance, given how many were tried. A misfit smaller than the error bars below cannot be \

@@ -68,10 +68,10 @@ fn rows(diagnosis: &Diagnosis) -> String {
     )
 }
 
-/// A cause's name on the page.
+/// A cause's name on the page; that of a surface is `unknown:a*b`.
 fn cause_title(cause: &str) -> String {
     match cause.strip_prefix("unknown:") {
-        Some(column) => format!("curve over {column}"),
+        Some(columns) => format!("curve over {}", columns.replace('*', " and ")),
         None => cause.to_owned(),
     }
 }
@@ -166,9 +166,9 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
     page.heading("How it was judged");
     page.note(format!(
         "Candidates are every effect of the library, every parameter of the base model's laws, and a free curve over every \
-         column. Each is fitted to a part of the rows and judged on the rest, in several deals of the rows that seed {seed} \
-         draws. Chi-square is minus twice the log likelihood. A candidate is accepted if so large a fall of chi-square \
-         happens by chance in at most a share of {level} of data sets, corrected for the number of candidates. \
+         column. Chi-square is minus twice the log likelihood; its fall is reduced by what the number of parameters gains by \
+         chance. A candidate is accepted if so large a fall happens by chance in at most a share of {level} of data sets, \
+         corrected for the number of candidates. Seed {seed} draws the rows that are held out and the resampled data sets. \
          docs/diagnosis.md of nearwall describes the method and its limits."
     ));
     let [data, model] = [data, model].map(quoted);

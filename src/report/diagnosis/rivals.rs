@@ -12,14 +12,10 @@ pub(super) fn add_notes(page: &mut Page, diagnosis: &Diagnosis) {
     if notes.is_empty() {
         return;
     }
-    let first = "The result rests on these assumptions about the data file.".to_owned();
+    let first = "The result rests on this reading of the data file; check it first.".to_owned();
     let lines = std::iter::once(first).chain(notes.iter().map(|note| as_sentence(note))).collect();
-    page.callout(Callout {
-        status: RowStatus::Watch,
-        title: "Check the data file".into(),
-        lines,
-        table: None,
-    });
+    let title = "How the data file was read".to_owned();
+    page.callout(Callout { status: RowStatus::Open, title, lines, table: None });
 }
 
 /// A note with a capital and a full stop; a name of a column keeps its small letter.
@@ -111,7 +107,7 @@ fn candidates(causes: &[String]) -> Table {
 fn inputs(cause: &str) -> Vec<&str> {
     let effect = EFFECTS.iter().find(|effect| effect.id == cause);
     match (cause.strip_prefix("unknown:"), effect) {
-        (Some(column), _) => vec![column],
+        (Some(columns), _) => columns.split('*').collect(),
         (None, Some(effect)) => effect.inputs.to_vec(),
         (None, None) => Vec::new(),
     }

@@ -290,7 +290,7 @@ fn an_extended_model_with_inputs_says_where_they_come_from() {
 fn means_of_captures_have_the_errors_that_the_model_expects() {
     let row = |i: u32| {
         let x = f64::from(i % 2);
-        let values = [None, None, Some([x, 0.01, if i % 2 == 0 { 0.01 } else { 0.97 }])];
+        let values = [None, None, Some([x, 0.01, if x < 0.5 { 0.01 } else { 0.97 }])];
         SampleRow { held_out: false, cells: vec![x], errors: [None; 2], values }
     };
     let sample = Sample {

@@ -2,10 +2,11 @@
 
 use super::super::format::{listed, with_unit};
 use super::super::page::{Page, Table};
+use super::plot::title;
 use super::{cause_title, fit};
 use crate::diagnose::{Diagnosis, Measure, NotExamined};
 use crate::effect::EFFECTS;
-use toml_edit::{DocumentMut, Item};
+use toml_edit::{DocumentMut, Item, Value};
 
 /// A measurement in a sentence.
 pub(super) fn sentence(measure: &Measure, cause: &str) -> String {
@@ -33,11 +34,13 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
             page.text(sentence(measure, &finding.cause));
             asked = true;
         }
-        if let Some(column) = finding.cause.strip_prefix("unknown:") {
+        if finding.cause.starts_with("unknown:") {
+            let columns = listed(&finding.variables, "and");
             page.text(format!(
-                "{} depends on {column} or on something that changes with it. Vary {column} alone, or record what changes with \
-                 it (temperature, humidity, cleaning, supplier) as further columns: the next diagnosis will examine them.",
-                finding.observable
+                "The {} depends on {columns} or on something that changes with it. Vary {columns} with everything else constant, \
+                 or record what changes with it (temperature, humidity, cleaning, supplier) as further columns: the next \
+                 diagnosis will examine them.",
+                title(finding.observable)
             ));
             asked = true;
         }
@@ -88,12 +91,7 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
          nearwall predict --model {file} impacts.csv --explain 2"
     ));
     if !inputs.is_empty() {
-        let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
-        page.text(format!(
-            "The model depends on {}, which the library does not know: impacts.csv needs a column of that name for each; the \
-             default of the model file stands in where it is blank or absent.",
-            listed(&names, "and")
-        ));
+        page.text(inputs_of_rows(&inputs));
     }
     page.text(format!(
         "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a solver \
@@ -105,20 +103,42 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
 /// An input that the model file declares.
 struct ExtraInput {
     name: String,
-    /// Its default as a number or a word; empty where it has none.
+    /// Its default as it is written in the file; empty where it has none.
     default: String,
+    /// The words that it can be, as they are written; empty for a number.
+    labels: Vec<String>,
 }
 
 /// The tables `[inputs.NAME]` of a model file.
 fn extra_inputs(model: &str) -> Vec<ExtraInput> {
     let Ok(document) = model.parse::<DocumentMut>() else { return Vec::new() };
-    let tables = document.get("inputs").and_then(Item::as_table_like);
-    let default = |item: &Item| {
-        let value = item.get("default").and_then(Item::as_value);
-        value.map_or(String::new(), |value| value.clone().decorated("", "").to_string())
+    let written = |value: &Value| value.clone().decorated("", "").to_string();
+    let input = |(name, item): (&str, &Item)| {
+        let labels = item.get("labels").and_then(Item::as_array);
+        ExtraInput {
+            name: name.to_owned(),
+            default: item.get("default").and_then(Item::as_value).map_or(String::new(), written),
+            labels: labels.into_iter().flatten().map(written).collect(),
+        }
     };
-    let inputs = tables.into_iter().flat_map(|table| table.iter());
-    inputs.map(|(name, item)| ExtraInput { name: name.to_owned(), default: default(item) }).collect()
+    let tables = document.get("inputs").and_then(Item::as_table_like);
+    tables.into_iter().flat_map(|table| table.iter()).map(input).collect()
+}
+
+/// What `predict` needs beside the inputs that every model has.
+fn inputs_of_rows(inputs: &[ExtraInput]) -> String {
+    let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+    let mut text = format!(
+        "The model depends on {}, which the library does not know: impacts.csv needs a column of that name for each.",
+        listed(&names, "and")
+    );
+    if inputs.iter().any(|input| !input.default.is_empty()) {
+        text += " Where a number is blank or its column absent, the default of the model file is used.";
+    }
+    if inputs.iter().any(|input| !input.labels.is_empty()) {
+        text += " A label that the model file does not list leaves the impact unchanged.";
+    }
+    text
 }
 
 /// The lines that put a model file into an OpenFOAM case.
@@ -129,9 +149,13 @@ fn openfoam(inputs: &[ExtraInput]) -> String {
         .to_owned();
     if !inputs.is_empty() {
         text += "    extraInputs                                  // the values of this case\n    {\n";
-        for ExtraInput { name, default } in inputs {
-            let value = if default.is_empty() { "0" } else { default };
-            text += &format!("        {} {value};\n", keyword(name));
+        for ExtraInput { name, default, labels } in inputs {
+            let value = if default.is_empty() { labels.first().map_or("0", String::as_str) } else { default };
+            text += &format!("        {} {value};", keyword(name));
+            if !labels.is_empty() {
+                text += &format!("    // one of {}", labels.join(", "));
+            }
+            text.push('\n');
         }
         text += "    }\n";
     }
@@ -150,10 +174,10 @@ mod tests {
 
     #[test]
     fn an_input_of_the_model_file_gets_its_line_in_the_case() {
-        let model = "[inputs.humidity]\ndefault = 0.4 # share\n[inputs.\"p l\"]\n[[effects]]\nkind = \"yield-ratio\"\n";
+        let model = "[inputs.humidity]\ndefault = 0.4 # share\n[inputs.\"p l\"]\nlabels = [\"dry\", \"old, worn\"]\n[[effects]]\nkind = \"yield-ratio\"\n";
         let lines = openfoam(&extra_inputs(model));
         assert!(lines.contains("    extraInputs ") && lines.contains("        humidity 0.4;\n"), "{lines}");
-        assert!(lines.contains("        \"p l\" 0;\n"), "{lines}");
+        assert!(lines.contains("\"p l\" \"dry\";    // one of \"dry\", \"old, worn\"\n"), "{lines}");
         assert!(!openfoam(&extra_inputs("[particle]\nmaterial = \"x\"\n")).contains("extraInputs"));
     }
 }
