@@ -142,7 +142,9 @@ impl<'a> Selection<'a> {
             false if self.axis.has_words() => "; points are means for each word, bars their standard errors.",
             false => "; points are means over neighbouring rows, bars their standard errors.",
         };
-        caption += &agreement(&self.rows, models);
+        if self.second.is_none() {
+            caption += &agreement(&self.rows, models);
+        }
         let id = if place == 0 { String::new() } else { format!("-{place}") };
         let id = format!("data-{}{id}", identifier(view.observable));
         let name = if self.few { "measured" } else { "mean, measured" };
