@@ -89,7 +89,8 @@ fn what_is_left(gain: &Gain) -> String {
             format!(" The noise floor is {}: what is left is noise.", number(floor))
         }
         Some(floor) => format!(
-            " The noise floor is {}: {} of the mean square error that is left is not noise and has no cause yet.",
+            " The noise floor is {}; the other {} of the mean square error are the model's: a shape that is not quite right, too \
+             few rows to fit it, or a further cause.",
             number(floor),
             whole_percent(1.0 - (floor / gain.rmse_after).powi(2))
         ),

@@ -62,10 +62,14 @@ fn rows(diagnosis: &Diagnosis) -> String {
         1 => " 1 row was left out, see \"Rows left out\".".to_owned(),
         count => format!(" {count} rows were left out, see \"Rows left out\"."),
     };
-    format!(
-        "{} rows read, {} used; {} observations were held out of every fit and choice.{left_out}",
-        rows.read, rows.used, rows.held_out
-    )
+    // With few rows each is left out in turn, and all are fitted.
+    let in_turn = diagnosis.gains.iter().any(|gain| gain.measured == "cross-validated");
+    let held_out = match rows.held_out {
+        0 => String::new(),
+        _ if in_turn => String::new(),
+        count => format!("; {count} observations were held out of every fit and choice"),
+    };
+    format!("{} rows read, {} used{held_out}.{left_out}", rows.read, rows.used)
 }
 
 /// A cause's name on the page; that of a surface is `unknown:a*b`.
@@ -124,14 +128,22 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
         ));
     }
     let scatter = &diagnosis.scatter;
-    let values = [("e_n", scatter.e_n), ("e_t", scatter.e_t)].into_iter().filter(|(_, value)| *value > 0.0);
-    let values: Vec<String> = values.map(|(name, value)| format!("{} in {name}", number(value))).collect();
+    let stated = |place: usize| {
+        let mut rows = diagnosis.sample.rows.iter();
+        rows.any(|row| row.errors.get(place).copied().flatten().is_some())
+    };
+    let values = ["e_n", "e_t"].into_iter().zip([scatter.e_n, scatter.e_t]).enumerate();
+    let values = values.filter(|(_, (_, value))| *value > 0.0).map(|(place, (name, value))| {
+        let beyond = if stated(place) { " beyond the stated errors" } else { "" };
+        format!("{} in {name}{beyond}", number(value))
+    });
+    let values: Vec<String> = values.collect();
     if values.is_empty() {
         return;
     }
     let mut text = format!(
-        "Single values scatter about the model with a standard deviation of {}. It includes the error of measurement and \
-         everything that no column of the file accounts for.",
+        "Single values scatter about the model with a standard deviation of {}. This is the error of measurement where none \
+         is stated, and everything that no column of the file accounts for.",
         values.join(" and ")
     );
     if !scatter.changes_with.is_empty() {

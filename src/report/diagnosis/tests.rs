@@ -126,6 +126,7 @@ fn averages_far_from_the_model_are_not_called_noise() {
             "Does the model fit? No. The base model misses the data by more than chance allows.",
             "chi-square is 14568 with 8 degrees of freedom, 1821 for each",
             "A misfit this large happens by chance less than once in 1e12 data sets.",
+            "standard deviation of 0.01 in e_t beyond the stated errors.",
             "9 e_t 0.745 0.125 +62.0",
             "cannot tell which of sliding-to-rolling, thermal-softening or curve over day it lacks",
             "vary one of these with everything else constant: T_p (only thermal-softening depends on it), day (only",
@@ -242,7 +243,7 @@ fn the_score_is_named_only_where_the_mean_does_not_gain() {
     };
     let falls = sentence(gain(0.04, 0.02, [0.4, 0.6]));
     assert!(!falls.contains("log score"), "{falls}");
-    shows(&falls, &["75 % of the mean square error that is left is not noise"]);
+    shows(&falls, &["The noise floor is 0.01; the other 75 % of the mean square error are the model's"]);
     let same = sentence(gain(0.04, 0.0399, [0.9, 1.1]));
     shows(
         &same,

@@ -4,8 +4,9 @@ use super::super::format::{listed, with_unit};
 use super::super::page::{Page, Table};
 use super::plot::title;
 use super::{cause_title, fit};
-use crate::diagnose::{Diagnosis, Measure, NotExamined};
+use crate::diagnose::{Diagnosis, Finding, Measure, NotExamined};
 use crate::effect::EFFECTS;
+use crate::impact::INPUTS;
 use toml_edit::{DocumentMut, Item, Value};
 
 /// A measurement in a sentence.
@@ -35,13 +36,7 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
             asked = true;
         }
         if finding.cause.starts_with("unknown:") {
-            let columns = listed(&finding.variables, "and");
-            page.text(format!(
-                "The {} depends on {columns} or on something that changes with it. Vary {columns} with everything else constant, \
-                 or record what changes with it (temperature, humidity, cleaning, supplier) as further columns: the next \
-                 diagnosis will examine them.",
-                title(finding.observable)
-            ));
+            page.text(to_explain(finding));
             asked = true;
         }
     }
@@ -58,6 +53,24 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
              intervals narrower: four times as many halve them.",
         );
     }
+}
+
+/// What to measure where no law explains a dependence.
+fn to_explain(finding: &Finding) -> String {
+    let columns = listed(&finding.variables, "and");
+    let known = |column: &String| INPUTS.iter().any(|input| input.name == column);
+    if finding.variables.iter().all(known) {
+        return format!(
+            "No law of the library has this dependence on {columns}. The fitted curve holds only between the measured values: \
+             measure more of them where it bends, and beyond its ends where the model will be used."
+        );
+    }
+    format!(
+        "{} depends on {columns} or on something that changes with it. Vary {columns} with everything else constant, or record \
+         what changes with it (temperature, humidity, cleaning, supplier) as further columns: the next diagnosis will examine \
+         them.",
+        title(finding.observable)
+    )
 }
 
 fn not_examined(one: &NotExamined) -> Vec<String> {
