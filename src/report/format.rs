@@ -48,9 +48,37 @@ pub fn once_in(probability: f64) -> String {
     number(trials)
 }
 
-/// A gain in log likelihood in standard deviations of a normal distribution: the root of twice the gain.
-pub fn sigma(gain: f64) -> String {
-    format!("{:.1}", (2.0 * gain).max(0.0).sqrt())
+/// How often something of this probability happens by chance, in words: "once in 43 data sets".
+pub fn by_chance(probability: f64) -> String {
+    match probability {
+        p if !p.is_finite() => "in an unknown share of data sets".to_owned(),
+        p if p > 0.995 => "in nearly all data sets".to_owned(),
+        p if p >= 0.1 => format!("in {:.0} % of data sets", 100.0 * p),
+        p if p < 1e-12 => "less than once in 1e12 data sets".to_owned(),
+        p => format!("once in {} data sets", once_in(p)),
+    }
+}
+
+/// A share in whole per cent; one that is not quite nothing or all does not become it by rounding.
+pub fn whole_percent(share: f64) -> String {
+    match (100.0 * share).round() {
+        value if !value.is_finite() => "–".to_owned(),
+        0.0 if share > 0.0 => "less than 1 %".to_owned(),
+        100.0 if share < 1.0 => "more than 99 %".to_owned(),
+        value => format!("{value:.0} %"),
+    }
+}
+
+/// The items in a sentence: "a, b or c" with the conjunction `last`.
+pub fn listed<T: AsRef<str>>(items: &[T], last: &str) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.as_ref().to_owned(),
+        [first @ .., end] => {
+            let first: Vec<&str> = first.iter().map(AsRef::as_ref).collect();
+            format!("{} {last} {}", first.join(", "), end.as_ref())
+        }
+    }
 }
 
 #[cfg(test)]
@@ -72,6 +100,20 @@ mod tests {
     #[test]
     fn probabilities_are_odds_of_chance() {
         assert_eq!([0.0, 2.1e-10, 0.0234, 0.5].map(once_in), ["> 1e12", "4.8e9", "43", "2"]);
-        assert_eq!([4.5, 0.0, -1.0].map(sigma), ["3.0", "0.0", "0.0"]);
+        let words = ["less than once in 1e12", "once in 4.8e9", "once in 43", "in 50 % of", "in nearly all"];
+        let words = words.map(|words| format!("{words} data sets"));
+        assert_eq!([0.0, 2.1e-10, 0.0234, 0.5, 0.9999].map(by_chance), words);
+    }
+
+    #[test]
+    fn a_rounded_share_is_not_nothing_and_not_all() {
+        let short = [0.0, 0.001, 0.855, 0.999, 1.0].map(whole_percent);
+        assert_eq!(short, ["0 %", "less than 1 %", "86 %", "more than 99 %", "100 %"]);
+    }
+
+    #[test]
+    fn a_list_ends_with_its_conjunction() {
+        assert_eq!(listed(&["a"], "or"), "a");
+        assert_eq!(listed(&["a", "b", "c"], "or"), "a, b or c");
     }
 }

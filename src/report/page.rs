@@ -13,6 +13,7 @@ enum Section {
     Text(String),
     Note(String),
     Verdict(Vec<String>),
+    Boxed(Callout),
     Code(String),
     /// Figures and the CSS class of their grid.
     Figures(Vec<Figure>, &'static str),
@@ -20,7 +21,20 @@ enum Section {
     Marked(Table, Vec<RowStatus>),
 }
 
-/// Status of a table row, shown by a colour.
+/// A box with a heading, paragraphs and a table; its colour shows the status.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Callout {
+    /// Colour of the box.
+    pub status: RowStatus,
+    /// Heading.
+    pub title: String,
+    /// Paragraphs; the first one is the answer and stands out.
+    pub lines: Vec<String>,
+    /// A table under them.
+    pub table: Option<Table>,
+}
+
+/// Status of a table row or a box, shown by a colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowStatus {
     /// As expected.
@@ -123,6 +137,11 @@ impl Page {
     /// Adds the main result in a box, one paragraph per sentence.
     pub fn verdict(&mut self, sentences: Vec<String>) {
         self.sections.push(Section::Verdict(sentences));
+    }
+
+    /// Adds a box.
+    pub fn callout(&mut self, callout: Callout) {
+        self.sections.push(Section::Boxed(callout));
     }
 
     /// Adds commands or the text of a file.

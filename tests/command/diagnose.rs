@@ -195,7 +195,7 @@ fn a_plate_that_no_effect_explains_is_shown_by_label() {
     page_shows(
         folder,
         &["misfit-e-n-plate", "curve-unknown-plate", "cause-unknown-plate"],
-        &[">old, worn<", "What the model file cannot carry"],
+        &[">old, worn<", "named in"],
     );
 }
 

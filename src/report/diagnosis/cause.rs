@@ -1,7 +1,7 @@
 //! One cause: its parameters, its effect on the residuals, and the alternatives.
 
 use super::super::chart::Figure;
-use super::super::format::{number, once_in, sigma};
+use super::super::format::{by_chance, listed, number, whole_percent};
 use super::super::page::{Page, Table};
 use super::axis::Axis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
@@ -9,33 +9,88 @@ use super::{cause_title, curve, spread, usage};
 use crate::diagnose::{Alternative, Diagnosis, Estimate, Finding};
 use crate::effect::EFFECTS;
 
+/// A law whose lack of fit is less likely than this has another shape than the data.
+const MISSHAPEN: f64 = 0.01;
+
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, place: usize) {
     page.heading(match finding.cause.strip_prefix("unknown:") {
-        Some(column) => format!("Cause {}: unknown, depends on {column}", place + 1),
+        Some(_) => format!("Cause {}: unknown, depends on {}", place + 1, listed(&finding.variables, "and")),
         None => format!("Cause {}: {}", place + 1, finding.cause),
     });
     page.lead(finding.explanation.replace('`', ""));
-    page.text(format!(
-        "With it the model predicts unseen rows better by {} sigma. By chance that would happen once in {} data sets, given \
-         how many candidates were tried.",
-        sigma(finding.gain),
-        once_in(finding.q_value)
-    ));
+    page.text(strength(finding));
+    page.text(certainty(finding));
+    if let Some(p_value) = finding.lack_of_fit {
+        page.text(shape(p_value));
+    }
     if !finding.parameters.is_empty() {
         page.table(parameters(finding));
     }
+    for sentence in &finding.not_separable {
+        page.text(sentence.replace('`', ""));
+    }
     page.figures(figures(diagnosis, finding));
     add_alternatives(page, finding);
-    if !finding.indistinguishable_from.is_empty() {
-        let others = finding.indistinguishable_from.iter().map(|cause| cause_title(cause));
-        page.text(format!(
-            "These data cannot tell this cause from {}. The simplest of them is named; it is not proven.",
-            others.collect::<Vec<_>>().join(" or ")
-        ));
-    }
     for measure in &finding.measure_next {
         page.text(usage::sentence(measure, &finding.cause));
     }
+}
+
+/// Significance in standard deviations.
+pub(super) fn significance(finding: &Finding) -> String {
+    if finding.sigma > 0.0 { format!("{:.1}", finding.sigma) } else { "–".to_owned() }
+}
+
+/// Fall of chi-square, sigma and how often chance does the same.
+fn strength(finding: &Finding) -> String {
+    let mut text =
+        format!("With it chi-square falls by {}.", number((10.0 * finding.chi_square).round() / 10.0));
+    if finding.sigma > 0.0 {
+        text += &format!(" That is {} sigma:", significance(finding));
+    } else {
+        text += " So large a fall";
+    }
+    let end = if finding.sigma > 0.0 { " it happens by chance" } else { " happens by chance" };
+    text + end + &format!(" {}, given how many candidates were tried.", by_chance(finding.q_value))
+}
+
+/// How often resampled data name the cause, and what these data cannot tell it from.
+fn certainty(finding: &Finding) -> String {
+    let share = whole_percent(finding.certainty);
+    let mut text = match finding.certainty {
+        share if share >= 0.9999 => "It is named in all resampled data sets.".to_owned(),
+        sure if sure >= 0.8 => format!("It is named in {share} of resampled data sets."),
+        likely if likely >= 0.5 => {
+            format!(
+                "It is named in {share} of resampled data sets: likely, but a few other rows could change the answer."
+            )
+        }
+        _ => {
+            format!("It is named in only {share} of resampled data sets: take it as a hint, not as a result.")
+        }
+    };
+    if !finding.indistinguishable_from.is_empty() {
+        let others: Vec<String> =
+            finding.indistinguishable_from.iter().map(|cause| cause_title(cause)).collect();
+        text += &format!(
+            " These data cannot tell it from {}. The simplest of them is named; it is not proven.",
+            listed(&others, "or")
+        );
+    }
+    text
+}
+
+/// Whether the law has the shape of the data.
+fn shape(p_value: f64) -> String {
+    let by_chance = by_chance(p_value);
+    if p_value < MISSHAPEN {
+        return format!(
+            "The shape of this law does not fit: a free curve over its inputs fits better, which happens by chance {by_chance}.              Something acts along these inputs, but by another law than this one; do not extrapolate it."
+        );
+    }
+    format!(
+        "The shape of this law fits: what a free curve over its inputs gains beyond it happens by chance {by_chance}."
+    )
 }
 
 fn parameters(finding: &Finding) -> Table {
@@ -56,20 +111,16 @@ fn add_alternatives(page: &mut Page, finding: &Finding) {
     let row = |other: &Alternative| {
         let difference = other.score_difference;
         let ratio = difference.exp();
-        let ratio = if ratio > 1e4 { "> 10000".to_owned() } else { format!("{ratio:.2}") };
-        vec![
-            cause_title(&other.cause),
-            if difference < 0.0 { "better".into() } else { sigma(difference) },
-            ratio,
-        ]
+        let ratio = if ratio > 1e4 { "> 10000".to_owned() } else { number((100.0 * ratio).round() / 100.0) };
+        vec![cause_title(&other.cause), format!("{:+.1}", 2.0 * difference), ratio]
     };
     if finding.alternatives.is_empty() {
         return;
     }
     page.table(Table::new(
-        "Other candidates: how much worse they predict unseen rows.",
+        "Other candidates, less what their number of parameters gains by chance.",
         1,
-        &["alternative", "worse by [sigma]", "unseen rows less likely by a factor of"],
+        &["alternative", "chi-square higher by", "data less likely by a factor of"],
         finding.alternatives.iter().map(row).collect(),
     ));
     let mut text = "A factor above 20 is clear; below 3 the data hardly decide.".to_owned();
@@ -99,7 +150,6 @@ fn before_and_after(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Optio
     let all = own.chain(["v_n"]).chain(sample.columns.iter().map(|(name, _)| name.as_str()));
     let column = { all }.find(|column| Axis::new(sample, column).is_some())?;
     let heading = format!("Residuals of {} against {column}, before and after", title(finding.observable));
-    let caption = "With all causes of this page in the model, the means should lie on the dashed line.";
     let models = [(BASE, "base"), (EXTENDED, "extended")];
-    residuals(sample, [finding.observable, column], &models, [&format!("cause-{id}"), &heading, caption])
+    residuals(sample, [finding.observable, column], &models, [&format!("cause-{id}"), &heading])
 }

@@ -3,11 +3,12 @@
 use super::super::chart::Figure;
 use super::super::page::Page;
 use super::axis::Axis;
-use super::plot::{BASE, EXTENDED, Means, OBSERVABLES, Window, identifier, share_axis, title, triple};
+use super::plot::{
+    BASE, EXTENDED, FEW, Means, OBSERVABLES, PlotRow, Window, agreement, identifier, share_axis,
+    stated_error, title, triple,
+};
 use crate::diagnose::{DataView, Diagnosis, Sample, SampleRow};
 
-/// Up to this many rows each is drawn with its own error bar; more are drawn as a cloud with running means.
-const FEW: usize = 40;
 /// Relative difference below which both models are the same.
 const SAME: f64 = 1e-9;
 
@@ -52,8 +53,7 @@ struct Selection<'a> {
     axis: Axis<'a>,
     /// The column that selects the rows, and its range.
     second: Option<(Axis<'a>, [f64; 2])>,
-    /// Position on the axis, stated standard error (0 where there is none), and the three numbers of each row.
-    rows: Vec<(f64, f64, [f64; 3])>,
+    rows: Vec<PlotRow>,
     few: bool,
 }
 
@@ -65,13 +65,11 @@ impl<'a> Selection<'a> {
             Some((column, range)) => Some((Axis::new(sample, column)?, *range)),
             None => None,
         };
-        let place = OBSERVABLES.iter().position(|observable| *observable == view.observable)?;
         let selected = |row: &SampleRow| {
             if let Some((second, [low, high])) = &second {
                 second.cell(row).filter(|cell| (*low..=*high).contains(cell))?;
             }
-            let error = row.errors.get(place).copied().flatten().unwrap_or(0.0);
-            Some((axis.at(row)?, error, triple(row, view.observable)?))
+            Some((axis.at(row)?, stated_error(row, view.observable), triple(row, view.observable)?))
         };
         let rows: Vec<_> = sample.rows.iter().filter_map(selected).collect();
         let few = rows.len() <= FEW && view.observable != "outcome";
@@ -91,7 +89,7 @@ impl<'a> Selection<'a> {
     fn measured(&self) -> Means {
         if self.few {
             let errors = self.rows.iter().map(|(_, error, _)| (*error, *error)).collect();
-            return Means { points: self.points(0), errors };
+            return Means::single(self.points(0), errors);
         }
         Means::new(&self.points(0), self.axis.has_words())
     }
@@ -122,8 +120,10 @@ impl<'a> Selection<'a> {
         chart = if capture { share_axis(chart) } else { chart };
         let numbers = view.curve.iter().chain(self.rows.iter().map(|(_, _, numbers)| numbers));
         let both = { numbers }.any(|[_, base, extended]| (extended - base).abs() > SAME * base.abs());
-        let models = [(BASE, "base model"), (EXTENDED, "extended model")];
-        for (which, name) in &models[..if both { 2 } else { 1 }] {
+        let models = [(BASE, "base"), (EXTENDED, "extended")];
+        let models = &models[..if both { 2 } else { 1 }];
+        for (which, name) in models {
+            let name = &format!("{name} model");
             chart = if view.curve.is_empty() {
                 let means = Means::new(&self.points(*which), self.axis.has_words());
                 chart.points(&format!("mean, {name}"), &means.points)
@@ -135,10 +135,16 @@ impl<'a> Selection<'a> {
         let measured = self.measured();
         caption += match self.few {
             true if measured.errors.iter().all(|(error, _)| *error == 0.0) => "; no errors are stated.",
+            true if measured.errors.iter().any(|(error, _)| *error == 0.0) => {
+                "; bars are the stated standard errors, points without a bar state none."
+            }
             true => "; bars are the stated standard errors.",
             false if self.axis.has_words() => "; points are means for each word, bars their standard errors.",
             false => "; points are means over neighbouring rows, bars their standard errors.",
         };
+        if self.second.is_none() {
+            caption += &agreement(&self.rows, models);
+        }
         let id = if place == 0 { String::new() } else { format!("-{place}") };
         let id = format!("data-{}{id}", identifier(view.observable));
         let name = if self.few { "measured" } else { "mean, measured" };

@@ -1,7 +1,8 @@
 //! Where the base model is wrong: its errors, its residuals against the columns that matter, and their ranking.
 
-use super::super::format::{number, once_in, sigma};
+use super::super::format::{number, once_in};
 use super::super::page::{Page, Table};
+use super::fit;
 use super::plot::{BASE, OBSERVABLES, identifier, residuals, title, triple};
 use crate::diagnose::{Diagnosis, Misfit};
 
@@ -17,22 +18,19 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     let errors = [
         one("e_n, root mean square error [1]", base.rmse_e_n),
         one("e_t, root mean square error [1]", base.rmse_e_t),
-        one("capture, mean log loss [1]", base.log_loss_stick),
+        // The mean log loss is minus the mean logarithm of that probability.
+        one(
+            "capture, probability given to what happened, geometric mean [1]",
+            base.log_loss_stick.map(|loss| (-loss).exp()),
+        ),
     ];
     let errors = errors.into_iter().flatten().collect();
     page.table(Table::new("Errors on all used rows.", 1, &["observable", "base model"], errors));
-    let wrong = !(diagnosis.misfit.is_empty() && diagnosis.findings.is_empty());
-    page.text(if wrong {
-        "Each figure shows measured minus base model over one column. A correct model scatters evenly about zero. Means \
-         that are off zero by several of their error bars show where it fails."
-    } else {
-        "No column stands out beyond chance, given how many were tried. With so many rows, a misfit smaller than the \
-         error bars below cannot be seen."
-    });
+    page.text(summary(diagnosis));
     let figures = pairs(diagnosis).into_iter().filter_map(|(column, observable)| {
         let id = format!("misfit-{}-{}", identifier(observable), identifier(column));
         let heading = format!("Residuals of {} against {column}", title(observable));
-        residuals(sample, [observable, column], &[(BASE, "base")], [&id, &heading, ""])
+        residuals(sample, [observable, column], &[(BASE, "base")], [&id, &heading])
     });
     page.figures(figures.take(FIGURES));
     if sample.rows.len() < diagnosis.rows.used {
@@ -40,16 +38,35 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
         page.note(format!("The figures of this page show {shown} of the {used} used rows."));
     }
     let row = |one: &Misfit| {
-        vec![one.column.clone(), title(one.observable).to_owned(), sigma(one.gain), once_in(one.q_value)]
+        vec![
+            one.column.clone(),
+            title(one.observable).to_owned(),
+            number((20.0 * one.gain).round() / 10.0),
+            once_in(one.q_value),
+        ]
     };
     if !diagnosis.misfit.is_empty() {
         page.table(Table::new(
-            "How much better a free curve over one column predicts rows that it was not fitted to than the same correction \
-             everywhere. sigma = √(2 × gain in log likelihood).",
+            "Fall of chi-square by a free curve over one column, beyond that of a constant offset and less what its number of \
+             parameters gains by chance.",
             2,
-            &["column", "observable", "gain [sigma]", "by chance once in"],
+            &["column", "observable", "fall of chi-square", "by chance once in"],
             diagnosis.misfit.iter().map(row).collect(),
         ));
+    }
+}
+
+/// What the figures below show.
+fn summary(diagnosis: &Diagnosis) -> &'static str {
+    if !(diagnosis.misfit.is_empty() && diagnosis.findings.is_empty()) {
+        "Each figure shows measured minus base model over one column. A correct model scatters evenly about zero. Means that \
+         are off zero by several of their error bars show where it fails."
+    } else if fit::base_is_refuted(diagnosis) || !diagnosis.undecided.is_empty() {
+        "The base model misses the data by more than chance allows, but no single column is proven to \
+         be the reason. Each figure shows measured minus base model over one column."
+    } else {
+        "No column stands out beyond chance, given how many were tried. A misfit smaller than the error bars below cannot be \
+         seen."
     }
 }
 

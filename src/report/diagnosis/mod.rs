@@ -4,22 +4,27 @@ mod axis;
 mod cause;
 mod curve;
 mod data;
+mod fit;
 mod gain;
+mod groups;
 mod misfit;
 mod plot;
+mod rivals;
 mod spread;
+#[cfg(test)]
+mod tests;
 mod usage;
 
-use super::format::{number, once_in};
+use super::format::{number, once_in, whole_percent};
 use super::page::{Page, Table};
 use crate::dataset::BadRow;
-use crate::diagnose::{Calibration, Diagnosis};
+use crate::diagnose::{Calibration, Diagnosis, Finding};
 
 /// Most rejected rows listed.
 const REJECTED: usize = 50;
 
-/// The page: verdict, measured values with both models, residuals, causes, gain, what to measure next, how to run the
-/// extended model.
+/// The page: verdict, what to check in the data file, fit, rivals, measured values with both models, residuals, causes,
+/// gain, what to measure next, how to run the extended model.
 ///
 /// `names` are those of the data and the model file, `extended` is the text of the extended model.
 ///
@@ -29,9 +34,12 @@ pub fn page(diagnosis: &Diagnosis, names: &[String; 2], extended: &str) -> Resul
     let [data, model] = names;
     let mut page = Page::new(&format!("Diagnosis of {}", data.rsplit(['/', '\\']).next().unwrap_or(data)));
     page.verdict(vec![diagnosis.verdict.clone(), rows(diagnosis)]);
-    for note in &diagnosis.sample.notes {
-        page.note(format!("About the data file: {note}."));
-    }
+    rivals::add_notes(&mut page, diagnosis);
+    fit::add(&mut page, diagnosis);
+    rivals::add(&mut page, diagnosis);
+    rivals::add_undecided(&mut page, diagnosis);
+    add_overview(&mut page, &diagnosis.findings);
+    groups::add(&mut page, diagnosis);
     data::add(&mut page, diagnosis);
     misfit::add(&mut page, diagnosis);
     for (place, finding) in diagnosis.findings.iter().enumerate() {
@@ -54,25 +62,59 @@ fn rows(diagnosis: &Diagnosis) -> String {
         1 => " 1 row was left out, see \"Rows left out\".".to_owned(),
         count => format!(" {count} rows were left out, see \"Rows left out\"."),
     };
-    format!(
-        "{} rows read, {} used; {} observations were held out of every fit and choice.{left_out}",
-        rows.read, rows.used, rows.held_out
-    )
+    // With few rows each is left out in turn, and all are fitted.
+    let in_turn = diagnosis.gains.iter().any(|gain| gain.measured == "cross-validated");
+    let held_out = match rows.held_out {
+        0 => String::new(),
+        _ if in_turn => String::new(),
+        count => format!("; {count} observations were held out of every fit and choice"),
+    };
+    format!("{} rows read, {} used{held_out}.{left_out}", rows.read, rows.used)
 }
 
-/// A cause's name on the page.
+/// A cause's name on the page; that of a surface is `unknown:a*b`.
 fn cause_title(cause: &str) -> String {
     match cause.strip_prefix("unknown:") {
-        Some(column) => format!("curve over {column}"),
+        Some(columns) => format!("curve over {}", columns.replace('*', " and ")),
         None => cause.to_owned(),
     }
+}
+
+/// The causes with their certainty, and what they cannot be told from.
+fn add_overview(page: &mut Page, findings: &[Finding]) {
+    let row = |finding: &Finding| {
+        let others: Vec<String> =
+            finding.indistinguishable_from.iter().map(|other| cause_title(other)).collect();
+        let others = if others.is_empty() { "–".to_owned() } else { others.join(", ") };
+        vec![
+            cause_title(&finding.cause),
+            plot::title(finding.observable).to_owned(),
+            others,
+            cause::significance(finding),
+            once_in(finding.q_value),
+            whole_percent(finding.certainty),
+        ]
+    };
+    if findings.is_empty() {
+        return;
+    }
+    let header = [
+        "cause",
+        "acts on",
+        "cannot be told from",
+        "significance [sigma]",
+        "by chance once in",
+        "named in resampled data sets",
+    ];
+    page.heading("Causes at a glance");
+    page.table(Table::new("", 3, &header, findings.iter().map(row).collect()));
 }
 
 /// Recalibrated parameters of the base model, and the scatter.
 fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
     page.heading("Recalibrated parameters and scatter");
     if diagnosis.calibration.is_empty() {
-        page.text("The data support the base model's own parameters as they are.");
+        page.text("No parameter of the base model's own laws has a significantly different value.");
     } else {
         let row = |one: &Calibration| {
             let [from, value, low, high] = [one.from, one.value, one.low, one.high].map(number);
@@ -86,14 +128,22 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
         ));
     }
     let scatter = &diagnosis.scatter;
-    let values = [("e_n", scatter.e_n), ("e_t", scatter.e_t)].into_iter().filter(|(_, value)| *value > 0.0);
-    let values: Vec<String> = values.map(|(name, value)| format!("{} in {name}", number(value))).collect();
+    let stated = |place: usize| {
+        let mut rows = diagnosis.sample.rows.iter();
+        rows.any(|row| row.errors.get(place).copied().flatten().is_some())
+    };
+    let values = ["e_n", "e_t"].into_iter().zip([scatter.e_n, scatter.e_t]).enumerate();
+    let values = values.filter(|(_, (_, value))| *value > 0.0).map(|(place, (name, value))| {
+        let beyond = if stated(place) { " beyond the stated errors" } else { "" };
+        format!("{} in {name}{beyond}", number(value))
+    });
+    let values: Vec<String> = values.collect();
     if values.is_empty() {
         return;
     }
     let mut text = format!(
-        "Single values scatter about the model with a standard deviation of {}. It includes the error of measurement and \
-         everything that no column of the file accounts for.",
+        "Single values scatter about the model with a standard deviation of {}. This is the error of measurement where none \
+         is stated, and everything that no column of the file accounts for.",
         values.join(" and ")
     );
     if !scatter.changes_with.is_empty() {
@@ -127,12 +177,11 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
     let Diagnosis { seed, level, .. } = diagnosis;
     page.heading("How it was judged");
     page.note(format!(
-        "Seed {seed} split the rows at random: three quarters for fits and choices, one quarter held out until the gain was \
-         measured. Candidates (every effect, every parameter of the laws, a free curve over every column) were fitted to four \
-         fifths of the first part and scored on the remaining fifth, five times over. sigma is the root of twice the gain in \
-         log likelihood on those rows. A candidate is accepted if its gain would happen by chance in at most a share of \
-         {level} of data sets, corrected for the number of candidates. docs/diagnosis.md of nearwall describes the method and \
-         its limits."
+        "Candidates are every effect of the library, every parameter of the base model's laws, and a free curve over every \
+         column. Chi-square is minus twice the log likelihood; its fall is reduced by what the number of parameters gains by \
+         chance. A candidate is accepted if so large a fall happens by chance in at most a share of {level} of data sets, \
+         corrected for the number of candidates. Seed {seed} draws the rows that are held out and the resampled data sets. \
+         docs/diagnosis.md of nearwall describes the method and its limits."
     ));
     let [data, model] = [data, model].map(quoted);
     page.code(format!(

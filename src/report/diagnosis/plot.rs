@@ -1,14 +1,19 @@
 //! What the page's figures share: running means, and ranges that gross errors do not stretch.
 
 use super::super::chart::{Chart, ErrorBars, Figure, round_edges};
+use super::super::format::whole_percent;
 use super::axis::{Axis, DISTINCT};
 use crate::diagnose::{Sample, SampleRow};
 
+/// Up to this many rows each is drawn with its own error bar; more are drawn as a cloud with running means.
+pub(super) const FEW: usize = 40;
 /// Most running means along an axis.
 const BINS: usize = 12;
 const ROWS_A_VALUE: usize = 4;
 /// Fewest rows of a running mean, where there are enough.
 const ROWS_A_BIN: usize = 12;
+/// Least probability of a capture or a rebound in an expected error.
+const RARE: f64 = 0.005;
 /// Largest share of the points beyond each end of an axis.
 const BEYOND: f64 = 0.005;
 
@@ -51,42 +56,126 @@ pub(super) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
     round_edges(low - room, high + room, count)
 }
 
-/// Measured minus model over a column: the rows of the base model, and means for each of `models`.
+/// Measured minus model over a column. Up to [`FEW`] rows with stated errors are drawn with their own error bars; others as
+/// a cloud of the base model's rows with means for each of `models`.
 pub(super) fn residuals(
     sample: &Sample,
     [observable, column]: [&str; 2],
     models: &[(usize, &str)],
-    [id, heading, caption]: [&str; 3],
+    [id, heading]: [&str; 2],
 ) -> Option<Figure> {
     let axis = Axis::new(sample, column)?;
-    let of = |which: usize| {
-        let rows = sample.rows.iter().filter_map(|row| {
-            let numbers = triple(row, observable)?;
-            Some([axis.at(row)?, numbers[0] - numbers[which]])
-        });
-        rows.filter(|point| point[1].is_finite()).collect::<Vec<[f64; 2]>>()
-    };
-    let base = of(BASE);
-    if base.is_empty() {
+    let rows = sample.rows.iter().filter_map(|row| {
+        let numbers = triple(row, observable)?;
+        Some((axis.at(row)?, stated_error(row, observable), numbers))
+    });
+    let rows: Vec<PlotRow> = rows.collect();
+    if rows.is_empty() {
         return None;
     }
-    let means: Vec<Means> =
-        models.iter().map(|(which, _)| Means::new(&of(*which), axis.has_words())).collect();
-    // Single captures lie at two heights only: a cloud of them shows nothing.
-    let cloud: &[[f64; 2]] = if observable == "outcome" { &[] } else { &base };
-    let window = Window::new(cloud, means.iter().flat_map(Means::reach).chain([0.0]));
     let label = match observable {
         "outcome" => "captured, measured − model [1]".to_owned(),
         _ => format!("{observable}, measured − model [1]"),
     };
-    let (chart, note) = window.draw(axis.chart(heading, &label), "single rows, base model", cloud);
-    let mut chart = chart.mark_y(0.0, "");
-    for ((_, model), means) in models.iter().zip(&means) {
-        chart = chart.points_with_errors(&format!("mean, {model} model"), &means.points, &means.errors);
+    let chart = axis.chart(heading, &label);
+    let stated = rows.iter().filter(|(_, error, _)| *error > 0.0).count();
+    let (chart, caption) = if rows.len() <= FEW && 2 * stated > rows.len() {
+        single_residuals(chart, &rows, models)
+    } else {
+        mean_residuals(chart, &rows, models, observable, axis.has_words())
+    };
+    Some(chart.figure(id, &format!("{} rows; {caption}{}", rows.len(), agreement(&rows, models))))
+}
+
+/// A row's place on the axis, its stated standard error (0 where there is none) and its three numbers.
+pub(super) type PlotRow = (f64, f64, [f64; 3]);
+
+/// The stated standard error of a row; 0 where there is none.
+pub(super) fn stated_error(row: &SampleRow, observable: &str) -> f64 {
+    let place = OBSERVABLES.iter().position(|one| *one == observable);
+    place.and_then(|place| row.errors.get(place).copied().flatten()).unwrap_or(0.0)
+}
+
+/// Measured minus model.
+fn differences(rows: &[PlotRow], which: usize) -> Vec<[f64; 2]> {
+    let all = rows.iter().map(|(x, _, numbers)| [*x, numbers[0] - numbers[which]]);
+    all.filter(|point| point[1].is_finite()).collect()
+}
+
+/// Each row with its stated error, for each of `models`.
+fn single_residuals(chart: Chart, rows: &[PlotRow], models: &[(usize, &str)]) -> (Chart, String) {
+    let of = |which: usize| {
+        let drawn = rows.iter().filter(|(_, _, numbers)| numbers[which].is_finite());
+        let errors: ErrorBars = drawn.map(|(_, error, _)| (*error, *error)).collect();
+        Means::single(differences(rows, which), errors)
+    };
+    let series: Vec<Means> = models.iter().map(|(which, _)| of(*which)).collect();
+    let window = Window::new(&[], series.iter().flat_map(Means::reach).chain([0.0]));
+    let (chart, _) = window.draw(chart, "", &[]);
+    let add = |chart: Chart, ((_, model), one): (&(usize, &str), &Means)| {
+        chart.points_with_errors(&format!("measured − {model} model"), &one.points, &one.errors)
+    };
+    let chart = models.iter().zip(&series).fold(chart.mark_y(0.0, ""), add);
+    (chart, "bars are the stated standard errors.".to_owned())
+}
+
+fn mean_residuals(
+    chart: Chart,
+    rows: &[PlotRow],
+    models: &[(usize, &str)],
+    observable: &str,
+    words: bool,
+) -> (Chart, String) {
+    let capture = observable == "outcome";
+    let of = |which: usize| {
+        let means = Means::new(&differences(rows, which), words);
+        if capture { means.with_expected_errors(rows, which, words) } else { means }
+    };
+    let means: Vec<Means> = models.iter().map(|(which, _)| of(*which)).collect();
+    // Single captures lie at two heights only: a cloud of them shows nothing.
+    let cloud = if capture { Vec::new() } else { differences(rows, BASE) };
+    let window = Window::new(&cloud, means.iter().flat_map(Means::reach).chain([0.0]));
+    let (chart, note) = window.draw(chart, "single rows, base model", &cloud);
+    let add = |chart: Chart, ((_, model), one): (&(usize, &str), &Means)| {
+        chart.points_with_errors(&format!("mean, {model} model"), &one.points, &one.errors)
+    };
+    let chart = models.iter().zip(&means).fold(chart.mark_y(0.0, ""), add);
+    let off = models.iter().zip(&means).filter_map(|((_, model), means)| {
+        let (off, all) = means.off_zero();
+        (all > 0).then(|| format!("of the {model} model {off} of {all}"))
+    });
+    let off = off.collect::<Vec<_>>().join(", ");
+    let over = if words { "each word" } else { "neighbouring rows" };
+    let bars =
+        if capture { "bars are standard errors if the model were right" } else { "bars are standard errors" };
+    let mut caption = format!("means over {over}, {bars}.");
+    if !off.is_empty() {
+        caption += &format!(" Means more than 2 standard errors from zero: {off}; by chance 1 in 20.");
     }
-    let over = if axis.has_words() { "each word" } else { "neighbouring rows" };
-    let caption = format!("{} rows; means over {over} ± standard error. {caption}{note}", base.len());
-    Some(chart.figure(id, &caption))
+    (chart, caption + &note)
+}
+
+/// The shares of the rows within 1 and 2 stated standard errors of each model, as a sentence for a caption; nothing where
+/// no errors are stated.
+pub(super) fn agreement(rows: &[PlotRow], models: &[(usize, &str)]) -> String {
+    let share = |which: usize, most: f64| {
+        let stated = rows.iter().filter(|(_, error, numbers)| *error > 0.0 && numbers[which].is_finite());
+        let inside: Vec<bool> =
+            stated.map(|(_, error, numbers)| (numbers[0] - numbers[which]).abs() <= most * error).collect();
+        let count = inside.iter().filter(|inside| **inside).count();
+        (!inside.is_empty()).then(|| whole_percent(count as f64 / inside.len() as f64))
+    };
+    let shares = models.iter().filter_map(|(which, model)| {
+        Some(format!("{} and {} for the {model} model", share(*which, 1.0)?, share(*which, 2.0)?))
+    });
+    let shares: Vec<String> = shares.collect();
+    if shares.is_empty() {
+        return String::new();
+    }
+    format!(
+        " Within 1 and 2 stated standard errors lie {}; if model and errors are right, 68 % and 95 % do.",
+        shares.join(", ")
+    )
 }
 
 /// Means over parts of the x axis with their standard errors.
@@ -94,9 +183,17 @@ pub(super) fn residuals(
 pub(super) struct Means {
     pub points: Vec<[f64; 2]>,
     pub errors: ErrorBars,
+    /// Number of rows of each mean.
+    counts: Vec<usize>,
 }
 
 impl Means {
+    /// Single rows with their stated errors.
+    pub fn single(points: Vec<[f64; 2]>, errors: ErrorBars) -> Self {
+        let counts = vec![1; points.len()];
+        Self { points, errors, counts }
+    }
+
     /// One mean for each word, for each value where there are few, else over equally many neighbouring rows each.
     pub fn new(points: &[[f64; 2]], words: bool) -> Self {
         let mut sorted = points.to_vec();
@@ -122,6 +219,21 @@ impl Means {
         means
     }
 
+    /// Sets the errors to those that a model of captures expects, √(p(1-p)/n): where all or none are captured, the spread of
+    /// the rows says nothing.
+    fn with_expected_errors(mut self, rows: &[PlotRow], which: usize, words: bool) -> Self {
+        let variance = |(x, _, numbers): &PlotRow| {
+            let p = numbers[which].clamp(RARE, 1.0 - RARE);
+            [*x, p * (1.0 - p)]
+        };
+        let rows = rows.iter().filter(|(_, _, numbers)| numbers[which].is_finite());
+        // The same rows make up the same means.
+        let variances = Self::new(&rows.map(variance).collect::<Vec<_>>(), words);
+        let errors = variances.points.iter().zip(&self.counts);
+        self.errors = errors.map(|(mean, count)| (mean[1] / *count as f64).sqrt()).map(|e| (e, e)).collect();
+        self
+    }
+
     fn push(&mut self, points: &[[f64; 2]]) {
         let count = points.len() as f64;
         let mean = |of: usize| points.iter().map(|point| point[of]).sum::<f64>() / count;
@@ -131,6 +243,14 @@ impl Means {
         let error = if points.len() > 1 { (square / (count - 1.0) / count).sqrt() } else { 0.0 };
         self.points.push([x, y]);
         self.errors.push((error, error));
+        self.counts.push(points.len());
+    }
+
+    /// Number of means more than two standard errors from zero, and of all with a standard error.
+    fn off_zero(&self) -> (usize, usize) {
+        let known = self.points.iter().zip(&self.errors).filter(|(_, (error, _))| *error > 0.0);
+        let off = known.clone().filter(|(mean, (error, _))| mean[1].abs() > 2.0 * error);
+        (off.count(), known.count())
     }
 
     /// The ends of the error bars.

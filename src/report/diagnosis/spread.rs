@@ -1,6 +1,7 @@
 //! Causes that act at random: they show in the distribution of the measured values.
 
 use super::super::chart::{Chart, Figure};
+use super::super::format::{number, whole_percent};
 use super::plot::{BASE, span, triple};
 use crate::diagnose::{Diagnosis, Finding};
 
@@ -36,21 +37,42 @@ fn histograms(rows: &[[f64; 3]], observable: &str, scatter: f64, id: &str) -> [F
     if scatter > 0.0 {
         left = left.line("scatter of single values alone", &bell(&bins, scatter));
     }
-    let n = rows.len();
     [
-        values.figure(
-            &format!("spread-{id}"),
-            &format!(
-                "{n} rows. The measured values spread wider than one prediction per impact, or have a second peak."
-            ),
-        ),
-        left.figure(
-            &format!("residuals-{id}"),
-            &format!(
-                "{n} rows. The line is the normal distribution that scatter alone would give; bars outside it are due to the cause."
-            ),
-        ),
+        values.figure(&format!("spread-{id}"), &spread_caption(&of(0), &of(BASE))),
+        left.figure(&format!("residuals-{id}"), &residuals_caption(&residuals, scatter)),
     ]
+}
+
+/// The spread of the measured and the predicted values.
+fn spread_caption(measured: &[f64], predicted: &[f64]) -> String {
+    format!(
+        "{} rows. The measured values have a standard deviation of {}, the predictions of one per impact {}.",
+        measured.len(),
+        number(deviation(measured)),
+        number(deviation(predicted))
+    )
+}
+
+/// How many residuals lie beyond what scatter alone gives.
+fn residuals_caption(residuals: &[f64], scatter: f64) -> String {
+    let n = residuals.len();
+    if scatter <= 0.0 {
+        return format!("{n} rows.");
+    }
+    let share = residuals.iter().filter(|residual| residual.abs() > 2.0 * scatter).count() as f64 / n as f64;
+    format!(
+        "{n} rows. The line is the normal distribution that the scatter of single values, {}, gives by itself: 5 % would lie \
+         beyond twice the scatter, {} do.",
+        number(scatter),
+        whole_percent(share)
+    )
+}
+
+/// Standard deviation.
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt()
 }
 
 /// Edges of bins over all but the outermost few values.
