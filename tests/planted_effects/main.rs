@@ -23,6 +23,7 @@ mod runner;
 mod score;
 mod set_rng;
 mod sets;
+mod situations;
 mod world;
 
 use std::path::Path;
