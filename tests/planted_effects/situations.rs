@@ -6,6 +6,7 @@
 //! `NEARWALL_COVERAGE_SETS` is the number of sets whose law is the library's own, for the coverage of intervals.
 
 mod captures;
+mod check;
 mod exact;
 mod expected;
 mod few;

@@ -63,7 +63,9 @@ impl Expected {
 pub fn is_one_of(names: &[&str], name: &str, variables: &[&str]) -> bool {
     names.iter().any(|one| match one.split_once('*') {
         Some((begin, "")) => name.starts_with(begin),
-        Some((a, b)) => name.starts_with("unknown:") && [a, b].iter().all(|column| variables.contains(column)),
+        Some((a, b)) => {
+            name.starts_with("unknown:") && [a, b].iter().all(|column| variables.contains(column))
+        }
         None => *one == name,
     })
 }

@@ -111,7 +111,9 @@ fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     }
     // A finding that lists a planted cause as indistinguishable is honest.
     let lists = |finding: &Value| {
-        list(finding, "indistinguishable_from").filter_map(Value::as_str).any(|one| expected.is_planted(one, &[]))
+        list(finding, "indistinguishable_from")
+            .filter_map(Value::as_str)
+            .any(|one| expected.is_planted(one, &[]))
     };
     let is_right = |finding: &Value| expected.is_planted(text(finding, "cause"), &variables(finding));
     let is_false = |finding: &&Value| {

@@ -224,7 +224,10 @@ impl Lab {
         let outcome = match self.outcomes {
             Outcomes::Classes { impacts, correlation } => {
                 let count = impacts.0 + rng.below((impacts.1 - impacts.0 + 1) as usize) as u32;
-                Outcome::Counts { impacts: count, captured: rng.beta_binomial(count, truth.stick, correlation) }
+                Outcome::Counts {
+                    impacts: count,
+                    captured: rng.beta_binomial(count, truth.stick, correlation),
+                }
             }
             _ if rng.chance(truth.stick) => Outcome::Stuck,
             Outcomes::Single => Outcome::Rebound,

@@ -160,8 +160,8 @@ pub fn two_laboratories(rng: &mut SetRng) -> Groups {
 
 /// Columns that mean nothing: fourteen of numbers and six of labels.
 const IRRELEVANT: [&str; 20] = [
-    "x01", "x02", "x03", "x04", "x05", "x06", "x07", "x08", "x09", "x10", "x11", "x12", "x13", "x14", "tag_a",
-    "tag_b", "tag_c", "tag_d", "tag_e", "tag_f",
+    "x01", "x02", "x03", "x04", "x05", "x06", "x07", "x08", "x09", "x10", "x11", "x12", "x13", "x14",
+    "tag_a", "tag_b", "tag_c", "tag_d", "tag_e", "tag_f",
 ];
 
 /// Twenty irrelevant columns.

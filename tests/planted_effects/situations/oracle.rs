@@ -38,8 +38,7 @@ fn restitutions(rows: &[Row], stated: bool) -> Oracle {
         let (base, truth) = ([row.base.e_n, row.base.e_t], [row.truth.e_n, row.truth.e_t]);
         for i in 0..2 {
             let Some(value) = row.measured[i] else { continue };
-            let (change, residual) =
-                ((truth[i] - base[i]) / row.sigma[i], (value - base[i]) / row.sigma[i]);
+            let (change, residual) = ((truth[i] - base[i]) / row.sigma[i], (value - base[i]) / row.sigma[i]);
             shape += change * change;
             product += change * residual;
             square += residual * residual;
@@ -74,8 +73,7 @@ fn captures(rows: &[Row], outcomes: Outcomes) -> Oracle {
     };
     let truth = |row: &Row| row.truth.stick;
     let gain = |k: &dyn Fn(f64, f64, &Row) -> f64| {
-        let with_rate =
-            |rate: f64| likelihood(&|row| row.base.stick + (1.0 - row.base.stick) * rate, k);
+        let with_rate = |rate: f64| likelihood(&|row| row.base.stick + (1.0 - row.base.stick) * rate, k);
         let best = (0..100).map(|i| with_rate(f64::from(i) / 100.0)).fold(f64::NEG_INFINITY, f64::max);
         2.0 * (likelihood(&truth, k) - best)
     };

@@ -13,7 +13,10 @@ pub fn report(all: &[Judgement]) -> Vec<String> {
     print_situations(all);
     print_cells(all);
     print_parameters(all);
+    print_nulls(all);
     print_sets(all);
+    let spent: f64 = all.iter().map(|one| one.seconds).sum();
+    println!("\n{} diagnoses, {spent:.0} s in all", all.len());
     failures(all)
 }
 
@@ -40,7 +43,9 @@ fn share(hits: usize, of: usize) -> String {
 }
 
 fn print_situations(all: &[Judgement]) {
-    println!("\n| situation | sets | right | honest | missed | false | refused | oracle | gain | interval | slowest |");
+    println!(
+        "\n| situation | sets | right | honest | missed | false | refused | oracle | gain | interval | slowest |"
+    );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     for (situation, sets) in by(all, |one| Some(&one.situation)) {
         line(situation, &sets);
@@ -72,11 +77,13 @@ fn line(situation: &str, sets: &[&Judgement]) {
 
 /// Weak effects: named, named or left open, and seen by the oracle.
 fn print_cells(all: &[Judgement]) {
-    println!("\n| effect, deviations of the noise, rows | sets | named | named or open | oracle | expected |");
+    println!(
+        "\n| effect, deviations of the noise, rows | sets | named | named or open | oracle | expected |"
+    );
     println!("|---|---|---|---|---|---|");
     for (cell, sets) in by(all, |one| one.cell.as_deref()) {
         let named = count(&sets, Verdict::Right);
-        let open = sets.iter().filter(|one| one.verdict == Verdict::Honest && one.said.len() > 0).count();
+        let open = sets.iter().filter(|one| one.verdict == Verdict::Honest && !one.said.is_empty()).count();
         let sees = sets.iter().filter(|one| one.sees).count();
         let power: f64 = sets.iter().map(|one| one.power).sum();
         println!("| {cell} | {} | {named} | {} | {sees} | {power:.1} |", sets.len(), named + open);
@@ -95,6 +102,21 @@ fn print_parameters(all: &[Judgement]) {
     }
 }
 
+/// What else than findings is said of nothing.
+fn print_nulls(all: &[Judgement]) {
+    let nulls: Vec<&Judgement> = all.iter().filter(|one| one.null).collect();
+    let saying =
+        |begin: &str| nulls.iter().filter(|one| one.said.iter().any(|said| said.starts_with(begin))).count();
+    println!(
+        "\n{} null sets: {} with undecided causes, {} with other numbers of the base, {} with rivals, {} refuted",
+        nulls.len(),
+        saying("?"),
+        saying("calibration:"),
+        saying("!"),
+        saying("refuted")
+    );
+}
+
 /// Every set that is not right, and every interval that does not hold.
 fn print_sets(all: &[Judgement]) {
     println!();
@@ -109,7 +131,10 @@ fn print_sets(all: &[Judgement]) {
         }
         for miss in one.intervals.iter().filter(|interval| !interval.holds()) {
             let (low, high) = (miss.low, miss.high);
-            println!("  {} {} is {:.4e}, stated {low:.4e} to {high:.4e}", one.name, miss.parameter, miss.truth);
+            println!(
+                "  {} {} is {:.4e}, stated {low:.4e} to {high:.4e}",
+                one.name, miss.parameter, miss.truth
+            );
         }
     }
 }

@@ -16,13 +16,8 @@ const SIZES: [f64; 3] = [0.5, 1.0, 2.0];
 const COUNTS: [usize; 2] = [100, 300];
 
 /// The effects by their names in the library.
-pub const EFFECTS: [&str; 5] = [
-    "thermal-softening",
-    "oblique-angle",
-    "size-dependent-yield",
-    "powder-layer",
-    "strain-rate-hardening",
-];
+pub const EFFECTS: [&str; 5] =
+    ["thermal-softening", "oblique-angle", "size-dependent-yield", "powder-layer", "strain-rate-hardening"];
 
 /// One of the effects.
 pub fn known(effect: &'static str, index: usize, rng: &mut SetRng) -> Plan {
@@ -79,13 +74,7 @@ fn fast_lab(system: System, rng: &mut SetRng) -> Lab {
     lab
 }
 
-fn scaled(
-    mut lab: Lab,
-    effect: &str,
-    names: &[&'static str],
-    index: usize,
-    rng: &mut SetRng,
-) -> Plan {
+fn scaled(mut lab: Lab, effect: &str, names: &[&'static str], index: usize, rng: &mut SetRng) -> Plan {
     let (size, count) = (SIZES[index % 3], COUNTS[index / 3 % 2]);
     lab.scale_effect(size, rng);
     let mut expected = Expected::cause(names);
