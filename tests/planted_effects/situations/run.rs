@@ -100,29 +100,34 @@ fn predict(folder: &Path, model: &str, count: usize) -> Result<Vec<[f64; 3]>, St
     if rows.len() == count { Ok(rows) } else { Err(format!("predict left out {}", count - rows.len())) }
 }
 
-/// Root mean square error; for `outcome` of the probability of capture.
+/// Root mean square error; for `outcome` that of the probability of capture, each impact of a class by itself.
 fn error(rows: &[Row], predicted: &[[f64; 3]], observable: &str) -> f64 {
-    let squares: Vec<f64> = rows
-        .iter()
-        .zip(predicted)
-        .filter_map(|(row, [e_n, e_t, stick])| {
-            let (measured, predicted) = match observable {
-                "e_n" => (row.measured[0]?, e_n),
-                "e_t" => (row.measured[1]?, e_t),
-                _ => (captured(row)?, stick),
-            };
-            Some((measured - predicted).powi(2))
-        })
-        .collect();
-    (squares.iter().sum::<f64>() / squares.len().max(1) as f64).sqrt()
+    let (mut sum, mut count) = (0.0, 0.0);
+    for (row, [e_n, e_t, stick]) in rows.iter().zip(predicted) {
+        let values = match observable {
+            "e_n" => [(1.0, row.measured[0], e_n), (0.0, None, e_n)],
+            "e_t" => [(1.0, row.measured[1], e_t), (0.0, None, e_t)],
+            _ => {
+                let [captured, rebounds] = outcomes(row);
+                [(captured, Some(1.0), stick), (rebounds, Some(0.0), stick)]
+            }
+        };
+        for (weight, measured, predicted) in values {
+            if let Some(measured) = measured {
+                sum += weight * (measured - predicted).powi(2);
+                count += weight;
+            }
+        }
+    }
+    (sum / f64::max(count, 1.0)).sqrt()
 }
 
-/// Share of captured impacts.
-fn captured(row: &Row) -> Option<f64> {
+/// Captures and rebounds.
+fn outcomes(row: &Row) -> [f64; 2] {
     match row.outcome {
-        Outcome::Unknown => None,
-        Outcome::Stuck => Some(1.0),
-        Outcome::Rebound => Some(0.0),
-        Outcome::Counts { impacts, captured } => Some(f64::from(captured) / f64::from(impacts)),
+        Outcome::Unknown => [0.0, 0.0],
+        Outcome::Stuck => [1.0, 0.0],
+        Outcome::Rebound => [0.0, 1.0],
+        Outcome::Counts { impacts, captured } => [f64::from(captured), f64::from(impacts - captured)],
     }
 }
