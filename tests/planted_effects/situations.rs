@@ -118,7 +118,9 @@ fn diagnoses_hold_in_a_laboratory() {
     let seed = random::seed();
     let one = |recipe: &Recipe| {
         let set = recipe.make(seed);
-        judge::judge(&set, &run::run(&set, seed))
+        let judged = judge::judge(&set, &run::run(&set, seed));
+        println!("{:?} {} {:.1} s", judged.verdict, judged.name, judged.seconds);
+        judged
     };
     let all: Vec<_> = wanted().par_iter().map(one).collect();
     let failures = table::report(&all);
