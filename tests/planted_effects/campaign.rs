@@ -34,6 +34,11 @@ impl System {
 
     /// The model file of base and law.
     pub fn model(self, law: Tangential) -> String {
+        self.model_of(&self.contact(), law)
+    }
+
+    /// The model file of another contact and law.
+    pub fn model_of(self, contact: &Contact, law: Tangential) -> String {
         let (particle, wall) = match self {
             Self::Wax => ("montan-wax", "pyrex"),
             Self::Tungsten => ("w-dust", "w-dust"),
@@ -47,17 +52,17 @@ impl System {
                 format!("model = \"sliding-rolling\"\nfriction = {friction}")
             }
         };
-        let ratio = self.contact().yield_ratio;
+        let ratio = contact.yield_ratio;
         format!(
             "[particle]\nmaterial = \"{particle}\"\n\n[walls.default]\nmaterial = \"{wall}\"\n\n[normal]\n\
              model = \"thornton-ning\"\nyield_ratio = {ratio}\n\n[tangential]\n{law}\n{}",
-            self.materials()
+            self.materials(contact)
         )
     }
 
     /// The materials that are not built in.
-    fn materials(self) -> String {
-        let Contact { particle, wall, density, yield_strength, .. } = self.contact();
+    fn materials(self, contact: &Contact) -> String {
+        let Contact { particle, wall, density, yield_strength, .. } = *contact;
         let particle = |name, energy| material(name, density, particle, yield_strength, energy);
         match self {
             Self::Wax => String::new(),
@@ -310,7 +315,7 @@ impl Campaign {
     }
 
     /// The names of the input columns, in order.
-    fn header(&self) -> Vec<&'static str> {
+    pub fn header(&self) -> Vec<&'static str> {
         ["v_n", "v_t", "d", "T_p"]
             .into_iter()
             .chain(self.columns.clone())
@@ -387,7 +392,7 @@ fn outlier(value: f64, rng: &mut SetRng) -> f64 {
 }
 
 /// A cell of an input column.
-fn cell(column: &str, x: &Inputs, rng: &mut SetRng) -> String {
+pub fn cell(column: &str, x: &Inputs, rng: &mut SetRng) -> String {
     let pick = |names: &[&str], rng: &mut SetRng| names[rng.below(names.len())].to_string();
     match column {
         "v_n" => format!("{:e}", x.v_n),

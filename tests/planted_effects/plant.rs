@@ -37,28 +37,28 @@ impl Plant {
         Self { cause, hook, scatters: false, observable, parameters: vec![] }
     }
 
-    fn solid(
+    pub fn solid(
         cause: &'static str,
         change: impl Fn(&Inputs, f64, &mut Contact) + Send + Sync + 'static,
     ) -> Self {
         Self::new(cause, "e_n", Hook::Solid(Box::new(change)))
     }
 
-    fn normal(
+    pub fn normal(
         cause: &'static str,
         change: impl Fn(&Inputs, f64, &mut Normal) + Send + Sync + 'static,
     ) -> Self {
         Self::new(cause, "e_n", Hook::Normal(Box::new(change)))
     }
 
-    fn tangential(
+    pub fn tangential(
         cause: &'static str,
         change: impl Fn(&Inputs, f64, f64, f64) -> f64 + Send + Sync + 'static,
     ) -> Self {
         Self::new(cause, "e_t", Hook::Tangential(Box::new(change)))
     }
 
-    fn with(mut self, name: &'static str, value: f64) -> Self {
+    pub fn with(mut self, name: &'static str, value: f64) -> Self {
         self.parameters.push((name, value));
         self
     }

@@ -2,7 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use rand_distr::{Distribution, StandardNormal};
+use rand_distr::{Beta, Distribution, StandardNormal};
 
 /// The random stream of one set.
 pub struct SetRng {
@@ -56,5 +56,17 @@ impl SetRng {
             }
         }
         0.0
+    }
+
+    /// Of `count` impacts, those with an outcome of this mean probability; `correlation` of two outcomes of one class.
+    pub fn beta_binomial(&mut self, count: u32, mean: f64, correlation: f64) -> u32 {
+        let size = (1.0 - correlation) / correlation;
+        let certain = mean <= 0.0 || mean >= 1.0;
+        let share = if certain || correlation <= 0.0 {
+            mean
+        } else {
+            Beta::new(mean * size, (1.0 - mean) * size).unwrap().sample(&mut self.stream)
+        };
+        (0..count).filter(|_| self.chance(share)).count() as u32
     }
 }

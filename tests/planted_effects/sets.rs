@@ -180,12 +180,17 @@ pub const EFFECTS: [&str; 18] = [
 pub fn wanted() -> Vec<Recipe> {
     let repeats = std::env::var("NEARWALL_PLANTED_SETS").map_or(1, |count| count.parse().unwrap());
     let mut all = recipes(repeats);
-    if let Ok(only) = std::env::var("NEARWALL_PLANTED_ONLY") {
-        all.retain(|recipe| {
-            only.split(',').any(|one| recipe.name == one || recipe.name.split(':').next() == Some(one))
-        });
-    }
+    all.retain(|recipe| is_wanted(&recipe.name));
     all
+}
+
+/// Whether `NEARWALL_PLANTED_ONLY` lets a set run; `weak*` stands for every name that begins with `weak`.
+pub fn is_wanted(name: &str) -> bool {
+    let Ok(only) = std::env::var("NEARWALL_PLANTED_ONLY") else { return true };
+    only.split(',').any(|one| match one.strip_suffix('*') {
+        Some(begin) => name.starts_with(begin),
+        None => name == one || name.split(':').next() == Some(one),
+    })
 }
 
 /// All sets, each effect `repeats` times at three strengths.
@@ -236,7 +241,7 @@ const DECOYS: [(&str, &str); 4] = [
 ];
 
 /// Two effects on different inputs.
-const PAIRS: [(&str, &str); 4] = [
+pub const PAIRS: [(&str, &str); 4] = [
     ("powder-layer", "thermal-softening"),
     ("agglomerates", "sliding-to-rolling"),
     ("size-dependent-yield", "oblique-angle"),
@@ -254,16 +259,19 @@ fn decoy(effect: &'static str, input: &'static str, repeat: usize) -> Recipe {
 
 /// Both effects at full strength, in a campaign that has the ranges of both.
 fn pair(one: &'static str, other: &'static str, repeat: usize) -> Recipe {
-    Recipe::new(format!("pair-{one}-{other}:{repeat}"), Kind::Pair, move |rng| {
-        let system = if other == "oblique-angle" { System::Tungsten } else { System::Wax };
-        let law = law_for(other, system, rng);
-        let mut campaign = Campaign::new(system, law, rng);
-        campaign.rows = 600 + rng.below(401);
-        campaign.noise_e_n = campaign.noise_e_n.min(0.05);
-        let plants =
-            [one, other].into_iter().map(|effect| plant_effect(effect, 0.9, &mut campaign, rng)).collect();
-        Design { campaign, plants }
-    })
+    Recipe::new(format!("pair-{one}-{other}:{repeat}"), Kind::Pair, move |rng| plan_pair(one, other, rng))
+}
+
+/// The design of a pair.
+pub fn plan_pair(one: &'static str, other: &'static str, rng: &mut SetRng) -> Design {
+    let system = if other == "oblique-angle" { System::Tungsten } else { System::Wax };
+    let law = law_for(other, system, rng);
+    let mut campaign = Campaign::new(system, law, rng);
+    campaign.rows = 600 + rng.below(401);
+    campaign.noise_e_n = campaign.noise_e_n.min(0.05);
+    let plants =
+        [one, other].into_iter().map(|effect| plant_effect(effect, 0.9, &mut campaign, rng)).collect();
+    Design { campaign, plants }
 }
 
 fn unknown_number(index: usize) -> Recipe {
@@ -306,7 +314,7 @@ fn few(index: usize) -> Recipe {
 }
 
 /// One effect at level 0, 1 or 2, in a campaign in which it is visible.
-fn plan(effect: &'static str, level: usize, rng: &mut SetRng) -> Design {
+pub fn plan(effect: &'static str, level: usize, rng: &mut SetRng) -> Design {
     let strength = (level as f64 / 2.0 + rng.uniform((-0.2, 0.2))).clamp(0.0, 1.0);
     let system = system_for(effect, rng);
     let law = law_for(effect, system, rng);
@@ -315,12 +323,12 @@ fn plan(effect: &'static str, level: usize, rng: &mut SetRng) -> Design {
     Design { campaign, plants }
 }
 
-fn any_system(rng: &mut SetRng) -> System {
+pub fn any_system(rng: &mut SetRng) -> System {
     [System::Wax, System::Tungsten][rng.below(2)]
 }
 
 /// The system in which the effect occurs.
-fn system_for(effect: &str, rng: &mut SetRng) -> System {
+pub fn system_for(effect: &str, rng: &mut SetRng) -> System {
     match effect {
         "gas-lift" | "powder-layer" | "liquid-film" | "melting-transition" | "viscoelastic-loss" => {
             System::Wax
@@ -330,19 +338,19 @@ fn system_for(effect: &str, rng: &mut SetRng) -> System {
     }
 }
 
-fn any_law(system: System, rng: &mut SetRng) -> Tangential {
+pub fn any_law(system: System, rng: &mut SetRng) -> Tangential {
     let e_t = rounded(rng.uniform(if system == System::Tungsten { (0.75, 0.95) } else { (0.65, 0.85) }));
     let friction = rounded(rng.uniform((0.1, 0.35)));
     [Tangential::Constant(e_t), Tangential::SlidingRolling { friction }][rng.below(2)]
 }
 
 /// Rounded to three places, so that the model file contains it exactly.
-fn rounded(value: f64) -> f64 {
+pub fn rounded(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
 
 /// The base law on which the effect can be planted.
-fn law_for(effect: &str, system: System, rng: &mut SetRng) -> Tangential {
+pub fn law_for(effect: &str, system: System, rng: &mut SetRng) -> Tangential {
     let friction = rounded(rng.uniform((0.12, 0.35)));
     match effect {
         "sliding-to-rolling" if rng.chance(0.5) => Tangential::Sliding { friction },
@@ -362,7 +370,7 @@ fn friction_of(law: Tangential, rng: &mut SetRng) -> f64 {
 }
 
 /// Sets the campaign's ranges so that the effect is visible, and plants it.
-fn plant_effect(effect: &'static str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Plant {
+pub fn plant_effect(effect: &'static str, strength: f64, campaign: &mut Campaign, rng: &mut SetRng) -> Plant {
     solid_effect(effect, strength, campaign, rng)
         .or_else(|| scatter_effect(effect, strength, campaign, rng))
         .or_else(|| surface_effect(effect, strength, campaign, rng))
@@ -484,7 +492,7 @@ fn oblique_effect(effect: &str, strength: f64, campaign: &mut Campaign, rng: &mu
 }
 
 /// Impacts from about the sticking speed to some four times that.
-fn slow_down(campaign: &mut Campaign, factor: f64) {
+pub fn slow_down(campaign: &mut Campaign, factor: f64) {
     let mut contact = campaign.system.contact();
     contact.adhesion *= factor;
     let speed = contact.sticking_speed((campaign.d.0 * campaign.d.1).sqrt());

@@ -1,0 +1,76 @@
+//! Captures: a threshold of energy, a layer, a temperature; as single outcomes and as classes.
+
+use std::f64::consts::PI;
+
+use crate::campaign::System;
+use crate::plant::Plant;
+use crate::set_rng::SetRng;
+use crate::sets;
+
+use super::exact;
+use super::expected::Expected;
+use super::lab::{Lab, Outcomes};
+use super::set::Plan;
+use super::weak::held_by_layer;
+
+/// Even indices: single outcomes; odd ones: classes with correlated outcomes.
+fn plan(mut lab: Lab, names: &[&'static str], index: usize, rng: &mut SetRng) -> Plan {
+    let expected = Expected::cause(names);
+    if index.is_multiple_of(2) {
+        return Plan::new(lab, 200 + rng.below(301), expected);
+    }
+    lab.outcomes = classes(rng);
+    Plan::new(lab, 30 + rng.below(51), expected)
+}
+
+fn classes(rng: &mut SetRng) -> Outcomes {
+    Outcomes::Classes { impacts: (15, 60), correlation: rng.log_uniform((0.02, 0.15)) }
+}
+
+fn lab(rng: &mut SetRng) -> Lab {
+    let mut lab = Lab::new(System::Wax, sets::any_law(System::Wax, rng), rng);
+    lab.fast();
+    lab
+}
+
+/// Particles stick below a kinetic energy, so below a speed that falls with the size.
+pub fn energy(index: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    let density = lab.truth.contact.density;
+    let energy = move |v: f64, d: f64| PI / 12.0 * density * d.powi(3) * v * v;
+    let (v, d) = (lab.campaign.v_n, lab.campaign.d);
+    let (threshold, power) = (energy((v.0 * v.1).sqrt(), (d.0 * d.1).sqrt()), rng.uniform((2.0, 8.0)));
+    lab.plant(Plant::normal("adhesion-energy", move |x, _, n| {
+        n.stick = n.stick.max(1.0 / (1.0 + (energy(x.v_n, x.d) / threshold).powf(power)));
+    }));
+    let names = ["adhesion-energy", "unknown:v_n", "unknown:d", "v_n*d"];
+    plan(lab, &names, index, rng)
+}
+
+/// Powder holds particles.
+pub fn layer(index: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.needs("layer_thickness");
+    lab.campaign.layer = (2e-5, 1.5e-3);
+    let most = rng.uniform((0.6, 0.95));
+    lab.plant(held_by_layer(0.0, most, rng.uniform((0.1e-3, 0.4e-3))));
+    plan(lab, &["unknown:layer_thickness", "powder-layer"], index, rng)
+}
+
+/// Particles stick from a temperature on.
+pub fn temperature(index: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.t_p = (300.0, 390.0);
+    let (half, width) = (rng.uniform((340.0, 365.0)), rng.uniform((4.0, 12.0)));
+    lab.plant(exact::melting(half, width, 0.0));
+    plan(lab, &["melting-transition"], index, rng)
+}
+
+/// Classes of correlated outcomes; the base is right.
+pub fn null(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = Lab::new(System::Char, sets::any_law(System::Char, rng), rng);
+    lab.fast();
+    exact::melting_base(&mut lab, rng);
+    lab.outcomes = classes(rng);
+    Plan::new(lab, 40 + rng.below(61), Expected::nothing())
+}

@@ -1,0 +1,161 @@
+//! The tables, and what is demanded of them.
+
+use std::collections::BTreeMap;
+
+use super::judge::{Judgement, Verdict};
+use crate::score::require;
+
+/// Longest diagnosis [s], with two at once on two cores.
+const SLOWEST: f64 = 60.0;
+
+/// Prints every table; the list of what failed.
+pub fn report(all: &[Judgement]) -> Vec<String> {
+    print_situations(all);
+    print_cells(all);
+    print_parameters(all);
+    print_nulls(all);
+    print_sets(all);
+    let spent: f64 = all.iter().map(|one| one.seconds).sum();
+    println!("\n{} diagnoses, {spent:.0} s in all", all.len());
+    failures(all)
+}
+
+fn count(sets: &[&Judgement], verdict: Verdict) -> usize {
+    sets.iter().filter(|one| one.verdict == verdict).count()
+}
+
+/// Groups by a name, in the order of the alphabet.
+fn by<'a>(
+    all: &'a [Judgement],
+    name: impl Fn(&'a Judgement) -> Option<&'a str>,
+) -> BTreeMap<&'a str, Vec<&'a Judgement>> {
+    let mut groups: BTreeMap<&str, Vec<&Judgement>> = BTreeMap::new();
+    for one in all {
+        if let Some(name) = name(one) {
+            groups.entry(name).or_default().push(one);
+        }
+    }
+    groups
+}
+
+fn share(hits: usize, of: usize) -> String {
+    format!("{hits}/{of}")
+}
+
+fn print_situations(all: &[Judgement]) {
+    println!(
+        "\n| situation | sets | right | honest | missed | false | refused | oracle | gain | interval | slowest |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    for (situation, sets) in by(all, |one| Some(&one.situation)) {
+        line(situation, &sets);
+    }
+    line("all", &all.iter().collect::<Vec<_>>());
+}
+
+fn line(situation: &str, sets: &[&Judgement]) {
+    let gains: Vec<bool> = sets.iter().filter_map(|one| one.gain).collect();
+    let intervals: Vec<bool> = sets.iter().flat_map(|one| one.intervals.iter().map(|i| i.holds())).collect();
+    let hits = |list: &[bool]| share(list.iter().filter(|hit| **hit).count(), list.len());
+    let counts = [Verdict::Right, Verdict::Honest, Verdict::Missed, Verdict::False, Verdict::Refused]
+        .map(|verdict| count(sets, verdict).to_string())
+        .join(" | ");
+    let oracle = if sets.iter().all(|one| one.null) {
+        "-".into()
+    } else {
+        let power: Vec<f64> = sets.iter().filter(|one| !one.null).map(|one| one.power).collect();
+        format!("{:.2}", power.iter().sum::<f64>() / power.len() as f64)
+    };
+    let slowest = sets.iter().map(|one| one.seconds).fold(0.0, f64::max);
+    println!(
+        "| {situation} | {} | {counts} | {oracle} | {} | {} | {slowest:.1} |",
+        sets.len(),
+        hits(&gains),
+        hits(&intervals)
+    );
+}
+
+/// Weak effects: named, named or left open, and seen by the oracle.
+fn print_cells(all: &[Judgement]) {
+    println!(
+        "\n| effect, deviations of the noise, rows | sets | named | named or open | oracle | expected |"
+    );
+    println!("|---|---|---|---|---|---|");
+    for (cell, sets) in by(all, |one| one.cell.as_deref()) {
+        let named = count(&sets, Verdict::Right);
+        let open = sets.iter().filter(|one| one.verdict == Verdict::Honest && !one.said.is_empty()).count();
+        let sees = sets.iter().filter(|one| one.sees).count();
+        let power: f64 = sets.iter().map(|one| one.power).sum();
+        println!("| {cell} | {} | {named} | {} | {sees} | {power:.1} |", sets.len(), named + open);
+    }
+}
+
+/// Coverage of the intervals by parameter.
+fn print_parameters(all: &[Judgement]) {
+    let mut parameters: BTreeMap<&str, Vec<bool>> = BTreeMap::new();
+    for interval in all.iter().flat_map(|one| &one.intervals) {
+        parameters.entry(&interval.parameter).or_default().push(interval.holds());
+    }
+    println!("\n| parameter | intervals | hold |\n|---|---|---|");
+    for (parameter, held) in parameters {
+        println!("| {parameter} | {} | {} |", held.len(), held.iter().filter(|held| **held).count());
+    }
+}
+
+/// What else than findings is said of nothing.
+fn print_nulls(all: &[Judgement]) {
+    let nulls: Vec<&Judgement> = all.iter().filter(|one| one.null).collect();
+    let saying =
+        |begin: &str| nulls.iter().filter(|one| one.said.iter().any(|said| said.starts_with(begin))).count();
+    println!(
+        "\n{} null sets: {} with undecided causes, {} with other numbers of the base, {} with rivals, {} refuted",
+        nulls.len(),
+        saying("?"),
+        saying("calibration:"),
+        saying("!"),
+        saying("refuted")
+    );
+}
+
+/// Every set that is not right, and every interval that does not hold.
+fn print_sets(all: &[Judgement]) {
+    println!();
+    for one in all {
+        let quiet = one.verdict == Verdict::Right || one.verdict == Verdict::Honest && !one.sees;
+        if !quiet {
+            let (name, verdict, rows) = (&one.name, one.verdict, one.rows);
+            println!("  {verdict:?} {name} ({rows} rows, oracle {:.2}): {}", one.power, one.said.join(", "));
+        }
+        if let Some(note) = &one.gain_note {
+            println!("  gain of {}: {note}", one.name);
+        }
+        for miss in one.intervals.iter().filter(|interval| !interval.holds()) {
+            let (low, high) = (miss.low, miss.high);
+            println!(
+                "  {} {} is {:.4e}, stated {low:.4e} to {high:.4e}",
+                one.name, miss.parameter, miss.truth
+            );
+        }
+    }
+}
+
+/// The demands that are not met.
+fn failures(all: &[Judgement]) -> Vec<String> {
+    println!();
+    let sets: Vec<&Judgement> = all.iter().collect();
+    let honest = count(&sets, Verdict::Right) + count(&sets, Verdict::Honest);
+    let gains: Vec<bool> = all.iter().filter_map(|one| one.gain).collect();
+    let held = gains.iter().filter(|held| **held).count();
+    let mut results = vec![
+        require("right or honestly undecided", honest, sets.len(), 0.95),
+        require("claimed gain within its interval", held, gains.len(), 0.93),
+    ];
+    for (kind, sets) in by(all, |one| one.null.then_some(&one.situation)) {
+        let silent = sets.len() - count(&sets, Verdict::False);
+        results.push(require(&format!("no false cause on {kind}"), silent, sets.len(), 0.95));
+    }
+    let mut failures: Vec<String> = results.into_iter().filter_map(Result::err).collect();
+    let slow = all.iter().filter(|one| one.seconds > SLOWEST);
+    failures.extend(slow.map(|one| format!("{} took {:.0} s", one.name, one.seconds)));
+    failures
+}

@@ -1,0 +1,77 @@
+//! Laws that are none of the library's, over inputs that it knows.
+
+use crate::campaign::System;
+use crate::contact::Tangential;
+use crate::plant::Plant;
+use crate::set_rng::SetRng;
+use crate::sets;
+
+use super::expected::Expected;
+use super::lab::Lab;
+use super::set::Plan;
+
+/// Share of the range that a value has passed.
+fn part(value: f64, (low, high): (f64, f64)) -> f64 {
+    ((value - low) / (high - low)).clamp(0.0, 1.0)
+}
+
+fn lab(rng: &mut SetRng) -> Lab {
+    let system = [System::Wax, System::Char][rng.below(2)];
+    let mut lab = Lab::new(system, sets::any_law(system, rng), rng);
+    lab.fast();
+    lab.campaign.noise_e_n = rng.uniform((0.02, 0.04));
+    lab.campaign.noise_e_t = lab.campaign.noise_e_n;
+    lab
+}
+
+fn plan(lab: Lab, names: &[&'static str], rng: &mut SetRng) -> Plan {
+    Plan::new(lab, 250 + rng.below(551), Expected::cause(names).or_refuted())
+}
+
+/// e_n rises in a straight line with the temperature.
+pub fn rise(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    let (range, most) = (lab.campaign.t_p, rng.uniform((0.3, 0.7)));
+    lab.plant(Plant::normal("unknown:T_p", move |x, _, n| n.e_n *= 1.0 + most * part(x.t_p, range)));
+    plan(lab, &["unknown:T_p"], rng)
+}
+
+/// e_n has a maximum or minimum over the temperature.
+pub fn hump(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    let (range, middle) = (lab.campaign.t_p, rng.uniform((0.35, 0.65)));
+    let (width, most) = (rng.uniform((0.12, 0.2)), rng.uniform((0.3, 0.5)));
+    let most = if rng.chance(0.5) { most } else { -most };
+    lab.plant(Plant::normal("unknown:T_p", move |x, _, n| {
+        let off = (part(x.t_p, range) - middle) / width;
+        n.e_n *= 1.0 + most * (-off * off / 2.0).exp();
+    }));
+    plan(lab, &["unknown:T_p"], rng)
+}
+
+/// Friction falls with the temperature.
+pub fn friction(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    let cold = sets::rounded(rng.uniform((0.2, 0.35)));
+    let law = Tangential::SlidingRolling { friction: cold };
+    (lab.model.tangential, lab.truth.tangential) = (law, law);
+    lab.campaign.theta = (20.0, 80.0);
+    let (range, lost) = (lab.campaign.t_p, rng.uniform((0.4, 0.8)));
+    lab.plant(Plant::tangential("unknown:T_p", move |x, e_n, stiffness_ratio, _| {
+        let friction = cold * (1.0 - lost * part(x.t_p, range));
+        Tangential::SlidingRolling { friction }.restitution(stiffness_ratio, e_n, x.v_n, x.v_t)
+    }));
+    plan(lab, &["unknown:T_p"], rng)
+}
+
+/// A loss with the product of speed and layer.
+pub fn product(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.needs("layer_thickness");
+    lab.campaign.layer = (2e-5, 1e-3);
+    let (fastest, most) = (lab.campaign.v_n.1, rng.uniform((0.6, 0.9)));
+    lab.plant(Plant::normal("unknown:v_n*layer_thickness", move |x, _, n| {
+        n.e_n *= 1.0 - most * (x.v_n / fastest) * (x.layer / 1e-3);
+    }));
+    plan(lab, &["v_n*layer_thickness"], rng)
+}
