@@ -1,0 +1,125 @@
+//! What a diagnosis says of measurements from the literature, beside the verdict that was written down before its first run.
+//!
+//! `tests/real_measurements/README.md` describes the sets and the keys of `expected.json`. The folder `NEARWALL_REAL_OUT`, if set, gets
+//! the page and the JSON of each set.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use nearwall::effect::EFFECTS;
+use serde_json::Value;
+
+fn folder(set: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/real_measurements").join(set)
+}
+
+fn json(file: &Path) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap()
+}
+
+fn words(list: &Value) -> Vec<&str> {
+    list.as_array().map_or(vec![], |all| all.iter().filter_map(Value::as_str).collect())
+}
+
+/// The columns that a cause turns on.
+fn columns_of(cause: &str) -> Vec<&str> {
+    match cause.strip_prefix("unknown:") {
+        Some(column) => vec![column],
+        None => EFFECTS.iter().find(|effect| effect.id == cause).map_or(vec![], |e| e.inputs.to_vec()),
+    }
+}
+
+/// Differences between the verdict and the expectation.
+fn differences(said: &Value, expected: &Value) -> Vec<String> {
+    let list = |key: &str| said[key].as_array().cloned().unwrap_or_default();
+    let findings = list("findings");
+    let causes: Vec<&str> = findings.iter().filter_map(|f| f["cause"].as_str()).collect();
+    let mut wrong = Vec::new();
+
+    let misfit = said["fit"]["base"]["p_value"].as_f64().is_some_and(|p| p < 0.05);
+    let speaks = misfit
+        || ["findings", "calibration", "undecided", "rivals"].iter().any(|key| !list(key).is_empty())
+        || !said["groups"].is_null();
+    if expected["refuted"] == true && !speaks {
+        wrong.push("the base model is not refuted".to_owned());
+    }
+
+    let may = words(&expected["may_name"]);
+    wrong.extend(causes.iter().filter(|c| !may.contains(c)).map(|c| format!("{c} is named")));
+
+    let mut columns: Vec<String> = findings.iter().flat_map(|f| words(&f["variables"])).map(Into::into).collect();
+    columns.extend(causes.iter().flat_map(|c| columns_of(c)).map(Into::into));
+    columns.extend(words(&said["undecided"]).iter().flat_map(|c| columns_of(c)).map(Into::into));
+    columns.extend(said["groups"]["column"].as_str().map(Into::into));
+    let rivals: String = list("rivals").iter().map(Value::to_string).collect();
+    let wanted = words(&expected["depends_on"]);
+    let involved = |w: &&str| columns.iter().any(|c| c == w) || rivals.contains(*w);
+    if !wanted.is_empty() && !wanted.iter().any(involved) {
+        wrong.push(format!("nothing depends on {}", wanted.join(" or ")));
+    }
+
+    if let Some(key) = expected["value_of"].as_str() {
+        let range = |i: usize, open: f64| expected["value"][i].as_f64().unwrap_or(open);
+        for number in list("calibration") {
+            let value = number["value"].as_f64().unwrap();
+            if number["key"] != key || value < range(0, f64::MIN) || value > range(1, f64::MAX) {
+                wrong.push(format!("{} = {value} is set", number["key"]));
+            }
+        }
+    }
+
+    if let Some(range) = expected["rmse_after"].as_array() {
+        let after = list("gains").iter().find(|g| g["observable"] == "e_n").and_then(|g| g["rmse_after"].as_f64());
+        if !after.is_some_and(|x| x >= range[0].as_f64().unwrap() && x <= range[1].as_f64().unwrap()) {
+            wrong.push(format!("rms of e_n after: {after:?}"));
+        }
+    }
+    wrong
+}
+
+fn check(set: &str) {
+    let scratch = tempfile::tempdir().unwrap();
+    let out = std::env::var_os("NEARWALL_REAL_OUT")
+        .map_or(scratch.path().to_owned(), |all| Path::new(&all).join(set));
+    let run = Command::new(env!("CARGO_BIN_EXE_nearwall"))
+        .args(["diagnose", "data.csv", "--model", "base.toml", "--columns", "columns.toml", "--out"])
+        .arg(&out)
+        .current_dir(folder(set))
+        .output()
+        .unwrap();
+    assert!(run.status.success(), "{set}: {}", String::from_utf8_lossy(&run.stderr));
+    let said = json(&out.join("diagnosis.json"));
+    let wrong = differences(&said, &json(&folder(set).join("expected.json")));
+    assert!(wrong.is_empty(), "{set}: {}.\nSaid: {}", wrong.join("; "), said["verdict"]);
+}
+
+macro_rules! sets {
+    ($($name:ident: $folder:literal),* $(,)?) => {
+        $(#[test] fn $name() { check($folder); })*
+
+        /// A folder without a test would be checked by nobody.
+        #[test]
+        fn every_folder_has_a_test() {
+            let mut found: Vec<String> = std::fs::read_dir(folder("")).unwrap()
+                .map(|entry| entry.unwrap())
+                .filter(|entry| entry.path().is_dir())
+                .map(|entry| entry.file_name().into_string().unwrap())
+                .collect();
+            found.sort();
+            assert_eq!(found, [$($folder),*]);
+        }
+    };
+}
+
+sets! {
+    beads_on_bead_packing: "beads-on-bead-packing",
+    golf_ball_averages: "golf-ball-averages",
+    golf_ball_bounces: "golf-ball-bounces",
+    ping_pong_bounces: "ping-pong-bounces",
+    rubber_ball_bounces: "rubber-ball-bounces",
+    rubber_ball_heights: "rubber-ball-heights",
+    sand_on_sand_bed: "sand-on-sand-bed",
+    squash_ball_temperature: "squash-ball-temperature",
+    tennis_ball_bounces: "tennis-ball-bounces",
+    tennis_ball_two_methods: "tennis-ball-two-methods",
+}
