@@ -3,8 +3,11 @@
 //! `tests/real_measurements/README.md` describes the sets and the keys of `expected.json`. The folder `NEARWALL_REAL_OUT`, if set, gets
 //! the page and the JSON of each set.
 
+use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use nearwall::effect::EFFECTS;
 use serde_json::Value;
@@ -47,7 +50,8 @@ fn differences(said: &Value, expected: &Value) -> Vec<String> {
     let may = words(&expected["may_name"]);
     wrong.extend(causes.iter().filter(|c| !may.contains(c)).map(|c| format!("{c} is named")));
 
-    let mut columns: Vec<String> = findings.iter().flat_map(|f| words(&f["variables"])).map(Into::into).collect();
+    let mut columns: Vec<String> =
+        findings.iter().flat_map(|f| words(&f["variables"])).map(Into::into).collect();
     columns.extend(causes.iter().flat_map(|c| columns_of(c)).map(Into::into));
     columns.extend(words(&said["undecided"]).iter().flat_map(|c| columns_of(c)).map(Into::into));
     columns.extend(said["groups"]["column"].as_str().map(Into::into));
@@ -69,7 +73,8 @@ fn differences(said: &Value, expected: &Value) -> Vec<String> {
     }
 
     if let Some(range) = expected["rmse_after"].as_array() {
-        let after = list("gains").iter().find(|g| g["observable"] == "e_n").and_then(|g| g["rmse_after"].as_f64());
+        let after =
+            list("gains").iter().find(|g| g["observable"] == "e_n").and_then(|g| g["rmse_after"].as_f64());
         if !after.is_some_and(|x| x >= range[0].as_f64().unwrap() && x <= range[1].as_f64().unwrap()) {
             wrong.push(format!("rms of e_n after: {after:?}"));
         }
@@ -77,7 +82,8 @@ fn differences(said: &Value, expected: &Value) -> Vec<String> {
     wrong
 }
 
-fn check(set: &str) {
+/// The diagnosis of a set.
+fn diagnose(set: &str) -> Value {
     let scratch = tempfile::tempdir().unwrap();
     let out = std::env::var_os("NEARWALL_REAL_OUT")
         .map_or(scratch.path().to_owned(), |all| Path::new(&all).join(set));
@@ -87,10 +93,66 @@ fn check(set: &str) {
         .current_dir(folder(set))
         .output()
         .unwrap();
-    assert!(run.status.success(), "{set}: {}", String::from_utf8_lossy(&run.stderr));
-    let said = json(&out.join("diagnosis.json"));
-    let wrong = differences(&said, &json(&folder(set).join("expected.json")));
-    assert!(wrong.is_empty(), "{set}: {}.\nSaid: {}", wrong.join("; "), said["verdict"]);
+    if run.status.success() {
+        return json(&out.join("diagnosis.json"));
+    }
+    assert_eq!(run.status.code(), Some(1), "{set}: {}", String::from_utf8_lossy(&run.stderr));
+    let refusal = String::from_utf8_lossy(&run.stderr);
+    let last = refusal.lines().rfind(|line| !line.trim().is_empty()).unwrap_or_default();
+    serde_json::json!({ "verdict": format!("Refused: {}", last.rsplit(": ").next().unwrap().trim()) })
+}
+
+/// What is said of a set, and how it differs from what was expected.
+struct Outcome {
+    verdict: String,
+    differences: Vec<String>,
+}
+
+/// All sets in the order of their names, each diagnosed once.
+fn outcomes() -> &'static BTreeMap<String, Outcome> {
+    static ALL: OnceLock<BTreeMap<String, Outcome>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let entries = std::fs::read_dir(folder("")).unwrap().map(|entry| entry.unwrap().path());
+        let names = entries.filter(|path| path.is_dir()).map(|path| path.file_name().unwrap().to_owned());
+        let one = |name: String| {
+            let said = diagnose(&name);
+            let differences = differences(&said, &json(&folder(&name).join("expected.json")));
+            let verdict = said["verdict"].as_str().unwrap().to_owned();
+            (name, Outcome { verdict, differences })
+        };
+        names.map(|name| one(name.into_string().unwrap())).collect()
+    })
+}
+
+/// Asserts that what is said of the set is what was expected.
+fn check(set: &str) {
+    let Outcome { verdict, differences } = &outcomes()[set];
+    assert!(differences.is_empty(), "{set}: {}.\nSaid: {verdict}", differences.join("; "));
+}
+
+const BEGIN: &str = "<!-- verdicts: written by the test -->\n";
+const END: &str = "<!-- end of verdicts -->";
+
+/// `docs/real-measurements.md` has the verdicts of today; `NEARWALL_BLESS=1` writes them.
+#[test]
+fn the_page_has_the_verdicts() {
+    let mut table = "| set | said | |\n|---|---|---|\n".to_owned();
+    for (name, Outcome { verdict, differences }) in outcomes() {
+        let judged = match differences.as_slice() {
+            [] => "as expected".to_owned(),
+            some => format!("**differs**: {}", some.join("; ")),
+        };
+        writeln!(table, "| `{name}` | {verdict} | {judged} |").unwrap();
+    }
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/real-measurements.md");
+    let text = std::fs::read_to_string(&page).unwrap();
+    let (head, rest) = text.split_once(BEGIN).unwrap();
+    let (old, tail) = rest.split_once(END).unwrap();
+    if std::env::var_os("NEARWALL_BLESS").is_some() {
+        std::fs::write(&page, format!("{head}{BEGIN}{table}{END}{tail}")).unwrap();
+    } else {
+        assert_eq!(old, table, "NEARWALL_BLESS=1 cargo test --test command real_measurements writes it");
+    }
 }
 
 macro_rules! sets {
@@ -100,13 +162,7 @@ macro_rules! sets {
         /// A folder without a test would be checked by nobody.
         #[test]
         fn every_folder_has_a_test() {
-            let mut found: Vec<String> = std::fs::read_dir(folder("")).unwrap()
-                .map(|entry| entry.unwrap())
-                .filter(|entry| entry.path().is_dir())
-                .map(|entry| entry.file_name().into_string().unwrap())
-                .collect();
-            found.sort();
-            assert_eq!(found, [$($folder),*]);
+            assert_eq!(outcomes().keys().collect::<Vec<_>>(), [$($folder),*]);
         }
     };
 }
