@@ -72,11 +72,20 @@ fn differences(said: &Value, expected: &Value) -> Vec<String> {
         }
     }
 
+    let gain = |observable: &str| list("gains").into_iter().find(|gain| gain["observable"] == observable);
+    if let Some(observable) = expected["explains"].as_str() {
+        let errors =
+            gain(observable).map(|g| [&g["rmse_before"], &g["rmse_after"]].map(|e| e.as_f64().unwrap()));
+        if !errors.is_some_and(|[before, after]| after < 0.8 * before) {
+            wrong.push(format!("{observable} is not explained"));
+        }
+    }
     if let Some(range) = expected["rmse_after"].as_array() {
-        let after =
-            list("gains").iter().find(|g| g["observable"] == "e_n").and_then(|g| g["rmse_after"].as_f64());
-        if !after.is_some_and(|x| x >= range[0].as_f64().unwrap() && x <= range[1].as_f64().unwrap()) {
-            wrong.push(format!("rms of e_n after: {after:?}"));
+        let [low, high] = [0, 1].map(|end: usize| range[end].as_f64().unwrap());
+        match gain("e_n").and_then(|gain| gain["rmse_after"].as_f64()) {
+            Some(after) if (low..=high).contains(&after) => {}
+            Some(after) => wrong.push(format!("the claimed error of e_n is {after}")),
+            None => wrong.push("no gain in e_n is claimed".to_owned()),
         }
     }
     wrong

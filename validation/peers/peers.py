@@ -53,7 +53,8 @@ def judge(path, nearwall, seed):
     result["planted"] = [cause["cause"] for cause in one.causes]
     for name, said in answers.items():
         column = said.column.get(observable, [])
-        after = error(one.measured[observable][held_out], said.held_out.get(observable, np.full(len(held_out), np.nan)))
+        nothing = np.full(len(held_out), np.nan)
+        after = error(one.measured[observable][held_out], said.held_out.get(observable, nothing))
         result["methods"][name] = {
             "claims": any(said.claims.values()),
             "column": column,
@@ -106,9 +107,12 @@ def families(results):
         groups[r["name"].split(":")[0]].append(r)
     rows = []
     for family, some in groups.items():
-        cell = lambda m: f"{sum(r['methods'][m]['claims' if some[0]['null'] else 'right'] for r in some)}; {median(some, m)}"
-        drivers = "none" if some[0]["null"] else ", ".join(some[0]["drivers"]) or "every impact"
-        rows.append([f"`{family}`", len(some), drivers, *[cell(m) for m in METHODS]])
+        null = some[0]["null"]
+        drivers = "none" if null else ", ".join(f"`{d}`" for d in some[0]["drivers"]) or "every impact"
+        counts = [sum(r["methods"][m]["claims" if null else "right"] for r in some) for m in METHODS]
+        count = [f"{n}; " if null or some[0]["drivers"] else "" for n in counts]
+        cells = [n + median(some, m) for m, n in zip(METHODS, count)]
+        rows.append([f"`{family}`", len(some), drivers, *cells])
     return table(["family", "sets", "planted in", *METHODS], rows)
 
 
@@ -118,36 +122,49 @@ Written by one command, not by CI:
 
 ```sh
 NEARWALL_TEST_SEED={set_seed} NEARWALL_PLANTED_OUT=SETS cargo test --release --test planted_effects -- --ignored write_sets
-validation/peers/run SETS
+validation/peers/run SETS --set-seed {set_seed}
 ```
 
-{date}; {count} sets, seed {seed} of the methods; {revision}; {versions}.
+{date}; {count} sets; seed {seed} of the methods; {versions}.
 
-Each set is one CSV file and a base model that lacks the planted effect. The last quarter of the rows is held out from all three. On the others
+Each set is a CSV file and a base model that lacks the planted effect. The last quarter of the rows is held out from all three
+methods. On the other rows
 
-- `nearwall diagnose` runs as it is; the held-out rows are predicted by its `extended.toml`,
-- Operon (genetic programming with fitted constants, formulas of up to 30 symbols) and a lasso on a library of terms (powers, roots, logarithms,
-  inverses, products, labels, each also times the base prediction) regress what the base model leaves of `e_n`, `e_t` and of the outcome. Residuals
-  beyond 6 robust deviations are pulled in. A regression claims to have found something if it beats a constant by more than one standard error
-  of its five-fold cross-validation; the lasso has the largest penalty within one standard error of the best.
-- The most important column is the one whose shuffling raises the error of a regression most, and the columns of nearwall's first finding.
-  It counts if the planted effect has it as an input. An effect without inputs of its own (`yield-ratio`, `adhesion-energy`,
-  `nano-roughness`, `agglomerates`) acts on every impact and has no such column.
-- The error is the root mean square of the smaller 95 % of the held-out errors in the planted effect's observable, divided by that of the base
-  model; 1.00 where nothing is claimed.
+- `nearwall diagnose` runs as it is, and its `extended.toml` predicts the held-out rows;
+- Operon (genetic programming with fitted constants, formulas of up to 30 symbols) and a lasso on a library of terms (powers,
+  roots, logarithms, inverses, products, labels, each also times the base prediction) regress what the base model leaves of
+  `e_n`, of `e_t` and of the outcome. Residuals beyond 6 robust deviations are pulled in.
+
+A regression claims to have found something if it beats a constant by more than one standard error of its five-fold
+cross-validation; the lasso takes the largest penalty within one standard error of the best. The most important column is
+the one whose shuffling raises the error of a regression most, and for nearwall the columns of its first finding. It
+counts as right if the planted effect has it as an input. `yield-ratio`, `adhesion-energy`, `nano-roughness` and
+`agglomerates` act on every impact and have no such column. The error is the root mean square of the smaller 95 % of the
+held-out errors (the sets contain gross errors) in the planted effect's observable, divided by that of the base model;
+1.00 where nothing is claimed.
 
 ## Result
 {summary}
 
-**What a fixed library of physics makes easier.** nearwall is told the candidate laws, of which each set but the unknown columns has a relative, and
-it searches their few parameters; the peers are told nothing but the columns and have to find shape and column at once. That makes the driving column, the name and
-the silence on null sets easier to get right, and it is no merit on a law that is not in the library: there the peers are the measure.
+**What a fixed library of physics makes easier.** nearwall is told the candidate laws, and every planted effect but the
+unknown columns has a relative among them; so it searches a few parameters, names a cause, and its silence on null sets
+costs little power. The peers are told the columns only and must find shape and column at once: where the law is in no
+library, they are the measure.
 
 ## By family
 Right columns (null sets: claims); median ratio of the held-out error.
 
 {families}
 """
+
+
+def line(result):
+    """One set, for the terminal."""
+    said = [
+        f"{name} {','.join(one['column']) if one['claims'] else '-'} {one['ratio']:.2f} {one['seconds']:.1f}s"
+        for name, one in result["methods"].items()
+    ]
+    return f"{result['name']:42} {','.join(result['drivers']) or '-':24} " + "; ".join(said)
 
 
 def main():
@@ -165,14 +182,19 @@ def main():
     with ProcessPoolExecutor(options.jobs) as pool:
         for result in pool.map(partial(judge, nearwall=options.nearwall, seed=options.seed), paths):
             results.append(result)
-            said = {m: (v["column"] if v["claims"] else "-", round(v["ratio"], 2), f"{v['seconds']:.1f} s") for m, v in result["methods"].items()}
-            print(f"{result['name']:42} {result['drivers']} {said}", flush=True)
+            print(line(result), flush=True)
 
-    revision = run(["git", "-C", str(REPOSITORY), "rev-parse", "--short", "HEAD"], capture_output=True, text=True).stdout.strip()
+    command = ["git", "-C", str(REPOSITORY), "rev-parse", "--short", "HEAD"]
+    revision = run(command, capture_output=True, text=True).stdout.strip()
     packages = ", ".join(f"{name} {version(name)}" for name in ["pyoperon", "scikit-learn", "numpy"])
     text = PAGE.format(
-        date=date.today(), count=len(results), seed=options.seed, set_seed=options.set_seed, revision=f"nearwall {revision}",
-        versions=f"{packages}, Python {platform.python_version()}", summary=summary(results), families=families(results),
+        date=date.today(),
+        count=len(results),
+        seed=options.seed,
+        set_seed=options.set_seed,
+        versions=f"nearwall {revision}, {packages}, Python {platform.python_version()}",
+        summary=summary(results),
+        families=families(results),
     )
     options.out.write_text(text)
     print(f"\n{summary(results)}\n\n{len(results)} sets in {time.monotonic() - start:.0f} s; wrote {options.out}")

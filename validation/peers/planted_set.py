@@ -57,7 +57,7 @@ class PlantedSet:
     @property
     def observable(self):
         """The observable by which the first plant is judged."""
-        stated = self.causes[0]["observable"] if self.causes else "e_n"
+        stated = self.causes[0].get("observable", "e_n") if self.causes else "e_n"
         return "outcome" if stated == "stick" else stated
 
     def driving_columns(self):

@@ -60,14 +60,17 @@ def numbers(one):
 def labels(one):
     """One-hot columns: (column, label) -> 0 or 1."""
     texts = {name: values for name, values in one.columns.items() if values.dtype.kind != "f"}
-    return {(n, w): (v == w).astype(float) for n, v in texts.items() for w in sorted(set(v)) if (v == w).sum() > 4}
+    pairs = [(name, word) for name, values in texts.items() for word in sorted(set(values))]
+    flags = {(name, word): (texts[name] == word).astype(float) for name, word in pairs}
+    return {key: flag for key, flag in flags.items() if flag.sum() > 4}
 
 
 def most_important(names, design, predict, target, seed):
-    """The column whose shuffling raises the squared error most. `names`: column of each feature of `design(order by column)`."""
+    """The column of `names` whose shuffling raises the squared error most; `design` takes the new order of each shuffled column."""
     rng = np.random.default_rng(seed)
     plain = np.mean((target - predict(design({}))) ** 2)
     order = rng.permutation(len(target))
-    rise = {name: np.mean((target - predict(design({name: order}))) ** 2) - plain for name in sorted(set(names))}
+    error = lambda name: np.mean((target - predict(design({name: order}))) ** 2)
+    rise = {name: error(name) - plain for name in sorted(set(names))}
     best = max(rise, key=rise.get)
     return best if rise[best] > 0 else None
