@@ -66,7 +66,10 @@ def labels(one):
 
 
 def most_important(names, design, predict, target, seed):
-    """The column of `names` whose shuffling raises the squared error most; `design` takes the new order of each shuffled column."""
+    """The column of `names` whose shuffling raises the squared error most.
+
+    `design` makes the features; it takes the new order of each column that is shuffled.
+    """
     rng = np.random.default_rng(seed)
     plain = np.mean((target - predict(design({}))) ** 2)
     order = rng.permutation(len(target))

@@ -17,7 +17,7 @@ def sizes(columns):
 
 
 def terms(columns, words, base, size, least):
-    """The library: x, x², sqrt x, log x, 1/x, products, labels; x and labels also times the base prediction, itself a term."""
+    """The library: x, x², sqrt x, log x, 1/x, products, labels; x and labels also times the base prediction, also a term."""
     scaled = {name: x / size[name] for name, x in columns.items()}
     library, names = [], []
 

@@ -12,7 +12,7 @@ def regressor(seed):
         allowed_symbols="add,sub,mul,div,exp,log,sqrt,square,constant,variable",
         population_size=500,
         generations=100,
-        max_evaluations=60_000,
+        max_evaluations=25_000,
         max_length=30,
         optimizer_iterations=3,
         model_selection_criterion="minimum_description_length",
