@@ -108,11 +108,15 @@ def families(results):
     rows = []
     for family, some in groups.items():
         null = some[0]["null"]
-        drivers = "none" if null else ", ".join(f"`{d}`" for d in some[0]["drivers"]) or "every impact"
-        counts = [sum(r["methods"][m]["claims" if null else "right"] for r in some) for m in METHODS]
-        count = [f"{n}; " if null or some[0]["drivers"] else "" for n in counts]
+        driven = [r for r in some if r["drivers"]]
+        columns = [f"`{d}`" for d in sorted({d for r in driven for d in r["drivers"]})]
+        if len(driven) < len(some):
+            columns.append("none" if null else "every impact")
+        counted = some if null else driven
+        counts = [sum(r["methods"][m]["claims" if null else "right"] for r in counted) for m in METHODS]
+        count = [f"{n}; " if counted else "" for n in counts]
         cells = [n + median(some, m) for m, n in zip(METHODS, count)]
-        rows.append([f"`{family}`", len(some), drivers, *cells])
+        rows.append([f"`{family}`", len(some), ", ".join(columns), *cells])
     return table(["family", "sets", "planted in", *METHODS], rows)
 
 
