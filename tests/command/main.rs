@@ -14,6 +14,7 @@ mod faults;
 mod map;
 mod pages;
 mod published;
+mod real_measurements;
 mod report;
 mod runner;
 mod simulate;
