@@ -87,8 +87,6 @@ fn measured(file: &[u8], map: &ColumnMap, walls: &WallChoice<'_>) {
             assert!(reading.value.is_finite(), "{row:?}");
         }
     }
-    let unfolded = data.unfolded(100.0);
-    assert!(unfolded.rows.len() >= data.rows.len());
     let half = data.without(|row| (row.line % 2 == 0).then(|| "even".to_owned()));
     assert_eq!(half.rows.len() + half.rejected.len(), data.read);
 }

@@ -102,37 +102,6 @@ impl Measurements {
             ..self.clone()
         }
     }
-
-    /// The data with every average of up to `most` impacts split into single impacts: `k` captures of `n` impacts become
-    /// `k` rows of one capture and `n-k` rows of one rebound. The averages of `e_n` and `e_t` remain in a row of their
-    /// own.
-    #[must_use]
-    pub fn unfolded(&self, most: f64) -> Self {
-        let (mut rows, mut from) = (Vec::new(), Vec::new());
-        for (index, row) in self.rows.iter().enumerate() {
-            let Some(share) = row.captured.filter(|_| row.impacts > 1.0 && row.impacts <= most) else {
-                rows.push(*row);
-                from.push(index);
-                continue;
-            };
-            if share < 1.0 && (row.e_n.is_some() || row.e_t.is_some()) {
-                rows.push(Measurement { captured: None, ..*row });
-            }
-            let captured = (share * row.impacts).round();
-            let single = |impact: u64| Measurement {
-                impacts: 1.0,
-                rebounds: 1.0,
-                e_n: None,
-                e_t: None,
-                captured: Some(if (impact as f64) < captured { 1.0 } else { 0.0 }),
-                ..*row
-            };
-            rows.extend((0..row.impacts as u64).map(single));
-            from.resize(rows.len(), index);
-        }
-        let columns = self.columns.iter().map(|column| column.at(&from)).collect();
-        Self { rows, columns, ..self.clone() }
-    }
 }
 
 #[cfg(test)]

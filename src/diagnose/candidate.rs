@@ -1,7 +1,7 @@
 //! The kinds of candidates: what can be added to a hypothesis.
 //!
-//! A new kind is a variant of [`Candidate`] and of [`Addition`]; the compiler then names the places that treat it: the
-//! list of candidates and both fits in `cross_validation`, its preference in `model_selection`, its finding in `finding`.
+//! A new kind is a variant of [`Candidate`] and of [`Addition`]; the compiler then names the places that treat it: its shapes in
+//! `shapes`, the list of candidates and the fits in `fitting`, its preference in `model_selection`, its finding in `finding`.
 
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
@@ -19,8 +19,14 @@ const LARGEST_SKEW: f64 = 0.3;
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Candidate {
     Part(Part),
-    Curve { covariate: usize, observable: Observable },
-    ScatterTrend { covariate: usize },
+    /// A curve over one column, a surface over two, or a level shift without any.
+    Curve {
+        sides: [Option<usize>; 2],
+        observable: Observable,
+    },
+    ScatterTrend {
+        covariate: usize,
+    },
     BackgroundCapture,
 }
 
@@ -43,7 +49,7 @@ impl Addition {
         let column = |covariate: usize| &data.covariates[covariate].name;
         match self {
             Self::Part { part, .. } => part.part.name(),
-            Self::Curve(curve) => format!("unknown:{}", column(curve.form.covariate)),
+            Self::Curve(curve) => curve.form.name(data),
             Self::ScatterTrend(trend) => format!("scatter:{}", column(trend.covariate)),
             Self::BackgroundCapture(_) => "background-capture".to_owned(),
         }
@@ -53,7 +59,7 @@ impl Addition {
     pub fn variables(&self, data: &DataSplit) -> Vec<String> {
         match self {
             Self::Part { part, .. } => part.part.inputs().iter().map(|&input| input.to_owned()).collect(),
-            Self::Curve(curve) => vec![data.covariates[curve.form.covariate].name.clone()],
+            Self::Curve(curve) => curve.form.columns(data),
             Self::ScatterTrend(_) | Self::BackgroundCapture(_) => Vec::new(),
         }
     }
@@ -77,6 +83,15 @@ impl Addition {
             Self::Part { part, .. } => part.at.len(),
             Self::Curve(curve) => curve.heights.len(),
             Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1,
+        }
+    }
+
+    /// The number of its fitted parameters, which its gain pays for.
+    pub fn freedom(&self) -> f64 {
+        match self {
+            Self::Part { part, .. } => part.at.len() as f64,
+            Self::Curve(curve) => curve.freedom,
+            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1.0,
         }
     }
 
@@ -115,15 +130,17 @@ impl Addition {
     }
 }
 
-/// An addition with its cross-validated gain.
+/// An addition with its gain.
 #[derive(Debug, Clone)]
 pub(super) struct ScoredCandidate {
     pub addition: Addition,
-    /// Gain in log score of each row of [`DataSplit::search`] [nats].
+    /// Gain in log score of each row of [`DataSplit::search`], less its share of the number of parameters [nats].
     pub differences: Vec<f64>,
-    /// Gain beyond that of a constant offset, for a curve; otherwise the whole gain [nats].
+    /// Gain beyond that of a level shift, for a curve; otherwise the whole gain [nats].
     pub own_gain: f64,
+    /// Corrected for the candidate's own shapes.
     pub p_value: f64,
+    /// Corrected for the number of candidates.
     pub q_value: f64,
 }
 

@@ -1,71 +1,131 @@
-//! A smooth curve over one column, for a dependence that no effect explains.
+//! A smooth curve over one column or a surface over two, for a dependence that no effect explains; without a column, a level shift.
 
+use nalgebra::DMatrix;
+
+use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
-use super::smooth::Basis;
+use super::smooth::{Basis, Entry, Smoothed, products, ridge, sum};
 
 /// Rounds of the iteratively reweighted fit of capture.
 const ROUNDS: usize = 5;
 /// Largest constant offset of capture [log odds].
 const WIDEST_ODDS: f64 = 10.0;
 
-/// What a curve is: its column, its observable, and how it acts. A constant ignores the column.
+/// What a curve is: its columns, its observable, and how it acts.
 #[derive(Debug, Clone)]
 pub(super) struct CurveForm {
-    /// Index among the covariates.
-    pub covariate: usize,
+    /// Index among the covariates and basis of each side: none for a level shift, one for a curve, two for a surface.
+    pub sides: Vec<(usize, Basis)>,
     pub observable: Observable,
     /// Whether it is multiplied with the prediction rather than added.
     pub multiplicative: bool,
-    pub basis: Basis,
 }
 
 impl CurveForm {
+    /// A constant.
+    pub fn level(observable: Observable, multiplicative: bool) -> Self {
+        Self { sides: Vec::new(), observable, multiplicative }
+    }
+
+    /// The basis functions at a row.
+    pub fn entry(&self, data: &DataSplit, row: usize) -> Entry {
+        match self.sides.as_slice() {
+            [] => vec![(0, 1.0)],
+            [(column, basis)] => basis.entry(data.values(*column), row),
+            [(one, first), (two, second), ..] => {
+                products(&[(first, data.values(*one)), (second, data.values(*two))], row)
+            }
+        }
+    }
+
+    /// The penalty on the heights: bends along each side.
+    fn penalty(&self) -> DMatrix<f64> {
+        match self.sides.as_slice() {
+            [] => DMatrix::identity(1, 1) * 1e-6,
+            [(_, basis)] => basis.penalty(),
+            [(_, one), (_, two), ..] => {
+                let [a, b] = [one, two].map(|basis| DMatrix::<f64>::identity(basis.len(), basis.len()));
+                one.penalty().kronecker(&b) + a.kronecker(&two.penalty())
+            }
+        }
+    }
+
+    /// The id of the cause.
+    pub fn name(&self, data: &DataSplit) -> String {
+        if self.sides.is_empty() {
+            return "level-shift".to_owned();
+        }
+        format!("unknown:{}", self.columns(data).join("*"))
+    }
+
+    /// The names of its columns.
+    pub fn columns(&self, data: &DataSplit) -> Vec<String> {
+        self.sides.iter().map(|(column, _)| data.covariates[*column].name.clone()).collect()
+    }
+
+    fn smooth(&self, evaluation: &Evaluation<'_>, points: &[super::smooth::Point]) -> Option<Smoothed> {
+        ridge(&self.penalty(), points, |row| self.entry(evaluation.data, row))
+    }
+
     /// The curve that fits the residuals best, `None` where there are too few.
     ///
     /// The curve of capture is in log odds and fitted by iteratively reweighted least squares, from a constant on.
     pub fn fit(self, evaluation: &Evaluation<'_>) -> Option<ColumnCurve> {
-        let values = evaluation.data.values(self.covariate);
         if self.observable != Observable::Capture {
             let points = evaluation.residuals(self.observable, self.multiplicative);
-            let heights = self.basis.fit(values, &points)?;
-            return Some(ColumnCurve { form: self, heights });
+            let Smoothed { heights, freedom } = self.smooth(evaluation, &points)?;
+            return Some(ColumnCurve { form: self, heights, freedom });
         }
-        let (mut basis, mut heights) = (&Basis::Constant, vec![constant_odds(evaluation)?]);
-        for _ in 0..if matches!(self.basis, Basis::Constant) { 0 } else { ROUNDS } {
+        let constant = constant_odds(evaluation)?;
+        if self.sides.is_empty() {
+            return Some(ColumnCurve { form: self, heights: vec![constant], freedom: 1.0 });
+        }
+        let mut fitted: Option<Smoothed> = None;
+        let height = |fitted: &Option<Smoothed>, row: usize| {
+            fitted.as_ref().map_or(constant, |fit| sum(&self.entry(evaluation.data, row), &fit.heights))
+        };
+        for _ in 0..ROUNDS {
             let mut offsets = evaluation.offsets.to_vec();
             for &row in evaluation.rows.iter() {
-                offsets[row].capture += basis.height(&heights, values, row);
+                offsets[row].capture += height(&fitted, row).clamp(-WIDEST_ODDS, WIDEST_ODDS);
             }
             let mut points = evaluation.with_offsets(offsets).residuals(self.observable, false);
             for point in &mut points {
-                point.residual += basis.height(&heights, values, point.row);
+                point.residual += height(&fitted, point.row).clamp(-WIDEST_ODDS, WIDEST_ODDS);
             }
-            (basis, heights) = (&self.basis, self.basis.fit(values, &points)?);
+            fitted = Some(self.smooth(evaluation, &points)?);
         }
-        Some(ColumnCurve { form: self, heights })
+        let Smoothed { heights, freedom } = fitted?;
+        Some(ColumnCurve { form: self, heights, freedom })
     }
 }
 
-/// A fitted curve over a column.
+/// A fitted curve or surface.
 #[derive(Debug, Clone)]
 pub(super) struct ColumnCurve {
     pub form: CurveForm,
-    /// Heights of the basis functions.
+    /// Heights of the basis functions; of a surface those of the first side, for each the second side.
     pub heights: Vec<f64>,
+    /// Effective number of parameters.
+    pub freedom: f64,
 }
 
 impl ColumnCurve {
+    /// The height at a row, without the scale.
+    pub fn height(&self, data: &DataSplit, row: usize) -> f64 {
+        sum(&self.form.entry(data, row), &self.heights)
+    }
+
     /// Adds the curve to the offsets of the evaluated rows.
     pub fn add_to(&self, offsets: &mut [Offset], evaluation: &Evaluation<'_>) {
-        let CurveForm { covariate, observable, multiplicative, ref basis } = self.form;
-        let values = evaluation.data.values(covariate);
-        for (row, predicted) in evaluation.plain(observable) {
-            let scale = if multiplicative { predicted } else { 1.0 };
-            let height = basis.height(&self.heights, values, row) * scale;
+        for (row, predicted) in evaluation.plain(self.form.observable) {
+            let scale = if self.form.multiplicative { predicted } else { 1.0 };
+            let height = self.height(evaluation.data, row) * scale;
             let offset = &mut offsets[row];
-            *offset.restitution.get_mut(observable as usize).unwrap_or(&mut offset.capture) += height;
+            let which = self.form.observable as usize;
+            *offset.restitution.get_mut(which).unwrap_or(&mut offset.capture) += height;
         }
     }
 }

@@ -1,27 +1,30 @@
-//! Splits the measured rows: three quarters for fits and choices, the last quarter for the gain alone.
+//! The measured rows and their roles: all of them for a choice, or some held out for the gain.
 
 use std::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::groups::{GroupColumn, units};
+use super::input_error::corrected;
+use super::likelihood::{GROSS_SHARE, Offset};
 use crate::dataset::{Column, Measurement, Measurements, Values};
 use crate::impact::INPUTS;
 use crate::model::Model;
 
-/// Folds of the cross-validation.
-const FOLDS: usize = 5;
 /// Largest number of rows in the search for causes; more rows would only take longer.
 const SEARCH_ROWS: usize = 1000;
 /// Largest number of rows in the final fit of the parameters.
 const FIT_ROWS: usize = 10_000;
 /// The same for a stochastic model.
 const STOCHASTIC_FIT_ROWS: usize = 1000;
-/// Largest number of rows on which the gain is measured.
-const GAIN_ROWS: usize = 20_000;
 /// Random draws a row of a stochastic model, in the search and in the final fit.
 const COARSE_DRAWS: usize = 16;
 const FINE_DRAWS: usize = 64;
+/// So many groups can be tested as units.
+const MANY_GROUPS: usize = 10;
+/// With fewer readings no gross errors are expected: a row that looks like one is evidence.
+const MANY_READINGS: usize = 30;
 
 /// A column that may explain the residuals: an input of the model or a further column of the file.
 #[derive(Debug, Clone)]
@@ -29,12 +32,28 @@ pub(super) struct Covariate {
     pub name: String,
     /// SI unit of an input; empty for a further column.
     pub unit: &'static str,
+    /// Blank cells of numbers have the median, which has no effect of its own.
     pub values: Values,
+    /// Rows with a blank cell.
+    pub blank: Arc<[bool]>,
     /// Whether it is an input of the model.
     pub input: bool,
 }
 
 impl Covariate {
+    fn new(name: &str, unit: &'static str, mut values: Values, input: bool) -> Self {
+        let blank = match &mut values {
+            Values::Numbers(numbers) => {
+                let blank: Vec<bool> = numbers.iter().map(|number| !number.is_finite()).collect();
+                let middle = median(numbers.iter().copied().filter(|number| number.is_finite()));
+                numbers.iter_mut().filter(|number| !number.is_finite()).for_each(|number| *number = middle);
+                blank
+            }
+            Values::Labels { of_row, .. } => of_row.iter().map(Option::is_none).collect(),
+        };
+        Self { name: name.to_owned(), unit, values, blank: blank.into(), input }
+    }
+
     fn varies(&self) -> bool {
         match &self.values {
             Values::Numbers(numbers) => {
@@ -48,51 +67,60 @@ impl Covariate {
     /// A row's number or the index of its label; NaN where blank.
     pub fn cell(&self, row: usize) -> f64 {
         match &self.values {
+            Values::Numbers(_) if self.blank[row] => f64::NAN,
             Values::Numbers(numbers) => numbers[row],
             Values::Labels { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
         }
     }
 
-    /// Distance from the mean in standard deviations, at most three; labels and blanks are 0.
+    /// The median of a column of numbers.
+    pub fn median(&self) -> f64 {
+        match &self.values {
+            Values::Numbers(numbers) => median(numbers.iter().copied()),
+            Values::Labels { .. } => f64::NAN,
+        }
+    }
+
+    /// Distance from the mean in standard deviations, at most three; labels are 0.
     pub fn standardised(&self) -> Vec<f64> {
         let numbers = match &self.values {
             Values::Numbers(numbers) => numbers,
             Values::Labels { of_row, .. } => return vec![0.0; of_row.len()],
         };
-        let finite: Vec<f64> = numbers.iter().copied().filter(|value| value.is_finite()).collect();
-        let count = finite.len().max(1) as f64;
-        let mean = finite.iter().sum::<f64>() / count;
-        let deviation = (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
-        let z = |value: &f64| {
-            if value.is_finite() && deviation > 0.0 {
-                ((value - mean) / deviation).clamp(-3.0, 3.0)
-            } else {
-                0.0
-            }
-        };
+        let count = numbers.len().max(1) as f64;
+        let mean = numbers.iter().sum::<f64>() / count;
+        let deviation = (numbers.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+        let z =
+            |value: &f64| if deviation > 0.0 { ((value - mean) / deviation).clamp(-3.0, 3.0) } else { 0.0 };
         numbers.iter().map(z).collect()
     }
 }
 
-/// One fold of the cross-validation, as places in [`DataSplit::search`].
-#[derive(Debug, Clone)]
-pub(super) struct Fold {
-    /// Rows that are scored.
-    pub inside: Vec<usize>,
-    /// Rows that are fitted.
-    pub outside: Vec<usize>,
+/// The median of some numbers; NaN of none.
+fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = numbers.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// The base model and the measured rows, with the role of each row. It does not change during a diagnosis.
+/// The base model and the measured rows, with the role of each row. It does not change during a choice.
 #[derive(Debug, Clone)]
 pub(super) struct DataSplit {
     pub base: Model,
+    /// The rows; inputs with stated errors have their expected values.
     pub rows: Arc<[Measurement]>,
     /// All columns that vary.
     pub covariates: Arc<[Covariate]>,
+    /// What is known of the noise of each row.
+    pub noise: Arc<[Offset]>,
+    /// The independent unit of each row.
+    pub units: Arc<[usize]>,
+    /// Number of units.
+    pub unit_count: usize,
+    /// Groups whose rows share an error that is estimated.
+    pub shared: Option<GroupColumn>,
     /// Rows of the search for causes.
     pub search: Vec<usize>,
-    pub folds: Vec<Fold>,
     /// Rows of the final fit: those of the search and more.
     pub fit: Vec<usize>,
     /// Rows that no fit and no choice uses.
@@ -113,28 +141,61 @@ pub(super) fn shuffled(count: usize, seed: u64) -> Vec<usize> {
 }
 
 impl DataSplit {
-    /// Shuffles and splits the rows; the same seed gives the same split.
-    pub fn new(base: &Model, data: Measurements, seed: u64) -> Self {
-        let mut order = shuffled(data.rows.len(), seed);
-        let mut held_out = order.split_off(order.len() - order.len() / 4);
-        held_out.truncate(GAIN_ROWS);
-        order.truncate(FIT_ROWS);
-        let search = order[..order.len().min(SEARCH_ROWS)].to_vec();
-        let places = |fold: usize| (fold..search.len()).step_by(FOLDS);
-        let fold = |fold: usize| Fold {
-            inside: places(fold).collect(),
-            outside: (0..FOLDS).filter(|other| *other != fold).flat_map(places).collect(),
-        };
-        Self {
-            base: base.clone(),
-            covariates: covariates(&data).into(),
-            folds: (0..FOLDS).map(fold).collect(),
-            search,
-            fit: order,
-            held_out,
-            rows: data.rows.into(),
-            draws: COARSE_DRAWS,
+    /// All rows for the choice and the fit, none held out; `groups` are the columns that group them.
+    pub fn new(base: &Model, data: &Measurements, groups: &[GroupColumn]) -> Self {
+        let readings =
+            data.rows.iter().map(|row| usize::from(row.e_n.is_some()) + usize::from(row.e_t.is_some()));
+        let gross = if readings.sum::<usize>() < MANY_READINGS { 0.0 } else { GROSS_SHARE };
+        let (rows, mut noise) = corrected(base, data);
+        for (offset, row) in noise.iter_mut().zip(&rows) {
+            offset.gross = gross;
+            let least = data.detection.least_e_n(&row.impact);
+            offset.visible_from = if least > 0.0 { least } else { f64::NEG_INFINITY };
         }
+        let (units, unit_count) = units(data);
+        let excluded: Vec<&str> = groups.iter().map(|groups| groups.name.as_str()).collect();
+        let all: Vec<usize> = (0..rows.len()).collect();
+        let whole = Self {
+            base: base.clone(),
+            covariates: covariates(base, data, &excluded).into(),
+            rows: rows.into(),
+            noise: noise.into(),
+            units,
+            unit_count,
+            shared: None,
+            search: Vec::new(),
+            fit: Vec::new(),
+            held_out: Vec::new(),
+            draws: COARSE_DRAWS,
+        };
+        whole.fitting(&all)
+    }
+
+    /// The same rows, of which only `fitted` are used for choices and fits, and all others are held out.
+    pub fn fitting(&self, fitted: &[usize]) -> Self {
+        // A fixed order that no column follows, so that the search of a large file sees all of it.
+        let mut fit: Vec<usize> = shuffled(fitted.len(), 0).into_iter().map(|place| fitted[place]).collect();
+        let mut used = vec![false; self.rows.len()];
+        fit.iter().for_each(|&row| used[row] = true);
+        let held_out = (0..self.rows.len()).filter(|&row| !used[row]).collect();
+        fit.truncate(FIT_ROWS);
+        let search = fit[..fit.len().min(SEARCH_ROWS)].to_vec();
+        Self { search, fit, held_out, ..self.clone() }
+    }
+
+    /// Whether the search for causes would use these rows no better than three quarters of them.
+    pub fn is_large(&self) -> bool {
+        3 * self.rows.len() >= 4 * SEARCH_ROWS
+    }
+
+    /// The same rows with an error that the rows of each group share; each of many groups is then one unit.
+    pub fn with_shared_errors(&self, groups: &GroupColumn) -> Self {
+        // Few groups cannot be tested as units; the likelihood then takes care of what their rows share.
+        let (units, unit_count) = match groups.count >= MANY_GROUPS {
+            true => (groups.of_row.clone(), groups.count),
+            false => (self.units.clone(), self.unit_count),
+        };
+        Self { shared: Some(groups.clone()), units, unit_count, ..self.clone() }
     }
 
     /// The split for the final fit: more draws a row, and fewer rows for a stochastic model.
@@ -148,14 +209,50 @@ impl DataSplit {
 
     /// Other rows under the same base model, none of them fitted.
     pub fn with_rows(&self, rows: Vec<Measurement>, covariates: Vec<Covariate>) -> Self {
-        let (search, folds, fit, held_out) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (rows, covariates) = (rows.into(), covariates.into());
-        Self { base: self.base.clone(), rows, covariates, search, folds, fit, held_out, draws: COARSE_DRAWS }
+        let count = rows.len();
+        Self {
+            base: self.base.clone(),
+            rows: rows.into(),
+            covariates: covariates.into(),
+            noise: vec![Offset::default(); count].into(),
+            units: (0..count).collect(),
+            unit_count: count,
+            shared: None,
+            search: Vec::new(),
+            fit: Vec::new(),
+            held_out: Vec::new(),
+            draws: COARSE_DRAWS,
+        }
+    }
+
+    /// Rows without columns, for the errors of a finished model.
+    pub fn bare(base: &Model, rows: &[Measurement], draws: usize) -> Self {
+        let plain = Self {
+            base: base.clone(),
+            rows: Arc::new([]),
+            covariates: Arc::new([]),
+            noise: Arc::new([]),
+            units: Arc::new([]),
+            unit_count: 0,
+            shared: None,
+            search: Vec::new(),
+            fit: Vec::new(),
+            held_out: Vec::new(),
+            draws,
+        };
+        Self { draws, ..plain.with_rows(rows.to_vec(), Vec::new()) }
     }
 
     /// The indices of all rows.
     pub fn all(&self) -> Vec<usize> {
         (0..self.rows.len()).collect()
+    }
+
+    /// Number of rows in the search with a measured `e_n`, and with a measured `e_t`.
+    pub fn readings(&self) -> [usize; 2] {
+        let count =
+            |of: fn(&Measurement) -> bool| self.search.iter().filter(|&&row| of(&self.rows[row])).count();
+        [count(|row| row.e_n.is_some()), count(|row| row.e_t.is_some())]
     }
 
     /// The cells of a covariate; none if no column varies. A constant offset needs none.
@@ -178,20 +275,25 @@ impl DataSplit {
     }
 }
 
-/// The inputs that the file states and its further columns, if they vary.
-fn covariates(data: &Measurements) -> Vec<Covariate> {
+/// The inputs that the file states and its further columns, if they vary; without those that group the rows.
+fn covariates(base: &Model, data: &Measurements, groups: &[&str]) -> Vec<Covariate> {
     let given = INPUTS.iter().filter(|input| data.given.contains(&input.name));
-    let inputs = given.map(|input| Covariate {
-        name: input.name.to_owned(),
-        unit: input.unit,
-        values: Values::Numbers(data.rows.iter().map(|row| (input.value)(&row.impact)).collect()),
-        input: true,
+    let inputs = given.map(|input| {
+        let numbers = data.rows.iter().map(|row| (input.value)(&row.impact)).collect();
+        Covariate::new(input.name, input.unit, Values::Numbers(numbers), true)
     });
-    let further = data.columns.iter().map(|Column { name, values }| Covariate {
-        name: name.clone(),
-        unit: "",
-        values: values.clone(),
-        input: false,
+    let declared = data.given_extra.iter().filter_map(|&place| {
+        let input = base.extra_inputs().get(place)?;
+        let cell = |row: &Measurement| row.impact.extra[place];
+        let values = if input.is_label() {
+            let label = |row: &Measurement| (cell(row) >= 0.0).then(|| cell(row) as usize);
+            Values::Labels { levels: input.labels.clone(), of_row: data.rows.iter().map(label).collect() }
+        } else {
+            Values::Numbers(data.rows.iter().map(cell).collect())
+        };
+        Some(Covariate::new(&input.name, "", values, false))
     });
-    inputs.chain(further).filter(Covariate::varies).collect()
+    let further = data.columns.iter().filter(|column| !groups.contains(&column.name.as_str()));
+    let further = further.map(|Column { name, values }| Covariate::new(name, "", values.clone(), false));
+    inputs.chain(declared).chain(further).filter(Covariate::varies).collect()
 }

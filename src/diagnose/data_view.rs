@@ -153,7 +153,8 @@ fn curve(
     let covariate = |other: &Covariate| {
         let own = other.name == main.name;
         let values = if own { Values::Numbers(values.clone()) } else { other.values.at(&originals) };
-        Covariate { values, ..other.clone() }
+        let blank = originals.iter().map(|&row| !own && other.blank[row]).collect();
+        Covariate { values, blank, ..other.clone() }
     };
     let grid = data.with_rows(copies, data.covariates.iter().map(covariate).collect());
     let all = grid.all();
@@ -178,6 +179,7 @@ mod tests {
         let covariate = |values: Vec<f64>| Covariate {
             name: "x".into(),
             unit: "",
+            blank: vec![false; values.len()].into(),
             values: Values::Numbers(values),
             input: false,
         };

@@ -5,14 +5,19 @@ use std::sync::Arc;
 
 use super::data_split::DataSplit;
 use super::forecast::{Forecast, Prediction};
-use super::likelihood::{Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, mean, regular, score};
+use super::likelihood::{
+    Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, mean, reading_noise, regular, score,
+};
 use super::observable::Observable;
+use super::shared_error::{GroupSums, SharedErrors};
 use super::smooth::Point;
 use crate::dataset::Measurement;
 use crate::model::Model;
 
 /// Largest number of steps of the scatter's estimate.
-const STEPS: usize = 6;
+const STEPS: usize = 8;
+/// Largest slope of the log score of one impact by the probability of capture [1].
+const STEEPEST: f64 = 20.0;
 /// The estimate ends when a step changes it by less than this share.
 const TOLERANCE: f64 = 3e-3;
 
@@ -27,6 +32,30 @@ pub(super) struct Evaluation<'a> {
     /// Offsets of all rows of the data, by index.
     pub offsets: Cow<'a, [Offset]>,
     pub scatter: Scatter,
+    /// Errors that groups of rows share, as of the last fit of the scatter.
+    pub shared: Arc<SharedErrors>,
+}
+
+/// The slope of a row's log score by the predictions.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Slope {
+    /// By `e_n` and `e_t` [1].
+    pub restitution: [f64; 2],
+    /// By the probability of capture [1].
+    pub capture: f64,
+    /// Information on each observable: minus the expected second derivative [1].
+    pub information: [f64; 3],
+}
+
+/// A reading beside its prediction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StatedResidual {
+    pub line: u64,
+    pub observable: Observable,
+    pub measured: f64,
+    pub predicted: f64,
+    /// Measured minus predicted value in stated standard errors [1].
+    pub standard_errors: f64,
 }
 
 impl<'a> Evaluation<'a> {
@@ -40,7 +69,8 @@ impl<'a> Evaluation<'a> {
     ) -> Self {
         let rows = rows.into();
         let forecast = Arc::new(Forecast::new(model, &data.rows, &rows, data.draws));
-        Self { data, rows, forecast, offsets: offsets.into(), scatter }
+        let shared = Arc::new(SharedErrors::default());
+        Self { data, rows, forecast, offsets: offsets.into(), scatter, shared }
     }
 
     /// The rows at these places alone.
@@ -57,12 +87,13 @@ impl<'a> Evaluation<'a> {
         Self { scatter, ..self }
     }
 
-    /// The scatter of largest likelihood, by expectation–maximisation from the present one.
+    /// The scatter of largest likelihood, by scoring from the present one, with the errors that groups share.
     pub fn with_fitted_scatter(mut self) -> Self {
         for _ in 0..STEPS {
+            self.fit_shared_errors();
             let mut sums = [[0.0; 2]; 2];
             for (_, row, predictions, offset) in self.each() {
-                add_squares(&mut sums, row, predictions, offset, self.scatter);
+                add_squares(&mut sums, row, predictions, &offset, self.scatter);
             }
             let before = self.scatter;
             self.scatter = [0, 1].map(|which| {
@@ -77,18 +108,67 @@ impl<'a> Evaluation<'a> {
         self
     }
 
+    /// The same rows without the errors that groups share.
+    pub fn without_shared_errors(self) -> Self {
+        Self { shared: Arc::default(), ..self }
+    }
+
+    /// Estimates the errors that groups of rows share, if any do.
+    fn fit_shared_errors(&mut self) {
+        let Some(groups) = &self.data.shared else { return };
+        let mut sums = vec![GroupSums::default(); groups.count];
+        for (place, &index) in self.rows.iter().enumerate() {
+            let row = &self.data.rows[index];
+            let group = groups.of_row[index];
+            let own = &mut sums[group];
+            own.rows += 1.0;
+            if row.captured.is_some_and(|share| share >= 1.0) {
+                continue;
+            }
+            let offset = self.offset(index);
+            let mean = mean(self.forecast.of(place), &offset);
+            let known = self.shared.offset(group);
+            for (which, reading) in [row.e_n, row.e_t].into_iter().enumerate() {
+                let Some(reading) = reading else { continue };
+                let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
+                let residual = reading.value - mean.restitution[which] - shift;
+                let weight = regular(residual, width, offset.gross) / (width * width);
+                own.weight[which] += weight;
+                own.residual[which] += weight * (residual + known[which]);
+            }
+        }
+        self.shared = Arc::new(SharedErrors::fit(sums));
+    }
+
+    /// The offset of a row, with the shared error of its group.
+    fn offset(&self, index: usize) -> Offset {
+        let mut offset = self.offsets[index];
+        if let Some(groups) = &self.data.shared {
+            let group = groups.of_row[index];
+            let shared = self.shared.offset(group);
+            offset.restitution.iter_mut().zip(shared).for_each(|(sum, shared)| *sum += shared);
+            offset.uncertainty = self.shared.variance(group);
+        }
+        offset
+    }
+
     /// Index, measurement, predictions and offset of every row.
-    fn each(&self) -> impl Iterator<Item = (usize, &Measurement, &[Prediction], &Offset)> {
+    fn each(&self) -> impl Iterator<Item = (usize, &Measurement, &[Prediction], Offset)> {
         let one = |(place, &index): (usize, &usize)| {
-            (index, &self.data.rows[index], self.forecast.of(place), &self.offsets[index])
+            (index, &self.data.rows[index], self.forecast.of(place), self.offset(index))
         };
         self.rows.iter().enumerate().map(one)
     }
 
     /// Log score of every row [nats].
     pub fn scores(&self) -> Vec<f64> {
+        let cost = |index: usize| {
+            self.data.shared.as_ref().map_or(0.0, |groups| self.shared.cost(groups.of_row[index]))
+        };
         self.each()
-            .map(|(_, row, predictions, offset)| score(row, predictions, offset, self.scatter))
+            .map(|(index, row, predictions, offset)| {
+                score(row, predictions, &offset, self.scatter) - cost(index)
+            })
             .collect()
     }
 
@@ -97,9 +177,12 @@ impl<'a> Evaluation<'a> {
         self.scores().iter().sum()
     }
 
-    /// Every row with its predicted means.
+    /// Every row with its predicted means, without what its group shares.
     pub fn means(&self) -> impl Iterator<Item = (&Measurement, Mean)> {
-        self.each().map(|(_, row, predictions, offset)| (row, mean(predictions, offset)))
+        let one = |(place, &index): (usize, &usize)| {
+            (&self.data.rows[index], mean(self.forecast.of(place), &self.offsets[index]))
+        };
+        self.rows.iter().enumerate().map(one)
     }
 
     /// Measured and predicted value of every row, `None` where it was not measured.
@@ -116,18 +199,96 @@ impl<'a> Evaluation<'a> {
 
     /// Predicted minus measured number of captures if `added` is added to the log odds; `None` without measured captures.
     pub fn excess_captures(&self, added: f64) -> Option<f64> {
-        let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], &Offset)| {
-            let offset = Offset { capture: offset.capture + added, ..*offset };
+        let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
+            let offset = Offset { capture: offset.capture + added, ..offset };
             Some(row.impacts * (mean(predictions, &offset).capture - row.captured?))
         };
         self.each().filter_map(one).fold(None, |sum, one| Some(sum.unwrap_or(0.0) + one))
     }
 
+    /// The slope of every row's log score by the predictions, without draws.
+    pub fn slopes(&self) -> Vec<Slope> {
+        let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
+            let mean = mean(predictions, &offset);
+            let mut slope = Slope::default();
+            if let Some(captured) = row.captured {
+                let information = row.impacts / (mean.capture * (1.0 - mean.capture));
+                // Where the model is certain, one row must not outweigh all others.
+                let most = STEEPEST * row.impacts;
+                slope.capture = (information * (captured - mean.capture)).clamp(-most, most);
+                slope.information[2] = information;
+            }
+            for (which, reading) in [row.e_n, row.e_t].into_iter().enumerate() {
+                let Some(reading) = reading else { continue };
+                let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
+                let residual = reading.value - mean.restitution[which] - shift;
+                let weight = regular(residual, width, offset.gross) / (width * width);
+                slope.restitution[which] = weight * residual;
+                slope.information[which] = weight;
+            }
+            slope
+        };
+        self.each().map(one).collect()
+    }
+
+    /// Chi-square of the stated errors and the number of readings; `None` unless all readings have a stated error.
+    pub fn stated_chi_square(&self) -> Option<(f64, usize)> {
+        let (mut sum, mut count) = (0.0, 0);
+        for residual in self.stated_residuals()? {
+            sum += residual.standard_errors.powi(2);
+            count += 1;
+        }
+        (count > 0).then_some((sum, count))
+    }
+
+    /// Pearson's chi-square of all captures and readings, and their number.
+    pub fn pearson(&self) -> (f64, usize) {
+        let (mut sum, mut count) = (0.0, 0);
+        for slope in self.slopes() {
+            for (slope, information) in [
+                (slope.restitution[0], slope.information[0]),
+                (slope.restitution[1], slope.information[1]),
+                (slope.capture, slope.information[2]),
+            ] {
+                if information > 0.0 {
+                    sum += slope * slope / information;
+                    count += 1;
+                }
+            }
+        }
+        (sum, count)
+    }
+
+    /// The residuals in stated standard errors; `None` unless all readings have one.
+    pub fn stated_residuals(&self) -> Option<Vec<StatedResidual>> {
+        let mut all = Vec::new();
+        for (_, row, predictions, offset) in self.each() {
+            let mean = mean(predictions, &offset);
+            for (which, reading) in [row.e_n, row.e_t].into_iter().enumerate() {
+                let Some(reading) = reading else { continue };
+                let error = reading.error?;
+                let variance =
+                    error * error + offset.variance[which] + mean.variance[which] / row.rebounds.max(1.0);
+                let predicted = mean.restitution[which];
+                let standard_errors = (reading.value - predicted) / variance.sqrt();
+                let observable = Observable::ALL[which];
+                all.push(StatedResidual {
+                    line: row.line,
+                    observable,
+                    measured: reading.value,
+                    predicted,
+                    standard_errors,
+                });
+            }
+        }
+        Some(all)
+    }
+
     /// The residuals of an observable; a curve through them is multiplied with the prediction if `multiplicative`.
     pub fn residuals(&self, observable: Observable, multiplicative: bool) -> Vec<Point> {
         let which = observable as usize;
-        let point = |(index, row, predictions, offset): (usize, &Measurement, &[Prediction], &Offset)| {
-            let mean = mean(predictions, offset);
+        let point = |(index, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
+            let mean = mean(predictions, &offset);
             if observable == Observable::Capture {
                 let variance = mean.capture * (1.0 - mean.capture);
                 // One step of a logistic fit: the residual in log odds and its information.
@@ -136,11 +297,11 @@ impl<'a> Evaluation<'a> {
             }
             let reading = [row.e_n, row.e_t][which]?;
             let expected = mean.restitution[which];
-            let residual = reading.value - expected;
-            let own = (self.scatter[which] * offset.spread).powi(2) + mean.variance[which];
-            let variance = reading.error.map_or(own / row.rebounds.max(1.0), |error| own + error * error);
-            let weight = regular(residual, variance.sqrt()) / variance;
-            Some(Point { row: index, residual, weight, scale: if multiplicative { expected } else { 1.0 } })
+            let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
+            let residual = reading.value - expected - shift;
+            let weight = regular(residual, width, offset.gross) / (width * width);
+            let scale = if multiplicative { expected - offset.restitution[which] } else { 1.0 };
+            Some(Point { row: index, residual, weight, scale })
         };
         self.each().filter_map(point).collect()
     }

@@ -2,6 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+use statrs::distribution::{ContinuousCDF, Normal};
+
 use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
 use super::curve::ColumnCurve;
@@ -14,6 +18,13 @@ use super::smooth::Basis;
 use crate::dataset::Values;
 use crate::effect::EFFECTS;
 
+/// Resamples for the certainty of a cause, and the gain at which one of them names it [nats].
+const RESAMPLES: usize = 200;
+const NOTICEABLE: f64 = 3.0;
+/// A cause is named with this share of the gain of the best candidate.
+const NEARLY: f64 = 0.75;
+/// Least gain of a curve beyond a level at which it is listed beside a level [nats].
+const BESIDE_LEVEL: f64 = 0.3;
 /// Largest number of alternatives listed.
 const ALTERNATIVES: usize = 6;
 
@@ -53,7 +64,7 @@ impl FindingBuilder<'_> {
     }
 
     /// The finding of a cause.
-    pub fn finding(&self, Discovery { winner, others }: &Discovery) -> Finding {
+    pub fn finding(&self, Discovery { winner, others, lack_of_fit }: &Discovery) -> Finding {
         let cause = self.name(winner);
         let observable = self.observable(winner);
         let rivals = self.indistinguishable(winner, others);
@@ -63,10 +74,10 @@ impl FindingBuilder<'_> {
             observable: observable.name(),
             variables: winner.addition.variables(self.hypothesis.data),
             gain: winner.gain(),
-            chi_square: 2.0 * winner.gain(),
-            sigma: 0.0,
-            certainty: 1.0,
-            lack_of_fit: None,
+            chi_square: 2.0 * (winner.gain() + winner.addition.freedom()),
+            sigma: sigma(winner.q_value),
+            certainty: certainty(winner, others),
+            lack_of_fit: *lack_of_fit,
             not_separable: Vec::new(),
             p_value: winner.p_value,
             q_value: winner.q_value,
@@ -74,7 +85,7 @@ impl FindingBuilder<'_> {
             alternatives: self.alternatives(winner, others),
             measure_next: rivals.iter().filter_map(advice).collect(),
             indistinguishable_from: rivals.iter().map(|rival| self.name(rival)).collect(),
-            curve: self.final_curve(winner).map(|curve| self.curve(curve)),
+            curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
             explanation: String::new(),
             cause,
         };
@@ -85,7 +96,8 @@ impl FindingBuilder<'_> {
     /// The curve of this addition after the final fit.
     fn final_curve(&self, winner: &ScoredCandidate) -> Option<&ColumnCurve> {
         let Addition::Curve(first) = &winner.addition else { return None };
-        let key = |curve: &ColumnCurve| (curve.form.covariate, curve.form.observable);
+        let data = self.hypothesis.data;
+        let key = |curve: &ColumnCurve| (curve.form.name(data), curve.form.observable);
         self.hypothesis.curves.iter().find(|curve| key(curve) == key(first))
     }
 
@@ -118,8 +130,8 @@ impl FindingBuilder<'_> {
             Addition::Part { .. } => true,
             // A curve over the winner's own inputs is no other cause, and an insignificant one is mostly its constant.
             Addition::Curve(curve) => {
-                other.q_value <= self.level
-                    && !variables.contains(&data.covariates[curve.form.covariate].name)
+                let columns = curve.form.columns(data);
+                other.q_value <= self.level && !columns.iter().any(|column| variables.contains(column))
             }
             Addition::ScatterTrend(_) | Addition::BackgroundCapture(_) => false,
         };
@@ -143,17 +155,26 @@ impl FindingBuilder<'_> {
         others: &'b [ScoredCandidate],
     ) -> Vec<&'b ScoredCandidate> {
         let most_parameters = winner.addition.parameters().max(2);
+        let plain = |name: &String| ["v_n", "d"].contains(&name.as_str());
+        let level_like = winner.addition.variables(self.hypothesis.data).iter().all(plain);
         let is_rival = |other: &&ScoredCandidate| {
             let comparable = match &other.addition {
                 Addition::Part { .. } => {
                     other.addition.parameters() <= most_parameters || other.gain() > winner.gain()
                 }
-                Addition::Curve(curve) => !self.hypothesis.data.covariates[curve.form.covariate].input,
+                // A level shift, a column that no law knows, or beside a cause without an input of its own any column that matters.
+                Addition::Curve(curve) => {
+                    let input = |column: &usize| self.hypothesis.data.covariates[*column].input;
+                    let known = curve.form.sides.iter().any(|side| input(&side.0));
+                    !known || (level_like && other.own_gain > BESIDE_LEVEL)
+                }
                 Addition::ScatterTrend(_) | Addition::BackgroundCapture(_) => false,
             };
+            let curve_beside_level =
+                level_like && other.own_gain > BESIDE_LEVEL && matches!(other.addition, Addition::Curve(_));
             comparable
                 && !other.addition.is_calibration()
-                && other.q_value <= self.level
+                && (other.q_value <= self.level || curve_beside_level)
                 && winner.lead(other) < DISTINGUISHABLE
         };
         let mut rivals: Vec<&ScoredCandidate> = others.iter().filter(is_rival).collect();
@@ -162,15 +183,41 @@ impl FindingBuilder<'_> {
         rivals
     }
 
-    fn curve(&self, fitted: &ColumnCurve) -> FittedCurve {
-        let at = match (&fitted.form.basis, self.hypothesis.data.values(fitted.form.covariate)) {
+    /// A curve of one column for the page; a level shift and a surface have none.
+    fn curve(&self, fitted: &ColumnCurve) -> Option<FittedCurve> {
+        let [(column, basis)] = fitted.form.sides.as_slice() else { return None };
+        let at = match (basis, self.hypothesis.data.values(*column)) {
             (Basis::Hats(knots), _) => knots.iter().map(|knot| rounded(*knot).to_string()).collect(),
             (Basis::Labels(_), Values::Labels { levels, .. }) => levels.clone(),
             _ => Vec::new(),
         };
         let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
-        FittedCurve { factor: fitted.form.multiplicative, at, adds }
+        Some(FittedCurve { factor: fitted.form.multiplicative, at, adds })
     }
+}
+
+/// Standard deviations of a normal distribution with this tail.
+fn sigma(p_value: f64) -> f64 {
+    let p = p_value.clamp(1e-300, 0.5);
+    // The quantile by its asymptotic form, where the tail is too thin for an inverse.
+    let far = (-2.0 * p.ln() - (std::f64::consts::TAU * -2.0 * p.ln()).ln()).sqrt();
+    if p < 1e-12 { far } else { Normal::standard().inverse_cdf(1.0 - p) }
+}
+
+/// Share of resamples of the rows in which this cause gains something, and about as much as the best other one [1].
+fn certainty(winner: &ScoredCandidate, others: &[ScoredCandidate]) -> f64 {
+    let rows = winner.differences.len();
+    let mut random = ChaCha8Rng::seed_from_u64(0x7375_7265);
+    let rivals: Vec<&ScoredCandidate> =
+        others.iter().filter(|other| other.addition.is_systematic()).collect();
+    let wins = (0..RESAMPLES).filter(|_| {
+        let drawn: Vec<usize> =
+            (0..rows).map(|_| (random.next_u64() % rows.max(1) as u64) as usize).collect();
+        let gain = |one: &ScoredCandidate| drawn.iter().map(|&row| one.differences[row]).sum::<f64>();
+        let own = gain(winner);
+        own > NOTICEABLE && rivals.iter().all(|rival| NEARLY * gain(rival) <= own)
+    });
+    wins.count() as f64 / RESAMPLES as f64
 }
 
 /// The explanation of a finding for a reader.

@@ -2,7 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::curve::ColumnCurve;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::curve::{ColumnCurve, CurveForm};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::forecast::Forecast;
@@ -32,8 +34,13 @@ pub(super) struct ScatterTrend {
 }
 
 impl ScatterTrend {
+    /// The covariate in standard deviations, by row.
+    pub fn standardised(&self, data: &DataSplit) -> Vec<f64> {
+        data.covariates[self.covariate].standardised()
+    }
+
     pub fn add_to(&self, offsets: &mut [Offset], data: &DataSplit) {
-        for (offset, z) in offsets.iter_mut().zip(data.covariates[self.covariate].standardised()) {
+        for (offset, z) in offsets.iter_mut().zip(self.standardised(data)) {
             offset.spread *= (self.slope * z).exp();
         }
     }
@@ -52,6 +59,8 @@ pub(super) struct Hypothesis<'a> {
     pub scatter_trends: Vec<ScatterTrend>,
     /// Offsets of `e_n` and `e_t` by row: residuals over the parts' own inputs, where a law is inexact.
     pub discrepancy: Option<[Vec<f64>; 2]>,
+    /// Its effective number of parameters.
+    pub discrepancy_freedom: f64,
     /// Scatter of single measurements [1].
     pub scatter: Scatter,
 }
@@ -67,6 +76,7 @@ impl<'a> Hypothesis<'a> {
             background_capture: 0.0,
             scatter_trends: Vec::new(),
             discrepancy: None,
+            discrepancy_freedom: 0.0,
             scatter,
         }
     }
@@ -95,8 +105,9 @@ impl<'a> Hypothesis<'a> {
     /// The offsets of all rows.
     pub fn offsets(&self) -> Vec<Offset> {
         let data = self.data;
-        let constant = Offset { capture: self.background_capture, ..Offset::default() };
-        let mut offsets = vec![constant; data.rows.len()];
+        let constant = |noise: &Offset| Offset { capture: self.background_capture, ..*noise };
+        let constant: Vec<Offset> = data.noise.iter().map(constant).collect();
+        let mut offsets = constant.clone();
         for trend in &self.scatter_trends {
             trend.add_to(&mut offsets, data);
         }
@@ -106,7 +117,7 @@ impl<'a> Hypothesis<'a> {
             }
         }
         if !self.curves.is_empty() {
-            let all = self.evaluate(data.all(), vec![constant; data.rows.len()]);
+            let all = self.evaluate(data.all(), constant);
             self.curves.iter().for_each(|curve| curve.add_to(&mut offsets, &all));
         }
         offsets
@@ -127,6 +138,20 @@ impl<'a> Hypothesis<'a> {
     /// The predictions of the rows of the search.
     pub fn forecast(&self) -> Forecast {
         Forecast::new(&self.model(), &self.data.rows, &self.data.search, self.data.draws)
+    }
+
+    /// p-value of the discrepancy; `None` without one.
+    pub fn lack_of_fit(&self) -> Option<f64> {
+        let freedom = self.discrepancy_freedom;
+        let law = ChiSquared::new(freedom).ok()?;
+        Some(law.sf(2.0 * (self.discrepancy_gain() + freedom).max(0.0)).max(1e-300))
+    }
+
+    /// The number of fitted parameters.
+    pub fn freedom(&self) -> f64 {
+        let parts = self.parts.iter().map(|part| part.at.len() as f64).sum::<f64>();
+        let curves = self.curves.iter().map(|curve| curve.freedom).sum::<f64>();
+        parts + curves + self.scatter_trends.len() as f64
     }
 
     /// The coordinates of all parts, one part after the other.
@@ -153,6 +178,7 @@ impl<'a> Hypothesis<'a> {
 
     /// Fits all parameters together to these rows, from their present values, then the curves and the scatter.
     pub fn fit(&mut self, rows: &[usize]) {
+        self.fit_rate(rows);
         for _ in 0..if self.curves.is_empty() { 1 } else { 2 } {
             let offsets = self.offsets();
             let start = self.coordinates();
@@ -166,11 +192,26 @@ impl<'a> Hypothesis<'a> {
             self.scatter = self.evaluate(rows, &offsets).with_fitted_scatter().scatter;
             for place in 0..self.curves.len() {
                 let curve = self.curves.remove(place);
-                let fitted = curve.form.clone().fit(&self.evaluate(rows, self.offsets()));
+                let fitted =
+                    curve.form.clone().fit(&self.evaluate(rows, self.offsets()).with_fitted_scatter());
                 self.curves.insert(place, fitted.unwrap_or(curve));
             }
         }
         self.fit_scatter(rows);
+    }
+
+    /// Fits the constant rate of captures, if there is one; a curve of capture contains it.
+    fn fit_rate(&mut self, rows: &[usize]) {
+        if self.background_capture == 0.0 {
+            return;
+        }
+        let before = std::mem::take(&mut self.background_capture);
+        if self.curves.iter().any(|curve| curve.form.observable == Observable::Capture) {
+            return;
+        }
+        let level = CurveForm::level(Observable::Capture, false);
+        let fitted = level.fit(&self.evaluate(rows, self.offsets()).with_fitted_scatter());
+        self.background_capture = fitted.and_then(|curve| curve.heights.first().copied()).unwrap_or(before);
     }
 
     /// Fits all parameters together to the rows of the search, then the discrepancy.
@@ -186,15 +227,24 @@ impl<'a> Hypothesis<'a> {
         self.discrepancy = None;
         self.acts_on = self.actions();
         let all = self.data.all();
-        let evaluation = self.evaluate(&self.data.search, self.offsets());
+        let evaluation = self.evaluate(&self.data.search, self.offsets()).with_fitted_scatter();
         let of = |observable| {
             let (own, others) = self.discrepancy_columns(observable);
             if own.is_empty() {
-                return vec![0.0; all.len()];
+                return (vec![0.0; all.len()], 0.0);
             }
             surface(&own, &others, &evaluation.residuals(observable, false), &all)
         };
-        self.discrepancy = Some([of(Observable::NormalRestitution), of(Observable::TangentialRestitution)]);
+        let [e_n, e_t] = [of(Observable::NormalRestitution), of(Observable::TangentialRestitution)];
+        self.discrepancy_freedom = e_n.1 + e_t.1;
+        self.discrepancy = Some([e_n.0, e_t.0]);
+    }
+
+    /// What the discrepancy gains on the rows of the search, less its effective number of parameters [nats].
+    pub fn discrepancy_gain(&self) -> f64 {
+        let bare = Self { discrepancy: None, ..self.clone() };
+        let score = |h: &Self| h.evaluate(&*self.data.search, h.offsets()).with_fitted_scatter().score();
+        score(self) - score(&bare) - self.discrepancy_freedom
     }
 
     /// The columns of the discrepancy of an observable: those with a curve of their own, and those that only interact
@@ -222,9 +272,18 @@ impl<'a> Hypothesis<'a> {
         acting.map(|(part, _)| part)
     }
 
-    /// Whether a part depends on this input and acts on this observable.
-    pub fn explains(&self, input: &str, observable: Observable) -> bool {
-        self.acting_on(observable).any(|part| part.part.inputs().contains(&input))
+    /// The columns on which a part or a curve of this observable depends, by index; of a part those beside speed and diameter, if any.
+    pub fn columns_of(&self, observable: Observable) -> Vec<usize> {
+        let of_parts = self.acting_on(observable).flat_map(|part| own_inputs(part.part.inputs()));
+        let index = |name: &str| self.data.covariates.iter().position(|column| column.name == name);
+        let curves = self.curves.iter().filter(|curve| curve.form.observable == observable);
+        let of_curves =
+            curves.filter(|curve| curve.form.sides.len() == 1).flat_map(|curve| &curve.form.sides);
+        let mut columns: Vec<usize> =
+            of_parts.filter_map(index).chain(of_curves.map(|side| side.0)).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        columns
     }
 
     /// The observables that each part acts on.
@@ -260,4 +319,11 @@ impl<'a> Hypothesis<'a> {
         }
         sums.map(|sum| sum / self.data.search.len() as f64)
     }
+}
+
+/// The inputs that tell a law from others: those beside speed and diameter, or all if there are no others.
+pub(super) fn own_inputs(inputs: &'static [&'static str]) -> Vec<&'static str> {
+    let plain = |name: &&str| ["v_n", "d"].contains(name);
+    let own: Vec<&str> = inputs.iter().copied().filter(|name| !plain(name)).collect();
+    if own.is_empty() { inputs.to_vec() } else { own }
 }

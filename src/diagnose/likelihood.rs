@@ -9,8 +9,8 @@
 use super::forecast::Prediction;
 use crate::dataset::{Measurement, Reading};
 
-/// Expected share of gross errors [1].
-const GROSS_SHARE: f64 = 0.02;
+/// Expected share of gross errors among many readings [1].
+pub(super) const GROSS_SHARE: f64 = 0.02;
 /// Density of a gross error [1].
 const GROSS_DENSITY: f64 = 0.4;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
@@ -25,7 +25,7 @@ pub(super) const SMALLEST_SCATTER: f64 = 1e-3;
 /// Scatter of single measurements of `e_n` and `e_t` about the prediction [1].
 pub(super) type Scatter = [f64; 2];
 
-/// Correction of the prediction of one row.
+/// Correction of the prediction of one row, and what is known of its noise beside the scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Offset {
     /// Added to `e_n` and `e_t` [1].
@@ -34,11 +34,27 @@ pub(super) struct Offset {
     pub capture: f64,
     /// Factor on the scatter [1].
     pub spread: f64,
+    /// Variance of `e_n` and `e_t` due to the errors of the inputs and to rounding [1].
+    pub variance: [f64; 2],
+    /// Variance of the offsets of `e_n` and `e_t`, where they are estimates [1].
+    pub uncertainty: [f64; 2],
+    /// Least `e_n` that the instrument sees [1].
+    pub visible_from: f64,
+    /// Expected share of gross errors [1].
+    pub gross: f64,
 }
 
 impl Default for Offset {
     fn default() -> Self {
-        Self { restitution: [0.0; 2], capture: 0.0, spread: 1.0 }
+        Self {
+            restitution: [0.0; 2],
+            capture: 0.0,
+            spread: 1.0,
+            variance: [0.0; 2],
+            uncertainty: [0.0; 2],
+            visible_from: f64::NEG_INFINITY,
+            gross: GROSS_SHARE,
+        }
     }
 }
 
@@ -92,12 +108,21 @@ pub(super) fn mean(predictions: &[Prediction], offset: &Offset) -> Mean {
 }
 
 /// The standard deviation of a reading about the prediction [1]; `variance` is that of the prediction.
-fn deviation(scatter: f64, spread: f64, reading: &Reading, rebounds: f64, variance: f64) -> f64 {
+fn deviation(
+    scatter: f64,
+    offset: &Offset,
+    which: usize,
+    reading: &Reading,
+    rebounds: f64,
+    variance: f64,
+) -> f64 {
+    let count = rebounds.max(1.0);
+    let own = (scatter * offset.spread).powi(2);
     let own = match reading.error {
-        Some(error) => (scatter * spread).powi(2) + error * error + variance / rebounds.max(1.0),
-        None => ((scatter * spread).powi(2) + variance) / rebounds.max(1.0),
+        Some(error) => own + error * error + variance / count,
+        None => (own + variance) / count,
     };
-    own.sqrt().max(SMALLEST_SCATTER)
+    (own + offset.variance[which]).sqrt().max(SMALLEST_SCATTER)
 }
 
 fn normal_density(residual: f64, deviation: f64) -> f64 {
@@ -108,16 +133,88 @@ fn normal_density(residual: f64, deviation: f64) -> f64 {
     (-0.5 * z * z).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt())
 }
 
-/// Density of a residual, and its part without gross errors.
-fn densities(residual: f64, deviation: f64) -> (f64, f64) {
-    let normal = (1.0 - GROSS_SHARE) * normal_density(residual, deviation);
-    (normal + GROSS_SHARE * GROSS_DENSITY, normal)
+/// Density of a residual, and its part without gross errors, of which a share `gross` is expected. Without gross errors a far residual
+/// keeps the density of a normal distribution.
+fn densities(residual: f64, deviation: f64, gross: f64) -> (f64, f64) {
+    let normal = (1.0 - gross) * normal_density(residual, deviation);
+    (normal + (gross * GROSS_DENSITY).max(f64::MIN_POSITIVE), normal)
+}
+
+/// Log density of a residual.
+fn log_density(residual: f64, deviation: f64, gross: f64) -> f64 {
+    if gross > 0.0 {
+        return densities(residual, deviation, gross).0.ln();
+    }
+    let z = residual / deviation;
+    -0.5 * z * z - deviation.ln() - 0.5 * std::f64::consts::TAU.ln()
 }
 
 /// Probability that a residual is no gross error.
-pub(super) fn regular(residual: f64, deviation: f64) -> f64 {
-    let (density, normal) = densities(residual, deviation);
+pub(super) fn regular(residual: f64, deviation: f64, gross: f64) -> f64 {
+    if gross <= 0.0 {
+        return 1.0;
+    }
+    let (density, normal) = densities(residual, deviation, gross);
     normal / density
+}
+
+/// The part of a normal distribution that an instrument does not see.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hidden {
+    /// Its share [1].
+    pub share: f64,
+    /// Mean of the visible part beyond that of the whole, in standard deviations [1].
+    pub shift: f64,
+    /// Mean square deviation of the hidden part, in variances [1].
+    pub square: f64,
+}
+
+impl Hidden {
+    /// Of a distribution about `expected` with this deviation, below `visible_from`; `None` if all is visible.
+    pub fn of(expected: f64, deviation: f64, visible_from: f64) -> Option<Self> {
+        let limit = (visible_from - expected) / deviation;
+        if limit < -FAR {
+            return None;
+        }
+        let limit = limit.min(3.0);
+        let share = 0.5 * statrs::function::erf::erfc(-limit / std::f64::consts::SQRT_2);
+        let density = (-0.5 * limit * limit).exp() / std::f64::consts::TAU.sqrt();
+        Some(Self { share, shift: density / (1.0 - share), square: 1.0 - limit * density / share })
+    }
+}
+
+/// Density of a reading that the instrument sees.
+fn visible_density(residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
+    let whole = densities(residual, deviation, offset.gross).0;
+    Hidden::of(expected, deviation, offset.visible_from)
+        .map_or(whole, |hidden| whole / (1.0 - (1.0 - offset.gross) * hidden.share))
+}
+
+/// Log density of a reading that the instrument sees.
+fn visible_log_density(residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
+    let whole = log_density(residual, deviation, offset.gross);
+    Hidden::of(expected, deviation, offset.visible_from)
+        .map_or(whole, |hidden| whole - (1.0 - (1.0 - offset.gross) * hidden.share).ln())
+}
+
+/// The offset with the limit of the instrument for `e_n` alone.
+fn limited(offset: &Offset, which: usize) -> Offset {
+    let visible_from = if which == 0 { offset.visible_from } else { f64::NEG_INFINITY };
+    Offset { visible_from, ..*offset }
+}
+
+/// The standard deviation of a reading, and the mean by which visible readings exceed the prediction [1].
+pub(super) fn reading_noise(
+    scatter: f64,
+    offset: &Offset,
+    which: usize,
+    row: &Measurement,
+    reading: &Reading,
+    mean: &Mean,
+) -> (f64, f64) {
+    let width = deviation(scatter, offset, which, reading, row.rebounds, mean.variance[which]);
+    let hidden = Hidden::of(mean.restitution[which], width, limited(offset, which).visible_from);
+    (width, hidden.map_or(0.0, |hidden| width * hidden.shift))
 }
 
 /// Log score of one row [nats].
@@ -130,6 +227,19 @@ pub(super) fn score(row: &Measurement, predictions: &[Prediction], offset: &Offs
 }
 
 fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
+    if let [one] = predictions {
+        let p = capture(one, offset);
+        if row.captured.is_some_and(|share| share > 0.5) {
+            return p.ln();
+        }
+        let known = if row.captured.is_some() { (1.0 - p).ln() } else { 0.0 };
+        let readings = readings(row).map(|(which, reading)| {
+            let width = deviation(scatter[which], offset, which, reading, 1.0, 0.0);
+            let expected = one.restitution[which] + offset.restitution[which];
+            visible_log_density(reading.value - expected, expected, width, &limited(offset, which))
+        });
+        return known + readings.sum::<f64>();
+    }
     let (mut sum, mut rebounds, mut all) = (0.0, 0.0, 0.0);
     for one in predictions {
         let p = capture(one, offset);
@@ -140,13 +250,14 @@ fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, 
         }
         let mut density = 1.0;
         for (which, reading) in readings(row) {
-            let width = deviation(scatter[which], offset.spread, reading, 1.0, one.reach[which].powi(2));
-            let residual = reading.value - (one.restitution[which] + offset.restitution[which]);
-            density *= densities(residual, width).0;
+            let width = deviation(scatter[which], offset, which, reading, 1.0, one.reach[which].powi(2));
+            let expected = one.restitution[which] + offset.restitution[which];
+            density *= visible_density(reading.value - expected, expected, width, &limited(offset, which));
         }
         sum += (1.0 - p) * one.weight * density;
         rebounds += (1.0 - p) * one.weight;
     }
+    let sum = sum.max(f64::MIN_POSITIVE);
     // Where captures are not recorded, the row is a sample of the rebounds.
     if row.captured.is_some() { (sum / all).ln() } else { (sum / rebounds).ln() }
 }
@@ -157,8 +268,9 @@ fn score_average(row: &Measurement, predictions: &[Prediction], offset: &Offset,
         row.impacts * (share * mean.capture.ln() + (1.0 - share) * (1.0 - mean.capture).ln())
     });
     for (which, reading) in readings(row) {
-        let width = deviation(scatter[which], offset.spread, reading, row.rebounds, mean.variance[which]);
-        score += densities(reading.value - mean.restitution[which], width).0.ln();
+        let width = deviation(scatter[which], offset, which, reading, row.rebounds, mean.variance[which]);
+        let expected = mean.restitution[which];
+        score += visible_log_density(reading.value - expected, expected, width, &limited(offset, which));
     }
     score
 }
@@ -193,17 +305,32 @@ pub(super) fn add_squares(
         let mut likelihood = (1.0 - capture(one, offset)) * one.weight;
         let mut terms = [[0.0; 2]; 2];
         for (which, reading) in readings(row) {
-            let residual = reading.value - (one.restitution[which] + offset.restitution[which]);
+            let expected = one.restitution[which] + offset.restitution[which];
+            let residual = reading.value - expected;
             let variance = variance[which] + one.reach[which].powi(2);
-            let width = deviation(scatter[which], offset.spread, reading, row.rebounds, variance);
-            let (density, normal) = densities(residual, width);
+            let width = deviation(scatter[which], offset, which, reading, row.rebounds, variance);
+            let count = row.rebounds.max(1.0);
             let (foreign, count) = match reading.error {
-                Some(error) => (error * error, 1.0),
-                None => (variance / row.rebounds.max(1.0), row.rebounds.max(1.0)),
+                Some(error) => (error * error + variance / count, 1.0),
+                None => (variance / count, count),
             };
-            let squared = (residual * residual - foreign).max(0.0) * count / (offset.spread * offset.spread);
-            likelihood *= density;
-            terms[which] = [squared * normal / density, normal / density];
+            let foreign = foreign + offset.variance[which];
+            // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
+            let own = (scatter[which] * offset.spread).powi(2) / count;
+            let regular = regular(residual, width, offset.gross);
+            let weight = regular * (own / (own + foreign)).powi(2);
+            let limited = limited(offset, which);
+            likelihood *= visible_density(residual, expected, width, &limited);
+            let seen = residual * residual + offset.uncertainty[which];
+            let (square, rows) = match Hidden::of(expected, width, limited.visible_from) {
+                None => (seen, 1.0),
+                Some(hidden) => {
+                    let unseen = hidden.share / (1.0 - hidden.share);
+                    (seen + unseen * hidden.square * width * width, 1.0 + unseen)
+                }
+            };
+            let own_square = (square - rows * foreign) * count / offset.spread.powi(2);
+            terms[which] = [weight * own_square, weight * rows];
         }
         for (sum, term) in own.iter_mut().flatten().zip(terms.as_flattened()) {
             *sum += likelihood * term;

@@ -1,31 +1,43 @@
 //! Diagnosis: the effects that a model lacks to explain measured impacts, the extended model and its gain.
 //!
-//! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, fitted and cross-validated →
-//! forward selection → extended model → gain on held-out rows → record. Effects are known only through their
+//! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, tested and fitted → forward selection →
+//! extended model → gain of its file on held-out rows → record. Effects are known only through their
 //! [`crate::effect::EffectInfo`], so every effect of the list is a candidate. Method and limits: `docs/diagnosis.md`.
 //! [`comparison`] ranks several models with the same likelihood.
 
 mod advice;
+mod artefact;
 mod candidate;
+mod choice;
 pub mod comparison;
-mod cross_validation;
 mod curve;
 mod data_split;
 mod data_view;
 mod evaluation;
 mod extend;
+mod few_rows;
 mod finding;
+mod fitting;
 mod forecast;
 mod gain;
+mod goodness_of_fit;
+mod groups;
 mod hypothesis;
+mod input_error;
 mod interval;
 mod likelihood;
 mod model_selection;
 mod observable;
 mod part;
 mod record;
+mod rival;
+mod score_test;
 mod search;
+mod shapes;
+mod shared_error;
+mod slip;
 mod smooth;
+mod study;
 mod verdict;
 
 pub use record::{
@@ -37,10 +49,12 @@ pub use record::{
 use crate::dataset::{BadRow, Measurements};
 use crate::impact::{INPUTS, Impact, Input};
 use crate::model::Model;
+use choice::Task;
 use data_split::DataSplit;
+use groups::GroupColumn;
 use hypothesis::Hypothesis;
-use model_selection::{Selection, select};
 use observable::Observable;
+use study::Study;
 
 /// Why there is no diagnosis.
 #[derive(Debug, thiserror::Error)]
@@ -63,9 +77,7 @@ pub enum DiagnosisError {
 }
 
 /// Least number of rows.
-const LEAST_ROWS: usize = 8;
-/// Captures of an average of more impacts than this are one observation.
-const MOST_UNFOLDED: f64 = 1000.0;
+const LEAST_ROWS: usize = 3;
 /// Bounds of a plausible input [SI units], far beyond any laboratory; the lower one for inputs that laws divide by.
 const LARGEST_INPUT: f64 = 1e12;
 const SMALLEST_DIVISOR: f64 = 1e-15;
@@ -91,34 +103,65 @@ pub fn diagnose(
         let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
         return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons });
     }
-    let split = DataSplit::new(base, data.unfolded(MOST_UNFOLDED), options.seed);
-    let plain = Hypothesis::base(&split);
-    let Selection { hypothesis, discoveries, first_round } = select(&plain, options.level, progress);
+    let groups = GroupColumn::all(&data, options.group.as_deref());
+    let task = Task { text, level: options.level, groups: &groups, progress };
+    let whole = DataSplit::new(base, &data, &groups);
+    let study = Study::new(&whole, task, options.seed);
 
-    let fine = split.fine(hypothesis.parts.iter().any(|fitted| fitted.part.is_stochastic()));
-    let plain = Hypothesis { data: &fine, ..plain };
-    let mut hypothesis = Hypothesis { data: &fine, discrepancy: None, ..hypothesis };
-    hypothesis.fit(&fine.fit);
-    interval::set_intervals(&mut hypothesis, &fine.fit);
+    let searched = &study.choice.data;
+    let mut rivals = rival::rivals(&Hypothesis::base(searched), &study.choice.hypothesis(searched), text);
+    if study.choice.structure[0] > options.level {
+        // Nothing has to be explained.
+        rivals.clear();
+    }
+    let fine = study.file.fine();
+    let fitted = verdict::record(&study.file.fitted(&fine), &study.choice, options);
+    let undecided = verdict::undecided(&fitted.findings, &study.choice);
+    let named = rival::decisive(&rivals).is_none() && undecided.is_empty();
+    let study = if named { study } else { study.without_causes() };
 
-    let mut diagnosis = verdict::record(&hypothesis, &discoveries, options);
-    diagnosis.rows = Rows { read, used, held_out: fine.held_out.len(), rejected: data.rejected };
-    diagnosis.misfit = verdict::misfit(&hypothesis, &first_round, options.level);
+    let plain = Hypothesis::base(&fine);
+    let hypothesis = study.file.fitted(&fine);
+    let mut diagnosis = if named { fitted } else { verdict::record(&hypothesis, &study.choice, options) };
+    diagnosis.undecided = undecided;
+    diagnosis.rivals = rivals;
+    diagnosis.rows = Rows { read, used, held_out: 0, rejected: data.rejected.clone() };
+    diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
+    diagnosis.groups = study.choice.groups_found();
+    if diagnosis.undecided.is_empty() {
+        diagnosis.undecided = verdict::possible_causes(&diagnosis.fit, &study.choice);
+    }
+    diagnosis.misfit = verdict::misfit(&hypothesis, &study.choice.first_round, options.level);
     diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()));
     diagnosis.sample = gain::sample(&plain, &hypothesis);
     diagnosis.sample.views = data_view::views([&plain, &hypothesis], &diagnosis.findings);
     diagnosis.sample.notes.clone_from(&data.notes);
+    let unextendable = |error: &dyn std::fmt::Display| DiagnosisError::Unextendable(error.to_string());
+    let extended = extend::extended(text, &hypothesis).map_err(|error| unextendable(&error))?;
     if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
-        let [before, after] = [&plain, &hypothesis].map(|h| gain::evaluate(h, &fine.held_out));
-        let of = |observable| gain::gain(&before, &after, observable, options.seed);
+        let held_out = study
+            .held_out(&data, &whole, task, [&plain, &hypothesis], &extended)
+            .map_err(|e| unextendable(&e))?;
+        let noise = |observable: Observable| hypothesis.scatter.get(observable as usize).copied();
+        let of = |observable| {
+            held_out.rows.gain(
+                observable,
+                held_out.how,
+                noise(observable),
+                options.seed,
+                held_out.seen.as_ref(),
+            )
+        };
         diagnosis.gains = Observable::ALL.into_iter().filter_map(of).collect();
         let first = diagnosis.findings.first().map_or("", |finding| finding.observable);
         diagnosis.gain = diagnosis.gains.iter().find(|gain| gain.observable == first).cloned();
+        diagnosis.rows.held_out = diagnosis.gains.iter().map(|gain| gain.held_out_rows).max().unwrap_or(0);
     }
     diagnosis.verdict = verdict::sentences(&diagnosis);
-    let notes = verdict::notes_for_model(&diagnosis);
-    let extended = extend::extended(text, &hypothesis, &notes)
-        .map_err(|error| DiagnosisError::Unextendable(error.to_string()))?;
+    if hypothesis.curves.iter().any(|curve| !extend::contains(&extended, curve, &fine)) {
+        diagnosis.verdict +=
+            " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
+    }
     Ok((diagnosis, extended))
 }
 

@@ -1,4 +1,4 @@
-//! Minimises a cost over parameters: a coarse grid, then the simplex method of Nelder and Mead (crate argmin).
+//! Minimises a cost over parameters from given places, by the simplex method of Nelder and Mead (crate argmin).
 //!
 //! Every parameter has a coordinate from 0 to 1 over its search range.
 
@@ -92,25 +92,11 @@ pub(super) fn descend(
     }
 }
 
-/// The best points of a grid over all coordinates: at most `count`, no two of them neighbours.
-pub(super) fn best_of_grid(cost: impl Fn(&[f64]) -> f64, dimensions: usize, count: usize) -> Vec<Vec<f64>> {
-    let steps = [1, 24, 9, 5][dimensions.min(3)];
-    let size = usize::pow(steps, dimensions as u32);
-    let point = |index: usize| {
-        let digit = |place: usize| (index / usize::pow(steps, place as u32)) % steps;
-        (0..dimensions).map(|place| (digit(place) as f64 + 0.5) / steps as f64).collect::<Vec<f64>>()
-    };
-    let mut all: Vec<(Vec<f64>, f64)> = (0..size).map(|index| (point(index), cost(&point(index)))).collect();
+/// The places of smallest cost, at most `count`.
+pub(super) fn best_of(cost: impl Fn(&[f64]) -> f64, places: &[Vec<f64>], count: usize) -> Vec<Vec<f64>> {
+    let mut all: Vec<(&Vec<f64>, f64)> = places.iter().map(|place| (place, cost(place))).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let mut best: Vec<Vec<f64>> = Vec::new();
-    for (place, _) in all {
-        let near =
-            |other: &Vec<f64>| place.iter().zip(other).all(|(a, b)| (a - b).abs() * (steps as f64) < 1.5);
-        if best.len() < count && !best.iter().any(near) {
-            best.push(place);
-        }
-    }
-    best
+    all.into_iter().take(count).map(|(place, _)| place.clone()).collect()
 }
 
 #[cfg(test)]
@@ -120,7 +106,9 @@ mod tests {
     #[test]
     fn grid_and_descent_find_a_minimum_at_a_bound_and_inside() {
         let cost = |x: &[f64]| 1e4 * (x[0] - 0.31).powi(2) + 1e5 * (x[1] - 1.2).powi(2);
-        let start = best_of_grid(cost, 2, 1).remove(0);
+        let places: Vec<Vec<f64>> =
+            (0..9).map(|i| vec![f64::from(i % 3) / 3.0, f64::from(i / 3) / 3.0]).collect();
+        let start = best_of(cost, &places, 1).remove(0);
         let (at, _) = descend(cost, &start, 0.1, 200);
         assert!((at[0] - 0.31).abs() < 0.02 && at[1] > 0.99, "{at:?}");
     }

@@ -10,13 +10,17 @@ use crate::dataset::Values;
 
 /// Largest number of knots of a curve.
 const KNOTS: usize = 8;
+/// Largest number of knots of one side of a surface.
+const SIDE_KNOTS: usize = 5;
+/// Least number of points of a curve with so many parameters.
+const LEAST_POINTS: usize = 4;
 /// Largest number of different labels.
 const LABELS: usize = 40;
 /// Penalties tried, relative to the mean diagonal of the normal matrix.
 const PENALTIES: [f64; 9] = [1e-3, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0, 1e4];
 
 /// The nonzero basis functions of a row: places in the basis and values.
-type Entry = Vec<(usize, f64)>;
+pub(super) type Entry = Vec<(usize, f64)>;
 
 /// The basis functions of a curve over a column.
 #[derive(Debug, Clone)]
@@ -25,15 +29,13 @@ pub(super) enum Basis {
     Hats(Vec<f64>),
     /// One indicator function a label.
     Labels(usize),
-    /// One function for all rows.
-    Constant,
 }
 
 impl Basis {
     /// The basis for a column; `None` if the rows with these indices do not vary enough in it.
     pub fn of(values: &Values, rows: &[usize]) -> Option<Self> {
         match values {
-            Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row])),
+            Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row]), KNOTS),
             Values::Labels { levels, of_row } => {
                 let used =
                     (0..levels.len()).filter(|&l| rows.iter().any(|&row| of_row[row] == Some(l))).count();
@@ -44,51 +46,48 @@ impl Basis {
         }
     }
 
-    fn of_numbers(numbers: impl Iterator<Item = f64>) -> Option<Self> {
+    /// The basis of one side of a surface.
+    pub fn of_side(values: &Values, rows: &[usize]) -> Option<Self> {
+        match values {
+            Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row]), SIDE_KNOTS),
+            Values::Labels { .. } => Self::of(values, rows),
+        }
+    }
+
+    fn of_numbers(numbers: impl Iterator<Item = f64>, most: usize) -> Option<Self> {
         let mut sorted: Vec<f64> = numbers.filter(|value| value.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);
         let (low, high) = (*sorted.first()?, *sorted.last()?);
-        if high <= low || sorted.len() < 8 {
+        if high <= low || sorted.len() < 4 {
             return None;
         }
-        let quantile = |i: usize| sorted[(i * (sorted.len() - 1)) / (KNOTS - 1)];
-        let mut knots: Vec<f64> = (0..KNOTS).map(quantile).collect();
+        let most = most.min(sorted.len() / 3).max(2);
+        let quantile = |i: usize| sorted[(i * (sorted.len() - 1)) / (most - 1)];
+        let mut knots: Vec<f64> = (0..most).map(quantile).collect();
         knots.dedup_by(|a, b| *a - *b < 1e-9 * (high - low));
         Some(Self::Hats(knots))
     }
 
-    fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         match self {
             Self::Hats(knots) => knots.len(),
             Self::Labels(count) => *count,
-            Self::Constant => 1,
         }
     }
 
     /// The basis functions at a row.
-    fn entry(&self, values: &Values, row: usize) -> Entry {
+    pub fn entry(&self, values: &Values, row: usize) -> Entry {
         match (self, values) {
             (Self::Hats(knots), Values::Numbers(numbers)) => hats(knots, numbers[row]),
             (Self::Labels(_), Values::Labels { of_row, .. }) => {
                 of_row[row].map_or(Vec::new(), |level| vec![(level, 1.0)])
             }
-            (Self::Constant, _) => vec![(0, 1.0)],
             _ => Vec::new(),
         }
     }
 
-    /// The heights of the curve through the points; `None` where there are too few.
-    pub fn fit(&self, values: &Values, points: &[Point]) -> Option<Vec<f64>> {
-        ridge(&self.penalty(), points, |row| self.entry(values, row))
-    }
-
-    /// The height of a curve at a row, without the scale.
-    pub fn height(&self, heights: &[f64], values: &Values, row: usize) -> f64 {
-        sum(&self.entry(values, row), heights)
-    }
-
     /// The penalty on the heights: bends for numbers, size for labels.
-    fn penalty(&self) -> DMatrix<f64> {
+    pub fn penalty(&self) -> DMatrix<f64> {
         let count = self.len();
         let Self::Hats(knots) = self else { return DMatrix::identity(count, count) };
         let mut penalty = DMatrix::zeros(count, count);
@@ -139,13 +138,26 @@ pub(super) struct Point {
 }
 
 /// The sum of the basis functions of a row, each with its height.
-fn sum(entry: &Entry, heights: &[f64]) -> f64 {
+pub(super) fn sum(entry: &Entry, heights: &[f64]) -> f64 {
     entry.iter().map(|&(place, share)| share * heights[place]).sum()
+}
+
+/// A fitted curve.
+#[derive(Debug, Clone)]
+pub(super) struct Smoothed {
+    /// Heights of the basis functions.
+    pub heights: Vec<f64>,
+    /// Effective number of parameters.
+    pub freedom: f64,
 }
 
 /// Heights of the basis functions `entry` of each row: penalised least squares with the penalty of smallest generalised
 /// cross-validation error. `None` where there are too few points.
-fn ridge(penalty: &DMatrix<f64>, points: &[Point], entry: impl Fn(usize) -> Entry) -> Option<Vec<f64>> {
+pub(super) fn ridge(
+    penalty: &DMatrix<f64>,
+    points: &[Point],
+    entry: impl Fn(usize) -> Entry,
+) -> Option<Smoothed> {
     let count = penalty.nrows();
     let mut normal: DMatrix<f64> = DMatrix::zeros(count, count);
     let mut right: DVector<f64> = DVector::zeros(count);
@@ -162,7 +174,7 @@ fn ridge(penalty: &DMatrix<f64>, points: &[Point], entry: impl Fn(usize) -> Entr
         square += point.weight * point.residual * point.residual;
         weights += point.weight;
     }
-    if weights <= 0.0 || points.len() < count + 2 {
+    if weights <= 0.0 || points.len() < count.min(LEAST_POINTS) {
         return None;
     }
     let scale = normal.trace() / count as f64;
@@ -173,15 +185,20 @@ fn ridge(penalty: &DMatrix<f64>, points: &[Point], entry: impl Fn(usize) -> Entr
         let freedom = (&inverse * &normal).trace();
         let left = square - 2.0 * heights.dot(&right) + (&normal * &heights).dot(&heights);
         let error = left.max(0.0) / (1.0 - freedom / rows).max(0.05).powi(2);
-        Some((error, heights))
+        Some((error, heights, freedom))
     };
     let best = PENALTIES.into_iter().filter_map(attempt).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(best.1.iter().copied().collect())
+    Some(Smoothed { heights: best.1.iter().copied().collect(), freedom: best.2 })
 }
 
 /// Fits curves over the columns `own`, and interactions of each of them with another of `own` or `others`. Returns the
-/// fitted values at the rows `targets`, with mean zero over the points.
-pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], targets: &[usize]) -> Vec<f64> {
+/// fitted values at the rows `targets`, with mean zero over the points, and the effective number of parameters.
+pub(super) fn surface(
+    own: &[&Values],
+    others: &[&Values],
+    points: &[Point],
+    targets: &[usize],
+) -> (Vec<f64>, f64) {
     let rows: Vec<usize> = points.iter().map(|point| point.row).collect();
     let based = |values: &[&'_ Values]| {
         let with_basis = |values: &&'_ Values| Some((Basis::of(values, &rows)?, (*values).clone()));
@@ -190,15 +207,19 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
     let (own, others) = (based(own), based(others));
     let mut left: Vec<Point> = points.to_vec();
     let mut fitted = vec![0.0; targets.len()];
+    let mut parameters = 0.0;
     let mut take = |left: &mut Vec<Point>, at: &dyn Fn(usize) -> f64| {
         left.iter_mut().for_each(|point| point.residual -= point.scale * at(point.row));
         fitted.iter_mut().zip(targets).for_each(|(sum, &row)| *sum += at(row));
     };
     // The second pass distributes the effect over correlated columns (backfitting).
-    for _ in 0..2 {
+    for pass in 0..2 {
         for (basis, values) in &own {
-            if let Some(heights) = basis.fit(values, &left) {
-                take(&mut left, &|row| basis.height(&heights, values, row));
+            if let Some(Smoothed { heights, freedom }) =
+                ridge(&basis.penalty(), &left, |row| basis.entry(values, row))
+            {
+                parameters += if pass == 0 { freedom } else { 0.0 };
+                take(&mut left, &|row| sum(&basis.entry(values, row), &heights));
             }
         }
     }
@@ -207,7 +228,9 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
             let pair = [(&own[first].0, &own[first].1), (basis, values)];
             let count = pair[0].0.len() * basis.len();
             let entry = |row: usize| products(&pair, row);
-            if let Some(heights) = ridge(&DMatrix::identity(count, count), &left, entry) {
+            if let Some(Smoothed { heights, freedom }) = ridge(&DMatrix::identity(count, count), &left, entry)
+            {
+                parameters += freedom;
                 take(&mut left, &|row| sum(&entry(row), &heights));
             }
         }
@@ -218,11 +241,11 @@ pub(super) fn surface(own: &[&Values], others: &[&Values], points: &[Point], tar
         points.iter().zip(&left).map(|(before, after)| before.weight * (before.residual - after.residual));
     let mean = if weights > 0.0 { taken.sum::<f64>() / weights } else { 0.0 };
     fitted.iter_mut().for_each(|value| *value -= mean);
-    fitted
+    (fitted, parameters)
 }
 
 /// The basis functions of an interaction: all products.
-fn products(pair: &[(&Basis, &Values); 2], row: usize) -> Entry {
+pub(super) fn products(pair: &[(&Basis, &Values); 2], row: usize) -> Entry {
     let [one, two] = pair.map(|(basis, values)| basis.entry(values, row));
     let wide = pair[1].0.len();
     let product = |&(a, x): &(usize, f64)| two.iter().map(move |&(b, y)| (a * wide + b, x * y));
@@ -243,8 +266,10 @@ mod tests {
         let values = Values::Numbers(x.clone());
         let rows: Vec<usize> = (0..200).collect();
         let basis = Basis::of(&values, &rows).unwrap();
-        let heights = basis.fit(&values, &points(200, |i| (3.0 * x[i]).sin())).unwrap();
-        let error = |&i: &usize| (basis.height(&heights, &values, i) - (3.0 * x[i]).sin()).abs();
+        let fit =
+            ridge(&basis.penalty(), &points(200, |i| (3.0 * x[i]).sin()), |row| basis.entry(&values, row));
+        let heights = fit.unwrap().heights;
+        let error = |&i: &usize| (sum(&basis.entry(&values, i), &heights) - (3.0 * x[i]).sin()).abs();
         let worst = rows.iter().map(error).fold(0.0, f64::max);
         assert!(worst < 0.03, "{worst}");
     }
@@ -255,8 +280,9 @@ mod tests {
         let values = Values::Labels { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
         let rows: Vec<usize> = (0..60).collect();
         let basis = Basis::of(&values, &rows).unwrap();
-        let heights = basis.fit(&values, &points(60, |i| [0.5, -0.25, -0.25][i % 3])).unwrap();
-        assert!((basis.height(&heights, &values, 0) - 0.5).abs() < 0.01);
+        let points = points(60, |i| [0.5, -0.25, -0.25][i % 3]);
+        let fit = ridge(&basis.penalty(), &points, |row| basis.entry(&values, row)).unwrap();
+        assert!((fit.heights[0] - 0.5).abs() < 0.01 && fit.freedom < 3.01);
         let labels = Values::Labels {
             levels: (0..30).map(|i| i.to_string()).collect(),
             of_row: (0..60).map(|i| Some(i % 30)).collect(),

@@ -234,7 +234,7 @@ fn unusable_data_are_refused_with_the_remedy() {
     refused(folder, &["diagnose", "lab.csv", "--model", "absent.toml", "--out", "out"], &["absent.toml"]);
     refused(folder, &["diagnose", "absent.csv", "--model", "wax.toml", "--out", "out"], &["absent.csv"]);
     std::fs::write(folder.join("lab.csv"), "v_n,e_n\n1,0.3\n2,0.3\nslow,0.3\n").unwrap();
-    refused(folder, &DIAGNOSE, &["lab.csv", "2 of 3 rows", "at least 8", "Line 4"]);
+    refused(folder, &DIAGNOSE, &["lab.csv", "2 of 3 rows", "at least 3", "Line 4"]);
     for level in ["2", "0", "nan"] {
         let mut arguments = DIAGNOSE.to_vec();
         arguments.extend(["--level", level]);

@@ -36,7 +36,7 @@ use set::{Plan, PlanOf, Recipe};
 /// Name, sets and plan of a situation.
 type Situation = (&'static str, usize, fn(usize, &mut SetRng) -> Plan);
 
-const SITUATIONS: [Situation; 38] = [
+const SITUATIONS: [Situation; 37] = [
     ("few-null", 5, few::null),
     ("few-level", 5, few::level),
     ("few-angle", 5, few::angle),
@@ -55,7 +55,6 @@ const SITUATIONS: [Situation; 38] = [
     ("null-days", 3, nulls::days),
     ("null-repeated", 3, nulls::repeated),
     ("null-input-errors", 3, nulls::input_errors),
-    ("null-speed-in-ratio", 3, nulls::speed_in_ratio),
     ("null-truncated", 3, nulls::truncated),
     ("null-truncated-stated", 3, nulls::truncated_stated),
     ("null-skewed", 4, nulls::skewed),

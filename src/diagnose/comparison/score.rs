@@ -28,16 +28,7 @@ impl ScoredRows {
     /// Predicts the rows; `folds` is the part of each row.
     pub fn new(model: &Model, rows: &[Measurement], folds: &[usize]) -> Self {
         let all: Vec<usize> = (0..rows.len()).collect();
-        let data = DataSplit {
-            base: model.clone(),
-            rows: rows.into(),
-            covariates: Vec::new().into(),
-            search: Vec::new(),
-            folds: Vec::new(),
-            fit: Vec::new(),
-            held_out: Vec::new(),
-            draws: DRAWS,
-        };
+        let data = DataSplit::bare(model, rows, DRAWS);
         let offsets = vec![Offset::default(); rows.len()];
         let whole = Evaluation::new(&data, model, all.clone(), offsets, FIRST_SCATTER);
         let mut likelihood = vec![0.0; rows.len()];

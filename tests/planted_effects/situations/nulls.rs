@@ -65,15 +65,6 @@ pub fn repeated(_: usize, rng: &mut SetRng) -> Plan {
 
 /// Errors of 5 % in the speed and 10 % in the size, stated, where e_n changes fast over a narrow range of both.
 pub fn input_errors(_: usize, rng: &mut SetRng) -> Plan {
-    input_error_plan(false, rng)
-}
-
-/// The same where e_n is the ratio of two measured speeds, so that it has the error of the speed.
-pub fn speed_in_ratio(_: usize, rng: &mut SetRng) -> Plan {
-    input_error_plan(true, rng)
-}
-
-fn input_error_plan(in_ratio: bool, rng: &mut SetRng) -> Plan {
     let mut lab = lab(rng);
     let d = lab.campaign.d.1;
     lab.campaign.d = (0.85 * d, d);
@@ -85,9 +76,6 @@ fn input_error_plan(in_ratio: bool, rng: &mut SetRng) -> Plan {
         row.seen.v_n = row.x.v_n * (1.0 + 0.05 * rng.normal());
         row.seen.d = row.x.d * (1.0 + 0.1 * rng.normal()).max(0.2);
         row.given = vec![format!("{:e}", 0.05 * row.seen.v_n), format!("{:e}", 0.1 * row.seen.d)];
-        if in_ratio {
-            row.measured[0] = row.measured[0].map(|e_n| e_n * row.x.v_n / row.seen.v_n);
-        }
     })
 }
 

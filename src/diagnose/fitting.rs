@@ -1,0 +1,359 @@
+//! One round: all candidates tested against the current hypothesis, and the promising ones fitted to all rows of the search.
+//!
+//! With many readings the p-value is that of the score test ([`super::score_test`]); with few, that of the fit: `F` of the fall of
+//! chi-square, or chi-square itself where stated errors explain the rest. A candidate's gain is that of its fit in log likelihood, less
+//! its number of parameters (Akaike 1974).
+
+use rayon::prelude::*;
+use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+
+use super::artefact::lopsided_gain;
+use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
+use super::curve::CurveForm;
+use super::data_split::DataSplit;
+use super::evaluation::Evaluation;
+use super::few_rows::FewRows;
+use super::hypothesis::{Hypothesis, ScatterTrend};
+use super::observable::Observable;
+use super::part::{FittedPart, LawParameter, Part};
+use super::score_test::{self, Shapes, Tested, corrected};
+use super::search::{best_of, descend};
+use super::shapes::ShapeBuilder;
+use super::smooth::Basis;
+use crate::dataset::Values;
+use crate::effect::EFFECTS;
+
+/// Least gain [nats] of each parameter with a default that is fitted.
+const REFINEMENT: f64 = 1.0;
+/// Rows of the coarse search.
+const COARSE_ROWS: usize = 250;
+/// Candidates with a larger p-value, corrected for their own shapes, are not fitted, except for curves, whose fits take no time.
+const WORTH_A_FIT: f64 = 0.05;
+/// A candidate that changes the distribution is fitted, too, if a place of its grid gains this much [nats].
+const PROMISING: f64 = 2.0;
+/// Such a candidate is fitted if its grid gains this share of what the best other one does.
+const NEAR_BEST: f64 = 0.5;
+/// Least effective number of independent tests with few rows: the laws are several, whatever few rows say.
+const FEW_TESTS: f64 = 8.0;
+/// Least number of measurements for a curve.
+const CURVE_ROWS: usize = 4;
+/// Coordinates at which a refinement starts.
+const REFINED_STARTS: [f64; 3] = [0.15, 0.5, 0.85];
+
+/// A round: the current hypothesis, which each candidate extends.
+pub(super) struct Round<'a> {
+    hypothesis: &'a Hypothesis<'a>,
+    /// The rows of the search.
+    search: Evaluation<'a>,
+    scores: Vec<f64>,
+    /// The test for few readings, if they are few.
+    few: Option<FewRows>,
+    /// Gain of a scatter with two widths [nats].
+    lopsided: f64,
+}
+
+impl<'a> Round<'a> {
+    pub fn new(hypothesis: &'a Hypothesis<'a>) -> Self {
+        let data = hypothesis.data;
+        let search = hypothesis.evaluate(&data.search, hypothesis.offsets()).with_fitted_scatter();
+        let few = FewRows::of(&search);
+        let residual = |[measured, predicted]: [f64; 2]| measured - predicted;
+        let residuals: Vec<f64> =
+            search.pairs(Observable::NormalRestitution).flatten().map(residual).collect();
+        let lopsided = lopsided_gain(&residuals, search.scatter[0]);
+        Self { hypothesis, scores: search.scores(), search, few, lopsided }
+    }
+
+    fn data(&self) -> &'a DataSplit {
+        self.hypothesis.data
+    }
+
+    /// The promising candidates with their gains; `done` is called after each candidate.
+    pub fn score_candidates(&self, done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
+        let candidates = self.candidates();
+        let builder = ShapeBuilder::new(self.hypothesis, &self.search);
+        let shapes: Vec<Shapes> = candidates.par_iter().map(|candidate| builder.shapes(*candidate)).collect();
+        let units: Vec<usize> = self.search.rows.iter().map(|&row| self.data().units[row]).collect();
+        let classes = self.few.is_some_and(|few| !few.alone);
+        let tested = score_test::test(&shapes, &units, classes);
+        let score = |(&candidate, tested): (&Candidate, &Tested)| {
+            let scored = self.score_candidate(candidate, tested);
+            done();
+            scored
+        };
+        let stochastic =
+            |pair: &(&Candidate, &Tested)| matches!(pair.0, Candidate::Part(part) if part.is_stochastic());
+        let pairs = candidates.iter().zip(&tested);
+        let (drawn, plain): (Vec<_>, Vec<_>) = pairs.partition(stochastic);
+        let mut scored: Vec<ScoredCandidate> = plain.into_par_iter().filter_map(score).collect();
+        // Fits with random draws take long: only of candidates that may become the best.
+        let best = scored.iter().map(ScoredCandidate::gain).fold(0.0, f64::max);
+        let rivals: Vec<_> = drawn.into_iter().filter(|(_, tested)| tested.gain > NEAR_BEST * best).collect();
+        scored.extend(rivals.into_par_iter().filter_map(score).collect::<Vec<_>>());
+        scored
+    }
+
+    fn candidates(&self) -> Vec<Candidate> {
+        let Hypothesis { data, parts, scatter_trends, curves, .. } = self.hypothesis;
+        let effects = EFFECTS.iter().map(|effect| Part::Effect(effect));
+        let parameters = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(&data.base).is_some());
+        let taken = |name: String| {
+            parts.iter().any(|part| part.part.name() == name)
+                || data.base.terms().iter().any(|term| term.kind().id == name)
+        };
+        let mut candidates: Vec<Candidate> = effects
+            .chain(parameters.map(Part::LawParameter))
+            .filter(|part| !taken(part.name()))
+            .map(Candidate::Part)
+            .collect();
+        let same = |sides: [Option<usize>; 2], observable: Observable| {
+            let covered = |curve: &super::curve::ColumnCurve| {
+                let own: Vec<usize> = curve.form.sides.iter().map(|side| side.0).collect();
+                curve.form.observable == observable
+                    && (!own.is_empty() || sides == [None; 2])
+                    && sides.iter().flatten().all(|side| own.contains(side))
+            };
+            curves.iter().any(covered)
+        };
+        let varying: Vec<Observable> = Observable::ALL.into_iter().filter(|o| self.varies(*o)).collect();
+        for &observable in &varying {
+            let mut sides: Vec<[Option<usize>; 2]> = Vec::new();
+            // A law with a constant of its own has its level there; captures have a rate.
+            let constant = match observable {
+                Observable::NormalRestitution => LawParameter::NormalRestitution.of(&data.base).is_some(),
+                Observable::TangentialRestitution => {
+                    LawParameter::TangentialRestitution.of(&data.base).is_some()
+                }
+                Observable::Capture => true,
+            };
+            if !constant {
+                sides.push([None; 2]);
+            }
+            sides.extend((0..data.covariates.len()).map(|column| [Some(column), None]));
+            let known = self.hypothesis.columns_of(observable);
+            for one in known {
+                let numeric = |column: usize| matches!(data.values(column), Values::Numbers(_));
+                // How e_t depends on the speeds is a matter of the tangential law.
+                let speed = |column: usize| ["v_n", "v_t"].contains(&data.covariates[column].name.as_str());
+                let free = |column: usize| observable != Observable::TangentialRestitution || !speed(column);
+                let others = (0..data.covariates.len())
+                    .filter(|&other| other != one && numeric(other) && free(other) && free(one));
+                sides.extend(
+                    others.filter(|_| numeric(one)).map(|other| [Some(one.min(other)), Some(one.max(other))]),
+                );
+            }
+            sides.dedup();
+            let open = |sides: &[Option<usize>; 2]| !same(*sides, observable);
+            let curve = |sides| Candidate::Curve { sides, observable };
+            candidates.extend(sides.into_iter().filter(open).map(curve));
+        }
+        for (covariate, column) in data.covariates.iter().enumerate() {
+            let numeric = matches!(column.values, Values::Numbers(_));
+            if numeric
+                && self.few.is_none()
+                && !scatter_trends.iter().any(|trend| trend.covariate == covariate)
+            {
+                candidates.push(Candidate::ScatterTrend { covariate });
+            }
+        }
+        if self.hypothesis.background_capture == 0.0 && self.varies(Observable::Capture) {
+            candidates.push(Candidate::BackgroundCapture);
+        }
+        candidates
+    }
+
+    /// Whether there are enough different measurements of an observable for a curve.
+    fn varies(&self, observable: Observable) -> bool {
+        let data = self.data();
+        let measured = |&row: &usize| observable.measured(&data.rows[row]);
+        let values: Vec<f64> = data.search.iter().filter_map(measured).collect();
+        values.len() >= CURVE_ROWS && values.iter().any(|value| *value != values[0])
+    }
+
+    fn score_candidate(&self, candidate: Candidate, tested: &Tested) -> Option<ScoredCandidate> {
+        let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. });
+        let hopeless =
+            !cheap && self.few.is_none() && tested.p_value > WORTH_A_FIT && tested.gain < PROMISING;
+        if tested.starts.is_empty() || hopeless {
+            return None;
+        }
+        let addition = match candidate {
+            Candidate::Part(part) => self.fit_part(part, &tested.starts)?,
+            Candidate::Curve { sides, observable } => self.better_curve(sides, observable)?,
+            Candidate::ScatterTrend { covariate } => Addition::ScatterTrend(self.fit_trend(covariate)),
+            Candidate::BackgroundCapture => {
+                let level = CurveForm::level(Observable::Capture, false);
+                Addition::BackgroundCapture(level.fit(&self.search)?.heights.first().copied()?)
+            }
+        };
+        let extended = addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter();
+        let freedom = addition.freedom();
+        let penalty = freedom / self.scores.len() as f64;
+        let pairs = extended.scores().into_iter().zip(&self.scores);
+        let differences: Vec<f64> = pairs.map(|(after, before)| after - before - penalty).collect();
+        let gain: f64 = differences.iter().sum();
+        let own_gain = gain - self.level_gain(&addition);
+        let raw = own_gain + freedom;
+        if raw <= 0.0 {
+            return None;
+        }
+        let p_value = match &self.few {
+            Some(few) => {
+                let curve = match &addition {
+                    Addition::Curve(curve) => Some(curve.form.observable),
+                    _ => None,
+                };
+                let p = few.p_value(&extended, freedom, raw, curve);
+                if few.alone { p } else { p.max(tested.p_value) }
+            }
+            // Units that agree by accident make any t; the likelihood does not.
+            None => tested.p_value.max(chance_of_gain(raw)),
+        };
+        let p_value = match &addition {
+            // Scatter to one side needs no effect.
+            Addition::Part { part, .. } if part.part.is_stochastic() => {
+                let beyond = chance_of_gains(raw - self.lopsided, freedom);
+                p_value.min(chance_of_mean(&differences)).max(beyond)
+            }
+            _ => p_value,
+        };
+        // Random signs of few rows do not tell candidates apart that more rows would.
+        let least = if self.few.is_some_and(|few| few.alone) { FEW_TESTS } else { 1.0 };
+        let q_value = corrected(p_value, tested.tests.max(least));
+        Some(ScoredCandidate { addition, differences, own_gain, p_value, q_value })
+    }
+
+    /// What a level shift gains of the gain of a curve [nats]; 0 for everything else.
+    fn level_gain(&self, addition: &Addition) -> f64 {
+        let Addition::Curve(curve) = addition else { return 0.0 };
+        if curve.form.sides.is_empty() {
+            return 0.0;
+        }
+        let level = CurveForm::level(curve.form.observable, curve.form.multiplicative);
+        let gain = |level| self.fitted_gain(&Addition::Curve(level)) - 1.0;
+        level.fit(&self.search).map_or(0.0, gain).max(0.0)
+    }
+
+    /// Gain on the rows of the search, without penalty [nats].
+    fn fitted_gain(&self, addition: &Addition) -> f64 {
+        let score = self.scores.iter().sum::<f64>();
+        addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter().score() - score
+    }
+
+    /// The part as it fits best; its parameters with a default are fitted only where they are worth it.
+    fn fit_part(&self, part: Part, starts: &[Vec<f64>]) -> Option<Addition> {
+        let plain = self.fit_parameters(part, false, starts)?;
+        let Part::Effect(effect) = part else { return Some(plain) };
+        let refinements = effect.parameters.iter().filter(|parameter| parameter.default.is_some()).count();
+        if refinements == 0 || self.few.is_some() {
+            return Some(plain);
+        }
+        let refined_starts = refined_starts(&plain, refinements);
+        let Some(refined) = self.fit_parameters(part, true, &refined_starts) else { return Some(plain) };
+        let better = self.fitted_gain(&refined) > self.fitted_gain(&plain) + REFINEMENT * refinements as f64;
+        Some(if better { refined } else { plain })
+    }
+
+    fn fit_parameters(&self, part: Part, refined: bool, starts: &[Vec<f64>]) -> Option<Addition> {
+        let parts = &self.hypothesis.parts;
+        let blank = FittedPart::middle(part, part.axes(self.data(), refined)?);
+        let joint = self.joint(&blank, parts);
+        if blank.at.is_empty() {
+            return split_last(joint);
+        }
+        let earlier = self.hypothesis.coordinates();
+        let at_new = |at: &[f64]| [&earlier, at].concat();
+        // The first descents use some rows only: they have to find the valley, not its floor.
+        let some = self.search.select(&(0..self.search.rows.len().min(COARSE_ROWS)).collect::<Vec<_>>());
+        let rounds = 20 * blank.at.len() as u64 + 5;
+        let coarse = |at: &[f64]| cost(&joint, &at_new(at), &some);
+        let descents =
+            best_of(coarse, starts, 2).into_iter().map(|start| descend(coarse, &start, 0.1, rounds));
+        let (start, _) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (at, _) = descend(|at| cost(&joint, &at_new(at), &self.search), &start, 0.06, rounds);
+        let joint = joint.with_coordinates(&at_new(&at));
+        // With random draws the earlier parts are refitted only beside the one that joins.
+        if parts.is_empty() || joint.parts.iter().any(|part| part.part.is_stochastic()) {
+            return split_last(joint);
+        }
+        // The earlier parts are refitted beside the new one.
+        let start = joint.coordinates();
+        let (at, _) = descend(|at| cost(&joint, at, &self.search), &start, 0.04, 20 * start.len() as u64);
+        split_last(joint.with_coordinates(&at))
+    }
+
+    /// The hypothesis with a new part beside others.
+    fn joint(&self, part: &FittedPart, others: &[FittedPart]) -> Hypothesis<'a> {
+        Hypothesis { parts: others.iter().chain([part]).cloned().collect(), ..self.hypothesis.clone() }
+    }
+
+    /// The curve over some columns, added or multiplied, whichever fits better.
+    fn better_curve(&self, sides: [Option<usize>; 2], observable: Observable) -> Option<Addition> {
+        let columns: Vec<usize> = sides.into_iter().flatten().collect();
+        let basis = |&column: &usize| {
+            let values = self.data().values(column);
+            let basis = if columns.len() > 1 {
+                Basis::of_side(values, &self.search.rows)
+            } else {
+                Basis::of(values, &self.search.rows)
+            };
+            Some((column, basis?))
+        };
+        let sides = columns.iter().map(basis).collect::<Option<Vec<_>>>()?;
+        let fit = |multiplicative| {
+            let form = CurveForm { sides: sides.clone(), observable, multiplicative };
+            let curve = Addition::Curve(form.fit(&self.search)?);
+            Some((self.fitted_gain(&curve), curve))
+        };
+        let multiplied = if observable == Observable::Capture { None } else { fit(true) };
+        let better = fit(false).into_iter().chain(multiplied).max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(better.1)
+    }
+
+    /// The slope of the scatter that fits best, from -1 to 1.
+    fn fit_trend(&self, covariate: usize) -> ScatterTrend {
+        let trend = |at: f64| ScatterTrend { covariate, slope: 2.0 * at - 1.0 };
+        let cost = |at: &[f64]| -self.fitted_gain(&Addition::ScatterTrend(trend(at[0])));
+        let (at, _) = descend(cost, &[0.5], 0.1, 20);
+        trend(at[0])
+    }
+}
+
+/// Probability that one parameter gains this much in log likelihood [nats] by chance.
+pub(super) fn chance_of_gain(gain: f64) -> f64 {
+    let law = ChiSquared::new(1.0);
+    law.map_or(1.0, |law| 0.5 * law.sf(2.0 * gain.max(0.0))).clamp(1e-300, 1.0)
+}
+
+/// The same for several parameters.
+fn chance_of_gains(gain: f64, parameters: f64) -> f64 {
+    ChiSquared::new(parameters).map_or(1.0, |law| law.sf(2.0 * gain.max(0.0))).clamp(1e-300, 1.0)
+}
+
+/// Probability that the mean of a row's gain lies as far above 0 by chance.
+fn chance_of_mean(differences: &[f64]) -> f64 {
+    Normal::standard().sf(t_statistic(differences)).clamp(1e-300, 1.0)
+}
+
+/// The starts of a fit with refinements, from that without.
+fn refined_starts(plain: &Addition, refinements: usize) -> Vec<Vec<f64>> {
+    let Addition::Part { part, .. } = plain else { return Vec::new() };
+    let mut starts = vec![part.at.clone()];
+    for _ in 0..refinements {
+        let longer = |start: Vec<f64>| REFINED_STARTS.map(|at| [start.as_slice(), &[at]].concat());
+        starts = starts.into_iter().flat_map(longer).collect();
+    }
+    starts
+}
+
+/// Minus the log score of these rows as a function of all coordinates.
+fn cost(joint: &Hypothesis<'_>, at: &[f64], rows: &Evaluation<'_>) -> f64 {
+    let scatter = rows.scatter;
+    let evaluation = joint.with_coordinates(at).evaluate(&*rows.rows, &*rows.offsets);
+    -evaluation.with_scatter(scatter).with_fitted_scatter().score()
+}
+
+/// The last part of a hypothesis as an addition to the others.
+fn split_last(mut joint: Hypothesis<'_>) -> Option<Addition> {
+    joint.parts.pop().map(|part| Addition::Part { part, others: joint.parts })
+}
