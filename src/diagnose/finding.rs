@@ -78,7 +78,7 @@ impl FindingBuilder<'_> {
             sigma: sigma(winner.q_value),
             certainty: certainty(winner, others),
             lack_of_fit: *lack_of_fit,
-            not_separable: Vec::new(),
+            not_separable: self.final_part(&cause).map(FittedPart::not_separable).unwrap_or_default(),
             p_value: winner.p_value,
             q_value: winner.q_value,
             parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),

@@ -26,6 +26,17 @@ const SHARED_FITS: f64 = 1.4;
 /// Random draws a row of a stochastic model, as many as `nearwall predict` takes.
 const DRAWS: usize = 64;
 
+/// Root mean square of the noise of the readings [1], the scatter and the stated errors together; `None` for captures.
+pub(super) fn noise_floor(data: &Measurements, scatter: Scatter, observable: Observable) -> Option<f64> {
+    let own = scatter.get(observable as usize)?.powi(2);
+    let reading = |row: &Measurement| [row.e_n, row.e_t].get(observable as usize).copied().flatten();
+    let variance = |row: &Measurement| match reading(row)?.error {
+        Some(error) => Some(own + error * error),
+        None => Some(own / row.rebounds.max(1.0)),
+    };
+    average(data.rows.iter().filter_map(variance)).map(f64::sqrt)
+}
+
 /// The rows under a hypothesis without its discrepancy, which a model file cannot contain.
 pub(super) fn evaluate<'b>(hypothesis: &Hypothesis<'b>, rows: &[usize]) -> Evaluation<'b> {
     let bare = Hypothesis { discrepancy: None, ..hypothesis.clone() };

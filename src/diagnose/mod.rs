@@ -142,7 +142,7 @@ pub fn diagnose(
         let held_out = study
             .held_out(&data, &whole, task, [&plain, &hypothesis], &extended)
             .map_err(|e| unextendable(&e))?;
-        let noise = |observable: Observable| hypothesis.scatter.get(observable as usize).copied();
+        let noise = |observable: Observable| gain::noise_floor(&data, hypothesis.scatter, observable);
         let of = |observable| {
             held_out.rows.gain(
                 observable,

@@ -115,12 +115,14 @@ pub(super) struct FittedPart {
     pub at: Vec<f64>,
     /// 95 % intervals of the parameters that have an axis, in SI units; empty before the final fit.
     pub intervals: Vec<[f64; 2]>,
+    /// Pairs of parameters, by place, of which the data determine only a combination, with their correlation [1].
+    pub inseparable: Vec<([usize; 2], f64)>,
 }
 
 impl FittedPart {
     /// The part at the middle of its search ranges.
     pub fn middle(part: Part, axes: Vec<SearchAxis>) -> Self {
-        Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new() }
+        Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new(), inseparable: Vec::new() }
     }
 
     /// The parameters in SI units; those without an axis have their defaults.
@@ -131,6 +133,21 @@ impl FittedPart {
             values.extend(further.filter_map(|parameter| parameter.default));
         }
         values
+    }
+
+    /// What the data cannot separate, in sentences.
+    pub fn not_separable(&self) -> Vec<String> {
+        let Part::Effect(effect) = self.part else { return Vec::new() };
+        let name = |place: usize| effect.parameters.get(place).map_or("", |parameter| parameter.name);
+        let sentence = |([one, two], correlation): &([usize; 2], f64)| {
+            let (one, two) = (name(*one), name(*two));
+            let together = if *correlation > 0.0 { "in the same direction" } else { "against each other" };
+            format!(
+                "These data determine only a combination of {one} and {two}: both can change {together} at almost no cost \
+                 (correlation {correlation:.3})."
+            )
+        };
+        self.inseparable.iter().map(sentence).collect()
     }
 
     /// The fitted parameters of an effect by name, with six digits; none before the final fit.
