@@ -125,7 +125,8 @@ pub fn diagnose(
     let mut diagnosis = if named { fitted } else { verdict::record(&hypothesis, &study.choice, options) };
     diagnosis.undecided = undecided;
     diagnosis.rivals = rivals;
-    diagnosis.rows = Rows { read, used, held_out: 0, rejected: data.rejected.clone() };
+    let held_out_lines = study.unseen_lines(&data);
+    diagnosis.rows = Rows { read, used, held_out: 0, held_out_lines, rejected: data.rejected.clone() };
     diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
     diagnosis.groups = study.choice.groups_found();
     if diagnosis.undecided.is_empty() {

@@ -78,6 +78,8 @@ pub struct Rows {
     pub used: usize,
     /// Impacts and readings that no fit and no choice used; an average counts as the captures and rebounds it states.
     pub held_out: usize,
+    /// Lines of the file that no fit and no choice used, at most 1000; none if the gain is cross-validated.
+    pub held_out_lines: Vec<u64>,
     /// Rows that were not used.
     pub rejected: Vec<BadRow>,
 }
@@ -100,7 +102,7 @@ pub struct Misfit {
     pub column: String,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
-    /// Cross-validated gain in log score of a curve over the column, beyond that of a constant offset [nats].
+    /// Gain in log likelihood of a curve over the column, beyond that of a level shift and less its parameters [nats].
     pub gain: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,
@@ -115,9 +117,9 @@ pub struct Finding {
     pub observable: &'static str,
     /// The columns that it depends on.
     pub variables: Vec<String>,
-    /// Gain in log likelihood on all fitted rows [nats].
+    /// Gain in log likelihood on the rows of the search, less the number of parameters [nats].
     pub gain: f64,
-    /// Fall of chi-square, twice the gain [1].
+    /// Fall of chi-square: twice the gain in log likelihood [1].
     pub chi_square: f64,
     /// Significance in standard deviations of a normal distribution, after correction for the number of candidates [1].
     pub sigma: f64,
@@ -163,7 +165,7 @@ pub struct Estimate {
 pub struct Alternative {
     /// An effect's id, a number's key or `unknown:<column>`.
     pub cause: String,
-    /// Difference in cross-validated gain to the chosen cause [nats].
+    /// Difference in gain to the chosen cause [nats].
     pub score_difference: f64,
 }
 
@@ -208,7 +210,7 @@ pub struct Calibration {
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Of the paired test of the cross-validated gain.
+    /// Of the test against the model without it.
     pub p_value: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,

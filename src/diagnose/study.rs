@@ -25,6 +25,8 @@ const LEAST_UNITS: usize = 40;
 /// Parts of the cross-validation with many units, and with few.
 const PARTS: usize = 5;
 const MANY_PARTS: usize = 10;
+/// Largest number of unseen lines that are listed.
+const LISTED_LINES: usize = 1000;
 /// Largest number of rows on which the gain is measured.
 const GAIN_ROWS: usize = 20_000;
 
@@ -73,6 +75,15 @@ impl Study {
     pub fn without_causes(self) -> Self {
         let choice = self.choice.without_causes();
         Self { file: choice.clone(), choice, unseen: Vec::new(), ..self }
+    }
+
+    /// Lines of the rows that the file has not seen.
+    pub fn unseen_lines(&self, data: &Measurements) -> Vec<u64> {
+        let mut lines: Vec<u64> = self.unseen.iter().map(|&row| data.rows[row].line).collect();
+        lines.sort_unstable();
+        lines.dedup();
+        lines.truncate(LISTED_LINES);
+        lines
     }
 
     /// The rows that measure the gain, and how; `models` are the base and the extended hypothesis, `text` is the extended model.

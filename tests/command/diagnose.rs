@@ -53,6 +53,54 @@ fn measured(rows: u64, planted: impl Fn(f64, &str) -> f64) -> String {
     lines.join("\n") + "\n"
 }
 
+/// The gain on the page is what `predict` gives with the written model on the rows that it has not seen: a column that the library does not
+/// know is an input of that model.
+#[test]
+fn the_gain_is_that_of_the_written_model() {
+    let base =
+        WAX.replace("[normal]\nmodel = \"thornton-ning\"", "[normal]\nmodel = \"constant\"\ne_n = 0.5");
+    let mut data = "v_n,v_t,humidity,plate,e_n\n".to_owned();
+    for key in 0..300 {
+        let draw = ImpactRng::new(5, key);
+        let humidity = 100.0 * draw.uniform(1);
+        let plate = ["dry", "wet"][usize::from(draw.uniform(2) > 0.5)];
+        let lost = 0.002 * humidity + if plate == "wet" { 0.1 } else { 0.0 };
+        let (v_n, v_t) = (0.5 + draw.uniform(3), draw.uniform(4));
+        writeln!(data, "{v_n},{v_t},{humidity},{plate},{}", 0.5 - lost + 0.02 * noise(draw, 200)).unwrap();
+    }
+    let folder = crate::runner::folder(&[("lab.csv", &data), ("base.toml", &base)]);
+    done(folder.path(), &["diagnose", "lab.csv", "--model", "base.toml", "--out", "out"]);
+    let found = json(folder.path());
+    let gain = &found["gain"];
+    assert_eq!(gain["measured"], "held-out", "{found}");
+
+    let lines: Vec<usize> = found["rows"]["held_out_lines"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|l| l.as_u64().unwrap() as usize)
+        .collect();
+    assert_eq!(lines.len(), 75);
+    let all: Vec<&str> = data.lines().collect();
+    let rows: Vec<&str> = std::iter::once(all[0]).chain(lines.iter().map(|line| all[line - 1])).collect();
+    std::fs::write(folder.path().join("unseen.csv"), rows.join("\n") + "\n").unwrap();
+    for (model, stated) in [("base.toml", "rmse_before"), ("out/extended.toml", "rmse_after")] {
+        let table = done(folder.path(), &["predict", "--model", model, "unseen.csv"]);
+        let mut table = csv::Reader::from_reader(table.as_bytes());
+        let header = table.headers().unwrap().clone();
+        let place = |name: &str| header.iter().position(|column| column == name).unwrap();
+        let (measured, predicted) = (place("e_n"), place("e_n_predicted"));
+        let square = |row: csv::StringRecord| {
+            (row[measured].parse::<f64>().unwrap() - row[predicted].parse::<f64>().unwrap()).powi(2)
+        };
+        let squares: Vec<f64> = table.records().map(|row| square(row.unwrap())).collect();
+        let rmse = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        let stated = gain[stated].as_f64().unwrap();
+        assert!((rmse / stated - 1.0).abs() < 1e-9, "{model}: {rmse} by predict, {stated} on the page");
+    }
+    assert!(gain["rmse_after"].as_f64().unwrap() < 0.027, "{gain}");
+}
+
 /// Share of `e_n` that a layer leaves [1]; another law than the library's.
 fn rational(layer: f64) -> f64 {
     0.4 + 0.6 / (1.0 + (layer / 1.5e-4).powi(2))
