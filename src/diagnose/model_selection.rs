@@ -75,13 +75,13 @@ pub(super) fn select<'a>(base: &Hypothesis<'a>, level: f64, progress: &(dyn Fn()
             break;
         };
         let before = hypothesis.clone();
-        join(&mut hypothesis, &winner, &mut discoveries);
+        join(&mut hypothesis, &mut winner, &mut discoveries);
         let without =
             if few { None } else { better_without_law(&before, &hypothesis, &scored, &winner, level) };
         if let Some(curve) = without {
             hypothesis = before;
             winner = curve;
-            join(&mut hypothesis, &winner, &mut discoveries);
+            join(&mut hypothesis, &mut winner, &mut discoveries);
         }
         if winner.addition.is_systematic() {
             let others = scored.into_iter().filter(|c| c.addition.name(data) != winner.addition.name(data));
@@ -115,7 +115,7 @@ fn drop_rate(hypothesis: &mut Hypothesis<'_>) {
 }
 
 /// Adds a candidate. A surface takes the place of the curves and laws over its columns.
-fn join(hypothesis: &mut Hypothesis<'_>, winner: &ScoredCandidate, discoveries: &mut Vec<Discovery>) {
+fn join(hypothesis: &mut Hypothesis<'_>, winner: &mut ScoredCandidate, discoveries: &mut Vec<Discovery>) {
     if let Addition::Curve(surface) = &winner.addition
         && surface.form.sides.len() > 1
     {
@@ -142,7 +142,13 @@ fn join(hypothesis: &mut Hypothesis<'_>, winner: &ScoredCandidate, discoveries: 
             .chain(hypothesis.parts.iter().filter(|part| covered(part)).map(|part| part.part.name()))
             .collect();
         hypothesis.parts.retain(|part| !covered(part));
-        discoveries.retain(|discovery| !replaced.contains(&discovery.winner.addition.name(data)));
+        // The surface stands for what they explained, too.
+        let is_replaced = |found: &Discovery| replaced.contains(&found.winner.addition.name(data));
+        for found in discoveries.iter().filter(|found| is_replaced(found)) {
+            winner.p_value = winner.p_value.min(found.winner.p_value);
+            winner.q_value = winner.q_value.min(found.winner.q_value);
+        }
+        discoveries.retain(|found| !is_replaced(found));
     }
     winner.addition.add_to(hypothesis);
     hypothesis.fit_with_discrepancy();

@@ -43,7 +43,12 @@ pub(super) fn misfit(
             _ => return None,
         };
         let (gain, q_value) = (scored.own_gain, scored.q_value);
-        (q_value <= level).then(|| Misfit { column, observable: form.observable.name(), gain, q_value })
+        (q_value <= level && gain > 0.0).then(|| Misfit {
+            column,
+            observable: form.observable.name(),
+            gain,
+            q_value,
+        })
     };
     let mut all: Vec<Misfit> = first_round.iter().filter_map(one).collect();
     let name = |misfit: &Misfit| (misfit.column.clone(), misfit.observable);
