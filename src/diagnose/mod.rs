@@ -117,13 +117,16 @@ pub fn diagnose(
     let fine = study.file.fine();
     let fitted = verdict::record(&study.file.fitted(&fine), &study.choice, options);
     let undecided = verdict::undecided(&fitted.findings, &study.choice);
-    let named = rival::decisive(&rivals).is_none() && undecided.is_empty();
+    let named = rival::decisive(&rivals, fitted.findings.len()).is_none() && undecided.is_empty();
     let study = if named { study } else { study.without_causes() };
 
     let plain = Hypothesis::base(&fine);
     let hypothesis = study.file.fitted(&fine);
     let mut diagnosis = if named { fitted } else { verdict::record(&hypothesis, &study.choice, options) };
     diagnosis.undecided = undecided;
+    if let Some(first) = diagnosis.findings.first_mut() {
+        first.indistinguishable_from.extend(rivals.iter().map(|rival| rival.id.clone()));
+    }
     diagnosis.rivals = rivals;
     let held_out_lines = study.unseen_lines(&data);
     diagnosis.rows = Rows { read, used, held_out: 0, held_out_lines, rejected: data.rejected.clone() };

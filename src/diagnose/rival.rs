@@ -18,8 +18,10 @@ use crate::model::Model;
 const BEHIND: f64 = 3.0;
 /// Least gain of a rival [nats].
 const LEAST_GAIN: f64 = 6.0;
-/// Least lead over the extended model at which a rival takes the place of the causes [nats].
+/// Least lead over the extended model at which a rival takes the place of the causes, and a slip that of one cause [nats]: without
+/// parameters it is a little ahead of a cause that it imitates.
 const DECISIVE: f64 = 0.0;
+const DECISIVE_SLIP: f64 = 3.0;
 
 /// The rivals that explain the misfit of `base` about as well as `extended` does, the best first; `text` is the base model's file.
 /// Both hypotheses are on the rows of the search.
@@ -50,9 +52,11 @@ pub(super) fn rivals(base: &Hypothesis<'_>, extended: &Hypothesis<'_>, text: &st
     all
 }
 
-/// Whether a rival explains more than the causes.
-pub(super) fn decisive(rivals: &[Rival]) -> Option<&Rival> {
-    rivals.iter().find(|rival| rival.lead > DECISIVE)
+/// Whether a rival explains more than these causes: a slip much more than one cause, or as much as several.
+pub(super) fn decisive(rivals: &[Rival], causes: usize) -> Option<&Rival> {
+    let is_slip = |rival: &Rival| rival.id.starts_with("slip:") && causes < 2;
+    let least = |rival: &Rival| if is_slip(rival) { DECISIVE_SLIP } else { DECISIVE };
+    rivals.iter().find(|rival| rival.lead > least(rival))
 }
 
 /// The observable with most measurements.
