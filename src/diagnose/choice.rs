@@ -181,6 +181,7 @@ impl Choice {
     pub fn fitted<'a>(&self, fine: &'a DataSplit) -> Hypothesis<'a> {
         let mut hypothesis = self.hypothesis(fine);
         hypothesis.fit(&fine.fit);
+        hypothesis.polish(&fine.fit);
         set_intervals(&mut hypothesis, &fine.fit);
         hypothesis
     }

@@ -11,7 +11,7 @@ use super::forecast::Forecast;
 use super::likelihood::{Mean, Offset, Scatter, mean};
 use super::observable::Observable;
 use super::part::{FittedPart, Part};
-use super::search::descend;
+use super::search::{descend, descend_to};
 use super::smooth::surface;
 use crate::dataset::Values;
 use crate::effect::Term;
@@ -21,6 +21,8 @@ use crate::model::Model;
 const MINOR: f64 = 0.05;
 /// Scatter of a capture in comparisons with that of restitutions [1].
 const CAPTURE_SCATTER: f64 = 0.25;
+/// Tolerance of the last fit [nats].
+const SUMMIT: f64 = 1e-4;
 /// First guess of the scatter of `e_n` and `e_t` [1].
 const FIRST_SCATTER: Scatter = [0.1, 0.1];
 
@@ -197,6 +199,20 @@ impl<'a> Hypothesis<'a> {
                 self.curves.insert(place, fitted.unwrap_or(curve));
             }
         }
+        self.fit_scatter(rows);
+    }
+
+    /// Moves all parameters to the summit of the likelihood of these rows, from near it.
+    pub fn polish(&mut self, rows: &[usize]) {
+        let offsets = self.offsets();
+        let start = self.coordinates();
+        if start.is_empty() {
+            return;
+        }
+        let cost =
+            |at: &[f64]| -self.with_coordinates(at).evaluate(rows, &offsets).with_fitted_scatter().score();
+        let (at, _) = descend_to(SUMMIT, cost, &start, 0.01, 60 * start.len() as u64);
+        *self = self.with_coordinates(&at);
         self.fit_scatter(rows);
     }
 

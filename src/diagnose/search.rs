@@ -74,6 +74,17 @@ pub(super) fn descend(
     size: f64,
     rounds: u64,
 ) -> (Vec<f64>, f64) {
+    descend_to(TOLERANCE, cost, start, size, rounds)
+}
+
+/// The same to a tolerance [nats].
+pub(super) fn descend_to(
+    tolerance: f64,
+    cost: impl Fn(&[f64]) -> f64,
+    start: &[f64],
+    size: f64,
+    rounds: u64,
+) -> (Vec<f64>, f64) {
     let corner = |moved: usize| {
         let mut corner = start.to_vec();
         // No corner lies outside 0 to 1.
@@ -83,7 +94,7 @@ pub(super) fn descend(
     let simplex: Vec<Vec<f64>> =
         std::iter::once(start.to_vec()).chain((0..start.len()).map(corner)).collect();
     let fallback = || (start.to_vec(), cost(start));
-    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(TOLERANCE) else { return fallback() };
+    let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(tolerance) else { return fallback() };
     let run = Executor::new(Bounded(&cost), solver).configure(|state| state.max_iters(rounds)).run();
     let Ok(result) = run else { return fallback() };
     match result.state.best_param {
