@@ -1,7 +1,7 @@
 //! Artefacts of measurement: an instrument that does not see slow rebounds, and scatter to one side.
 
 use super::hypothesis::Hypothesis;
-use super::likelihood::{GROSS_SHARE, Offset};
+use super::likelihood::{GROSS_DENSITY, GROSS_SHARE, Offset, SMALLEST_SCATTER};
 use super::observable::Observable;
 
 /// Steps of each width of a skewed distribution, and the factor between them.
@@ -11,8 +11,6 @@ const WIDTH_STEP: f64 = 1.3;
 const NARROWEST: f64 = 0.15;
 /// Least number of readings for a distribution.
 const READINGS: usize = 30;
-/// Density of gross errors [1].
-const GROSS_DENSITY: f64 = 0.4;
 /// Gain that pays for one parameter [nats].
 const PARAMETER: f64 = 1.0;
 
@@ -63,20 +61,33 @@ fn skewness(base: &Hypothesis<'_>) -> Option<(&'static str, f64, String)> {
     (gain > 0.0).then(|| ("skewed-scatter", gain, text.to_owned()))
 }
 
+/// A width of one side [1]: the narrowest is step 0.
+fn width(scatter: f64, step: i32) -> f64 {
+    scatter.max(SMALLEST_SCATTER) * NARROWEST * WIDTH_STEP.powi(step)
+}
+
+/// Largest log likelihood of residuals with widths of these steps below and above [nats].
+fn best(residuals: &[f64], scatter: f64, steps: impl Iterator<Item = [i32; 2]>) -> f64 {
+    steps
+        .map(|sides| likelihood(residuals, sides.map(|step| width(scatter, step))))
+        .fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The same with one width on both sides.
+fn best_even(residuals: &[f64], scatter: f64) -> f64 {
+    best(residuals, scatter, (0..WIDTHS).map(|step| [step; 2]))
+}
+
 /// Gain of two widths over one [nats]; 0 where the wider side is above, or where a shifted distribution is as good.
 fn skewness_of(mut residuals: Vec<f64>, scatter: f64) -> f64 {
-    let width = |step: i32| scatter.max(1e-3) * NARROWEST * WIDTH_STEP.powi(step);
-    let even = |residuals: &[f64]| {
-        (0..WIDTHS).map(|step| likelihood(residuals, [width(step); 2])).fold(f64::NEG_INFINITY, f64::max)
-    };
-    let pairs = (0..WIDTHS).flat_map(|one| (0..one).map(move |two| [one, two]));
-    let scored = pairs.map(|sides| likelihood(&residuals, sides.map(width)));
-    let skewed = scored.fold(f64::NEG_INFINITY, f64::max);
-    let plain = even(&residuals);
+    let wider_below = (0..WIDTHS).flat_map(|one| (0..one).map(move |two| [one, two]));
+    let skewed = best(&residuals, scatter, wider_below);
+    let plain = best_even(&residuals, scatter);
     residuals.sort_by(f64::total_cmp);
     let median = residuals[residuals.len() / 2];
-    let shifted = even(&residuals.iter().map(|residual| residual - median).collect::<Vec<f64>>());
-    if skewed > shifted + PARAMETER { (skewed - plain - PARAMETER).max(0.0) } else { 0.0 }
+    let shifted: Vec<f64> = residuals.iter().map(|residual| residual - median).collect();
+    let beats_shift = skewed > best_even(&shifted, scatter) + PARAMETER;
+    if beats_shift { (skewed - plain - PARAMETER).max(0.0) } else { 0.0 }
 }
 
 /// Gain of a scatter with two widths, the wider one on either side, over one width [nats]: what a stochastic effect must exceed.
@@ -84,11 +95,8 @@ pub(super) fn lopsided_gain(residuals: &[f64], scatter: f64) -> f64 {
     if residuals.len() < READINGS {
         return 0.0;
     }
-    let width = |step: i32| scatter.max(1e-3) * NARROWEST * WIDTH_STEP.powi(step);
-    let of = |sides: [i32; 2]| likelihood(residuals, sides.map(width));
-    let even = (0..WIDTHS).map(|step| of([step; 2])).fold(f64::NEG_INFINITY, f64::max);
-    let pairs = (0..WIDTHS).flat_map(|one| (0..WIDTHS).map(move |two| [one, two]));
-    (pairs.map(of).fold(f64::NEG_INFINITY, f64::max) - even).max(0.0)
+    let all = (0..WIDTHS).flat_map(|one| (0..WIDTHS).map(move |two| [one, two]));
+    (best(residuals, scatter, all) - best_even(residuals, scatter)).max(0.0)
 }
 
 /// Log likelihood of residuals about 0 with one width below and another above [nats].

@@ -209,38 +209,24 @@ impl DataSplit {
 
     /// Other rows under the same base model, none of them fitted.
     pub fn with_rows(&self, rows: Vec<Measurement>, covariates: Vec<Covariate>) -> Self {
-        let count = rows.len();
-        Self {
-            base: self.base.clone(),
-            rows: rows.into(),
-            covariates: covariates.into(),
-            noise: vec![Offset::default(); count].into(),
-            units: (0..count).collect(),
-            unit_count: count,
-            shared: None,
-            search: Vec::new(),
-            fit: Vec::new(),
-            held_out: Vec::new(),
-            draws: COARSE_DRAWS,
-        }
+        Self { covariates: covariates.into(), ..Self::bare(&self.base, &rows, COARSE_DRAWS) }
     }
 
-    /// Rows without columns, for the errors of a finished model.
+    /// Rows without columns, none of them fitted, for the errors of a finished model.
     pub fn bare(base: &Model, rows: &[Measurement], draws: usize) -> Self {
-        let plain = Self {
+        Self {
             base: base.clone(),
-            rows: Arc::new([]),
+            rows: rows.into(),
             covariates: Arc::new([]),
-            noise: Arc::new([]),
-            units: Arc::new([]),
-            unit_count: 0,
+            noise: vec![Offset::default(); rows.len()].into(),
+            units: (0..rows.len()).collect(),
+            unit_count: rows.len(),
             shared: None,
             search: Vec::new(),
             fit: Vec::new(),
             held_out: Vec::new(),
             draws,
-        };
-        Self { draws, ..plain.with_rows(rows.to_vec(), Vec::new()) }
+        }
     }
 
     /// The indices of all rows.

@@ -39,7 +39,7 @@ pub(super) fn noise_floor(data: &Measurements, scatter: Scatter, observable: Obs
 
 /// The rows under a hypothesis without its discrepancy, which a model file cannot contain.
 pub(super) fn evaluate<'b>(hypothesis: &Hypothesis<'b>, rows: &[usize]) -> Evaluation<'b> {
-    let bare = Hypothesis { discrepancy: None, ..hypothesis.clone() };
+    let bare = hypothesis.without_discrepancy();
     bare.evaluate(rows.to_vec(), bare.offsets())
 }
 

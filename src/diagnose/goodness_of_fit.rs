@@ -29,7 +29,7 @@ pub(super) fn fit(base: &Hypothesis<'_>, extended: &Hypothesis<'_>, structure: [
 
 /// The rows of the search without discrepancy and without shared errors of groups: these are no part of the model.
 fn rows_alone<'a>(hypothesis: &Hypothesis<'a>) -> Evaluation<'a> {
-    let bare = Hypothesis { discrepancy: None, ..hypothesis.clone() };
+    let bare = hypothesis.without_discrepancy();
     bare.evaluate(bare.data.search.clone(), bare.offsets()).with_fitted_scatter().without_shared_errors()
 }
 

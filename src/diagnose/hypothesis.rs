@@ -256,11 +256,19 @@ impl<'a> Hypothesis<'a> {
         self.discrepancy = Some([e_n.0, e_t.0]);
     }
 
+    /// The same without the discrepancy, which is no part of the model.
+    pub fn without_discrepancy(&self) -> Self {
+        Self { discrepancy: None, ..self.clone() }
+    }
+
+    /// Log score of the rows of the search with the scatter that fits them best [nats].
+    pub fn search_score(&self) -> f64 {
+        self.evaluate(&*self.data.search, self.offsets()).with_fitted_scatter().score()
+    }
+
     /// What the discrepancy gains on the rows of the search, less its effective number of parameters [nats].
     pub fn discrepancy_gain(&self) -> f64 {
-        let bare = Self { discrepancy: None, ..self.clone() };
-        let score = |h: &Self| h.evaluate(&*self.data.search, h.offsets()).with_fitted_scatter().score();
-        score(self) - score(&bare) - self.discrepancy_freedom
+        self.search_score() - self.without_discrepancy().search_score() - self.discrepancy_freedom
     }
 
     /// The columns of the discrepancy of an observable: those with a curve of their own, and those that only interact

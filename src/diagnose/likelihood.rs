@@ -12,7 +12,7 @@ use crate::dataset::{Measurement, Reading};
 /// Expected share of gross errors among many readings [1].
 pub(super) const GROSS_SHARE: f64 = 0.02;
 /// Density of a gross error [1].
-const GROSS_DENSITY: f64 = 0.4;
+pub(super) const GROSS_DENSITY: f64 = 0.4;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
 const FAR: f64 = 8.0;
 /// No outcome is predicted with more certainty than one minus this.

@@ -105,10 +105,9 @@ fn drop_rate(hypothesis: &mut Hypothesis<'_>) {
         return;
     }
     let data = hypothesis.data;
-    let score = |h: &Hypothesis<'_>| h.evaluate(&*data.search, h.offsets()).with_fitted_scatter().score();
     let mut without = Hypothesis { background_capture: 0.0, ..hypothesis.clone() };
     without.fit(&data.search);
-    if score(hypothesis) - score(&without) < CLOSE_GAIN {
+    if hypothesis.search_score() - without.search_score() < CLOSE_GAIN {
         without.fit_discrepancy();
         *hypothesis = without;
     }
@@ -264,17 +263,16 @@ fn first_gain(discoveries: &[Discovery]) -> f64 {
 /// Removes parts that a later addition made redundant.
 fn remove_redundant(hypothesis: &mut Hypothesis<'_>, discoveries: &mut Vec<Discovery>) {
     let data = hypothesis.data;
-    let score = |h: &Hypothesis<'_>| h.evaluate(&data.search, h.offsets()).with_fitted_scatter().score();
     // The newest part has just been found necessary.
     let newest = discoveries.last().is_some_and(|d| matches!(d.winner.addition, Addition::Part { .. }));
     let mut place = 0;
     while place + usize::from(newest) < hypothesis.parts.len() {
-        let mut reduced = Hypothesis { discrepancy: None, ..hypothesis.clone() };
-        let with = score(&reduced);
+        let mut reduced = hypothesis.without_discrepancy();
+        let with = reduced.search_score();
         let removed = reduced.parts.remove(place);
         reduced.fit(&data.search);
         let least = (CLOSE_GAIN + removed.at.len() as f64).max(FURTHER_GAIN * first_gain(discoveries));
-        if with - score(&reduced) < least {
+        if with - reduced.search_score() < least {
             discoveries.retain(|d| d.winner.addition.name(data) != removed.part.name());
             reduced.fit_discrepancy();
             *hypothesis = reduced;

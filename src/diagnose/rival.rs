@@ -26,12 +26,9 @@ const DECISIVE_SLIP: f64 = 3.0;
 /// The rivals that explain the misfit of `base` about as well as `extended` does, the best first; `text` is the base model's file.
 /// Both hypotheses are on the rows of the search.
 pub(super) fn rivals(base: &Hypothesis<'_>, extended: &Hypothesis<'_>, text: &str) -> Vec<Rival> {
-    let score = |h: &Hypothesis<'_>| {
-        let bare = Hypothesis { discrepancy: None, ..h.clone() };
-        bare.evaluate(&*h.data.search, bare.offsets()).with_fitted_scatter().score()
-    };
-    let before = score(base);
-    let explained = (score(extended) - before - extended.freedom()).max(0.0);
+    let before = base.search_score();
+    let after = extended.without_discrepancy().search_score();
+    let explained = (after - before - extended.freedom()).max(0.0);
     let observable = main_observable(base.data);
     let mut all: Vec<Rival> = Vec::new();
     let mut add = |id: String, gain: f64, explanation: String| {
@@ -83,9 +80,7 @@ fn slip_gain(data: &DataSplit, slip: &Slip, before: f64) -> Option<f64> {
         model.check(row.wall, &row.impact).ok()?;
     }
     let changed = DataSplit { base: model, rows: rows.into(), ..data.clone() };
-    let hypothesis = Hypothesis::base(&changed);
-    let score = hypothesis.evaluate(&*changed.search, hypothesis.offsets()).with_fitted_scatter().score();
-    let gain = score + jacobian - before;
+    let gain = Hypothesis::base(&changed).search_score() + jacobian - before;
     gain.is_finite().then_some(gain)
 }
 
