@@ -5,10 +5,12 @@ use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::extend;
 use super::groups::GroupColumn;
-use super::hypothesis::Hypothesis;
+use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::interval::set_intervals;
+use super::likelihood::Scatter;
 use super::model_selection::{Discovery, Selection, select};
 use super::observable::Observable;
+use super::part::FittedPart;
 use super::record::GroupsFound;
 use super::shared_error::SharedErrors;
 
@@ -46,11 +48,11 @@ pub(super) struct Choice {
 /// What was found, without the rows.
 #[derive(Clone)]
 struct Found {
-    parts: Vec<super::part::FittedPart>,
+    parts: Vec<FittedPart>,
     curves: Vec<ColumnCurve>,
-    scatter_trends: Vec<super::hypothesis::ScatterTrend>,
+    scatter_trends: Vec<ScatterTrend>,
     background_capture: f64,
-    scatter: super::likelihood::Scatter,
+    scatter: Scatter,
 }
 
 impl Found {
@@ -168,7 +170,7 @@ impl Choice {
     }
 
     /// Scatter of single measurements about the causes [1].
-    pub fn scatter(&self) -> super::likelihood::Scatter {
+    pub fn scatter(&self) -> Scatter {
         self.state.scatter
     }
 

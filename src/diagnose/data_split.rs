@@ -23,6 +23,8 @@ const COARSE_DRAWS: usize = 16;
 const FINE_DRAWS: usize = 64;
 /// So many groups can be tested as units.
 const MANY_GROUPS: usize = 10;
+/// Largest distance from the mean that counts [standard deviations].
+const FARTHEST: f64 = 4.0;
 /// With fewer readings no gross errors are expected: a row that looks like one is evidence.
 const MANY_READINGS: usize = 30;
 
@@ -81,19 +83,24 @@ impl Covariate {
         }
     }
 
-    /// Distance from the mean in standard deviations, at most three; labels are 0.
+    /// Distance from the mean in standard deviations; labels are 0.
     pub fn standardised(&self) -> Vec<f64> {
-        let numbers = match &self.values {
-            Values::Numbers(numbers) => numbers,
-            Values::Labels { of_row, .. } => return vec![0.0; of_row.len()],
-        };
-        let count = numbers.len().max(1) as f64;
-        let mean = numbers.iter().sum::<f64>() / count;
-        let deviation = (numbers.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
-        let z =
-            |value: &f64| if deviation > 0.0 { ((value - mean) / deviation).clamp(-3.0, 3.0) } else { 0.0 };
-        numbers.iter().map(z).collect()
+        match &self.values {
+            Values::Numbers(numbers) => standardised(numbers.iter().copied()),
+            Values::Labels { of_row, .. } => vec![0.0; of_row.len()],
+        }
     }
+}
+
+/// Distances from the mean in standard deviations, at most [`FARTHEST`].
+pub(super) fn standardised(values: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
+    let count = values.clone().count().max(1) as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    let deviation = (values.clone().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
+    let z = |value: f64| {
+        if deviation > 0.0 { ((value - mean) / deviation).clamp(-FARTHEST, FARTHEST) } else { 0.0 }
+    };
+    values.map(z).collect()
 }
 
 /// The median of some numbers; NaN of none.
@@ -232,6 +239,11 @@ impl DataSplit {
     /// The indices of all rows.
     pub fn all(&self) -> Vec<usize> {
         (0..self.rows.len()).collect()
+    }
+
+    /// Number of independent units among these rows.
+    pub fn unit_count_of(&self, rows: &[usize]) -> usize {
+        rows.iter().map(|&row| self.units[row]).collect::<std::collections::HashSet<_>>().len()
     }
 
     /// Number of rows in the search with a measured `e_n`, and with a measured `e_t`.

@@ -11,7 +11,7 @@ use super::likelihood::{
 use super::observable::Observable;
 use super::shared_error::{GroupSums, SharedErrors};
 use super::smooth::Point;
-use crate::dataset::Measurement;
+use crate::dataset::{Measurement, Reading};
 use crate::model::Model;
 
 /// Largest number of steps of the scatter's estimate.
@@ -20,6 +20,16 @@ const STEPS: usize = 8;
 const STEEPEST: f64 = 20.0;
 /// The estimate ends when a step changes it by less than this share.
 const TOLERANCE: f64 = 3e-3;
+
+/// A reading of `e_n` or `e_t` about its prediction.
+struct Residual {
+    /// 0 for `e_n`, 1 for `e_t`.
+    which: usize,
+    /// Measured minus predicted value [1].
+    value: f64,
+    /// Inverse variance, less where it looks like a gross error [1].
+    weight: f64,
+}
 
 /// Some rows of the data under a model.
 #[derive(Debug, Clone)]
@@ -128,13 +138,9 @@ impl<'a> Evaluation<'a> {
             let offset = self.offset(index);
             let mean = mean(self.forecast.of(place), &offset);
             let known = self.shared.offset(group);
-            for (which, reading) in [row.e_n, row.e_t].into_iter().enumerate() {
-                let Some(reading) = reading else { continue };
-                let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
-                let residual = reading.value - mean.restitution[which] - shift;
-                let weight = regular(residual, width, offset.gross) / (width * width);
+            for Residual { which, value, weight } in self.row_residuals(row, &mean, &offset) {
                 own.weight[which] += weight;
-                own.residual[which] += weight * (residual + known[which]);
+                own.residual[which] += weight * (value + known[which]);
             }
         }
         self.shared = Arc::new(SharedErrors::fit(sums));
@@ -158,6 +164,22 @@ impl<'a> Evaluation<'a> {
             (index, &self.data.rows[index], self.forecast.of(place), self.offset(index))
         };
         self.rows.iter().enumerate().map(one)
+    }
+
+    /// The readings of a row about their predicted means.
+    fn row_residuals(
+        &self,
+        row: &Measurement,
+        mean: &Mean,
+        offset: &Offset,
+    ) -> impl Iterator<Item = Residual> {
+        let one = |(which, reading): (usize, Option<Reading>)| {
+            let reading = reading?;
+            let (width, shift) = reading_noise(self.scatter[which], offset, which, row, &reading, mean);
+            let value = reading.value - mean.restitution[which] - shift;
+            Some(Residual { which, value, weight: regular(value, width, offset.gross) / (width * width) })
+        };
+        [row.e_n, row.e_t].into_iter().enumerate().filter_map(one)
     }
 
     /// Log score of every row [nats].
@@ -218,12 +240,8 @@ impl<'a> Evaluation<'a> {
                 slope.capture = (information * (captured - mean.capture)).clamp(-most, most);
                 slope.information[2] = information;
             }
-            for (which, reading) in [row.e_n, row.e_t].into_iter().enumerate() {
-                let Some(reading) = reading else { continue };
-                let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
-                let residual = reading.value - mean.restitution[which] - shift;
-                let weight = regular(residual, width, offset.gross) / (width * width);
-                slope.restitution[which] = weight * residual;
+            for Residual { which, value, weight } in self.row_residuals(row, &mean, &offset) {
+                slope.restitution[which] = weight * value;
                 slope.information[which] = weight;
             }
             slope
@@ -295,13 +313,10 @@ impl<'a> Evaluation<'a> {
                 let (residual, weight) = ((row.captured? - mean.capture) / variance, variance * row.impacts);
                 return Some(Point { row: index, residual, weight, scale: 1.0 });
             }
-            let reading = [row.e_n, row.e_t][which]?;
-            let expected = mean.restitution[which];
-            let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
-            let residual = reading.value - expected - shift;
-            let weight = regular(residual, width, offset.gross) / (width * width);
-            let scale = if multiplicative { expected - offset.restitution[which] } else { 1.0 };
-            Some(Point { row: index, residual, weight, scale })
+            let own = self.row_residuals(row, &mean, &offset).find(|residual| residual.which == which)?;
+            let scale =
+                if multiplicative { mean.restitution[which] - offset.restitution[which] } else { 1.0 };
+            Some(Point { row: index, residual: own.value, weight: own.weight, scale })
         };
         self.each().filter_map(point).collect()
     }

@@ -1,6 +1,6 @@
 //! Describes each discovery: its parameters, its alternatives and what cannot be distinguished from it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -179,7 +179,9 @@ impl FindingBuilder<'_> {
         };
         let mut rivals: Vec<&ScoredCandidate> = others.iter().filter(is_rival).collect();
         rivals.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
-        rivals.dedup_by_key(|rival| self.name(rival));
+        // A column may explain e_n and e_t.
+        let mut named = BTreeSet::new();
+        rivals.retain(|rival| named.insert(self.name(rival)));
         rivals
     }
 

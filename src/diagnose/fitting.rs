@@ -9,19 +9,18 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::artefact::lopsided_gain;
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
+use super::candidate_list::candidates;
 use super::curve::CurveForm;
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::few_rows::FewRows;
 use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::observable::Observable;
-use super::part::{FittedPart, LawParameter, Part};
+use super::part::{FittedPart, Part};
 use super::score_test::{self, Shapes, Tested, corrected};
 use super::search::{best_of, descend};
 use super::shapes::ShapeBuilder;
 use super::smooth::Basis;
-use crate::dataset::Values;
-use crate::effect::EFFECTS;
 
 /// Least gain [nats] of each parameter with a default that is fitted.
 const REFINEMENT: f64 = 1.0;
@@ -35,8 +34,6 @@ const PROMISING: f64 = 2.0;
 const NEAR_BEST: f64 = 0.5;
 /// Least effective number of independent tests with few rows: the laws are several, whatever few rows say.
 const FEW_TESTS: f64 = 8.0;
-/// Least number of measurements for a curve.
-const CURVE_ROWS: usize = 4;
 /// Coordinates at which a refinement starts.
 const REFINED_STARTS: [f64; 3] = [0.15, 0.5, 0.85];
 
@@ -70,7 +67,7 @@ impl<'a> Round<'a> {
 
     /// The promising candidates with their gains; `done` is called after each candidate.
     pub fn score_candidates(&self, done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
-        let candidates = self.candidates();
+        let candidates = candidates(self.hypothesis, self.few.is_some());
         let builder = ShapeBuilder::new(self.hypothesis, &self.search);
         let shapes: Vec<Shapes> = candidates.par_iter().map(|candidate| builder.shapes(*candidate)).collect();
         let units: Vec<usize> = self.search.rows.iter().map(|&row| self.data().units[row]).collect();
@@ -91,83 +88,6 @@ impl<'a> Round<'a> {
         let rivals: Vec<_> = drawn.into_iter().filter(|(_, tested)| tested.gain > NEAR_BEST * best).collect();
         scored.extend(rivals.into_par_iter().filter_map(score).collect::<Vec<_>>());
         scored
-    }
-
-    fn candidates(&self) -> Vec<Candidate> {
-        let Hypothesis { data, parts, scatter_trends, curves, .. } = self.hypothesis;
-        let effects = EFFECTS.iter().map(|effect| Part::Effect(effect));
-        let parameters = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(&data.base).is_some());
-        let taken = |name: String| {
-            parts.iter().any(|part| part.part.name() == name)
-                || data.base.terms().iter().any(|term| term.kind().id == name)
-        };
-        let mut candidates: Vec<Candidate> = effects
-            .chain(parameters.map(Part::LawParameter))
-            .filter(|part| !taken(part.name()))
-            .map(Candidate::Part)
-            .collect();
-        let same = |sides: [Option<usize>; 2], observable: Observable| {
-            let covered = |curve: &super::curve::ColumnCurve| {
-                let own: Vec<usize> = curve.form.sides.iter().map(|side| side.0).collect();
-                curve.form.observable == observable
-                    && (!own.is_empty() || sides == [None; 2])
-                    && sides.iter().flatten().all(|side| own.contains(side))
-            };
-            curves.iter().any(covered)
-        };
-        let varying: Vec<Observable> = Observable::ALL.into_iter().filter(|o| self.varies(*o)).collect();
-        for &observable in &varying {
-            let mut sides: Vec<[Option<usize>; 2]> = Vec::new();
-            // A law with a constant of its own has its level there; captures have a rate.
-            let constant = match observable {
-                Observable::NormalRestitution => LawParameter::NormalRestitution.of(&data.base).is_some(),
-                Observable::TangentialRestitution => {
-                    LawParameter::TangentialRestitution.of(&data.base).is_some()
-                }
-                Observable::Capture => true,
-            };
-            if !constant {
-                sides.push([None; 2]);
-            }
-            sides.extend((0..data.covariates.len()).map(|column| [Some(column), None]));
-            let known = self.hypothesis.columns_of(observable);
-            for one in known {
-                let numeric = |column: usize| matches!(data.values(column), Values::Numbers(_));
-                // How e_t depends on the speeds is a matter of the tangential law.
-                let speed = |column: usize| ["v_n", "v_t"].contains(&data.covariates[column].name.as_str());
-                let free = |column: usize| observable != Observable::TangentialRestitution || !speed(column);
-                let others = (0..data.covariates.len())
-                    .filter(|&other| other != one && numeric(other) && free(other) && free(one));
-                sides.extend(
-                    others.filter(|_| numeric(one)).map(|other| [Some(one.min(other)), Some(one.max(other))]),
-                );
-            }
-            sides.dedup();
-            let open = |sides: &[Option<usize>; 2]| !same(*sides, observable);
-            let curve = |sides| Candidate::Curve { sides, observable };
-            candidates.extend(sides.into_iter().filter(open).map(curve));
-        }
-        for (covariate, column) in data.covariates.iter().enumerate() {
-            let numeric = matches!(column.values, Values::Numbers(_));
-            if numeric
-                && self.few.is_none()
-                && !scatter_trends.iter().any(|trend| trend.covariate == covariate)
-            {
-                candidates.push(Candidate::ScatterTrend { covariate });
-            }
-        }
-        if self.hypothesis.background_capture == 0.0 && self.varies(Observable::Capture) {
-            candidates.push(Candidate::BackgroundCapture);
-        }
-        candidates
-    }
-
-    /// Whether there are enough different measurements of an observable for a curve.
-    fn varies(&self, observable: Observable) -> bool {
-        let data = self.data();
-        let measured = |&row: &usize| observable.measured(&data.rows[row]);
-        let values: Vec<f64> = data.search.iter().filter_map(measured).collect();
-        values.len() >= CURVE_ROWS && values.iter().any(|value| *value != values[0])
     }
 
     fn score_candidate(&self, candidate: Candidate, tested: &Tested) -> Option<ScoredCandidate> {

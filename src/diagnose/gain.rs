@@ -19,6 +19,8 @@ const RESAMPLES: usize = 1000;
 const SAMPLE_ROWS: usize = 1500;
 /// Least number of held-out rows for a gain.
 const LEAST_ROWS: usize = 3;
+/// How the gain is measured where the file has not seen some rows.
+pub(super) const HELD_OUT: &str = "held-out";
 /// How the gain is measured where no row is left that the file has not seen.
 pub(super) const CROSS_VALIDATED: &str = "cross-validated";
 /// Factor on the standard error of a cross-validated gain: its models share rows.

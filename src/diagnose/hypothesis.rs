@@ -173,6 +173,12 @@ impl<'a> Hypothesis<'a> {
         moved
     }
 
+    /// Makes the parameters that are left at their defaults free.
+    pub fn free_defaults(&mut self) {
+        let data = self.data;
+        self.parts.iter_mut().for_each(|part| part.free_defaults(data));
+    }
+
     /// Fits the scatter to these rows.
     pub fn fit_scatter(&mut self, rows: &[usize]) {
         self.scatter = self.evaluate(rows, self.offsets()).with_fitted_scatter().scatter;

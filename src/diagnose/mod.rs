@@ -8,8 +8,10 @@
 mod advice;
 mod artefact;
 mod candidate;
+mod candidate_list;
 mod choice;
 pub mod comparison;
+mod covariance;
 mod curve;
 mod data_split;
 mod data_view;
@@ -29,6 +31,7 @@ mod likelihood;
 mod model_selection;
 mod observable;
 mod part;
+mod profile;
 mod record;
 mod rival;
 mod score_test;
@@ -107,27 +110,25 @@ pub fn diagnose(
     let task = Task { text, level: options.level, groups: &groups, progress };
     let whole = DataSplit::new(base, &data, &groups);
     let study = Study::new(&whole, task, options.seed);
+    let rivals = rivals(&study, text, options.level);
 
-    let searched = &study.choice.data;
-    let mut rivals = rival::rivals(&Hypothesis::base(searched), &study.choice.hypothesis(searched), text);
-    if study.choice.structure[0] > options.level {
-        // Nothing has to be explained.
-        rivals.clear();
-    }
     let fine = study.file.fine();
-    let fitted = verdict::record(&study.file.fitted(&fine), &study.choice, options);
-    let undecided = verdict::undecided(&fitted.findings, &study.choice);
-    let named = rival::decisive(&rivals, fitted.findings.len()).is_none() && undecided.is_empty();
+    let mut hypothesis = study.file.fitted(&fine);
+    let mut diagnosis = verdict::record(&hypothesis, &study.choice, options);
+    let undecided = verdict::undecided(&diagnosis.findings, &study.choice);
+    let named = rival::decisive(&rivals, diagnosis.findings.len()).is_none() && undecided.is_empty();
     let study = if named { study } else { study.without_causes() };
-
-    let plain = Hypothesis::base(&fine);
-    let hypothesis = study.file.fitted(&fine);
-    let mut diagnosis = if named { fitted } else { verdict::record(&hypothesis, &study.choice, options) };
-    diagnosis.undecided = undecided;
+    if !named {
+        hypothesis = study.file.fitted(&fine);
+        diagnosis = verdict::record(&hypothesis, &study.choice, options);
+    }
     if let Some(first) = diagnosis.findings.first_mut() {
         first.indistinguishable_from.extend(rivals.iter().map(|rival| rival.id.clone()));
     }
     diagnosis.rivals = rivals;
+    diagnosis.undecided = undecided;
+
+    let plain = Hypothesis::base(&fine);
     let held_out_lines = study.unseen_lines(&data);
     diagnosis.rows = Rows { read, used, held_out: 0, held_out_lines, rejected: data.rejected.clone() };
     diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
@@ -143,19 +144,11 @@ pub fn diagnose(
     let unextendable = |error: &dyn std::fmt::Display| DiagnosisError::Unextendable(error.to_string());
     let extended = extend::extended(text, &hypothesis).map_err(|error| unextendable(&error))?;
     if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
-        let held_out = study
+        let measured = study
             .held_out(&data, &whole, task, [&plain, &hypothesis], &extended)
-            .map_err(|e| unextendable(&e))?;
-        let noise = |observable: Observable| gain::noise_floor(&data, hypothesis.scatter, observable);
-        let of = |observable| {
-            held_out.rows.gain(
-                observable,
-                held_out.how,
-                noise(observable),
-                options.seed,
-                held_out.seen.as_ref(),
-            )
-        };
+            .map_err(|error| unextendable(&error))?;
+        let noise = |observable| gain::noise_floor(&data, hypothesis.scatter, observable);
+        let of = |observable| measured.gain(observable, noise(observable), options.seed);
         diagnosis.gains = Observable::ALL.into_iter().filter_map(of).collect();
         let first = diagnosis.findings.first().map_or("", |finding| finding.observable);
         diagnosis.gain = diagnosis.gains.iter().find(|gain| gain.observable == first).cloned();
@@ -167,6 +160,15 @@ pub fn diagnose(
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
     }
     Ok((diagnosis, extended))
+}
+
+/// What beside physics may explain the data; nothing if nothing has to be explained.
+fn rivals(study: &Study, text: &str, level: f64) -> Vec<Rival> {
+    if study.choice.structure[0] > level {
+        return Vec::new();
+    }
+    let searched = &study.choice.data;
+    rival::rivals(&Hypothesis::base(searched), &study.choice.hypothesis(searched), text)
 }
 
 /// The data without rows that the base model refuses, as at a temperature outside a property's range, and without

@@ -125,6 +125,16 @@ impl FittedPart {
         Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new(), inseparable: Vec::new() }
     }
 
+    /// Makes the parameters that are left at their defaults free.
+    pub fn free_defaults(&mut self, data: &DataSplit) {
+        let (values, own) = (self.values(), self.axes.len());
+        let Some(axes) = self.part.axes(data, true) else { return };
+        for (axis, value) in axes.into_iter().zip(values).skip(own) {
+            self.axes.push(axis);
+            self.at.push(axis.coordinate(value));
+        }
+    }
+
     /// The parameters in SI units; those without an axis have their defaults.
     pub fn values(&self) -> Vec<f64> {
         let mut values: Vec<f64> = self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect();

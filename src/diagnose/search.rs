@@ -51,6 +51,16 @@ impl SearchAxis {
             self.low + share * (self.high - self.low)
         }
     }
+
+    /// The coordinate of a value, from 0 to 1.
+    pub fn coordinate(self, value: f64) -> f64 {
+        let share = if self.logarithmic {
+            (value / self.low).ln() / (self.high / self.low).ln()
+        } else {
+            (value - self.low) / (self.high - self.low)
+        };
+        share.clamp(0.0, 1.0)
+    }
 }
 
 /// A cost with a penalty outside 0 to 1, for argmin.

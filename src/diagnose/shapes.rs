@@ -2,6 +2,7 @@
 
 use super::candidate::Candidate;
 use super::curve::CurveForm;
+use super::data_split::standardised;
 use super::evaluation::{Evaluation, Slope};
 use super::forecast::Forecast;
 use super::hypothesis::{Hypothesis, ScatterTrend};
@@ -169,11 +170,11 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
         };
         let mut functions: Vec<Vec<f64>> = (0..basis.len()).map(hat).collect();
         if let Values::Numbers(numbers) = values {
-            let x = standardised(rows.iter().map(|&row| numbers[row]).collect());
+            let x = standardised(rows.iter().map(|&row| numbers[row]));
             functions.extend([1, 2, 3].map(|power| x.iter().map(|x| x.powi(power)).collect::<Vec<f64>>()));
             functions.push(ranks(&x));
             if rows.iter().all(|&row| numbers[row] > 0.0) {
-                functions.push(standardised(rows.iter().map(|&row| numbers[row].ln()).collect()));
+                functions.push(standardised(rows.iter().map(|&row| numbers[row].ln())));
             }
         }
         functions
@@ -182,9 +183,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
     /// The product of two columns, by value and by rank.
     fn product(&self, one: usize, two: usize) -> Vec<Vec<f64>> {
         let column = |index: usize| match self.search.data.values(index) {
-            Values::Numbers(numbers) => {
-                Some(standardised(self.search.rows.iter().map(|&row| numbers[row]).collect()))
-            }
+            Values::Numbers(numbers) => Some(standardised(self.search.rows.iter().map(|&row| numbers[row]))),
             Values::Labels { .. } => None,
         };
         let (Some(a), Some(b)) = (column(one), column(two)) else { return Vec::new() };
@@ -233,15 +232,6 @@ fn grid(dimensions: usize) -> Vec<Vec<f64>> {
         (0..dimensions).map(|axis| (digit(axis) as f64 + 0.5) / steps as f64).collect()
     };
     (0..usize::pow(steps, dimensions as u32)).map(place).collect()
-}
-
-/// Distances from the mean in standard deviations, at most four.
-fn standardised(values: Vec<f64>) -> Vec<f64> {
-    let count = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    let deviation = (values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
-    let z = |value: f64| if deviation > 0.0 { ((value - mean) / deviation).clamp(-4.0, 4.0) } else { 0.0 };
-    values.into_iter().map(z).collect()
 }
 
 /// Ranks from -1 to 1; equal values have equal ranks.

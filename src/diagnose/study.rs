@@ -3,14 +3,19 @@
 //! The gain needs rows that neither a choice nor a fit has seen. With many units, three quarters of them choose; only if they name
 //! nothing, all do. With fewer units all rows choose the causes, and if three quarters alone name the same, the extended model is
 //! fitted to those; its file is then run on the rest. In all other cases the gain is cross-validated: a choice, a fit and a model file
-//! for each part of the units without that part.
+//! for each part of the units without that part. Where groups share an error, whole groups are held out: other rows of the same group
+//! would tell its error.
+
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::choice::{Choice, Task};
 use super::data_split::{DataSplit, shuffled};
-use super::gain::{CROSS_VALIDATED, HeldOut, ModelFile};
+use super::gain::{CROSS_VALIDATED, HELD_OUT, HeldOut, ModelFile};
 use super::hypothesis::Hypothesis;
+use super::observable::Observable;
+use super::record::Gain;
 use crate::dataset::Measurements;
 use crate::input::InputError;
 use crate::model::Model;
@@ -22,6 +27,8 @@ const FIRST_SHARE: f64 = 0.7;
 const SECOND_SHARE: f64 = 0.5;
 /// With fewer units the gain is cross-validated.
 const LEAST_UNITS: usize = 40;
+/// With fewer groups their rows are held out one by one: so few groups say nothing of others.
+const LEAST_GROUPS: usize = 5;
 /// Parts of the cross-validation with many units, and with few.
 const PARTS: usize = 5;
 const MANY_PARTS: usize = 10;
@@ -32,11 +39,18 @@ const GAIN_ROWS: usize = 20_000;
 
 /// The rows that measure the gain.
 pub(super) struct Measured {
-    /// `held-out` or `cross-validated`.
+    /// [`HELD_OUT`] or [`CROSS_VALIDATED`].
     pub how: &'static str,
     pub rows: HeldOut,
     /// After a cross-validation, all rows under the file that is written, which has seen them.
     pub seen: Option<HeldOut>,
+}
+
+impl Measured {
+    /// The gain in an observable; `noise` is the scatter that no model removes [1].
+    pub fn gain(&self, observable: Observable, noise: Option<f64>, seed: u64) -> Option<Gain> {
+        self.rows.gain(observable, self.how, noise, seed, self.seen.as_ref())
+    }
 }
 
 /// The choice of causes, and the choice whose fit is written.
@@ -47,28 +61,34 @@ pub(super) struct Study {
     pub file: Choice,
     /// Rows that the file has not seen; empty for a cross-validation.
     unseen: Vec<usize>,
+    /// What is held out as a whole.
+    units: Units,
     seed: u64,
 }
 
 impl Study {
     pub fn new(whole: &DataSplit, mut task: Task<'_>, seed: u64) -> Self {
-        let (fitted, unseen) = quarter(whole, seed);
-        if whole.unit_count >= MANY_UNITS {
+        let units = Units { of_row: whole.units.clone(), count: whole.unit_count };
+        if units.count >= MANY_UNITS {
+            let (fitted, unseen) = units.quarter(seed);
             let share = if whole.is_large() { 1.0 } else { FIRST_SHARE };
             let choice = Choice::new(&whole.fitting(&fitted), Task { level: share * task.level, ..task });
-            if whole.is_large() || !choice.names().is_empty() {
-                return Self { file: choice.clone(), choice, unseen, seed };
+            let grouped = units.of_groups(&choice);
+            if grouped.is_none() && (whole.is_large() || !choice.names().is_empty()) {
+                return Self { file: choice.clone(), choice, unseen, units, seed };
             }
             task.level *= SECOND_SHARE;
         }
         let choice = Choice::new(whole, task);
-        if !choice.names().is_empty() && (LEAST_UNITS..MANY_UNITS).contains(&whole.unit_count) {
+        let units = units.of_groups(&choice).unwrap_or(units);
+        if !choice.names().is_empty() && (LEAST_UNITS..MANY_UNITS).contains(&units.count) {
+            let (fitted, unseen) = units.quarter(seed);
             let file = Choice::new(&whole.fitting(&fitted), task);
             if file.names() == choice.names() {
-                return Self { choice, file, unseen, seed };
+                return Self { choice, file, unseen, units, seed };
             }
         }
-        Self { file: choice.clone(), choice, unseen: Vec::new(), seed }
+        Self { file: choice.clone(), choice, unseen: Vec::new(), units, seed }
     }
 
     /// The same without causes, because something else explains more.
@@ -101,10 +121,10 @@ impl Study {
             let model = Model::from_toml("extended.toml", text)?;
             let extended = ModelFile { model: &model, scatter: models[1].scatter };
             let unseen = &self.unseen[..self.unseen.len().min(GAIN_ROWS)];
-            held_out.add(rows, &whole.units, unseen, [&base, &extended]);
-            return Ok(Measured { how: "held-out", rows: held_out, seen: None });
+            held_out.add(rows, &self.units.of_row, unseen, [&base, &extended]);
+            return Ok(Measured { how: HELD_OUT, rows: held_out, seen: None });
         }
-        let parts = parts(whole, self.seed);
+        let parts = self.units.parts(self.seed);
         let file = |part: &Vec<usize>| {
             let mut inside = vec![false; whole.rows.len()];
             part.iter().for_each(|&row| inside[row] = true);
@@ -115,33 +135,46 @@ impl Study {
         };
         let files: Vec<(Model, _)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
         for (part, (model, scatter)) in parts.iter().zip(&files) {
-            held_out.add(rows, &whole.units, part, [&base, &ModelFile { model, scatter: *scatter }]);
+            held_out.add(rows, &self.units.of_row, part, [&base, &ModelFile { model, scatter: *scatter }]);
         }
         let model = Model::from_toml("extended.toml", text)?;
         let mut seen = HeldOut::default();
         let extended = ModelFile { model: &model, scatter: models[1].scatter };
-        seen.add(rows, &whole.units, &whole.all(), [&base, &extended]);
+        seen.add(rows, &self.units.of_row, &whole.all(), [&base, &extended]);
         Ok(Measured { how: CROSS_VALIDATED, rows: held_out, seen: Some(seen) })
     }
 }
 
-/// The rows of three quarters of the units, and the others.
-fn quarter(whole: &DataSplit, seed: u64) -> (Vec<usize>, Vec<usize>) {
-    let mut held = vec![false; whole.unit_count];
-    let order = shuffled(whole.unit_count, seed);
-    order.iter().take(whole.unit_count / 4).for_each(|&unit| held[unit] = true);
-    whole.all().into_iter().partition(|&row| !held[whole.units[row]])
+/// Rows that are held out together.
+struct Units {
+    /// The unit of each row.
+    of_row: Arc<[usize]>,
+    count: usize,
 }
 
-/// The rows in parts, whole units together.
-fn parts(whole: &DataSplit, seed: u64) -> Vec<Vec<usize>> {
-    let count = if whole.unit_count < LEAST_UNITS { MANY_PARTS } else { PARTS }.min(whole.unit_count);
-    let mut part_of = vec![0; whole.unit_count];
-    shuffled(whole.unit_count, seed)
-        .iter()
-        .enumerate()
-        .for_each(|(place, &unit)| part_of[unit] = place % count);
-    let mut parts = vec![Vec::new(); count];
-    whole.all().into_iter().for_each(|row| parts[part_of[whole.units[row]]].push(row));
-    parts
+impl Units {
+    /// The groups that share an error in a choice, if there are enough of them and they are not the units already.
+    fn of_groups(&self, choice: &Choice) -> Option<Self> {
+        let groups = choice.data.shared.as_ref()?;
+        let fewer = (LEAST_GROUPS..self.count).contains(&groups.count);
+        fewer.then(|| Self { of_row: groups.of_row.clone(), count: groups.count })
+    }
+
+    /// The rows of three quarters of the units, and the others.
+    fn quarter(&self, seed: u64) -> (Vec<usize>, Vec<usize>) {
+        let mut held = vec![false; self.count];
+        shuffled(self.count, seed).iter().take(self.count / 4).for_each(|&unit| held[unit] = true);
+        (0..self.of_row.len()).partition(|&row| !held[self.of_row[row]])
+    }
+
+    /// The rows in parts.
+    fn parts(&self, seed: u64) -> Vec<Vec<usize>> {
+        let count = if self.count < LEAST_UNITS { MANY_PARTS } else { PARTS }.min(self.count);
+        let mut part_of = vec![0; self.count];
+        let order = shuffled(self.count, seed);
+        order.iter().enumerate().for_each(|(place, &unit)| part_of[unit] = place % count);
+        let mut parts = vec![Vec::new(); count];
+        (0..self.of_row.len()).for_each(|row| parts[part_of[self.of_row[row]]].push(row));
+        parts
+    }
 }

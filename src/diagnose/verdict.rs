@@ -146,8 +146,13 @@ pub(super) fn possible_causes(fit: &Fit, choice: &Choice) -> Vec<String> {
     let mut possible: Vec<&ScoredCandidate> =
         choice.first_round.iter().filter(|c| c.addition.is_systematic() && c.p_value < POSSIBLE).collect();
     possible.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
-    let mut names: Vec<String> = possible.iter().map(|c| c.addition.name(&choice.data)).collect();
-    names.dedup();
+    let mut names: Vec<String> = Vec::new();
+    for name in possible.iter().map(|candidate| candidate.addition.name(&choice.data)) {
+        // A column may explain e_n and e_t.
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
     names.truncate(MOST_UNDECIDED);
     names
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde_json::Value;
+use statrs::distribution::{Binomial, DiscreteCDF};
 
 use crate::migraine;
 use crate::sets::{Kind, Set};
@@ -170,13 +171,7 @@ fn level_near(diagnosis: &Value) -> bool {
 
 /// Probability of at most `successes` of `tries` at this true rate.
 pub fn at_most(successes: usize, tries: usize, rate: f64) -> f64 {
-    let mut term = (1.0 - rate).powi(i32::try_from(tries).unwrap());
-    let mut sum = term;
-    for k in 0..successes {
-        term *= (tries - k) as f64 / (k + 1) as f64 * rate / (1.0 - rate);
-        sum += term;
-    }
-    sum
+    Binomial::new(rate, tries as u64).unwrap().cdf(successes as u64)
 }
 
 /// Fails only if a true rate this high would show so few successes less than once in a thousand runs.

@@ -53,9 +53,14 @@ fn print_situations(all: &[Judgement]) {
     line("all", &all.iter().collect::<Vec<_>>());
 }
 
+/// Whether each stated interval of a parameter holds.
+fn held_intervals<'a>(sets: impl IntoIterator<Item = &'a Judgement>) -> Vec<bool> {
+    sets.into_iter().flat_map(|one| one.intervals.iter().map(|interval| interval.holds())).collect()
+}
+
 fn line(situation: &str, sets: &[&Judgement]) {
     let gains: Vec<bool> = sets.iter().filter_map(|one| one.gain).collect();
-    let intervals: Vec<bool> = sets.iter().flat_map(|one| one.intervals.iter().map(|i| i.holds())).collect();
+    let intervals = held_intervals(sets.iter().copied());
     let hits = |list: &[bool]| share(list.iter().filter(|hit| **hit).count(), list.len());
     let counts = [Verdict::Right, Verdict::Honest, Verdict::Missed, Verdict::False, Verdict::Refused]
         .map(|verdict| count(sets, verdict).to_string())
@@ -146,9 +151,12 @@ fn failures(all: &[Judgement]) -> Vec<String> {
     let honest = count(&sets, Verdict::Right) + count(&sets, Verdict::Honest);
     let gains: Vec<bool> = all.iter().filter_map(|one| one.gain).collect();
     let held = gains.iter().filter(|held| **held).count();
+    let intervals = held_intervals(all);
+    let sound = intervals.iter().filter(|holds| **holds).count();
     let mut results = vec![
         require("right or honestly undecided", honest, sets.len(), 0.95),
         require("claimed gain within its interval", held, gains.len(), 0.93),
+        require("parameter within its interval", sound, intervals.len(), 0.93),
     ];
     for (kind, sets) in by(all, |one| one.null.then_some(&one.situation)) {
         let silent = sets.len() - count(&sets, Verdict::False);
