@@ -5,10 +5,10 @@ use super::likelihood::{GROSS_DENSITY, GROSS_SHARE, Offset, SMALLEST_SCATTER};
 use super::observable::Observable;
 
 /// Steps of each width of a skewed distribution, and the factor between them.
-const WIDTHS: i32 = 14;
+const WIDTHS: i32 = 20;
 const WIDTH_STEP: f64 = 1.3;
 /// Narrowest side of a skewed distribution, as a share of the scatter.
-const NARROWEST: f64 = 0.15;
+const NARROWEST: f64 = 0.03;
 /// Least number of readings for a distribution.
 const READINGS: usize = 30;
 /// Gain that pays for one parameter [nats].

@@ -1,6 +1,7 @@
 //! The list of candidates of a round: everything that the data could tell apart from what the hypothesis already has.
 
 use super::candidate::Candidate;
+use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{LawParameter, Part};
@@ -13,11 +14,11 @@ const CURVE_ROWS: usize = 4;
 /// The columns of a curve, by index: none for a level, one, or two for a surface.
 type Sides = [Option<usize>; 2];
 
-/// All candidates; with `few` readings no changes of the scatter.
+/// All candidates; with `few` readings no surfaces and no changes of the scatter.
 pub(super) fn candidates(hypothesis: &Hypothesis<'_>, few: bool) -> Vec<Candidate> {
     let mut all = parts(hypothesis);
     for observable in Observable::ALL.into_iter().filter(|observable| varies(hypothesis, *observable)) {
-        let sides = sides(hypothesis, observable);
+        let sides = sides(hypothesis, observable, few);
         let open = sides.into_iter().filter(|sides| !has_curve(hypothesis, *sides, observable));
         all.extend(open.map(|sides| Candidate::Curve { sides, observable }));
     }
@@ -51,24 +52,48 @@ fn varies(hypothesis: &Hypothesis<'_>, observable: Observable) -> bool {
     values.len() >= CURVE_ROWS && values.iter().any(|value| *value != values[0])
 }
 
-/// The columns of the curves of an observable: a level, every column, and those on which the hypothesis depends with another one.
-fn sides(hypothesis: &Hypothesis<'_>, observable: Observable) -> Vec<Sides> {
+/// The columns of the curves of an observable: a level, every column, and unless readings are `few` those on which the hypothesis
+/// depends with another one.
+fn sides(hypothesis: &Hypothesis<'_>, observable: Observable, few: bool) -> Vec<Sides> {
     let data = hypothesis.data;
     let level = (!has_level(hypothesis, observable)).then_some([None; 2]);
     let single = (0..data.covariates.len()).map(|column| [Some(column), None]);
     let mut all: Vec<Sides> = level.into_iter().chain(single).collect();
+    if !few {
+        all.extend(
+            hypothesis.columns_of(observable).into_iter().flat_map(|one| pairs(data, one, observable)),
+        );
+    }
+    all.dedup();
+    all
+}
+
+/// The pairs of a column with each other one; both hold numbers.
+fn pairs(data: &DataSplit, one: usize, observable: Observable) -> Vec<Sides> {
     // How e_t depends on the speeds is a matter of the tangential law.
     let speed = |column: usize| ["v_n", "v_t"].contains(&data.covariates[column].name.as_str());
     let free = |column: &usize| {
         let numeric = matches!(data.values(*column), Values::Numbers(_));
         numeric && (observable != Observable::TangentialRestitution || !speed(*column))
     };
-    for one in hypothesis.columns_of(observable).into_iter().filter(free) {
-        let others = (0..data.covariates.len()).filter(|other| *other != one && free(other));
-        all.extend(others.map(|other| [Some(one.min(other)), Some(one.max(other))]));
+    if !free(&one) {
+        return Vec::new();
     }
-    all.dedup();
-    all
+    let others = (0..data.covariates.len()).filter(|other| *other != one && free(other));
+    others.map(|other| [Some(one.min(other)), Some(one.max(other))]).collect()
+}
+
+/// The surfaces of `e_n` over an input of a law and a speed or size on which the law does not depend.
+pub(super) fn surfaces_over(hypothesis: &Hypothesis<'_>, inputs: &[&str]) -> Vec<Candidate> {
+    let data = hypothesis.data;
+    let observable = Observable::NormalRestitution;
+    let index = |name: &&str| data.covariates.iter().position(|column| column.name == *name);
+    let others: Vec<usize> =
+        ["v_n", "d"].iter().filter(|name| !inputs.contains(name)).filter_map(index).collect();
+    let own = inputs.iter().filter(|name| !["v_n", "d"].contains(name)).filter_map(index);
+    let sides = own.flat_map(|column| pairs(data, column, observable));
+    let with_other = sides.filter(|sides| sides.iter().flatten().any(|side| others.contains(side)));
+    with_other.map(|sides| Candidate::Curve { sides, observable }).collect()
 }
 
 /// Whether another candidate is the level of an observable: a law's own constant, or the rate of captures.

@@ -10,7 +10,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 use super::artefact::lopsided_gain;
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
 use super::candidate_list::candidates;
-use super::curve::CurveForm;
+use super::curve::{ColumnCurve, CurveForm};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::few_rows::FewRows;
@@ -65,9 +65,13 @@ impl<'a> Round<'a> {
         self.hypothesis.data
     }
 
-    /// The promising candidates with their gains; `done` is called after each candidate.
-    pub fn score_candidates(&self, done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
-        let candidates = candidates(self.hypothesis, self.few.is_some());
+    /// The promising ones of all candidates with their gains; `done` is called after each candidate.
+    pub fn score_all(&self, done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
+        self.score(&candidates(self.hypothesis, self.few.is_some()), done)
+    }
+
+    /// The promising ones of some candidates with their gains.
+    pub fn score(&self, candidates: &[Candidate], done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
         let builder = ShapeBuilder::new(self.hypothesis, &self.search);
         let shapes: Vec<Shapes> = candidates.par_iter().map(|candidate| builder.shapes(*candidate)).collect();
         let units: Vec<usize> = self.search.rows.iter().map(|&row| self.data().units[row]).collect();
@@ -108,9 +112,7 @@ impl<'a> Round<'a> {
         };
         let extended = addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter();
         let freedom = addition.freedom();
-        let penalty = freedom / self.scores.len() as f64;
-        let pairs = extended.scores().into_iter().zip(&self.scores);
-        let differences: Vec<f64> = pairs.map(|(after, before)| after - before - penalty).collect();
+        let differences = self.differences(&addition, &extended);
         let gain: f64 = differences.iter().sum();
         let own_gain = gain - self.level_gain(&addition);
         let raw = own_gain + freedom;
@@ -141,6 +143,28 @@ impl<'a> Round<'a> {
         let least = if self.few.is_some_and(|few| few.alone) { FEW_TESTS } else { 1.0 };
         let q_value = corrected(p_value, tested.tests.max(least));
         Some(ScoredCandidate { addition, differences, own_gain, p_value, q_value })
+    }
+
+    /// A surface over the columns of `surface`, as significant as that.
+    pub fn surface_instead(
+        &self,
+        surface: &ColumnCurve,
+        tested: &ScoredCandidate,
+    ) -> Option<ScoredCandidate> {
+        let columns: Vec<usize> = surface.form.sides.iter().map(|side| side.0).collect();
+        let [one, two] = columns[..] else { return None };
+        let addition = self.better_curve([Some(one), Some(two)], surface.form.observable)?;
+        let differences = self
+            .differences(&addition, &addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter());
+        let own_gain = differences.iter().sum::<f64>() - self.level_gain(&addition);
+        Some(ScoredCandidate { addition, differences, own_gain, ..tested.clone() })
+    }
+
+    /// Gain of each row, less its share of the number of parameters [nats].
+    fn differences(&self, addition: &Addition, extended: &Evaluation<'_>) -> Vec<f64> {
+        let penalty = addition.freedom() / self.scores.len() as f64;
+        let pairs = extended.scores().into_iter().zip(&self.scores);
+        pairs.map(|(after, before)| after - before - penalty).collect()
     }
 
     /// What a level shift gains of the gain of a curve [nats]; 0 for everything else.

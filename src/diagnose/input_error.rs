@@ -1,15 +1,24 @@
 //! Stated errors of the inputs, taken into account before any fit.
 //!
-//! A reading `x` with the standard error `sigma` of an input whose true values have the mean `m` and the variance `V` in these rows
-//! has the expected value `m + V/(V + sigma²) (x - m)` and the variance `V sigma²/(V + sigma²)` (regression calibration; Carroll et
-//! al. 2006, ch. 4). Rows are predicted at the expected values; the variance adds to that of `e_n` and `e_t` through the slope of the
-//! base model, and its curvature shifts the prediction. `V` is the variance of the readings without that of their errors. Inputs are
-//! treated one by one: correlations of their true values are ignored.
+//! A reading `x` with the standard error `sigma` says of the true value `t` what Bayes' theorem does with the distribution of the true
+//! values in these rows (regression calibration; Carroll et al. 2006, ch. 4). That distribution is the one of largest likelihood on
+//! a grid over the readings, by a fixed number of steps of expectation–maximisation (Laird 1978). Rows are predicted at the expected
+//! true values; their variance adds to that of `e_n` and `e_t` through the slope of the base model, and its curvature shifts the
+//! prediction. Inputs are treated one by one: correlations of their true values are ignored.
 
 use super::likelihood::Offset;
 use crate::dataset::{Measurement, Measurements};
 use crate::impact::{INPUTS, Impact, Input};
 use crate::model::Model;
+
+/// Places of the grid of true values.
+const GRID: usize = 120;
+/// Steps of the estimate of their distribution: more of them would follow the errors.
+const STEPS: usize = 60;
+/// Largest number of rows for it.
+const PRIOR_ROWS: usize = 2000;
+/// Errors are a share of the reading if their shares differ by less than this.
+const SAME_SHARE: f64 = 1e-3;
 
 /// The rows at the expected values of their inputs, and what the rest of the errors does to the predictions.
 pub(super) fn corrected(base: &Model, data: &Measurements) -> (Vec<Measurement>, Vec<Offset>) {
@@ -26,26 +35,88 @@ pub(super) fn corrected(base: &Model, data: &Measurements) -> (Vec<Measurement>,
 
 /// Corrects one input.
 fn correct(base: &Model, input: &Input, errors: &[f64], rows: &mut [Measurement], noise: &mut [Offset]) {
-    let count = rows.len() as f64;
     let values: Vec<f64> = rows.iter().map(|row| (input.value)(&row.impact)).collect();
-    let mean = values.iter().sum::<f64>() / count;
-    let observed = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / (count - 1.0).max(1.0);
-    let known = errors.iter().map(|error| error * error).sum::<f64>() / count;
-    let variance = (observed - known).max(0.0);
+    let truth = TrueValues::of(&values, errors);
     for (((row, offset), value), error) in rows.iter_mut().zip(noise).zip(values).zip(errors) {
-        let own = error * error;
-        if own <= 0.0 {
+        if *error <= 0.0 {
             continue;
         }
-        let share = variance / (variance + own);
-        (input.set)(&mut row.impact, mean + share * (value - mean));
-        let deviation = (share * own).sqrt();
+        let [expected, deviation] = truth.given(value, *error);
+        (input.set)(&mut row.impact, expected);
         let Some([below, middle, above]) = around(base, input, row, deviation) else { continue };
         for which in 0..2 {
             offset.variance[which] += (0.5 * (above[which] - below[which])).powi(2);
             offset.restitution[which] += 0.5 * (above[which] + below[which]) - middle[which];
         }
     }
+}
+
+/// The distribution of the true values of an input on a grid.
+struct TrueValues {
+    grid: Vec<f64>,
+    weights: Vec<f64>,
+    /// Whether all errors are the same share of their reading: then they are of the true value, too.
+    relative: bool,
+}
+
+impl TrueValues {
+    fn of(values: &[f64], errors: &[f64]) -> Self {
+        let [low, high] = ends(values);
+        let step = (high - low) / (GRID - 1) as f64;
+        let grid: Vec<f64> = (0..GRID).map(|place| low + step * place as f64).collect();
+        let shares: Vec<f64> = values.iter().zip(errors).map(|(value, error)| error / value.abs()).collect();
+        let [least, most] = ends(&shares);
+        let relative = least > 0.0 && most < least * (1.0 + SAME_SHARE);
+        let mut found = Self { weights: vec![1.0 / GRID as f64; GRID], grid, relative };
+        let every = values.len().div_ceil(PRIOR_ROWS);
+        let some = values.iter().zip(errors).step_by(every).filter(|(_, error)| **error > 0.0);
+        let densities: Vec<Vec<f64>> = some.map(|(value, error)| found.densities(*value, *error)).collect();
+        for _ in 0..STEPS {
+            let mut sums = vec![0.0; GRID];
+            for row in &densities {
+                let total: f64 = row.iter().zip(&found.weights).map(|(p, w)| p * w).sum();
+                if total > 0.0 {
+                    let shares = row.iter().zip(&found.weights).map(|(p, w)| p * w / total);
+                    sums.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share);
+                }
+            }
+            let all: f64 = sums.iter().sum();
+            if all > 0.0 {
+                found.weights = sums.into_iter().map(|sum| sum / all).collect();
+            }
+        }
+        found
+    }
+
+    /// Densities of a reading for every true value of the grid, but for a common factor.
+    fn densities(&self, value: f64, error: f64) -> Vec<f64> {
+        let share = error / value.abs();
+        let one = |truth: &f64| {
+            let sigma = if self.relative { (share * truth).abs().max(f64::MIN_POSITIVE) } else { error };
+            (-0.5 * ((value - truth) / sigma).powi(2)).exp() / sigma
+        };
+        self.grid.iter().map(one).collect()
+    }
+
+    /// Expected true value of a reading and its standard deviation; of a single value far from all others, the reading and its error.
+    fn given(&self, value: f64, error: f64) -> [f64; 2] {
+        let shares: Vec<f64> =
+            self.densities(value, error).iter().zip(&self.weights).map(|(p, w)| p * w).collect();
+        let total: f64 = shares.iter().sum();
+        if total <= 0.0 {
+            return [value, error];
+        }
+        let mean = |of: &dyn Fn(f64) -> f64| {
+            self.grid.iter().zip(&shares).map(|(truth, share)| of(*truth) * share).sum::<f64>() / total
+        };
+        let expected = mean(&|truth| truth);
+        [expected, mean(&|truth| (truth - expected).powi(2)).sqrt()]
+    }
+}
+
+/// The smallest and the largest value.
+fn ends(values: &[f64]) -> [f64; 2] {
+    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(*v), high.max(*v)])
 }
 
 /// `e_n` and `e_t` of the base model one deviation below, at, and one above the value of the input; `None` where an impact there has no

@@ -1,6 +1,7 @@
 //! Forward selection: in each round the best significant candidate joins the hypothesis, until none is significant.
 
 use super::candidate::{Addition, ScoredCandidate};
+use super::candidate_list::surfaces_over;
 use super::curve::ColumnCurve;
 use super::few_rows::MANY as FEW_ROWS;
 use super::fitting::Round;
@@ -67,7 +68,7 @@ pub(super) fn select<'a>(base: &Hypothesis<'a>, level: f64, progress: &(dyn Fn()
     let (mut first_round, mut last_round) = (None, Vec::new());
     for _ in 0..2 * MOST_CAUSES {
         hypothesis.fit_scatter(&data.search);
-        let scored = Round::new(&hypothesis).score_candidates(progress);
+        let scored = Round::new(&hypothesis).score_all(progress);
         first_round.get_or_insert_with(|| scored.clone());
         let least = LEAST_GAIN.max(FURTHER_GAIN * first_gain(&discoveries));
         let Some(mut winner) = choose(&scored, few, level, least) else {
@@ -76,9 +77,11 @@ pub(super) fn select<'a>(base: &Hypothesis<'a>, level: f64, progress: &(dyn Fn()
         };
         let before = hypothesis.clone();
         join(&mut hypothesis, &mut winner, &mut discoveries);
-        let without =
-            if few { None } else { better_without_law(&before, &hypothesis, &scored, &winner, level) };
-        if let Some(curve) = without {
+        let without = || {
+            better_without_law(&before, &hypothesis, &scored, &winner, level)
+                .or_else(|| better_surface(&before, &hypothesis, &winner, level))
+        };
+        if let Some(curve) = (!few).then(without).flatten() {
             hypothesis = before;
             winner = curve;
             join(&mut hypothesis, &mut winner, &mut discoveries);
@@ -175,6 +178,29 @@ fn better_without_law(
     };
     let significant = scored.iter().filter(|c| c.q_value <= level && c.own_gain > OWN_SHARE * c.gain());
     best(significant.filter(over_own)).filter(|curve| curve.gain() > winner.gain()).cloned()
+}
+
+/// The surface over a law's input and a speed or size that takes the law's place: beside the law the product of both is significant,
+/// and the surface alone gains more than the law.
+fn better_surface(
+    before: &Hypothesis<'_>,
+    with: &Hypothesis<'_>,
+    winner: &ScoredCandidate,
+    level: f64,
+) -> Option<ScoredCandidate> {
+    let Addition::Part { part: FittedPart { part: Part::Effect(effect), .. }, .. } = &winner.addition else {
+        return None;
+    };
+    let law = with.without_discrepancy();
+    let beside = Round::new(&law).score(&surfaces_over(before, effect.inputs), &|| {});
+    let round = Round::new(before);
+    let needed = beside.iter().filter(|surface| surface.q_value <= level);
+    let alone = needed.filter_map(|surface| match &surface.addition {
+        Addition::Curve(curve) => round.surface_instead(curve, surface),
+        _ => None,
+    });
+    let better = |surface: &ScoredCandidate| surface.gain() > winner.gain() + LEAST_INTERACTION;
+    alone.filter(better).max_by(|a, b| a.gain().total_cmp(&b.gain()))
 }
 
 /// The candidate that joins, if any is significant.
