@@ -130,3 +130,31 @@ fn around(base: &Model, input: &Input, row: &Measurement, deviation: f64) -> Opt
     };
     Some([at(-deviation)?, at(0.0)?, at(deviation)?])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::ImpactRng;
+    use statrs::distribution::{Continuous, ContinuousCDF, Normal};
+
+    /// Between true values that are equally likely from 1 to 2, a reading says what a normal distribution cut off at 1 and 2 says.
+    #[test]
+    fn expected_values_are_those_of_a_cut_normal_distribution() {
+        let error = 0.2;
+        let seen = |key: u64| {
+            let draw = ImpactRng::new(3, key);
+            let noise = (10..22).map(|stream| draw.uniform(stream)).sum::<f64>() - 6.0;
+            1.0 + draw.uniform(1) + error * noise
+        };
+        let values: Vec<f64> = (0..2000).map(seen).collect();
+        let truth = TrueValues::of(&values, &vec![error; 2000]);
+        let standard = Normal::standard();
+        for reading in [0.9, 1.1, 1.5, 1.8, 2.1] {
+            let [low, high] = [1.0, 2.0].map(|end| (end - reading) / error);
+            let expected = reading
+                + error * (standard.pdf(low) - standard.pdf(high)) / (standard.cdf(high) - standard.cdf(low));
+            let [found, _] = truth.given(reading, error);
+            assert!((found - expected).abs() < 0.03, "{reading}: {found} instead of {expected}");
+        }
+    }
+}

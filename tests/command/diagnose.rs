@@ -74,12 +74,7 @@ fn the_gain_is_that_of_the_written_model() {
     let gain = &found["gain"];
     assert_eq!(gain["measured"], "held-out", "{found}");
 
-    let lines: Vec<usize> = found["rows"]["held_out_lines"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|l| l.as_u64().unwrap() as usize)
-        .collect();
+    let lines = unseen_lines(&found);
     assert_eq!(lines.len(), 75);
     let all: Vec<&str> = data.lines().collect();
     let rows: Vec<&str> = std::iter::once(all[0]).chain(lines.iter().map(|line| all[line - 1])).collect();
@@ -99,6 +94,74 @@ fn the_gain_is_that_of_the_written_model() {
         assert!((rmse / stated - 1.0).abs() < 1e-9, "{model}: {rmse} by predict, {stated} on the page");
     }
     assert!(gain["rmse_after"].as_f64().unwrap() < 0.027, "{gain}");
+}
+
+/// The lines that `extended.toml` has not seen, by the JSON.
+fn unseen_lines(found: &Value) -> Vec<usize> {
+    let lines = found["rows"]["held_out_lines"].as_array().unwrap();
+    lines.iter().map(|line| line.as_u64().unwrap() as usize).collect()
+}
+
+/// The interval of a level is Student's on the rows that the file has seen.
+#[test]
+fn the_interval_of_a_level_is_students() {
+    let base =
+        WAX.replace("[normal]\nmodel = \"thornton-ning\"", "[normal]\nmodel = \"constant\"\ne_n = 0.5");
+    let mut data = "v_n,e_n\n".to_owned();
+    for key in 0..80 {
+        let draw = ImpactRng::new(6, key);
+        writeln!(data, "{},{}", 0.5 + draw.uniform(3), 0.6 + 0.03 * noise(draw, 200)).unwrap();
+    }
+    let folder = crate::runner::folder(&[("lab.csv", &data), ("base.toml", &base)]);
+    done(folder.path(), &["diagnose", "lab.csv", "--model", "base.toml", "--out", "out"]);
+    let found = json(folder.path());
+    let level = &found["calibration"][0];
+    assert_eq!(level["key"], "normal.e_n", "{found}");
+    let unseen = unseen_lines(&found);
+    let seen: Vec<f64> = data
+        .lines()
+        .enumerate()
+        .skip(1)
+        .filter(|(line, _)| !unseen.contains(&(line + 1)))
+        .map(|(_, row)| row.split(',').nth(1).unwrap().parse().unwrap())
+        .collect();
+    let count = seen.len() as f64;
+    let mean = seen.iter().sum::<f64>() / count;
+    let deviation = (seen.iter().map(|e_n| (e_n - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
+    // Student's t for 95 % at 59 or more degrees of freedom is 1.99 to 2.00.
+    let half = 2.0 * deviation / count.sqrt();
+    let [low, high] = ["low", "high"].map(|end| level[end].as_f64().unwrap());
+    assert!((0.5 * (low + high) - mean).abs() < 0.1 * half, "{low} to {high} about {mean}");
+    // Gross errors are expected, and the rows' own scatter can only widen it.
+    let ratio = 0.5 * (high - low) / half;
+    assert!((0.95..1.2).contains(&ratio), "{ratio}");
+}
+
+/// Days that share an error are held out as a whole.
+#[test]
+fn whole_groups_are_held_out() {
+    let mut data = "v_n,v_t,d,layer_thickness,day,e_n\n".to_owned();
+    let model = Model::from_toml("wax.toml", WAX).unwrap();
+    for key in 0..600 {
+        let (draw, day) = (ImpactRng::new(8, key), key % 60);
+        let layer_thickness = 8e-4 * draw.uniform(103);
+        let impact =
+            Impact { normal_speed: 1.5 + 2.0 * draw.uniform(100), diameter: 8e-5, ..Impact::default() };
+        let plain = model.resolve(0, &impact, draw).unwrap().normal_restitution;
+        let shared = 0.05 * noise(ImpactRng::new(9, day), 0);
+        let e_n = plain * (0.4 + 0.6 * (-layer_thickness / 2e-4).exp()) + shared + 0.02 * noise(draw, 200);
+        writeln!(data, "{},0.5,8e-5,{layer_thickness:e},{day},{}", impact.normal_speed, e_n.max(0.0))
+            .unwrap();
+    }
+    let folder = folder(&data);
+    done(folder.path(), &DIAGNOSE);
+    let found = json(folder.path());
+    assert_eq!(found["groups"]["column"], "day", "{found}");
+    assert_eq!(found["findings"][0]["cause"], "powder-layer", "{found}");
+    // Line `n` has the key `n - 2`.
+    let days: Vec<usize> = unseen_lines(&found).iter().map(|line| (line - 2) % 60).collect();
+    let all: std::collections::BTreeSet<usize> = days.iter().copied().collect();
+    assert_eq!((all.len(), days.len()), (15, 150), "{found}");
 }
 
 /// Share of `e_n` that a layer leaves [1]; another law than the library's.
