@@ -13,7 +13,7 @@ use super::hypothesis::Hypothesis;
 use super::model_selection::{DISTINGUISHABLE, Discovery};
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
-use super::record::{Alternative, Calibration, Finding, FittedCurve};
+use super::record::{Alternative, Calibration, Finding, FittedCurve, FittedSurface};
 use super::smooth::Basis;
 use crate::dataset::Values;
 use crate::effect::EFFECTS;
@@ -86,6 +86,7 @@ impl FindingBuilder<'_> {
             measure_next: rivals.iter().filter_map(advice).collect(),
             indistinguishable_from: rivals.iter().map(|rival| self.name(rival)).collect(),
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
+            surface: self.final_curve(winner).and_then(|curve| self.surface(curve)),
             explanation: String::new(),
             cause,
         };
@@ -185,16 +186,29 @@ impl FindingBuilder<'_> {
         rivals
     }
 
-    /// A curve of one column for the page; a level shift and a surface have none.
+    /// A curve of one column for the page.
     fn curve(&self, fitted: &ColumnCurve) -> Option<FittedCurve> {
-        let [(column, basis)] = fitted.form.sides.as_slice() else { return None };
-        let at = match (basis, self.hypothesis.data.values(*column)) {
+        let [side] = fitted.form.sides.as_slice() else { return None };
+        let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
+        Some(FittedCurve { factor: fitted.form.multiplicative, at: self.places(side), adds })
+    }
+
+    /// A surface over two columns for the page.
+    fn surface(&self, fitted: &ColumnCurve) -> Option<FittedSurface> {
+        let [one, two] = fitted.form.sides.as_slice() else { return None };
+        let at = [one, two].map(|side| self.places(side));
+        let row = |heights: &[f64]| heights.iter().map(|height| rounded(*height)).collect();
+        let adds = fitted.heights.chunks(at[1].len().max(1)).map(row).collect();
+        Some(FittedSurface { factor: fitted.form.multiplicative, at, adds })
+    }
+
+    /// The knots or the labels of a side of a curve.
+    fn places(&self, (column, basis): &(usize, Basis)) -> Vec<String> {
+        match (basis, self.hypothesis.data.values(*column)) {
             (Basis::Hats(knots), _) => knots.iter().map(|knot| rounded(*knot).to_string()).collect(),
             (Basis::Labels(_), Values::Labels { levels, .. }) => levels.clone(),
             _ => Vec::new(),
-        };
-        let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
-        Some(FittedCurve { factor: fitted.form.multiplicative, at, adds })
+        }
     }
 }
 
@@ -226,9 +240,12 @@ fn certainty(winner: &ScoredCandidate, others: &[ScoredCandidate]) -> f64 {
 fn explain(finding: &Finding, observable: Observable) -> String {
     let Finding { cause, variables, indistinguishable_from, .. } = finding;
     let quantity = observable.title();
-    if let Some(column) = cause.strip_prefix("unknown:") {
+    if cause.starts_with("unknown:") {
+        let columns = variables.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>();
+        let noun = if columns.len() > 1 { "columns" } else { "column" };
         return format!(
-            "The {quantity} depends on the column `{column}`. No effect of the library explains this dependence."
+            "The {quantity} depends on the {noun} {}. No effect of the library explains this dependence.",
+            columns.join(" and ")
         );
     }
     let about = EFFECTS.iter().find(|effect| effect.id == cause).map_or("", |effect| effect.about);

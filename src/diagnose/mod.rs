@@ -45,8 +45,8 @@ mod verdict;
 
 pub use record::{
     Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, Fit, FitTest, FittedCurve,
-    Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows, Sample, SampleRow,
-    ScatterFound, Unexplained,
+    FittedSurface, Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows,
+    Sample, SampleRow, ScatterFound, Unexplained,
 };
 
 use crate::dataset::{BadRow, Measurements};

@@ -143,6 +143,8 @@ pub struct Finding {
     pub measure_next: Vec<Measure>,
     /// The fitted curve, for a column that no effect explains.
     pub curve: Option<FittedCurve>,
+    /// The surface, if this is an unknown dependence on two columns.
+    pub surface: Option<FittedSurface>,
     /// The finding in a few sentences.
     pub explanation: String,
 }
@@ -195,6 +197,17 @@ pub struct FittedCurve {
     pub at: Vec<String>,
     /// Its heights there: added to the observable, as a share of it if `factor`, in log odds for capture.
     pub adds: Vec<f64>,
+}
+
+/// A fitted surface over two columns.
+#[derive(Debug, Clone, Serialize)]
+pub struct FittedSurface {
+    /// Whether it is multiplied with the prediction rather than added.
+    pub factor: bool,
+    /// The knots of each column in its unit, or its labels.
+    pub at: [Vec<String>; 2],
+    /// The heights there, a row for each knot of the first column: as of a [`FittedCurve`].
+    pub adds: Vec<Vec<f64>>,
 }
 
 /// A parameter of the base model's laws with a significantly different value.

@@ -6,7 +6,7 @@ use super::super::page::{Page, Table};
 use super::axis::Axis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
 use super::{cause_title, curve, spread, usage};
-use crate::diagnose::{Alternative, Diagnosis, Estimate, Finding};
+use crate::diagnose::{Alternative, Diagnosis, Estimate, Finding, FittedSurface};
 use crate::effect::EFFECTS;
 
 /// A law whose lack of fit is less likely than this has another shape than the data.
@@ -28,6 +28,9 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
     }
     for sentence in &finding.not_separable {
         page.text(sentence.replace('`', ""));
+    }
+    if let Some(surface) = &finding.surface {
+        page.table(heights(finding, surface));
     }
     page.figures(figures(diagnosis, finding));
     add_alternatives(page, finding);
@@ -105,6 +108,32 @@ fn parameters(finding: &Finding) -> Table {
     };
     let header = ["parameter", "what it is", "value", "95 % interval", "unit"];
     Table::new("", 2, &header, finding.parameters.iter().map(row).collect())
+}
+
+/// The heights of a surface.
+fn heights(finding: &Finding, surface: &FittedSurface) -> Table {
+    let names: Vec<&str> = finding.variables.iter().map(String::as_str).collect();
+    let [one, two] = names[..] else { return Table::default() };
+    let caption = match (finding.observable, surface.factor) {
+        ("outcome", _) => format!(
+            "What the fitted surface adds to the log odds of capture over {one} (down) and {two} (across)."
+        ),
+        (observable, true) => {
+            format!("Factor of the fitted surface on {observable} over {one} (down) and {two} (across).")
+        }
+        (observable, false) => {
+            format!("What the fitted surface adds to {observable} over {one} (down) and {two} (across).")
+        }
+    };
+    let short = |text: &String| text.parse().map_or_else(|_| text.clone(), number);
+    let header: Vec<String> = std::iter::once(String::new()).chain(surface.at[1].iter().map(short)).collect();
+    let height =
+        |height: &f64| number(((if surface.factor { 1.0 } else { 0.0 } + height) * 1e3).round() / 1e3);
+    let row = |(place, heights): (&String, &Vec<f64>)| {
+        std::iter::once(short(place)).chain(heights.iter().map(height)).collect()
+    };
+    let rows = surface.at[0].iter().zip(&surface.adds).map(row).collect();
+    Table { caption, header, rows, text_columns: 1 }
 }
 
 fn add_alternatives(page: &mut Page, finding: &Finding) {
