@@ -340,6 +340,16 @@ nw_status nw_resolve(const struct nw_model *model,
                      const struct nw_impact *impact,
                      struct nw_outcome *outcome);
 
+// Says why an impact cannot be decided: the status of `nw_resolve`, and in `message` (may be null) the input and its value, or the
+// material, property, temperature and range: at most `message_size` bytes with the closing zero. `NW_OK` if it can be decided.
+//
+// # Safety
+// `model` is a loaded model; `impact` begins with its `struct_size`; `message` has room for `message_size` bytes or is null.
+nw_status nw_explain(const struct nw_model *model,
+                     const struct nw_impact *impact,
+                     char *message,
+                     size_t message_size);
+
 // Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at
 // their median. They depend on the diameter, the temperatures, and the inputs of effects on the contact. Outputs may
 // be null.

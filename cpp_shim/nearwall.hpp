@@ -269,6 +269,13 @@ public:
         return nw_resolve(raw_, &impact, &outcome);
     }
 
+    // Why an impact cannot be decided; empty if it can be.
+    std::string explain(const nw_impact& impact) const {
+        detail::message m;
+        const nw_status status = nw_explain(raw_, &impact, m.text, sizeof(m.text));
+        return status == NW_OK ? std::string() : m.text[0] ? m.text : nw_status_text(status);
+    }
+
     // Density [kg/m3] of the particle's material, which is taken where the impact's `rho_p` is 0; no exceptions.
     nw_status particle_density(const nw_impact& impact, double& density) const noexcept {
         return nw_particle_density(raw_, &impact, &density);

@@ -208,6 +208,15 @@ module nearwall
       integer(c_int32_t) :: nw_resolve
     end function nw_resolve
 
+    function nw_explain(model, impact, message, message_size) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_impact), intent(in) :: impact
+      character(kind=c_char), intent(inout) :: message(*)
+      integer(c_size_t), value :: message_size
+      integer(c_int32_t) :: nw_explain
+    end function nw_explain
+
     function nw_speeds(model, impact, adhesive, yielding, sticking) bind(c)
       import
       type(c_ptr), value :: model

@@ -100,6 +100,7 @@ FUNCTIONS = {
     "nw_impact_init": (c_int32, [POINTER(nw_impact)]),
     "nw_outcome_init": (c_int32, [POINTER(nw_outcome)]),
     "nw_resolve": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(nw_outcome)]),
+    "nw_explain": (c_int32, [c_void_p, POINTER(nw_impact), c_char_p, c_size_t]),
     "nw_speeds": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "nw_particle_density": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double)]),
     "nw_erosion": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
@@ -338,6 +339,12 @@ class Model:
         impact, found = self._impact(wall, inputs), c_double()
         _check(_library.nw_erosion(self._handle, byref(impact), mass, byref(found)))
         return found.value
+
+    def explain(self, v_n, wall=0, **inputs):
+        """Why an impact cannot be decided: the input, or material, property and range; empty if it can be."""
+        impact, text = self._impact(wall, {"v_n": v_n, **inputs}), ctypes.create_string_buffer(2048)
+        status = _library.nw_explain(self._handle, byref(impact), text, len(text))
+        return text.value.decode() if status else ""
 
     def temperature_ranges(self, wall=0):
         """Temperatures [K] for which the properties of particle and wall are defined."""

@@ -360,10 +360,9 @@ void Foam::nearWallInteraction<CloudType>::interact
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
-    const nw_status status = e.model->resolve(e.impact, outcome);
-    if (status != NW_OK)
+    if (e.model->resolve(e.impact, outcome) != NW_OK)
     {
-        handleUnusable(p, v, e, status, keepParticle);
+        handleUnusable(p, v, e, keepParticle);
         return;
     }
 
@@ -502,12 +501,14 @@ void Foam::nearWallInteraction<CloudType>::handleUnusable
     parcelType& p,
     const relativeVelocity& v,
     impactEvent& e,
-    const nw_status status,
     bool& keepParticle
 )
 {
     ++run_->unusable;
-    run_->unusableStatus = status;
+    if (run_->unusableReason.empty())
+    {
+        run_->unusableReason = e.model->explain(e.impact);
+    }
     e.result = impactEvent::unusable;
 
     // OpenFOAM cannot track or sum a speed or mass that is not a number
@@ -644,14 +645,20 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::finishUnusable(Ostream& os)
 {
     const label n = returnReduce(run_->unusable, sumOp<label>());
-    const label status = returnReduce(run_->unusableStatus, maxOp<label>());
     run_->unusable = 0;
-    run_->unusableStatus = 0;
     if (n == 0) return;
 
+    List<string> reasons(Pstream::nProcs());
+    reasons[Pstream::myProcNo()] = run_->unusableReason;
+    run_->unusableReason.clear();
+    Pstream::gatherList(reasons);
+    string reason;
+    forAll(reasons, i)
+    {
+        if (reason.empty()) reason = reasons[i];
+    }
     os  << "    nearWallInteraction: " << n << " impact" << (n == 1 ? "" : "s")
-        << " of this step could not be decided ("
-        << nw_status_text(nw_status(status))
+        << " of this step could not be decided (the first: " << reason.c_str()
         << "); the parcels rebound without loss, or are removed when"
         << " their speed or mass is not a number" << nl;
 }

@@ -3,6 +3,9 @@
 
 #include "patchRule.H"
 #include "dictionaryChecks.H"
+#include "dictionaryEntry.H"
+#include "processorCyclicPolyPatch.H"
+#include "processorPolyPatch.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
 #include "wordRe.H"
@@ -37,9 +40,18 @@ wordList knownKeys(const patchRule::ruleType type)
 }
 
 
+//- Has the patch a rule without an entry?
 bool isHandled(const polyPatch& pp)
 {
     return !pp.coupled() && !polyPatch::constraintType(pp.type());
+}
+
+
+//- May an entry give the patch a rule? OpenFOAM asks the model at cyclic
+//  patches, too, but not between ranks.
+bool mayBeNamed(const polyPatch& pp)
+{
+    return isHandled(pp) || (pp.coupled() && !isA<processorPolyPatch>(pp));
 }
 
 
@@ -56,65 +68,168 @@ int fit(const keyType& key, const polyPatch& pp)
 }
 
 
-//- The entry for a patch, null if there is none
-const entry* findEntry(const dictionary& patches, const polyPatch& pp)
+//- The key `patches`: a dictionary, or a list as localInteraction reads it
+struct patchEntries
 {
-    const entry* best = nullptr;
-    int bestFit = 1;
-    forAllConstIter(dictionary, patches, iter)
+    dictionary dict;
+
+    //- In a list the first entry that fits counts, else the best
+    bool isList = false;
+
+    const polyBoundaryMesh& pbm;
+
+    patchEntries(const dictionary& coeffs, const polyBoundaryMesh& pbm)
+    :
+        pbm(pbm)
     {
-        const int f = fit((*iter).keyword(), pp);
-        if (f >= bestFit)
+        if (coeffs.isDict("patches"))
         {
-            best = &(*iter);
-            bestFit = f;
+            dict = coeffs.subDict("patches");
         }
+        else if (coeffs.found("patches"))
+        {
+            isList = true;
+            readList(coeffs);
+        }
+        check();
     }
-    return best;
-}
 
-
-//- Every entry must be a dictionary and fit a patch that is handled here
-void checkEntries(const dictionary& patches, const polyBoundaryMesh& pbm)
-{
-    DynamicList<word> names;
-    forAll(pbm, patchi)
+    //- name { ... } name { ... } between brackets
+    void readList(const dictionary& coeffs)
     {
-        if (isHandled(pbm[patchi])) names.append(pbm[patchi].name());
-    }
-
-    forAllConstIter(dictionary, patches, iter)
-    {
-        const keyType& key = (*iter).keyword();
-        if (!(*iter).isDict())
+        dict.name() = coeffs.name();
+        const tokenList& tokens = coeffs.lookup("patches");
+        label from = 0;
+        while (from < tokens.size() && tokens[from].isLabel()) ++from;
+        const auto is = [&](const label i, const token::punctuationToken t)
         {
-            FatalIOErrorInFunction(patches)
-                << "patches: '" << key << "' must be a dictionary, as in" << nl
-                << "    " << key << " { type interact; }" << exit(FatalIOError);
-        }
-
-        int best = 0;
-        forAll(pbm, patchi)
+            return
+                i >= 0 && i < tokens.size() && tokens[i].isPunctuation()
+             && tokens[i].pToken() == t;
+        };
+        if
+        (
+            !is(from, token::BEGIN_LIST)
+         || !is(tokens.size() - 1, token::END_LIST)
+        )
         {
-            const int f = fit(key, pbm[patchi]);
-            best = max(best, f);
-            if (f == 3 && !isHandled(pbm[patchi]))
-            {
-                FatalIOErrorInFunction(patches)
-                    << "patches: OpenFOAM itself handles '" << key
-                    << "', a patch of type " << pbm[patchi].type()
-                    << ". Remove the entry." << exit(FatalIOError);
-            }
-        }
-        if (best == 0)
-        {
-            FatalIOErrorInFunction(patches)
-                << "patches: '" << key << "' matches no patch and no patch"
-                << " group of this mesh." << nl
-                << "    The patches are " << wordList(names)
+            FatalIOErrorInFunction(coeffs)
+                << "Key 'patches' must be a dictionary or a list of entries,"
+                << " as in" << nl << "    patches { floor { type interact; } }"
                 << exit(FatalIOError);
         }
+        tokenList inside(SubList<token>(tokens, tokens.size() - from - 2, from + 1));
+        ITstream stream(coeffs.name(), inside);
+        stream.lineNumber() = coeffs.startLineNumber();
+        dict.read(stream, false);
     }
+
+    //- Does an entry fit every patch between which OpenFOAM does not move
+    //  parcels to another rank? It then does not mean the coupled ones.
+    bool isForAll(const keyType& key) const
+    {
+        forAll(pbm, patchi)
+        {
+            if (mayBeNamed(pbm[patchi]) && !fit(key, pbm[patchi])) return false;
+        }
+        return true;
+    }
+
+    //- How well an entry applies to a patch; in a list as in localInteraction
+    int applies(const keyType& key, const polyPatch& pp) const
+    {
+        const int f = fit(key, pp);
+        const bool here =
+            isHandled(pp) || f == 3
+         || (mayBeNamed(pp) && (isList || !isForAll(key)));
+        return here ? f : 0;
+    }
+
+    //- The entry for a patch, null if there is none
+    const entry* find(const polyPatch& pp) const
+    {
+        const entry* best = nullptr;
+        int bestFit = 1;
+        forAllConstIter(dictionary, dict, iter)
+        {
+            const int f = applies((*iter).keyword(), pp);
+            if (f < bestFit) continue;
+
+            best = &(*iter);
+            bestFit = f;
+            if (isList) break;
+        }
+        return best;
+    }
+
+    //- Every entry must be a dictionary and fit a patch that may have a rule
+    void check() const
+    {
+        DynamicList<word> names;
+        forAll(pbm, patchi)
+        {
+            if (mayBeNamed(pbm[patchi])) names.append(pbm[patchi].name());
+        }
+        forAllConstIter(dictionary, dict, iter)
+        {
+            const keyType& key = (*iter).keyword();
+            if (!(*iter).isDict())
+            {
+                FatalIOErrorInFunction(dict)
+                    << "patches: '" << key << "' must be a dictionary, as in"
+                    << nl << "    " << key << " { type interact; }"
+                    << exit(FatalIOError);
+            }
+            const polyPatch* other = nullptr;
+            bool fits = false;
+            forAll(pbm, patchi)
+            {
+                if (!fit(key, pbm[patchi])) continue;
+                if (mayBeNamed(pbm[patchi])) fits = true;
+                else other = &pbm[patchi];
+            }
+            if (!fits && other)
+            {
+                FatalIOErrorInFunction(dict)
+                    << "patches: OpenFOAM itself handles '" << key
+                    << "', a patch of type " << other->type()
+                    << ". Remove the entry." << exit(FatalIOError);
+            }
+            if (!fits)
+            {
+                FatalIOErrorInFunction(dict)
+                    << "patches: '" << key << "' matches no patch and no patch"
+                    << " group of this mesh." << nl
+                    << "    The patches are " << wordList(names)
+                    << exit(FatalIOError);
+            }
+        }
+    }
+};
+
+
+//- Stop where a coupled patch with a rule lies between ranks: OpenFOAM moves
+//  the parcels there without asking the model
+void refuseSplit(const dictionary& dict, const polyPatch& pp)
+{
+    const polyBoundaryMesh& pbm = pp.boundaryMesh();
+    label split = 0;
+    forAll(pbm, patchi)
+    {
+        if (!isA<processorCyclicPolyPatch>(pbm[patchi])) continue;
+
+        const auto& between = refCast<const processorCyclicPolyPatch>(pbm[patchi]);
+        if (between.referPatchID() == pp.index()) split += between.size();
+    }
+    if (returnReduce(split, sumOp<label>()) == 0) return;
+
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name() << "' and its neighbour lie on different"
+        << " ranks, where OpenFOAM passes parcels on without asking a patch"
+        << " interaction model." << nl
+        << "    Keep them together, in decomposeParDict:" << nl
+        << "    constraints { p { type preservePatches; patches ("
+        << pp.name() << "); } }" << exit(FatalIOError);
 }
 
 
@@ -219,23 +334,41 @@ struct ruleReader
             << exit(FatalIOError);
     }
 
-    //- Stop when the wall temperature at the start is outside the property
-    //  tables of the wall: the model would refuse every impact
+    //- Faces whose wall temperature is outside the property tables of the
+    //  wall: the model refuses impacts there. All of them at the start of a
+    //  case are a mistake; some, or those of a run that goes on, are counted.
     void checkTemperature() const
     {
-        scalar lowest = rule.temperature;
-        scalar highest = rule.temperature;
-        if (rule.temperatureFromField)
-        {
-            const scalarField& T = rule.temperatureOn(mesh, pp.index());
-            if (returnReduce(T.size(), sumOp<label>()) == 0) return;
-            lowest = gMin(T);
-            highest = gMax(T);
-        }
-
         const nearwall::temperature_ranges known = model.ranges(rule.wall);
-        if (lowest >= known.wall_low && highest <= known.wall_high) return;
+        const scalarField T
+        (
+            rule.temperatureFromField
+          ? rule.temperatureOn(mesh, pp.index())
+          : scalarField(pp.size(), rule.temperature)
+        );
+        label outside = 0;
+        forAll(T, i)
+        {
+            if (T[i] < known.wall_low || T[i] > known.wall_high) ++outside;
+        }
+        reduce(outside, sumOp<label>());
+        if (outside == 0) return;
 
+        const label all = returnReduce(T.size(), sumOp<label>());
+        OStringStream what;
+        what<< "the wall temperature is " << gMin(T) << " to " << gMax(T)
+            << " K, but the properties of wall '" << rule.wallName.c_str()
+            << "' in " << modelName.c_str() << " are known from "
+            << known.wall_low << " to " << known.wall_high << " K";
+        const bool goesOn = mesh.time().timeIndex() > 0;
+        if (rule.temperatureFromField && (goesOn || outside < all))
+        {
+            Info<< "    nearWallInteraction, warning: patch " << pp.name()
+                << ", " << outside << " of " << all << " faces: "
+                << what.str().c_str()
+                << "; impacts there cannot be decided" << endl;
+            return;
+        }
         const std::string source
         (
             rule.temperatureFromField
@@ -243,11 +376,9 @@ struct ruleReader
           : std::string("wallTemperature")
         );
         FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name() << "': the wall temperature is " << lowest
-            << " to " << highest << " K, but the properties of wall '"
-            << rule.wallName.c_str() << "' in " << modelName.c_str()
-            << " are known from " << known.wall_low << " to " << known.wall_high << " K." << nl << "    Correct "
-            << source.c_str() << ", or extend the property tables of the wall's"
+            << "Patch '" << pp.name() << "': " << what.str().c_str() << "." << nl
+            << "    Correct " << source.c_str()
+            << ", or extend the property tables of the wall's"
             << " material in the model." << exit(FatalIOError);
     }
 };
@@ -264,8 +395,7 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
 )
 {
     const polyBoundaryMesh& pbm = mesh.boundaryMesh();
-    const dictionary patches(coeffs.subOrEmptyDict("patches"));
-    checkEntries(patches, pbm);
+    const patchEntries patches(coeffs, pbm);
 
     // For patches without an entry: messages name the coefficients
     const dictionary none(coeffs.name());
@@ -274,9 +404,9 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
     forAll(pbm, patchi)
     {
         const polyPatch& pp = pbm[patchi];
-        if (!isHandled(pp)) continue;
+        const entry* const given = patches.find(pp);
+        if (!given && !isHandled(pp)) continue;
 
-        const entry* const given = findEntry(patches, pp);
         const dictionary& dict = given ? given->dict() : none;
         patchRule& rule = rules[patchi];
         rule.named = given;
@@ -287,6 +417,7 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
             rule.type = checkedChoice(dict, "type", type, typeNames, owner);
             const string where("Patch '" + pp.name() + "', type " + type);
             refuseUnknownKeys(dict, knownKeys(rule.type), where);
+            if (pp.coupled()) refuseSplit(dict, pp);
         }
         else
         {

@@ -220,6 +220,31 @@ pub unsafe extern "C" fn nw_resolve(
     guarded_status(resolve)
 }
 
+/// Says why an impact cannot be decided: the status of `nw_resolve`, and in `message` (may be null) the input and its value, or the
+/// material, property, temperature and range: at most `message_size` bytes with the closing zero. `NW_OK` if it can be decided.
+///
+/// # Safety
+/// `model` is a loaded model; `impact` begins with its `struct_size`; `message` has room for `message_size` bytes or is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_explain(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    message: *mut c_char,
+    message_size: usize,
+) -> nw_status {
+    let explain = || -> Result<(), Fault> {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        let checked = model.inner().check(impact.wall as usize, &impact.to_impact());
+        checked.map_err(|error| {
+            let text = error.to_string();
+            Fault::new(error.into(), &text)
+        })
+    };
+    // SAFETY: the caller's promise on `message`.
+    unsafe { report(guarded(explain), message, message_size) }
+}
+
 /// Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at
 /// their median. They depend on the diameter, the temperatures, and the inputs of effects on the contact. Outputs may
 /// be null.

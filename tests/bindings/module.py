@@ -48,6 +48,7 @@ bad = d.copy()
 bad[17] = 0.0
 fault = refused(nearwall.Error, lambda: model.resolve(v_n, d=bad), "impact 17: an input is not finite or outside its bounds")
 assert (fault.status, fault.index) == (7, 17)
+assert "v_n = -1" in model.explain(-1.0) and model.explain(2.0, T_p=900.0, T_w=900.0) == "", model.explain(-1.0)
 refused(nearwall.Error, lambda: model.find_wall("roof"), "the model has no such wall")
 refused(nearwall.Error, lambda: nearwall.Model.from_file("/nowhere/nearWall.toml"), "/nowhere/nearWall.toml")
 refused(nearwall.Error, lambda: nearwall.Model.from_toml("x = = 1", "mine.toml"), "mine.toml:1:")

@@ -99,6 +99,34 @@ fn density_and_erosion_are_those_of_the_rust_library() {
     calls.free(plain);
 }
 
+/// The reason of a refusal is that of the Rust library, cut to the caller's room.
+#[test]
+fn a_refusal_is_explained() {
+    let calls = Calls::load();
+    let tabled = "[materials.tabled]\ndensity = 1000\npoisson_ratio = 0.4\nyield_strength = 1e7\nsurface_energy = 0.03\n\
+                  youngs_modulus = { T = [290, 400], value = [1e9, 5e8] }\n[particle]\nmaterial = \"tabled\"\n\
+                  [walls.default]\nmaterial = \"pyrex\"\n[normal]\nmodel = \"thornton-ning\"\nyield_ratio = 1\n\
+                  [tangential]\nmodel = \"constant\"\ne_t = 0.8\n";
+    let (rust, model) = (Model::from_toml("m", tabled).unwrap(), calls.parse(tabled));
+    let hot = Impact { normal_speed: 2.0, diameter: 5e-5, particle_temperature: 2000.0, ..Impact::default() };
+    let warm = Impact { particle_temperature: 350.0, ..hot };
+    let explain = |impact: Impact, room: usize| {
+        let (impact, mut text) = (c_case(&(0, impact, ImpactRng::default())), [1 as std::ffi::c_char; 200]);
+        let status = unsafe { (calls.nw_explain)(model, &raw const impact, text.as_mut_ptr(), room) };
+        let end = text.iter().position(|byte| *byte == 0).unwrap_or(0);
+        (status, text[..end].iter().map(|byte| char::from(*byte as u8)).collect::<String>())
+    };
+    let reason = rust.check(0, &hot).unwrap_err();
+    assert!(
+        reason.to_string().contains("youngs_modulus") && reason.to_string().contains("290 to 400 K"),
+        "{reason}"
+    );
+    assert_eq!(explain(hot, 200), (status_of(&reason), reason.to_string()));
+    assert_eq!(explain(hot, 9), (status_of(&reason), reason.to_string()[..8].to_owned()));
+    assert_eq!(explain(warm, 200).0, NW_OK);
+    calls.free(model);
+}
+
 #[test]
 fn initialised_structs_are_the_defaults() {
     let calls = Calls::load();

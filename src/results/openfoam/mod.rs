@@ -5,6 +5,7 @@
 //! parcels of the last written time ([`parcels`]). What is missing is listed in [`RunResults::missing`].
 
 pub mod deposit;
+mod list_file;
 pub mod log;
 pub mod parcels;
 pub mod recorded;

@@ -1,13 +1,14 @@
 //! The captured parcels of a cloud at the last written time.
 //!
 //! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and the deposit of `nearWallInteraction`,
-//! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, written as ASCII. Binary and compressed files are not
-//! read; the page then states it.
+//! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, ASCII or binary. Compressed files are not read; the page
+//! then states it.
 
 use std::f64::consts::PI;
 use std::path::Path;
 
 use super::super::Capture;
+use super::list_file::{numbers, positions};
 use super::time_folders;
 
 /// Reads the parcels that lie still at the last time that has any parcels, in the cloud or in its deposit.
@@ -60,69 +61,9 @@ fn capture(position: [f64; 3], mass: f64, diameter: f64) -> Capture {
     Capture { wall: None, position, mass, diameter, regime: None }
 }
 
-fn positions(folder: &Path) -> Result<Vec<[f64; 3]>, String> {
-    let place = |entry: &String| {
-        let mut words = entry.trim_start_matches('(').split([' ', ')']).filter_map(|word| word.parse().ok());
-        Some([words.next()?, words.next()?, words.next()?])
-    };
-    Ok(entries(folder, "positions", None)?.iter().filter_map(place).collect())
-}
-
-fn numbers(folder: &Path, name: &str, parcels: usize) -> Result<Vec<f64>, String> {
-    Ok(entries(folder, name, Some(parcels))?.iter().filter_map(|entry| entry.parse().ok()).collect())
-}
-
-fn entries(folder: &Path, name: &str, parcels: Option<usize>) -> Result<Vec<String>, String> {
-    let path = folder.join(name);
-    let unreadable = || {
-        format!("{} is absent or not ASCII, so the places of captured parcels are unknown", path.display())
-    };
-    std::fs::read_to_string(&path).ok().and_then(|text| list(&text, parcels)).ok_or_else(unreadable)
-}
-
-/// The entries of an OpenFOAM list file: one a line between brackets, or `n{value}` for `n` equal entries. More equal
-/// entries than parcels are cut off, and without a number of parcels such a list is refused: a short text must not fill
-/// the memory.
-fn list(text: &str, parcels: Option<usize>) -> Option<Vec<String>> {
-    let body = text.split_once("// * *").map_or(text, |(_, rest)| rest);
-    let body: Vec<&str> = body
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty() && !line.starts_with(['/', '*']))
-        .collect();
-    let first = body.first()?;
-    if let Some((count, value)) = first.split_once('{') {
-        let count: usize = count.trim().parse().ok()?;
-        return Some(vec![value.trim_end_matches('}').to_owned(); count.min(parcels?)]);
-    }
-    if let Some((count, rest)) = first.split_once('(') {
-        count.trim().parse::<usize>().ok()?;
-        return Some(rest.trim_end_matches(')').split_whitespace().map(str::to_owned).collect());
-    }
-    first.parse::<usize>().ok()?;
-    let inside =
-        body.iter().skip(1).skip_while(|line| **line != "(").skip(1).take_while(|line| **line != ")");
-    Some(inside.map(|line| (*line).to_owned()).collect())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn every_form_of_a_list_is_read() {
-        let head = "FoamFile\n{\n format ascii;\n}\n// * * * * //\n\n";
-        assert_eq!(
-            list(&format!("{head}2\n(\n(0 1 2) 7\n(3 4 5) 8\n)\n\n// ***\n"), None).unwrap(),
-            ["(0 1 2) 7", "(3 4 5) 8"]
-        );
-        assert_eq!(list(&format!("{head}3{{1e-3}}\n"), Some(3)).unwrap(), ["1e-3"; 3]);
-        assert_eq!(list(&format!("{head}268435455{{1e-3}}\n"), Some(2)).unwrap(), ["1e-3"; 2]);
-        assert_eq!(list(&format!("{head}268435455{{(0 0 0)}}\n"), None), None);
-        assert_eq!(list(&format!("{head}2(0 1)\n"), Some(2)).unwrap(), ["0", "1"]);
-        assert_eq!(list(&format!("{head}0()\n"), Some(0)).unwrap(), Vec::<String>::new());
-        assert_eq!(list("no list", Some(2)), None);
-    }
 
     #[test]
     fn parcels_of_the_deposit_are_read_when_the_cloud_is_empty() {
