@@ -183,6 +183,16 @@ Foam::nearWallInteraction<CloudType>::runState::runState
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::runState::forget()
+{
+    deposit->clear();
+    totals.clear();
+    distributions.clear();
+    if (fields) fields->clear();
+}
+
+
+template<class CloudType>
 Foam::nearWallInteraction<CloudType>::nearWallInteraction
 (
     const dictionary& dict,
@@ -210,11 +220,16 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     run_(std::make_shared<runState>(*this))
 {
     makeMemory();
+    const std::shared_ptr<runState> run(run_);
     owner.functions().append
     (
         new nearWallPreEvolve<CloudType>
         (
-            owner, run_->balance, run_->deposit, coeffs()
+            owner,
+            run_->balance,
+            run_->deposit,
+            [run]() { run->forget(); },
+            coeffs()
         )
     );
     reportSetup();

@@ -235,6 +235,17 @@ Foam::nearWall::impactDistributions::seriesOf(const patchAndInjector& key)
 }
 
 
+void Foam::nearWall::impactDistributions::clear()
+{
+    oneSecond_ = true;
+    for (auto& each : series_)
+    {
+        each.second.sums.clear();
+        each.second.written = 0;
+    }
+}
+
+
 void Foam::nearWall::impactDistributions::add(const impactEvent& e)
 {
     if (!std::isfinite(e.speed) || !std::isfinite(e.mass)) return;
@@ -337,11 +348,12 @@ void Foam::nearWall::impactDistributions::writeFlux
     const scalar area = gSum(mesh_.magSf().boundaryField()[s.key.first]);
     if (area <= 0) return;
 
+    const scalar duration = oneSecond_ ? 1 : time - lastTime_;
     const auto flux = [&](const std::string& name)
     {
         const scalar since =
             columnSum(s.totals, name) - columnSum(s.written, name);
-        return since/(area*(time - lastTime_));
+        return since/(area*duration);
     };
     tableRow row;
     row.add("time_s", time);
@@ -393,7 +405,7 @@ Foam::dictionary Foam::nearWall::impactDistributions::write()
             series& s = each.second;
             if (changed.count(s.key.first)) writeDistributions(s, time);
             writeFlux(s, time);
-            s.written = s.totals;
+            if (!oneSecond_) s.written = s.totals;
         }
         lastTime_ = time;
     }

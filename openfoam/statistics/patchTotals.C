@@ -234,7 +234,7 @@ void Foam::nearWall::patchTotals::report
     const List<scalarList>& totals
 ) const
 {
-    os  << "    Near-wall impacts since the start of the case" << nl;
+    os  << "    Near-wall impacts " << since_ << nl;
     forAll(totals, i)
     {
         const scalarList& t = totals[i];

@@ -56,6 +56,15 @@ Foam::nearWall::wallHitFields::wallHitFields
 }
 
 
+void Foam::nearWall::wallHitFields::clear()
+{
+    depositedMass_.boundaryFieldRef() = 0;
+    hitCount_.boundaryFieldRef() = 0;
+    meanImpactSpeed_.boundaryFieldRef() = 0;
+    if (erodedDepth_) erodedDepth_->boundaryFieldRef() = 0;
+}
+
+
 void Foam::nearWall::wallHitFields::add(const impactEvent& e)
 {
     scalar& n = hitCount_.boundaryFieldRef()[e.patch][e.face];
