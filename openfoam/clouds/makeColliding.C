@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "basicKinematicCollidingCloud.H"
-#include "nearWallInteraction.H"
+#include "nearWallContact.H"
 
 makeNearWallInteraction(basicKinematicCollidingCloud)
+makeWallModelType(nearWallContact, basicKinematicCollidingCloud)

@@ -41,3 +41,19 @@ void Foam::nearWall::reportCarbon
     Info<< "    nearWallInteraction: no carbon in this cloud, conversion 1"
         << nl;
 }
+
+
+void Foam::nearWall::refuseWallSpring(const dictionary& subModels)
+{
+    const word collision(readOr<word>(subModels, "collisionModel", word("none")));
+    const dictionary coeffs(subModels.subOrEmptyDict(collision + "Coeffs"));
+    const word wall(readOr<word>(coeffs, "wallModel", word("none")));
+    if (collision == "none" || wall == "none" || wall == "nearWall") return;
+
+    FatalIOErrorInFunction(coeffs)
+        << "The springs of wallModel '" << wall << "' turn parcels back before"
+        << " their centres reach a wall, so that nearWallInteraction would"
+        << " decide nothing." << nl
+        << "    Let it decide where the surfaces touch: wallModel nearWall; nearWallCoeffs { }"
+        << exit(FatalIOError);
+}

@@ -219,6 +219,10 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     carbon_(nearWall::readOr<word>(coeffs(), "carbon", word("C"))),
     run_(std::make_shared<runState>(*this))
 {
+    if (nearWall::collides(static_cast<const fullCloudType*>(nullptr)))
+    {
+        nearWall::refuseWallSpring(owner.subModelProperties());
+    }
     makeMemory();
     const std::shared_ptr<runState> run(run_);
     owner.functions().append
@@ -240,21 +244,57 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
 
 template<class CloudType>
 typename Foam::nearWallInteraction<CloudType>::relativeVelocity
-Foam::nearWallInteraction<CloudType>::velocityOf
+Foam::nearWallInteraction<CloudType>::velocityTo
 (
-    const parcelType& p,
-    const polyPatch& pp
-) const
+    const vector& U,
+    const vector& normal,
+    const vector& wall
+)
 {
     relativeVelocity v;
-    this->owner().patchData(p, pp, v.normal, v.wall);
+    v.normal = normal;
+    v.wall = wall;
 
-    const vector relative(p.U() - v.wall);
+    const vector relative(U - v.wall);
     v.vn = relative & v.normal;
     const vector along(relative - v.vn*v.normal);
     v.vt = mag(along);
     v.tangent = v.vt > VSMALL ? vector(along/v.vt) : vector(Zero);
     return v;
+}
+
+
+template<class CloudType>
+Foam::label Foam::nearWallInteraction<CloudType>::faceAt
+(
+    const polyPatch& pp,
+    const label celli,
+    const point& site
+) const
+{
+    const scalar near = sqrt(SMALL)*mesh().bounds().mag();
+    const auto isAt = [&](const label facei)
+    {
+        return
+            pp[facei].nearestPoint(site, mesh().points()).distance() < near;
+    };
+
+    // Mostly a face of the parcel's cell or of a neighbour
+    labelList cells(mesh().cellCells()[celli]);
+    cells.append(celli);
+    forAll(cells, i)
+    {
+        for (const label meshFace : mesh().cells()[cells[i]])
+        {
+            const label facei = meshFace - pp.start();
+            if (facei >= 0 && facei < pp.size() && isAt(facei)) return facei;
+        }
+    }
+    forAll(pp, facei)
+    {
+        if (isAt(facei)) return facei;
+    }
+    return -1;
 }
 
 
@@ -299,12 +339,13 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
 (
     const parcelType& p,
     const polyPatch& pp,
+    const label facei,
     const relativeVelocity& v
 ) const
 {
     impactEvent e;
     e.patch = pp.index();
-    e.face = pp.whichFace(p.face());
+    e.face = facei;
     e.injector = p.typeId();
     e.position = p.position();
     e.particles = p.nParticle();
@@ -361,16 +402,11 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::interact
 (
     parcelType& p,
-    const polyPatch& pp,
+    impactEvent& e,
+    const relativeVelocity& v,
     bool& keepParticle
 )
 {
-    const relativeVelocity v(velocityOf(p, pp));
-
-    // No impact: the parcel leaves the wall, for instance one that moves away
-    if (v.vn <= 0) return;
-
-    impactEvent e(eventOf(p, pp, v));
     meetWall(e, p, v);
     nw_outcome outcome;
     nw_outcome_init(&outcome);
@@ -545,25 +581,27 @@ void Foam::nearWallInteraction<CloudType>::handleUnusable
 
 
 template<class CloudType>
-bool Foam::nearWallInteraction<CloudType>::correct
+void Foam::nearWallInteraction<CloudType>::apply
 (
     parcelType& p,
     const polyPatch& pp,
+    const label facei,
+    const relativeVelocity& v,
     bool& keepParticle
 )
 {
     const patchRule& rule = rules()[pp.index()];
-    if (rule.type == patchRule::pass) return false;
+    const bool leaves = v.vn <= 0;
 
+    // No impact: the parcel leaves the wall, for instance one that moves away
+    if (rule.type == patchRule::interact && leaves) return;
+
+    impactEvent e(eventOf(p, pp, facei, v));
     if (rule.type == patchRule::interact)
     {
-        interact(p, pp, keepParticle);
-        return true;
+        interact(p, e, v, keepParticle);
     }
-
-    const relativeVelocity v(velocityOf(p, pp));
-    impactEvent e(eventOf(p, pp, v));
-    if (rule.type == patchRule::escape)
+    else if (rule.type == patchRule::escape)
     {
         escape(p, e, keepParticle);
     }
@@ -571,11 +609,54 @@ bool Foam::nearWallInteraction<CloudType>::correct
     {
         stick(p, e, keepParticle);
     }
-    else if (v.vn > 0)
+    else if (!leaves)
     {
         rebound(p, v, e, rule.e, 1 - rule.mu);
     }
+}
+
+
+template<class CloudType>
+bool Foam::nearWallInteraction<CloudType>::correct
+(
+    parcelType& p,
+    const polyPatch& pp,
+    bool& keepParticle
+)
+{
+    if (rules()[pp.index()].type == patchRule::pass) return false;
+
+    vector normal;
+    vector wall;
+    this->owner().patchData(p, pp, normal, wall);
+    const relativeVelocity v(velocityTo(p.U(), normal, wall));
+    apply(p, pp, pp.whichFace(p.face()), v, keepParticle);
     return true;
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::touch
+(
+    parcelType& p,
+    const label patchi,
+    const point& site,
+    const vector& wall,
+    bool& keepParticle
+)
+{
+    if (!nearWall::isMoving(p) || rules()[patchi].type == patchRule::pass)
+    {
+        return;
+    }
+    const vector towards(site - p.position());
+    const vector normal(towards/(mag(towards) + VSMALL));
+    const relativeVelocity v(velocityTo(p.U(), normal, wall));
+    if (v.vn <= 0) return;
+
+    const polyPatch& pp = mesh().boundaryMesh()[patchi];
+    const label facei = faceAt(pp, p.cell(), site);
+    if (facei >= 0) apply(p, pp, facei, v, keepParticle);
 }
 
 
