@@ -160,6 +160,7 @@ pub fn of_particles(bytes: &mut Bytes<'_>, model: *const nw_model) {
             buffer.assert_untouched();
         }
     }
+    explained(bytes, model, from);
 }
 
 pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {
@@ -295,5 +296,22 @@ fn alike(
                 assert_eq!(bits, expected.to_ne_bytes(), "impact {index} of a batch");
             }
         }
+    }
+}
+
+/// Why an impact cannot be decided.
+fn explained(bytes: &mut Bytes<'_>, model: *const nw_model, impact: *const nw_impact) {
+    let size = [0, 1, 2, 3, 40, 400][bytes.below(6)];
+    let mut message = GuardedBuffer::new(bytes, size);
+    let text = message.start_or_null(bytes);
+    // SAFETY: each is null or what it should be.
+    let status = unsafe { nw_explain(model, impact, text, size) };
+    known(status);
+    message.assert_guard_intact();
+    if status == NW_OK || text.is_null() || size == 0 {
+        message.assert_untouched();
+    } else {
+        let text = CStr::from_bytes_until_nul(message.inside()).expect("a closing zero");
+        text.to_str().expect("whole characters");
     }
 }
