@@ -67,7 +67,8 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
     if hypothesis.coordinates().len() == count {
         *hypothesis = freed.clone();
     }
-    let Some(Found { ends, covariance }) = found else { return };
+    // A profile that finds a better fit again and again has no ends.
+    let Found { ends, covariance } = found.unwrap_or_else(|| symmetric(&freed, rows, quantile));
     let mut place = 0;
     for (part, freed) in hypothesis.parts.iter_mut().zip(&freed.parts) {
         let own = place..place + part.axes.len();
