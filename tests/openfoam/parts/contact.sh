@@ -6,11 +6,10 @@ case_surface() {
     local z n
     build colliding "$work/surface" || return
     one_parcel; settings 0.04 0.04 startTime ascii
-    sed -i 's/deltaT .*/deltaT 0.0002;/; s/writeInterval .*/writeInterval 200;/' system/controlDict
+    sed -i 's/deltaT .*/deltaT 0.0002;/' system/controlDict
     sed -i 's/writeInterval.*/writeInterval 200;/' system/settings
     sed -i 's/maxInteractionDistance .*/maxInteractionDistance 0.012;/' constant/kinematicCloudProperties
     echo 'subModels { injectionModels { model1 { massTotal 6e-4; sizeDistribution { fixedValueDistribution { value 0.01; } } } } }' >> constant/kinematicCloudProperties
-    sed -i '/writeFields/d; 1i writeFields yes;' constant/interaction
     solve surface serial "$solver" || return
     z="$(positions_of 0.04/lagrangian/kinematicCloud | cut -d' ' -f3)"
     # By hand 0.005 + 1*(0.04 - 0.023) m; parcels start and touch within a step, 0.4 mm; with its centre it would touch later

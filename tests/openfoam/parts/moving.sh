@@ -88,14 +88,19 @@ END
     then ok refined/mass; else bad refined/mass "$(sum_of 0.1/lagrangian/kinematicCloudDeposit/mass)"; fi
 }
 
+# Two sides of the case in this folder become a cyclic pair; parcels have (0.3 3 -2) m/s
+cyclic_sides() {
+    sed -i 's/sides  {.*/sides { type wall; faces ((0 4 7 3)); }\n    front { type cyclic; neighbourPatch back; faces ((0 1 5 4)); }\n    back { type cyclic; neighbourPatch front; faces ((3 7 6 2)); }/' system/blockMeshDict
+    sed -i 's/^    outlet/    front { type cyclic; }\n    back { type cyclic; }\n    outlet/' 0/*
+    echo 'subModels { injectionModels { model1 { U0 (0.3 3 -2); } } }' >> constant/kinematicCloudProperties
+}
+
 # Two sides are a cyclic pair; parcels with (0.3 3 -2) m/s go through it up to
 # twice before they hit the floor. Faces by hand: t = z/2, x + 0.3 t, (y + 3 t) mod L
 case_cyclic() {
     local difference f
     build kinematic "$work/cyclic" || return
-    sed -i 's/sides  {.*/sides { type wall; faces ((0 4 7 3)); }\n    front { type cyclic; neighbourPatch back; faces ((0 1 5 4)); }\n    back { type cyclic; neighbourPatch front; faces ((3 7 6 2)); }/' system/blockMeshDict
-    sed -i 's/^    outlet/    front { type cyclic; }\n    back { type cyclic; }\n    outlet/' 0/*
-    echo 'subModels { injectionModels { model1 { U0 (0.3 3 -2); } } }' >> constant/kinematicCloudProperties
+    cyclic_sides
     sed -i 's/n (2 1 1)/n (1 2 1)/' system/decomposeParDict
     settings 0.06 0.06 startTime ascii
     quiet blockMesh blockMesh && quiet centres postProcess -func writeCellCentres -time 0

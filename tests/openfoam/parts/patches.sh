@@ -31,9 +31,7 @@ END
 case_filter() {
     local wall
     build kinematic "$work/filter" || return
-    sed -i 's/sides  {.*/sides { type wall; faces ((0 4 7 3)); }\n    front { type cyclic; neighbourPatch back; faces ((0 1 5 4)); }\n    back { type cyclic; neighbourPatch front; faces ((3 7 6 2)); }/' system/blockMeshDict
-    sed -i 's/^    outlet/    front { type cyclic; }\n    back { type cyclic; }\n    outlet/' 0/*
-    echo 'subModels { injectionModels { model1 { U0 (0.3 3 -2); } } }' >> constant/kinematicCloudProperties
+    cyclic_sides
     settings 0.06 0.06 startTime ascii
     sed -i 's/writePrecision .*/writePrecision 17;/' system/controlDict
     quiet blockMesh blockMesh
@@ -68,15 +66,7 @@ case_filter() {
 case_soft_restart() {
     local f n
     build multiphase "$work/soft_restart" || return
-    cat >> constant/nearWall.toml <<'END'
-
-[materials.tabled]
-density = 1000
-youngs_modulus = { T = [290, 800], value = [1e9, 5e8] }
-poisson_ratio = 0.4
-yield_strength = 1e7
-surface_energy = 0.03
-END
+    tabled_material 290 800
     sed -i 's/"pyrex"/"tabled"/' constant/nearWall.toml
     settings 0.02 0.02
     solve soft_restart serial "$solver" || return
