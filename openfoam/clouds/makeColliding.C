@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "basicKinematicCollidingCloud.H"
 #include "nearWallContact.H"
+#include NEARWALL_EITHER("basicKinematicCollidingCloud.H", "collidingCloud.H")
 
-makeNearWallInteraction(basicKinematicCollidingCloud)
-makeWallModelType(nearWallContact, basicKinematicCollidingCloud)
+#define solverCloud NEARWALL_EITHER(basicKinematicCollidingCloud, collidingCloud)
+
+makeNearWallInteraction(solverCloud)
+makeWallModelType(nearWallContact, solverCloud)

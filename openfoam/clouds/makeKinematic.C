@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "basicKinematicCloud.H"
 #include "nearWallInteraction.H"
+#include NEARWALL_EITHER("basicKinematicCloud.H", "momentumCloud.H")
 
-makeNearWallInteraction(basicKinematicCloud)
+#define solverCloud NEARWALL_EITHER(basicKinematicCloud, momentumCloud)
+
+makeNearWallInteraction(solverCloud)

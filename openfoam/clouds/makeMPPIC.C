@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "basicKinematicMPPICCloud.H"
 #include "nearWallInteraction.H"
+#include NEARWALL_EITHER("basicKinematicMPPICCloud.H", "mppicCloud.H")
 
-makeNearWallInteraction(basicKinematicMPPICCloud)
+#define solverCloud NEARWALL_EITHER(basicKinematicMPPICCloud, mppicCloud)
+
+makeNearWallInteraction(solverCloud)

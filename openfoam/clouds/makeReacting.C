@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "basicReactingCloud.H"
 #include "nearWallInteraction.H"
+#include NEARWALL_EITHER("basicReactingCloud.H", "reactingCloud.H")
 
-makeNearWallInteraction(basicReactingCloud)
+#define solverCloud NEARWALL_EITHER(basicReactingCloud, reactingCloud)
+
+makeNearWallInteraction(solverCloud)

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "basicSprayCloud.H"
 #include "nearWallInteraction.H"
+#include NEARWALL_EITHER("basicSprayCloud.H", "sprayCloud.H")
 
-makeNearWallInteraction(basicSprayCloud)
+#define solverCloud NEARWALL_EITHER(basicSprayCloud, sprayCloud)
+
+makeNearWallInteraction(solverCloud)

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "basicThermoCloud.H"
 #include "nearWallInteraction.H"
+#include NEARWALL_EITHER("basicThermoCloud.H", "thermoCloud.H")
 
-makeNearWallInteraction(basicThermoCloud)
+#define solverCloud NEARWALL_EITHER(basicThermoCloud, thermoCloud)
+
+makeNearWallInteraction(solverCloud)

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "depositCloud.H"
-#include "mapPolyMesh.H"
 #include "versionCompat.H"
 
+#ifdef OPENFOAM
 namespace Foam
 {
     defineTemplateTypeNameAndDebug(Cloud<nearWallDepositParticle>, 0);
 }
+#endif
 
 Foam::nearWall::depositCloud::depositCloud
 (
@@ -16,7 +17,7 @@ Foam::nearWall::depositCloud::depositCloud
     const word& cloudName
 )
 :
-    Cloud<nearWallDepositParticle>(mesh, cloudName + "Deposit", false),
+    nearWallDepositParticle::cloudType(mesh, cloudName + "Deposit", false),
     topologyMayChange_(nearWall::topologyMayChange(mesh))
 {
     nearWallDepositParticle::readFields(*this);
@@ -28,16 +29,16 @@ Foam::nearWall::depositCloud::read(const fvMesh& mesh, const word& cloudName)
 {
     // OpenFOAM numbers the particles of all clouds with one counter, which each
     // cloud sets when it is read: the solver's cloud must keep its own value
-    const label count = particle::particleCount_;
+    const label count = nextParticle<particle>();
     std::shared_ptr<depositCloud> cloud(new depositCloud(mesh, cloudName));
-    particle::particleCount_ = count;
+    nextParticle<particle>() = count;
     return cloud;
 }
 
 
 bool Foam::nearWall::depositCloud::hasParcels() const
 {
-    return returnReduce(size(), sumOp<label>()) > 0;
+    return sumOfRanks(size()) > 0;
 }
 
 
@@ -51,6 +52,11 @@ Foam::scalar Foam::nearWall::depositCloud::mass() const
 
 void Foam::nearWall::depositCloud::storePositions()
 {
+    #ifndef OPENFOAM
+    storeGlobalPositions();
+    return;
+    #endif
+
     // Assumed: OpenFOAM stops the run when rounding puts a particle outside the
     // mesh, so a position on the wall is shifted inwards by this fraction
     const scalar inside = 1e-9;
@@ -59,7 +65,7 @@ void Foam::nearWall::depositCloud::storePositions()
     label i = 0;
     for (const nearWallDepositParticle& p : *this)
     {
-        const point position(p.position());
+        const point position(positionOf(p, pMesh()));
         const point& centre = pMesh().cellCentres()[p.cell()];
         positions_[i++] = position + inside*(centre - position);
     }
@@ -80,6 +86,7 @@ void Foam::nearWall::depositCloud::endStep()
 }
 
 
+#ifdef OPENFOAM
 void Foam::nearWall::depositCloud::autoMap(const mapPolyMesh& mapper)
 {
     pMesh().tetBasePtIs();
@@ -87,3 +94,4 @@ void Foam::nearWall::depositCloud::autoMap(const mapPolyMesh& mapper)
     label i = 0;
     for (nearWallDepositParticle& p : *this) p.autoMap(positions_[i++], mapper);
 }
+#endif

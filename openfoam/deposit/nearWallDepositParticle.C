@@ -10,7 +10,7 @@ namespace
 using namespace Foam;
 using nearWall::capturedState;
 
-typedef Cloud<nearWallDepositParticle> depositCloud;
+typedef nearWallDepositParticle::cloudType depositCloud;
 
 //- A member of the state and the name of its file
 template<class Type>
@@ -80,6 +80,7 @@ struct writeColumn
 };
 
 
+#ifdef OPENFOAM
 struct registerColumn
 {
     const depositCloud& cloud;
@@ -96,6 +97,7 @@ struct registerColumn
         );
     }
 };
+#endif
 
 
 //- All ranks read, also those without parcels
@@ -134,23 +136,9 @@ Foam::nearWallDepositParticle::nearWallDepositParticle
 }
 
 
-Foam::nearWallDepositParticle::nearWallDepositParticle
-(
-    const polyMesh& mesh,
-    Istream& is,
-    bool readFields,
-    bool newFormat
-)
-:
-    particle(mesh, is, readFields, newFormat)
-{
-    stepFraction() = 1;
-}
-
-
 void Foam::nearWallDepositParticle::readFields
 (
-    Cloud<nearWallDepositParticle>& cloud
+    cloudType& cloud
 )
 {
     particle::readFields(cloud);
@@ -165,7 +153,7 @@ void Foam::nearWallDepositParticle::readFields
 
 void Foam::nearWallDepositParticle::writeFields
 (
-    const Cloud<nearWallDepositParticle>& cloud
+    const cloudType& cloud
 )
 {
     particle::writeFields(cloud);
@@ -173,12 +161,14 @@ void Foam::nearWallDepositParticle::writeFields
 }
 
 
+#ifdef OPENFOAM
 void Foam::nearWallDepositParticle::writeObjects
 (
-    const Cloud<nearWallDepositParticle>& cloud,
+    const cloudType& cloud,
     objectRegistry& registry
 )
 {
     particle::writeObjects(cloud, registry);
     forEachColumn(registerColumn{cloud, registry});
 }
+#endif

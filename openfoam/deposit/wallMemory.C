@@ -5,6 +5,7 @@
 #include "dictionaryChecks.H"
 #include "mathematicalConstants.H"
 #include "surfaceFields.H"
+#include "versionCompat.H"
 #include "wallHitFields.H"
 
 namespace
@@ -105,7 +106,7 @@ Foam::nearWall::wallMemory::wallMemory
     forAll(patches_, i)
     {
         const label patchi = patches_[i];
-        const polyPatch& pp = mesh.boundaryMesh()[patchi];
+        const polyPatch& pp = patchesOf(mesh)[patchi];
         const word& name = pp.name();
         captured_[patchi].setSize(pp.size(), nearwall::make_deposit_source());
         sums_.append
@@ -175,13 +176,13 @@ void Foam::nearWall::wallMemory::setInitial()
     {
         given = field->headerOk() || given;
     }
-    if (!returnReduce(given, orOp<bool>()))
+    if (!onAnyRank(given))
     {
         for (const label patchi : patches_)
         {
             const std::uint32_t wall = rules_[patchi].wall;
             const nw_deposit d(model_->initial_deposit(wall, voidage_));
-            forAll(mesh_.boundaryMesh()[patchi], facei)
+            forAll(patchesOf(mesh_)[patchi], facei)
             {
                 setDeposit(patchi, facei, d);
             }
@@ -199,8 +200,8 @@ void Foam::nearWall::wallMemory::setInitial()
 
                 FatalErrorInFunction
                     << "Field " << field->name() << " of time "
-                    << mesh_.time().timeName() << " is " << x << " on patch '"
-                    << mesh_.boundaryMesh()[patchi].name()
+                    << timeName(mesh_.time()) << " is " << x << " on patch '"
+                    << patchesOf(mesh_)[patchi].name()
                     << "'; it must be from 0 to " << most << "."
                     << exit(FatalError);
             }
@@ -260,7 +261,7 @@ void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
     {
         FatalErrorInFunction
             << "A parcel that stuck on patch '"
-            << mesh_.boundaryMesh()[e.patch].name() << "' (" << e.mass
+            << patchesOf(mesh_)[e.patch].name() << "' (" << e.mass
             << " kg, diameter " << e.impact.d
             << " m) cannot be added to the deposit: "
             << nw_status_text(status) << exit(FatalError);

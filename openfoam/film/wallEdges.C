@@ -10,9 +10,9 @@ void Foam::nearWall::wallEdges::findEdges()
     // Also edges without a face of the given patches on this rank: another rank
     // may have one there
     labelHashSet edges;
-    forAll(mesh_.boundaryMesh(), patchi)
+    forAll(patchesOf(mesh_), patchi)
     {
-        const polyPatch& pp = mesh_.boundaryMesh()[patchi];
+        const polyPatch& pp = patchesOf(mesh_)[patchi];
         if (pp.coupled()) continue;
         forAll(pp.meshEdges(), i) edges.insert(pp.meshEdges()[i]);
     }
@@ -28,12 +28,12 @@ void Foam::nearWall::wallEdges::countFaces(const labelList& patches)
     faces_.setSize(meshEdges_.size(), label(0));
     ownFaces_.setSize(meshEdges_.size(), label(0));
     constraintFaces_.setSize(meshEdges_.size(), label(0));
-    forAll(mesh_.boundaryMesh(), patchi)
+    forAll(patchesOf(mesh_), patchi)
     {
-        const polyPatch& pp = mesh_.boundaryMesh()[patchi];
+        const polyPatch& pp = patchesOf(mesh_)[patchi];
         if (pp.coupled()) continue;
 
-        const bool isConstraint = polyPatch::constraintType(pp.type());
+        const bool constrained = isConstraint(pp);
         forAll(pp.faceEdges(), facei)
         {
             const labelList& edges = pp.faceEdges()[facei];
@@ -42,7 +42,7 @@ void Foam::nearWall::wallEdges::countFaces(const labelList& patches)
                 const label e = index_[pp.meshEdges()[edges[i]]];
                 ++faces_[e];
                 if (isOwn.found(patchi)) ++ownFaces_[e];
-                if (isConstraint) ++constraintFaces_[e];
+                if (constrained) ++constraintFaces_[e];
             }
         }
     }
@@ -60,7 +60,7 @@ void Foam::nearWall::wallEdges::findSides(const labelList& patches)
     sides_.setSize(patches.size());
     forAll(patches, i)
     {
-        const polyPatch& pp = mesh_.boundaryMesh()[patches[i]];
+        const polyPatch& pp = patchesOf(mesh_)[patches[i]];
         sides_[i].setSize(pp.size());
         forAll(pp, facei)
         {

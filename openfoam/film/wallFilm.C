@@ -85,7 +85,7 @@ Foam::List<Foam::scalarField> Foam::nearWall::wallFilm::outflows
         }
         out[i] = scalarField(flows);
     }
-    reduce(rate, maxOp<scalar>());
+    rate = largestOfRanks(rate);
     return out;
 }
 

@@ -76,7 +76,7 @@ struct inputReader
 
         IOobject io
         (
-            field, mesh.time().timeName(), mesh,
+            field, timeName(mesh.time()), mesh,
             IOobject::MUST_READ, IOobject::AUTO_WRITE
         );
         if (field == name && hasFile<volScalarField>(io))
@@ -108,7 +108,7 @@ struct inputReader
                 isFinite && x >= 0 && x < end && x == std::floor(x);
             isGood = isGood && (input.words.empty() ? isFinite : isPlace);
         }
-        if (returnReduce(isGood, andOp<bool>())) return;
+        if (onEveryRank(isGood)) return;
 
         FatalIOErrorInFunction(dict)
             << "Patch '" << pp.name() << "': the field '" << input.name.c_str()

@@ -36,7 +36,7 @@ Foam::fileName Foam::nearWallInteraction<CloudType>::tableFolder() const
     const Time& time = mesh().time();
     return
         nearWall::caseFolder(time)/"postProcessing"/"nearWallInteraction"
-       /this->owner().name()/time.timeName();
+       /this->owner().name()/nearWall::timeName(time);
 }
 
 
@@ -46,9 +46,8 @@ Foam::dictionary Foam::nearWallInteraction<CloudType>::saved
     const word& name
 ) const
 {
-    dictionary dict;
-    this->getModelDict(name, dict);
-    return dict;
+    return this->properties().subOrEmptyDict(this->baseName())
+        .subOrEmptyDict(this->modelType()).subOrEmptyDict(name);
 }
 
 
@@ -107,7 +106,7 @@ void Foam::nearWallInteraction<CloudType>::reportSetup() const
     Info<< "    nearWallInteraction, patches:" << nl;
     forAll(rules(), patchi)
     {
-        rules()[patchi].report(mesh().boundaryMesh()[patchi].name());
+        rules()[patchi].report(nearWall::patchesOf(mesh())[patchi].name());
     }
     Info<< "    nearWallInteraction: impacts have the density rho and the"
         << " diameter d of their parcel" << nl;
@@ -328,7 +327,7 @@ std::uint64_t Foam::nearWallInteraction<CloudType>::keyOf
 {
     nearWall::impactKey key;
     key.addExact(mesh().time().timeIndex()).add(p.d());
-    key.add(p.position(), mesh().bounds().mag());
+    key.add(nearWall::positionOf(p, mesh()), mesh().bounds().mag());
     key.add(p.U(), mag(p.U()) + VSMALL);
     return key.value();
 }
@@ -347,7 +346,7 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     e.patch = pp.index();
     e.face = facei;
     e.injector = p.typeId();
-    e.position = p.position();
+    e.position = nearWall::positionOf(p, mesh());
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(v.vn) + sqr(v.vt));
@@ -649,12 +648,12 @@ void Foam::nearWallInteraction<CloudType>::touch
     {
         return;
     }
-    const vector towards(site - p.position());
+    const vector towards(site - nearWall::positionOf(p, mesh()));
     const vector normal(towards/(mag(towards) + VSMALL));
     const relativeVelocity v(velocityTo(p.U(), normal, wall));
     if (v.vn <= 0) return;
 
-    const polyPatch& pp = mesh().boundaryMesh()[patchi];
+    const polyPatch& pp = nearWall::patchesOf(mesh())[patchi];
     const label facei = faceAt(pp, p.cell(), site);
     if (facei >= 0) apply(p, pp, facei, v, keepParticle);
 }
@@ -740,7 +739,7 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::finishBalance
 template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::finishUnusable(Ostream& os)
 {
-    const label n = returnReduce(run_->unusable, sumOp<label>());
+    const label n = nearWall::sumOfRanks(run_->unusable);
     run_->unusable = 0;
     if (n == 0) return;
 
@@ -765,7 +764,7 @@ void Foam::nearWallInteraction<CloudType>::finishUnknownInjectors(Ostream& os)
 {
     if (models_.all().size() == 1) return;
 
-    const label n = returnReduce(run_->unknownInjector, sumOp<label>());
+    const label n = nearWall::sumOfRanks(run_->unknownInjector);
     run_->unknownInjector = 0;
     if (n == 0) return;
 

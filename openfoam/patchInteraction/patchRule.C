@@ -6,6 +6,7 @@
 #include "dictionaryEntry.H"
 #include "processorCyclicPolyPatch.H"
 #include "processorPolyPatch.H"
+#include "versionCompat.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
 #include "wordRe.H"
@@ -43,7 +44,7 @@ wordList knownKeys(const patchRule::ruleType type)
 //- Has the patch a rule without an entry?
 bool isHandled(const polyPatch& pp)
 {
-    return !pp.coupled() && !polyPatch::constraintType(pp.type());
+    return !pp.coupled() && !isConstraint(pp);
 }
 
 
@@ -219,9 +220,9 @@ void refuseSplit(const dictionary& dict, const polyPatch& pp)
         if (!isA<processorCyclicPolyPatch>(pbm[patchi])) continue;
 
         const auto& between = refCast<const processorCyclicPolyPatch>(pbm[patchi]);
-        if (between.referPatchID() == pp.index()) split += between.size();
+        if (referPatch(between) == pp.index()) split += between.size();
     }
-    if (returnReduce(split, sumOp<label>()) == 0) return;
+    if (sumOfRanks(split) == 0) return;
 
     FatalIOErrorInFunction(dict)
         << "Patch '" << pp.name() << "' and its neighbour lie on different"
@@ -351,10 +352,10 @@ struct ruleReader
         {
             if (T[i] < known.wall_low || T[i] > known.wall_high) ++outside;
         }
-        reduce(outside, sumOp<label>());
+        outside = sumOfRanks(outside);
         if (outside == 0) return;
 
-        const label all = returnReduce(T.size(), sumOp<label>());
+        const label all = sumOfRanks(T.size());
         OStringStream what;
         what<< "the wall temperature is " << gMin(T) << " to " << gMax(T)
             << " K, but the properties of wall '" << rule.wallName.c_str()
@@ -394,7 +395,7 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
     const string& modelName
 )
 {
-    const polyBoundaryMesh& pbm = mesh.boundaryMesh();
+    const polyBoundaryMesh& pbm = patchesOf(mesh);
     const patchEntries patches(coeffs, pbm);
 
     // For patches without an entry: messages name the coefficients

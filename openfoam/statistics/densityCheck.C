@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "densityCheck.H"
+#include "versionCompat.H"
 
 void Foam::nearWall::densityCheck::report
 (
@@ -20,16 +21,16 @@ void Foam::nearWall::densityCheck::report
         const bool seen = found.material > 0 && found.parcel > 0;
         const scalar ratio = seen ? found.parcel/found.material : 1;
         const scalar factor = seen ? max(ratio, 1/ratio) : 0;
-        const scalar largest = returnReduce(factor, maxOp<scalar>());
+        const scalar largest = largestOfRanks(factor);
         found.isDone = largest > 0;
         if (largest <= allowed) continue;
 
         // Those of the rank with the largest factor
         const bool mine = factor == largest;
         const scalar parcel =
-            returnReduce(mine ? found.parcel : 0, maxOp<scalar>());
+            largestOfRanks(mine ? found.parcel : 0);
         const scalar material =
-            returnReduce(mine ? found.material : 0, maxOp<scalar>());
+            largestOfRanks(mine ? found.material : 0);
         const word& injector = models.all()[i].injector;
         os  << "    nearWallInteraction, warning: parcels";
         if (!injector.empty()) os << " of injector " << injector;

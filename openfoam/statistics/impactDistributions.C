@@ -3,8 +3,9 @@
 
 #include "impactDistributions.H"
 #include "exactText.H"
+#include "mathematicalConstants.H"
 #include "surfaceFields.H"
-#include "unitConversion.H"
+#include "versionCompat.H"
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +120,7 @@ quantity angle()
 {
     const impactFunction fromWall = [](Event e)
     {
-        return radToDeg(std::atan2(e.impact.v_n, e.impact.v_t));
+        return std::atan2(e.impact.v_n, e.impact.v_t)*180/constant::mathematical::pi;
     };
     quantity q{"angle_deg", fromWall, {}, 90};
     for (label i = 0; i < 18; ++i) q.low.push_back(5*i);
@@ -199,7 +200,7 @@ Foam::nearWall::impactDistributions::impactDistributions
     latest_(nullptr),
     lastTime_(mesh.time().value())
 {
-    forAll(mesh.boundaryMesh(), patchi)
+    forAll(patchesOf(mesh), patchi)
     {
         const dictionary ofPatch(saved.subOrEmptyDict(patchName(patchi)));
         for (const word& key : ofPatch.toc())
@@ -216,7 +217,7 @@ const Foam::word& Foam::nearWall::impactDistributions::patchName
     const label patchi
 ) const
 {
-    return mesh_.boundaryMesh()[patchi].name();
+    return patchesOf(mesh_)[patchi].name();
 }
 
 

@@ -6,6 +6,7 @@
 #include "exactText.H"
 #include "impactKey.H"
 #include "OSspecific.H"
+#include "versionCompat.H"
 #include "wordReList.H"
 
 #include <algorithm>
@@ -212,7 +213,7 @@ void Foam::nearWall::impactRecorder::readPatches(const dictionary& dict)
     {
         if (rules_[patchi].type != patchRule::interact) continue;
 
-        const polyPatch& pp = mesh_.boundaryMesh()[patchi];
+        const polyPatch& pp = patchesOf(mesh_)[patchi];
         recorded_[patchi] = !named;
         possible.append(pp.name());
         forAll(names, i)
@@ -249,7 +250,7 @@ void Foam::nearWall::impactRecorder::add(const impactEvent& e)
     if (halvingsOf(r.hash) < level_) return;
 
     for (const scalar value : values) r.text += exactText(value) + ",";
-    r.text += csvCell(mesh_.boundaryMesh()[e.patch].name());
+    r.text += csvCell(patchesOf(mesh_)[e.patch].name());
     r.text += "," + csvCell(rules_[e.patch].wallName);
     r.text += "," + csvCell(injectors_.name(e.injector));
     r.text += "," + exactText(e.mass) + ",";
@@ -421,7 +422,7 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
         rows += sums[--level];
     }
     const label needed = min(level, nHalvings - 1);
-    level_ = max(needed, returnReduce(level_, maxOp<label>()));
+    level_ = max(needed, largestOfRanks(level_));
     thin();
     if (Pstream::master() && fileLevel_ < level_)
     {
@@ -440,7 +441,7 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
 
     addExact(dict, "halvings", level_);
     addExact(dict, "impacts", impacts);
-    addExact(dict, "rows", returnReduce(written, maxOp<scalar>()));
+    addExact(dict, "rows", largestOfRanks(written));
     dict.add(keyType("start"), string(file_.path().name()));
     return dict;
 }

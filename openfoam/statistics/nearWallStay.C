@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "nearWallStay.H"
+#include "versionCompat.H"
 #include "volFields.H"
 
 Foam::nearWall::nearWallStay::nearWallStay
@@ -22,7 +23,7 @@ Foam::nearWall::nearWallStay::nearWallStay
         if (type == patchRule::pass || type == patchRule::escape) continue;
 
         patches.append(patchi);
-        const word& name = mesh.boundaryMesh()[patchi].name();
+        const word& name = patchesOf(mesh)[patchi].name();
         sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
         tables_.emplace_back(folder/(name + ".nearWall.dat"));
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "patchTotals.H"
+#include "versionCompat.H"
 
 #include <functional>
 
@@ -208,7 +209,7 @@ Foam::nearWall::patchTotals::patchTotals
         if (rules[patchi].type == patchRule::pass) continue;
 
         indices_[patchi] = sums_.size();
-        const word& name = mesh.boundaryMesh()[patchi].name();
+        const word& name = patchesOf(mesh)[patchi].name();
         const dictionary ofPatch(saved.subOrEmptyDict(name));
         sums_.append(runningTotals(wordList(names), ofPatch, name));
         tables_.emplace_back(folder/(name + ".dat"));

@@ -3,6 +3,7 @@
 
 #include "wallHitFields.H"
 #include "surfaceFields.H"
+#include "versionCompat.H"
 
 Foam::volScalarField Foam::nearWall::readWallField
 (
@@ -16,7 +17,7 @@ Foam::volScalarField Foam::nearWall::readWallField
         IOobject
         (
             name,
-            mesh.time().timeName(),
+            nearWall::timeName(mesh.time()),
             mesh,
             IOobject::READ_IF_PRESENT,
             IOobject::AUTO_WRITE
