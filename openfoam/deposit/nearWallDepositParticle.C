@@ -71,7 +71,7 @@ struct writeColumn
     {
         IOField<Type> values
         (
-            cloud.fieldIOobject(c.name, IOobject::NO_READ),
+            nearWall::fieldFile(cloud, c.name, IOobject::NO_READ),
             cloud.size()
         );
         copyColumn(cloud, c, values);
@@ -111,7 +111,7 @@ struct readColumn
     {
         const IOField<Type> values
         (
-            cloud.fieldIOobject(c.name, IOobject::MUST_READ),
+            nearWall::fieldFile(cloud, c.name, IOobject::MUST_READ),
             cloud.size() > 0
         );
         cloud.checkFieldIOobject(cloud, values);

@@ -26,6 +26,7 @@ Foam::nearWallInteraction<CloudType>::checkedCoeffs() const
         }),
         "nearWallInteraction"
     );
+    nearWall::requireWritable(coeffs(), tableFolder());
     return coeffs();
 }
 

@@ -6,6 +6,33 @@
 #include "OSspecific.H"
 #include "Pstream.H"
 
+#include <cerrno>
+#include <cstring>
+
+#include <unistd.h>
+
+void Foam::nearWall::requireWritable
+(
+    const dictionary& coeffs, const fileName& folder
+)
+{
+    if (!Pstream::master()) return;
+
+    fileName at(folder);
+    while (!exists(at) && at.size() > 1) at = at.path();
+
+    const bool isFolder = isDir(at);
+    if (isFolder && access(at.c_str(), W_OK) == 0) return;
+
+    FatalIOErrorInFunction(coeffs)
+        << "nearWallInteraction cannot write its tables to " << folder << nl
+        << "    " << at << ": "
+        << (isFolder ? std::strerror(errno) : "a file, not a folder") << nl
+        << "    Run in a copy of the case that you may write to."
+        << exit(FatalIOError);
+}
+
+
 void Foam::nearWall::outputTable::write(const tableRow& row)
 {
     if (!Pstream::master()) return;
