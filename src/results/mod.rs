@@ -213,6 +213,8 @@ pub struct RunResults {
     pub wall_model: WallModel,
     /// The key `stuck` of nearWallInteraction: what becomes of captured parcels.
     pub stuck: Option<String>,
+    /// Whether the cloud is solved for a steady flow: times are then numbers of iterations, and sums those of one solve.
+    pub steady: bool,
     /// Totals of each wall or patch.
     pub walls: Vec<History<WallTotals>>,
     /// Patches of type `wall`; empty when the mesh is absent.

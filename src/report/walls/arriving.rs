@@ -121,9 +121,9 @@ pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
         }
     }
     let caption = format!(
-        "From the start to {} s, as the wall model decided. With several injectors, parcels that hit in the step of their \
+        "{}, as the wall model decided. With several injectors, parcels that hit in the step of their \
          injection have the injector -1.",
-        number(comparison.time)
+        comparison.span()
     );
     let columns: [TableColumn<'_, ([&str; 3], ClassSums)>; 9] = [
         ("case", &|([case, _, _], _)| (*case).to_owned()),

@@ -88,7 +88,7 @@ fn stacked(
 
 /// Captured mass over time.
 pub(super) fn history(comparison: &Comparison<'_>) -> Vec<Figure> {
-    let mut chart = Chart::new("Captured mass over time", "time [s]", "mass at capture [kg]");
+    let mut chart = Chart::new("Captured mass over time", comparison.clock(), "mass at capture [kg]");
     let mut any = false;
     for (label, run) in comparison.each() {
         let mut times: Vec<f64> =
@@ -96,7 +96,7 @@ pub(super) fn history(comparison: &Comparison<'_>) -> Vec<Figure> {
         times.sort_by(f64::total_cmp);
         times.dedup();
         let line: Vec<[f64; 2]> = thinned(&times).map(|time| [*time, run.captured_mass(*time)]).collect();
-        any |= times.len() > 1;
+        any |= times.len() > 1 && line.iter().any(|[_, captured]| *captured > 0.0);
         chart = chart.line(label, &line);
     }
     let caption = "All walls together from the start of the case, with the mass at capture.";
@@ -140,9 +140,9 @@ pub(super) fn heights(edges: &[f64], points: impl Iterator<Item = (f64, f64)>, w
 
 pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
     let caption = format!(
-        "From the start to {} s. Counts are of particles, or of parcels in OpenFOAM; masses are those at the hit; mean \
+        "{}. Counts are of particles, or of parcels in OpenFOAM; masses are those at the hit; mean \
          ± standard deviation.",
-        number(comparison.time)
+        comparison.span()
     );
     comparison.wall_table(
         &caption,

@@ -186,6 +186,30 @@ impl<'a> Comparison<'a> {
         }
     }
 
+    /// The time of the comparison in words.
+    fn when(&self) -> String {
+        let time = number(self.time);
+        if self.is_steady() { format!("iteration {time}") } else { format!("{time} s") }
+    }
+
+    /// What sums up to the time of the comparison cover, in words.
+    fn span(&self) -> String {
+        if self.is_steady() {
+            format!("The solve of iteration {}", number(self.time))
+        } else {
+            format!("From the start to {} s", number(self.time))
+        }
+    }
+
+    /// The label of an axis of times.
+    fn clock(&self) -> &'static str {
+        if self.is_steady() { "iteration" } else { "time [s]" }
+    }
+
+    fn is_steady(&self) -> bool {
+        self.runs.iter().all(|run| run.steady)
+    }
+
     fn is_single(&self) -> bool {
         self.runs.len() == 1
     }

@@ -25,7 +25,7 @@ pub(super) fn lead(comparison: &Comparison<'_>) -> String {
     });
     let models = models.collect::<Vec<_>>().join("; ");
     let at = if comparison.is_single() { "Results are those" } else { "All cases are compared" };
-    format!("{models}. {at} at {} s.", number(comparison.time))
+    format!("{models}. {at} at {}.", comparison.when())
 }
 
 /// At most four sentences, however many runs there are.

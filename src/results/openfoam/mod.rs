@@ -110,6 +110,8 @@ fn complete(folder: &Path, mut results: RunResults) -> RunResults {
         Some(name) => WallModel::Other(name.to_owned()),
         None => WallModel::Unknown,
     };
+    let transient = properties.as_deref().and_then(|text| entry(text, "transient"));
+    results.steady = matches!(transient, Some("no" | "off" | "false"));
     if results.is_ours() {
         let stuck = properties.as_deref().and_then(|text| entry(text, "stuck"));
         results.stuck = Some(stuck.unwrap_or("keep").to_owned());
