@@ -21,7 +21,13 @@ const string* inlineText(const dictionary& coeffs)
 
 fileName modelPath(const dictionary& coeffs, const Time& time)
 {
+    // <constant> and <system>, which the Foundation's expand() does not know
     fileName path(nearWall::read<fileName>(coeffs, "model"));
+    path.replaceAll("<case>/", "");
+    for (const char* const folder : {"constant", "system"})
+    {
+        path.replaceAll("<" + word(folder) + ">", folder);
+    }
     path.expand();
     return path.isAbsolute() ? path : nearWall::caseFolder(time)/path;
 }

@@ -1,0 +1,64 @@
+# Sourced by run: a test case as the Foundation's OpenFOAM (tried with 12) wants it.
+# The solvers are modules of foamRun, a cloud names its type, and some keys have
+# other names.
+
+# kind: change the case in this folder
+as_foundation() {
+    local c module="" types="" extra=""
+    case "$1" in
+        kinematic)  module="functions; subSolver incompressibleFluid"; types=cloud ;;
+        colliding)  module="functions; subSolver incompressibleFluid"; types=collidingCloud ;;
+        mppic)      module=incompressibleDenseParticleFluid; types=MPPICCloud ;;
+        coal)       module=multicomponentFluid; types="reactingMultiphaseCloud thermoCloud" ;;
+        multiphase) module=multicomponentFluid; types=reactingMultiphaseCloud ;;
+        spray)      module=multicomponentFluid; types=sprayCloud ;;
+        reacting)   module=multicomponentFluid; types=reactingCloud ;;
+        *)          echo "the Foundation's versions have no cloud for '$1'" >&2; return 1 ;;
+    esac
+    solver=foamRun
+    case "$module" in
+        functions*)
+            fields="U p"; gasT=""; thermoClass=""
+            extra="functions { particles { type particles; libs (\"liblagrangianFunctionObjects.so\"); cloud $clouds; } }" ;;
+        incompressible*)
+            fields="U.air p"
+            sed -i 's/^solvers$/&\n{ "alpha.*" { max 0.99; } }\n&/' system/fvSolution ;;
+        *)
+            fields="U p T species"; thermoClass=hePsiThermo
+            with_header fvModels "clouds { type clouds; libs (\"liblagrangianParcel.so\"); clouds ($clouds); }" ;;
+    esac
+    moduleSettings="solver $module; $extra"
+
+    rm -f constant/thermophysicalProperties constant/transportProperties constant/turbulenceProperties*
+    physical_properties "${thermoClass:-}"
+    { header wordList clouds; echo "($clouds)"; } > constant/clouds
+    # shellcheck disable=SC2086
+    set -- $types
+    for c in $clouds; do echo "type $1;" >> "constant/${c}Properties"; shift; done
+    with_header momentumTransport "simulationType laminar;"
+    with_header momentumTransport.air "simulationType laminar;"
+    sed -i 's/parcelBasisType mass;/uniformParcelSize volume;/; s/fixedValueDistribution { value \(.*\); }/value \1;/' constant/cloudCommon
+    sed -i 's/Hf \([^;]*\);/Hf \1; hf \1;/' constant/thermo constant/condensed 2>/dev/null
+}
+
+physical_properties() {   # class of the gas, empty for an incompressible fluid
+    if [ -z "$1" ]; then
+        with_header physicalProperties "viscosityModel constant; nu 1.5e-5; rho 1.2; continuousPhaseName air; rho.air 1.2;"
+        return
+    fi
+    [ -e constant/condensed ] || echo "liquids {} solids {}" > constant/condensed
+    with_header physicalProperties "
+thermoType
+{
+    type $1; mixture multicomponentMixture; transport const; thermo hConst;
+    energy sensibleEnthalpy; equationOfState perfectGas; specie specie;
+}
+#include \"species\"
+#include \"thermo\"
+defaultSpecie N2;
+#include \"condensed\""
+}
+
+with_header() {   # file text
+    { header dictionary "$1"; echo "$2"; } > "constant/$1"
+}
