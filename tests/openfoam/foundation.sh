@@ -8,10 +8,14 @@ as_foundation() {
     case "$1" in
         kinematic)  module="functions; subSolver incompressibleFluid"; types=cloud ;;
         colliding)  module="functions; subSolver incompressibleFluid"; types=collidingCloud ;;
-        mppic)      module=incompressibleDenseParticleFluid; types=MPPICCloud ;;
+        mppic)      module=incompressibleDenseParticleFluid; types=MPPICCloud
+                    # With explicit sources only, the module misses a matrix
+                    echo "solution { sourceTerms { schemes { U semiImplicit 1; } } }" >> constant/kinematicCloudProperties ;;
         coal)       module=multicomponentFluid; types="reactingMultiphaseCloud thermoCloud" ;;
         multiphase) module=multicomponentFluid; types=reactingMultiphaseCloud ;;
-        spray)      module=multicomponentFluid; types=sprayCloud ;;
+        spray)      module=multicomponentFluid; types=sprayCloud
+                    # Without a drag SprayParcel divides by zero
+                    echo "subModels { particleForces { sphereDrag; } }" >> constant/sprayCloudProperties ;;
         reacting)   module=multicomponentFluid; types=reactingCloud ;;
         *)          echo "the Foundation's versions have no cloud for '$1'" >&2; return 1 ;;
     esac
@@ -19,10 +23,11 @@ as_foundation() {
     case "$module" in
         functions*)
             fields="U p"; gasT=""; thermoClass=""
+            repeatsStep=yes     # its function object solves a step at each start of a run
             extra="functions { particles { type particles; libs (\"liblagrangianFunctionObjects.so\"); cloud $clouds; } }" ;;
         incompressible*)
             fields="U.air p"
-            sed -i 's/^solvers$/&\n{ "alpha.*" { max 0.99; } }\n&/' system/fvSolution ;;
+            echo 'solvers { "alpha.*" { max 0.99; } }' >> system/fvSolution ;;
         *)
             fields="U p T species"; thermoClass=hePsiThermo
             with_header fvModels "clouds { type clouds; libs (\"liblagrangianParcel.so\"); clouds ($clouds); }" ;;
@@ -37,7 +42,13 @@ as_foundation() {
     for c in $clouds; do echo "type $1;" >> "constant/${c}Properties"; shift; done
     with_header momentumTransport "simulationType laminar;"
     with_header momentumTransport.air "simulationType laminar;"
+    # On the face between two cells a parcel would lie in either, by rounding
+    sed -i '/^(0/ { s/ /37 /g; s/)/37)/ }' constant/parcels
     sed -i 's/parcelBasisType mass;/uniformParcelSize volume;/; s/fixedValueDistribution { value \(.*\); }/value \1;/' constant/cloudCommon
+    sed -i 's/atomizationModel/atomisationModel/; s/breakupModel .*/& breakup none;/' constant/*loud*Properties
+    for c in constant/limestoneCloud1Properties; do
+        [ ! -e "$c" ] || echo "subModels { compositionModel singlePhaseMixture; singlePhaseMixtureCoeffs { phases ( solid { ash 1; } ); } }" >> "$c"
+    done
     sed -i 's/Hf \([^;]*\);/Hf \1; hf \1;/' constant/thermo constant/condensed 2>/dev/null
 }
 
