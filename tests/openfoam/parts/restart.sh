@@ -45,6 +45,7 @@ END
 ranks_are() {   # n
     local split="2 1 1"
     [ "$1" = 4 ] && split="2 2 1"
+    [ "$1" = 8 ] && split="2 2 2"
     sed -i "s/numberOfSubdomains .*/numberOfSubdomains $1;/; s/n (. . .)/n ($split)/" system/decomposeParDict
 }
 
@@ -128,16 +129,16 @@ equal_decisions() {
         }' "$1" "$2"
 }
 
-# Serial, two and four ranks on the same 10^5 impacts and more
+# Serial, two, four and eight ranks on the same 10^5 impacts and more
 case_ranks() {
     local dir="$work/ranks" n total equal percent
     bouncing_box "$dir" 21000 || return
     settings 0.3 0.3 startTime ascii
-    for n in 2 4; do rm -rf "$dir-$n"; cp -r "$dir" "$dir-$n"; done
+    for n in 2 4 8; do rm -rf "$dir-$n"; cp -r "$dir" "$dir-$n"; done
     solve ranks serial "$solver" || return
     impacts > impacts.list
     state_of 0.3 0 > state
-    for n in 2 4; do
+    for n in 2 4 8; do
         cd "$dir-$n" || return
         ranks_are "$n"
         quiet decompose decomposePar
