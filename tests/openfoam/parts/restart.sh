@@ -14,7 +14,8 @@ bouncing_box() {    # folder n
         awk -v n="$2" 'BEGIN { srand(7); for (i = 0; i < n; i++) {
             do { x = 0.006 + 0.088*rand() } while (x > 0.044 && x < 0.056)
             do { y = 0.006 + 0.088*rand() } while (y > 0.044 && y < 0.056)
-            printf "(%.9f %.9f %.9f) (%.9f %.9f %.9f) %.7e 1000 1e-6\n", x, y, 0.006 + 0.088*rand(),
+            do { z = 0.006 + 0.088*rand() } while (z > 0.044 && z < 0.058)
+            printf "(%.9f %.9f %.9f) (%.9f %.9f %.9f) %.7e 1000 1e-6\n", x, y, z,
                 1 + 0.5*rand(), 0.5 + 0.5*rand(), -2 - rand(), 1e-4 + 1e-9*i } }'
         echo ")"
     } > constant/parcels
