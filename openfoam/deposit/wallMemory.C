@@ -51,10 +51,89 @@ void requireViscosity
 }
 
 
-scalar areaMean(const scalarField& x, const scalarField& area)
+//- What a row has the mean and the largest value of
+enum faceQuantity { moltenOf, powderOf, layerOf, coverageOf, wallTOf, nQuantities };
+
+const char* const quantityNames[] =
 {
-    return gSum(x*area)/max(gSum(area), VSMALL);
-}
+    "molten", "powder", "layer_thickness", "coverage", "wall_temperature"
+};
+
+const char* const quantityUnits[] = {"_kg_m2", "_kg_m2", "_m", "", "_K"};
+
+
+struct largerOf
+{
+    void operator()(scalar& x, const scalar y) const
+    {
+        x = max(x, y);
+    }
+};
+
+
+//- Sums and largest values over the faces of all patches and all ranks, in
+//  one exchange each: a reduction for each number would cost the latency of
+//  the network some twenty times a patch
+struct faceSums
+{
+    //- For each patch: area, mass of converted deposit, each quantity by area
+    static const label perPatch = 2 + nQuantities;
+
+    List<scalar> sums;
+    List<scalar> largest;
+
+    explicit faceSums(const label nPatches)
+    :
+        sums(nPatches*perPatch, Zero),
+        largest(nPatches*nQuantities, Zero)
+    {}
+
+    void add
+    (
+        const label i,
+        const scalarField& area,
+        const scalarField& conversion,
+        const std::vector<const scalarField*>& values
+    )
+    {
+        scalar* const sum = &sums[i*perPatch];
+        sum[0] = Foam::sum(area);
+        sum[1] = Foam::sum
+        (
+            (*values[moltenOf] + *values[powderOf])*area*conversion
+        );
+        for (label q = 0; q < nQuantities; ++q)
+        {
+            sum[2 + q] = Foam::sum(*values[q]*area);
+            scalar& most = largest[i*nQuantities + q];
+            for (const scalar x : *values[q]) most = max(most, x);
+        }
+    }
+
+    void overRanks()
+    {
+        sumOverRanks(sums);
+        Pstream::listCombineGather(largest, largerOf());
+    }
+
+    scalar converted(const label i) const { return sums[i*perPatch + 1]; }
+
+    scalar integral(const label i, const label q) const
+    {
+        return sums[i*perPatch + 2 + q];
+    }
+
+    scalar mean(const label i, const label q) const
+    {
+        return integral(i, q)/max(sums[i*perPatch], VSMALL);
+    }
+
+    //- Known on the master, which writes
+    scalar maximum(const label i, const label q) const
+    {
+        return largest[i*nQuantities + q];
+    }
+};
 
 } // End anonymous namespace
 
@@ -372,55 +451,64 @@ void Foam::nearWall::wallMemory::report
     const bool writeRow
 )
 {
+    faceSums faces(patches_.size());
     forAll(patches_, i)
     {
         const label patchi = patches_[i];
-        const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-        const scalarField& molten = molten_.boundaryField()[patchi];
-        const scalarField& powder = powder_.boundaryField()[patchi];
-        const scalarField& conversion = conversion_.boundaryField()[patchi];
+        faces.add
+        (
+            i,
+            mesh_.magSf().boundaryField()[patchi],
+            conversion_.boundaryField()[patchi],
+            {
+                &molten_.boundaryField()[patchi],
+                &powder_.boundaryField()[patchi],
+                &layer_.boundaryField()[patchi],
+                &coverage_.boundaryField()[patchi],
+                &temperature_.boundaryField()[patchi]
+            }
+        );
+    }
+    faces.overRanks();
 
-        const scalar moltenMass = gSum(molten*area);
-        const scalar powderMass = gSum(powder*area);
-        const scalar converted = gSum((molten + powder)*area*conversion);
-
+    forAll(patches_, i)
+    {
+        const scalar moltenMass = faces.integral(i, moltenOf);
+        const scalar powderMass = faces.integral(i, powderOf);
         const scalarList& t = totals[i];
         const scalar in = t[initial] + t[arrived];
         const scalar deposited = moltenMass + powderMass;
         const scalar rest = in + t[fromOthers] - t[drained] - deposited;
         const scalar all = max(in, in + t[fromOthers]);
-        const scalarField& coverage = coverage_.boundaryField()[patchi];
-        const scalar coverageMean = areaMean(coverage, area);
         if (in > 0 || deposited > 0)
         {
             os  << "        " << sums_[i].name() << ", memory: molten "
                 << moltenMass << " kg, powder " << powderMass
-                << " kg, coverage " << coverageMean;
+                << " kg, coverage " << faces.mean(i, coverageOf);
             if (film_) os << ", drained " << t[drained] << " kg";
             os  << nl;
         }
         if (!writeRow) continue;
 
         tableRow row;
-        const auto addMeanAndMax =
-            [&](const std::string& name, const char* unit, const scalarField& x)
+        const auto addMeanAndMax = [&](const label q)
         {
-            row.add(name + "_mean" + unit, areaMean(x, area));
-            row.add(name + "_max" + unit, max(scalar(0), gMax(x)));
+            const std::string name(quantityNames[q]);
+            row.add(name + "_mean" + quantityUnits[q], faces.mean(i, q));
+            row.add(name + "_max" + quantityUnits[q], faces.maximum(i, q));
         };
         row.add("time_s", time);
         for (label k = 0; k < nTerms; ++k) row.add(termNames[k], t[k]);
         row.add("molten_kg", moltenMass);
         row.add("powder_kg", powderMass);
         row.add("residual", all > 0 ? rest/all : 0);
-        addMeanAndMax("molten", "_kg_m2", molten);
-        addMeanAndMax("powder", "_kg_m2", powder);
-        const scalarField& layer = layer_.boundaryField()[patchi];
-        addMeanAndMax("layer_thickness", "_m", layer);
-        addMeanAndMax("coverage", "", coverage);
+        for (const faceQuantity q : {moltenOf, powderOf, layerOf, coverageOf})
+        {
+            addMeanAndMax(q);
+        }
+        const scalar converted = faces.converted(i);
         row.add("conversion_mean", deposited > 0 ? converted/deposited : 0);
-        const scalarField& T = temperature_.boundaryField()[patchi];
-        addMeanAndMax("wall_temperature", "_K", T);
+        addMeanAndMax(wallTOf);
         tables_[i].write(row);
     }
 }

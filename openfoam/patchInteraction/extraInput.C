@@ -221,7 +221,10 @@ void Foam::nearWall::extraInput::checkNames
     }
 
     std::vector<const dictionary*> given{inputsOf(coeffs)};
-    const dictionary patches(coeffs.subOrEmptyDict("patches"));
+    const dictionary patches
+    (
+        coeffs.isDict("patches") ? coeffs.subDict("patches") : dictionary()
+    );
     forAllConstIter(dictionary, patches, iter)
     {
         if ((*iter).isDict()) given.push_back(inputsOf((*iter).dict()));

@@ -259,6 +259,7 @@ Foam::nearWallInteraction<CloudType>::velocityTo
     v.vn = relative & v.normal;
     const vector along(relative - v.vn*v.normal);
     v.vt = mag(along);
+    v.along = along;
     v.tangent = v.vt > VSMALL ? vector(along/v.vt) : vector(Zero);
     return v;
 }
@@ -426,7 +427,7 @@ void Foam::nearWallInteraction<CloudType>::interact
     }
     else
     {
-        rebound(p, v, e, outcome.e_n, outcome.e_t);
+        rebound(p, v, e, outcome.e_n, outcome.e_t, 1 - outcome.e_t);
         nearWall::addSpin
         (
             p, outcome.omega - e.impact.omega, v.tangent ^ v.normal
@@ -454,11 +455,16 @@ void Foam::nearWallInteraction<CloudType>::setVelocity
     parcelType& p,
     const relativeVelocity& v,
     const scalar en,
-    const scalar et
+    const scalar lost
 )
 {
     nearWall::setMoving(p, true);
-    p.U() = v.wall + et*v.vt*v.tangent - en*v.vn*v.normal;
+
+    // In the order of localInteraction: the same constants give the same bits
+    vector U(p.U() - v.wall);
+    U -= (1.0 + en)*v.vn*v.normal;
+    U -= lost*v.along;
+    p.U() = U + v.wall;
 }
 
 
@@ -534,7 +540,8 @@ void Foam::nearWallInteraction<CloudType>::rebound
     const relativeVelocity& v,
     impactEvent& e,
     const scalar en,
-    const scalar et
+    const scalar et,
+    const scalar lost
 )
 {
     e.result = impactEvent::rebounded;
@@ -542,7 +549,7 @@ void Foam::nearWallInteraction<CloudType>::rebound
     e.et = et;
     e.eg = sqrt(sqr(en*v.vn) + sqr(et*v.vt))/e.speed;
     record(e);
-    setVelocity(p, v, en, et);
+    setVelocity(p, v, en, lost);
 }
 
 
@@ -567,7 +574,7 @@ void Foam::nearWallInteraction<CloudType>::handleUnusable
     if (keepParticle)
     {
         run_->totals.add(e);
-        setVelocity(p, v, 1, 1);
+        setVelocity(p, v, 1, 0);
         return;
     }
 
@@ -611,7 +618,12 @@ void Foam::nearWallInteraction<CloudType>::apply
     }
     else if (!leaves)
     {
-        rebound(p, v, e, rule.e, 1 - rule.mu);
+        rebound(p, v, e, rule.e, 1 - rule.mu, rule.mu);
+    }
+    else
+    {
+        // As localInteraction does with a parcel that drag has turned around
+        p.U() -= rule.mu*v.along;
     }
 }
 

@@ -4,6 +4,7 @@
 #include "patchRule.H"
 #include "dictionaryChecks.H"
 #include "dictionaryEntry.H"
+#include "emptyPolyPatch.H"
 #include "processorCyclicPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "versionCompat.H"
@@ -17,7 +18,8 @@ Foam::nearWall::patchRule::typeNames
     {interact, "interact"},
     {escape, "escape"},
     {rebound, "rebound"},
-    {stick, "stick"}
+    {stick, "stick"},
+    {pass, "none"}
 });
 
 
@@ -49,10 +51,11 @@ bool isHandled(const polyPatch& pp)
 
 
 //- May an entry give the patch a rule? OpenFOAM asks the model at cyclic
-//  patches, too, but not between ranks.
+//  patches and at planes of symmetry, too, but not between ranks. A list of
+//  localInteraction even must name planes of symmetry.
 bool mayBeNamed(const polyPatch& pp)
 {
-    return isHandled(pp) || (pp.coupled() && !isA<processorPolyPatch>(pp));
+    return !isA<processorPolyPatch>(pp) && !isA<emptyPolyPatch>(pp);
 }
 
 
@@ -189,6 +192,8 @@ struct patchEntries
                 if (mayBeNamed(pbm[patchi])) fits = true;
                 else other = &pbm[patchi];
             }
+            // localInteraction ignores them
+            if (!fits && other && isList) continue;
             if (!fits && other)
             {
                 FatalIOErrorInFunction(dict)
@@ -458,7 +463,7 @@ const Foam::scalarField& Foam::nearWall::patchRule::temperatureOn
 
 void Foam::nearWall::patchRule::report(const word& patchName) const
 {
-    if (type == pass) return;
+    if (type == pass && !named) return;
 
     Info<< "        " << patchName << ": " << typeNames[type];
     if (type == rebound) Info<< ", e " << e << ", mu " << mu;

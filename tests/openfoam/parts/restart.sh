@@ -14,7 +14,8 @@ bouncing_box() {    # folder n
         awk -v n="$2" 'BEGIN { srand(7); for (i = 0; i < n; i++) {
             do { x = 0.006 + 0.088*rand() } while (x > 0.044 && x < 0.056)
             do { y = 0.006 + 0.088*rand() } while (y > 0.044 && y < 0.056)
-            printf "(%.9f %.9f %.9f) (%.9f %.9f %.9f) %.7e 1000 1e-6\n", x, y, 0.006 + 0.088*rand(),
+            do { z = 0.006 + 0.088*rand() } while (z > 0.044 && z < 0.058)
+            printf "(%.9f %.9f %.9f) (%.9f %.9f %.9f) %.7e 1000 1e-6\n", x, y, z,
                 1 + 0.5*rand(), 0.5 + 0.5*rand(), -2 - rand(), 1e-4 + 1e-9*i } }'
         echo ")"
     } > constant/parcels
@@ -45,6 +46,7 @@ END
 ranks_are() {   # n
     local split="2 1 1"
     [ "$1" = 4 ] && split="2 2 1"
+    [ "$1" = 8 ] && split="2 2 2"
     sed -i "s/numberOfSubdomains .*/numberOfSubdomains $1;/; s/n (. . .)/n ($split)/" system/decomposeParDict
 }
 
@@ -128,16 +130,16 @@ equal_decisions() {
         }' "$1" "$2"
 }
 
-# Serial, two and four ranks on the same 10^5 impacts and more
+# Serial, two, four and eight ranks on the same 10^5 impacts and more
 case_ranks() {
     local dir="$work/ranks" n total equal percent
     bouncing_box "$dir" 21000 || return
     settings 0.3 0.3 startTime ascii
-    for n in 2 4; do rm -rf "$dir-$n"; cp -r "$dir" "$dir-$n"; done
+    for n in 2 4 8; do rm -rf "$dir-$n"; cp -r "$dir" "$dir-$n"; done
     solve ranks serial "$solver" || return
     impacts > impacts.list
     state_of 0.3 0 > state
-    for n in 2 4; do
+    for n in 2 4 8; do
         cd "$dir-$n" || return
         ranks_are "$n"
         quiet decompose decomposePar
