@@ -1,6 +1,7 @@
 //! Arrivals at patches as OpenFOAM's own cloud function `patchPostProcessing` records them, before the wall model acts:
-//! `postProcessing/lagrangian/<cloud>/<function>/<time>/<patch>.post`, one line a parcel. The function works with every
-//! wall model, so that cases can be compared by what arrives.
+//! `postProcessing/lagrangian/<cloud>/<function>/<time>/<patch>.post`, one line a parcel. Since v2306 it is
+//! `particlePostProcessing`, the file ends with `.dat` and the names of the columns are in quotation marks. The function
+//! works with every wall model, so that cases can be compared by what arrives.
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -57,7 +58,8 @@ pub(super) fn read_all(case: &Path, cloud: &str, carbon: Option<&Carbon>) -> Vec
         let mut own = Vec::new();
         let files = |(_, folder): (f64, PathBuf)| entries(&folder, Path::is_file);
         for path in time_folders(&function).into_iter().flat_map(files) {
-            let Some(patch) = file_name(&path).strip_suffix(".post") else { continue };
+            let name = file_name(&path);
+            let Some(patch) = name.strip_suffix(".post").or(name.strip_suffix(".dat")) else { continue };
             if !arrivals.iter().any(|arrival| arrival.patch == patch) {
                 let text = std::fs::read_to_string(&path).unwrap_or_default();
                 own.extend(read(&text, |row| to_arrival(row, patch, carbon)));
@@ -99,6 +101,15 @@ mod tests {
         assert_eq!(carbon.place, 1);
         assert!((carbon.share - 0.504).abs() < 1e-15);
         assert_eq!(Carbon::in_dictionary("solid { sand 1; }"), None);
+    }
+
+    #[test]
+    fn names_in_quotation_marks_are_read() {
+        let text = "# Time                   currentProc \" (position0 position1 position2) d rho nParticle (U0 U1 U2)\"\n\
+                    0.11\t0 (0.0785 0.031 0) 0.0001 1000 159 (-1 0 -2)\n";
+        let arrivals = read(text, |row| to_arrival(row, "floor", None));
+        assert!((arrivals[0].mass - 159.0 * PI / 6.0 * 1e-9).abs() < 1e-20);
+        assert!((arrivals[0].speed - 5.0_f64.sqrt()).abs() < 1e-12);
     }
 
     #[test]

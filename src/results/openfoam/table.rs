@@ -40,7 +40,9 @@ pub fn read<T>(text: &str, convert: impl Fn(&TableRow<'_>) -> Option<T>) -> Vec<
     let mut values = Vec::new();
     for line in text.lines() {
         if let Some(names) = line.strip_prefix('#') {
-            header = pieces(names).into_iter().map(base_name).collect();
+            // v2412 quotes the names of a parcel's properties
+            let names = names.replace('"', " ");
+            header = pieces(&names).into_iter().map(base_name).collect();
             continue;
         }
         let cells = pieces(line);

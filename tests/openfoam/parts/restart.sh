@@ -38,7 +38,7 @@ subModels
         model1 { type kinematicLookupTableInjection; inputFile "parcels"; massTotal 1; duration 0.002; parcelsPerSecond 500.0001; randomise false; }
     }
 }
-cloudFunctions { hits { type patchPostProcessing; maxStoredParcels 10000000; patches (floor lid sides outlet); } }
+cloudFunctions { hits { type $NEARWALL_ARRIVALS; maxStoredParcels 10000000; patches (floor lid sides outlet); } }
 END
     sed -i 's/writePrecision .*/writePrecision 17;/' system/controlDict
 }
@@ -111,7 +111,7 @@ case_restarts() {
 impacts() {
     local f
     for f in floor lid sides outlet; do
-        tail -q -n +2 postProcessing/lagrangian/kinematicCloud/hits/*/$f.post | tr -d '()' | sed "s/^/$f /"
+        tail -q -n +2 postProcessing/lagrangian/kinematicCloud/hits/*/$f.{post,dat} 2>/dev/null | tr -d '()' | sed "s/^/$f /"
     done | LC_ALL=C sort -s -k2,2g -k15,15g
 }
 

@@ -95,12 +95,12 @@ interaction_is() {
             own)      coeffs="" ;;
         esac
         merged_in "$file" "subModels { $coeffs }
-cloudFunctions { hits { type patchPostProcessing; maxStoredParcels 10000000; patches ( $walls ); } }"
+cloudFunctions { hits { type \$NEARWALL_ARRIVALS; maxStoredParcels 10000000; patches ( $walls ); } }"
     done
 }
 
 # The impacts on the walls that OpenFOAM recorded, sorted; without the columns of the run
-stock_impacts() { cat postProcessing/lagrangian/"$1"/hits/*/*.post 2>/dev/null | grep -v '^#' | sort; }
+stock_impacts() { cat postProcessing/lagrangian/"$1"/hits/*/*.{post,dat} 2>/dev/null | grep -v '^#' | sort; }
 
 # Hits in the tables of nearwall, over all walls
 stock_hits() {

@@ -11,7 +11,7 @@ hot_case() {    # how folder
     local f
     for f in constant/*CloudProperties constant/*Cloud1Properties; do
         [ -e "$f" ] || continue
-        echo 'cloudFunctions { hits { type patchPostProcessing; maxStoredParcels 1000; patches (floor); } }' >> "$f"
+        echo 'cloudFunctions { hits { type $NEARWALL_ARRIVALS; maxStoredParcels 1000; patches (floor); } }' >> "$f"
     done
     solve "deposit/$1" "$1" "$solver"
 }
@@ -46,7 +46,7 @@ case_deposit() {
     hot_case keep "$work/deposit-keep" || return
     for cloud in $clouds; do
         d="lagrangian/${cloud}Deposit"
-        hits="$(ls postProcessing/lagrangian/"$cloud"/hits/*/floor.post | head -n 1)"
+        hits="$(ls postProcessing/lagrangian/"$cloud"/hits/*/floor.{post,dat} 2>/dev/null | head -n 1)"
         recorded "$hits" T d > at-the-wall
         parcel_columns "0.1/$d" T d > kept.before
         parcel_columns "0.2/$d" T d mass conversion captureTime coordinates > kept.after

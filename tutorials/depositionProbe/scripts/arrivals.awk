@@ -1,5 +1,5 @@
 # Prints the rows of results/probe.csv for a run, one for each size. Input: the lines of reference.awk, then the list of
-# arrivals at the tube (tube.post).
+# arrivals at the tube (tube.post, since v2306 tube.dat).
 #
 #   -v rows=500     particles of each size on one tube radius
 #   -v deposit=FILE diameters of the parcels on the tube at the end; missing when there are none

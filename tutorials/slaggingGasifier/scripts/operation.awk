@@ -1,10 +1,10 @@
 # One line of the table of operating points, from what a finished run wrote. Arguments: the lists active, origProcId and
-# origId of the cloud at the end, then the arrivals at walls and at the outlet (patchPostProcessing). Variables: run, coal [kg]
+# origId of the cloud at the end, then the arrivals at walls and at the outlet (of $NEARWALL_ARRIVALS). Variables: run, coal [kg]
 # injected.
 # A parcel that is at rest at the end was captured at its last arrival.
 BEGIN { pi = atan2(0, -1); fixed_carbon = 0.504*coal }          # 0.6 char, 0.84 of it carbon: constant/coalCloud1Properties
 function list_of(name) { return name ~ /active$/ ? "active" : name ~ /origProcId$/ ? "proc" : name ~ /origId$/ ? "id" : "" }
-FNR == 1 { list = list_of(FILENAME); patch = FILENAME; sub(/.*\//, "", patch); sub(/\.post$/, "", patch); inside = 0; n = 0 }
+FNR == 1 { list = list_of(FILENAME); patch = FILENAME; sub(/.*\//, "", patch); sub(/\.(post|dat)$/, "", patch); inside = 0; n = 0 }
 list != "" && /^\(/ { inside = 1; next }
 list != "" && /^\)/ { inside = 0 }
 list != "" { if (inside) of[list, n++] = $1; if (list == "id") parcels = n; next }

@@ -1,5 +1,5 @@
 # Prints the row of results/wax.csv for a run. Input: its log, the table of the plate (target.dat) and the list of impacts
-# (target.post).
+# (target.post, in another folder since v2306 target.dat).
 #
 # First impacts only, as the paper's camera recorded them. A run ends before a particle that rebounded can return. Hot
 # particles hardly rebound and return at once, too slowly to leave again; their number identifies them.
@@ -31,7 +31,7 @@ BEGIN {
 
 FILENAME ~ /log\./ { if (/Near-wall mass balance/) residual = $NF; next }
 
-FILENAME ~ /target\.dat$/ {
+FILENAME ~ /nearWallInteraction\/.*target\.dat$/ {
     if ($1 == "#") { delete column; for (i = 2; i <= NF; i++) column[$i] = i - 1 }
     else if ($1 + 0 >= latest) { latest = $1 + 0; split($0, value) }    # totals since the start
     next
