@@ -183,8 +183,11 @@ Foam::nearWallInteraction<CloudType>::runState::runState
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::runState::forget()
+void Foam::nearWallInteraction<CloudType>::runState::begin(const bool isSteady)
 {
+    isSolving = true;
+    if (!isSteady) return;
+
     deposit->clear();
     totals.clear();
     distributions.clear();
@@ -232,7 +235,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
             owner,
             run_->balance,
             run_->deposit,
-            [run]() { run->forget(); },
+            [run](const bool isSteady) { run->begin(isSteady); },
             coeffs()
         )
     );
@@ -394,6 +397,7 @@ void Foam::nearWallInteraction<CloudType>::meetWall
         e.impact.extra[i] =
             e.rule->extraInputs[i].valueOn(mesh(), e.patch, e.face);
     }
+    if (isTrial_) return;
     run_->density.add(place, e);
     if (models_.isUnknown(e.injector)) ++run_->unknownInjector;
 }
@@ -441,6 +445,7 @@ void Foam::nearWallInteraction<CloudType>::interact
 template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::record(const impactEvent& e)
 {
+    if (isTrial_) return;
     run_->totals.add(e);
     run_->distributions.add(e);
     run_->recorder.add(e);
@@ -477,8 +482,11 @@ void Foam::nearWallInteraction<CloudType>::escape
 )
 {
     e.result = impactEvent::escaped;
-    run_->totals.add(e);
-    run_->balance->add(massBalance::escaped, e.mass);
+    if (!isTrial_)
+    {
+        run_->totals.add(e);
+        run_->balance->add(massBalance::escaped, e.mass);
+    }
     keepParticle = false;
     nearWall::setMoving(p, false);
 }
@@ -496,7 +504,7 @@ void Foam::nearWallInteraction<CloudType>::stick
     record(e);
     nearWall::setMoving(p, false);
     p.U() = Zero;
-    keepParticle = stuck_ == stuckTreatment::react;
+    keepParticle = isTrial_ || stuck_ == stuckTreatment::react;
     if (keepParticle) return;
 
     const bool isRemoved =
@@ -562,6 +570,11 @@ void Foam::nearWallInteraction<CloudType>::handleUnusable
     bool& keepParticle
 )
 {
+    if (isTrial_)
+    {
+        keepParticle = false;
+        return;
+    }
     ++run_->unusable;
     if (run_->unusableReason.empty())
     {
@@ -813,6 +826,7 @@ void Foam::nearWallInteraction<CloudType>::finishMemory
 template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
+    run_->isSolving = false;
     stopStuckParcels();
     run_->deposit->endStep();
 

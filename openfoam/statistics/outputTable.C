@@ -25,8 +25,8 @@ void Foam::nearWall::requireWritable
     if (isFolder && access(at.c_str(), W_OK) == 0) return;
 
     FatalIOErrorInFunction(coeffs)
-        << "nearWallInteraction cannot write its tables to " << folder << nl
-        << "    " << at << ": "
+        << "nearWallInteraction cannot write its tables to " << folder.c_str() << nl
+        << "    " << at.c_str() << ": "
         << (isFolder ? std::strerror(errno) : "a file, not a folder") << nl
         << "    Run in a copy of the case that you may write to."
         << exit(FatalIOError);
