@@ -262,6 +262,7 @@ memory_compare() { # name start
 # its middle a face is off by about h/(6 x).
 case_film() {
     local n said coarse=""
+    offers postProcess || return    # it writes the places of the faces
     for n in 4 8 16; do
         film_case "$n" "$work/film-$n" || return
         solve film serial "$solver" || return

@@ -233,7 +233,11 @@ check_sample() {
     then ok "$1 ($said)"; else bad "$1" "$said"; fi
 }
 
-nearwall() { cargo run --release --locked --quiet --manifest-path "$NEARWALL_ROOT/Cargo.toml" --bin nearwall -- "$@"; }
+# The command, built where none is named
+nearwall() {
+    if [ -n "${NEARWALL_COMMAND:-}" ]; then "$NEARWALL_COMMAND" "$@"; return; fi
+    cargo run --release --locked --quiet --manifest-path "$NEARWALL_ROOT/Cargo.toml" --bin nearwall -- "$@"
+}
 
 # A wall model with a planted effect, recorded, diagnosed from the log alone with
 # the model that lacks it; and silence where nothing is planted

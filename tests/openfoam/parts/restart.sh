@@ -162,6 +162,7 @@ case_ranks() {
 # ranks differ in it most
 grazing() {
     local dir="$work/grazing" n total equal percent
+    offers transformPoints || return
     bouncing_box "$dir" 10 || return
     quiet rotate transformPoints -rotate '((0 0 1) (0 -0.6 0.8))'
     {
@@ -296,7 +297,7 @@ case_one-rank() {
 # From two to four ranks on the way, by redistributePar. Its -reconstruct drops
 # most files of every cloud in v1912, the solver's too: the ranks' own are read.
 redistribute() {
-    command -v redistributePar >/dev/null || { echo "# redistributePar is not in this package"; return; }
+    offers redistributePar || return
     rm -rf "$1-two"; mkdir "$1-two"; cp -r "$1/0" "$1/0.1" "$1/constant" "$1/system" "$1-two"; cd "$1-two" || return
     ranks_are 2
     quiet decompose decomposePar -latestTime

@@ -22,7 +22,7 @@ recorded() {    # file column...
     local file="$1"; shift
     awk -v names="origProc origId $*" '
         NR == 1 {
-            gsub(/[()#]/, " "); m = split($0, word, " "); n = split(names, name, " ")
+            gsub(/[()#"]/, " "); m = split($0, word, " "); n = split(names, name, " ")
             for (i = 1; i <= n; i++) for (j = 1; j <= m; j++) if (word[j] == name[i]) at[i] = j
             next
         }
