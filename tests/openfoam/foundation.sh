@@ -44,12 +44,23 @@ as_foundation() {
     with_header momentumTransport.air "simulationType laminar;"
     # On the face between two cells a parcel would lie in either, by rounding
     sed -i '/^(0/ { s/ /37 /g; s/)/37)/ }' constant/parcels
-    sed -i 's/parcelBasisType mass;/uniformParcelSize volume;/; s/fixedValueDistribution { value \(.*\); }/value \1;/' constant/cloudCommon
+    before_run
     sed -i 's/atomizationModel/atomisationModel/; s/breakupModel .*/& breakup none;/' constant/*loud*Properties
     for c in constant/limestoneCloud1Properties; do
         [ ! -e "$c" ] || echo "subModels { compositionModel singlePhaseMixture; singlePhaseMixtureCoeffs { phases ( solid { ash 1; } ); } }" >> "$c"
     done
     sed -i 's/Hf \([^;]*\);/Hf \1; hf \1;/' constant/thermo constant/condensed 2>/dev/null
+}
+
+# What a case added since it was built; a module that solves nothing writes no p, but reads it at a restart
+before_run() {
+    local t
+    sed -i 's/parcelBasisType mass;/uniformParcelSize volume;/; s/parcelBasisType fixed;/uniformParcelSize nParticle;/
+        s/fixedValueDistribution { value \([^}]*\); }/value \1;/; s/kinematicLookupTable/momentumLookupTable/' constant/cloudCommon constant/*Properties
+    sed -i 's/kinematicParcelInjectionData/momentumParcelInjectionData/' constant/parcels
+    for t in [1-9]* 0.* processor*/[1-9]* processor*/0.*; do
+        [ ! -d "$t" ] || cp -n "${t%"${t##*/}"}0"/{p,U} "$t" 2>/dev/null
+    done
 }
 
 physical_properties() {   # class of the gas, empty for an incompressible fluid
