@@ -2,6 +2,13 @@
 # The solvers are modules of foamRun, a cloud names its type, and some keys have
 # other names.
 
+# The cases that run there. The others need what those versions do not have (the heterogeneous cloud, localInteraction on
+# cyclic patches, tables of injection that name other columns) or name otherwise (movers of the mesh, coordinates,
+# OpenFOAM.com's tutorials), or compare with places and times by hand: the function object `particles` solves once more at
+# the start of a run and after the fields of its time are written.
+foundation_cases="kinematic colliding mppic coal multiphase spray reacting single spin allwmake stuck cost remove inline groups
+    list soft_restart unusable outside fields draws one-rank memory hot-wall density extra-inputs film-effect alone bad-input"
+
 # kind: change the case in this folder
 as_foundation() {
     local c module="" types="" extra=""
