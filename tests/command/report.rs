@@ -248,6 +248,38 @@ fn logs_and_arrivals_of_a_stock_model_are_read() {
 }
 
 #[test]
+fn a_steady_case_speaks_of_iterations() {
+    let folder = two_cases();
+    let properties = folder.path().join("ours/constant/coalCloud1Properties");
+    let text = std::fs::read_to_string(&properties).unwrap();
+    std::fs::write(&properties, format!("{text}solution {{ transient no; }}\n")).unwrap();
+    let results = openfoam::read(&folder.path().join("ours")).unwrap();
+    let page = openfoam_page(&results);
+    assert!(page.contains("Results are those at iteration 1."), "no iteration in the lead");
+    assert!(page.contains("The solve of iteration 1"), "no iteration above the table");
+}
+
+#[test]
+fn without_captures_there_is_no_plot_of_them_over_time() {
+    let folder = two_cases();
+    let table_of = |start: &str| {
+        folder.path().join(format!("ours/postProcessing/nearWallInteraction/coalCloud1/{start}"))
+    };
+    let page = || openfoam_page(&openfoam::read(&folder.path().join("ours")).unwrap());
+    assert!(page().contains("Captured mass over time"));
+    for start in ["0", "0.5"] {
+        for patch in PATCHES {
+            let path = table_of(start).join(format!("{patch}.dat"));
+            if path.is_file() {
+                std::fs::write(path, table(&[[0.1, 10.0, 1e-6, 0.0, 0.0], [1.0, 100.0, 1e-5, 0.0, 0.0]]))
+                    .unwrap();
+            }
+        }
+    }
+    assert!(!page().contains("Captured mass over time"));
+}
+
+#[test]
 fn the_page_compares_and_says_what_constants_get_wrong() {
     let folder = two_cases();
     let done = nearwall(folder.path(), &["report", "ours", "stock", "-o", "page.html"]);

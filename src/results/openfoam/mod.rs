@@ -110,8 +110,7 @@ fn complete(folder: &Path, mut results: RunResults) -> RunResults {
         Some(name) => WallModel::Other(name.to_owned()),
         None => WallModel::Unknown,
     };
-    let transient = properties.as_deref().and_then(|text| entry(text, "transient"));
-    results.steady = matches!(transient, Some("no" | "off" | "false"));
+    results.steady = is_steady(folder, &cloud);
     if results.is_ours() {
         let stuck = properties.as_deref().and_then(|text| entry(text, "stuck"));
         results.stuck = Some(stuck.unwrap_or("keep").to_owned());
@@ -181,6 +180,13 @@ fn interaction_properties(folder: &Path, cloud: &str) -> Option<String> {
         let text = std::fs::read_to_string(path).ok()?;
         entry(&text, "patchInteractionModel").is_some_and(|model| model != "none").then_some(text)
     })
+}
+
+/// Whether the cloud's own file says `transient no`.
+fn is_steady(folder: &Path, cloud: &str) -> bool {
+    let text =
+        std::fs::read_to_string(folder.join(format!("constant/{cloud}Properties"))).unwrap_or_default();
+    matches!(entry(&text, "transient"), Some("no" | "off" | "false"))
 }
 
 /// The value of a dictionary entry `key value;`.
