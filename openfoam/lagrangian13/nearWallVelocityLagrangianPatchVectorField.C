@@ -1,0 +1,554 @@
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "nearWallVelocityLagrangianPatchVectorField.H"
+#include "dictionaryChecks.H"
+#include "impactKey.H"
+#include "wallModel.H"
+
+#include "addToRunTimeSelectionTable.H"
+#include "LagrangianMesh.H"
+#include "LagrangianSchemes.H"
+#include "LagrangianSolution.H"
+#include "LagrangianSubFields.H"
+#include "volFields.H"
+
+#include <cmath>
+
+namespace
+{
+
+using namespace Foam;
+
+// Where a member has different names, the overload with that member is used.
+// The other one takes a parameter pack, so that it is the poorer match.
+
+//- The patch of the mesh: patch() up to Foundation 13
+template<class Patch>
+inline auto polyPatchOf(const Patch& p) -> decltype((p.poly()))
+{
+    return p.poly();
+}
+
+template<class Patch, class... None>
+inline const polyPatch& polyPatchOf(const Patch& p, None...)
+{
+    return p.patch();
+}
+
+//- The mesh that the parcels are in: mesh() up to Foundation 13
+template<class Mesh>
+inline auto polyMeshOf(const Mesh& m) -> decltype((m.poly()))
+{
+    return m.poly();
+}
+
+template<class Mesh, class... None>
+inline const polyMesh& polyMeshOf(const Mesh& m, None...)
+{
+    return m.mesh();
+}
+
+//- The schemes of a cloud: schemesDict() up to Foundation 13
+template<class Schemes>
+inline auto schemesOf(const Schemes& s) -> decltype((s.schemesDict()))
+{
+    return s.schemesDict();
+}
+
+template<class Schemes, class... None>
+inline const dictionary& schemesOf(const Schemes& s, None...)
+{
+    return s;
+}
+
+
+//- A registered field; null if there is none
+template<class FieldType>
+const FieldType* findField(const objectRegistry& db, const word& name)
+{
+    return
+        db.foundObject<FieldType>(name)
+      ? &db.lookupObject<FieldType>(name)
+      : nullptr;
+}
+
+
+//- Names under which the wall of a patch is looked for in the model
+wordList wallNames(const dictionary& dict, const polyPatch& pp)
+{
+    if (dict.found("wall"))
+    {
+        return wordList(1, nearWall::read<word>(dict, "wall"));
+    }
+    wordList names(1, pp.name());
+    names.append(pp.inGroups());
+    names.append(word("default"));
+    return names;
+}
+
+
+std::uint32_t readWall
+(
+    const dictionary& dict,
+    const polyPatch& pp,
+    const nearwall::model& model
+)
+{
+    std::uint32_t wall = 0;
+    const wordList names(wallNames(dict, pp));
+    for (const word& name : names)
+    {
+        if (model.find_wall(name, wall)) return wall;
+    }
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name() << "': the model has no wall with a name of "
+        << names << "." << nl
+        << "    Add such a wall to the model, or name one of its walls with the"
+        << " key 'wall'." << exit(FatalIOError);
+    return wall;
+}
+
+
+//- Stop where the model needs a value that this condition does not pass on
+void refuseExtraInputs(const dictionary& dict, const nearwall::model& model)
+{
+    const std::vector<std::string> names(model.extra_inputs());
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        if (!std::isnan(model.extra_input_default(std::uint32_t(i)))) continue;
+
+        FatalIOErrorInFunction(dict)
+            << "The model declares the input '" << names[i].c_str()
+            << "' without a default, and nearWallVelocity passes on none." << nl
+            << "    Give the input a default in the model."
+            << exit(FatalIOError);
+    }
+}
+
+} // End anonymous namespace
+
+
+// * * * * * * * * * * * * * * * Private Classes * * * * * * * * * * * * * * //
+
+struct Foam::nearWallVelocityLagrangianPatchVectorField::settings
+{
+    const dictionary dict;
+    const nearWall::wallModelPtr model;
+    const std::uint32_t wall;
+    const bool removesStuck;
+    const std::uint64_t seed;
+    const word gasVelocity;
+    const word gasTemperature;
+
+    //- Temperature of parcels without one [K]
+    const scalar particleTemperature;
+
+    //- Temperature of the wall [K]; 0 for that of the field, which is looked up
+    //  at the first impact: tools such as decomposePar have no fields
+    const scalar wallTemperature;
+
+    //- Must the field be there? Otherwise 293.15 K replaces it
+    const bool needsField;
+
+    settings(const dictionary& given, const polyPatch& pp, const Time& time)
+    :
+        dict(checkedKeys(given)),
+        model(nearWall::readWallModel(dict, time)),
+        wall(readWall(dict, pp, *model)),
+        removesStuck(readRemovesStuck(dict)),
+        seed(std::uint64_t(nearWall::readOr<label>(dict, "seed", 1))),
+        gasVelocity(nearWall::readOr<word>(dict, "U", word("U"))),
+        gasTemperature(nearWall::readOr<word>(dict, "field", word("T"))),
+        particleTemperature
+        (
+            nearWall::readChecked<scalar>
+            (
+                dict, "particleTemperature", 293.15,
+                [](scalar T) { return T > 0; }, "above 0, in K"
+            )
+        ),
+        wallTemperature(readWallTemperature(dict, pp)),
+        needsField(dict.found("wallTemperature") || dict.found("field"))
+    {
+        refuseExtraInputs(dict, *model);
+    }
+
+    static const dictionary& checkedKeys(const dictionary& given)
+    {
+        nearWall::refuseUnknownKeys
+        (
+            given,
+            wordList
+            ({
+                "type", "patchType", "model", "wall", "wallTemperature",
+                "field", "U", "stuck", "seed", "particleTemperature"
+            }),
+            "nearWallVelocity"
+        );
+        return given;
+    }
+
+    static bool readRemovesStuck(const dictionary& dict)
+    {
+        static const nearWall::Enum<bool> names
+        ({
+            {false, "react"},
+            {true, "remove"}
+        });
+        const word name(nearWall::readOr<word>(dict, "stuck", word("react")));
+        return nearWall::checkedChoice(dict, "stuck", name, names);
+    }
+
+    static scalar readWallTemperature
+    (
+        const dictionary& dict,
+        const polyPatch& pp
+    )
+    {
+        if (!dict.found("wallTemperature")) return 0;
+
+        const tokenList& entry = dict.lookup("wallTemperature");
+        const token t(entry.size() == 1 ? entry[0] : token());
+        if (t.isWord() && t.wordToken() == "field") return 0;
+        if (t.isNumber() && t.number() > 0) return t.number();
+
+        FatalIOErrorInFunction(dict)
+            << "Patch '" << pp.name() << "': wallTemperature must be 'field' or"
+            << " a number above 0, in K." << nl
+            << "    Give the number without a unit: wallTemperature 673.15;"
+            << exit(FatalIOError);
+        return 0;
+    }
+};
+
+
+struct Foam::nearWallVelocityLagrangianPatchVectorField::fieldInputs
+{
+    const settings& given;
+    const LagrangianMesh& cloud;
+    const polyMesh& mesh;
+    const polyPatch& pp;
+
+    //- Fields of the cloud; null where it has none, which stops for d
+    const LagrangianScalarDynamicField* const d;
+    const LagrangianScalarDynamicField* const rho;
+    const LagrangianScalarDynamicField* const T;
+
+    //- Fields of the gas; null where there are none
+    const volVectorField* const gasU;
+    const volScalarField* const gasT;
+
+    fieldInputs(const settings& s, const LagrangianPatch& patch)
+    :
+        given(s),
+        cloud(patch.boundaryMesh().mesh()),
+        mesh(polyMeshOf(cloud)),
+        pp(polyPatchOf(patch)),
+        d(findField<LagrangianScalarDynamicField>(cloud, "d")),
+        rho(findField<LagrangianScalarDynamicField>(cloud, "rho")),
+        T(findField<LagrangianScalarDynamicField>(cloud, "T")),
+        gasU(findField<volVectorField>(mesh, s.gasVelocity)),
+        gasT
+        (
+            s.wallTemperature > 0
+          ? nullptr
+          : findField<volScalarField>(mesh, s.gasTemperature)
+        )
+    {
+        if (!d)
+        {
+            FatalIOErrorInFunction(given.dict)
+                << "Patch '" << pp.name() << "': the cloud '" << cloud.name()
+                << "' has no diameter 'd', which the wall model needs." << nl
+                << "    Use a cloud of spherical particles, or another velocity"
+                << " condition." << exit(FatalIOError);
+        }
+        if (!gasT && given.wallTemperature <= 0 && given.needsField)
+        {
+            FatalIOErrorInFunction(given.dict)
+                << "Patch '" << pp.name() << "': the wall temperature is to"
+                << " come from a field, but no field '" << given.gasTemperature
+                << "' is registered." << nl
+                << "    Give a number in K, wallTemperature 300; or the name"
+                << " of the temperature field, field T;" << exit(FatalIOError);
+        }
+    }
+
+    //- Temperature of the wall at a parcel [K]
+    scalar wallTemperature(const label parceli) const
+    {
+        if (given.wallTemperature > 0) return given.wallTemperature;
+        if (!gasT) return 293.15;
+        const label facei = cloud.facei()[parceli] - pp.start();
+        return gasT->boundaryField()[pp.index()][facei];
+    }
+
+    //- Speed of the gas along the wall [m/s]
+    scalar gasSpeed
+    (
+        const label parceli,
+        const vector& normal,
+        const vector& wall
+    ) const
+    {
+        if (!gasU) return 0;
+        const vector gas((*gasU)[cloud.celli()[parceli]] - wall);
+        return mag(gas - (gas & normal)*normal);
+    }
+
+    //- Key of the impact's random draws
+    std::uint64_t keyOf(const label parceli, const vector& U) const
+    {
+        nearWall::impactKey key;
+        key.addExact(mesh.time().timeIndex()).add((*d)[parceli]);
+        key.add(cloud.position(parceli), mesh.bounds().mag());
+        key.add(U, mag(U) + vSmall);
+        return key.value();
+    }
+
+    //- The impact of a parcel, without its speeds
+    nw_impact impactOf
+    (
+        const label parceli,
+        const vector& normal,
+        const vector& wall,
+        const vector& U
+    ) const
+    {
+        nw_impact impact = nearwall::make_impact();
+        impact.wall = given.wall;
+        impact.seed = given.seed;
+        impact.key = keyOf(parceli, U);
+        impact.d = (*d)[parceli];
+        impact.rho_p = rho ? (*rho)[parceli] : 0;
+        impact.T_p = T ? (*T)[parceli] : given.particleTemperature;
+        impact.T_w = wallTemperature(parceli);
+        impact.v_gas = gasSpeed(parceli, normal, wall);
+        return impact;
+    }
+};
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::nearWallVelocityLagrangianPatchVectorField::
+nearWallVelocityLagrangianPatchVectorField
+(
+    const LagrangianPatch& p,
+    const regIOobject& iIo,
+    const dictionary& dict
+)
+:
+    cloudVelocityLagrangianPatchVectorField(p, iIo, dict),
+    settings_
+    (
+        std::make_shared<const settings>
+        (
+            dict, polyPatchOf(p), p.boundaryMesh().mesh().time()
+        )
+    )
+{
+    Info<< "nearWallVelocity: nearwall " << nw_version() << ", patch "
+        << p.name() << ", "
+        << nearWall::wallModelOrigin(dict, p.boundaryMesh().mesh().time())
+           .c_str()
+        << endl;
+}
+
+
+Foam::nearWallVelocityLagrangianPatchVectorField::
+nearWallVelocityLagrangianPatchVectorField
+(
+    const nearWallVelocityLagrangianPatchVectorField& ptf
+)
+:
+    cloudVelocityLagrangianPatchVectorField(ptf),
+    settings_(ptf.settings_)
+{}
+
+
+Foam::nearWallVelocityLagrangianPatchVectorField::
+nearWallVelocityLagrangianPatchVectorField
+(
+    const nearWallVelocityLagrangianPatchVectorField& ptf,
+    const regIOobject& iIo
+)
+:
+    cloudVelocityLagrangianPatchVectorField(ptf, iIo),
+    settings_(ptf.settings_)
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::LagrangianState
+Foam::nearWallVelocityLagrangianPatchVectorField::stuckState() const
+{
+    return static_cast<LagrangianState>
+    (
+        static_cast<label>(LagrangianState::onPatchZero)
+      + polyPatchOf(patch()).index()
+    );
+}
+
+
+void
+Foam::nearWallVelocityLagrangianPatchVectorField::checkStuckCanStay() const
+{
+    const LagrangianMesh& cloud = patch().boundaryMesh().mesh();
+    const word tracking
+    (
+        nearWall::read<word>(schemesOf(cloud.schemes()), "tracking")
+    );
+    const scalar longest = cloud.solution().lookup<scalar>
+    (
+        "maxTimeStepFraction"
+    );
+    const bool isMoving = polyMeshOf(cloud).moving();
+    if (!isMoving && longest >= 1 && tracking == "linear") return;
+
+    FatalIOErrorInFunction(settings_->dict)
+        << "Patch '" << patch().name() << "': with 'stuck react' a stuck parcel"
+        << " of the cloud '" << cloud.name()
+        << "' would be decided again within a step, because "
+        << (
+               isMoving ? "the mesh moves"
+             : longest < 1 ? "maxTimeStepFraction is below 1"
+             : "tracking is not linear"
+           )
+        << "." << nl << "    "
+        << (
+               isMoving ? "Choose 'stuck remove'."
+             : longest < 1
+             ? "Set maxTimeStepFraction 1; or choose 'stuck remove'."
+             : "Set tracking linear; or choose 'stuck remove'."
+           )
+        << exit(FatalIOError);
+}
+
+
+void Foam::nearWallVelocityLagrangianPatchVectorField::warnUnusable
+(
+    const string& reason
+)
+{
+    const label step = patch().boundaryMesh().mesh().time().timeIndex();
+    if (warned_ == step) return;
+    warned_ = step;
+
+    Pout<< "nearWallVelocity, warning: patch " << patch().name()
+        << ", an impact of this step could not be decided (" << reason.c_str()
+        << "); the parcel rebounds without loss, or is removed if its velocity"
+        << " is not a number" << endl;
+}
+
+
+Foam::LagrangianState
+Foam::nearWallVelocityLagrangianPatchVectorField::decide
+(
+    const fieldInputs& inputs,
+    const label parceli,
+    const vector& normal,
+    const vector& wall,
+    vector& U
+)
+{
+    const vector relative(U - wall);
+    const scalar vn = relative & normal;
+
+    // No impact: the gas has turned the parcel around
+    if (vn <= 0) return LagrangianState::inCell;
+
+    const vector along(relative - vn*normal);
+    nw_impact impact = inputs.impactOf(parceli, normal, wall, U);
+    impact.v_n = vn;
+    impact.v_t = mag(along);
+    nw_outcome outcome;
+    nw_outcome_init(&outcome);
+
+    const nearwall::model& model = *settings_->model;
+    if (model.resolve(impact, outcome) != NW_OK)
+    {
+        warnUnusable(model.explain(impact));
+        if (!std::isfinite(mag(relative))) return LagrangianState::toBeRemoved;
+        U -= 2*vn*normal;
+        return LagrangianState::inCell;
+    }
+    if (outcome.stuck)
+    {
+        U = wall;
+        if (settings_->removesStuck) return LagrangianState::toBeRemoved;
+        checkStuckCanStay();
+        return stuckState();
+    }
+    U = wall + outcome.e_t*along - outcome.e_n*vn*normal;
+    return LagrangianState::inCell;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::nearWallVelocityLagrangianPatchVectorField::evaluate
+(
+    PstreamBuffers& pBufs,
+    const LagrangianInternalDynamicField<scalar>& fraction
+)
+{
+    cloudVelocityLagrangianPatchVectorField::evaluate(pBufs, fraction);
+
+    const LagrangianSubMesh& parcels = patch().mesh();
+    if (parcels.empty()) return;
+
+    const fieldInputs inputs(*settings_, patch());
+    const vectorField normals(parcels.nf<vectorField>(fraction));
+    const vectorField wall(parcels.Uf<vectorField>(fraction));
+    vectorField U(primitiveSubField());
+    List<LagrangianState>& states =
+        inputs.mesh.lookupObjectRef<LagrangianMesh>(inputs.cloud.name())
+       .states();
+
+    forAll(U, i)
+    {
+        const label parceli = parcels.start() + i;
+
+        // At an impact the state is that of state(). At the start of a step
+        // the cloud evaluates only its stuck parcels, with theirs.
+        if (states[parceli] == stuckState())
+        {
+            U[i] = wall[i];
+        }
+        else
+        {
+            states[parceli] =
+                decide(inputs, parceli, normals[i], wall[i], U[i]);
+        }
+    }
+
+    LagrangianPatchVectorField::operator=(U);
+}
+
+
+Foam::LagrangianState
+Foam::nearWallVelocityLagrangianPatchVectorField::state() const
+{
+    return LagrangianState::inCell;
+}
+
+
+void Foam::nearWallVelocityLagrangianPatchVectorField::write(Ostream& os) const
+{
+    settings_->dict.write(os, false);
+}
+
+
+// * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+    makeLagrangianPatchTypeField
+    (
+        LagrangianPatchVectorField,
+        nearWallVelocityLagrangianPatchVectorField
+    );
+}
