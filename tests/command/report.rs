@@ -254,7 +254,7 @@ fn a_steady_case_speaks_of_iterations() {
     let text = std::fs::read_to_string(&properties).unwrap();
     std::fs::write(&properties, format!("{text}solution {{ transient no; }}\n")).unwrap();
     let results = openfoam::read(&folder.path().join("ours")).unwrap();
-    let page = openfoam_page(&results);
+    let page = openfoam_page(&results).unwrap();
     assert!(page.contains("Results are those at iteration 1."), "no iteration in the lead");
     assert!(page.contains("The solve of iteration 1"), "no iteration above the table");
 }
@@ -265,7 +265,7 @@ fn without_captures_there_is_no_plot_of_them_over_time() {
     let table_of = |start: &str| {
         folder.path().join(format!("ours/postProcessing/nearWallInteraction/coalCloud1/{start}"))
     };
-    let page = || openfoam_page(&openfoam::read(&folder.path().join("ours")).unwrap());
+    let page = || openfoam_page(&openfoam::read(&folder.path().join("ours")).unwrap()).unwrap();
     assert!(page().contains("Captured mass over time"));
     for start in ["0", "0.5"] {
         for patch in PATCHES {
