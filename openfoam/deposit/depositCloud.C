@@ -54,9 +54,7 @@ void Foam::nearWall::depositCloud::storePositions()
 {
     #ifndef OPENFOAM
     storeGlobalPositions();
-    return;
-    #endif
-
+    #else
     // Assumed: OpenFOAM stops the run when rounding puts a particle outside the
     // mesh, so a position on the wall is shifted inwards by this fraction
     const scalar inside = 1e-9;
@@ -69,6 +67,7 @@ void Foam::nearWall::depositCloud::storePositions()
         const point& centre = pMesh().cellCentres()[p.cell()];
         positions_[i++] = position + inside*(centre - position);
     }
+    #endif
 }
 
 

@@ -23,11 +23,12 @@ void Foam::nearWall::requireWritable
 
     const bool isFolder = isDir(at);
     if (isFolder && access(at.c_str(), W_OK) == 0) return;
+    const int fault = errno;    // before another call changes it
 
     FatalIOErrorInFunction(coeffs)
         << "nearWallInteraction cannot write its tables to " << folder.c_str() << nl
         << "    " << at.c_str() << ": "
-        << (isFolder ? std::strerror(errno) : "a file, not a folder") << nl
+        << (isFolder ? std::strerror(fault) : "a file, not a folder") << nl
         << "    Run in a copy of the case that you may write to."
         << exit(FatalIOError);
 }
