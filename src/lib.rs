@@ -76,6 +76,8 @@ pub mod normal;
 pub mod report;
 #[cfg(feature = "command")]
 pub mod results;
+#[cfg(feature = "command")]
+pub mod rig;
 pub mod rng;
 #[cfg(feature = "command")]
 pub mod simulate;

@@ -21,6 +21,8 @@ mod measurements;
 mod notes;
 mod number;
 mod observed;
+mod rig_measurements;
+mod rig_observable;
 mod unit;
 mod wall_choice;
 
@@ -31,6 +33,8 @@ pub use impact_reader::{ImpactReader, Row};
 pub use input_errors::InputErrors;
 pub use measurements::{Measurement, Measurements, Reading};
 pub use notes::{assumed, unlikely};
+pub use rig_measurements::{Experiment, RigMeasurements, RigReading, settings_of};
+pub use rig_observable::{Restitution, RigQuantity};
 pub use wall_choice::{WallChoice, WallError};
 
 /// Why a file cannot be read as impacts.

@@ -28,7 +28,7 @@ pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String
                 document[table][key] = value(rounded(*number));
             }
             (Part::LawParameter(_), None) => {}
-            (Part::Effect(info), _) => added.push(effect(hypothesis.data, fitted, info)),
+            (Part::Effect(info), _) => added.push(effect(fitted, info, valid(hypothesis.data))),
         }
     }
     for curve in &hypothesis.curves {
@@ -150,7 +150,7 @@ fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCu
 }
 
 /// Adds the effects after those of the base, in the notation of the base.
-fn append(document: &mut DocumentMut, added: ArrayOfTables) {
+pub(super) fn append(document: &mut DocumentMut, added: ArrayOfTables) {
     if added.is_empty() {
         return;
     }
@@ -165,7 +165,8 @@ fn append(document: &mut DocumentMut, added: ArrayOfTables) {
     }
 }
 
-fn effect(data: &DataSplit, fitted: &FittedPart, info: &EffectInfo) -> Table {
+/// An effect with its fitted parameters and the ranges of the inputs of the fit.
+pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable) -> Table {
     let mut table = Table::new();
     table.insert("kind", value(info.id));
     for (parameter, number) in info.parameters.iter().zip(fitted.values()) {
@@ -176,20 +177,24 @@ fn effect(data: &DataSplit, fitted: &FittedPart, info: &EffectInfo) -> Table {
         fit.insert("unit", unit.into());
         table.insert(name, value(fit));
     }
-    table.insert("valid", value(valid(data)));
+    table.insert("valid", value(valid));
     table.insert("source", value("fitted by nearwall diagnose"));
     table
 }
 
 /// The range of every input that varies in the fitted rows.
 fn valid(data: &DataSplit) -> InlineTable {
+    let inputs = data.covariates.iter().filter(|c| c.input && matches!(c.values, Values::Numbers(_)));
+    ranges(inputs.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))))
+}
+
+/// The ranges of inputs as a table.
+pub(super) fn ranges<'a>(inputs: impl Iterator<Item = (&'a str, [f64; 2])>) -> InlineTable {
     let mut ranges = InlineTable::new();
-    for column in data.covariates.iter().filter(|c| c.input && matches!(c.values, Values::Numbers(_))) {
-        if let Some([low, high]) = data.range(&column.name) {
-            // Rounded outwards, so that the rows at the ends stay within the range.
-            let ends = [low - 1e-5 * low.abs(), high + 1e-5 * high.abs()].map(rounded);
-            ranges.insert(&column.name, Value::Array(ends.into_iter().collect()));
-        }
+    for (name, [low, high]) in inputs {
+        // Rounded outwards, so that the rows at the ends stay within the range.
+        let ends = [low - 1e-5 * low.abs(), high + 1e-5 * high.abs()].map(rounded);
+        ranges.insert(name, Value::Array(ends.into_iter().collect()));
     }
     ranges
 }

@@ -213,7 +213,7 @@ impl FindingBuilder<'_> {
 }
 
 /// Standard deviations of a normal distribution with this tail.
-fn sigma(p_value: f64) -> f64 {
+pub(super) fn sigma(p_value: f64) -> f64 {
     let p = p_value.clamp(1e-300, 0.5);
     // The quantile by its asymptotic form, where the tail is too thin for an inverse.
     let far = (-2.0 * p.ln() - (std::f64::consts::TAU * -2.0 * p.ln()).ln()).sqrt();

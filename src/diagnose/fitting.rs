@@ -200,7 +200,7 @@ impl<'a> Round<'a> {
 
     fn fit_parameters(&self, part: Part, refined: bool, starts: &[Vec<f64>]) -> Option<Addition> {
         let parts = &self.hypothesis.parts;
-        let blank = FittedPart::middle(part, part.axes(self.data(), refined)?);
+        let blank = FittedPart::middle(part, part.axes(|input| self.data().range(input), refined)?);
         let joint = self.joint(&blank, parts);
         if blank.at.is_empty() {
             return split_last(joint);

@@ -24,7 +24,7 @@ pub(super) const HELD_OUT: &str = "held-out";
 /// How the gain is measured where no row is left that the file has not seen.
 pub(super) const CROSS_VALIDATED: &str = "cross-validated";
 /// Factor on the standard error of a cross-validated gain: its models share rows.
-const SHARED_FITS: f64 = 1.4;
+pub(super) const SHARED_FITS: f64 = 1.4;
 /// Random draws a row of a stochastic model, as many as `nearwall predict` takes.
 const DRAWS: usize = 64;
 
@@ -165,7 +165,7 @@ fn extra_value(input: &ExtraInput, values: &Values, row: usize) -> f64 {
 }
 
 /// The sums of squared errors before and after, by independent unit.
-fn sums_by_unit(rows: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
+pub(super) fn sums_by_unit(rows: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
     let mut sums: std::collections::BTreeMap<usize, [f64; 2]> = std::collections::BTreeMap::new();
     for (unit, squares) in rows {
         let sum = sums.entry(*unit).or_default();
@@ -175,7 +175,7 @@ fn sums_by_unit(rows: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
 }
 
 /// 95 % interval of the ratio of the root mean squares, by a bootstrap over units.
-fn bootstrap(units: &[[f64; 2]], seed: u64) -> [f64; 2] {
+pub(super) fn bootstrap(units: &[[f64; 2]], seed: u64) -> [f64; 2] {
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x6761_696e);
     let mut ratios: Vec<f64> = (0..RESAMPLES)
         .map(|_| {
@@ -193,7 +193,7 @@ fn bootstrap(units: &[[f64; 2]], seed: u64) -> [f64; 2] {
 }
 
 /// The same by Student's t of the linearised logarithm of the ratio, which is wider for few units; `widened` multiplies its error.
-fn student_interval(units: &[[f64; 2]], widened: f64) -> [f64; 2] {
+pub(super) fn student_interval(units: &[[f64; 2]], widened: f64) -> [f64; 2] {
     let count = units.len() as f64;
     let sums = units.iter().fold([0.0; 2], |[b, a], [before, after]| [b + before, a + after]);
     let logarithm = 0.5 * (sums[1] / sums[0]).ln();

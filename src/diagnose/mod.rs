@@ -33,6 +33,7 @@ mod observable;
 mod part;
 mod profile;
 mod record;
+pub mod rig;
 mod rival;
 mod score_test;
 mod search;

@@ -92,17 +92,21 @@ impl Part {
         }
     }
 
-    /// The search ranges of its parameters, with `refined` also of those with a default, which come last. `None` if the
-    /// data do not vary in what it depends on.
-    pub fn axes(&self, data: &DataSplit, refined: bool) -> Option<Vec<SearchAxis>> {
+    /// The search ranges of its parameters, with `refined` also of those with a default, which come last; `range` gives the least and
+    /// largest value of an input in the data. `None` if the data do not vary in what it depends on.
+    pub fn axes(
+        &self,
+        range: impl Fn(&str) -> Option<[f64; 2]>,
+        refined: bool,
+    ) -> Option<Vec<SearchAxis>> {
         let Self::Effect(effect) = self else { return Some(vec![SearchAxis::linear(0.02, 1.1)]) };
         // Beside another input, speed and diameter need not vary: the plain laws depend on them too.
         let (plain, others): (Vec<&str>, Vec<&str>) =
             effect.inputs.iter().partition(|input| ["v_n", "d"].contains(*input));
         let needed = if others.is_empty() { plain } else { others };
-        needed.iter().map(|input| data.range(input)).collect::<Option<Vec<_>>>()?;
+        needed.iter().map(|input| range(input)).collect::<Option<Vec<_>>>()?;
         let free = effect.parameters.iter().filter(|p| refined || p.default.is_none());
-        free.map(|p| SearchAxis::of(p, |input| data.range(input))).collect()
+        free.map(|p| SearchAxis::of(p, &range)).collect()
     }
 }
 
@@ -128,7 +132,7 @@ impl FittedPart {
     /// Makes the parameters that are left at their defaults free.
     pub fn free_defaults(&mut self, data: &DataSplit) {
         let (values, own) = (self.values(), self.axes.len());
-        let Some(axes) = self.part.axes(data, true) else { return };
+        let Some(axes) = self.part.axes(|input| data.range(input), true) else { return };
         for (axis, value) in axes.into_iter().zip(values).skip(own) {
             self.axes.push(axis);
             self.at.push(axis.coordinate(value));

@@ -112,7 +112,7 @@ fn not_examined(hypothesis: &Hypothesis<'_>, effect: &'static EffectInfo) -> Opt
     if data.base.terms().iter().any(|term| term.kind().id == cause) {
         return Some(NotExamined { cause, reason: "the base model contains it".to_owned() });
     }
-    if Part::Effect(effect).axes(data, false).is_some() {
+    if Part::Effect(effect).axes(|input| data.range(input), false).is_some() {
         return None;
     }
     let constant = effect.inputs.iter().copied().filter(|input| data.range(input).is_none());
@@ -158,7 +158,7 @@ pub(super) fn possible_causes(fit: &Fit, choice: &Choice) -> Vec<String> {
 }
 
 /// Whether the base model is refuted by its own errors.
-fn is_refuted(fit: &Fit) -> bool {
+pub(super) fn is_refuted(fit: &Fit) -> bool {
     fit.base.against != "structure" && fit.base.p_value.is_some_and(|p| p < REFUTED)
 }
 
@@ -223,7 +223,7 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
 }
 
 /// What the test of fit says of the base model, where there are stated errors or replicates.
-fn fit_sentence(fit: &Fit) -> String {
+pub(super) fn fit_sentence(fit: &Fit) -> String {
     let FitTest { against, chi_square, degrees_of_freedom, p_value } = &fit.base;
     let (Some(chi_square), Some(freedom), Some(p)) = (chi_square, degrees_of_freedom, p_value) else {
         return String::new();
@@ -243,7 +243,7 @@ fn fit_sentence(fit: &Fit) -> String {
     format!(
         "The {against} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by chance once in \
          {:.0e}{misfits}. ",
-        1.0 / p
+        1.0 / p.max(1e-99)
     )
 }
 

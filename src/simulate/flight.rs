@@ -95,7 +95,7 @@ impl Body {
 }
 
 /// A particle in a gas: the equations of its path.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct ParticleMotion<'a> {
     /// The gas it moves in.
     pub gas: &'a Gas,

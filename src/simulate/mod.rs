@@ -22,6 +22,7 @@ mod shrinkage;
 mod surface;
 mod trajectory;
 mod wall_deposits;
+mod weighted;
 
 pub use burning::{Burning, GAS_CONSTANT};
 pub use case::{Case, Reference, SWEEP_KEYS, Sweep, sweep_unit};
@@ -35,6 +36,7 @@ pub use shrinkage::Shrinkage;
 pub use surface::{Shape, Surface, SurfaceKind};
 pub use trajectory::{Fate, Hit, Trajectory};
 pub use wall_deposits::{BinHistory, DepositHistory, DepositSettings, WallHistory};
+pub use weighted::{ExpectedHit, FirstContact, first_contact};
 
 use rayon::prelude::*;
 

@@ -14,6 +14,7 @@ use super::shrinkage::Shrinkage;
 use super::surface::{Shape, Surface, SurfaceKind};
 use super::wall_deposits::WallDeposits;
 use crate::impact::{Impact, ImpactError, Outcome};
+use crate::model::Model;
 use crate::rng::ImpactRng;
 
 /// A rebound slower than this [m/s] leaves the particle lying on the wall.
@@ -84,50 +85,20 @@ pub struct Trajectory {
 
 /// Follows the particle with this number; the walls stay as they are.
 pub(super) fn follow(case: &Case, walls: Option<&WallDeposits>, number: u64) -> Trajectory {
-    let (index, own) = case.origin(number).unwrap_or_default();
-    let injection = &case.injections[index];
-    let (diameter, mut start) = injection.draw(case.seed, number);
-    let (body, trouble) = match body(case, injection, diameter, start[TEMPERATURE]) {
-        Ok(body) => (body, None),
-        Err(reason) => (nothing_known(diameter, injection), Some(reason)),
-    };
-    start[TEMPERATURE] = body.fusion.map_or(start[TEMPERATURE], |fusion| fusion.sensible(start[TEMPERATURE]));
-    if injection.relative_to_gas {
-        let speed = velocity(&start) + case.gas.at(&position(&start)).velocity;
-        start.fixed_rows_mut::<3>(3).copy_from(&speed);
-    }
-    let mut tracker = Tracker {
-        case,
-        injection,
-        walls,
-        number,
-        motion: ParticleMotion { gas: &case.gas, gravity: case.gravity, body },
-        time: 0.0,
-        state: start,
-        spin: Vector3::zeros(),
-        weight: match injection.weight {
-            ParticleWeight::One => 1.0,
-            ParticleWeight::EqualShare(mass) => {
-                mass / (injection.count as f64 * body.mass_at(start[CONVERSION]))
-            }
-        },
-        stays: StayTimes::new(case.near_wall_distance, case.surfaces.len()),
-        hits: Vec::new(),
-    };
+    let stays = StayTimes::new(case.near_wall_distance, case.surfaces.len());
+    let (mut tracker, trouble) = Tracker::start(case, walls, number, stays);
     let mass = tracker.mass();
-    let fate = match trouble.or_else(|| tracker.misplaced()) {
-        Some(reason) => Fate::Unusable(reason),
-        None => tracker.travel(),
-    };
+    let fate = trouble.map_or_else(|| tracker.travel(), Fate::Unusable);
+    let (index, own) = case.origin(number).unwrap_or_default();
     Trajectory {
         fate,
         injection: index,
-        released: case.deposit.map_or(0.0, |deposit| deposit.release(own, injection.count)),
+        released: case.deposit.map_or(0.0, |deposit| deposit.release(own, tracker.injection.count)),
         diameter: tracker.diameter(),
         weight: tracker.weight,
         mass: [mass, tracker.mass()],
         position: position(&tracker.state),
-        temperature: body.temperature(&tracker.state),
+        temperature: tracker.motion.body.temperature(&tracker.state),
         conversion: tracker.state[CONVERSION].clamp(0.0, 1.0),
         stays: tracker.stays.times,
         hits: tracker.hits,
@@ -152,24 +123,80 @@ fn nothing_known(diameter: f64, injection: &Injection) -> Body {
     }
 }
 
-struct Tracker<'a> {
-    case: &'a Case,
-    injection: &'a Injection,
+/// A particle on its way.
+#[derive(Debug, Clone)]
+pub(super) struct Tracker<'a> {
+    pub case: &'a Case,
+    pub injection: &'a Injection,
     walls: Option<&'a WallDeposits>,
-    number: u64,
+    pub number: u64,
     motion: ParticleMotion<'a>,
     time: f64,
     state: State,
     /// Angular velocity [rad/s].
     spin: Vector3<f64>,
     /// Number of real particles that this one represents.
-    weight: f64,
+    pub weight: f64,
     stays: StayTimes,
     hits: Vec<Hit>,
 }
 
-impl Tracker<'_> {
-    fn mass(&self) -> f64 {
+/// A contact with a wall before the model has decided it.
+pub(super) struct WallContact {
+    frame: WallFrame,
+    /// Index of the wall in the particle's model.
+    pub wall: usize,
+    /// Where the centre of the particle is [m].
+    pub position: Vector3<f64>,
+    /// The impact.
+    pub impact: Impact,
+}
+
+impl<'a> Tracker<'a> {
+    /// The particle with this number at its start, and why it cannot be followed, if it cannot.
+    pub fn start(
+        case: &'a Case,
+        walls: Option<&'a WallDeposits>,
+        number: u64,
+        stays: StayTimes,
+    ) -> (Self, Option<String>) {
+        let (index, _) = case.origin(number).unwrap_or_default();
+        let injection = &case.injections[index];
+        let (diameter, mut start) = injection.draw(case.seed, number);
+        let (body, trouble) = match body(case, injection, diameter, start[TEMPERATURE]) {
+            Ok(body) => (body, None),
+            Err(reason) => (nothing_known(diameter, injection), Some(reason)),
+        };
+        start[TEMPERATURE] =
+            body.fusion.map_or(start[TEMPERATURE], |fusion| fusion.sensible(start[TEMPERATURE]));
+        if injection.relative_to_gas {
+            let speed = velocity(&start) + case.gas.at(&position(&start)).velocity;
+            start.fixed_rows_mut::<3>(3).copy_from(&speed);
+        }
+        let tracker = Self {
+            case,
+            injection,
+            walls,
+            number,
+            motion: ParticleMotion { gas: &case.gas, gravity: case.gravity, body },
+            time: 0.0,
+            state: start,
+            spin: Vector3::zeros(),
+            weight: match injection.weight {
+                ParticleWeight::One => 1.0,
+                ParticleWeight::EqualShare(mass) => {
+                    mass / (injection.count as f64 * body.mass_at(start[CONVERSION]))
+                }
+            },
+            stays,
+            hits: Vec::new(),
+        };
+        let trouble = trouble.or_else(|| tracker.misplaced());
+        (tracker, trouble)
+    }
+
+    /// Mass of all real particles that this one represents [kg].
+    pub fn mass(&self) -> f64 {
         self.weight * self.motion.body.mass_at(self.state[CONVERSION])
     }
 
@@ -187,18 +214,11 @@ impl Tracker<'_> {
 
     fn travel(&mut self) -> Fate {
         loop {
-            let case = self.case;
-            let (from, until) = (self.time, case.time_limit);
-            let (start, stays) = (&self.state, &mut self.stays);
-            let end = fly_timed(&self.motion, &case.surfaces, [from, until], start, case.tolerance, stays);
-            let FlightEnd { time, state, surface } = match end {
-                Ok(end) => end,
-                Err(lost) => return Fate::Unusable(lost.to_string()),
+            let index = match self.fly() {
+                Ok(index) => index,
+                Err(fate) => return fate,
             };
-            self.let_spin_decay(time - self.time, &state);
-            (self.time, self.state) = (time, state);
-            let Some(index) = surface else { return Fate::Airborne };
-            if self.hits.len() as u64 >= case.hit_limit {
+            if self.hits.len() as u64 >= self.case.hit_limit {
                 return Fate::GivenUp;
             }
             match self.hit(index) {
@@ -207,6 +227,21 @@ impl Tracker<'_> {
                 Err(error) => return Fate::Unusable(error.to_string()),
             }
         }
+    }
+
+    /// Flies to the next surface and returns its index.
+    ///
+    /// # Errors
+    /// The fate of a particle that reaches none.
+    pub fn fly(&mut self) -> Result<usize, Fate> {
+        let case = self.case;
+        let (from, until) = (self.time, case.time_limit);
+        let (start, stays) = (&self.state, &mut self.stays);
+        let end = fly_timed(&self.motion, &case.surfaces, [from, until], start, case.tolerance, stays);
+        let FlightEnd { time, state, surface } = end.map_err(|lost| Fate::Unusable(lost.to_string()))?;
+        self.let_spin_decay(time - self.time, &state);
+        (self.time, self.state) = (time, state);
+        surface.ok_or(Fate::Airborne)
     }
 
     /// Spin dies out exponentially; the gas's viscosity is that at the end of the flight, and in a thin gas the torque is
@@ -221,53 +256,68 @@ impl Tracker<'_> {
 
     /// Resolves the hit on a surface; `None` when the particle flies on.
     fn hit(&mut self, index: usize) -> Result<Option<Fate>, ImpactError> {
+        let model = self.case.model_of(self.injection);
+        let Some(contact) = self.contact(index, model)? else { return Ok(Some(Fate::Escaped(index))) };
+        let WallContact { impact, wall, position, .. } = contact;
+        let outcome = model.resolve(wall, &impact, self.random(self.hits.len() as u64))?;
+        let (time, mass) = (self.time, self.mass());
+        let (eroded, density) = (model.erosion(wall, &impact, mass)?, impact.particle_density);
+        self.hits.push(Hit { time, surface: index, position, impact, outcome, density, eroded, mass });
+        if outcome.stuck {
+            return Ok(Some(Fate::Stuck(index)));
+        }
+        Ok((!self.rebound(&contact, &outcome)).then_some(Fate::GivenUp))
+    }
+
+    /// The random numbers of a hit, by how many the particle had before.
+    pub fn random(&self, before: u64) -> ImpactRng {
+        ImpactRng::new(self.case.seed, (self.number << HIT_BITS) | before)
+    }
+
+    /// The impact on a surface that was reached; `None` on an exit.
+    pub fn contact(&self, index: usize, model: &Model) -> Result<Option<WallContact>, ImpactError> {
         let surface = &self.case.surfaces[index];
-        let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else {
-            return Ok(Some(Fate::Escaped(index)));
-        };
+        let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else { return Ok(None) };
         let here = position(&self.state);
         let frame = WallFrame::new(&surface.shape, &here, &velocity(&self.state));
-        let spin_axis = frame.normal.cross(&frame.along);
         let gas = self.case.gas.at(&here).velocity;
-        let density = self.motion.body.density_at(self.state[CONVERSION]);
         let impact = Impact {
             normal_speed: frame.normal_speed,
             tangential_speed: frame.tangential_speed,
             diameter: self.diameter(),
             particle_temperature: self.motion.body.temperature(&self.state),
-            particle_density: density,
+            particle_density: self.motion.body.density_at(self.state[CONVERSION]),
             wall_temperature: temperature.at(&here),
             conversion: self.state[CONVERSION].clamp(0.0, 1.0),
             gas_speed: (gas - frame.normal * frame.normal.dot(&gas)).norm(),
-            spin: self.spin.dot(&spin_axis),
+            spin: self.spin.dot(&frame.spin_axis()),
             ..Impact::default()
         };
-        let (model, wall) = (self.case.model_of(self.injection), self.injection.wall(*wall));
+        let wall = self.injection.wall(*wall);
         let impact = match self.walls.and_then(|walls| walls.at(self.case, index, &here)) {
             Some((deposit, voidage)) => model.apply_deposit(wall, deposit, voidage, &impact)?,
             None => impact,
         };
-        let key = (self.number << HIT_BITS) | self.hits.len() as u64;
-        let outcome = model.resolve(wall, &impact, ImpactRng::new(self.case.seed, key))?;
-        let (time, mass) = (self.time, self.mass());
-        let eroded = model.erosion(wall, &impact, mass)?;
-        self.hits.push(Hit { time, surface: index, position: here, impact, outcome, density, eroded, mass });
-        if outcome.stuck {
-            return Ok(Some(Fate::Stuck(index)));
-        }
+        Ok(Some(WallContact { frame, wall, position: here, impact }))
+    }
+
+    /// Sets the velocity after a rebound; false for a particle that comes to rest on the wall.
+    pub fn rebound(&mut self, contact: &WallContact, outcome: &Outcome) -> bool {
+        let WallContact { frame, impact, .. } = contact;
         let back = outcome.normal_restitution * impact.normal_speed;
         if back < REST {
-            return Ok(Some(Fate::GivenUp));
+            return false;
         }
         let forward = outcome.tangential_restitution * impact.tangential_speed;
         let rebound = frame.normal * back + frame.along * forward;
         self.state.fixed_rows_mut::<3>(3).copy_from(&rebound);
-        self.spin += spin_axis * (outcome.spin - impact.spin);
-        Ok(None)
+        self.spin += frame.spin_axis() * (outcome.spin - impact.spin);
+        true
     }
 }
 
 /// The wall at a hit: its normal into the gas, the direction of sliding, and the two speeds.
+#[derive(Debug, Clone, Copy)]
 struct WallFrame {
     normal: Vector3<f64>,
     along: Vector3<f64>,
@@ -276,6 +326,11 @@ struct WallFrame {
 }
 
 impl WallFrame {
+    /// Axis of the spin that rolling along the wall has.
+    fn spin_axis(&self) -> Vector3<f64> {
+        self.normal.cross(&self.along)
+    }
+
     fn new(shape: &Shape, position: &Vector3<f64>, velocity: &Vector3<f64>) -> Self {
         let normal = shape.normal(position);
         let away = normal.dot(velocity);

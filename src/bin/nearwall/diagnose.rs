@@ -10,7 +10,7 @@ use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose};
 use nearwall::input::Document;
 use nearwall::report::diagnosis_page;
 
-use crate::{CommandResult, progress};
+use crate::{CommandResult, diagnose_rig, progress};
 
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
@@ -21,19 +21,25 @@ use crate::{CommandResult, progress};
     file and --columns, docs/diagnosis.md the method.")]
 pub struct Arguments {
     /// The measured impacts
-    data: PathBuf,
+    pub(crate) data: PathBuf,
     /// The base model
-    #[arg(long)]
-    model: PathBuf,
+    #[arg(long, required_unless_present = "case")]
+    model: Option<PathBuf>,
+    /// A case of `nearwall simulate`: the rows are experiments on a rig, which it simulates
+    #[arg(long, value_name = "CASE.toml", conflicts_with_all = ["model", "columns", "group", "wall"])]
+    pub(crate) case: Option<PathBuf>,
+    /// Model files to draw from the fit, with --case: written to draws/ in the output folder
+    #[arg(long, value_name = "N", default_value_t = 0, requires = "case")]
+    pub(crate) draws: usize,
     /// Output folder
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    pub(crate) out: PathBuf,
     /// Seed of the split into fitted and held-out rows; the same seed gives the same bytes
     #[arg(long, default_value_t = 1)]
-    seed: u64,
+    pub(crate) seed: u64,
     /// Accepted share of false discoveries
     #[arg(long, default_value_t = 0.05)]
-    level: f64,
+    pub(crate) level: f64,
     /// Column map that renames and converts the columns of a laboratory's own file
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
@@ -50,8 +56,17 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if !(arguments.level > 0.0 && arguments.level < 0.5) {
         return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
     }
+    match (&arguments.case, &arguments.model) {
+        (Some(case), _) => diagnose_rig::run(arguments, case),
+        (None, Some(model)) => run_impacts(arguments, model),
+        (None, None) => Err("give --model M.toml, or --case CASE.toml for experiments on a rig".into()),
+    }
+}
+
+/// Diagnoses measured impacts.
+fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     // Read only once: the file may be replaced while this runs.
-    let document = Document::from_file(&arguments.model)?;
+    let document = Document::from_file(file_of_model)?;
     let model = Model::from_toml(document.name(), document.text())?;
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
     let mut map = map.unwrap_or_default();
@@ -71,20 +86,21 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let (diagnosis, extended) =
         diagnose(&model, document.text(), &data, &options, &|| bar.inc(1)).map_err(|error| match error {
             DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
-            DiagnosisError::Unextendable(_) => format!("{}: {error}", arguments.model.display()),
+            DiagnosisError::Unextendable(_) => format!("{}: {error}", file_of_model.display()),
         })?;
     bar.finish_and_clear();
-    write(arguments, &diagnosis, &extended)?;
+    write(arguments, file_of_model, &diagnosis, &extended)?;
     crate::print(&summary(&diagnosis, &arguments.out))
 }
 
 /// Writes all output files, or none.
-fn write(arguments: &Arguments, diagnosis: &Diagnosis, extended: &str) -> CommandResult {
-    let Arguments { data, model, out, columns, .. } = arguments;
-    let page = diagnosis_page(diagnosis, &[data, model].map(|path| path.display().to_string()), extended)?;
+fn write(arguments: &Arguments, model: &Path, diagnosis: &Diagnosis, extended: &str) -> CommandResult {
+    let Arguments { data, out, columns, .. } = arguments;
+    let names = [data.as_path(), model].map(|path| path.display().to_string());
+    let page = diagnosis_page(diagnosis, &names, extended)?;
     let json = serde_json::to_string_pretty(diagnosis)? + "\n";
     std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
-    let inputs: Vec<&Path> = [data, model].into_iter().chain(columns).map(PathBuf::as_path).collect();
+    let inputs: Vec<&Path> = [data.as_path(), model].into_iter().chain(columns.as_deref()).collect();
     let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
     let write = |(name, text): (&str, &str)| {
         let mut file = AtomicFile::new(&out.join(name), &inputs)?;
@@ -95,7 +111,7 @@ fn write(arguments: &Arguments, diagnosis: &Diagnosis, extended: &str) -> Comman
     Ok(AtomicFile::commit(files)?)
 }
 
-fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
+pub(crate) fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
     let mut text = format!("{}\n", diagnosis.verdict);
     for finding in &diagnosis.findings {
         let parameters: Vec<String> = finding

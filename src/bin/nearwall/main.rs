@@ -3,6 +3,7 @@
 mod check;
 mod compare;
 mod diagnose;
+mod diagnose_rig;
 mod map;
 mod materials;
 mod predict;

@@ -1,0 +1,53 @@
+//! `nearwall diagnose --case`: the wall effects that a simulated rig lacks to explain measured experiments.
+
+use std::fs::File;
+use std::path::Path;
+
+use nearwall::atomic_file::{AtomicFile, refused};
+use nearwall::dataset::RigMeasurements;
+use nearwall::diagnose::Options;
+use nearwall::diagnose::rig::{RigDiagnosis, diagnose_rig};
+use nearwall::rig::{CaseText, RigCase, Simulated, particles_for};
+
+use crate::diagnose::{Arguments, summary};
+use crate::{CommandResult, progress};
+
+pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
+    let file = arguments.data.display().to_string();
+    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
+    let data = RigMeasurements::read(&file, source)?;
+    for note in &data.notes {
+        eprintln!("nearwall: {note}");
+    }
+    let text = CaseText::from_file(case)?;
+    let rigs = RigCase::all(&text, &data)?;
+    let bar = progress::spinner("candidates tested");
+    let forward = Simulated::new(&rigs, particles_for(&data))?;
+    let options = Options { seed: arguments.seed, level: arguments.level, group: None };
+    let found = diagnose_rig(&forward, &data, text.model.text(), &options, arguments.draws, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    write(arguments, case, &found)?;
+    crate::print(&summary(&found.diagnosis, &arguments.out))
+}
+
+/// Writes all output files, or none.
+fn write(arguments: &Arguments, case: &Path, found: &RigDiagnosis) -> CommandResult {
+    let Arguments { data, out, .. } = arguments;
+    let json = serde_json::to_string_pretty(found)? + "\n";
+    std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
+    let inputs: [&Path; 2] = [data, case];
+    let mut results = vec![("extended.toml".to_owned(), found.extended.as_str()), ("diagnosis.json".to_owned(), &json)];
+    if !found.draws.is_empty() {
+        let folder = out.join("draws");
+        std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;
+    }
+    let named = found.draws.iter().enumerate();
+    results.extend(named.map(|(number, text)| (format!("draws/{:02}.toml", number + 1), text.as_str())));
+    let write = |(name, text): (String, &str)| {
+        let mut file = AtomicFile::new(&out.join(name), &inputs)?;
+        file.put(text)?;
+        Ok::<_, String>(file)
+    };
+    let files = results.into_iter().map(write).collect::<Result<Vec<_>, _>>()?;
+    Ok(AtomicFile::commit(files)?)
+}

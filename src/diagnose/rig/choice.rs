@@ -1,0 +1,452 @@
+//! The choice of causes: round after round the candidate that explains most beside what was found.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::super::part::{LawParameter, Part};
+use super::super::search::descend;
+use super::addition::RigAddition;
+use super::noise::{Data, Prepared, Values};
+use super::shelf::{Candidate, Shelf, predict};
+use super::significance::NullGains;
+use crate::effect::{CurveTarget, EFFECTS};
+use crate::impact::INPUTS;
+use crate::rig::{Forward, Predicted};
+
+/// Candidates whose best place gains less than the best one by more than this are not fitted [nats], and most that are.
+const SHORTLIST: f64 = 4.0;
+/// And those that gain this share of the best are fitted.
+const PROMISING: f64 = 0.4;
+const MOST_FITTED: usize = 6;
+/// Gain below which no candidate of a usual list is significant [nats].
+const LEAST_THRESHOLD: f64 = 2.0;
+/// Gain by which a cause must lead another one to be told from it [nats]: a ratio of likelihoods of 7.
+pub(super) const DISTINGUISHABLE: f64 = 2.0;
+/// Gain by which a curve must lead the best law to take its place [nats].
+const BEYOND_LAWS: f64 = 3.0;
+/// Difference in gain below which the candidate with fewer parameters is taken [nats].
+const EQUAL: f64 = 0.5;
+/// One cause, and one more for so many readings; and most causes.
+const READINGS_A_CAUSE: usize = 5;
+const MOST_CAUSES: usize = 4;
+/// Least standard deviation of an input's mean over the experiments, as a share of its range, for a curve over it.
+const CHANGES: f64 = 0.05;
+/// Correlation from which two inputs change together.
+const TOGETHER: f64 = 0.98;
+/// First size of the simplex, and iterations a parameter.
+const SIMPLEX: f64 = 0.08;
+const ITERATIONS: u64 = 25;
+/// Resamples for the certainty of a cause; it is named with this share of the gain of the best candidate.
+const RESAMPLES: u64 = 200;
+const NEARLY: f64 = 0.75;
+
+/// A fitted candidate.
+#[derive(Debug, Clone)]
+pub(super) struct Scored {
+    /// Fitted beside what was found before.
+    pub addition: RigAddition,
+    /// Gain in log likelihood less the number of parameters [nats].
+    pub gain: f64,
+    /// Corrected for all candidates.
+    pub p_value: f64,
+    /// Its predictions.
+    prepared: Option<Arc<Prepared>>,
+}
+
+/// A round that found a cause.
+#[derive(Debug, Clone)]
+pub(super) struct Round {
+    pub winner: Scored,
+    /// The other fitted candidates, the best first.
+    pub others: Vec<Scored>,
+    /// Share of resampled experiments that name the winner.
+    pub certainty: f64,
+}
+
+impl Round {
+    /// All fitted candidates.
+    fn all(&self) -> Vec<Scored> {
+        std::iter::once(&self.winner).chain(&self.others).cloned().collect()
+    }
+}
+
+/// What was chosen.
+#[derive(Debug, Clone)]
+pub(super) struct Choice {
+    /// Fitted together.
+    pub additions: Vec<RigAddition>,
+    pub rounds: Vec<Round>,
+    /// Smallest corrected p-value of a candidate beside the base model, and beside the additions.
+    pub structure: [f64; 2],
+}
+
+/// What all choices share.
+pub(super) struct RigStudy<'a> {
+    pub forward: &'a dyn Forward,
+    pub data: Data,
+    /// Accepted share of false discoveries [1].
+    pub level: f64,
+    pub seed: u64,
+    pub progress: &'a (dyn Fn() + Sync),
+    /// Predictions of the candidates beside causes, by the names of these.
+    shelves: Mutex<Vec<(Vec<String>, Arc<Shelf>)>>,
+}
+
+impl<'a> RigStudy<'a> {
+    pub fn new(
+        forward: &'a dyn Forward,
+        level: f64,
+        seed: u64,
+        progress: &'a (dyn Fn() + Sync),
+    ) -> Self {
+        let data = Data::new(forward.experiments());
+        Self { forward, data, level, seed, progress, shelves: Mutex::default() }
+    }
+
+    /// The predictions of all candidates beside these additions. A later call with the same causes gets the same predictions, whatever
+    /// the values of their parameters: where they were computed matters little to a choice.
+    pub fn shelf(&self, additions: &[RigAddition]) -> Result<Arc<Shelf>, String> {
+        let names: Vec<String> = additions.iter().map(RigAddition::key).collect();
+        let mut shelves = self.shelves.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, shelf)) = shelves.iter().find(|(known, _)| *known == names) {
+            return Ok(Arc::clone(shelf));
+        }
+        let candidates = candidates(self.forward, &self.data, &names);
+        let shelf = Arc::new(Shelf::new(self.forward, &self.data, additions, candidates, self.progress)?);
+        shelves.push((names, Arc::clone(&shelf)));
+        Ok(shelf)
+    }
+
+    /// Log likelihood of the measured values with these additions [nats]; minus infinity where the model refuses an impact.
+    pub fn score(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
+        let Ok(predicted) = predict(self.forward, additions) else { return f64::NEG_INFINITY };
+        self.score_of(&predicted, weights)
+    }
+
+    pub fn score_of(&self, predicted: &[Predicted], weights: &[f64]) -> f64 {
+        self.data.score(&self.data.prepare(predicted), &self.data.values(), weights)
+    }
+
+    /// Chooses causes on experiments with these weights, 0 or 1.
+    ///
+    /// # Errors
+    /// Why the base model cannot decide an impact.
+    pub fn choose(&self, weights: &[f64]) -> Result<Choice, String> {
+        let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
+        let mut choice = Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2] };
+        // What the largest gain without an effect has to be exceeded by; known after the first round.
+        let mut threshold = LEAST_THRESHOLD;
+        loop {
+            if self.room(&choice.additions, weights)? < threshold {
+                choice.structure[1] = 1.0;
+                return Ok(self.without_redundant(choice, weights));
+            }
+            let shelf = self.shelf(&choice.additions)?;
+            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            threshold = null.quantile(1.0 - self.level);
+            let scored = self.first_look(&shelf, &null, weights, &[]);
+            let least = scored.iter().map(|one| one.p_value).fold(1.0, f64::min);
+            choice.structure[1] = least;
+            if choice.rounds.is_empty() {
+                choice.structure[0] = least;
+            }
+            if least > self.level || choice.rounds.len() >= most {
+                return Ok(self.without_redundant(choice, weights));
+            }
+            let fitted = self.fit_all(&choice.additions, scored, weights);
+            let Some(round) = self.decide(&shelf, fitted, weights) else {
+                return Ok(self.without_redundant(choice, weights));
+            };
+            choice.additions.push(round.winner.addition.clone());
+            choice.rounds.push(round);
+            if choice.additions.len() > 1 {
+                choice.additions = self.fit(&choice.additions, weights);
+            }
+        }
+    }
+
+    /// What any candidate can still gain: up to predictions that equal the measured values [nats]. Without bound where a scatter is
+    /// fitted.
+    fn room(&self, additions: &[RigAddition], weights: &[f64]) -> Result<f64, String> {
+        let predicted = predict(self.forward, additions)?;
+        Ok(self.data.room(&predicted, weights))
+    }
+
+    /// The causes that experiments with these weights name, one after the other as in the choice on all experiments: with the predictions that
+    /// were computed for it, each cause at its best place. A cause that the whole choice does not have is fitted.
+    ///
+    /// # Errors
+    /// Why the base model cannot decide an impact.
+    pub fn choose_again(&self, whole: &Choice, weights: &[f64]) -> Result<Vec<RigAddition>, String> {
+        let mut additions: Vec<RigAddition> = Vec::new();
+        for round in 0..=whole.rounds.len() {
+            let shelf = self.shelf(&additions)?;
+            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            let known = whole.rounds.get(round).map_or(Vec::new(), Round::all);
+            let scored = self.first_look(&shelf, &null, weights, &known);
+            if scored.first().is_none_or(|best| best.p_value > self.level) || round == whole.rounds.len() {
+                break;
+            }
+            let promising: Vec<Scored> = scored.into_iter().filter(|one| one.gain > 0.0).collect();
+            let Some(winner) = winner(&promising) else { break };
+            let known = whole.rounds.iter().find(|known| known.winner.addition.key() == winner.addition.key());
+            match known {
+                Some(known) => additions.push(known.winner.addition.clone()),
+                None => {
+                    additions.push(winner.addition);
+                    return Ok(self.fit(&additions, weights));
+                }
+            }
+        }
+        Ok(additions)
+    }
+
+    /// The candidates at their best places, of the table and of earlier fits.
+    fn first_look(
+        &self,
+        shelf: &Shelf,
+        null: &NullGains,
+        weights: &[f64],
+        known: &[Scored],
+    ) -> Vec<Scored> {
+        let values = self.data.values();
+        let base = self.data.score(&shelf.base_prepared, &values, weights);
+        let one = |candidate: &Candidate| {
+            let (score, at) = self.best(candidate, &values, weights, known);
+            let gain = score - base - candidate.cost();
+            let addition = candidate.blank.moved(at);
+            Scored { addition, gain, p_value: null.p_value(gain), prepared: None }
+        };
+        let mut all: Vec<Scored> = shelf.candidates.iter().map(one).collect();
+        all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        all
+    }
+
+    /// The best of the places of a candidate and of its earlier fit, with its log likelihood [nats].
+    fn best<'b>(
+        &self,
+        candidate: &'b Candidate,
+        values: &Values,
+        weights: &[f64],
+        known: &'b [Scored],
+    ) -> (f64, &'b [f64]) {
+        let (score, place) = candidate.best(&self.data, values, weights);
+        let key = candidate.blank.key();
+        let fitted = known.iter().find(|one| one.addition.key() == key);
+        let fitted = fitted.and_then(|one| {
+            let prepared = one.prepared.as_ref()?;
+            Some((self.data.score(prepared, values, weights), one.addition.at.as_slice()))
+        });
+        match fitted {
+            Some((own, at)) if own > score => (own, at),
+            _ => (score, &place.at),
+        }
+    }
+
+    /// The promising candidates, each fitted beside the additions.
+    fn fit_all(&self, additions: &[RigAddition], scored: Vec<Scored>, weights: &[f64]) -> Vec<Scored> {
+        let best = scored.first().map_or(0.0, |one| one.gain);
+        let base = self.score(additions, weights);
+        // The places are coarse: where an effect is strong, the gain of a candidate between them may be much larger.
+        let least = (best - SHORTLIST).min(PROMISING * best).max(0.0);
+        let promising = scored.into_iter().filter(|one| one.gain > least);
+        let fit = |one: Scored| {
+            let joint = |at: &[f64]| {
+                let mut all = additions.to_vec();
+                all.push(one.addition.moved(at));
+                -self.score(&all, weights)
+            };
+            let start = one.addition.at.clone();
+            let (at, cost) = descend(joint, &start, SIMPLEX, ITERATIONS * start.len() as u64);
+            let gain = -cost - base - start.len() as f64;
+            (self.progress)();
+            let addition = one.addition.moved(&at);
+            let all = [additions, std::slice::from_ref(&addition)].concat();
+            let predicted = predict(self.forward, &all).ok();
+            let prepared = predicted.map(|predicted| Arc::new(self.data.prepare(&predicted)));
+            Scored { addition, gain, p_value: one.p_value, prepared }
+        };
+        let mut fitted: Vec<Scored> = promising.take(MOST_FITTED).map(fit).collect();
+        fitted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        fitted
+    }
+
+    /// The round with its winner and all others.
+    fn decide(&self, shelf: &Shelf, fitted: Vec<Scored>, weights: &[f64]) -> Option<Round> {
+        let winner = winner(&fitted)?;
+        let name = winner.addition.key();
+        let certainty = self.certainty(shelf, &name, weights, &fitted);
+        let others = fitted.into_iter().filter(|one| one.addition.key() != name).collect();
+        Some(Round { winner, others, certainty })
+    }
+
+    /// Share of resampled experiments in which the candidate gains nearly as much as the best one.
+    fn certainty(&self, shelf: &Shelf, name: &str, weights: &[f64], fitted: &[Scored]) -> f64 {
+        let values = self.data.values();
+        let inside: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] > 0.0).collect();
+        let mut named = 0;
+        for number in 0..RESAMPLES {
+            let mut random = ChaCha8Rng::seed_from_u64(self.seed ^ 0x7265_7361);
+            random.set_stream(number);
+            let mut drawn = vec![0.0; weights.len()];
+            for _ in 0..inside.len() {
+                drawn[inside[(random.next_u64() % inside.len() as u64) as usize]] += 1.0;
+            }
+            let base = self.data.score(&shelf.base_prepared, &values, &drawn);
+            let gain = |candidate: &Candidate| {
+                self.best(candidate, &values, &drawn, fitted).0 - base - candidate.cost()
+            };
+            // A free curve contains every law over its input, so it is no rival of them.
+            let rivals = shelf.candidates.iter().filter(|c| !c.blank.is_curve() || c.blank.key() == name);
+            let best = rivals.map(gain).fold(f64::NEG_INFINITY, f64::max);
+            let own = shelf.candidates.iter().filter(|c| c.blank.key() == name).map(gain);
+            let own = own.fold(f64::NEG_INFINITY, f64::max);
+            named += u64::from(own > 0.0 && own >= NEARLY * best);
+        }
+        named as f64 / RESAMPLES as f64
+    }
+
+    /// Fits all parameters together, from their present values.
+    pub fn fit(&self, additions: &[RigAddition], weights: &[f64]) -> Vec<RigAddition> {
+        let start: Vec<f64> = additions.iter().flat_map(|addition| addition.at.clone()).collect();
+        if start.is_empty() {
+            return additions.to_vec();
+        }
+        let cost = |at: &[f64]| -self.score(&moved(additions, at), weights);
+        let (at, _) = descend(cost, &start, 0.5 * SIMPLEX, ITERATIONS * start.len() as u64);
+        moved(additions, &at)
+    }
+
+    /// The choice without causes that later ones made superfluous.
+    fn without_redundant(&self, mut choice: Choice, weights: &[f64]) -> Choice {
+        for place in (0..choice.additions.len().saturating_sub(1)).rev() {
+            let mut rest = choice.additions.clone();
+            let removed = rest.remove(place);
+            let rest = self.fit(&rest, weights);
+            let loss = self.score(&choice.additions, weights) - self.score(&rest, weights);
+            if loss < 1.0 + removed.axes.len() as f64 {
+                choice.additions = rest;
+                choice.rounds.remove(place);
+            }
+        }
+        choice
+    }
+}
+
+/// The winner of a round: the best law, unless a curve leads it by far; of equal ones that with fewest parameters.
+fn winner(fitted: &[Scored]) -> Option<Scored> {
+    let best_of = |curve: bool| {
+        let own = fitted.iter().filter(|one| one.addition.is_curve() == curve);
+        let best = own.clone().map(|one| one.gain).fold(f64::NEG_INFINITY, f64::max);
+        let equal = own.filter(|one| one.gain > best - EQUAL);
+        equal.min_by_key(|one| one.addition.axes.len()).cloned()
+    };
+    match (best_of(false), best_of(true)) {
+        (Some(law), Some(curve)) if curve.gain > law.gain + BEYOND_LAWS => Some(curve),
+        (Some(law), _) => Some(law),
+        (None, curve) => curve,
+    }
+}
+
+/// Additions with all parameters at these coordinates, one addition after the other.
+pub(super) fn moved(additions: &[RigAddition], at: &[f64]) -> Vec<RigAddition> {
+    let mut rest = at;
+    let one = |addition: &RigAddition| {
+        let (own, others) = rest.split_at(addition.axes.len().min(rest.len()));
+        rest = others;
+        addition.moved(own)
+    };
+    additions.iter().map(one).collect()
+}
+
+/// The range of an input over the first impacts of all experiments, without the outermost hundredths; `None` if it does not vary.
+pub(super) fn range(forward: &dyn Forward, input: &str) -> Option<[f64; 2]> {
+    let sorted = sorted_values(forward, input)?;
+    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share).round() as usize];
+    let [low, high] = [at(0.005), at(0.995)];
+    (high - low > 1e-6 * high.abs()).then_some([low, high])
+}
+
+fn sorted_values(forward: &dyn Forward, input: &str) -> Option<Vec<f64>> {
+    let place = INPUTS.iter().position(|one| one.name == input)?;
+    let all = (0..forward.experiments().len()).flat_map(|one| forward.input_values(one, place));
+    let mut sorted: Vec<f64> = all.map(|(value, _)| value).filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    (!sorted.is_empty()).then_some(sorted)
+}
+
+/// The inputs over which a curve could be seen, with its knots: those whose mean changes from experiment to experiment. Of inputs that
+/// change together the first one.
+fn curve_inputs(forward: &dyn Forward) -> Vec<(usize, Vec<f64>)> {
+    let mut means_of_earlier: Vec<Vec<f64>> = Vec::new();
+    let mut curves = Vec::new();
+    for (place, input) in INPUTS.iter().enumerate() {
+        let Some([low, high]) = range(forward, input.name) else { continue };
+        let mean = |experiment: usize| {
+            let values = forward.input_values(experiment, place);
+            let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
+            values.iter().map(|(value, weight)| value * weight).sum::<f64>() / weight
+        };
+        let mut means: Vec<f64> = (0..forward.experiments().len()).map(mean).collect();
+        let spread = deviation(&means);
+        if spread < CHANGES * (high - low) || means_of_earlier.iter().any(|one| together(one, &means)) {
+            continue;
+        }
+        means_of_earlier.push(means.clone());
+        means.retain(|mean| mean.is_finite());
+        means.sort_by(f64::total_cmp);
+        let middle = means[means.len() / 2];
+        let inside = middle > low + 0.1 * (high - low) && middle < high - 0.1 * (high - low);
+        curves.push((place, vec![low, if inside { middle } else { 0.5 * (low + high) }, high]));
+    }
+    curves
+}
+
+fn deviation(values: &[f64]) -> f64 {
+    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
+    (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / finite.len().max(1) as f64).sqrt()
+}
+
+/// Whether two inputs are correlated so well over the experiments that a curve over one is a curve over the other.
+fn together(one: &[f64], other: &[f64]) -> bool {
+    let centred = |values: &[f64]| {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.iter().map(|value| value - mean).collect::<Vec<f64>>()
+    };
+    let (a, b) = (centred(one), centred(other));
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    product(&a, &b).abs() > TOGETHER * (product(&a, &a) * product(&b, &b)).sqrt()
+}
+
+/// Everything that could be added beside the causes with these names.
+fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAddition> {
+    let ranges: Vec<(&str, Option<[f64; 2]>)> =
+        INPUTS.iter().map(|input| (input.name, range(forward, input.name))).collect();
+    let range_of = |input: &str| ranges.iter().find(|(name, _)| *name == input).and_then(|(_, range)| *range);
+    let base = forward.base(0);
+    let has = |id: &str| base.terms().iter().any(|term| term.kind().id == id);
+    let effects = EFFECTS.into_iter().filter(|effect| !has(effect.id)).map(Part::Effect);
+    let numbers = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(base).is_some());
+    let parts = effects.chain(numbers.map(Part::LawParameter));
+    let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, range_of)).collect();
+    let curves = curve_inputs(forward);
+    let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));
+    let targets = [
+        (CurveTarget::Capture, "capture", false),
+        (CurveTarget::NormalRestitution, "e_n", LawParameter::NormalRestitution.of(base).is_some()),
+        (CurveTarget::TangentialRestitution, "e_t", LawParameter::TangentialRestitution.of(base).is_some()),
+    ];
+    for (on, _, has_level) in targets.into_iter().filter(|(_, part, _)| measured(part)) {
+        if !has_level {
+            all.push(RigAddition::curve(on, None));
+        }
+        for (place, knots) in &curves {
+            all.push(RigAddition::curve(on, Some((*place, knots.clone()))));
+        }
+    }
+    all.retain(|one| !found.contains(&one.key()));
+    all
+}

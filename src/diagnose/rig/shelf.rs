@@ -1,0 +1,120 @@
+//! What every candidate predicts at places of its search range, computed once for all uses.
+//!
+//! The predictions depend on the wall law but not on the measured values. The same table therefore serves the test of the data, of
+//! thousands of data sets drawn without an effect, of resampled experiments and of every part of a cross-validation.
+
+use rayon::prelude::*;
+
+use super::addition::{RigAddition, apply_all};
+use super::noise::{Data, Prepared, Values};
+use crate::rig::{Forward, Predicted};
+
+/// Places of a range with one parameter, and along each of two.
+const PLACES: usize = 14;
+const SIDE: usize = 6;
+/// Places of a range with three or more parameters.
+const MANY: usize = 48;
+/// Bases of the Halton sequence.
+const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
+
+/// A candidate at one place.
+#[derive(Debug)]
+pub(super) struct Place {
+    pub at: Vec<f64>,
+    pub prepared: Prepared,
+}
+
+/// A candidate with its places.
+#[derive(Debug)]
+pub(super) struct Candidate {
+    pub blank: RigAddition,
+    pub places: Vec<Place>,
+}
+
+/// All candidates beside what a model already has.
+#[derive(Debug)]
+pub(super) struct Shelf {
+    /// Predictions without a candidate.
+    pub base: Vec<Predicted>,
+    pub base_prepared: Prepared,
+    pub candidates: Vec<Candidate>,
+}
+
+/// Predictions of all readings by the base model with additions.
+///
+/// # Errors
+/// Why an impact cannot be decided.
+pub(super) fn predict(forward: &dyn Forward, additions: &[RigAddition]) -> Result<Vec<Predicted>, String> {
+    let one = |experiment: usize| forward.predict(experiment, &|model| apply_all(additions, model));
+    let all = (0..forward.experiments().len()).into_par_iter().map(one).collect::<Result<Vec<_>, _>>()?;
+    Ok(all.into_iter().flatten().collect())
+}
+
+impl Shelf {
+    /// Computes the predictions of all candidates beside `additions`; those that the impacts refuse or that change nothing are left out.
+    ///
+    /// # Errors
+    /// Why the model with the additions cannot decide an impact.
+    pub fn new(
+        forward: &dyn Forward,
+        data: &Data,
+        additions: &[RigAddition],
+        candidates: Vec<RigAddition>,
+        progress: &(dyn Fn() + Sync),
+    ) -> Result<Self, String> {
+        let base = predict(forward, additions)?;
+        let of = |blank: RigAddition| {
+            let places = places(blank.axes.len());
+            let at = |at: Vec<f64>| {
+                let mut all = additions.to_vec();
+                all.push(blank.moved(&at));
+                let predicted = predict(forward, &all).ok()?;
+                let changed = predicted.iter().zip(&base).any(|(a, b)| {
+                    a.value != b.value && !(a.value.is_nan() && b.value.is_nan())
+                });
+                changed.then(|| Place { at, prepared: data.prepare(&predicted) })
+            };
+            let places: Vec<Place> = places.into_par_iter().filter_map(at).collect();
+            progress();
+            (!places.is_empty()).then_some(Candidate { blank, places })
+        };
+        let candidates = candidates.into_par_iter().filter_map(of).collect();
+        let base_prepared = data.prepare(&base);
+        Ok(Self { base, base_prepared, candidates })
+    }
+}
+
+impl Candidate {
+    /// The best place and its log likelihood [nats].
+    pub fn best(&self, data: &Data, values: &Values, weights: &[f64]) -> (f64, &Place) {
+        let scored = self.places.iter().map(|place| (data.score(&place.prepared, values, weights), place));
+        scored.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, &self.places[0]))
+    }
+
+    /// What the number of its parameters gains by chance [nats].
+    pub fn cost(&self) -> f64 {
+        self.blank.axes.len() as f64
+    }
+}
+
+/// Places of a unit cube of this many dimensions.
+fn places(dimensions: usize) -> Vec<Vec<f64>> {
+    let even = |count: usize| (0..count).map(move |place| (place as f64 + 0.5) / count as f64);
+    match dimensions {
+        0 => vec![Vec::new()],
+        1 => even(PLACES).map(|x| vec![x]).collect(),
+        2 => even(SIDE).flat_map(|x| even(SIDE).map(move |y| vec![x, y])).collect(),
+        _ => (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect(),
+    }
+}
+
+/// The element of a Halton sequence with this base.
+fn halton(mut number: usize, base: usize) -> f64 {
+    let (mut value, mut digit) = (0.0, 1.0);
+    while number > 0 {
+        digit /= base as f64;
+        value += digit * (number % base) as f64;
+        number /= base;
+    }
+    value
+}

@@ -1,0 +1,199 @@
+//! `nearwall simulate` as the forward model of a rig.
+//!
+//! The path of every particle up to its first contact does not depend on the wall law and is computed once. From there every changed law
+//! follows the particle with the share of its weight that is not caught ([`crate::simulate::ExpectedHit`]), and with the same random numbers, so that
+//! predictions change smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are independent.
+//! Walls with a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random captures.
+
+use rayon::prelude::*;
+
+use super::case_text::{CaseText, SettingError};
+use super::tally::{Predicted, TalliedHit, Tally};
+use super::{Forward, ModelChange};
+use crate::dataset::{Experiment, RigMeasurements};
+use crate::impact::INPUTS;
+use crate::model::Model;
+use crate::simulate::{Case, FirstContact, first_contact, run_once};
+
+/// An experiment with its case.
+#[derive(Debug)]
+pub struct RigCase {
+    experiment: Experiment,
+    case: Case,
+    text: CaseText,
+    /// File, line and name of the experiment.
+    place: String,
+}
+
+impl RigCase {
+    /// The cases of all experiments.
+    ///
+    /// # Errors
+    /// [`SettingError`] of the first experiment that has one.
+    pub fn all(text: &CaseText, data: &RigMeasurements) -> Result<Vec<Self>, SettingError> {
+        let one = |(number, experiment): (usize, &Experiment)| {
+            let place = format!("{}:{}: experiment `{}`", data.file, experiment.line, experiment.name);
+            Self::new(text, experiment, place, number as u64)
+        };
+        data.experiments.iter().enumerate().map(one).collect()
+    }
+
+    /// The case of an experiment; `place` names it in messages.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a setting that the case does not have, or an observable of a wall that it does not have.
+    fn new(
+        text: &CaseText,
+        experiment: &Experiment,
+        place: String,
+        number: u64,
+    ) -> Result<Self, SettingError> {
+        let mut case = text.with(&place, &experiment.settings)?;
+        case.seed = case.seed.wrapping_add(number);
+        case.tolerance = case.tolerance.max(TOLERANCE);
+        let walls: Vec<&str> = case.surfaces.iter().map(|surface| surface.name.as_str()).collect();
+        if let Some(reading) = experiment.readings.iter().find(|r| !walls.contains(&r.wall.as_str())) {
+            let reason = format!("the case has no wall `{}`; it has {}", reading.wall, walls.join(", "));
+            return Err(SettingError::Setting { experiment: place, key: reading.column.clone(), reason });
+        }
+        if case.injections.iter().any(|injection| injection.model.is_some()) {
+            let reason = "particles with a model file of their own cannot be diagnosed; \
+                          give them the model of the case"
+                .to_owned();
+            return Err(SettingError::Setting { experiment: place, key: "particles.model".to_owned(), reason });
+        }
+        Ok(Self { experiment: experiment.clone(), case, text: text.clone(), place })
+    }
+}
+
+/// The paths of one experiment.
+#[derive(Debug)]
+struct Paths<'a> {
+    rig: &'a RigCase,
+    walls: Vec<String>,
+    contacts: Vec<FirstContact<'a>>,
+}
+
+/// All experiments with the paths of their particles up to the first contact.
+#[derive(Debug)]
+pub struct Simulated<'a> {
+    runs: Vec<Paths<'a>>,
+    experiments: Vec<Experiment>,
+}
+
+/// Relative error of a step of a path: far below the Monte Carlo error [1].
+const TOLERANCE: f64 = 1e-4;
+/// Fewest and most particles of an experiment.
+const PARTICLES: [f64; 2] = [200.0, 1000.0];
+
+/// Number of particles with which the Monte Carlo error is well below that of the readings: three times the largest count.
+pub fn particles_for(data: &RigMeasurements) -> u64 {
+    let counts = data.experiments.iter().flat_map(|one| &one.readings).filter_map(|reading| reading.count);
+    (3.0 * counts.fold(0.0, f64::max)).clamp(PARTICLES[0], PARTICLES[1]) as u64
+}
+
+impl<'a> Simulated<'a> {
+    /// Flies at most `particles` particles of each case to their first contact; all that the case has if it has fewer.
+    ///
+    /// # Errors
+    /// Why no particle of an experiment can be followed.
+    pub fn new(rigs: &'a [RigCase], particles: u64) -> Result<Self, String> {
+        let runs = rigs.par_iter().map(|rig| Paths::new(rig, particles)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { runs, experiments: rigs.iter().map(|rig| rig.experiment.clone()).collect() })
+    }
+}
+
+impl<'a> Paths<'a> {
+    fn new(rig: &'a RigCase, particles: u64) -> Result<Self, String> {
+        let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
+        let count = rig.case.count();
+        // Evenly over all injections, which are numbered one after the other.
+        let wanted = particles.min(count).max(1);
+        let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
+        let flown: Vec<Result<FirstContact<'a>, String>> =
+            numbers.par_iter().map(|number| first_contact(&rig.case, *number)).collect();
+        let first_trouble = flown.iter().find_map(|one| one.as_ref().err().cloned());
+        let contacts: Vec<FirstContact<'a>> = flown.into_iter().filter_map(Result::ok).collect();
+        match first_trouble {
+            Some(trouble) if contacts.is_empty() => Err(format!("{}: {trouble}", rig.place)),
+            _ => Ok(Self { rig, walls, contacts }),
+        }
+    }
+
+    fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+        let RigCase { case, experiment, place, .. } = self.rig;
+        let model = change(&case.model);
+        let mut tally = Tally::new(&experiment.readings, &self.walls);
+        if case.deposit.is_some() {
+            self.run_with_memory(model, &mut tally)?;
+            return Ok(tally.predicted());
+        }
+        for contact in &self.contacts {
+            let followed = contact.follow(&model, |hit| {
+                let coordinate = case.surfaces[hit.surface].shape.coordinate(&hit.position);
+                tally.hit(&TalliedHit {
+                    wall: hit.surface,
+                    coordinate,
+                    impact: hit.impact,
+                    outcome: hit.outcome,
+                    share: hit.share,
+                    caught: hit.outcome.sticking_probability,
+                    weight: hit.weight,
+                    mass: hit.mass,
+                });
+            });
+            followed.map_err(|error| format!("{place}: {error}"))?;
+            tally.end_particle(contact.mass);
+        }
+        Ok(tally.predicted())
+    }
+
+    /// Runs the whole case, whose walls change with what they caught.
+    fn run_with_memory(&self, model: Model, tally: &mut Tally) -> Result<(), String> {
+        let RigCase { experiment, text, place, case: base } = self.rig;
+        let mut case = text.with(place, &experiment.settings).map_err(|error| error.to_string())?;
+        case.model = model;
+        case.seed = base.seed;
+        let ran = run_once::<String>(&case, None, &mut |case, _, _, trajectory| {
+            for hit in &trajectory.hits {
+                tally.hit(&TalliedHit {
+                    wall: hit.surface,
+                    coordinate: case.surfaces[hit.surface].shape.coordinate(&hit.position),
+                    impact: &hit.impact,
+                    outcome: &hit.outcome,
+                    share: 1.0,
+                    caught: f64::from(u8::from(hit.outcome.stuck)),
+                    weight: trajectory.weight,
+                    mass: hit.mass,
+                });
+            }
+            tally.end_particle(trajectory.mass[0]);
+            Ok(())
+        });
+        ran.map(drop).map_err(|error| format!("{place}: {error}"))
+    }
+}
+
+impl Forward for Simulated<'_> {
+    fn experiments(&self) -> &[Experiment] {
+        &self.experiments
+    }
+
+    fn base(&self, experiment: usize) -> &Model {
+        &self.runs[experiment].rig.case.model
+    }
+
+    fn predict(&self, experiment: usize, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+        self.runs[experiment].predict(change)
+    }
+
+    fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
+        let Paths { rig, contacts, .. } = &self.runs[experiment];
+        let of = |contact: &FirstContact<'_>| {
+            let impact = contact.impact(&rig.case.model)?;
+            let value = INPUTS.get(input).map(|input| (input.value)(&impact))?;
+            Some((value, contact.weight()))
+        };
+        contacts.iter().filter_map(of).collect()
+    }
+}
