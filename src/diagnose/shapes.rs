@@ -66,7 +66,9 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
     }
 
     fn of_part(&self, part: Part) -> Shapes {
-        let Some(axes) = part.axes(|input| self.search.data.range(input), false) else { return Shapes::default() };
+        let Some(axes) = part.axes(|input| self.search.data.range(input), false) else {
+            return Shapes::default();
+        };
         let blank = FittedPart::middle(part, axes);
         let both_signs = matches!(part, Part::LawParameter(_));
         let at = grid(blank.axes.len());

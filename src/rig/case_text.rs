@@ -159,7 +159,9 @@ fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), String> 
         table = match item {
             Item::ArrayOfTables(tables) => named(tables, part, parts.next())?,
             item => item.as_table_like_mut().ok_or_else(|| {
-                format!("`{part}` is a value in the case; make it a distribution there, or set `{part}` itself")
+                format!(
+                    "`{part}` is a value in the case; make it a distribution there, or set `{part}` itself"
+                )
             })?,
         };
     }

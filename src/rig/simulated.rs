@@ -1,7 +1,7 @@
 //! `nearwall simulate` as the forward model of a rig.
 //!
 //! The path of every particle up to its first contact does not depend on the wall law and is computed once. From there every changed law
-//! follows the particle with the share of its weight that is not caught ([`crate::simulate::ExpectedHit`]), and with the same random numbers, so that
+//! follows the particle with the share of its weight that is not caught ([`crate::simulate::PathTree`]), and with the same random numbers, so that
 //! predictions change smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are independent.
 //! Walls with a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random captures.
 
@@ -13,7 +13,7 @@ use super::{Forward, ModelChange};
 use crate::dataset::{Experiment, RigMeasurements};
 use crate::impact::INPUTS;
 use crate::model::Model;
-use crate::simulate::{Case, FirstContact, first_contact, run_once};
+use crate::simulate::{Case, PathTree, run_once};
 
 /// An experiment with its case.
 #[derive(Debug)]
@@ -60,7 +60,11 @@ impl RigCase {
             let reason = "particles with a model file of their own cannot be diagnosed; \
                           give them the model of the case"
                 .to_owned();
-            return Err(SettingError::Setting { experiment: place, key: "particles.model".to_owned(), reason });
+            return Err(SettingError::Setting {
+                experiment: place,
+                key: "particles.model".to_owned(),
+                reason,
+            });
         }
         Ok(Self { experiment: experiment.clone(), case, text: text.clone(), place })
     }
@@ -71,7 +75,7 @@ impl RigCase {
 struct Paths<'a> {
     rig: &'a RigCase,
     walls: Vec<String>,
-    contacts: Vec<FirstContact<'a>>,
+    particles: Vec<PathTree<'a>>,
 }
 
 /// All experiments with the paths of their particles up to the first contact.
@@ -110,13 +114,13 @@ impl<'a> Paths<'a> {
         // Evenly over all injections, which are numbered one after the other.
         let wanted = particles.min(count).max(1);
         let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
-        let flown: Vec<Result<FirstContact<'a>, String>> =
-            numbers.par_iter().map(|number| first_contact(&rig.case, *number)).collect();
+        let flown: Vec<Result<PathTree<'a>, String>> =
+            numbers.par_iter().map(|number| PathTree::new(&rig.case, *number)).collect();
         let first_trouble = flown.iter().find_map(|one| one.as_ref().err().cloned());
-        let contacts: Vec<FirstContact<'a>> = flown.into_iter().filter_map(Result::ok).collect();
+        let particles: Vec<PathTree<'a>> = flown.into_iter().filter_map(Result::ok).collect();
         match first_trouble {
-            Some(trouble) if contacts.is_empty() => Err(format!("{}: {trouble}", rig.place)),
-            _ => Ok(Self { rig, walls, contacts }),
+            Some(trouble) if particles.is_empty() => Err(format!("{}: {trouble}", rig.place)),
+            _ => Ok(Self { rig, walls, particles }),
         }
     }
 
@@ -128,8 +132,8 @@ impl<'a> Paths<'a> {
             self.run_with_memory(model, &mut tally)?;
             return Ok(tally.predicted());
         }
-        for contact in &self.contacts {
-            let followed = contact.follow(&model, |hit| {
+        for particle in &self.particles {
+            let followed = particle.follow(&model, |hit| {
                 let coordinate = case.surfaces[hit.surface].shape.coordinate(&hit.position);
                 tally.hit(&TalliedHit {
                     wall: hit.surface,
@@ -143,7 +147,7 @@ impl<'a> Paths<'a> {
                 });
             });
             followed.map_err(|error| format!("{place}: {error}"))?;
-            tally.end_particle(contact.mass);
+            tally.end_particle(particle.mass);
         }
         Ok(tally.predicted())
     }
@@ -188,12 +192,12 @@ impl Forward for Simulated<'_> {
     }
 
     fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
-        let Paths { rig, contacts, .. } = &self.runs[experiment];
-        let of = |contact: &FirstContact<'_>| {
-            let impact = contact.impact(&rig.case.model)?;
+        let Paths { rig, particles, .. } = &self.runs[experiment];
+        let of = |particle: &PathTree<'_>| {
+            let impact = particle.impact(&rig.case.model)?;
             let value = INPUTS.get(input).map(|input| (input.value)(&impact))?;
-            Some((value, contact.weight()))
+            Some((value, particle.weight))
         };
-        contacts.iter().filter_map(of).collect()
+        particles.iter().filter_map(of).collect()
     }
 }

@@ -223,7 +223,8 @@ mod tests {
         let mut tally = Tally::new(&readings, &["a".to_owned(), "b".to_owned()]);
         for particle in 0..10u8 {
             let mass = if particle % 2 == 0 { 1.0 } else { 3.0 };
-            let impact = Impact { diameter: 1e-6, conversion: 0.1 * f64::from(particle), ..Impact::default() };
+            let impact =
+                Impact { diameter: 1e-6, conversion: 0.1 * f64::from(particle), ..Impact::default() };
             let outcome = Outcome { normal_restitution: 0.1 * f64::from(particle), ..Outcome::default() };
             let mut hit = TalliedHit {
                 wall: 0,

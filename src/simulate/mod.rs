@@ -36,7 +36,7 @@ pub use shrinkage::Shrinkage;
 pub use surface::{Shape, Surface, SurfaceKind};
 pub use trajectory::{Fate, Hit, Trajectory};
 pub use wall_deposits::{BinHistory, DepositHistory, DepositSettings, WallHistory};
-pub use weighted::{ExpectedHit, FirstContact, first_contact};
+pub use weighted::{ExpectedHit, PathTree};
 
 use rayon::prelude::*;
 

@@ -36,7 +36,8 @@ fn write(arguments: &Arguments, case: &Path, found: &RigDiagnosis) -> CommandRes
     let json = serde_json::to_string_pretty(found)? + "\n";
     std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
     let inputs: [&Path; 2] = [data, case];
-    let mut results = vec![("extended.toml".to_owned(), found.extended.as_str()), ("diagnosis.json".to_owned(), &json)];
+    let mut results =
+        vec![("extended.toml".to_owned(), found.extended.as_str()), ("diagnosis.json".to_owned(), &json)];
     if !found.draws.is_empty() {
         let folder = out.join("draws");
         std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;

@@ -95,12 +95,7 @@ pub(super) struct RigStudy<'a> {
 }
 
 impl<'a> RigStudy<'a> {
-    pub fn new(
-        forward: &'a dyn Forward,
-        level: f64,
-        seed: u64,
-        progress: &'a (dyn Fn() + Sync),
-    ) -> Self {
+    pub fn new(forward: &'a dyn Forward, level: f64, seed: u64, progress: &'a (dyn Fn() + Sync)) -> Self {
         let data = Data::new(forward.experiments());
         Self { forward, data, level, seed, progress, shelves: Mutex::default() }
     }
@@ -191,7 +186,8 @@ impl<'a> RigStudy<'a> {
             }
             let promising: Vec<Scored> = scored.into_iter().filter(|one| one.gain > 0.0).collect();
             let Some(winner) = winner(&promising) else { break };
-            let known = whole.rounds.iter().find(|known| known.winner.addition.key() == winner.addition.key());
+            let known =
+                whole.rounds.iter().find(|known| known.winner.addition.key() == winner.addition.key());
             match known {
                 Some(known) => additions.push(known.winner.addition.clone()),
                 None => {
@@ -204,13 +200,7 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The candidates at their best places, of the table and of earlier fits.
-    fn first_look(
-        &self,
-        shelf: &Shelf,
-        null: &NullGains,
-        weights: &[f64],
-        known: &[Scored],
-    ) -> Vec<Scored> {
+    fn first_look(&self, shelf: &Shelf, null: &NullGains, weights: &[f64], known: &[Scored]) -> Vec<Scored> {
         let values = self.data.values();
         let base = self.data.score(&shelf.base_prepared, &values, weights);
         let one = |candidate: &Candidate| {

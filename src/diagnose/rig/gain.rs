@@ -3,10 +3,10 @@
 //! Experiments are held out as a whole. For each part of them, causes are chosen and fitted on the others, the model file is written and
 //! read again, and predicts the part. The candidates of a round were computed once for all parts; they do not depend on the data.
 
+use super::super::data_split::shuffled;
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
-use super::super::data_split::shuffled;
 use super::addition::{Kind, RigAddition};
 use super::choice::{Choice, RigStudy, moved};
 use super::posterior::Posterior;

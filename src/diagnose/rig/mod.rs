@@ -32,7 +32,9 @@ use posterior::Posterior;
 #[derive(Debug, thiserror::Error)]
 pub enum RigError {
     /// Too few readings.
-    #[error("{usable} of {read} rows can be used; a diagnosis of a rig needs at least {LEAST_READINGS} readings. {reasons}")]
+    #[error(
+        "{usable} of {read} rows can be used; a diagnosis of a rig needs at least {LEAST_READINGS} readings. {reasons}"
+    )]
     TooFew {
         /// Usable rows.
         usable: usize,
@@ -68,8 +70,9 @@ pub fn diagnose_rig(
     progress: &(dyn Fn() + Sync),
 ) -> Result<RigDiagnosis, RigError> {
     if data.count() < LEAST_READINGS {
-        let reason =
-            |bad: &crate::dataset::BadRow| format!("Line {}: {}.", bad.line, bad.reason.trim_end_matches('.'));
+        let reason = |bad: &crate::dataset::BadRow| {
+            format!("Line {}: {}.", bad.line, bad.reason.trim_end_matches('.'))
+        };
         let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
         let usable = data.read - data.rejected.len();
         return Err(RigError::TooFew { usable, read: data.read, reasons });

@@ -103,7 +103,8 @@ impl Posterior {
     /// The most likely of all drawn coordinates for experiments with these weights; no law is evaluated anew.
     pub fn best(&self, study: &RigStudy<'_>, weights: &[f64]) -> Option<Vec<f64>> {
         let values = study.data.values();
-        let scored = self.tried.iter().map(|(at, prepared)| (study.data.score(prepared, &values, weights), at));
+        let scored =
+            self.tried.iter().map(|(at, prepared)| (study.data.score(prepared, &values, weights), at));
         scored.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at.clone())
     }
 

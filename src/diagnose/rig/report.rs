@@ -6,8 +6,8 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use super::super::finding::sigma;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Alternative, Calibration, Diagnosis, Finding, Fit, FitTest, FittedCurve, LargeMisfit, NotExamined, Options,
-    Rows,
+    Alternative, Calibration, Diagnosis, Finding, Fit, FitTest, FittedCurve, LargeMisfit, NotExamined,
+    Options, Rows,
 };
 use super::super::verdict::{fit_sentence, is_refuted};
 use super::MISFIT;
@@ -112,8 +112,9 @@ fn rivals(round: &Round) -> Vec<String> {
     let close = round.others.iter().filter(|other| other.gain > round.winner.gain - DISTINGUISHABLE);
     // A free curve over an input contains the laws over it.
     let own = round.winner.addition.variables();
-    let contained =
-        |other: &&Scored| other.addition.is_curve() && other.addition.variables().iter().any(|v| own.contains(v));
+    let contained = |other: &&Scored| {
+        other.addition.is_curve() && other.addition.variables().iter().any(|v| own.contains(v))
+    };
     let level = |other: &&Scored| other.addition.is_curve() && other.addition.variables().is_empty();
     let mut names: Vec<String> =
         close.filter(|other| !contained(other) && !level(other)).map(|other| other.addition.name()).collect();
@@ -264,13 +265,17 @@ impl Found<'_> {
         let others = rivals(round);
         let curve = addition.fitted_curve().map(|curve| FittedCurve {
             factor: curve.on != crate::effect::CurveTarget::Capture,
-            at: curve.axes.iter().flat_map(|axis| axis.knots.iter().map(|k| rounded(*k).to_string())).collect(),
+            at: curve
+                .axes
+                .iter()
+                .flat_map(|axis| axis.knots.iter().map(|k| rounded(*k).to_string()))
+                .collect(),
             adds: curve.values.iter().map(|value| rounded(*value)).collect(),
         });
-        let alternatives = round.others.iter().map(|other| Alternative {
-            cause: other.addition.name(),
-            score_difference: gain - other.gain,
-        });
+        let alternatives = round
+            .others
+            .iter()
+            .map(|other| Alternative { cause: other.addition.name(), score_difference: gain - other.gain });
         let observable = self.observable(addition)?;
         let mut finding = Finding {
             cause: addition.name(),
@@ -358,7 +363,8 @@ impl Found<'_> {
         let of = |(kind, name): (usize, &&'static str)| {
             let own = data.readings.iter().enumerate().filter(|(_, datum)| datum.kind == kind);
             let squares = |predicted: &[Predicted]| {
-                let all: Vec<f64> = own.clone().map(|(i, datum)| (datum.value - predicted[i].value).powi(2)).collect();
+                let all: Vec<f64> =
+                    own.clone().map(|(i, datum)| (datum.value - predicted[i].value).powi(2)).collect();
                 let finite: Vec<f64> = all.into_iter().filter(|square| square.is_finite()).collect();
                 (finite.iter().sum::<f64>() / finite.len().max(1) as f64).sqrt()
             };

@@ -69,9 +69,10 @@ impl Shelf {
                 let mut all = additions.to_vec();
                 all.push(blank.moved(&at));
                 let predicted = predict(forward, &all).ok()?;
-                let changed = predicted.iter().zip(&base).any(|(a, b)| {
-                    a.value != b.value && !(a.value.is_nan() && b.value.is_nan())
-                });
+                let changed = predicted
+                    .iter()
+                    .zip(&base)
+                    .any(|(a, b)| a.value != b.value && !(a.value.is_nan() && b.value.is_nan()));
                 changed.then(|| Place { at, prepared: data.prepare(&predicted) })
             };
             let places: Vec<Place> = places.into_par_iter().filter_map(at).collect();
@@ -104,7 +105,9 @@ fn places(dimensions: usize) -> Vec<Vec<f64>> {
         0 => vec![Vec::new()],
         1 => even(PLACES).map(|x| vec![x]).collect(),
         2 => even(SIDE).flat_map(|x| even(SIDE).map(move |y| vec![x, y])).collect(),
-        _ => (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect(),
+        _ => {
+            (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect()
+        }
     }
 }
 
