@@ -30,10 +30,12 @@ using namespace Foam::nearWall;
 //  the models declare follow.
 //
 //  `time` is the end of the time step. `parcel_age` orders the impacts of a
-//  parcel within a step. OpenFOAM's parcels carry it over ranks and restarts, and
-//  it never decreases within a step. The fraction of the step may: OpenFOAM
-//  moves a parcel twice in the step of its injection, and an MPPIC cloud moves
-//  all parcels a second time to correct them, both from fraction 0.
+//  parcel within a step: OpenFOAM's parcels carry it over ranks and restarts, and
+//  it grows with each move. The fraction of the step would not do: OpenFOAM moves
+//  a parcel twice in the step of its injection, and an MPPIC cloud moves all
+//  parcels a second time to correct them, both from fraction 0. After the latter
+//  OpenFOAM resets the age, also where the parcel meets a rank boundary: impacts
+//  before and after such a boundary may then be in the wrong order.
 const std::string firstColumns
 (
     "time,x,y,z,origProcId,origId,parcel_age,n_particles,"
