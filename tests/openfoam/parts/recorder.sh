@@ -408,7 +408,7 @@ closing() { # effect toml parameter=value...
 # inside its intervals
 diagnosed() {   # effect parameter=value...
     if [ "$1" = none ]; then
-        head -n 1 log.diagnose
+        grep -v '^nearwall: ' log.diagnose | head -n 1
         grep -q "no deviation from the model is significant" log.diagnose && ! grep -q '^  [a-z]' log.diagnose
         return
     fi
