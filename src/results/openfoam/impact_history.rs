@@ -220,6 +220,8 @@ pub struct ImpactHistory {
     /// Patches without a recorded impact, with the rebounds and captures that the tables count there: constant
     /// coefficients decide, or the key `patches` of the record omits them.
     pub unrecorded: Vec<(String, u64)>,
+    /// Impacts that the model refused: the parcel rebounded without loss and the record omits them.
+    pub unusable: u64,
 }
 
 impl ImpactHistory {
@@ -296,6 +298,7 @@ pub fn read(
         one_in,
         counted: None,
         unrecorded: Vec::new(),
+        unusable: 0,
     };
     add_tables(&mut history);
     Ok(history)
@@ -483,6 +486,7 @@ fn add_tables(history: &mut ImpactHistory) {
     history.unrecorded = others.map(|(wall, count)| (wall.clone(), count)).collect();
     history.cloud = file_name(cloud).to_owned();
     history.injected_mass = run.injected.last().map(|[_, mass]| *mass);
+    history.unusable = tables::unusable(cloud);
     history.injected_parcels = tables::injected_parcels(cloud);
 }
 
@@ -525,7 +529,7 @@ mod tests {
 
         fn tables(self) -> Self {
             let hits = |n: u32, r: u32| {
-                format!("# time_s hits rebounds sticks e_n_sum\n0.004 {n} {r} {} 1\n", n - r)
+                format!("# time_s hits rebounds sticks e_n_sum unusable\n0.004 {n} {r} {} 1 2\n", n - r)
             };
             let balance = "# time_s injected_kg injected_parcels residual\n0.002 1e-6 1 0\n0.004 4e-6 8 0\n";
             self.with("cloud", "0", "floor.dat", &hits(3, 2))
@@ -556,6 +560,7 @@ mod tests {
         history.check_complete().unwrap();
         assert_eq!((history.cloud.as_str(), history.one_in, history.impacts()), ("cloud", 1, 4));
         assert_eq!((history.injected_mass, history.injected_parcels), (Some(4e-6), Some(8)));
+        assert_eq!(history.unusable, 6);
         assert_eq!((history.counted, history.unrecorded), (Some(4), vec![("sides".to_owned(), 6)]));
         let [first, second] = &history.parcels[..] else { unreachable!() };
         assert_eq!((first.id, second.id.rank), (ParcelId { rank: 0, number: 7 }, 1));

@@ -160,7 +160,7 @@ check_whole_parcels() { # name sampled whole share
 # The histories of all parcels: serial, on two ranks, over a restart on one and on two,
 # and of a sample
 case_histories() {
-    local dir="$work/histories" file="impacts.csv" f share
+    local dir="$work/histories" file="impacts.csv" f share said
     bouncing_box "$dir" 2000 || return
     sed -i 's/outlet .*/outlet { type interact; wall default; wallTemperature 350; }/; 1i record { maxRows 100000; }' constant/interaction
     settings 0.2 0.1 startTime ascii
