@@ -65,6 +65,18 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::injectedMass() const
 
 
 template<class CloudType>
+Foam::scalar Foam::nearWallInteraction<CloudType>::injectedParcels() const
+{
+    scalar parcels = 0;
+    forAll(this->owner().injectors(), i)
+    {
+        parcels += this->owner().injectors()[i].parcelsAddedTotal();
+    }
+    return parcels;
+}
+
+
+template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::makeMemory()
 {
     if (!coeffs().found("memory")) return;
@@ -186,6 +198,7 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::runState::begin(const bool isSteady)
 {
     isSolving = true;
+    recorder.reserveIdentities();
     if (!isSteady) return;
 
     deposit->clear();
@@ -351,6 +364,9 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     e.patch = pp.index();
     e.face = facei;
     e.injector = p.typeId();
+    e.origProc = p.origProc();
+    e.origId = p.origId();
+    e.age = p.age();
     e.position = nearWall::positionOf(p, mesh());
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
@@ -753,7 +769,10 @@ Foam::scalar Foam::nearWallInteraction<CloudType>::finishBalance
     balance.report(os, totals, now);
 
     const Time& time = mesh().time();
-    if (writeRow) balance.writeRow(time.value(), totals, now);
+    if (writeRow)
+    {
+        balance.writeRow(time.value(), totals, now, injectedParcels());
+    }
     if (time.writeTime())
     {
         this->setModelProperty("balance", balance.saved(totals));

@@ -5,6 +5,7 @@
 #include "dictionaryChecks.H"
 #include "exactText.H"
 #include "impactKey.H"
+#include "particle.H"
 #include "OSspecific.H"
 #include "versionCompat.H"
 #include "wordReList.H"
@@ -24,12 +25,21 @@ using namespace Foam::nearWall;
 #define INPUT_NAME(input) #input ","
 #define INPUT_VALUE(input) scalar(e.impact.input),
 
-//- Names of the columns: numbers, the first of which identify an impact, then
+//- Names of the columns: numbers, the first of which identify the parcel, then
 //  the others as impactRecorder::add() writes them; those of the inputs that
-//  the models declare follow
+//  the models declare follow.
+//
+//  `time` is the end of the time step. `parcel_age` orders the impacts of a
+//  parcel within a step: OpenFOAM's parcels carry it over ranks and restarts, and
+//  it grows with each move. The fraction of the step would not do: OpenFOAM moves
+//  a parcel twice in the step of its injection, and an MPPIC cloud moves all
+//  parcels a second time to correct them, both from fraction 0. After the latter
+//  OpenFOAM resets the age, also where the parcel meets a rank boundary: impacts
+//  before and after such a boundary may then be in the wrong order.
 const std::string firstColumns
 (
-    "time,x,y,z," NW_IMPACT_INPUTS(INPUT_NAME)
+    "time,x,y,z,origProcId,origId,parcel_age,n_particles,"
+    NW_IMPACT_INPUTS(INPUT_NAME)
     "patch,wall,injector,mass,regime,outcome,e_n,e_t"
 );
 
@@ -37,31 +47,28 @@ const std::string firstColumns
 std::vector<scalar> numbers(const scalar time, const impactEvent& e)
 {
     const vector& at = e.position;
-    return {time, at.x(), at.y(), at.z(), NW_IMPACT_INPUTS(INPUT_VALUE)};
+    return
+    {
+        time, at.x(), at.y(), at.z(),
+        scalar(e.origProc), scalar(e.origId), e.age, e.particles,
+        NW_IMPACT_INPUTS(INPUT_VALUE)
+    };
 }
 
 #undef INPUT_NAME
 #undef INPUT_VALUE
 
-//- Time, position, v_n, v_t, omega, d
-const label nIdentifying = 8;
+//- Time, position, identity of the parcel, age
+const label nIdentifying = 7;
 
 
-//- Hash of the numbers that identify an impact: time, position, v_n, v_t, d.
-//  Their last digits, in which ranks and restarts differ, do not count.
-std::uint64_t hashOf(const scalar* id)
+//- Hash of the parcel's identity: all impacts of a parcel are chosen or none,
+//  whatever their outcome
+std::uint64_t hashOf(const label origProc, const label origId)
 {
-    const scalar speed = std::sqrt(sqr(id[4]) + sqr(id[5]));
     impactKey key;
-    key.add(id[0]).add(speed).add(id[7]);
-
-    // Steps of 1e-6 m
-    key.add(vector(id[1], id[2], id[3]), 0.1);
-    key.add(vector(id[4], id[5], 0), speed);
-
-    // Differs from the key of the impact's draws, so that the choice of rows
-    // does not depend on the outcome
-    return impactKey::mix(key.value() ^ 0x5851f42d4c957f2dULL);
+    key.addExact(std::uint64_t(origProc)).addExact(std::uint64_t(origId));
+    return key.value();
 }
 
 
@@ -94,15 +101,16 @@ label commas(const std::string& line)
 
 //- Read the identifying numbers of a line; false for a line of another number
 //  of columns, which is incomplete or of another model
-bool readIdentity
+bool readRow
 (
     const std::string& line,
     const std::string& header,
-    scalar* id
+    impactRecorder::row& r
 )
 {
     if (commas(line) != commas(header)) return false;
 
+    scalar id[nIdentifying];
     const char* at = line.c_str();
     for (label i = 0; i < nIdentifying; ++i)
     {
@@ -111,6 +119,9 @@ bool readIdentity
         if (end == at || *end != ',') return false;
         at = end + 1;
     }
+    const label origProc = label(id[4]);
+    const label origId = label(id[5]);
+    r = {id[0], origProc, origId, id[6], hashOf(origProc, origId), line};
     return true;
 }
 
@@ -186,7 +197,11 @@ Foam::nearWall::impactRecorder::impactRecorder
     ),
     previousRows_(readExact(saved, "rows")),
     // After the rounding of the time's name, before the next step
-    start_(mesh.time().value() + 1e-3*mesh.time().deltaTValue())
+    start_(mesh.time().value() + 1e-3*mesh.time().deltaTValue()),
+    identities_
+    (
+        nearWall::readOr<labelList>(saved, "identities", labelList())
+    )
 {
     inFile_.fill(0);
     if (!coeffs.found("record")) return;
@@ -245,7 +260,8 @@ void Foam::nearWall::impactRecorder::add(const impactEvent& e)
     if (!recorded_[e.patch]) return;
 
     const std::vector<scalar> values(numbers(mesh_.time().value(), e));
-    row r{values[0], hashOf(values.data()), std::string()};
+    const std::uint64_t hash = hashOf(e.origProc, e.origId);
+    row r{values[0], e.origProc, e.origId, e.age, hash, std::string()};
     seen_ += 1;
     if (halvingsOf(r.hash) < level_) return;
 
@@ -272,6 +288,32 @@ void Foam::nearWall::impactRecorder::add(const impactEvent& e)
         ++level_;
         thin();
     }
+}
+
+
+void Foam::nearWall::impactRecorder::reserveIdentities() const
+{
+    const label rank = Pstream::myProcNo();
+    if (!on() || rank >= identities_.size()) return;
+
+    label& next = nextParticle<particle>();
+    next = max(next, identities_[rank]);
+}
+
+
+Foam::labelList Foam::nearWall::impactRecorder::identities() const
+{
+    scalarList counts(max(Pstream::nProcs(), identities_.size()), scalar(0));
+    counts[Pstream::myProcNo()] = nextParticle<particle>();
+    sumOverRanks(counts);
+
+    labelList next(counts.size());
+    forAll(next, i)
+    {
+        const label before = i < identities_.size() ? identities_[i] : 0;
+        next[i] = max(label(counts[i]), before);
+    }
+    return next;
 }
 
 
@@ -305,21 +347,21 @@ Foam::nearWall::impactRecorder::gathered() const
     {
         for (const string& text : list)
         {
-            scalar id[nIdentifying];
-            readIdentity(text, header_, id);
-            rows.push_back(row{id[0], hashOf(id), text});
+            row r{};
+            readRow(text, header_, r);
+            rows.push_back(r);
         }
     }
 
-    // An order that does not depend on the ranks
-    std::sort
+    // Impacts at one instant, as in a corner, stay in the order of their rank
+    std::stable_sort
     (
         rows.begin(), rows.end(),
         [](const row& a, const row& b)
         {
             return
-                std::tie(a.time, a.hash, a.text)
-              < std::tie(b.time, b.hash, b.text);
+                std::tie(a.time, a.origProc, a.origId, a.age)
+              < std::tie(b.time, b.origProc, b.origId, b.age);
         }
     );
     return rows;
@@ -339,16 +381,16 @@ void Foam::nearWall::impactRecorder::rewrite
     {
         std::ofstream to(newFile.c_str());
         to  << "# nearWallInteraction, recorded impacts: " << fraction(level_)
-            << " since the start of the case, evenly chosen\n" << header_
+            << " since the start of the case, chosen by parcel\n" << header_
             << '\n';
 
         std::ifstream rows(from.c_str());
         std::string line;
         while (std::getline(rows, line))
         {
-            scalar id[nIdentifying];
-            if (!readIdentity(line, header_, id) || id[0] > until) continue;
-            const label halvings = halvingsOf(hashOf(id));
+            row r{};
+            if (!readRow(line, header_, r) || r.time > until) continue;
+            const label halvings = halvingsOf(r.hash);
             if (halvings < level_) continue;
             inFile_[halvings] += 1;
             to << line << '\n';
@@ -443,5 +485,6 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
     addExact(dict, "impacts", impacts);
     addExact(dict, "rows", largestOfRanks(written));
     dict.add(keyType("start"), string(file_.path().name()));
+    dict.add(keyType("identities"), identities());
     return dict;
 }

@@ -119,7 +119,8 @@ void Foam::nearWall::massBalance::writeRow
 (
     const scalar time,
     const scalarList& t,
-    const content& now
+    const content& now,
+    const scalar parcels
 )
 {
     tableRow row;
@@ -131,6 +132,7 @@ void Foam::nearWall::massBalance::writeRow
     {
         row.add(names[i], t[i]);
     }
+    row.add("injected_parcels", parcels);
     row.add("residual", residual(t, now));
     table_.write(row);
 }

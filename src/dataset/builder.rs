@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{Cells, Values};
+use super::column::{Cells, PARCEL_COLUMNS, Values};
 use super::column_map::{ColumnMap, ONLY_MAPPED};
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
@@ -206,6 +206,10 @@ impl<'a> Builder<'a> {
         for name in self.map.ignored.iter().chain(&self.map.labels).filter(missing) {
             notes.push(format!("the column map names a column `{name}`, which does not exist"));
         }
+        if is_record(headers) {
+            let columns = PARCEL_COLUMNS.join(", ");
+            notes.push(format!("the columns {columns} identify parcels; they are no possible causes"));
+        }
         match headers.iter().filter(|header| header.is_empty()).count() {
             0 => {}
             1 => notes.push("a column without a name is not used".to_owned()),
@@ -242,13 +246,20 @@ impl Measurements {
 /// The possible causes: all columns without another meaning, and the labels `wall` and `series`. The numbers of a column
 /// that tells groups apart are labels too.
 fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, Cells)> {
+    let of_parcels = |header: &str| PARCEL_COLUMNS.contains(&header) && is_record(headers);
     let cause = |(index, header): (usize, &str)| match named.name_of(index) {
         Some(name @ ("wall" | "series")) => Some((index, Cells::new(name, true))),
         Some(_) => None,
         None if map.ignores(header) => None,
+        None if of_parcels(header) && !map.reads_labels(header) => None,
         None => Some((index, Cells::new(header, map.reads_labels(header)))),
     };
     headers.iter().enumerate().filter_map(cause).collect()
+}
+
+/// Whether the file is a record of OpenFOAM's parcels.
+fn is_record(headers: &csv::StringRecord) -> bool {
+    PARCEL_COLUMNS.iter().all(|column| headers.iter().any(|header| header == *column))
 }
 
 /// Explains a record of the wrong length over several lines.

@@ -174,6 +174,23 @@ mod tests {
     }
 
     #[test]
+    fn identities_of_parcels_are_no_causes() {
+        let record = "v_n,e_n,origProcId,origId,parcel_age,n_particles,mass\n1,0.5,0,7,0.1,50,1e-6\n";
+        let names = |data: &Measurements| -> Vec<String> {
+            data.columns.iter().map(|column| column.name.clone()).collect()
+        };
+        let data = read(record);
+        assert_eq!(names(&data), ["mass"]);
+        assert!(
+            data.notes.iter().any(|note| note.contains("origProcId, origId") && note.contains("no possible"))
+        );
+        let labelled = mapped(record, "[labels]\ncolumns = [\"origId\"]\n");
+        assert_eq!(names(&labelled), ["origId", "mass"]);
+        // Of a laboratory's own file one of the names may be a cause.
+        assert_eq!(names(&read("v_n,e_n,n_particles\n1,0.5,3\n")), ["n_particles"]);
+    }
+
+    #[test]
     fn bad_rows_are_listed_and_leave_no_cell_behind() {
         let data = read(
             "v_n,d,e_n,e_t,outcome,e_n_err,note\n\

@@ -26,7 +26,7 @@ mod rig_observable;
 mod unit;
 mod wall_choice;
 
-pub use column::{Column, Values, names_groups};
+pub use column::{Column, PARCEL_COLUMNS, Values, names_groups};
 pub use column_map::ColumnMap;
 pub use detection::Detection;
 pub use impact_reader::{ImpactReader, Row};

@@ -2,9 +2,10 @@
 //!
 //! Sources are the tables of nearWallInteraction ([`tables`], [`deposit`]), the counts of the stock models in the logs
 //! ([`log`]), the arrivals that the cloud function `patchPostProcessing` recorded ([`recorded`]), and the captured
-//! parcels of the last written time ([`parcels`]). What is missing is listed in [`RunResults::missing`].
+//! parcels of the last written time ([`parcels`]). [`impact_history`] reads the impacts of each parcel. What is missing is listed in [`RunResults::missing`].
 
 pub mod deposit;
+pub mod impact_history;
 mod list_file;
 pub mod log;
 pub mod parcels;

@@ -55,6 +55,22 @@ pub(super) fn read_into(results: &mut RunResults, folder: &Path) {
     }
 }
 
+/// Number of parcels that the injectors have made, where the balance counts them.
+pub(super) fn injected_parcels(folder: &Path) -> Option<u64> {
+    let balance =
+        histories(folder, BALANCE, &[], |row| Some((row.number(TIME)?, row.number("injected_parcels")?)));
+    let own = balance.into_iter().find(|history| history.wall.is_empty())?;
+    own.rows.last().map(|(_, count)| *count as u64)
+}
+
+/// Impacts at all patches that the model refused.
+pub(super) fn unusable(folder: &Path) -> u64 {
+    let patches = histories(folder, ".dat", &[BALANCE, CLASSES, DEPOSIT, FLUX, STAY], |row| {
+        Some((row.number(TIME)?, row.number("unusable")?))
+    });
+    patches.iter().filter_map(|patch| patch.rows.last()).map(|(_, count)| *count as u64).sum()
+}
+
 fn wall_totals(row: &TableRow<'_>) -> Option<(f64, WallTotals)> {
     let or = |name: &str, otherwise: f64| row.number(name).unwrap_or(otherwise);
     let amount = |count: &str, mass: &str| Amount::new(or(count, 0.0), or(mass, 0.0));
