@@ -143,6 +143,17 @@ impl Model {
         Ok(wall)
     }
 
+    /// The impact as it meets the wall with this index: with what the model file puts on that wall and assumes.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for an impact that cannot be, or a wall that the model does not have.
+    #[cfg(feature = "command")]
+    pub(crate) fn met(&self, wall: usize, impact: &Impact) -> Result<Impact, ImpactError> {
+        let mut met = *impact;
+        self.at_wall(wall, &mut met)?;
+        Ok(met)
+    }
+
     /// Gives the inputs that the model file declares their default where the impact does not state them.
     fn complete(&self, impact: &mut Impact) -> Result<(), ImpactError> {
         for (input, value) in self.extra_inputs.iter().zip(impact.extra.iter_mut()) {

@@ -38,6 +38,19 @@ impl RigCase {
         data.experiments.iter().enumerate().map(one).collect()
     }
 
+    /// The case of an experiment that nobody has made yet.
+    ///
+    /// # Errors
+    /// [`SettingError`] for settings that the case refuses.
+    pub fn proposed(text: &CaseText, experiment: &Experiment) -> Result<Self, SettingError> {
+        Self::new(text, experiment, experiment.name.clone(), 0)
+    }
+
+    /// The settings of its experiment.
+    pub fn settings(&self) -> &[(String, String)] {
+        &self.experiment.settings
+    }
+
     /// The case of an experiment; `place` names it in messages.
     ///
     /// # Errors

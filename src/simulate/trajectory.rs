@@ -142,6 +142,7 @@ pub(super) struct Tracker<'a> {
 }
 
 /// A contact with a wall before the model has decided it.
+#[derive(Debug)]
 pub(super) struct WallContact {
     frame: WallFrame,
     /// Index of the wall in the particle's model.
@@ -274,10 +275,21 @@ impl<'a> Tracker<'a> {
         ImpactRng::new(self.case.seed, (self.number << HIT_BITS) | before)
     }
 
-    /// The impact on a surface that was reached; `None` on an exit.
-    pub fn contact(&self, index: usize, model: &Model) -> Result<Option<WallContact>, ImpactError> {
+    /// The impact on a surface that was reached, with what lies on the wall; `None` on an exit.
+    fn contact(&self, index: usize, model: &Model) -> Result<Option<WallContact>, ImpactError> {
+        let Some(mut contact) = self.bare_contact(index) else { return Ok(None) };
+        if let Some((deposit, voidage)) =
+            self.walls.and_then(|walls| walls.at(self.case, index, &contact.position))
+        {
+            contact.impact = model.apply_deposit(contact.wall, deposit, voidage, &contact.impact)?;
+        }
+        Ok(Some(contact))
+    }
+
+    /// The impact on a surface that was reached, without what lies on the wall; `None` on an exit.
+    pub fn bare_contact(&self, index: usize) -> Option<WallContact> {
         let surface = &self.case.surfaces[index];
-        let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else { return Ok(None) };
+        let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else { return None };
         let here = position(&self.state);
         let frame = WallFrame::new(&surface.shape, &here, &velocity(&self.state));
         let gas = self.case.gas.at(&here).velocity;
@@ -293,12 +305,7 @@ impl<'a> Tracker<'a> {
             spin: self.spin.dot(&frame.spin_axis()),
             ..Impact::default()
         };
-        let wall = self.injection.wall(*wall);
-        let impact = match self.walls.and_then(|walls| walls.at(self.case, index, &here)) {
-            Some((deposit, voidage)) => model.apply_deposit(wall, deposit, voidage, &impact)?,
-            None => impact,
-        };
-        Ok(Some(WallContact { frame, wall, position: here, impact }))
+        Some(WallContact { frame, wall: self.injection.wall(*wall), position: here, impact })
     }
 
     /// Sets the velocity after a rebound; false for a particle that comes to rest on the wall.

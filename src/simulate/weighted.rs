@@ -15,7 +15,7 @@ use nalgebra::Vector3;
 
 use super::case::Case;
 use super::near_wall::StayTimes;
-use super::trajectory::{Fate, Tracker};
+use super::trajectory::{Fate, Tracker, WallContact};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::model::Model;
 
@@ -23,24 +23,29 @@ use crate::model::Model;
 const LEAST_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `e_n`, `e_t` and of the spin over that of rolling with the arriving speed [1].
-const CELLS: [f64; 3] = [0.03, 0.03, 0.2];
+const CELLS: [f64; 3] = [0.04, 0.04, 0.2];
 /// Rebounds in a row whose flights are kept.
 const KEPT_REBOUNDS: u64 = 8;
 
-/// A particle at a contact, or the end of one that reaches none.
+/// A cell of the grid of outcomes.
+type Cell = [i32; 3];
+
+/// A particle at a contact with a wall.
 #[derive(Debug)]
 struct Node<'a> {
     tracker: Tracker<'a>,
     /// Index of the surface.
-    end: Result<usize, Fate>,
-    /// Where the particle comes after a rebound, by the cell.
-    next: HashMap<[i64; 3], Node<'a>>,
+    surface: usize,
+    contact: WallContact,
+    /// The next contact after a rebound, by the cell; `None` where there is none.
+    next: HashMap<Cell, Option<Box<Node<'a>>>>,
 }
 
 /// The flights of one particle, which all compared models share.
 #[derive(Debug)]
 pub struct PathTree<'a> {
-    first: Mutex<Node<'a>>,
+    /// The first contact, if there is one.
+    first: Mutex<Option<Box<Node<'a>>>>,
     /// Mass at the start [kg].
     pub mass: f64,
     /// Number of real particles that it represents.
@@ -79,10 +84,7 @@ impl<'a> PathTree<'a> {
             return Err(trouble);
         }
         let (mass, weight, random) = (tracker.mass(), tracker.weight, tracker.random(0));
-        let first = Node::flown(tracker);
-        if let Err(Fate::Unusable(reason)) = &first.end {
-            return Err(reason.clone());
-        }
+        let first = Node::after_flight(tracker)?.map(Box::new);
         // Streams that no effect draws from.
         let shift = [100, 101, 102].map(|stream| random.uniform(stream));
         Ok(Self { first: Mutex::new(first), mass, weight, shift })
@@ -98,16 +100,14 @@ impl<'a> PathTree<'a> {
         mut observer: impl FnMut(&ExpectedHit<'_>),
     ) -> Result<(), ImpactError> {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut node: &mut Node<'a> = &mut first;
+        let Some(mut node) = first.as_deref_mut() else { return Ok(()) };
         let mut passing;
         let mut share = 1.0;
         for before in 0..node.tracker.case.hit_limit {
-            let Ok(surface) = node.end else { return Ok(()) };
-            let tracker = &node.tracker;
-            let Some(contact) = tracker.contact(surface, model)? else { return Ok(()) };
+            let (tracker, contact) = (&node.tracker, &node.contact);
             let outcome = model.resolve(contact.wall, &contact.impact, tracker.random(before))?;
             observer(&ExpectedHit {
-                surface,
+                surface: node.surface,
                 position: contact.position,
                 impact: &contact.impact,
                 outcome: &outcome,
@@ -120,35 +120,33 @@ impl<'a> PathTree<'a> {
                 return Ok(());
             }
             let (cell, middle) = self.cell(&contact.impact, &outcome);
-            let fly = || {
-                let mut tracker = node.tracker.clone();
-                tracker.rebound(&contact, &middle).then(|| Node::flown(tracker))
-            };
-            if before < KEPT_REBOUNDS {
-                if !node.next.contains_key(&cell) {
-                    let Some(next) = fly() else { return Ok(()) };
-                    node.next.insert(cell, next);
-                }
-                let Some(next) = node.next.get_mut(&cell) else { return Ok(()) };
-                node = next;
-            } else {
-                let Some(next) = fly() else { return Ok(()) };
+            if before >= KEPT_REBOUNDS {
+                let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
                 passing = next;
                 node = &mut passing;
+                continue;
+            }
+            if !node.next.contains_key(&cell) {
+                let next = node.after_rebound(&middle).map(Box::new);
+                node.next.insert(cell, next);
+            }
+            match node.next.get_mut(&cell) {
+                Some(Some(next)) => node = next,
+                _ => return Ok(()),
             }
         }
         Ok(())
     }
 
     /// The cell of an outcome, and the outcome in its middle.
-    fn cell(&self, impact: &Impact, outcome: &Outcome) -> ([i64; 3], Outcome) {
+    fn cell(&self, impact: &Impact, outcome: &Outcome) -> (Cell, Outcome) {
         let rolling = 2.0 * impact.tangential_speed / impact.diameter;
         let spin = if rolling > 0.0 { outcome.spin / rolling } else { 0.0 };
         let values = [outcome.normal_restitution, outcome.tangential_restitution, spin];
-        let cell: [i64; 3] =
-            std::array::from_fn(|which| (values[which] / CELLS[which] + self.shift[which]).floor() as i64);
+        let cell: Cell =
+            std::array::from_fn(|which| (values[which] / CELLS[which] + self.shift[which]).floor() as i32);
         let [normal_restitution, tangential_restitution, spin] =
-            std::array::from_fn(|which| (cell[which] as f64 + 0.5 - self.shift[which]) * CELLS[which]);
+            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * CELLS[which]);
         let middle = Outcome {
             normal_restitution: normal_restitution.max(0.0),
             tangential_restitution: tangential_restitution.max(0.0),
@@ -158,18 +156,34 @@ impl<'a> PathTree<'a> {
         (cell, middle)
     }
 
-    /// The impact of the first contact with a wall.
+    /// The impact of the first contact with a wall, with what the model file puts on that wall.
     pub fn impact(&self, model: &Model) -> Option<Impact> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let surface = *first.end.as_ref().ok()?;
-        first.tracker.contact(surface, model).ok()?.map(|contact| contact.impact)
+        let contact = &first.as_ref()?.contact;
+        model.met(contact.wall, &contact.impact).ok()
     }
 }
 
 impl<'a> Node<'a> {
-    /// Flies a particle to its next contact.
-    fn flown(mut tracker: Tracker<'a>) -> Self {
-        let end = tracker.fly();
-        Self { tracker, end, next: HashMap::new() }
+    /// Flies a particle to its next contact with a wall; `None` for one that leaves or stays in the gas.
+    ///
+    /// # Errors
+    /// Why it cannot be followed.
+    fn after_flight(mut tracker: Tracker<'a>) -> Result<Option<Self>, String> {
+        match tracker.fly() {
+            Ok(surface) => Ok(tracker.bare_contact(surface).map(|contact| {
+                let next = HashMap::new();
+                Self { tracker, surface, contact, next }
+            })),
+            Err(Fate::Unusable(reason)) => Err(reason),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// The next contact after a rebound with this outcome.
+    fn after_rebound(&self, outcome: &Outcome) -> Option<Self> {
+        let mut tracker = self.tracker.clone();
+        let flies = tracker.rebound(&self.contact, outcome);
+        if flies { Self::after_flight(tracker).ok().flatten() } else { None }
     }
 }

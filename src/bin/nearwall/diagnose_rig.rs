@@ -24,7 +24,8 @@ pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
     let bar = progress::spinner("candidates tested");
     let forward = Simulated::new(&rigs, particles_for(&data))?;
     let options = Options { seed: arguments.seed, level: arguments.level, group: None };
-    let found = diagnose_rig(&forward, &data, text.model.text(), &options, arguments.draws, &|| bar.inc(1))?;
+    let model = text.model.text();
+    let found = diagnose_rig(&forward, &data, model, &options, arguments.draws, Some(&text), &|| bar.inc(1))?;
     bar.finish_and_clear();
     write(arguments, case, &found)?;
     crate::print(&summary(&found.diagnosis, &arguments.out))
@@ -38,6 +39,9 @@ fn write(arguments: &Arguments, case: &Path, found: &RigDiagnosis) -> CommandRes
     let inputs: [&Path; 2] = [data, case];
     let mut results =
         vec![("extended.toml".to_owned(), found.extended.as_str()), ("diagnosis.json".to_owned(), &json)];
+    if !found.next.is_empty() {
+        results.push(("next_experiments.csv".to_owned(), &found.next_table));
+    }
     if !found.draws.is_empty() {
         let folder = out.join("draws");
         std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;

@@ -78,6 +78,11 @@ impl RigAddition {
         }
     }
 
+    /// The present value of a law's number in a model.
+    pub fn present(&self, model: &Model) -> Option<f64> {
+        if let Kind::Part(Part::LawParameter(parameter)) = self.kind { parameter.of(model) } else { None }
+    }
+
     /// Whether it is a curve or a level without a law.
     pub fn is_curve(&self) -> bool {
         matches!(self.kind, Kind::Curve { .. })

@@ -26,15 +26,23 @@ const LEAST_THRESHOLD: f64 = 2.0;
 pub(super) const DISTINGUISHABLE: f64 = 2.0;
 /// Gain by which a curve must lead the best law to take its place [nats].
 const BEYOND_LAWS: f64 = 3.0;
+/// What is left to gain from which on causes are exchanged [nats].
+const ROOM_TO_EXCHANGE: f64 = 6.0;
+/// Gain for which a cause is exchanged [nats].
+const EXCHANGED: f64 = 1.5;
 /// Difference in gain below which the candidate with fewer parameters is taken [nats].
 const EQUAL: f64 = 0.5;
 /// One cause, and one more for so many readings; and most causes.
-const READINGS_A_CAUSE: usize = 5;
-const MOST_CAUSES: usize = 4;
+const READINGS_A_CAUSE: usize = 4;
+const MOST_CAUSES: usize = 5;
+/// How far beyond the range of an input a law's place is searched, as a share of the range.
+const BEYOND: f64 = 0.5;
 /// Least standard deviation of an input's mean over the experiments, as a share of its range, for a curve over it.
 const CHANGES: f64 = 0.05;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
+/// Most candidates kept of a round that finds none significant.
+const HINTS: usize = 4;
 /// First size of the simplex, and iterations a parameter.
 const SIMPLEX: f64 = 0.08;
 const ITERATIONS: u64 = 25;
@@ -80,6 +88,8 @@ pub(super) struct Choice {
     pub rounds: Vec<Round>,
     /// Smallest corrected p-value of a candidate beside the base model, and beside the additions.
     pub structure: [f64; 2],
+    /// The best candidates of the last round, which found none significant; the best first.
+    pub hints: Vec<Scored>,
 }
 
 /// What all choices share.
@@ -129,14 +139,24 @@ impl<'a> RigStudy<'a> {
     /// # Errors
     /// Why the base model cannot decide an impact.
     pub fn choose(&self, weights: &[f64]) -> Result<Choice, String> {
+        let nothing =
+            Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
+        let mut choice = self.grown(nothing, weights)?;
+        if choice.rounds.len() > 1 && self.room(&choice.additions, weights)? > ROOM_TO_EXCHANGE {
+            choice = self.grown(self.exchanged(choice, weights)?, weights)?;
+        }
+        Ok(self.without_redundant(choice, weights))
+    }
+
+    /// The choice with further causes, one a round, until none is significant.
+    fn grown(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
         let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
-        let mut choice = Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2] };
         // What the largest gain without an effect has to be exceeded by; known after the first round.
         let mut threshold = LEAST_THRESHOLD;
         loop {
             if self.room(&choice.additions, weights)? < threshold {
                 choice.structure[1] = 1.0;
-                return Ok(self.without_redundant(choice, weights));
+                return Ok(choice);
             }
             let shelf = self.shelf(&choice.additions)?;
             let null = NullGains::new(&shelf, &self.data, weights, self.seed);
@@ -148,18 +168,49 @@ impl<'a> RigStudy<'a> {
                 choice.structure[0] = least;
             }
             if least > self.level || choice.rounds.len() >= most {
-                return Ok(self.without_redundant(choice, weights));
+                choice.hints = scored.into_iter().filter(|one| one.gain > 0.0).take(HINTS).collect();
+                return Ok(choice);
             }
             let fitted = self.fit_all(&choice.additions, scored, weights);
-            let Some(round) = self.decide(&shelf, fitted, weights) else {
-                return Ok(self.without_redundant(choice, weights));
-            };
+            let Some(round) = self.decide(&shelf, fitted, weights) else { return Ok(choice) };
             choice.additions.push(round.winner.addition.clone());
             choice.rounds.push(round);
             if choice.additions.len() > 1 {
                 choice.additions = self.fit(&choice.additions, weights);
             }
         }
+    }
+
+    /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
+    fn exchanged(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
+        let cost = |additions: &[RigAddition]| additions.iter().map(|one| one.axes.len() as f64).sum::<f64>();
+        let mut place = 0;
+        while choice.additions.len() > 1 && place < choice.additions.len() {
+            let mut rest = choice.additions.clone();
+            let removed = rest.remove(place);
+            let shelf = self.shelf(&rest)?;
+            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            let scored = self.first_look(&shelf, &null, weights, &[]);
+            let fitted = self.fit_all(&rest, scored, weights);
+            let now = self.score(&choice.additions, weights) - cost(&choice.additions);
+            let better = fitted.iter().find(|one| one.addition.key() != removed.key()).and_then(|one| {
+                let joint =
+                    self.fit(&[rest.as_slice(), std::slice::from_ref(&one.addition)].concat(), weights);
+                (self.score(&joint, weights) - cost(&joint) > now + EXCHANGED).then_some(joint)
+            });
+            match better.and_then(|joint| Some((joint, self.decide(&shelf, fitted, weights)?))) {
+                Some((joint, round))
+                    if joint.last().map(RigAddition::key) == Some(round.winner.addition.key()) =>
+                {
+                    choice.rounds.remove(place);
+                    choice.additions = joint;
+                    choice.rounds.push(round);
+                    place = 0;
+                }
+                _ => place += 1,
+            }
+        }
+        Ok(choice)
     }
 
     /// What any candidate can still gain: up to predictions that equal the measured values [nats]. Without bound where a scatter is
@@ -421,7 +472,13 @@ fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAd
     let effects = EFFECTS.into_iter().filter(|effect| !has(effect.id)).map(Part::Effect);
     let numbers = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(base).is_some());
     let parts = effects.chain(numbers.map(Part::LawParameter));
-    let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, range_of)).collect();
+    // A transition may begin within the range of the data and have its middle beyond.
+    let wider = |input: &str| {
+        let [low, high] = range_of(input)?;
+        let beyond = BEYOND * (high - low);
+        Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
+    };
+    let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
     let curves = curve_inputs(forward);
     let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));
     let targets = [

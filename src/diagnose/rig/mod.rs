@@ -8,12 +8,15 @@
 mod addition;
 mod choice;
 mod gain;
+mod next;
 mod noise;
+mod places;
 mod posterior;
 mod report;
 mod shelf;
 mod significance;
 
+pub use next::NextExperiment;
 pub use report::{KindErrors, RigDiagnosis, RigRow};
 
 use toml_edit::InlineTable;
@@ -22,7 +25,7 @@ use super::extend::ranges;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
 use crate::impact::INPUTS;
-use crate::rig::Forward;
+use crate::rig::{CaseText, Forward};
 use addition::{RigAddition, extended_text};
 use choice::RigStudy;
 use gain::HeldOut;
@@ -57,7 +60,7 @@ const LEAST_READINGS: usize = 3;
 const MISFIT: f64 = 0.05;
 
 /// Diagnoses the readings of `forward` against the model file with the text `model`. `draws` model files are drawn from the fit;
-/// `progress` is called after each candidate.
+/// `case` simulates experiments that nobody has made yet, where there is one; `progress` is called after each candidate.
 ///
 /// # Errors
 /// [`RigError`].
@@ -67,6 +70,7 @@ pub fn diagnose_rig(
     model: &str,
     options: &Options,
     draws: usize,
+    case: Option<&CaseText>,
     progress: &(dyn Fn() + Sync),
 ) -> Result<RigDiagnosis, RigError> {
     if data.count() < LEAST_READINGS {
@@ -96,9 +100,14 @@ pub fn diagnose_rig(
         true => None,
         false => HeldOut::new(&study, &choice, &posterior, &write).map_err(RigError::Undecided)?,
     };
+    let next = match case {
+        Some(case) => next::next_experiments(&study, &choice, &posterior, data, case),
+        None => Ok(Vec::new()),
+    };
+    let next = next.map_err(RigError::Undecided)?;
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&choice::moved(&choice.additions, at))).collect();
-    let found = report::Found { study: &study, choice, undecided, held_out, text, draws };
+    let found = report::Found { study: &study, choice, undecided, held_out, text, draws, next };
     found.record(data, options).map_err(RigError::Undecided)
 }
 

@@ -14,6 +14,7 @@ use super::MISFIT;
 use super::addition::{Kind, RigAddition};
 use super::choice::{Choice, DISTINGUISHABLE, RigStudy, Round, Scored, range};
 use super::gain::{HeldOut, predict_file};
+use super::next::{NextExperiment, table};
 use super::noise::Noise;
 use super::shelf::predict;
 use crate::dataset::RigMeasurements;
@@ -38,6 +39,11 @@ pub struct RigDiagnosis {
     pub readings: Vec<RigRow>,
     /// Errors by kind of observable, on the readings that were fitted.
     pub errors: Vec<KindErrors>,
+    /// Experiments worth making, the most telling first.
+    pub next: Vec<NextExperiment>,
+    /// The same as a table to be filled in.
+    #[serde(skip)]
+    pub next_table: String,
     /// What was assumed about the data.
     pub notes: Vec<String>,
     /// Text of the extended model.
@@ -93,6 +99,7 @@ pub(super) struct Found<'a> {
     pub held_out: Option<HeldOut>,
     pub text: String,
     pub draws: Vec<String>,
+    pub next: Vec<NextExperiment>,
 }
 
 /// With few experiments, causes that cannot be told apart.
@@ -205,7 +212,9 @@ impl Found<'_> {
         let readings = self.rows(&base, &extended, &scatter);
         let errors = self.errors(&base, &extended);
         let notes = file.notes.clone();
-        Ok(RigDiagnosis { diagnosis, readings, errors, notes, extended: self.text, draws: self.draws })
+        let next_table = table(&self.next);
+        let (extended, draws, next) = (self.text, self.draws, self.next);
+        Ok(RigDiagnosis { diagnosis, readings, errors, next, next_table, notes, extended, draws })
     }
 
     fn fit_test(&self, predicted: &[Predicted], parameters: usize, structure: f64) -> FitTest {

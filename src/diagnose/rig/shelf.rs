@@ -9,14 +9,6 @@ use super::addition::{RigAddition, apply_all};
 use super::noise::{Data, Prepared, Values};
 use crate::rig::{Forward, Predicted};
 
-/// Places of a range with one parameter, and along each of two.
-const PLACES: usize = 14;
-const SIDE: usize = 6;
-/// Places of a range with three or more parameters.
-const MANY: usize = 48;
-/// Bases of the Halton sequence.
-const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
-
 /// A candidate at one place.
 #[derive(Debug)]
 pub(super) struct Place {
@@ -64,7 +56,7 @@ impl Shelf {
     ) -> Result<Self, String> {
         let base = predict(forward, additions)?;
         let of = |blank: RigAddition| {
-            let places = places(blank.axes.len());
+            let places = blank.places(blank.present(forward.base(0)));
             let at = |at: Vec<f64>| {
                 let mut all = additions.to_vec();
                 all.push(blank.moved(&at));
@@ -96,28 +88,4 @@ impl Candidate {
     pub fn cost(&self) -> f64 {
         self.blank.axes.len() as f64
     }
-}
-
-/// Places of a unit cube of this many dimensions.
-fn places(dimensions: usize) -> Vec<Vec<f64>> {
-    let even = |count: usize| (0..count).map(move |place| (place as f64 + 0.5) / count as f64);
-    match dimensions {
-        0 => vec![Vec::new()],
-        1 => even(PLACES).map(|x| vec![x]).collect(),
-        2 => even(SIDE).flat_map(|x| even(SIDE).map(move |y| vec![x, y])).collect(),
-        _ => {
-            (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect()
-        }
-    }
-}
-
-/// The element of a Halton sequence with this base.
-fn halton(mut number: usize, base: usize) -> f64 {
-    let (mut value, mut digit) = (0.0, 1.0);
-    while number > 0 {
-        digit /= base as f64;
-        value += digit * (number % base) as f64;
-        number /= base;
-    }
-    value
 }

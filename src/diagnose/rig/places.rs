@@ -1,0 +1,81 @@
+//! Where a candidate is looked at first: places of its search range.
+
+use super::addition::{Kind, RigAddition};
+use crate::diagnose::part::Part;
+
+/// Places of a range with one parameter, and along each of two.
+const EVEN: usize = 14;
+const SIDE: usize = 6;
+/// Places of a range with three or more parameters.
+const MANY: usize = 48;
+/// Bases of the Halton sequence.
+const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
+/// Sizes of a curve, as a share of its reach, and changes of a law's own number, as a share of its range: small ones too, where many
+/// readings show them.
+const SIZES: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
+const CHANGES: [f64; 4] = [0.01, 0.025, 0.06, 0.15];
+/// Shapes of a curve over three knots.
+const SHAPES: [[f64; 3]; 7] = [
+    [1.0, 1.0, 1.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [-1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [1.0, 1.0, 0.0],
+];
+
+impl RigAddition {
+    /// Places at which its predictions are computed; `now` is the present value of a law's number.
+    pub fn places(&self, now: Option<f64>) -> Vec<Vec<f64>> {
+        match (&self.kind, self.axes.first()) {
+            (Kind::Curve { .. }, _) => curves(self.axes.len()),
+            (Kind::Part(Part::LawParameter(_)), Some(axis)) => {
+                let mut all = cube(1);
+                let here = now.map(|value| axis.coordinate(value));
+                let near = here.into_iter().flat_map(|at| CHANGES.iter().flat_map(move |c| [at - c, at + c]));
+                all.extend(near.filter(|at| (0.0..=1.0).contains(at)).map(|at| vec![at]));
+                all
+            }
+            _ => cube(self.axes.len()),
+        }
+    }
+}
+
+/// Shapes of a curve with so many knots, of both signs and several sizes, about the middle of the axes.
+fn curves(knots: usize) -> Vec<Vec<f64>> {
+    let shapes: Vec<Vec<f64>> = match knots {
+        3 => SHAPES.iter().map(|shape| shape.to_vec()).collect(),
+        _ => vec![vec![1.0; knots]],
+    };
+    let sized = |shape: Vec<f64>| {
+        let all = SIZES.iter().flat_map(|size| [-size, *size]);
+        all.map(move |size| shape.iter().map(|height| 0.5 + 0.5 * size * height).collect())
+            .collect::<Vec<_>>()
+    };
+    shapes.into_iter().flat_map(sized).collect()
+}
+
+/// Places of a unit cube of this many dimensions.
+fn cube(dimensions: usize) -> Vec<Vec<f64>> {
+    let even = |count: usize| (0..count).map(move |place| (place as f64 + 0.5) / count as f64);
+    match dimensions {
+        0 => vec![Vec::new()],
+        1 => even(EVEN).map(|x| vec![x]).collect(),
+        2 => even(SIDE).flat_map(|x| even(SIDE).map(move |y| vec![x, y])).collect(),
+        _ => {
+            (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect()
+        }
+    }
+}
+
+/// The element of a Halton sequence with this base.
+fn halton(mut number: usize, base: usize) -> f64 {
+    let (mut value, mut digit) = (0.0, 1.0);
+    while number > 0 {
+        digit /= base as f64;
+        value += digit * (number % base) as f64;
+        number /= base;
+    }
+    value
+}
