@@ -1,11 +1,15 @@
 //! The generator against `nearwall simulate` and `predict`, with nothing planted.
 
+use serde_json::{Value, json};
+
 use crate::effects::{CAUSES, null, plan};
 use crate::lab::Lab;
 use crate::random;
 use crate::rig::Observable;
-use crate::run::{self, Folder};
+use crate::run::{self, Answer, Folder};
+use crate::score::{Verdict, judge};
 use crate::set_rng::SetRng;
+use crate::sets::{Set, recipes};
 
 /// Particles on both sides.
 const COUNT: usize = 4000;
@@ -93,4 +97,51 @@ fn generator_and_predict_agree() {
             }
         }
     }
+}
+
+/// The set of this name.
+fn made(name: &str, seed: u64) -> Set {
+    recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed)
+}
+
+/// An answer with these findings, and the truth as prediction.
+fn answer(set: &Set, findings: &[Value]) -> Answer {
+    let truth: Vec<Vec<f64>> =
+        set.fresh.iter().map(|one| one.readings.iter().map(|reading| reading.truth).collect()).collect();
+    let diagnosis = Ok(json!({ "findings": findings, "calibration": [], "undecided": [] }));
+    Answer { diagnosis, seconds: 0.0, predicted: Some(truth.clone()), truth, bands: vec![] }
+}
+
+#[test]
+fn verdicts() {
+    let set = made("powder-layer#0", 1);
+    let verdict = |set: &Set, findings: &[Value]| judge(set, &answer(set, findings)).verdict;
+    let right = json!({ "cause": "powder-layer", "parameters": {} });
+    let other = json!({ "cause": "melting-transition", "indistinguishable_from": [] });
+    let unsure = json!({ "cause": "melting-transition", "indistinguishable_from": ["powder-layer"] });
+    assert_eq!(verdict(&set, std::slice::from_ref(&right)), Verdict::Right);
+    assert_eq!(verdict(&set, &[other.clone(), right]), Verdict::Wrong);
+    assert_eq!(verdict(&set, &[unsure]), Verdict::CannotTell);
+    assert_eq!(verdict(&set, &[]), Verdict::Missed);
+    assert!(judge(&set, &answer(&set, &[])).gain.unwrap()[0] < 1.0 + 1e-9);
+    let null = made("null#0", 1);
+    assert_eq!(verdict(&null, &[]), Verdict::Right);
+    assert_eq!(verdict(&null, &[other]), Verdict::Wrong);
+}
+
+/// The readings of nulls scatter about the base as their errors say.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "a minute in a debug build")]
+fn readings_scatter_as_stated() {
+    let seed = random::seed();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for index in 0..27 {
+        for reading in made(&format!("null#{index}"), seed).experiments.iter().flat_map(|one| &one.readings) {
+            sum += ((reading.value - reading.truth) / reading.sigma).powi(2);
+            count += 1.0;
+        }
+    }
+    println!("mean square {:.3} of {count} readings", sum / count);
+    // Errors of shares near 0 and 1 are stated too large.
+    assert!((0.75..1.1).contains(&(sum / count)));
 }

@@ -293,7 +293,7 @@ fn particle_state(cause: &'static str, rng: &mut SetRng) -> Option<Plan> {
             lab.knobs = vec![(Knob::Conversion, (0.5, 1.0))];
             lab.vary(&[(Knob::Speed, (1.5, 5.0)), (Knob::Temperature, (1500.0, 1700.0))], rng);
             lab.readings = vec![([Captured, CaptureEfficiency][rng.below(2)], 0)];
-            planted(lab, decline(peak, rng.uniform((0.2, 0.9))), true, &[cause])
+            planted(lab, decline(peak, 1.0 - rng.log_uniform((0.05, 0.8))), true, &[cause])
         }
         "thermal-softening" => {
             let onset = rng.uniform((295.0, 312.0));
@@ -392,6 +392,7 @@ fn other(cause: &'static str, rng: &mut SetRng) -> Option<Plan> {
     let friction = rounded(rng.uniform((0.15, 0.3)));
     let law = match cause {
         "calibration:tangential.friction" => Tangential::Sliding { friction },
+        "sliding-to-rolling" => Tangential::Constant(rounded(rng.uniform((0.66, 0.76)))),
         _ => constant_law(rng),
     };
     let mut lab = lab(System::Wax, law, rng);
@@ -424,7 +425,7 @@ fn other(cause: &'static str, rng: &mut SetRng) -> Option<Plan> {
             planted(lab, gas_lift(rng.log_uniform((0.003, 0.05))), true, &[cause])
         }
         "sliding-to-rolling" => {
-            angles(&mut lab, 15.0);
+            angles(&mut lab, rng.uniform((15.0, 45.0)));
             lab.vary(&more, rng);
             lab.readings = vec![(MeanEt, 0)];
             lab.truth.tangential = Tangential::SlidingRolling { friction };

@@ -53,7 +53,7 @@ pub struct Reading {
     pub base: f64,
     pub truth: f64,
     pub value: f64,
-    /// The count of a share.
+    /// The count of a share, if its error is known.
     pub count: Option<f64>,
     pub sigma: f64,
 }
@@ -146,9 +146,6 @@ impl Lab {
             let reading = if !observable.is_share() {
                 let sigma = self.deviation / count.sqrt();
                 Reading { value: truth + rng.noise(truth, sigma), sigma, ..reading }
-            } else if self.errors == Errors::Absent {
-                let sigma = 0.5 / count.sqrt();
-                Reading { value: (truth + sigma * rng.normal()).clamp(0.0, 1.0), sigma, ..reading }
             } else {
                 let all = count.round();
                 // Bins of one run share its particles.
@@ -157,11 +154,24 @@ impl Lab {
                 let caught = binomial(tries, share, rng);
                 (left, rest) = if bin { (left - caught, (rest - truth).max(1e-9)) } else { (left, rest) };
                 let sigma = (truth * (1.0 - truth) / all).sqrt().max(0.5 / all);
-                Reading { value: caught / all, count: Some(all), sigma, ..reading }
+                let stated = (self.errors != Errors::Absent).then_some(all);
+                Reading { value: caught / all, count: stated, sigma, ..reading }
             };
             readings.push(reading);
         }
         Some(Experiment { settings, readings })
+    }
+
+    /// Errors that are not stated are the same for all readings of an observable.
+    pub fn even_errors(&self, experiments: &mut [Experiment]) {
+        if self.errors != Errors::Absent {
+            return;
+        }
+        for index in 0..self.readings.len() {
+            let squares: f64 = experiments.iter().map(|one| one.readings[index].sigma.powi(2)).sum();
+            let sigma = (squares / experiments.len() as f64).sqrt();
+            experiments.iter_mut().for_each(|one| one.readings[index].sigma = sigma);
+        }
     }
 
     /// The base model's file.

@@ -175,10 +175,10 @@ impl Rig {
     /// The case file of these particles, with the model beside it.
     pub fn case(&self, source: &Source, model: &str, count: usize, seed: u64) -> String {
         let Source { wall_temperature, gas_speed, gas_temperature, .. } = source;
-        let (gravity, time_limit) = (self.gravity(), self.time_limit);
+        let (gravity, time_limit) = (0.0 - self.gravity(), self.time_limit);
         let mut text = format!(
             "title = \"A rig without drag\"\nmodel = \"{model}\"\n\n[run]\nseed = {seed}\n\
-             time_limit = {time_limit}\ngravity = [0, 0, -{gravity:?}]\nrecorded_impacts = 1000000\n\n\
+             time_limit = {time_limit}\ngravity = [0, 0, {gravity:?}]\nrecorded_impacts = 1000000\n\n\
              [gas]\nfield = \"uniform\"\nvelocity = [{gas_speed:e}, 0, 0]\ntemperature = {gas_temperature}\n\
              density = 1e-9\nviscosity = 1e-15\nconductivity = 1e-9\nheat_capacity = 1000\n\n\
              [particles]\ncount = {count}\nposition = {{ shape = \"point\", at = [0, 0, {START}] }}\n\

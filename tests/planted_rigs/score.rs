@@ -151,9 +151,10 @@ fn bands(answer: &Answer) -> Vec<bool> {
         for (reading, truth) in truth.iter().enumerate() {
             let drawn = answer.bands.iter().map(|model| model[experiment][reading]);
             let (low, high) = drawn.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
-            // What no drawn model changes has no band.
-            if high - low > 1e-9 {
-                all.push((low..=high).contains(truth));
+            let holds = (low - 1e-6..=high + 1e-6).contains(truth);
+            // Where the effect does nothing there is no band.
+            if high - low > 1e-6 || !holds {
+                all.push(holds);
             }
         }
     }

@@ -9,8 +9,8 @@ use crate::set_rng::SetRng;
 const STRENGTHS: [f64; 3] = [10.0, 5.0, 2.8];
 /// Particles of an experiment.
 const COUNTS: (f64, f64) = (30.0, 500.0);
-/// Particles in a trial of a plan.
-const TRIAL: usize = 300;
+/// Particles in a trial of a plan, in rigs of one impact and of several.
+const TRIAL: [usize; 2] = [200, 1500];
 /// Fresh experiments.
 const FRESH: usize = 6;
 
@@ -57,12 +57,12 @@ impl Recipe {
     /// The set of this seed: plans are drawn until one has the strength with a possible number of particles.
     pub fn make(&self, seed: u64) -> Set {
         let mut rng = SetRng::new(seed, &self.name);
-        for _ in 0..2000 {
+        for _ in 0..4000 {
             if let Some(set) = self.draw(&mut rng) {
                 return set;
             }
         }
-        panic!("{}: no plan has this strength", self.name);
+        panic!("{}: no plan has this strength", self.name)
     }
 
     fn draw(&self, rng: &mut SetRng) -> Option<Set> {
@@ -76,7 +76,9 @@ impl Recipe {
         let strength = STRENGTHS[self.index % 3] * rng.uniform((0.9, 1.1));
         let particles = match self.cause {
             None => rng.log_uniform(COUNTS),
-            Some(_) => strength.powi(2) / lab.information(&designs, TRIAL, rng)?,
+            Some(_) => {
+                strength.powi(2) / lab.information(&designs, TRIAL[usize::from(!lab.rig.hits_once())], rng)?
+            }
         };
         if !(COUNTS.0..=COUNTS.1).contains(&particles) {
             return None;
@@ -91,10 +93,14 @@ impl Recipe {
                 })
                 .collect()
         };
-        let experiments = measure(designs)?;
+        let mut experiments = measure(designs)?;
+        lab.even_errors(&mut experiments);
+        let oracle = Oracle::of(&experiments, lab.errors);
+        if self.cause.is_some() && !(0.75..1.35).contains(&(oracle.expected / strength)) {
+            return None;
+        }
         let fresh_designs = lab.design(FRESH, &mut SetRng::new(count as u64, &self.name));
         let fresh = measure(fresh_designs)?;
-        let oracle = Oracle::of(&experiments, lab.errors);
         let rows_apart = lab.readings.len() > 1 && rng.chance(0.4);
         Some(Set { name: self.name.clone(), experiments, fresh, rows_apart, oracle, plan })
     }
@@ -104,12 +110,17 @@ impl Recipe {
 /// names (`powder-layer#1`), families (`powder-layer`) or beginnings (`calib*`), several with commas.
 pub fn wanted() -> Vec<Recipe> {
     let repeats = std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
+    recipes(repeats).into_iter().filter(|recipe| is_wanted(&recipe.name)).collect()
+}
+
+/// All sets, so many times each.
+pub fn recipes(repeats: usize) -> Vec<Recipe> {
     let one = |family: &str, cause, index| Recipe { name: format!("{family}#{index}"), cause, index };
-    let planted = CAUSES.iter().flat_map(|cause| {
-        (0..3 * repeats).map(move |index| one(&cause.replace(':', "-"), Some(*cause), index))
-    });
+    let of = |cause: &'static str| {
+        (0..3 * repeats).map(move |index| one(&cause.replace(':', "-"), Some(cause), index))
+    };
     let nulls = (0..27 * repeats).map(|index| one("null", None, index));
-    planted.chain(nulls).filter(|recipe| is_wanted(&recipe.name)).collect()
+    CAUSES.into_iter().flat_map(of).chain(nulls).collect()
 }
 
 fn is_wanted(name: &str) -> bool {
