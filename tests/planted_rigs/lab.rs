@@ -53,9 +53,11 @@ pub struct Reading {
     pub base: f64,
     pub truth: f64,
     pub value: f64,
-    /// The count of a share, if its error is known.
+    /// The count of a share, if the file states it.
     pub count: Option<f64>,
     pub sigma: f64,
+    /// Particles that it rests on.
+    pub particles: f64,
 }
 
 /// An experiment: its settings and readings.
@@ -122,7 +124,9 @@ impl Lab {
         for settings in designs {
             let [base, truth] = self.expected(settings, count, rng);
             for ((observable, _), (base, truth)) in self.readings.iter().zip(base.iter().zip(&truth)) {
-                sum += if observable.is_share() {
+                sum += if observable.is_share() && self.errors == Errors::Stated {
+                    (truth - base).powi(2) / (truth * (1.0 - truth)).max(FLOOR)
+                } else if observable.is_share() {
                     2.0 * divergence(*truth, *base)
                 } else {
                     ((truth - base) / self.deviation).powi(2)
@@ -142,7 +146,7 @@ impl Lab {
             if !(base.is_finite() && truth.is_finite()) {
                 return None;
             }
-            let reading = Reading { base, truth, value: truth, count: None, sigma: 0.0 };
+            let reading = Reading { base, truth, value: truth, count: None, sigma: 0.0, particles: count };
             let reading = if !observable.is_share() {
                 let sigma = self.deviation / count.sqrt();
                 Reading { value: truth + rng.noise(truth, sigma), sigma, ..reading }
@@ -154,7 +158,7 @@ impl Lab {
                 let caught = binomial(tries, share, rng);
                 (left, rest) = if bin { (left - caught, (rest - truth).max(1e-9)) } else { (left, rest) };
                 let sigma = (truth * (1.0 - truth) / all).sqrt().max(0.5 / all);
-                let stated = (self.errors != Errors::Absent).then_some(all);
+                let stated = (self.errors == Errors::Counts).then_some(all);
                 Reading { value: caught / all, count: stated, sigma, ..reading }
             };
             readings.push(reading);

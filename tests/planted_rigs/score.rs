@@ -131,8 +131,16 @@ fn intervals(set: &Set, diagnosis: &Value) -> Vec<Interval> {
 fn gain(set: &Set, predicted: &[Vec<f64>], truth: &[Vec<f64>]) -> [f64; 2] {
     let (mut sum, mut count) = (0.0, 0.0);
     for (experiment, (predicted, truth)) in set.fresh.iter().zip(predicted.iter().zip(truth)) {
-        for (reading, (predicted, truth)) in experiment.readings.iter().zip(predicted.iter().zip(truth)) {
-            sum += ((predicted - truth) / reading.sigma).powi(2);
+        let pairs = predicted.iter().zip(truth);
+        for (index, (reading, (predicted, truth))) in experiment.readings.iter().zip(pairs).enumerate() {
+            let variance = if set.lab().readings[index].0.is_share() {
+                // Between both: where the truth is almost 0 its own error says nothing.
+                let middle = (predicted + truth) / 2.0;
+                (middle * (1.0 - middle)).max(0.25 / reading.particles) / reading.particles
+            } else {
+                reading.sigma.powi(2)
+            };
+            sum += (predicted - truth).powi(2) / variance;
             count += 1.0;
         }
     }
