@@ -101,7 +101,7 @@ fn generator_and_predict_agree() {
 
 /// The set of this name.
 fn made(name: &str, seed: u64) -> Set {
-    recipes(1).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed)
+    recipes(3).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed)
 }
 
 /// An answer with these findings, and the truth as prediction.

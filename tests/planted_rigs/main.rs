@@ -3,7 +3,8 @@
 //! - `cargo test --release --test planted_rigs -- --nocapture diagnose` scores the command on all sets.
 //! - `cargo test --release --test planted_rigs agree` compares the generator with `nearwall simulate`.
 //!
-//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_RIGS_SETS` multiplies the sets, `NEARWALL_RIGS_ONLY` selects some,
+//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_RIGS_SETS` multiplies the sets (3: every cause at every
+//! strength), `NEARWALL_RIGS_ONLY` selects some,
 //! `NEARWALL_RIGS_OUT` keeps the files of every set in a folder, `NEARWALL_COMMAND` names another command.
 #![allow(
     clippy::unwrap_used,

@@ -15,7 +15,7 @@ use crate::sets::{PREDICTED, Set};
 use crate::source::{Knob, Particle};
 
 /// Particles in the case file.
-const CASE_COUNT: usize = 2000;
+const CASE_COUNT: usize = 500;
 /// Models drawn from the fit.
 const DRAWS: usize = 39;
 

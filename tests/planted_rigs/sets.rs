@@ -1,4 +1,4 @@
-//! The sets: every cause at three strengths, and rigs whose base is right.
+//! The sets: every cause at one of three strengths, and rigs whose base is right.
 
 use crate::effects::{self, CAUSES, Plan};
 use crate::lab::{Experiment, Lab, PARTICLES};
@@ -106,21 +106,23 @@ impl Recipe {
     }
 }
 
-/// The sets that this run is asked for: `NEARWALL_RIGS_SETS` repeats (1), and of those only `NEARWALL_RIGS_ONLY`,
+/// The sets that this run is asked for: `NEARWALL_RIGS_SETS` repeats (1; 3 for every strength), and of those only `NEARWALL_RIGS_ONLY`,
 /// names (`powder-layer#1`), families (`powder-layer`) or beginnings (`calib*`), several with commas.
 pub fn wanted() -> Vec<Recipe> {
     let repeats = std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
     recipes(repeats).into_iter().filter(|recipe| is_wanted(&recipe.name)).collect()
 }
 
-/// All sets, so many times each.
+/// So many sets of each cause, at a strength after the other, and nine times as many nulls.
 pub fn recipes(repeats: usize) -> Vec<Recipe> {
     let one = |family: &str, cause, index| Recipe { name: format!("{family}#{index}"), cause, index };
-    let of = |cause: &'static str| {
-        (0..3 * repeats).map(move |index| one(&cause.replace(':', "-"), Some(cause), index))
+    // The first strength differs from cause to cause.
+    let of = |(place, cause): (usize, &'static str)| {
+        let indices = (0..repeats).map(move |index| 3 * (index / 3) + (place + index) % 3);
+        indices.map(move |index| one(&cause.replace(':', "-"), Some(cause), index))
     };
-    let nulls = (0..27 * repeats).map(|index| one("null", None, index));
-    CAUSES.into_iter().flat_map(of).chain(nulls).collect()
+    let nulls = (0..9 * repeats).map(|index| one("null", None, index));
+    CAUSES.into_iter().enumerate().flat_map(of).chain(nulls).collect()
 }
 
 fn is_wanted(name: &str) -> bool {
