@@ -4,8 +4,9 @@ use serde_json::{Value, json};
 
 use crate::campaign::{Campaign, KNOWN, System};
 use crate::contact::{Body, Contact, Tangential};
+use crate::gates::at_most;
 use crate::plant::Hook;
-use crate::score::{Verdict, at_most, judge};
+use crate::score::{Verdict, judge};
 use crate::set_rng::SetRng;
 use crate::sets::{Design, EFFECTS, Kind, Recipe, Set, recipes};
 use crate::world::{Inputs, normal};

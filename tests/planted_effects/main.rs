@@ -14,9 +14,12 @@
 
 mod campaign;
 mod check;
+mod command;
 mod contact;
 mod gain;
+mod gates;
 mod migraine;
+mod own_laws;
 mod plant;
 #[path = "../common/random.rs"]
 mod random;

@@ -1,11 +1,12 @@
 //! Runs the command on a set and its extended model on fresh impacts.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 use std::time::Instant;
 
 use serde_json::{Value, json};
 
+use crate::command::nearwall;
 use crate::score::{HeldOut, Judgement, Verdict, judge};
 use crate::set_rng::SetRng;
 use crate::sets::{Kind, Set};
@@ -13,13 +14,6 @@ use crate::world::{Inputs, Response};
 
 /// Fresh impacts for the held-out error.
 const FRESH: usize = 400;
-
-/// The command in this folder: that of this build, or the one that `NEARWALL_COMMAND` names.
-pub fn nearwall(folder: &Path, arguments: &[&str]) -> Output {
-    let command = std::env::var_os("NEARWALL_COMMAND");
-    let command = command.unwrap_or_else(|| env!("CARGO_BIN_EXE_nearwall").into());
-    Command::new(command).current_dir(folder).args(arguments).output().unwrap()
-}
 
 /// Diagnoses the set and judges the answer.
 pub fn run(set: &Set, seed: u64) -> Judgement {

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::campaign::System;
+use crate::own_laws;
 use crate::plant::Plant;
 use crate::set_rng::SetRng;
 use crate::sets;
@@ -62,7 +63,7 @@ pub fn temperature(index: usize, rng: &mut SetRng) -> Plan {
     let mut lab = lab(rng);
     lab.campaign.t_p = (300.0, 390.0);
     let (half, width) = (rng.uniform((340.0, 365.0)), rng.uniform((4.0, 12.0)));
-    lab.plant(exact::melting(half, width, 0.0));
+    lab.plant(own_laws::melting(half, width, 0.0));
     plan(lab, &["melting-transition"], index, rng)
 }
 

@@ -8,8 +8,8 @@ use super::lab::{Outcome, Outcomes, Row};
 use super::oracle::Oracle;
 use super::run::{Answer, GainCheck};
 use super::set::{Recipe, Set};
+use crate::command::nearwall;
 use crate::random;
-use crate::runner::nearwall;
 use crate::set_rng::SetRng;
 use crate::world::{Inputs, Response};
 

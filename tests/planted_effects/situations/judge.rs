@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::expected::{is_one_of, variables};
 use super::run::Answer;
 use super::set::Set;
-use crate::score::Interval;
+use crate::gates::Interval;
 
 /// The verdict on a set.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use serde_json::Value;
 
-use crate::runner::nearwall;
+use crate::command::nearwall;
 
 use super::lab::{Outcome, Row};
 use super::set::Set;

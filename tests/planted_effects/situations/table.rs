@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::judge::{Judgement, Verdict};
-use crate::score::require;
+use crate::gates::require;
 
 /// Longest diagnosis [s], with two at once on two cores.
 const SLOWEST: f64 = 60.0;

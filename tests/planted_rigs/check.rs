@@ -1,0 +1,147 @@
+//! The generator against `nearwall simulate` and `predict`, with nothing planted.
+
+use serde_json::{Value, json};
+
+use crate::effects::{CAUSES, null, plan};
+use crate::lab::Lab;
+use crate::random;
+use crate::rig::Observable;
+use crate::run::{self, Answer, Folder};
+use crate::score::{Verdict, judge};
+use crate::set_rng::SetRng;
+use crate::sets::{Set, recipes};
+
+/// Particles on both sides.
+const COUNT: usize = 4000;
+
+/// Largest of the differences over their Monte Carlo errors, and how many there are.
+fn differences(lab: &Lab, settings: Vec<f64>, rng: &mut SetRng, name: &str) -> Vec<(String, f64)> {
+    let folder = Folder::of(name);
+    std::fs::write(folder.path.join("base.toml"), lab.model()).unwrap();
+    let one = lab.measure(settings.clone(), 100.0, rng);
+    let Some(one) = one else { return vec![] };
+    let theirs = run::simulate(lab, &folder.path, "base.toml", &one, COUNT);
+    // Parts of the particles tell the error of the whole.
+    let parts: Vec<Vec<f64>> = (0..20)
+        .map(|_| {
+            let particles = lab.particles(&settings, COUNT / 20, rng);
+            lab.values(&lab.tracks(&particles, &lab.base))
+        })
+        .collect();
+    let particles = lab.particles(&settings, 10 * COUNT, rng);
+    let ours = lab.values(&lab.tracks(&particles, &lab.base));
+    let compare = |index: usize| {
+        let (observable, wall) = lab.readings[index];
+        let theirs = observable.of(&theirs, wall);
+        let squares: f64 = parts.iter().map(|part| (part[index] - ours[index]).powi(2)).sum();
+        let floor = if observable.is_share() {
+            (ours[index] * (1.0 - ours[index]) / COUNT as f64).sqrt().max(0.5 / COUNT as f64)
+        } else {
+            1e-6
+        };
+        let error = (squares / 400.0).sqrt().max(floor);
+        (format!("{} {} {} {theirs}", name, observable.name(), ours[index]), (theirs - ours[index]) / error)
+    };
+    (0..lab.readings.len()).map(compare).collect()
+}
+
+/// Every rig's observables agree with the simulation of its base model.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "a minute in a debug build")]
+fn generator_and_simulation_agree() {
+    let seed = random::seed();
+    let mut all = vec![];
+    for index in 0..3 * CAUSES.len() {
+        let name = format!("agree-{index}");
+        let mut rng = SetRng::new(seed, &name);
+        let mut lab =
+            if index % 3 == 0 { null(index, &mut rng) } else { plan(CAUSES[index / 3], &mut rng) }.lab;
+        lab.truth.plants.clone_from(&lab.base.plants);
+        lab.truth.tangential = lab.base.tangential;
+        for observable in [Observable::Captured, Observable::CaptureEfficiency, Observable::MeanEt] {
+            lab.readings.extend((0..lab.rig.walls().len()).map(|wall| (observable, wall)));
+        }
+        let settings = lab.design(1, &mut rng).remove(0);
+        all.extend(differences(&lab, settings, &mut rng, &name));
+    }
+    let squares = all.iter().map(|one| one.1.powi(2)).sum::<f64>() / all.len() as f64;
+    let worst = all.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).unwrap();
+    println!("{} observables, mean square {squares:.2}, worst {:.1}: {}", all.len(), worst.1, worst.0);
+    assert!(worst.1.abs() < 5.0, "{worst:?}");
+    assert!(squares < 1.5, "{squares}");
+}
+
+/// First impacts through `predict` have the same readings.
+#[test]
+fn generator_and_predict_agree() {
+    let seed = random::seed();
+    for (index, cause) in CAUSES.iter().enumerate() {
+        let mut rng = SetRng::new(seed, &format!("predict-{index}"));
+        let lab = plan(cause, &mut rng).lab;
+        if !lab.rig.hits_once() {
+            continue;
+        }
+        let folder = Folder::of(&format!("predict-{index}"));
+        std::fs::write(folder.path.join("base.toml"), lab.model()).unwrap();
+        let particles: Vec<_> =
+            lab.design(3, &mut rng).iter().map(|one| lab.particles(one, 200, &mut rng)).collect();
+        std::fs::write(folder.path.join("fresh.csv"), run::impacts(&particles)).unwrap();
+        let theirs = run::predict(&lab, &folder.path, "base.toml", &particles);
+        for (group, theirs) in particles.iter().zip(theirs) {
+            let ours = lab.values(&lab.tracks(group, &lab.base));
+            for (ours, theirs) in ours.iter().zip(theirs) {
+                assert!(
+                    (ours - theirs).abs() < 1e-6 || ours.is_nan() && theirs.is_nan(),
+                    "{cause}: {ours} {theirs}"
+                );
+            }
+        }
+    }
+}
+
+/// The set of this name.
+fn made(name: &str, seed: u64) -> Set {
+    recipes(3).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed)
+}
+
+/// An answer with these findings, and the truth as prediction.
+fn answer(set: &Set, findings: &[Value]) -> Answer {
+    let truth: Vec<Vec<f64>> =
+        set.fresh.iter().map(|one| one.readings.iter().map(|reading| reading.truth).collect()).collect();
+    let diagnosis = Ok(json!({ "findings": findings, "calibration": [], "undecided": [] }));
+    Answer { diagnosis, seconds: 0.0, predicted: Some(truth.clone()), truth, bands: vec![] }
+}
+
+#[test]
+fn verdicts() {
+    let set = made("powder-layer#0", 1);
+    let verdict = |set: &Set, findings: &[Value]| judge(set, &answer(set, findings)).verdict;
+    let right = json!({ "cause": "powder-layer", "parameters": {} });
+    let other = json!({ "cause": "melting-transition", "indistinguishable_from": [] });
+    let unsure = json!({ "cause": "melting-transition", "indistinguishable_from": ["powder-layer"] });
+    assert_eq!(verdict(&set, std::slice::from_ref(&right)), Verdict::Right);
+    assert_eq!(verdict(&set, &[other.clone(), right]), Verdict::Wrong);
+    assert_eq!(verdict(&set, &[unsure]), Verdict::CannotTell);
+    assert_eq!(verdict(&set, &[]), Verdict::Missed);
+    assert!(judge(&set, &answer(&set, &[])).gain.unwrap()[0] < 1.0 + 1e-9);
+    let null = made("null#0", 1);
+    assert_eq!(verdict(&null, &[]), Verdict::Right);
+    assert_eq!(verdict(&null, &[other]), Verdict::Wrong);
+}
+
+/// The readings of nulls scatter about the base as their errors say.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "a minute in a debug build")]
+fn readings_scatter_as_stated() {
+    let seed = random::seed();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for index in 0..27 {
+        for reading in made(&format!("null#{index}"), seed).experiments.iter().flat_map(|one| &one.readings) {
+            sum += ((reading.value - reading.truth) / reading.sigma).powi(2);
+            count += 1.0;
+        }
+    }
+    println!("mean square {:.3} of {count} readings", sum / count);
+    // Errors of shares near 0 and 1 are stated too large.
+    assert!((0.75..1.1).contains(&(sum / count)));
+}

@@ -1,0 +1,87 @@
+//! Rigs with planted effects for `nearwall diagnose --case`, generated without the crate's own laws and flights.
+//!
+//! - `cargo test --release --test planted_rigs -- --nocapture diagnose` scores the command on all sets.
+//! - `cargo test --release --test planted_rigs agree` compares the generator with `nearwall simulate`.
+//!
+//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_RIGS_SETS` multiplies the sets (3: every cause at every
+//! strength), `NEARWALL_RIGS_ONLY` selects some,
+//! `NEARWALL_RIGS_OUT` keeps the files of every set in a folder, `NEARWALL_COMMAND` names another command.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    reason = "clippy.toml's leave for tests does not reach their helpers"
+)]
+
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/campaign.rs"]
+mod campaign;
+mod check;
+#[path = "../planted_effects/command.rs"]
+mod command;
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/contact.rs"]
+mod contact;
+mod effects;
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/situations/expected.rs"]
+mod expected;
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/gates.rs"]
+mod gates;
+mod lab;
+mod oracle;
+#[path = "../planted_effects/own_laws.rs"]
+mod own_laws;
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/plant.rs"]
+mod plant;
+#[path = "../common/random.rs"]
+mod random;
+mod rig;
+mod run;
+mod score;
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/set_rng.rs"]
+mod set_rng;
+mod sets;
+mod source;
+#[allow(dead_code, reason = "impacts use all of it")]
+#[path = "../planted_effects/world.rs"]
+mod world;
+
+use rayon::prelude::*;
+
+/// The right cause first, silence on nulls, errors near the attainable, intervals and bands that hold.
+#[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes in a debug build: cargo test --release --test planted_rigs -- --nocapture diagnose"
+)]
+fn diagnose_finds_what_is_planted_in_a_rig() {
+    let seed = random::seed();
+    let one = |recipe: &sets::Recipe| {
+        let set = recipe.make(seed);
+        let judged = score::judge(&set, &run::run(&set, seed));
+        println!("{:?} {} {:.1} s: {}", judged.verdict, judged.name, judged.seconds, judged.said.join(", "));
+        judged
+    };
+    let all: Vec<_> = sets::wanted().par_iter().map(one).collect();
+    let failures = score::report(&all);
+    assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// Writes every set to the folder `NEARWALL_RIGS_OUT`.
+#[test]
+#[ignore = "writes files on request"]
+fn write_rigs() {
+    assert!(std::env::var_os("NEARWALL_RIGS_OUT").is_some());
+    let seed = random::seed();
+    let write = |recipe: &sets::Recipe| {
+        let set = recipe.make(seed);
+        run::write(&set, &run::Folder::of(&set.name).path);
+        (set.name, set.oracle)
+    };
+    let all: Vec<_> = sets::wanted().par_iter().map(write).collect();
+    all.iter().for_each(|(name, oracle)| println!("{name:40} {oracle:.1?}"));
+}

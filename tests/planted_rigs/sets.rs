@@ -1,0 +1,137 @@
+//! The sets: every cause at one of three strengths, and rigs whose base is right.
+
+use crate::effects::{self, CAUSES, Plan};
+use crate::lab::{Experiment, Lab, PARTICLES};
+use crate::oracle::Oracle;
+use crate::set_rng::SetRng;
+
+/// Strengths in deviations of all readings together.
+const STRENGTHS: [f64; 3] = [10.0, 5.0, 2.8];
+/// Particles of an experiment.
+const COUNTS: (f64, f64) = (30.0, 500.0);
+/// Particles in a trial of a plan, in rigs of one impact and of several.
+const TRIAL: [usize; 2] = [200, 1500];
+/// Fresh experiments.
+const FRESH: usize = 6;
+
+/// A set.
+pub struct Set {
+    pub name: String,
+    pub plan: Plan,
+    pub experiments: Vec<Experiment>,
+    /// New settings with their true readings.
+    pub fresh: Vec<Experiment>,
+    /// Whether each reading has a row of its own.
+    pub rows_apart: bool,
+    pub oracle: Oracle,
+}
+
+impl Set {
+    /// The name without its index.
+    pub fn family(&self) -> &str {
+        self.name.rsplit_once('#').unwrap().0
+    }
+
+    pub fn lab(&self) -> &Lab {
+        &self.plan.lab
+    }
+
+    pub fn is_null(&self) -> bool {
+        self.plan.names.is_empty()
+    }
+
+    /// The file of measurements.
+    pub fn csv(&self) -> String {
+        self.lab().csv(&self.experiments, self.rows_apart)
+    }
+}
+
+/// A set that is not drawn yet.
+pub struct Recipe {
+    pub name: String,
+    cause: Option<&'static str>,
+    index: usize,
+}
+
+impl Recipe {
+    /// The set of this seed: plans are drawn until one has the strength with a possible number of particles.
+    pub fn make(&self, seed: u64) -> Set {
+        let mut rng = SetRng::new(seed, &self.name);
+        for _ in 0..4000 {
+            if let Some(set) = self.draw(&mut rng) {
+                return set;
+            }
+        }
+        panic!("{}: no plan has this strength", self.name)
+    }
+
+    fn draw(&self, rng: &mut SetRng) -> Option<Set> {
+        let plan = match self.cause {
+            Some(cause) => effects::plan(cause, rng),
+            None => effects::null(self.index, rng),
+        };
+        let lab = &plan.lab;
+        let count = 6 + rng.below(15);
+        let designs = lab.design(count, rng);
+        let strength = STRENGTHS[self.index % 3] * rng.uniform((0.9, 1.1));
+        let particles = match self.cause {
+            None => rng.log_uniform(COUNTS),
+            Some(_) => {
+                strength.powi(2) / lab.information(&designs, TRIAL[usize::from(!lab.rig.hits_once())], rng)?
+            }
+        };
+        if !(COUNTS.0..=COUNTS.1).contains(&particles) {
+            return None;
+        }
+        let mut measure = |designs: Vec<Vec<f64>>| -> Option<Vec<Experiment>> {
+            designs
+                .into_iter()
+                .map(|settings| {
+                    let even = lab.errors == crate::lab::Errors::Absent;
+                    let share = if even { 1.0 } else { rng.uniform((0.6, 1.4)) };
+                    lab.measure(settings, particles * share, rng)
+                })
+                .collect()
+        };
+        let mut experiments = measure(designs)?;
+        lab.even_errors(&mut experiments);
+        let oracle = Oracle::of(&experiments, lab.errors);
+        if self.cause.is_some() && !(0.75..1.35).contains(&(oracle.expected / strength)) {
+            return None;
+        }
+        let fresh_designs = lab.design(FRESH, &mut SetRng::new(count as u64, &self.name));
+        let fresh = measure(fresh_designs)?;
+        let rows_apart = lab.readings.len() > 1 && rng.chance(0.4);
+        Some(Set { name: self.name.clone(), experiments, fresh, rows_apart, oracle, plan })
+    }
+}
+
+/// The sets that this run is asked for: `NEARWALL_RIGS_SETS` repeats (1; 3 for every strength), and of those only `NEARWALL_RIGS_ONLY`,
+/// names (`powder-layer#1`), families (`powder-layer`) or beginnings (`calib*`), several with commas.
+pub fn wanted() -> Vec<Recipe> {
+    let repeats = std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
+    recipes(repeats).into_iter().filter(|recipe| is_wanted(&recipe.name)).collect()
+}
+
+/// So many sets of each cause, at a strength after the other, and nine times as many nulls.
+pub fn recipes(repeats: usize) -> Vec<Recipe> {
+    let one = |family: &str, cause, index| Recipe { name: format!("{family}#{index}"), cause, index };
+    // The first strength differs from cause to cause.
+    let of = |(place, cause): (usize, &'static str)| {
+        let indices = (0..repeats).map(move |index| 3 * (index / 3) + (place + index) % 3);
+        indices.map(move |index| one(&cause.replace(':', "-"), Some(cause), index))
+    };
+    let nulls = (0..9 * repeats).map(|index| one("null", None, index));
+    CAUSES.into_iter().enumerate().flat_map(of).chain(nulls).collect()
+}
+
+fn is_wanted(name: &str) -> bool {
+    let Ok(only) = std::env::var("NEARWALL_RIGS_ONLY") else { return true };
+    only.split(',').any(|one| match one.strip_suffix('*') {
+        Some(begin) => name.starts_with(begin),
+        None => name == one || name.split('#').next() == Some(one),
+    })
+}
+
+/// Particles in a prediction of the fresh experiments.
+pub const PREDICTED: usize = PARTICLES;
