@@ -8,6 +8,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::super::part::{LawParameter, Part};
 use super::super::search::descend;
 use super::addition::RigAddition;
+use super::gain::HeldOut;
 use super::noise::{Data, Prepared, Values};
 use super::shelf::{Candidate, Shelf, predict};
 use super::significance::NullGains;
@@ -26,6 +27,8 @@ const LEAST_THRESHOLD: f64 = 2.0;
 pub(super) const DISTINGUISHABLE: f64 = 2.0;
 /// Gain by which a curve must lead the best law to take its place [nats].
 const BEYOND_LAWS: f64 = 3.0;
+/// Loss on experiments that a cause has not seen for which it is left out [nats].
+const CARRIES: f64 = 0.5;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
 /// Gain for which a cause is exchanged [nats].
@@ -143,9 +146,26 @@ impl<'a> RigStudy<'a> {
             Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
         let mut choice = self.grown(nothing, weights)?;
         if choice.rounds.len() > 1 && self.room(&choice.additions, weights)? > ROOM_TO_EXCHANGE {
-            choice = self.grown(self.exchanged(choice, weights)?, weights)?;
+            let mut best = self.grown(self.exchanged(choice.clone(), weights)?, weights)?;
+            for start in other_starts(&choice) {
+                if self.room(&best.additions, weights)? < ROOM_TO_EXCHANGE {
+                    break;
+                }
+                let start = Choice { additions: self.fit(&start.additions, weights), ..start };
+                let grown = self.grown(start, weights)?;
+                if self.worth(&grown, weights) > self.worth(&best, weights) + EXCHANGED {
+                    best = grown;
+                }
+            }
+            choice = best;
         }
         Ok(self.without_redundant(choice, weights))
+    }
+
+    /// Log likelihood less the number of parameters [nats].
+    fn worth(&self, choice: &Choice, weights: &[f64]) -> f64 {
+        let parameters: usize = choice.additions.iter().map(|one| one.axes.len()).sum();
+        self.score(&choice.additions, weights) - parameters as f64
     }
 
     /// The choice with further causes, one a round, until none is significant.
@@ -179,6 +199,37 @@ impl<'a> RigStudy<'a> {
                 choice.additions = self.fit(&choice.additions, weights);
             }
         }
+    }
+
+    /// The choice without the causes, from the last one on, that do not help to predict experiments that they have not seen, and the names of
+    /// those left out; with the cross-validation of the rest.
+    ///
+    /// # Errors
+    /// Why a model cannot decide an impact.
+    pub fn carried(
+        &self,
+        mut choice: Choice,
+        write: &dyn Fn(&[RigAddition]) -> Option<String>,
+        weights: &[f64],
+    ) -> Result<(Choice, Vec<String>), String> {
+        let mut dropped = Vec::new();
+        let score = |choice: &Choice, causes: usize| {
+            let held_out = HeldOut::new(self, choice, causes, None, write)?;
+            Ok::<_, String>(held_out.map(|held_out| held_out.score(self)))
+        };
+        while !choice.rounds.is_empty() {
+            let causes = choice.rounds.len();
+            let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else { break };
+            if with > without - CARRIES {
+                break;
+            }
+            choice.rounds.pop();
+            if let Some(last) = choice.additions.pop() {
+                dropped.push(last.name());
+            }
+            choice.additions = self.fit(&choice.additions, weights);
+        }
+        Ok((choice, dropped))
     }
 
     /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
@@ -221,18 +272,23 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The causes that experiments with these weights name, one after the other as in the choice on all experiments: with the predictions that
-    /// were computed for it, each cause at its best place. A cause that the whole choice does not have is fitted.
+    /// were computed for it, each cause at its best place, at most `most`. After a cause that the whole choice does not have there is no further one.
     ///
     /// # Errors
     /// Why the base model cannot decide an impact.
-    pub fn choose_again(&self, whole: &Choice, weights: &[f64]) -> Result<Vec<RigAddition>, String> {
+    pub fn choose_again(
+        &self,
+        whole: &Choice,
+        most: usize,
+        weights: &[f64],
+    ) -> Result<Vec<RigAddition>, String> {
         let mut additions: Vec<RigAddition> = Vec::new();
-        for round in 0..=whole.rounds.len() {
+        for round in 0..most.min(whole.rounds.len()) {
             let shelf = self.shelf(&additions)?;
             let null = NullGains::new(&shelf, &self.data, weights, self.seed);
             let known = whole.rounds.get(round).map_or(Vec::new(), Round::all);
             let scored = self.first_look(&shelf, &null, weights, &known);
-            if scored.first().is_none_or(|best| best.p_value > self.level) || round == whole.rounds.len() {
+            if scored.first().is_none_or(|best| best.p_value > self.level) {
                 break;
             }
             let promising: Vec<Scored> = scored.into_iter().filter(|one| one.gain > 0.0).collect();
@@ -243,7 +299,7 @@ impl<'a> RigStudy<'a> {
                 Some(known) => additions.push(known.winner.addition.clone()),
                 None => {
                     additions.push(winner.addition);
-                    return Ok(self.fit(&additions, weights));
+                    break;
                 }
             }
         }
@@ -374,6 +430,24 @@ impl<'a> RigStudy<'a> {
         }
         choice
     }
+}
+
+/// The beginnings of a choice with the next best law in place of the winner of a round.
+fn other_starts(choice: &Choice) -> Vec<Choice> {
+    let mut starts = Vec::new();
+    for (place, round) in choice.rounds.iter().enumerate() {
+        let laws = round.others.iter().filter(|other| !other.addition.is_curve() && other.gain > 0.0);
+        if let Some(other) = laws.clone().next() {
+            let mut rounds = choice.rounds[..place].to_vec();
+            let mut additions: Vec<RigAddition> =
+                rounds.iter().map(|round| round.winner.addition.clone()).collect();
+            additions.push(other.addition.clone());
+            let others = round.all().into_iter().filter(|one| one.addition.key() != other.addition.key());
+            rounds.push(Round { winner: other.clone(), others: others.collect(), certainty: round.certainty });
+            starts.push(Choice { additions, rounds, ..choice.clone() });
+        }
+    }
+    starts
 }
 
 /// The winner of a round: the best law, unless a curve leads it by far; of equal ones that with fewest parameters.

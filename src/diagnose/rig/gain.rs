@@ -26,15 +26,16 @@ pub(super) struct HeldOut {
 }
 
 impl HeldOut {
-    /// Cross-validates the choice. `whole` is the choice on all experiments and `posterior` its draws, which serve as places of a fit;
-    /// `write` gives the text of a model file with additions.
+    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole choice, serves as places of a fit;
+    /// `write` gives the text of a model file with additions. `None` with too few experiments.
     ///
     /// # Errors
     /// Why a model cannot decide an impact.
     pub fn new(
         study: &RigStudy<'_>,
         whole: &Choice,
-        posterior: &Posterior,
+        causes: usize,
+        posterior: Option<&Posterior>,
         write: &dyn Fn(&[RigAddition]) -> Option<String>,
     ) -> Result<Option<Self>, String> {
         let count = study.data.experiments;
@@ -45,15 +46,15 @@ impl HeldOut {
         let parts = PARTS.min(count);
         let base = predict(study.forward, &[])?;
         let mut predicted: Vec<[Predicted; 2]> = base.iter().map(|one| [*one, *one]).collect();
+        let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
         for part in 0..parts {
             let mut weights = vec![1.0; count];
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
-            let mut additions = study.choose_again(whole, &weights)?;
-            let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
-            if keys(&additions) == keys(&whole.additions)
-                && let Some(at) = posterior.best(study, &weights)
-            {
-                additions = moved(&additions, &at);
+            let mut additions = study.choose_again(whole, causes, &weights)?;
+            let same = keys(&additions) == keys(&whole.additions);
+            match posterior.filter(|_| same).and_then(|posterior| posterior.best(study, &weights)) {
+                Some(at) => additions = moved(&additions, &at),
+                None => additions = study.fit(&additions, &weights),
             }
             let text = write(&additions);
             let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };
@@ -67,6 +68,12 @@ impl HeldOut {
             (study.progress)();
         }
         Ok(Some(Self { predicted }))
+    }
+
+    /// Log likelihood of all readings under models that have not seen their experiments [nats].
+    pub fn score(&self, study: &RigStudy<'_>) -> f64 {
+        let all: Vec<Predicted> = self.predicted.iter().map(|pair| pair[1]).collect();
+        study.score_of(&all, &vec![1.0; study.data.experiments])
     }
 
     /// The gain in one kind of readings; `None` where too few experiments have it.

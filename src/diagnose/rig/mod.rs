@@ -83,13 +83,14 @@ pub fn diagnose_rig(
     }
     let study = RigStudy::new(forward, options.level, options.seed, progress);
     let all = vec![1.0; study.data.experiments];
-    let mut choice = study.choose(&all).map_err(RigError::Undecided)?;
+    let valid = valid(forward);
+    let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
+    let choice = study.choose(&all).map_err(RigError::Undecided)?;
+    let (mut choice, not_carried) = study.carried(choice, &write, &all).map_err(RigError::Undecided)?;
     let undecided = report::undecided(&choice);
     if !undecided.is_empty() {
         choice.additions.clear();
     }
-    let valid = valid(forward);
-    let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
 
     let widened = report::widened(&study, &choice.additions, &all).map_err(RigError::Undecided)?;
     let posterior = Posterior::new(&study, &choice.additions, &all, widened);
@@ -98,7 +99,10 @@ pub fn diagnose_rig(
     let text = text.map_err(|error| RigError::Unextendable(error.to_string()))?;
     let held_out = match choice.additions.is_empty() {
         true => None,
-        false => HeldOut::new(&study, &choice, &posterior, &write).map_err(RigError::Undecided)?,
+        false => {
+            let causes = choice.rounds.len();
+            HeldOut::new(&study, &choice, causes, Some(&posterior), &write).map_err(RigError::Undecided)?
+        }
     };
     let next = match case {
         Some(case) => next::next_experiments(&study, &choice, &posterior, data, case),
@@ -107,7 +111,7 @@ pub fn diagnose_rig(
     let next = next.map_err(RigError::Undecided)?;
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&choice::moved(&choice.additions, at))).collect();
-    let found = report::Found { study: &study, choice, undecided, held_out, text, draws, next };
+    let found = report::Found { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
     found.record(data, options).map_err(RigError::Undecided)
 }
 

@@ -35,6 +35,8 @@ pub struct RigDiagnosis {
     /// As for impacts; rows are those of the file, held-out ones are experiments.
     #[serde(flatten)]
     pub diagnosis: Diagnosis,
+    /// Causes that would explain these experiments, but that do not help to predict experiments that they have not seen.
+    pub not_carried: Vec<String>,
     /// Every reading beside both models.
     pub readings: Vec<RigRow>,
     /// Errors by kind of observable, on the readings that were fitted.
@@ -96,6 +98,8 @@ pub(super) struct Found<'a> {
     pub choice: Choice,
     /// Causes of which one is significant, if the data cannot tell which.
     pub undecided: Vec<String>,
+    /// Causes that explain these experiments but do not help to predict others.
+    pub not_carried: Vec<String>,
     pub held_out: Option<HeldOut>,
     pub text: String,
     pub draws: Vec<String>,
@@ -207,14 +211,18 @@ impl Found<'_> {
             extended_model: "extended.toml",
             ..Diagnosis::default()
         };
-        diagnosis.verdict = sentences(&diagnosis, study.data.experiments, study.data.readings.len());
+        diagnosis.verdict = sentences(
+            &diagnosis,
+            &self.not_carried,
+            [study.data.experiments, study.data.readings.len()],
+        );
         let scatter = study.data.scatter(&extended, &all);
         let readings = self.rows(&base, &extended, &scatter);
         let errors = self.errors(&base, &extended);
         let notes = file.notes.clone();
         let next_table = table(&self.next);
-        let (extended, draws, next) = (self.text, self.draws, self.next);
-        Ok(RigDiagnosis { diagnosis, readings, errors, next, next_table, notes, extended, draws })
+        let Self { text: extended, draws, next, not_carried, .. } = self;
+        Ok(RigDiagnosis { diagnosis, not_carried, readings, errors, next, next_table, notes, extended, draws })
     }
 
     fn fit_test(&self, predicted: &[Predicted], parameters: usize, structure: f64) -> FitTest {
@@ -414,7 +422,7 @@ fn explain(finding: &Finding) -> String {
 }
 
 /// The verdict: the result in a few sentences.
-fn sentences(diagnosis: &Diagnosis, experiments: usize, readings: usize) -> String {
+fn sentences(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings]: [usize; 2]) -> String {
     let mut text = fit_sentence(&diagnosis.fit);
     let cause = |finding: &Finding| {
         let name = match finding.cause.split_once(':') {
@@ -451,6 +459,12 @@ fn sentences(diagnosis: &Diagnosis, experiments: usize, readings: usize) -> Stri
     };
     if !causes.is_empty() && !values.is_empty() {
         text += &format!(" The data also support {values}.");
+    }
+    if !not_carried.is_empty() {
+        text += &format!(
+            " {} would explain more of these experiments, but not those that it has not seen: no cause is named for that.",
+            not_carried.join(" or ")
+        );
     }
     if let Some(finding) = diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
         text += &format!(
