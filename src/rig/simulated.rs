@@ -103,10 +103,10 @@ const TOLERANCE: f64 = 1e-4;
 /// Fewest and most particles of an experiment.
 const PARTICLES: [f64; 2] = [200.0, 1000.0];
 
-/// Number of particles with which the Monte Carlo error is well below that of the readings: three times the largest count.
+/// Number of particles with which the Monte Carlo error is well below that of the readings: twice the largest count.
 pub fn particles_for(data: &RigMeasurements) -> u64 {
     let counts = data.experiments.iter().flat_map(|one| &one.readings).filter_map(|reading| reading.count);
-    (3.0 * counts.fold(0.0, f64::max)).clamp(PARTICLES[0], PARTICLES[1]) as u64
+    (2.0 * counts.fold(0.0, f64::max)).clamp(PARTICLES[0], PARTICLES[1]) as u64
 }
 
 impl<'a> Simulated<'a> {

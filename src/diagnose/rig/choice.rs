@@ -13,14 +13,15 @@ use super::noise::{Data, Prepared, Values};
 use super::shelf::{Candidate, Shelf, predict};
 use super::significance::NullGains;
 use crate::effect::{CurveTarget, EFFECTS};
-use crate::impact::INPUTS;
+use crate::impact::{INPUTS, Impact};
 use crate::rig::{Forward, Predicted};
 
-/// Candidates whose best place gains less than the best one by more than this are not fitted [nats], and most that are.
+/// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
 const SHORTLIST: f64 = 4.0;
+/// Most laws, and most curves that are fitted.
+const MOST_FITTED: [(bool, usize); 2] = [(false, 5), (true, 2)];
 /// And those that gain this share of the best are fitted.
 const PROMISING: f64 = 0.4;
-const MOST_FITTED: usize = 6;
 /// Gain below which no candidate of a usual list is significant [nats].
 const LEAST_THRESHOLD: f64 = 2.0;
 /// Gain by which a cause must lead another one to be told from it [nats]: a ratio of likelihoods of 7.
@@ -31,6 +32,8 @@ const BEYOND_LAWS: f64 = 3.0;
 const CARRIES: f64 = 0.5;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
+/// Most other beginnings of a choice that are tried.
+const OTHER_STARTS: usize = 3;
 /// Gain for which a cause is exchanged [nats].
 const EXCHANGED: f64 = 1.5;
 /// Difference in gain below which the candidate with fewer parameters is taken [nats].
@@ -147,7 +150,7 @@ impl<'a> RigStudy<'a> {
         let mut choice = self.grown(nothing, weights)?;
         if choice.rounds.len() > 1 && self.room(&choice.additions, weights)? > ROOM_TO_EXCHANGE {
             let mut best = self.grown(self.exchanged(choice.clone(), weights)?, weights)?;
-            for start in other_starts(&choice) {
+            for start in other_starts(&choice).into_iter().take(OTHER_STARTS) {
                 if self.room(&best.additions, weights)? < ROOM_TO_EXCHANGE {
                     break;
                 }
@@ -191,7 +194,7 @@ impl<'a> RigStudy<'a> {
                 choice.hints = scored.into_iter().filter(|one| one.gain > 0.0).take(HINTS).collect();
                 return Ok(choice);
             }
-            let fitted = self.fit_all(&choice.additions, scored, weights);
+            let fitted = self.fit_all(&choice.additions, &scored, weights);
             let Some(round) = self.decide(&shelf, fitted, weights) else { return Ok(choice) };
             choice.additions.push(round.winner.addition.clone());
             choice.rounds.push(round);
@@ -220,7 +223,9 @@ impl<'a> RigStudy<'a> {
         while !choice.rounds.is_empty() {
             let causes = choice.rounds.len();
             let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else { break };
-            if with > without - CARRIES {
+            // The numbers have seen all experiments, which gains about one nat each.
+            let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
+            if with > without + parameters as f64 - CARRIES {
                 break;
             }
             choice.rounds.pop();
@@ -242,7 +247,7 @@ impl<'a> RigStudy<'a> {
             let shelf = self.shelf(&rest)?;
             let null = NullGains::new(&shelf, &self.data, weights, self.seed);
             let scored = self.first_look(&shelf, &null, weights, &[]);
-            let fitted = self.fit_all(&rest, scored, weights);
+            let fitted = self.fit_all(&rest, &scored, weights);
             let now = self.score(&choice.additions, weights) - cost(&choice.additions);
             let better = fitted.iter().find(|one| one.addition.key() != removed.key()).and_then(|one| {
                 let joint =
@@ -343,12 +348,15 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The promising candidates, each fitted beside the additions.
-    fn fit_all(&self, additions: &[RigAddition], scored: Vec<Scored>, weights: &[f64]) -> Vec<Scored> {
-        let best = scored.first().map_or(0.0, |one| one.gain);
+    fn fit_all(&self, additions: &[RigAddition], scored: &[Scored], weights: &[f64]) -> Vec<Scored> {
         let base = self.score(additions, weights);
-        // The places are coarse: where an effect is strong, the gain of a candidate between them may be much larger.
-        let least = (best - SHORTLIST).min(PROMISING * best).max(0.0);
-        let promising = scored.into_iter().filter(|one| one.gain > least);
+        let promising = MOST_FITTED.map(|(curve, most)| {
+            let mut own = scored.iter().filter(move |one| one.addition.is_curve() == curve).cloned().peekable();
+            // The places are coarse: where an effect is strong, the gain of a candidate between them may be much larger.
+            let best = own.peek().map_or(0.0, |one| one.gain);
+            let least = (best - SHORTLIST).min(PROMISING * best);
+            own.filter(move |one| one.gain > least).take(most).collect::<Vec<Scored>>()
+        });
         let fit = |one: Scored| {
             let joint = |at: &[f64]| {
                 let mut all = additions.to_vec();
@@ -365,7 +373,8 @@ impl<'a> RigStudy<'a> {
             let prepared = predicted.map(|predicted| Arc::new(self.data.prepare(&predicted)));
             Scored { addition, gain, p_value: one.p_value, prepared }
         };
-        let mut fitted: Vec<Scored> = promising.take(MOST_FITTED).map(fit).collect();
+        let mut fitted: Vec<Scored> = promising.into_iter().flatten().map(fit).collect();
+        fitted.retain(|one| one.gain > 0.0);
         fitted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         fitted
     }
@@ -484,6 +493,13 @@ pub(super) fn range(forward: &dyn Forward, input: &str) -> Option<[f64; 2]> {
     (high - low > 1e-6 * high.abs()).then_some([low, high])
 }
 
+/// The value of an input that does not vary and that an impact does not have by itself, as the thickness of a layer.
+fn present(forward: &dyn Forward, input: &str) -> Option<f64> {
+    let absent = INPUTS.iter().find(|one| one.name == input).map(|one| (one.value)(&Impact::default()))?;
+    let value = *sorted_values(forward, input)?.first()?;
+    (absent == 0.0 && value > 0.0).then_some(value)
+}
+
 fn sorted_values(forward: &dyn Forward, input: &str) -> Option<Vec<f64>> {
     let place = INPUTS.iter().position(|one| one.name == input)?;
     let all = (0..forward.experiments().len()).flat_map(|one| forward.input_values(one, place));
@@ -552,6 +568,8 @@ fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAd
         let beyond = BEYOND * (high - low);
         Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
     };
+    // A layer or a film that is the same in all experiments acts nevertheless.
+    let wider = |input: &str| wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]));
     let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
     let curves = curve_inputs(forward);
     let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));

@@ -26,8 +26,8 @@ pub(super) struct HeldOut {
 }
 
 impl HeldOut {
-    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole choice, serves as places of a fit;
-    /// `write` gives the text of a model file with additions. `None` with too few experiments.
+    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole choice, serves as places of a fit; without it
+    /// a cause keeps the numbers of the whole choice. `write` gives the text of a model file with additions. `None` with too few experiments.
     ///
     /// # Errors
     /// Why a model cannot decide an impact.
@@ -52,9 +52,11 @@ impl HeldOut {
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
             let mut additions = study.choose_again(whole, causes, &weights)?;
             let same = keys(&additions) == keys(&whole.additions);
-            match posterior.filter(|_| same).and_then(|posterior| posterior.best(study, &weights)) {
-                Some(at) => additions = moved(&additions, &at),
-                None => additions = study.fit(&additions, &weights),
+            if let Some(posterior) = posterior {
+                additions = match posterior.best(study, &weights).filter(|_| same) {
+                    Some(at) => moved(&additions, &at),
+                    None => study.fit(&additions, &weights),
+                };
             }
             let text = write(&additions);
             let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };

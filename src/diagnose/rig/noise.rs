@@ -13,8 +13,9 @@ use crate::rig::Predicted;
 const LEAST_SHARE: f64 = 0.003;
 /// Number of kinds of observables.
 const KINDS: usize = 8;
-/// Least fitted scatter [1].
-const LEAST_SCATTER: f64 = 1e-4;
+/// Scatter of readings without a stated error before they are seen, which counts as one reading more: of a single particle where counts are
+/// given, otherwise of a reading [1]. Without it a few readings could be met exactly by chance.
+const PRIOR_SCATTER: [f64; 2] = [0.1, 0.01];
 
 /// What is known of the error of a reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +47,8 @@ pub(super) struct Data {
     pub readings: Vec<Datum>,
     /// Kinds of observables.
     pub kinds: Vec<&'static str>,
+    /// Prior variance of each kind [1].
+    prior: Vec<f64>,
     /// Number of experiments.
     pub experiments: usize,
 }
@@ -101,7 +104,13 @@ impl Data {
                 readings.push(Datum { experiment, place, kind, value: reading.value, noise });
             }
         }
-        Self { readings, kinds, experiments: experiments.len() }
+        let counted = |kind: usize| {
+            readings.iter().any(|one: &Datum| {
+                one.kind == kind && matches!(one.noise, Noise::Shared { factor, .. } if factor < 1.0)
+            })
+        };
+        let prior = (0..kinds.len()).map(|kind| PRIOR_SCATTER[usize::from(!counted(kind))].powi(2)).collect();
+        Self { readings, kinds, prior, experiments: experiments.len() }
     }
 
     /// The measured values.
@@ -160,9 +169,9 @@ impl Data {
                 }
             }
         }
-        for (count, sum) in sums.into_iter().filter(|(count, _)| *count > 0.0) {
-            let variance: f64 = (sum / count).max(LEAST_SCATTER * LEAST_SCATTER);
-            score -= 0.5 * count * variance.ln() + 0.5 * sum / variance;
+        for ((count, sum), prior) in sums.into_iter().zip(&self.prior).filter(|((count, _), _)| *count > 0.0) {
+            let variance = (sum + prior) / (count + 1.0);
+            score -= 0.5 * (count + 1.0) * f64::ln(variance);
         }
         score
     }
@@ -188,7 +197,8 @@ impl Data {
                 sums[kind].1 += (datum.value - existing(one, datum.value).value).powi(2) / factor;
             }
         }
-        sums.into_iter().map(|(count, sum): (f64, f64)| (sum / count.max(1.0)).sqrt()).collect()
+        let scatter = |((count, sum), prior): ((f64, f64), &f64)| ((sum + prior) / (count + 1.0)).sqrt();
+        sums.into_iter().zip(&self.prior).map(scatter).collect()
     }
 
     /// Variance of a reading about a prediction [1]; `scatter` is that of each kind.
@@ -200,7 +210,7 @@ impl Data {
             }
             Noise::Stated(error) => error * error + one.variance,
             Noise::Shared { kind, factor } => {
-                factor * scatter[kind].max(LEAST_SCATTER).powi(2) + one.variance
+                factor * scatter[kind].powi(2) + one.variance
             }
         }
     }
