@@ -46,7 +46,7 @@ pub(in crate::report) fn identifier(name: &str) -> String {
 }
 
 /// Sets the y axis of a chart of shares, with room for markers at both ends.
-pub(super) fn share_axis(chart: Chart) -> Chart {
+pub(in crate::report) fn share_axis(chart: Chart) -> Chart {
     chart.y_range(-0.04, 1.04).y_step(0.2)
 }
 

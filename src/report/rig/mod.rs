@@ -43,8 +43,8 @@ pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::
     fit::add(&mut page, found);
     rivals::add_undecided(&mut page, diagnosis);
     page.heading("Measured against predicted");
-    over_setting::add(&mut page, found, from.in_case);
-    parity::add(&mut page, found);
+    let over = over_setting::figures(&mut page, found, from.in_case);
+    page.figures(over.into_iter().chain(parity::figures(found)));
     add_overview(&mut page, &words::findings(&diagnosis.findings));
     for (place, finding) in diagnosis.findings.iter().enumerate() {
         cause::add(&mut page, finding, place);

@@ -6,6 +6,9 @@ use super::super::page::{Page, Table};
 use super::readings::short;
 use crate::diagnose::rig::{NextExperiment, RigDiagnosis};
 
+/// Factors beyond this are not written out.
+const LARGEST: f64 = 1000.0;
+
 /// Adds the proposed experiments, if there are any.
 pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     if found.next.is_empty() {
@@ -30,7 +33,7 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     page.note(
         "The first factor is the expected ratio of the likelihoods of the causes, the second the ratio of the errors of the extended \
          model's prediction before and after, each for a reading with the usual count or error of the file. Particles or repeats: how many \
-         decide between the two leading causes.",
+         decide between the two leading causes, where they differ.",
     );
 }
 
@@ -47,8 +50,13 @@ fn row(place: usize, next: &NextExperiment) -> Vec<String> {
         if settings.is_empty() { "as in the case".to_owned() } else { settings.join(", ") },
         next.observable.clone(),
         predicted.join(", "),
-        format!("{:.1}", next.tells_causes.exp()),
-        format!("{:.1}", next.pins_numbers.exp()),
+        factor(next.tells_causes),
+        factor(next.pins_numbers),
         next.repeats.to_string(),
     ]
+}
+
+/// The factor with this logarithm.
+fn factor(logarithm: f64) -> String {
+    if logarithm < LARGEST.ln() { format!("{:.1}", logarithm.exp()) } else { format!("> {LARGEST}") }
 }

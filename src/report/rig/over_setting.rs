@@ -22,17 +22,26 @@ struct Candidate {
     figure: Figure,
 }
 
-pub(super) fn add(page: &mut Page, found: &RigDiagnosis, in_case: &dyn Fn(&str) -> Option<f64>) {
+/// The figures to show; a note about those that are not.
+pub(super) fn figures(
+    page: &mut Page,
+    found: &RigDiagnosis,
+    in_case: &dyn Fn(&str) -> Option<f64>,
+) -> Vec<Figure> {
     let models = models(extends(&found.diagnosis));
-    let mut all = profiles(found, &models);
-    let columns =
-        groups(found.readings.iter().filter(|row| !in_profile(found, row)), |row| row.observable.clone());
+    let bins = groups(found.readings.iter().filter(|row| bin(row).is_some()), profile_name);
+    let (full, few): (Vec<_>, Vec<_>) = bins.into_iter().partition(|(_, rows)| rows.len() >= BINS);
+    let mut all: Vec<Candidate> =
+        full.iter().filter_map(|(name, rows)| profile(name, rows, &models)).collect();
+    let single = found.readings.iter().filter(|row| bin(row).is_none());
+    let single = single.chain(few.iter().flat_map(|(_, rows)| rows.iter().copied()));
+    let columns = groups(single, |row| row.observable.clone());
     all.extend(columns.iter().filter_map(|(column, rows)| over_setting(column, rows, &models, in_case)));
     let drawn = all.len();
     let shown = chosen(all);
     if shown.is_empty() {
         page.text("No setting differs between the readings of one observable, so there is nothing to draw them over.");
-        return;
+        return shown;
     }
     if shown.len() < drawn {
         page.note(format!(
@@ -41,7 +50,7 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis, in_case: &dyn Fn(&str) 
             shown.len()
         ));
     }
-    page.figures(shown);
+    shown
 }
 
 /// The worst figure of each kind, then the worst of the others, in the order of the data.
@@ -90,7 +99,7 @@ fn over_setting(
     let placed = Placed::new(rows, in_case);
     let over = placed.setting.as_deref().unwrap_or("the experiments");
     let (quantity, _) = words::axis(column);
-    let title = format!("{} over {over}", words::column(column));
+    let title = format!("{}, over {over}", words::column(column));
     let chart = placed.axis()?.chart(&title, &format!("{quantity} [1]"));
     let chart = draw(chart, &placed, models, placed.alone)?;
     let what = match (&placed.setting, placed.alone) {
@@ -121,20 +130,7 @@ fn profile_name(row: &RigRow) -> String {
     format!("{} {wall} {}", if by_size { "size" } else { "along" }, row.experiment)
 }
 
-/// Whether a reading is one of enough bins.
-fn in_profile(found: &RigDiagnosis, row: &RigRow) -> bool {
-    let own = profile_name(row);
-    let same = |other: &&RigRow| bin(other).is_some() && profile_name(other) == own;
-    bin(row).is_some() && found.readings.iter().filter(same).count() >= BINS
-}
-
-/// The mass along a wall or by size, a figure for each experiment.
-fn profiles(found: &RigDiagnosis, models: &[ModelValue]) -> Vec<Candidate> {
-    let bins = found.readings.iter().filter(|row| in_profile(found, row));
-    let all = groups(bins, profile_name);
-    all.iter().filter_map(|(name, rows)| profile(name, rows, models)).collect()
-}
-
+/// The mass along a wall or by size in one experiment.
 fn profile(name: &str, rows: &[&RigRow], models: &[ModelValue]) -> Option<Candidate> {
     let first = rows.first()?;
     let (by_size, wall) = (bin(first)?.1, words::axis(&first.observable).1);

@@ -4,7 +4,6 @@ use super::super::chart::{Chart, ErrorBars, Figure};
 use super::super::diagnosis::fit::extends;
 use super::super::diagnosis::gain::AGREE;
 use super::super::diagnosis::plot::{FEW, identifier, span};
-use super::super::page::Page;
 use super::series::{ModelValue, bar, bars, models};
 use super::words;
 use crate::dataset::RigQuantity;
@@ -13,7 +12,8 @@ use crate::diagnose::rig::{RigDiagnosis, RigRow};
 /// Fewest readings of a kind with a figure of its own.
 const LEAST: usize = 3;
 
-pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
+/// A figure for each kind of readings, and one for the kinds with few.
+pub(super) fn figures(found: &RigDiagnosis) -> Vec<Figure> {
     let kind = |row: &RigRow| row.observable.split('@').next().and_then(RigQuantity::parse).map(|q| q.kind());
     let mut figures = Vec::new();
     let mut others: Vec<&RigRow> = Vec::new();
@@ -29,7 +29,7 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     }
     let rest = if figures.is_empty() { "all readings" } else { "all other readings" };
     figures.extend(figure(found, &others, rest, "others"));
-    page.figures(figures);
+    figures
 }
 
 fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Option<Figure> {

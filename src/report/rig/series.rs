@@ -1,8 +1,9 @@
 //! Measured values of readings with the values of both models, as points, lines and sentences.
 
 use super::super::chart::{Chart, ErrorBars};
-use super::super::diagnosis::plot::{FEW, Window};
+use super::super::diagnosis::plot::{FEW, Window, share_axis};
 use super::setting::Placed;
+use crate::dataset::RigQuantity;
 use crate::diagnose::rig::RigRow;
 
 /// A reading farther from a model than this many of its errors is off.
@@ -17,9 +18,19 @@ pub(super) fn models(extended: bool) -> Vec<ModelValue> {
     all[..if extended { 2 } else { 1 }].to_vec()
 }
 
-/// Length of the error bar of a reading; it ends at zero.
+/// The largest value of a share [1].
+const WHOLE: f64 = 1.0;
+/// Shares beyond this have an axis from 0 to 1.
+const LARGE_SHARE: f64 = 0.8;
+
+fn is_share(row: &RigRow) -> bool {
+    row.observable.split('@').next().and_then(RigQuantity::parse).is_some_and(|quantity| quantity.is_share())
+}
+
+/// Length of the error bar of a reading; it ends at zero, and that of a share at one.
 pub(super) fn bar(row: &RigRow) -> (f64, f64) {
-    (row.error.min(row.measured), row.error)
+    let most = if is_share(row) { (WHOLE - row.measured).max(0.0) } else { f64::INFINITY };
+    (row.error.min(row.measured), row.error.min(most))
 }
 
 /// The chart with the readings and the models; lines where `lines`.
@@ -39,9 +50,11 @@ pub(super) fn draw(chart: Chart, placed: &Placed<'_>, models: &[ModelValue], lin
     };
     let predicted: Vec<(&str, Vec<[f64; 2]>)> =
         models.iter().map(|(name, value)| (*name, of(*value))).collect();
-    let window =
-        Window::new(&[], ends.chain(predicted.iter().flat_map(|(_, points)| points).map(|at| at[1])));
-    let (chart, _) = window.draw(chart, "", &[]);
+    let reach: Vec<f64> =
+        ends.chain(predicted.iter().flat_map(|(_, points)| points).map(|at| at[1])).collect();
+    let shares = all.iter().all(|(_, row)| is_share(row)) && reach.iter().any(|y| *y > LARGE_SHARE);
+    let chart =
+        if shares { share_axis(chart) } else { Window::new(&[], reach.into_iter()).draw(chart, "", &[]).0 };
     let add = |chart: Chart, (name, points): &(&str, Vec<[f64; 2]>)| match (points.is_empty(), lines) {
         (true, _) => chart,
         (false, true) => chart.line(name, points),

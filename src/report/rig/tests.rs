@@ -213,7 +213,7 @@ fn a_cause_on_several_walls_is_shown_in_full() {
             "The base model does not; the extended model does.",
             "chi-square is 84 with 12 degrees of freedom, 7 for each",
             "4 run 3 mean_e_n@target",
-            "captured / injected mass, wall lid over particles.temperature",
+            "Captured / injected mass, wall lid, over particles.temperature",
             "12 readings over particles.temperature. Other settings vary as well",
             "the base model 6 of 12, the extended model 0 of 12; by chance 1 in 20",
             "Measured against predicted: captured share of the injected mass",

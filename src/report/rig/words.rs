@@ -48,10 +48,12 @@ pub(super) fn axis(column: &str) -> (String, &str) {
     (text, wall)
 }
 
-/// A column in a title: "mean e_n, wall lid".
+/// A column in a title: "Mean e_n, wall lid".
 pub(super) fn column(column: &str) -> String {
     let (text, wall) = axis(column);
-    format!("{text}, wall {wall}")
+    let mut letters = text.chars();
+    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    format!("{first}{}, wall {wall}", letters.as_str())
 }
 
 /// The findings with the kinds that they act on in words.
