@@ -66,7 +66,7 @@ fn rows(experiments: usize, observables: &[&str]) -> Vec<RigRow> {
             ("particles.speed", 1.0 + (experiment % 5) as f64),
         ];
         let one = move |(place, observable): (usize, &&str)| {
-            row(experiment, observable, &settings, 0.1 + 0.6 * hot + 0.05 * place as f64, 8.0 * hot * hot)
+            row(experiment, observable, &settings, 0.1 + 0.6 * hot + 0.05 * place as f64, 9.0 * hot * hot)
         };
         observables.iter().enumerate().map(one).collect::<Vec<RigRow>>()
     };
@@ -126,7 +126,7 @@ fn with_cause(mut found: RigDiagnosis, cause: &str) -> RigDiagnosis {
     diagnosis.fit.largest = vec![LargeMisfit {
         line: 4,
         observable: "captured",
-        measured: found.readings.get(2).map_or(0.1, |row| row.measured),
+        measured: found.readings.get(6).map_or(0.1, |row| row.measured),
         predicted: 0.01,
         standard_errors: 4.5,
     }];
@@ -212,7 +212,7 @@ fn a_cause_on_several_walls_is_shown_in_full() {
             "Columns taken as notes: remark.",
             "The base model does not; the extended model does.",
             "chi-square is 84 with 12 degrees of freedom, 7 for each",
-            "4 run 3 mean_e_n@target",
+            "4 run 3 captured@target",
             "Captured / injected mass, wall lid, over particles.temperature",
             "12 readings over particles.temperature. Other settings vary as well",
             "the base model 6 of 12, the extended model 0 of 12; by chance 1 in 20",
@@ -231,7 +231,7 @@ fn a_cause_on_several_walls_is_shown_in_full() {
             "run 1 particles.temperature = 300, particles.speed = 1 captured@target 0.1 ± 0.02 0.1 0.1 0.1",
             "9 no observable has a value",
             "nearwall simulate 'my rig/case.toml' -o extended",
-            "model \"<constant>/nearWall.toml\";",
+            "model \"&#60;constant&#62;/nearWall.toml\";",
             "draws/ has 39 model files",
         ],
     );
