@@ -219,7 +219,9 @@ impl<'a> RigStudy<'a> {
         };
         while !choice.rounds.is_empty() {
             let causes = choice.rounds.len();
-            let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else { break };
+            let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else {
+                break;
+            };
             if with > without - CARRIES {
                 break;
             }
@@ -443,7 +445,11 @@ fn other_starts(choice: &Choice) -> Vec<Choice> {
                 rounds.iter().map(|round| round.winner.addition.clone()).collect();
             additions.push(other.addition.clone());
             let others = round.all().into_iter().filter(|one| one.addition.key() != other.addition.key());
-            rounds.push(Round { winner: other.clone(), others: others.collect(), certainty: round.certainty });
+            rounds.push(Round {
+                winner: other.clone(),
+                others: others.collect(),
+                certainty: round.certainty,
+            });
             starts.push(Choice { additions, rounds, ..choice.clone() });
         }
     }

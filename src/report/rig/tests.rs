@@ -111,6 +111,7 @@ fn found(readings: Vec<RigRow>, kinds: &[&'static str]) -> RigDiagnosis {
         },
         readings,
         errors: errors(kinds),
+        not_carried: Vec::new(),
         next: Vec::new(),
         next_table: String::new(),
         notes: Vec::new(),
