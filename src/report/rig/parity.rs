@@ -56,7 +56,9 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
     if low > high {
         return None;
     }
-    let edges = span(low, high, 6);
+    // Room for the markers at the ends, but none beyond zero and one where no value is there.
+    let room = 0.04 * (high - low);
+    let edges = span((low - room).max(0.0), (high + room).min(high.max(1.0)), 6);
     let edges = span(edges[0].max(0.0), edges[edges.len() - 1], 6);
     let (low, high) = (edges[0], edges[edges.len() - 1]);
     let touch = 1e-9 * (high - low);
