@@ -48,7 +48,7 @@
 //! range. A [`deposit`] is what earlier particles left on a piece of wall; a code may keep one for each face and pass it to later
 //! impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface. With the feature `command`, `dataset`
 //! reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas flow,
-//! `map` shows a model over two inputs, and `report` draws the pages.
+//! `rig` predicts what a whole rig measures, `map` shows a model over two inputs, and `report` draws the pages.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]

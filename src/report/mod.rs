@@ -3,7 +3,7 @@
 //! A [`Chart`], [`BarChart`] or [`FigureMap`] becomes a [`Figure`]: an SVG with a title and a caption. A [`Page`] is a
 //! self-contained HTML file of text, tables and figures, readable on paper. [`standalone_page`] and [`openfoam_page`]
 //! show [`crate::results`], [`sweep`] a table of runs, [`map_page`] a map of a model, [`comparison_page`] several models on
-//! one data file.
+//! one data file, [`diagnosis_page`] what a model lacks to explain impacts, [`rig_page`] the same for what a whole rig shows.
 
 mod chart;
 mod compare;
@@ -11,6 +11,7 @@ mod diagnosis;
 mod format;
 mod map;
 mod page;
+mod rig;
 pub mod sweep;
 mod walls;
 
@@ -20,4 +21,5 @@ pub use diagnosis::page as diagnosis_page;
 pub use format::{number, percent};
 pub use map::page as map_page;
 pub use page::{Page, RowStatus, Table};
+pub use rig::{RigPage, page as rig_page};
 pub use walls::{openfoam_page, standalone_page};

@@ -67,3 +67,48 @@ fn page_of_a_table_of_runs() {
     done(Path::new("."), &["report", table.to_str().unwrap(), "-o", page.to_str().unwrap()]);
     looks_right(&page, 2);
 }
+
+/// Six experiments on two walls, whose rebounds are weaker than the base model says.
+#[test]
+fn page_of_a_rig() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "base.toml",
+        "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+         [normal]\nmodel = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.8\n",
+    );
+    let wall = |name: &str, z: f64, normal: i32| {
+        format!(
+            "[[walls]]\nname = \"{name}\"\nwall = \"default\"\nshape = \"plane\"\npoint = [0, 0, {z}]\nnormal = [0, 0, {normal}]\n\
+             radius = 10\ntemperature = 295\n"
+        )
+    };
+    let case = "model = \"base.toml\"\n[run]\nseed = 1\ntime_limit = 1\ngravity = [0, 0, 0]\n\
+                [gas]\nfield = \"uniform\"\nvelocity = [0, 0, 0]\ntemperature = 300\ndensity = 1e-9\nviscosity = 1e-15\n\
+                conductivity = 1e-9\nheat_capacity = 1000\n\
+                [particles]\ncount = 50\nposition = { shape = \"point\", at = [0, 0, 0.01] }\ndirection = [0, 0, -1]\n\
+                diameter = 8e-5\nspeed = 3\nangle_deg = 70\ntemperature = 300\n";
+    let walls = [wall("target", 0.0, 1), wall("lid", 0.02, -1)].concat();
+    write("case.toml", &format!("{case}{walls}"));
+    let mut data =
+        "experiment,particles.speed,mean_e_n@target,mean_e_n@target_err,mean_e_t@lid,mean_e_t@lid_err\n"
+            .to_owned();
+    for run in 1..=6 {
+        let off = if run % 2 == 0 { 0.01 } else { -0.01 };
+        data += &format!("run {run},{run},{},0.01,{},0.01\n", 0.4 + off, 0.8 - off);
+    }
+    write("rig.csv", &data);
+    let path = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
+    done(
+        Path::new("."),
+        &["diagnose", &path("rig.csv"), "--case", &path("case.toml"), "--draws", "2", "--out", &path("out")],
+    );
+    let page = folder.path().join("out/report.html");
+    looks_right(&page, 4);
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(
+        html.contains("Mean e_n, wall target, over particles.speed") && html.contains("normal.e_n"),
+        "{html}"
+    );
+}

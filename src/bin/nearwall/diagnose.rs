@@ -15,10 +15,12 @@ use crate::{CommandResult, diagnose_rig, progress};
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
-    nearwall diagnose lab.csv --columns lab.map.toml --group batch --model wax.toml --out diagnosis\n\n\
+    nearwall diagnose lab.csv --columns lab.map.toml --group batch --model wax.toml --out diagnosis\n  \
+    nearwall diagnose rig.csv --case case.toml --draws 39 --out diagnosis\n\n\
     Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
     e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
-    file and --columns, docs/diagnosis.md the method.")]
+    file and --columns, docs/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
+    settings of the case, and observables as captured@WALL (docs/rig-diagnosis.md).")]
 pub struct Arguments {
     /// The measured impacts
     pub(crate) data: PathBuf,

@@ -7,6 +7,7 @@ use nearwall::atomic_file::{AtomicFile, refused};
 use nearwall::dataset::RigMeasurements;
 use nearwall::diagnose::Options;
 use nearwall::diagnose::rig::{RigDiagnosis, diagnose_rig};
+use nearwall::report::{RigPage, rig_page};
 use nearwall::rig::{CaseText, RigCase, Simulated, particles_for};
 
 use crate::diagnose::{Arguments, summary};
@@ -27,18 +28,23 @@ pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
     let model = text.model.text();
     let found = diagnose_rig(&forward, &data, model, &options, arguments.draws, Some(&text), &|| bar.inc(1))?;
     bar.finish_and_clear();
-    write(arguments, case, &found)?;
+    let case_file = case.display().to_string();
+    let page = RigPage { data: &file, case: &case_file, in_case: &|key| text.number(key) };
+    let page = rig_page(&found, &page)?;
+    write(arguments, case, &found, &page)?;
     crate::print(&summary(&found.diagnosis, &arguments.out))
 }
 
 /// Writes all output files, or none.
-fn write(arguments: &Arguments, case: &Path, found: &RigDiagnosis) -> CommandResult {
+fn write(arguments: &Arguments, case: &Path, found: &RigDiagnosis, page: &str) -> CommandResult {
     let Arguments { data, out, .. } = arguments;
     let json = serde_json::to_string_pretty(found)? + "\n";
     std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
     let inputs: [&Path; 2] = [data, case];
-    let mut results =
-        vec![("extended.toml".to_owned(), found.extended.as_str()), ("diagnosis.json".to_owned(), &json)];
+    let texts =
+        [("report.html", page), ("extended.toml", found.extended.as_str()), ("diagnosis.json", &json)];
+    let mut results: Vec<(String, &str)> =
+        texts.into_iter().map(|(name, text)| (name.to_owned(), text)).collect();
     if !found.next.is_empty() {
         results.push(("next_experiments.csv".to_owned(), &found.next_table));
     }

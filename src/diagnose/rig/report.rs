@@ -211,18 +211,25 @@ impl Found<'_> {
             extended_model: "extended.toml",
             ..Diagnosis::default()
         };
-        diagnosis.verdict = sentences(
-            &diagnosis,
-            &self.not_carried,
-            [study.data.experiments, study.data.readings.len()],
-        );
+        diagnosis.verdict =
+            sentences(&diagnosis, &self.not_carried, [study.data.experiments, study.data.readings.len()]);
         let scatter = study.data.scatter(&extended, &all);
         let readings = self.rows(&base, &extended, &scatter);
         let errors = self.errors(&base, &extended);
         let notes = file.notes.clone();
         let next_table = table(&self.next);
         let Self { text: extended, draws, next, not_carried, .. } = self;
-        Ok(RigDiagnosis { diagnosis, not_carried, readings, errors, next, next_table, notes, extended, draws })
+        Ok(RigDiagnosis {
+            diagnosis,
+            not_carried,
+            readings,
+            errors,
+            next,
+            next_table,
+            notes,
+            extended,
+            draws,
+        })
     }
 
     fn fit_test(&self, predicted: &[Predicted], parameters: usize, structure: f64) -> FitTest {

@@ -13,7 +13,7 @@ const LETTERS: usize = 16;
 const LOG_SPAN: f64 = 30.0;
 
 /// A column along the x axis.
-pub(super) struct Axis<'a> {
+pub(in crate::report) struct Axis<'a> {
     pub name: &'a str,
     unit: &'a str,
     place: usize,

@@ -40,7 +40,7 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
 }
 
 /// Significance in standard deviations.
-pub(super) fn significance(finding: &Finding) -> String {
+pub(in crate::report) fn significance(finding: &Finding) -> String {
     if finding.sigma > 0.0 { format!("{:.1}", finding.sigma) } else { "–".to_owned() }
 }
 
@@ -59,8 +59,22 @@ fn strength(finding: &Finding) -> String {
 
 /// How often resampled data name the cause, and what these data cannot tell it from.
 fn certainty(finding: &Finding) -> String {
-    let share = whole_percent(finding.certainty);
-    let mut text = match finding.certainty {
+    let mut text = resampled(finding.certainty);
+    if !finding.indistinguishable_from.is_empty() {
+        let others: Vec<String> =
+            finding.indistinguishable_from.iter().map(|cause| cause_title(cause)).collect();
+        text += &format!(
+            " These data cannot tell it from {}. The simplest of them is named; it is not proven.",
+            listed(&others, "or")
+        );
+    }
+    text
+}
+
+/// How often resampled data name a cause.
+pub(in crate::report) fn resampled(certainty: f64) -> String {
+    let share = whole_percent(certainty);
+    match certainty {
         share if share >= 0.9999 => "It is named in all resampled data sets.".to_owned(),
         sure if sure >= 0.8 => format!("It is named in {share} of resampled data sets."),
         likely if likely >= 0.5 => {
@@ -71,16 +85,7 @@ fn certainty(finding: &Finding) -> String {
         _ => {
             format!("It is named in only {share} of resampled data sets: take it as a hint, not as a result.")
         }
-    };
-    if !finding.indistinguishable_from.is_empty() {
-        let others: Vec<String> =
-            finding.indistinguishable_from.iter().map(|cause| cause_title(cause)).collect();
-        text += &format!(
-            " These data cannot tell it from {}. The simplest of them is named; it is not proven.",
-            listed(&others, "or")
-        );
     }
-    text
 }
 
 /// Whether the law has the shape of the data.
@@ -96,7 +101,7 @@ fn shape(p_value: f64) -> String {
     )
 }
 
-fn parameters(finding: &Finding) -> Table {
+pub(in crate::report) fn parameters(finding: &Finding) -> Table {
     let effect = EFFECTS.iter().find(|kind| kind.id == finding.cause);
     let about = |name: &str| {
         let parameter = effect.and_then(|effect| effect.parameters.iter().find(|known| known.name == name));
@@ -136,7 +141,7 @@ fn heights(finding: &Finding, surface: &FittedSurface) -> Table {
     Table { caption, header, rows, text_columns: 1 }
 }
 
-fn add_alternatives(page: &mut Page, finding: &Finding) {
+pub(in crate::report) fn add_alternatives(page: &mut Page, finding: &Finding) {
     let row = |other: &Alternative| {
         let difference = other.score_difference;
         let ratio = difference.exp();

@@ -49,7 +49,7 @@ pub(super) fn base_is_refuted(diagnosis: &Diagnosis) -> bool {
     refuted(&diagnosis.fit.base) || most_points_are_far(diagnosis)
 }
 
-fn refuted(test: &FitTest) -> bool {
+pub(in crate::report) fn refuted(test: &FitTest) -> bool {
     test.p_value.is_some_and(|p| p < REFUTED)
 }
 
@@ -71,7 +71,7 @@ fn far_points(diagnosis: &Diagnosis) -> Option<(usize, usize)> {
 }
 
 /// Whether the extended model differs from the base model.
-fn extends(diagnosis: &Diagnosis) -> bool {
+pub(in crate::report) fn extends(diagnosis: &Diagnosis) -> bool {
     !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty())
 }
 
@@ -147,7 +147,7 @@ fn sentence(model: &str, test: &FitTest) -> String {
 }
 
 /// A number with at most two decimals, whole from 100 on.
-fn two_digits(value: f64) -> String {
+pub(in crate::report) fn two_digits(value: f64) -> String {
     number(if value < 100.0 { (100.0 * value).round() / 100.0 } else { value.round() })
 }
 

@@ -18,7 +18,7 @@ const LEAST_POINTS: usize = 3;
 /// An error up to this many noise floors is noise.
 const AT_THE_FLOOR: f64 = 1.1;
 /// Name of the line on which measured and predicted values agree.
-const AGREE: &str = "measured = predicted";
+pub(in crate::report) const AGREE: &str = "measured = predicted";
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     page.heading("Gain on rows that no fit saw");
@@ -83,7 +83,7 @@ fn sentence(gain: &Gain) -> String {
 }
 
 /// The error that is left, against the noise floor.
-fn what_is_left(gain: &Gain) -> String {
+pub(in crate::report) fn what_is_left(gain: &Gain) -> String {
     match gain.noise_floor {
         Some(floor) if gain.rmse_after <= AT_THE_FLOOR * floor => {
             format!(" The noise floor is {}: what is left is noise.", number(floor))
@@ -98,7 +98,7 @@ fn what_is_left(gain: &Gain) -> String {
     }
 }
 
-fn table(gains: &[Gain]) -> Table {
+pub(in crate::report) fn table(gains: &[Gain]) -> Table {
     let digits = |value: f64| if value.is_finite() { format!("{value:.3}") } else { number(value) };
     let row = |gain: &Gain| {
         let (ratio, interval) = if gain.rmse_after == gain.rmse_before {

@@ -1,19 +1,19 @@
 //! The page of a diagnosis.
 
-mod axis;
-mod cause;
+pub(super) mod axis;
+pub(super) mod cause;
 mod curve;
 mod data;
-mod fit;
-mod gain;
+pub(super) mod fit;
+pub(super) mod gain;
 mod groups;
 mod misfit;
-mod plot;
-mod rivals;
+pub(super) mod plot;
+pub(super) mod rivals;
 mod spread;
 #[cfg(test)]
 mod tests;
-mod usage;
+pub(super) mod usage;
 
 use super::format::{number, once_in, whole_percent};
 use super::page::{Page, Table};
@@ -72,16 +72,17 @@ fn rows(diagnosis: &Diagnosis) -> String {
     format!("{} rows read, {} used{held_out}.{left_out}", rows.read, rows.used)
 }
 
-/// A cause's name on the page; that of a surface is `unknown:a*b`.
-fn cause_title(cause: &str) -> String {
-    match cause.strip_prefix("unknown:") {
-        Some(columns) => format!("curve over {}", columns.replace('*', " and ")),
-        None => cause.to_owned(),
+/// A cause's name on the page; that of a surface is `unknown:a*b`, that of a constant shift `level:what`.
+pub(super) fn cause_title(cause: &str) -> String {
+    match cause.split_once(':') {
+        Some(("unknown", columns)) => format!("curve over {}", columns.replace('*', " and ")),
+        Some(("level", what)) => format!("shift of {what}"),
+        _ => cause.to_owned(),
     }
 }
 
 /// The causes with their certainty, and what they cannot be told from.
-fn add_overview(page: &mut Page, findings: &[Finding]) {
+pub(super) fn add_overview(page: &mut Page, findings: &[Finding]) {
     let row = |finding: &Finding| {
         let others: Vec<String> =
             finding.indistinguishable_from.iter().map(|other| cause_title(other)).collect();
@@ -113,20 +114,7 @@ fn add_overview(page: &mut Page, findings: &[Finding]) {
 /// Recalibrated parameters of the base model, and the scatter.
 fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
     page.heading("Recalibrated parameters and scatter");
-    if diagnosis.calibration.is_empty() {
-        page.text("No parameter of the base model's own laws has a significantly different value.");
-    } else {
-        let row = |one: &Calibration| {
-            let [from, value, low, high] = [one.from, one.value, one.low, one.high].map(number);
-            vec![one.key.clone(), from, value, format!("{low} to {high}"), once_in(one.q_value)]
-        };
-        page.table(Table::new(
-            "Parameters of the base model's laws, in the units of the model file.",
-            1,
-            &["key", "model file", "fitted", "95 % interval", "by chance once in"],
-            diagnosis.calibration.iter().map(row).collect(),
-        ));
-    }
+    add_calibration(page, &diagnosis.calibration);
     let scatter = &diagnosis.scatter;
     let stated = |place: usize| {
         let mut rows = diagnosis.sample.rows.iter();
@@ -156,7 +144,24 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
     page.text(text);
 }
 
-fn add_rejected(page: &mut Page, rejected: &[BadRow]) {
+pub(super) fn add_calibration(page: &mut Page, calibration: &[Calibration]) {
+    if calibration.is_empty() {
+        page.text("No parameter of the base model's own laws has a significantly different value.");
+        return;
+    }
+    let row = |one: &Calibration| {
+        let [from, value, low, high] = [one.from, one.value, one.low, one.high].map(number);
+        vec![one.key.clone(), from, value, format!("{low} to {high}"), once_in(one.q_value)]
+    };
+    page.table(Table::new(
+        "Parameters of the base model's laws, in the units of the model file.",
+        1,
+        &["key", "model file", "fitted", "95 % interval", "by chance once in"],
+        calibration.iter().map(row).collect(),
+    ));
+}
+
+pub(super) fn add_rejected(page: &mut Page, rejected: &[BadRow]) {
     if rejected.is_empty() {
         return;
     }
@@ -190,7 +195,7 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
 }
 
 /// A path quoted for a shell.
-fn quoted(path: &str) -> String {
+pub(super) fn quoted(path: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "/._-+=:,@%".contains(c);
     if !path.is_empty() && path.chars().all(plain) {
         path.to_owned()

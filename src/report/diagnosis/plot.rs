@@ -6,7 +6,7 @@ use super::axis::{Axis, DISTINCT};
 use crate::diagnose::{Sample, SampleRow};
 
 /// Up to this many rows each is drawn with its own error bar; more are drawn as a cloud with running means.
-pub(super) const FEW: usize = 40;
+pub(in crate::report) const FEW: usize = 40;
 /// Most running means along an axis.
 const BINS: usize = 12;
 const ROWS_A_VALUE: usize = 4;
@@ -36,7 +36,7 @@ pub(super) fn triple(row: &SampleRow, observable: &str) -> Option<[f64; 3]> {
 }
 
 /// Letters, digits and hyphens, different for every column name.
-pub(super) fn identifier(name: &str) -> String {
+pub(in crate::report) fn identifier(name: &str) -> String {
     let letter = |letter: char| match letter {
         '_' => "-".to_owned(),
         letter if letter.is_ascii_alphanumeric() => letter.to_string(),
@@ -46,12 +46,12 @@ pub(super) fn identifier(name: &str) -> String {
 }
 
 /// Sets the y axis of a chart of shares, with room for markers at both ends.
-pub(super) fn share_axis(chart: Chart) -> Chart {
+pub(in crate::report) fn share_axis(chart: Chart) -> Chart {
     chart.y_range(-0.04, 1.04).y_step(0.2)
 }
 
 /// Round edges that cover `low` to `high`, which may be one value.
-pub(super) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
+pub(in crate::report) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
     let room = if high - low > 1e-6 { 0.0 } else { 0.05 };
     round_edges(low - room, high + room, count)
 }
@@ -261,7 +261,7 @@ impl Means {
 }
 
 /// A range of the y axis that holds `always` and all but a few of the points.
-pub(super) struct Window {
+pub(in crate::report) struct Window {
     low: f64,
     high: f64,
     step: f64,

@@ -19,7 +19,7 @@ pub(super) fn add_notes(page: &mut Page, diagnosis: &Diagnosis) {
 }
 
 /// A note with a capital and a full stop; a name of a column keeps its small letter.
-fn as_sentence(note: &str) -> String {
+pub(in crate::report) fn as_sentence(note: &str) -> String {
     let word: String = note.chars().take_while(|letter| letter.is_alphanumeric() || *letter == '_').collect();
     let name = word.contains('_') || word.chars().count() < 2;
     let mut letters = note.chars();
@@ -72,7 +72,7 @@ fn sentence(rival: &Rival, diagnosis: &Diagnosis) -> String {
 }
 
 /// Causes of which one is significant, if the data cannot tell which.
-pub(super) fn add_undecided(page: &mut Page, diagnosis: &Diagnosis) {
+pub(in crate::report) fn add_undecided(page: &mut Page, diagnosis: &Diagnosis) {
     let causes = &diagnosis.undecided;
     if causes.is_empty() {
         return;
@@ -91,7 +91,7 @@ pub(super) fn add_undecided(page: &mut Page, diagnosis: &Diagnosis) {
     });
 }
 
-fn candidates(causes: &[String]) -> Table {
+pub(in crate::report) fn candidates(causes: &[String]) -> Table {
     let row = |cause: &String| {
         let effect = EFFECTS.iter().find(|effect| effect.id == cause);
         vec![
@@ -114,7 +114,7 @@ fn inputs(cause: &str) -> Vec<&str> {
 }
 
 /// The inputs to vary: those on which some of the causes depend and others do not.
-fn to_separate(causes: &[String]) -> String {
+pub(in crate::report) fn to_separate(causes: &[String]) -> String {
     let mut all: Vec<&str> = causes.iter().flat_map(|cause| inputs(cause)).collect();
     all.sort_unstable();
     all.dedup();

@@ -41,12 +41,7 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
         }
     }
     if !diagnosis.not_examined.is_empty() {
-        page.table(Table::new(
-            "Effects of the library that these data cannot show.",
-            4,
-            &["effect", "what it does", "why not examined", "to examine it"],
-            diagnosis.not_examined.iter().map(not_examined).collect(),
-        ));
+        page.table(not_examined_table(diagnosis));
     } else if !asked && !fit::base_is_refuted(diagnosis) {
         page.text(
             "Every effect of the library was examined, and these data can tell all of them apart. More rows make the \
@@ -73,9 +68,20 @@ fn to_explain(finding: &Finding) -> String {
     )
 }
 
+/// Effects that were no candidates, and what would make them so.
+pub(in crate::report) fn not_examined_table(diagnosis: &Diagnosis) -> Table {
+    Table::new(
+        "Effects of the library that these data cannot show.",
+        4,
+        &["effect", "what it does", "why not examined", "to examine it"],
+        diagnosis.not_examined.iter().map(not_examined).collect(),
+    )
+}
+
 fn not_examined(one: &NotExamined) -> Vec<String> {
     let about = EFFECTS.iter().find(|effect| effect.id == one.cause).map_or("", |effect| effect.about);
-    let inputs = one.reason.strip_suffix(" does not vary in the data");
+    let endings = [" does not vary in the data", " does not vary over the impacts"];
+    let inputs = endings.iter().find_map(|ending| one.reason.strip_suffix(ending));
     let advice = inputs.map_or("–".to_owned(), |inputs| format!("vary and record {inputs}"));
     vec![one.cause.to_owned(), about.to_owned(), one.reason.clone(), advice]
 }
@@ -114,7 +120,7 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
 }
 
 /// An input that the model file declares.
-struct ExtraInput {
+pub(in crate::report) struct ExtraInput {
     name: String,
     /// Its default as it is written in the file; empty where it has none.
     default: String,
@@ -123,7 +129,7 @@ struct ExtraInput {
 }
 
 /// The tables `[inputs.NAME]` of a model file.
-fn extra_inputs(model: &str) -> Vec<ExtraInput> {
+pub(in crate::report) fn extra_inputs(model: &str) -> Vec<ExtraInput> {
     let Ok(document) = model.parse::<DocumentMut>() else { return Vec::new() };
     let written = |value: &Value| value.clone().decorated("", "").to_string();
     let input = |(name, item): (&str, &Item)| {
@@ -155,7 +161,7 @@ fn inputs_of_rows(inputs: &[ExtraInput]) -> String {
 }
 
 /// The lines that put a model file into an OpenFOAM case.
-fn openfoam(inputs: &[ExtraInput]) -> String {
+pub(in crate::report) fn openfoam(inputs: &[ExtraInput]) -> String {
     let mut text = "libs (\"libnearWallInteraction.so\");              // system/controlDict\n\n\
                     patchInteractionModel nearWallInteraction;       // constant/<cloud>Properties, subModels\n\
                     nearWallInteractionCoeffs\n{\n    model \"<constant>/nearWall.toml\";\n"

@@ -1,0 +1,104 @@
+//! The page of a diagnosis of a rig.
+
+mod cause;
+mod fit;
+mod gain;
+mod next;
+mod over_setting;
+mod parity;
+mod readings;
+mod series;
+mod setting;
+#[cfg(test)]
+mod tests;
+mod usage;
+mod words;
+
+use super::diagnosis::{add_calibration, add_overview, add_rejected, quoted, rivals};
+use super::page::{Callout, Page, RowStatus};
+use crate::diagnose::Diagnosis;
+use crate::diagnose::rig::RigDiagnosis;
+
+/// What a page needs beside the diagnosis.
+pub struct RigPage<'a> {
+    /// Path of the data file.
+    pub data: &'a str,
+    /// Path of the case file, or of the folder with recorded impacts.
+    pub case: &'a str,
+    /// The number of a setting in the case, for experiments that do not change it.
+    pub in_case: &'a dyn Fn(&str) -> Option<f64>,
+}
+
+/// The page: verdict, fit, measured against predicted values, causes, changed numbers, gain, what to measure next, what cannot be seen,
+/// all readings, rows left out, method, how to run the extended model.
+///
+/// # Errors
+/// When the template cannot be filled.
+pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::Error> {
+    let diagnosis = &found.diagnosis;
+    let file = from.data.rsplit(['/', '\\']).next().unwrap_or(from.data);
+    let mut page = Page::new(&format!("Diagnosis of the rig in {file}"));
+    page.verdict(vec![diagnosis.verdict.clone(), used(found)]);
+    add_notes(&mut page, &found.notes);
+    fit::add(&mut page, found);
+    rivals::add_undecided(&mut page, diagnosis);
+    page.heading("Measured against predicted");
+    let over = over_setting::figures(&mut page, found, from.in_case);
+    page.figures(over.into_iter().chain(parity::figures(found)));
+    add_overview(&mut page, &words::findings(&diagnosis.findings));
+    for (place, finding) in diagnosis.findings.iter().enumerate() {
+        cause::add(&mut page, finding, place);
+    }
+    page.heading("Changed numbers of the base model");
+    add_calibration(&mut page, &diagnosis.calibration);
+    gain::add(&mut page, found);
+    next::add(&mut page, found);
+    usage::add_not_examined(&mut page, diagnosis);
+    readings::add(&mut page, found);
+    add_rejected(&mut page, &diagnosis.rows.rejected);
+    add_method(&mut page, diagnosis, from);
+    usage::add_commands(&mut page, found, from);
+    page.foot(&format!("Made from {} and {} with seed {}.", from.data, from.case, diagnosis.seed));
+    page.html()
+}
+
+/// "20 rows read, 19 used: 12 experiments with 31 readings."
+fn used(found: &RigDiagnosis) -> String {
+    let rows = &found.diagnosis.rows;
+    let [experiments, readings] =
+        [(readings::experiments(found), "experiment"), (found.readings.len(), "reading")]
+            .map(|(count, name)| format!("{count} {name}{}", if count == 1 { "" } else { "s" }));
+    let left_out = match rows.rejected.len() {
+        0 => String::new(),
+        1 => " 1 row was left out, see \"Rows left out\".".to_owned(),
+        count => format!(" {count} rows were left out, see \"Rows left out\"."),
+    };
+    format!("{} rows read, {} used: {experiments} with {readings}.{left_out}", rows.read, rows.used)
+}
+
+fn add_notes(page: &mut Page, notes: &[String]) {
+    if notes.is_empty() {
+        return;
+    }
+    let lines = notes.iter().map(|note| rivals::as_sentence(note)).collect();
+    let title = "How the data file was read".to_owned();
+    page.callout(Callout { status: RowStatus::Open, title, lines, table: None });
+}
+
+fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
+    let Diagnosis { seed, level, .. } = diagnosis;
+    page.heading("How it was judged");
+    page.note(format!(
+        "The base model simulates every experiment; a candidate changes its wall law. Candidates are every effect of the library \
+         whose inputs vary over the impacts, the numbers of the base model's own laws, and free curves over the inputs whose mean \
+         changes from experiment to experiment. A candidate is accepted if data sets drawn from the model without it, with the \
+         errors of these readings, let any candidate gain as much in at most a share of {level} of the sets. Intervals hold 95 % \
+         of draws from the likelihood of all parameters together. The gain is cross-validated over whole experiments. Seed {seed} \
+         decides the draws and the parts of the cross-validation. docs/rig-diagnosis.md of nearwall describes the method and its \
+         limits."
+    ));
+    let [data, case] = [from.data, from.case].map(quoted);
+    page.code(format!(
+        "nearwall diagnose {data} \\\n  --case {case} \\\n  --seed {seed} --level {level} --out DIR"
+    ));
+}

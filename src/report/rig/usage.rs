@@ -1,0 +1,44 @@
+//! What these data cannot show, and how to run the extended model.
+
+use super::super::diagnosis::fit::extends;
+use super::super::diagnosis::quoted;
+use super::super::diagnosis::usage::{extra_inputs, not_examined_table, openfoam};
+use super::super::page::Page;
+use super::RigPage;
+use crate::diagnose::Diagnosis;
+use crate::diagnose::rig::RigDiagnosis;
+
+pub(super) fn add_not_examined(page: &mut Page, diagnosis: &Diagnosis) {
+    if !diagnosis.not_examined.is_empty() {
+        page.heading("What these experiments cannot show");
+        page.table(not_examined_table(diagnosis));
+    }
+}
+
+pub(super) fn add_commands(page: &mut Page, found: &RigDiagnosis, from: &RigPage<'_>) {
+    let file = found.diagnosis.extended_model;
+    page.heading("How to run the extended model");
+    page.text(if extends(&found.diagnosis) {
+        format!("{file} is next to this page. It is the base model with the findings added:")
+    } else {
+        format!("{file} is next to this page. Nothing was added, so it equals the base model:")
+    });
+    page.code(found.extended.trim_end());
+    page.text("To simulate the rig with it, name it in the case instead of the base model and run the case:");
+    let case = quoted(from.case);
+    page.code(format!(
+        "model = \"{file}\"              # in the case file; the path is relative to it\n\nnearwall check {file}\nnearwall simulate {case} -o extended"
+    ));
+    page.text(format!(
+        "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a solver needs \
+         openfoam/environment):"
+    ));
+    page.code(openfoam(&extra_inputs(&found.extended)));
+    if !found.draws.is_empty() {
+        page.text(format!(
+            "draws/ has {} model files whose parameters are drawn together from the fit. Run each; the range of the results is the \
+             uncertainty of the prediction (over 39 draws, a 95 % band).",
+            found.draws.len()
+        ));
+    }
+}
