@@ -11,6 +11,7 @@ mod diagnosis;
 mod format;
 mod map;
 mod page;
+mod sensitivity;
 pub mod sweep;
 mod walls;
 
@@ -20,4 +21,5 @@ pub use diagnosis::page as diagnosis_page;
 pub use format::{number, percent};
 pub use map::page as map_page;
 pub use page::{Page, RowStatus, Table};
+pub use sensitivity::page as sensitivity_page;
 pub use walls::{openfoam_page, standalone_page};
