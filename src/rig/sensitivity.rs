@@ -151,6 +151,14 @@ struct Number {
     of_flight: bool,
 }
 
+impl Number {
+    /// Its value; for all values of a table together the factor 1 or the difference 0.
+    fn start(&self) -> f64 {
+        let all = if matches!(self.how, Move::Difference(_)) { 0.0 } else { 1.0 };
+        self.value.unwrap_or(all)
+    }
+}
+
 /// A wall's captures under a moved number.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallEffect {
@@ -173,7 +181,7 @@ pub struct WallEffect {
 pub struct NumberEffect {
     /// Dotted key in the case, with the model as `model`.
     pub key: String,
-    /// Its value; for a table, polynomial or list 1, which stands for all its values.
+    /// Its value; for a table, polynomial or list the factor 1 or the difference 0 of all its values.
     pub value: f64,
     /// The low end of its range; for a table a factor or a difference.
     pub low: f64,
@@ -332,8 +340,13 @@ impl SensitivityCase {
         flights: Option<&Flights<'_>>,
         base: &Captures,
     ) -> Result<NumberEffect, String> {
-        let (low, low_captures) = self.moved(number, -1.0, flights)?;
-        let (high, high_captures) = self.moved(number, 1.0, flights)?;
+        // An end that is refused stays where the number is.
+        let unmoved = || (number.how.apply(number.start(), 0.0, 0), base.clone());
+        let ends = [-1.0, 1.0].map(|side| self.moved(number, side, flights));
+        if let [Err(reason), Err(_)] = &ends {
+            return Err(reason.clone());
+        }
+        let [(low, low_captures), (high, high_captures)] = ends.map(|end| end.unwrap_or_else(|_| unmoved()));
         let wall = |(place, wall): (usize, &String)| {
             let [low, middle, high] = [&low_captures, base, &high_captures].map(|one| one.mass_share(place));
             WallEffect {
@@ -348,7 +361,7 @@ impl SensitivityCase {
         let walls: Vec<WallEffect> = base.walls.iter().enumerate().map(wall).collect();
         Ok(NumberEffect {
             key: number.key.clone(),
-            value: number.value.unwrap_or(1.0),
+            value: number.start(),
             low,
             high,
             range: number.range.clone(),
@@ -381,8 +394,7 @@ impl SensitivityCase {
             });
             match captures {
                 Ok(captures) => {
-                    let one = if matches!(number.how, Move::Difference(_)) { 0.0 } else { 1.0 };
-                    return Ok((number.how.apply(number.value.unwrap_or(one), side, halvings), captures));
+                    return Ok((number.how.apply(number.start(), side, halvings), captures));
                 }
                 Err(reason) => refused = reason,
             }
@@ -480,7 +492,7 @@ fn first_number(item: &Item) -> Option<(f64, bool)> {
 
 /// Where numbers are looked for: key of a table, and whether it belongs to the model.
 fn numbers(document: &DocumentMut) -> Vec<Number> {
-    let mut found = Finder { used: materials(document), found: Vec::new() };
+    let mut found = Finder { used: materials(document), source_of_table: None, found: Vec::new() };
     for key in ["model", "particles", "conversion", "gas", "deposit"] {
         if let Some(item) = document.get(key) {
             found.item(item, &[Step::Key(key.to_owned())], key);
@@ -506,6 +518,8 @@ fn numbers(document: &DocumentMut) -> Vec<Number> {
 struct Finder {
     /// Materials in use.
     used: Vec<String>,
+    /// The source of the table that holds the present number, or the comment after it; true for a source.
+    source_of_table: Option<(String, bool)>,
     found: Vec<Number>,
 }
 
@@ -529,6 +543,9 @@ impl Finder {
         } else if let Some(table) = item.as_table_like() {
             let spread = table.contains_key("distribution");
             let of_materials = key == "model.materials";
+            let source = table.get("source").and_then(Item::as_str).map(|source| (source.to_owned(), true));
+            let source = source.or_else(|| Some((comment(item)?, false)));
+            let outer = std::mem::replace(&mut self.source_of_table, source);
             for (name, item) in table.iter() {
                 let skipped = NOT_MOVED.contains(&name)
                     || (spread && BOUNDS.contains(&name))
@@ -537,6 +554,7 @@ impl Finder {
                     self.item(item, &join(Step::Key(name.to_owned())), &format!("{key}.{name}"));
                 }
             }
+            self.source_of_table = outer;
         } else if first_number(item).is_some() {
             self.quantity(item, place, key);
         }
@@ -549,8 +567,11 @@ impl Finder {
         let Some((first, only)) = items.iter().find_map(|(_, leaf)| first_number(leaf)) else { return };
         let value = (only && items.len() == 1).then_some(first);
         let stated = |name: &str| item.get(name).and_then(Item::as_value).and_then(number_of);
-        let source = item.get("source").and_then(Item::as_str).map(str::to_owned).or_else(|| comment(item));
-        let assumed = source.as_ref().is_none_or(|source| is_assumed(source, item.get("source").is_some()));
+        let own = item.get("source").and_then(Item::as_str).map(|source| (source.to_owned(), true));
+        let own = own.or_else(|| Some((comment(item)?, false)));
+        let source = own.or_else(|| self.source_of_table.clone());
+        let assumed = source.as_ref().is_none_or(|(source, stated)| is_assumed(source, *stated));
+        let source = source.map(|(source, _)| source);
         let quality = if assumed { Quality::Assumed } else { Quality::Sourced };
         let own = quality_range(key, first, assumed);
         let (how, quality, range) = match (value, stated("low").zip(stated("high")), stated("uncertainty")) {
@@ -659,7 +680,9 @@ fn quality_range(key: &str, value: f64, assumed: bool) -> (Move, String) {
         return (Move::Difference(difference), format!("± {difference} degrees"));
     }
     let well_known = !key.starts_with("model.") || parts.iter().any(|part| WELL_KNOWN.contains(part));
-    let factor = either(if well_known { 1.25 } else { 2.0 }, 1.1);
+    // An activation energy stands in an exponent; its pre-exponential factor belongs to it.
+    let factor =
+        if last == "activation_energy" { 1.1 } else { either(if well_known { 1.25 } else { 2.0 }, 1.1) };
     if SHARES.contains(&last) && value > 0.0 && value < 1.0 {
         return (Move::Odds(factor), format!("factor {factor} on the odds"));
     }
