@@ -610,10 +610,10 @@ impl Finder {
 
 /// Whether an item is a table with the number or numbers of one quantity.
 fn is_quantity(item: &Item) -> bool {
-    let holds = |key: &&str| item.get(key).is_some_and(|item| first_number(item).is_some());
+    let holds = |key: &str| item.get(key).is_some_and(|item| first_number(item).is_some());
     item.as_table_like()
         .is_some_and(|table| !table.contains_key("kind") && !table.contains_key("distribution"))
-        && ["value", "polynomial", "arrhenius"].iter().any(|key| holds(&key))
+        && ["value", "polynomial", "arrhenius"].iter().any(|key| holds(key))
 }
 
 /// The items that hold the numbers of a quantity.

@@ -3,6 +3,10 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
+use rand_distr::{Distribution as _, StandardUniform};
+use rayon::prelude::*;
 use serde_json::Value;
 
 use crate::runner::{done, folder, refused};
@@ -94,6 +98,72 @@ fn bands_of_drawn_models_hold_the_planted_law() {
         assert!(with.starts_with(plain), "{plain}\n{with}");
     }
     refused(path, &["predict", "--model", "out/extended.toml", "--draws", "none", "fresh.csv"], &["none: "]);
+}
+
+/// Planted sets with this number of impacts and softening: the shares of fresh impacts whose true `p_stick` and `e_n` lie within the band,
+/// over the sets that were diagnosed rightly.
+fn coverage(sets: u64, impacts: usize, softening: f64) -> [f64; 2] {
+    let one = |seed: u64| {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut uniform = |low: f64, high: f64| {
+            let share: f64 = StandardUniform.sample(&mut random);
+            low + (high - low) * share
+        };
+        let truth = [uniform(345.0, 365.0), uniform(4.0, 9.0)];
+        let mut data = "v_n,v_t,d,T_p,T_w,e_n,outcome\n".to_owned();
+        for _ in 0..impacts {
+            let (speed, temperature) = (uniform(1.0, 3.0), uniform(310.0, 395.0));
+            let stickiness = sticking(temperature, truth);
+            // Twelve uniform numbers make a nearly normal one.
+            let noise = 0.05 * ((0..12).map(|_| uniform(0.0, 1.0)).sum::<f64>() - 6.0);
+            data += &if uniform(0.0, 1.0) < stickiness {
+                format!("{speed},0.1,8e-5,{temperature},300,,stick\n")
+            } else {
+                let e_n = (0.5 * (1.0 - softening * stickiness) + noise).max(0.001);
+                format!("{speed},0.1,8e-5,{temperature},300,{e_n},rebound\n")
+            };
+        }
+        let mut fresh = "v_n,v_t,d,T_p,T_w\n".to_owned();
+        (0..40).for_each(|_| {
+            fresh += &format!("{},0.1,8e-5,{},300\n", uniform(1.0, 3.0), uniform(325.0, 385.0))
+        });
+        let files = folder(&[("base.toml", CONSTANT), ("data.csv", &data), ("fresh.csv", &fresh)]);
+        let path = files.path();
+        done(path, &["diagnose", "data.csv", "--model", "base.toml", "--draws", "39", "--out", "out"]);
+        let findings = json(&path.join("out/diagnosis.json"))["findings"].clone();
+        if findings.as_array().unwrap().len() != 1 || findings[0]["cause"] != "melting-transition" {
+            return None;
+        }
+        let with = ["predict", "--model", "out/extended.toml", "--draws", "out/draws", "fresh.csv"];
+        let predicted = rows(&done(path, &with));
+        let inside = |name: &str, truth: &dyn Fn(f64) -> f64| {
+            let holds = |row: &&BTreeMap<String, String>| {
+                let [low, high] = ["low", "high"].map(|end| value(row, &format!("{name}_{end}")));
+                (low - 1e-9..=high + 1e-9).contains(&truth(value(row, "T_p")))
+            };
+            predicted.iter().filter(holds).count() as f64 / predicted.len() as f64
+        };
+        let stickiness = |temperature: f64| sticking(temperature, truth);
+        Some([
+            inside("p_stick", &stickiness),
+            inside("e_n", &|temperature| 0.5 * (1.0 - softening * stickiness(temperature))),
+        ])
+    };
+    let found: Vec<[f64; 2]> = (0..sets).into_par_iter().filter_map(one).collect();
+    assert!(found.len() as u64 * 4 >= sets * 3, "{} of {sets} sets were diagnosed rightly", found.len());
+    [0, 1].map(|which| found.iter().map(|one| one[which]).sum::<f64>() / found.len() as f64)
+}
+
+/// `NEARWALL_FORECAST_SETS=30 cargo test --test command coverage -- --nocapture` makes the table of `docs/forecast.md`.
+#[test]
+fn coverage_of_the_bands_is_near_what_they_say() {
+    let sets = std::env::var("NEARWALL_FORECAST_SETS").map_or(8, |sets| sets.parse().unwrap());
+    for (impacts, softening) in [(60, 1.0), (150, 1.0), (400, 0.7)] {
+        let [stick, e_n] = coverage(sets, impacts, softening);
+        println!("{sets} sets of {impacts} impacts, softening {softening}: p_stick {stick:.3}, e_n {e_n:.3}");
+        // Few sets scatter: a set's impacts share the fitted parameters.
+        assert!(stick > 0.8 && e_n > 0.8, "{impacts}: {stick} {e_n}");
+    }
 }
 
 /// Particles fly through a vacuum onto a plate, 1 m/s head-on; those that rebound leave through the ceiling.
