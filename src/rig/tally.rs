@@ -189,6 +189,7 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::Regime;
 
     fn reading(column: &str) -> RigReading {
         let (name, wall) = column.split_once('@').unwrap();
@@ -200,6 +201,18 @@ mod tests {
             value: 0.0,
             error: None,
             count: None,
+        }
+    }
+
+    fn rebound(normal_restitution: f64) -> Outcome {
+        Outcome {
+            normal_restitution,
+            tangential_restitution: 0.0,
+            sticking_probability: 0.0,
+            stuck: false,
+            spin: 0.0,
+            regime: Regime::ALL[0],
+            outside_range: false,
         }
     }
 
@@ -225,7 +238,7 @@ mod tests {
             let mass = if particle % 2 == 0 { 1.0 } else { 3.0 };
             let impact =
                 Impact { diameter: 1e-6, conversion: 0.1 * f64::from(particle), ..Impact::default() };
-            let outcome = Outcome { normal_restitution: 0.1 * f64::from(particle), ..Outcome::default() };
+            let outcome = rebound(0.1 * f64::from(particle));
             let mut hit = TalliedHit {
                 wall: 0,
                 coordinate: f64::from(particle),
@@ -255,7 +268,7 @@ mod tests {
     fn the_variance_of_a_share_is_binomial() {
         let readings = [reading("captured@a")];
         let mut tally = Tally::new(&readings, &["a".to_owned()]);
-        let (impact, outcome) = (Impact::default(), Outcome::default());
+        let (impact, outcome) = (Impact::default(), rebound(0.0));
         for particle in 0..100 {
             let caught = if particle < 30 { 1.0 } else { 0.0 };
             let (wall, coordinate, share, weight, mass) = (0, 0.0, 1.0, 1.0, 2.0);
