@@ -25,7 +25,7 @@ const INSEPARABLE: f64 = 0.97;
 /// Largest number of times that a profile may find a better fit.
 const SUMMITS: usize = 4;
 /// With fewer independent units the defaults are taken for right.
-const UNITS_FOR_DEFAULTS: usize = 30;
+pub(super) const UNITS_FOR_DEFAULTS: usize = 30;
 
 /// Intervals of all coordinates and their covariance.
 struct Found {
@@ -85,14 +85,14 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
 }
 
 /// Standard errors of the coordinates from differences over short steps.
-fn first_errors(hypothesis: &Hypothesis<'_>, rows: &[usize]) -> Vec<f64> {
+pub(super) fn first_errors(hypothesis: &Hypothesis<'_>, rows: &[usize]) -> Vec<f64> {
     let count = hypothesis.coordinates().len();
     let first = Covariance::of(hypothesis, rows, &vec![FIRST_STEP; count]);
     (0..count).map(|place| first.error(place).unwrap_or(UNKNOWN_ERROR)).collect()
 }
 
 /// Steps of the differences from standard errors.
-fn steps(errors: &[f64]) -> Vec<f64> {
+pub(super) fn steps(errors: &[f64]) -> Vec<f64> {
     errors.iter().map(|error| error.clamp(STEPS[0], STEPS[1])).collect()
 }
 

@@ -15,6 +15,7 @@ mod covariance;
 mod curve;
 mod data_split;
 mod data_view;
+mod draws;
 mod evaluation;
 mod extend;
 mod few_rows;
@@ -100,6 +101,22 @@ pub fn diagnose(
     options: &Options,
     progress: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, String), DiagnosisError> {
+    let (diagnosis, extended, _) = diagnose_with_draws(base, text, data, options, 0, progress)?;
+    Ok((diagnosis, extended))
+}
+
+/// As [`diagnose`], with the texts of `draws` model files whose parameters are drawn from the fit; none where nothing is fitted.
+///
+/// # Errors
+/// [`DiagnosisError`].
+pub fn diagnose_with_draws(
+    base: &Model,
+    text: &str,
+    data: &Measurements,
+    options: &Options,
+    draws: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     let data = plausible(base, data);
     let (used, read) = (data.rows.len(), data.read);
     if used < LEAST_ROWS {
@@ -160,7 +177,8 @@ pub fn diagnose(
         diagnosis.verdict +=
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
     }
-    Ok((diagnosis, extended))
+    let draws = draws::draws(text, &hypothesis, draws, options.seed).map_err(|error| unextendable(&error))?;
+    Ok((diagnosis, extended, draws))
 }
 
 /// What beside physics may explain the data; nothing if nothing has to be explained.

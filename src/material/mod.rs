@@ -361,8 +361,11 @@ fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     Composition::new(named).map_err(|error| section.fault("", error))
 }
 
+/// The file of the built-in materials.
+pub(crate) const BUILT_IN_TEXT: &str = include_str!("materials.toml");
+
 static BUILT_IN: LazyLock<Result<Library, InputError>> = LazyLock::new(|| {
-    let document = Document::new("built-in materials", include_str!("materials.toml"));
+    let document = Document::new("built-in materials", BUILT_IN_TEXT);
     document.read(|top| Library::default().with(top))
 });
 

@@ -12,6 +12,7 @@ mod format;
 mod map;
 mod page;
 mod rig;
+mod sensitivity;
 pub mod sweep;
 mod walls;
 
@@ -22,4 +23,5 @@ pub use format::{number, percent};
 pub use map::page as map_page;
 pub use page::{Page, RowStatus, Table};
 pub use rig::{RigPage, page as rig_page};
+pub use sensitivity::page as sensitivity_page;
 pub use walls::{openfoam_page, standalone_page};

@@ -88,23 +88,43 @@ impl CaseText {
     /// # Errors
     /// [`SettingError`] for a setting that the case does not have, or with an impossible value.
     pub fn with(&self, experiment: &str, settings: &[(String, String)]) -> Result<Case, SettingError> {
-        let mut document = self.document.clone();
+        let mut changed = self.clone();
+        changed.change(experiment, settings)?;
+        let read = self.read(&changed.document);
+        read.map_err(|reason| SettingError::Experiment { experiment: experiment.to_owned(), reason })
+    }
+
+    /// Changes settings, which messages say come from `experiment`.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a setting that the case does not have.
+    pub fn change(&mut self, experiment: &str, settings: &[(String, String)]) -> Result<(), SettingError> {
         for (key, cell) in settings {
-            set(&mut document, key, cell).map_err(|reason| SettingError::Setting {
+            set(&mut self.document, key, cell).map_err(|reason| SettingError::Setting {
                 experiment: experiment.to_owned(),
                 key: key.clone(),
                 reason,
             })?;
         }
+        Ok(())
+    }
+
+    /// The case of a changed text.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn read(&self, document: &DocumentMut) -> Result<Case, String> {
         let read = Case::from_toml(&self.name, &document.to_string(), &self.folder);
-        read.map_err(|error| {
-            // Lines of the changed text mean nothing to the reader.
-            let reason = match error {
-                InputError::Fault { problem, .. } => problem,
-                other => other.to_string(),
-            };
-            SettingError::Experiment { experiment: experiment.to_owned(), reason }
+        // Lines of the changed text mean nothing to the reader.
+        read.map_err(|error| match error {
+            InputError::Fault { problem, .. } => problem,
+            other => other.to_string(),
         })
+    }
+
+    /// The text, with the model as a table in it.
+    pub(super) fn document(&self) -> &DocumentMut {
+        &self.document
     }
 
     /// The number that a setting has in the case, if it is one.

@@ -189,6 +189,7 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::Regime;
 
     fn reading(column: &str) -> RigReading {
         let (name, wall) = column.split_once('@').unwrap();
@@ -203,19 +204,19 @@ mod tests {
         }
     }
 
-    /// Ten particles of mass 1 and 3 in turn: the first hit catches half, the rest rebounds with 0.1 i and is caught by the other wall.
-    fn rebound() -> Outcome {
+    fn rebound(normal_restitution: f64) -> Outcome {
         Outcome {
-            normal_restitution: 0.0,
+            normal_restitution,
             tangential_restitution: 0.0,
             sticking_probability: 0.0,
             stuck: false,
             spin: 0.0,
-            regime: crate::impact::Regime::NspNsw,
+            regime: Regime::ALL[0],
             outside_range: false,
         }
     }
 
+    /// Ten particles of mass 1 and 3 in turn: the first hit catches half, the rest rebounds with 0.1 i and is caught by the other wall.
     #[test]
     fn sums_are_those_counted_by_hand() {
         let readings = [
@@ -237,7 +238,7 @@ mod tests {
             let mass = if particle % 2 == 0 { 1.0 } else { 3.0 };
             let impact =
                 Impact { diameter: 1e-6, conversion: 0.1 * f64::from(particle), ..Impact::default() };
-            let outcome = Outcome { normal_restitution: 0.1 * f64::from(particle), ..rebound() };
+            let outcome = rebound(0.1 * f64::from(particle));
             let mut hit = TalliedHit {
                 wall: 0,
                 coordinate: f64::from(particle),
@@ -267,7 +268,7 @@ mod tests {
     fn the_variance_of_a_share_is_binomial() {
         let readings = [reading("captured@a")];
         let mut tally = Tally::new(&readings, &["a".to_owned()]);
-        let (impact, outcome) = (Impact::default(), rebound());
+        let (impact, outcome) = (Impact::default(), rebound(0.0));
         for particle in 0..100 {
             let caught = if particle < 30 { 1.0 } else { 0.0 };
             let (wall, coordinate, share, weight, mass) = (0, 0.0, 1.0, 1.0, 2.0);

@@ -156,6 +156,12 @@ impl<'a> PathTree<'a> {
         (cell, middle)
     }
 
+    /// The model of its injection where it is not that of the case.
+    pub fn own_model(&self) -> Option<&'a Model> {
+        let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
+        first.as_ref()?.tracker.injection.model.as_ref()
+    }
+
     /// The impact of the first contact with a wall, with what the model file puts on that wall.
     pub fn impact(&self, model: &Model) -> Option<Impact> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);

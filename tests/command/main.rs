@@ -11,6 +11,7 @@ mod diagnose;
 mod extra_inputs;
 #[cfg(unix)]
 mod faults;
+mod forecast;
 mod map;
 mod pages;
 mod published;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use nearwall::Model;
 use nearwall::atomic_file::{AtomicFile, refused};
 use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
-use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose};
+use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose_with_draws};
 use nearwall::input::Document;
 use nearwall::report::diagnosis_page;
 
@@ -16,7 +16,8 @@ use crate::{CommandResult, diagnose_rig, progress};
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
     nearwall diagnose lab.csv --columns lab.map.toml --group batch --model wax.toml --out diagnosis\n  \
-    nearwall diagnose rig.csv --case case.toml --draws 39 --out diagnosis\n\n\
+    nearwall diagnose rig.csv --case case.toml --draws 39 --out diagnosis\n  \
+    nearwall diagnose impacts.csv --model wax.toml --draws 39 --out diagnosis\n\n\
     Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
     e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
     file and --columns, docs/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
@@ -30,8 +31,8 @@ pub struct Arguments {
     /// A case of `nearwall simulate`: the rows are experiments on a rig, which it simulates
     #[arg(long, value_name = "CASE.toml", conflicts_with_all = ["model", "columns", "group", "wall"])]
     pub(crate) case: Option<PathBuf>,
-    /// Model files to draw from the fit, with --case: written to draws/ in the output folder
-    #[arg(long, value_name = "N", default_value_t = 0, requires = "case")]
+    /// Model files to draw from the fit, written to draws/ in the output folder; the range over 39 is a 95 % band
+    #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) draws: usize,
     /// Output folder
     #[arg(long, value_name = "DIR")]
@@ -85,18 +86,28 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     }
     let bar = progress::spinner("candidates tested");
     let options = Options { seed: arguments.seed, level: arguments.level, group };
-    let (diagnosis, extended) =
-        diagnose(&model, document.text(), &data, &options, &|| bar.inc(1)).map_err(|error| match error {
-            DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
-            DiagnosisError::Unextendable(_) => format!("{}: {error}", file_of_model.display()),
-        })?;
+    let found =
+        diagnose_with_draws(&model, document.text(), &data, &options, arguments.draws, &|| bar.inc(1));
+    let (diagnosis, extended, draws) = found.map_err(|error| match error {
+        DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
+        DiagnosisError::Unextendable(_) => format!("{}: {error}", file_of_model.display()),
+    })?;
     bar.finish_and_clear();
-    write(arguments, file_of_model, &diagnosis, &extended)?;
+    if arguments.draws > 0 && draws.is_empty() {
+        eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
+    }
+    write(arguments, file_of_model, &diagnosis, &extended, &draws)?;
     crate::print(&summary(&diagnosis, &arguments.out))
 }
 
 /// Writes all output files, or none.
-fn write(arguments: &Arguments, model: &Path, diagnosis: &Diagnosis, extended: &str) -> CommandResult {
+fn write(
+    arguments: &Arguments,
+    model: &Path,
+    diagnosis: &Diagnosis,
+    extended: &str,
+    draws: &[String],
+) -> CommandResult {
     let Arguments { data, out, columns, .. } = arguments;
     let names = [data.as_path(), model].map(|path| path.display().to_string());
     let page = diagnosis_page(diagnosis, &names, extended)?;
@@ -104,13 +115,28 @@ fn write(arguments: &Arguments, model: &Path, diagnosis: &Diagnosis, extended: &
     std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
     let inputs: Vec<&Path> = [data.as_path(), model].into_iter().chain(columns.as_deref()).collect();
     let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
-    let write = |(name, text): (&str, &str)| {
+    let named = results.into_iter().map(|(name, text)| (name.to_owned(), text));
+    let results = named.chain(drawn_files(out, draws)?);
+    let write = |(name, text): (String, &str)| {
         let mut file = AtomicFile::new(&out.join(name), &inputs)?;
         file.put(text)?;
         Ok::<_, String>(file)
     };
-    let files = results.into_iter().map(write).collect::<Result<Vec<_>, _>>()?;
+    let files = results.map(write).collect::<Result<Vec<_>, _>>()?;
     Ok(AtomicFile::commit(files)?)
+}
+
+/// Names and texts of drawn model files in the folder `draws`, which is created if there are any.
+pub(crate) fn drawn_files<'a>(
+    out: &Path,
+    draws: &'a [String],
+) -> Result<impl Iterator<Item = (String, &'a str)>, String> {
+    if !draws.is_empty() {
+        let folder = out.join("draws");
+        std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;
+    }
+    let name = |number: usize| format!("draws/{:02}.toml", number + 1);
+    Ok(draws.iter().enumerate().map(move |(number, text)| (name(number), text.as_str())))
 }
 
 pub(crate) fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {

@@ -10,7 +10,7 @@ use nearwall::diagnose::rig::{RigDiagnosis, diagnose_rig};
 use nearwall::report::{RigPage, rig_page};
 use nearwall::rig::{CaseText, RigCase, Simulated, particles_for};
 
-use crate::diagnose::{Arguments, summary};
+use crate::diagnose::{Arguments, drawn_files, summary};
 use crate::{CommandResult, progress};
 
 pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
@@ -48,12 +48,7 @@ fn write(arguments: &Arguments, case: &Path, found: &RigDiagnosis, page: &str) -
     if !found.next.is_empty() {
         results.push(("next_experiments.csv".to_owned(), &found.next_table));
     }
-    if !found.draws.is_empty() {
-        let folder = out.join("draws");
-        std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;
-    }
-    let named = found.draws.iter().enumerate();
-    results.extend(named.map(|(number, text)| (format!("draws/{:02}.toml", number + 1), text.as_str())));
+    results.extend(drawn_files(out, &found.draws)?);
     let write = |(name, text): (String, &str)| {
         let mut file = AtomicFile::new(&out.join(name), &inputs)?;
         file.put(text)?;

@@ -9,6 +9,7 @@ mod materials;
 mod predict;
 mod progress;
 mod report;
+mod sensitivity;
 mod simulate;
 
 use std::io::Write;
@@ -26,6 +27,7 @@ enum Command {
     Diagnose(diagnose::Arguments),
     Compare(compare::Arguments),
     Simulate(simulate::Arguments),
+    Sensitivity(sensitivity::Arguments),
     Map(map::Arguments),
     Report(report::Arguments),
     Materials(materials::Arguments),
@@ -39,6 +41,7 @@ fn main() -> std::process::ExitCode {
         Command::Diagnose(arguments) => diagnose::run(&arguments),
         Command::Compare(arguments) => compare::run(&arguments),
         Command::Simulate(arguments) => simulate::run(&arguments),
+        Command::Sensitivity(arguments) => sensitivity::run(&arguments),
         Command::Map(arguments) => map::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Materials(arguments) => materials::run(&arguments),

@@ -8,6 +8,7 @@ use nearwall::atomic_file::{AtomicFile, of_csv, refused};
 use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
 use nearwall::impact::INPUTS;
 use nearwall::model::ExtraInput;
+use nearwall::rig::{Band, DrawnModels};
 use nearwall::{ImpactRng, Model};
 
 use crate::{CommandResult, progress};
@@ -27,6 +28,9 @@ pub struct Arguments {
     /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
+    /// Folder of model files that `nearwall diagnose --draws` wrote: adds the 95 % bands of e_n, e_t and p_stick
+    #[arg(long, value_name = "FOLDER", conflicts_with = "explain")]
+    draws: Option<PathBuf>,
     /// Print the effect of each term on the impact on this line of the file, instead of the table
     #[arg(long, value_name = "LINE")]
     explain: Option<u64>,
@@ -36,7 +40,8 @@ fn after_help() -> String {
     let inputs: Vec<String> =
         INPUTS[1..].iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
     format!(
-        "Example:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n\n\
+        "Examples:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n  \
+         nearwall predict --model diagnosis/extended.toml --draws diagnosis/draws impacts.csv -o predicted.csv\n\n\
          impacts.csv needs a column v_n [m/s]. Optional columns are wall and the other inputs:\n{}.\n\
          Every other column is kept. A row that cannot be used is reported on standard error and left out. The command\n\
          fails only if no row can be used.",
@@ -49,6 +54,8 @@ const DRAWS: usize = 64;
 
 /// The columns that are added.
 const ADDED: [&str; 4] = ["e_n", "e_t", "p_stick", "regime"];
+/// The columns that are added with `--draws`.
+const BANDS: [&str; 6] = ["e_n_low", "e_n_high", "e_t_low", "e_t_high", "p_stick_low", "p_stick_high"];
 
 pub fn run(arguments: &Arguments) -> CommandResult {
     let model = Model::from_file(&arguments.model)?;
@@ -63,13 +70,22 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         return explain(&model, &wall_of, &mut reader, line);
     }
     note_assumptions(&file, &reader);
+    let draws =
+        arguments.draws.as_deref().map(|draws| DrawnModels::from_folder(draws, &model)).transpose()?;
+    let models = Models { model: &model, draws: draws.as_ref().map_or(&[], |draws| &draws.models) };
     let Some(path) = &arguments.output else {
-        let done = predict(&model, &wall_of, &mut reader, &mut std::io::stdout().lock());
+        let done = predict(&models, &wall_of, &mut reader, &mut std::io::stdout().lock());
         return done.map_err(|error| at(Path::new("standard output"), error));
     };
     let mut output = AtomicFile::new(path, &[&arguments.impacts, &arguments.model])?;
-    predict(&model, &wall_of, &mut reader, &mut output).map_err(|error| at(path, error))?;
+    predict(&models, &wall_of, &mut reader, &mut output).map_err(|error| at(path, error))?;
     Ok(AtomicFile::commit(vec![output])?)
+}
+
+/// The model, and those drawn from its fit.
+struct Models<'a> {
+    model: &'a Model,
+    draws: &'a [Model],
 }
 
 /// Finds the wall of a row.
@@ -99,17 +115,18 @@ fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Er
 }
 
 fn predict(
-    model: &Model,
+    models: &Models<'_>,
     wall_of: &WallOf<'_>,
     reader: &mut ImpactReader<impl std::io::Read>,
     output: &mut impl Write,
 ) -> CommandResult {
     let mut writer = csv::Writer::from_writer(output);
     let mut header = reader.headers().clone();
-    for name in ADDED {
+    let bands: &[&str] = if models.draws.is_empty() { &[] } else { &BANDS };
+    for name in ADDED.iter().chain(bands) {
         // A column of the file keeps its name.
         let taken = reader.column(name).is_some();
-        header.push_field(&if taken { format!("{name}_predicted") } else { name.to_owned() });
+        header.push_field(&if taken { format!("{name}_predicted") } else { (*name).to_owned() });
     }
     writer.write_record(&header)?;
     let (mut done, mut left_out, mut outside) = (0_u64, 0_u64, 0_u64);
@@ -117,8 +134,8 @@ fn predict(
     while let Some(next) = reader.next_row()? {
         let predicted = next.map_err(|bad| (bad.line, bad.reason)).and_then(|row| {
             warning = warning.take().or_else(|| unlikely(row.line, &row.impact));
-            unknown = unknown.take().or_else(|| unknown_label(model, &row));
-            predict_row(model, wall_of, &row).map_err(|reason| (row.line, reason))
+            unknown = unknown.take().or_else(|| unknown_label(models.model, &row));
+            predict_row(models, wall_of, &row).map_err(|reason| (row.line, reason))
         });
         match predicted {
             Ok((record, outside_range)) => {
@@ -151,14 +168,32 @@ fn predict(
     Ok(())
 }
 
-fn predict_row(model: &Model, wall_of: &WallOf<'_>, row: &Row) -> Result<(csv::StringRecord, bool), String> {
+fn predict_row(
+    models: &Models<'_>,
+    wall_of: &WallOf<'_>,
+    row: &Row,
+) -> Result<(csv::StringRecord, bool), String> {
     let wall = wall_of(row).map_err(|error| error.to_string())?;
-    let mean = model.expect(wall, &row.impact, DRAWS).map_err(|error| error.to_string())?;
+    let expect = |model: &Model| {
+        let mean = model.expect(wall, &row.impact, DRAWS).map_err(|error| error.to_string())?;
+        let values = [mean.normal_restitution, mean.tangential_restitution, mean.sticking_probability];
+        Ok::<_, String>((values, mean))
+    };
+    let (values, mean) = expect(models.model)?;
     let mut record = row.cells.clone();
-    for value in [mean.normal_restitution, mean.tangential_restitution, mean.sticking_probability] {
+    for value in values {
         record.push_field(&format!("{value:.16e}"));
     }
     record.push_field(mean.regime.name());
+    if !models.draws.is_empty() {
+        let drawn = models.draws.iter().map(|model| expect(model).map(|(values, _)| values));
+        let drawn: Vec<[f64; 3]> = drawn.collect::<Result<_, _>>()?;
+        for which in 0..3 {
+            let Band { low, high, .. } = Band::of(drawn.iter().map(|values| values[which]).collect());
+            record.push_field(&format!("{low:.16e}"));
+            record.push_field(&format!("{high:.16e}"));
+        }
+    }
     Ok((record, mean.outside_range))
 }
 

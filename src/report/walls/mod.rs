@@ -18,6 +18,7 @@ mod verdict;
 use super::{Chart, Figure, Page, Table, number, percent};
 use crate::results::standalone::Run;
 use crate::results::{Moments, RunResults, WallModel, WallTotals};
+use crate::rig::{Band, CaptureBand};
 use crate::simulate::Case;
 
 /// The sections of a page: heading, figures, and the table under them.
@@ -85,6 +86,12 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
         }
         _ => {}
     }
+    if let Some(table) = bands(case, runs) {
+        page.heading("Captures over the drawn models");
+        page.text("95 % bands of what each wall captures over models drawn from a fit: the uncertainty of the fitted parameters. \
+             The bands contain neither the uncertainty of other numbers nor the scatter of single runs.");
+        page.table(table);
+    }
     page.heading("How this was computed");
     page.text("Particles move alone in a prescribed, steady gas: drag of Schiller and Naumann, weight, convective heat of Ranz \
          and Marshall, and the stated law of carbon conversion. There is no turbulence and no action on the gas. A \
@@ -108,6 +115,34 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
     }
     page.foot(&format!("Seed {}, {} particles.", case.seed, case.count()));
     page.html()
+}
+
+/// The bands of the captures; `None` without drawn models.
+fn bands(case: &Case, runs: &[Run]) -> Option<Table> {
+    let row = |run: &Run, band: &CaptureBand| {
+        let CaptureBand { wall, draws, captured_mass, captured_particles, mass_share } = band;
+        let swept = case
+            .sweep
+            .as_ref()
+            .zip(run.value)
+            .map(|(sweep, value)| format!("{} {}", sweep.key, number(value)));
+        let range = |band: &Band, text: fn(f64) -> String| {
+            format!("{} to {} (median {})", text(band.low), text(band.high), text(band.median))
+        };
+        vec![
+            swept.unwrap_or_default(),
+            wall.clone(),
+            range(mass_share, percent),
+            range(captured_mass, number),
+            range(captured_particles, |value| format!("{value:.0}")),
+            draws.to_string(),
+        ]
+    };
+    let rows: Vec<Vec<String>> =
+        runs.iter().flat_map(|run| run.bands.iter().map(move |band| row(run, band))).collect();
+    let header =
+        ["run", "wall", "captured share of the mass", "captured mass [kg]", "captured particles", "draws"];
+    (!rows.is_empty()).then(|| Table::new("", 2, &header, rows))
 }
 
 /// Runs side by side, with the walls and the time at which they are compared.

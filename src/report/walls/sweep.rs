@@ -6,6 +6,7 @@ use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
 use crate::results::standalone::{Run, RunTotals};
 use crate::results::{Moments, WallTotals, share, wilson};
+use crate::rig::Band;
 use crate::simulate::{Case, Sweep, sweep_unit};
 
 /// How the figures label the swept quantity and show its values.
@@ -72,6 +73,7 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         every.push([axis.value(run), 100.0 * captured_mass(&run.totals)]);
     }
     let chart = Chart::new("Capture", &axis.label, "captured [%]");
+    let chart = with_band(chart, axis, runs);
     let chart = with_references(chart, axis, sweep, "capture", 100.0)
         .points_with_errors("first hits", &first, &errors)
         .line("particles, in the end", &every);
@@ -79,6 +81,23 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         "sweep-capture",
         "Captured share of first hits, with its 95 % interval, and captured share of all mass at the end.",
     )
+}
+
+/// The band of the captured mass over drawn models; with several walls each has its own, which do not add up.
+fn with_band(chart: Chart, axis: &SweepAxis, runs: &[Run]) -> Chart {
+    let bands: Vec<(f64, Band)> = runs
+        .iter()
+        .filter_map(|run| match run.bands.as_slice() {
+            [only] => Some((axis.value(run), only.mass_share)),
+            _ => None,
+        })
+        .collect();
+    if bands.len() < 2 {
+        return chart;
+    }
+    let of = |end: fn(&Band) -> f64| bands.iter().map(|(_, band)| 100.0 * end(band)).collect::<Vec<_>>();
+    let x: Vec<f64> = bands.iter().map(|(x, _)| *x).collect();
+    chart.band(&x, &of(|band| band.low), &of(|band| band.high))
 }
 
 fn captured_mass(totals: &RunTotals) -> f64 {

@@ -12,6 +12,7 @@ pub use summary::{Summary, summary};
 pub use totals::{Ends, RESTITUTION_STEP, RunTotals};
 
 use crate::results::RunResults;
+use crate::rig::CaptureBand;
 use crate::simulate::{self, Case, DepositHistory, Trajectory};
 
 /// Results of a case at one value of its sweep.
@@ -23,6 +24,8 @@ pub struct Run {
     pub totals: RunTotals,
     /// What lay on the walls over time, where the case keeps it.
     pub deposits: Option<DepositHistory>,
+    /// The bands of the walls' captures over models drawn from a fit; empty without such models.
+    pub bands: Vec<CaptureBand>,
 }
 
 impl Run {
@@ -60,5 +63,5 @@ fn run_once<E: From<String>>(
         totals.add(trajectory);
         observer(case, value, number, trajectory)
     })?;
-    Ok(Run { value, totals, deposits })
+    Ok(Run { value, totals, deposits, bands: Vec::new() })
 }

@@ -59,6 +59,9 @@ impl Serialize for RunSummary<'_> {
             let injections = named.map(|(injection, ends)| InjectionSummary { name: &injection.name, ends });
             object.serialize_entry("injections", &injections.collect::<Vec<_>>())?;
         }
+        if !self.run.bands.is_empty() {
+            object.serialize_entry("band", &self.run.bands)?;
+        }
         if let Some(deposits) = &self.run.deposits {
             let walls = deposits.walls.iter().map(|wall| DepositSummary::new(name(wall.surface), wall));
             object.serialize_entry("deposits", &walls.collect::<Vec<_>>())?;
