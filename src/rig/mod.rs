@@ -10,7 +10,7 @@ mod simulated;
 pub mod tally;
 
 pub use case_text::{CaseText, SettingError};
-pub use replayed::{ReplayError, Replayed};
+pub use replayed::{ReplayAccount, ReplayError, Replayed};
 pub use simulated::{RigCase, Simulated, particles_for};
 pub use tally::Predicted;
 
