@@ -18,7 +18,7 @@ pub mod tally;
 pub use captures::{Captures, Flights, run_captures};
 pub use case_text::{CaseText, SettingError};
 pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, capture_bands};
-pub use replayed::{ReplayError, Replayed};
+pub use replayed::{ReplayAccount, ReplayError, Replayed};
 pub use simulated::{RigCase, Simulated, particles_for};
 pub use tally::Predicted;
 

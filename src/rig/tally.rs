@@ -10,6 +10,9 @@ use crate::impact::{Impact, Outcome};
 /// Half the width in probability of the interval from which the density at a quantile is taken [1].
 const QUANTILE_WINDOW: f64 = 0.1;
 
+/// Standard deviation of what is doubtful, as a share of it [1]; assumed.
+const DOUBT: f64 = 0.5;
+
 /// A predicted reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Predicted {
@@ -83,12 +86,16 @@ struct Line {
     arrived: bool,
     /// Values and weights, for a quantile.
     values: Vec<(f64, f64)>,
+    /// Sum of what is doubtful in the numerator of the ratio.
+    doubtful: f64,
 }
 
 /// Sums for the readings of one experiment.
 #[derive(Debug)]
 pub struct Tally {
     lines: Vec<Line>,
+    /// Share of the next hits that is doubtful [1].
+    doubt: f64,
 }
 
 impl Tally {
@@ -101,15 +108,24 @@ impl Tally {
             own: [0.0; 2],
             arrived: false,
             values: Vec::new(),
+            doubtful: 0.0,
         };
-        Self { lines: readings.iter().map(line).collect() }
+        Self { lines: readings.iter().map(line).collect(), doubt: 0.0 }
     }
 
     /// Adds a hit of the present particle.
     pub fn hit(&mut self, hit: &TalliedHit<'_>) {
         for line in self.lines.iter_mut().filter(|line| line.wall == hit.wall) {
+            let before = line.own[0];
             line.hit(hit);
+            line.doubtful += self.doubt * (line.own[0] - before);
         }
+    }
+
+    /// Of the next hits, this share may happen elsewhere or not at all [1]: a systematic error, of which half counts as a standard
+    /// deviation (assumed). It adds to the variance of what is a ratio, not of quantiles.
+    pub fn set_doubt(&mut self, share: f64) {
+        self.doubt = share;
     }
 
     /// Ends the present particle, whose mass at the start is `injected` [kg].
@@ -120,6 +136,18 @@ impl Tally {
             use RigQuantity::{Captured, CapturedAlong, CapturedBySize};
             let by_mass = matches!(line.quantity, Captured | CapturedAlong(_) | CapturedBySize(_));
             line.ratio.add([a, if by_mass { injected } else { b }]);
+        }
+    }
+
+    /// Ends this number of particles that hit no wall; `injected` is the mass of each at the start [kg].
+    pub fn end_missed(&mut self, count: f64, injected: f64) {
+        use RigQuantity::{Captured, CapturedAlong, CapturedBySize};
+        let by_mass =
+            |line: &&mut Line| matches!(line.quantity, Captured | CapturedAlong(_) | CapturedBySize(_));
+        for line in self.lines.iter_mut().filter(by_mass) {
+            line.ratio.particles += if injected > 0.0 { count } else { 0.0 };
+            line.ratio.sums[1] += count * injected;
+            line.ratio.squares[2] += count * injected * injected;
         }
     }
 
@@ -166,7 +194,11 @@ impl Line {
     }
 
     fn predicted(&mut self) -> Predicted {
-        let RigQuantity::Quantile(_, probability) = self.quantity else { return self.ratio.predicted() };
+        let RigQuantity::Quantile(_, probability) = self.quantity else {
+            let sampled = self.ratio.predicted();
+            let doubt = if self.doubtful > 0.0 { DOUBT * self.doubtful / self.ratio.sums[1] } else { 0.0 };
+            return Predicted { variance: sampled.variance + doubt * doubt, ..sampled };
+        };
         self.values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let total: f64 = self.values.iter().map(|(_, weight)| weight).sum();
         let quantile = |probability: f64| {

@@ -24,8 +24,10 @@ const LEAST_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `e_n`, `e_t` and of the spin over that of rolling with the arriving speed [1].
 const CELLS: [f64; 3] = [0.04, 0.04, 0.2];
-/// Rebounds in a row whose flights are kept.
-const KEPT_REBOUNDS: u64 = 8;
+/// By how much a cell is wider after each rebound: later hits matter less [1].
+const WIDER: f64 = 0.5;
+/// Most flights of a particle that are kept.
+const KEPT: usize = 200;
 
 /// A cell of the grid of outcomes.
 type Cell = [i32; 3];
@@ -44,8 +46,8 @@ struct Node<'a> {
 /// The flights of one particle, which all compared models share.
 #[derive(Debug)]
 pub struct PathTree<'a> {
-    /// The first contact, if there is one.
-    first: Mutex<Option<Box<Node<'a>>>>,
+    /// The first contact, if there is one, and the number of flights kept after it.
+    first: Mutex<(Option<Box<Node<'a>>>, usize)>,
     /// Mass at the start [kg].
     pub mass: f64,
     /// Number of real particles that it represents.
@@ -87,7 +89,7 @@ impl<'a> PathTree<'a> {
         let first = Node::after_flight(tracker)?.map(Box::new);
         // Streams that no effect draws from.
         let shift = [100, 101, 102].map(|stream| random.uniform(stream));
-        Ok(Self { first: Mutex::new(first), mass, weight, shift })
+        Ok(Self { first: Mutex::new((first, 0)), mass, weight, shift })
     }
 
     /// Follows the particle under a model, and hands over each of its hits.
@@ -100,6 +102,7 @@ impl<'a> PathTree<'a> {
         mut observer: impl FnMut(&ExpectedHit<'_>),
     ) -> Result<(), ImpactError> {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
+        let (first, kept) = &mut *first;
         let Some(mut node) = first.as_deref_mut() else { return Ok(()) };
         let mut passing;
         let mut share = 1.0;
@@ -119,8 +122,8 @@ impl<'a> PathTree<'a> {
             if share < LEAST_SHARE {
                 return Ok(());
             }
-            let (cell, middle) = self.cell(&contact.impact, &outcome);
-            if before >= KEPT_REBOUNDS {
+            let (cell, middle) = self.cell(&contact.impact, &outcome, before);
+            if *kept >= KEPT && !node.next.contains_key(&cell) {
                 let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
                 passing = next;
                 node = &mut passing;
@@ -129,6 +132,7 @@ impl<'a> PathTree<'a> {
             if !node.next.contains_key(&cell) {
                 let next = node.after_rebound(&middle).map(Box::new);
                 node.next.insert(cell, next);
+                *kept += 1;
             }
             match node.next.get_mut(&cell) {
                 Some(Some(next)) => node = next,
@@ -139,14 +143,15 @@ impl<'a> PathTree<'a> {
     }
 
     /// The cell of an outcome, and the outcome in its middle.
-    fn cell(&self, impact: &Impact, outcome: &Outcome) -> (Cell, Outcome) {
+    fn cell(&self, impact: &Impact, outcome: &Outcome, before: u64) -> (Cell, Outcome) {
+        let widths = CELLS.map(|width| width * (1.0 + WIDER * before as f64));
         let rolling = 2.0 * impact.tangential_speed / impact.diameter;
         let spin = if rolling > 0.0 { outcome.spin / rolling } else { 0.0 };
         let values = [outcome.normal_restitution, outcome.tangential_restitution, spin];
         let cell: Cell =
-            std::array::from_fn(|which| (values[which] / CELLS[which] + self.shift[which]).floor() as i32);
+            std::array::from_fn(|which| (values[which] / widths[which] + self.shift[which]).floor() as i32);
         let [normal_restitution, tangential_restitution, spin] =
-            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * CELLS[which]);
+            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * widths[which]);
         let middle = Outcome {
             normal_restitution: normal_restitution.max(0.0),
             tangential_restitution: tangential_restitution.max(0.0),
@@ -159,13 +164,13 @@ impl<'a> PathTree<'a> {
     /// The model of its injection where it is not that of the case.
     pub fn own_model(&self) -> Option<&'a Model> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        first.as_ref()?.tracker.injection.model.as_ref()
+        first.0.as_ref()?.tracker.injection.model.as_ref()
     }
 
     /// The impact of the first contact with a wall, with what the model file puts on that wall.
     pub fn impact(&self, model: &Model) -> Option<Impact> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let contact = &first.as_ref()?.contact;
+        let contact = &first.0.as_ref()?.contact;
         model.met(contact.wall, &contact.impact).ok()
     }
 }

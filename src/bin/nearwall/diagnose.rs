@@ -14,10 +14,12 @@ use crate::{CommandResult, diagnose_rig, progress};
 
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
+#[command(group(clap::ArgGroup::new("rig").args(["case", "impacts"])))]
 #[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
     nearwall diagnose lab.csv --columns lab.map.toml --group batch --model wax.toml --out diagnosis\n  \
     nearwall diagnose rig.csv --case case.toml --draws 39 --out diagnosis\n  \
-    nearwall diagnose impacts.csv --model wax.toml --draws 39 --out diagnosis\n\n\
+    nearwall diagnose impacts.csv --model wax.toml --draws 39 --out diagnosis\n  \
+    nearwall diagnose deposits.csv --impacts runs --model wax.toml --out diagnosis --draws 39\n\n\
     Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
     e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
     file and --columns, docs/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
@@ -31,6 +33,10 @@ pub struct Arguments {
     /// A case of `nearwall simulate`: the rows are experiments on a rig, which it simulates
     #[arg(long, value_name = "CASE.toml", conflicts_with_all = ["model", "columns", "group", "wall"])]
     pub(crate) case: Option<PathBuf>,
+    /// OpenFOAM cases with recorded impacts: the rows are experiments on a rig; their column `experiment` names the
+    /// sub-folder of the case. --model is the model file of these runs
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["case", "columns", "group", "wall"])]
+    impacts: Option<PathBuf>,
     /// Model files to draw from the fit, written to draws/ in the output folder; the range over 39 is a 95 % band
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) draws: usize,
@@ -59,10 +65,11 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if !(arguments.level > 0.0 && arguments.level < 0.5) {
         return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
     }
-    match (&arguments.case, &arguments.model) {
-        (Some(case), _) => diagnose_rig::run(arguments, case),
-        (None, Some(model)) => run_impacts(arguments, model),
-        (None, None) => Err("give --model M.toml, or --case CASE.toml for experiments on a rig".into()),
+    match (&arguments.case, &arguments.impacts, &arguments.model) {
+        (Some(case), ..) => diagnose_rig::run(arguments, case),
+        (None, Some(folder), Some(model)) => diagnose_rig::run_recorded(arguments, folder, model),
+        (None, None, Some(model)) => run_impacts(arguments, model),
+        (None, _, None) => Err("give --model M.toml, or --case CASE.toml for experiments on a rig".into()),
     }
 }
 

@@ -222,7 +222,9 @@ impl<'a> RigStudy<'a> {
         };
         while !choice.rounds.is_empty() {
             let causes = choice.rounds.len();
-            let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else { break };
+            let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else {
+                break;
+            };
             // The numbers have seen all experiments, which gains about one nat each.
             let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
             if with > without + parameters as f64 - CARRIES {
@@ -351,7 +353,8 @@ impl<'a> RigStudy<'a> {
     fn fit_all(&self, additions: &[RigAddition], scored: &[Scored], weights: &[f64]) -> Vec<Scored> {
         let base = self.score(additions, weights);
         let promising = MOST_FITTED.map(|(curve, most)| {
-            let mut own = scored.iter().filter(move |one| one.addition.is_curve() == curve).cloned().peekable();
+            let mut own =
+                scored.iter().filter(move |one| one.addition.is_curve() == curve).cloned().peekable();
             // The places are coarse: where an effect is strong, the gain of a candidate between them may be much larger.
             let best = own.peek().map_or(0.0, |one| one.gain);
             let least = (best - SHORTLIST).min(PROMISING * best);
@@ -452,7 +455,11 @@ fn other_starts(choice: &Choice) -> Vec<Choice> {
                 rounds.iter().map(|round| round.winner.addition.clone()).collect();
             additions.push(other.addition.clone());
             let others = round.all().into_iter().filter(|one| one.addition.key() != other.addition.key());
-            rounds.push(Round { winner: other.clone(), others: others.collect(), certainty: round.certainty });
+            rounds.push(Round {
+                winner: other.clone(),
+                others: others.collect(),
+                certainty: round.certainty,
+            });
             starts.push(Choice { additions, rounds, ..choice.clone() });
         }
     }
@@ -569,7 +576,9 @@ fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAd
         Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
     };
     // A layer or a film that is the same in all experiments acts nevertheless.
-    let wider = |input: &str| wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]));
+    let wider = |input: &str| {
+        wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]))
+    };
     let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
     let curves = curve_inputs(forward);
     let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));

@@ -169,7 +169,8 @@ impl Data {
                 }
             }
         }
-        for ((count, sum), prior) in sums.into_iter().zip(&self.prior).filter(|((count, _), _)| *count > 0.0) {
+        for ((count, sum), prior) in sums.into_iter().zip(&self.prior).filter(|((count, _), _)| *count > 0.0)
+        {
             let variance = (sum + prior) / (count + 1.0);
             score -= 0.5 * (count + 1.0) * f64::ln(variance);
         }
@@ -209,9 +210,7 @@ impl Data {
                 p * (1.0 - p) / count
             }
             Noise::Stated(error) => error * error + one.variance,
-            Noise::Shared { kind, factor } => {
-                factor * scatter[kind].powi(2) + one.variance
-            }
+            Noise::Shared { kind, factor } => factor * scatter[kind].powi(2) + one.variance,
         }
     }
 

@@ -24,6 +24,9 @@ const FALL: f64 = 0.5;
 /// Smallest and largest first guess of a standard error, in the coordinate.
 const GUESSES: [f64; 2] = [1e-3, 0.4];
 
+/// Log likelihood [nats] and predictions at some coordinates; none outside the search ranges.
+type Evaluated = (f64, Option<Prepared>);
+
 /// Weighted draws of the coordinates of additions.
 #[derive(Debug, Default)]
 pub(super) struct Posterior {
@@ -73,7 +76,7 @@ impl Posterior {
     }
 
     fn generation(
-        evaluate: &(dyn Fn(&[f64]) -> (f64, Option<Prepared>) + Sync),
+        evaluate: &(dyn Fn(&[f64]) -> Evaluated + Sync),
         summit: f64,
         mean: &DVector<f64>,
         covariance: &DMatrix<f64>,
