@@ -42,6 +42,11 @@ pub trait Forward: Sync {
     /// Why the changed model cannot decide an impact.
     fn predict(&self, experiment: usize, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String>;
 
+    /// Most causes that one diagnosis may name: one where predictions are only approximate beside the law of the record.
+    fn most_causes(&self) -> usize {
+        usize::MAX
+    }
+
     /// The value of an input over the first impacts of an experiment, with weights [input's unit, 1].
     fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)>;
 }

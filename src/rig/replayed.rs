@@ -585,6 +585,11 @@ impl Forward for Replayed {
         Ok(tally.predicted())
     }
 
+    fn most_causes(&self) -> usize {
+        // A second cause would be judged by impacts that the first one has changed.
+        1
+    }
+
     fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
         let Some(input) = INPUTS.get(input) else { return Vec::new() };
         let run = &self.runs[experiment];

@@ -23,9 +23,11 @@ use crate::model::Model;
 const LEAST_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `e_n`, `e_t` and of the spin over that of rolling with the arriving speed [1].
-const CELLS: [f64; 3] = [0.04, 0.04, 0.2];
-/// By how much a cell is wider after each rebound: later hits matter less [1].
-const WIDER: f64 = 0.5;
+const CELLS: [f64; 3] = [0.05, 0.05, 0.2];
+/// Most rebounds after each of which a cell is twice as wide: later hits matter less.
+const WIDER: u64 = 2;
+/// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
+const MOST_HITS: u64 = 40;
 /// Most flights of a particle that are kept.
 const KEPT: usize = 200;
 
@@ -106,7 +108,7 @@ impl<'a> PathTree<'a> {
         let Some(mut node) = first.as_deref_mut() else { return Ok(()) };
         let mut passing;
         let mut share = 1.0;
-        for before in 0..node.tracker.case.hit_limit {
+        for before in 0..node.tracker.case.hit_limit.min(MOST_HITS) {
             let (tracker, contact) = (&node.tracker, &node.contact);
             let outcome = model.resolve(contact.wall, &contact.impact, tracker.random(before))?;
             observer(&ExpectedHit {
@@ -144,7 +146,7 @@ impl<'a> PathTree<'a> {
 
     /// The cell of an outcome, and the outcome in its middle.
     fn cell(&self, impact: &Impact, outcome: &Outcome, before: u64) -> (Cell, Outcome) {
-        let widths = CELLS.map(|width| width * (1.0 + WIDER * before as f64));
+        let widths = CELLS.map(|width| width * f64::from(1u32 << before.min(WIDER)));
         let rolling = 2.0 * impact.tangential_speed / impact.diameter;
         let spin = if rolling > 0.0 { outcome.spin / rolling } else { 0.0 };
         let values = [outcome.normal_restitution, outcome.tangential_restitution, spin];

@@ -83,6 +83,11 @@ impl RigAddition {
         if let Kind::Part(Part::LawParameter(parameter)) = self.kind { parameter.of(model) } else { None }
     }
 
+    /// Whether it is another value of a number of the base's own laws.
+    pub fn is_number(&self) -> bool {
+        matches!(self.kind, Kind::Part(Part::LawParameter(_)))
+    }
+
     /// Whether it is a curve or a level without a law.
     pub fn is_curve(&self) -> bool {
         matches!(self.kind, Kind::Curve { .. })

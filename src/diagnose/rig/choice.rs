@@ -174,6 +174,7 @@ impl<'a> RigStudy<'a> {
     /// The choice with further causes, one a round, until none is significant.
     fn grown(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
         let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
+        let most = most.min(self.forward.most_causes());
         // What the largest gain without an effect has to be exceeded by; known after the first round.
         let mut threshold = LEAST_THRESHOLD;
         loop {
@@ -360,6 +361,14 @@ impl<'a> RigStudy<'a> {
             let least = (best - SHORTLIST).min(PROMISING * best);
             own.filter(move |one| one.gain > least).take(most).collect::<Vec<Scored>>()
         });
+        // A number of the base's own laws is the simplest explanation, and cheap to fit.
+        let mut promising: Vec<Scored> = promising.into_iter().flatten().collect();
+        let numbers = scored.iter().filter(|one| one.addition.is_number() && one.gain > 0.0);
+        let left_out: Vec<Scored> = numbers
+            .filter(|one| promising.iter().all(|p| p.addition.key() != one.addition.key()))
+            .cloned()
+            .collect();
+        promising.extend(left_out);
         let fit = |one: Scored| {
             let joint = |at: &[f64]| {
                 let mut all = additions.to_vec();
@@ -376,7 +385,7 @@ impl<'a> RigStudy<'a> {
             let prepared = predicted.map(|predicted| Arc::new(self.data.prepare(&predicted)));
             Scored { addition, gain, p_value: one.p_value, prepared }
         };
-        let mut fitted: Vec<Scored> = promising.into_iter().flatten().map(fit).collect();
+        let mut fitted: Vec<Scored> = promising.into_iter().map(fit).collect();
         fitted.retain(|one| one.gain > 0.0);
         fitted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         fitted

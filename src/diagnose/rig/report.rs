@@ -213,6 +213,9 @@ impl Found<'_> {
         };
         diagnosis.verdict =
             sentences(&diagnosis, &self.not_carried, [study.data.experiments, study.data.readings.len()]);
+        if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
+            diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
+        }
         let scatter = study.data.scatter(&extended, &all);
         let readings = self.rows(&base, &extended, &scatter);
         let errors = self.errors(&base, &extended);
@@ -421,10 +424,10 @@ fn explain(finding: &Finding) -> String {
         others => format!(" These experiments cannot tell it from {}.", others.join(" or ")),
     };
     format!(
-        "{what} It acts most on {}; chi-square falls by {:.1}. By chance any of the candidates gains as much once in {:.0}.{others}",
+        "{what} It acts most on {}; chi-square falls by {:.1}. By chance any of the candidates gains as much at most once in {:.0}.{others}",
         finding.observable,
         finding.chi_square,
-        1.0 / finding.q_value.max(1e-12)
+        1.0 / finding.q_value.max(1e-9)
     )
 }
 
