@@ -29,7 +29,7 @@ const WIDER: u64 = 2;
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
 const MOST_HITS: u64 = 40;
 /// Most flights of a particle that are kept.
-const KEPT: usize = 200;
+const KEPT: usize = 100;
 
 /// A cell of the grid of outcomes.
 type Cell = [i32; 3];

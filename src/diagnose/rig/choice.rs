@@ -19,7 +19,7 @@ use crate::rig::{Forward, Predicted};
 /// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
 const SHORTLIST: f64 = 4.0;
 /// Most laws, and most curves that are fitted.
-const MOST_FITTED: [(bool, usize); 2] = [(false, 5), (true, 2)];
+const MOST_FITTED: [(bool, usize); 2] = [(false, 7), (true, 2)];
 /// And those that gain this share of the best are fitted.
 const PROMISING: f64 = 0.4;
 /// Gain below which no candidate of a usual list is significant [nats].
@@ -226,9 +226,10 @@ impl<'a> RigStudy<'a> {
             let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else {
                 break;
             };
-            // The numbers have seen all experiments, which gains about one nat each.
+            // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
             let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
-            if with > without + parameters as f64 - CARRIES {
+            let seen = if causes > 1 { parameters as f64 } else { 0.0 };
+            if with > without + seen - CARRIES {
                 break;
             }
             choice.rounds.pop();

@@ -4,7 +4,7 @@ use super::addition::{Kind, RigAddition};
 use crate::diagnose::part::Part;
 
 /// Places of a range with one parameter, and along each of two.
-const EVEN: usize = 14;
+const EVEN: usize = 20;
 const SIDE: usize = 6;
 /// Places of a range with three or more parameters.
 const MANY: usize = 48;
