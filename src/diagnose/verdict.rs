@@ -243,7 +243,7 @@ pub(super) fn fit_sentence(fit: &Fit) -> String {
     format!(
         "The {against} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by chance once in \
          {:.0e}{misfits}. ",
-        1.0 / p.max(1e-99)
+        1.0 / p.max(1e-300)
     )
 }
 

@@ -10,15 +10,11 @@ use crate::diagnose::{
     NotExamined, Rows,
 };
 
-/// The page, its number of figures, and its text without tags, each piece of white space one blank.
-fn seen(name: &str, found: &RigDiagnosis) -> (String, usize, String) {
+/// The number of figures of the page, and its text without tags, each piece of white space one blank.
+fn seen(found: &RigDiagnosis) -> (usize, String) {
     let in_case = |key: &str| (key == "particles.temperature").then_some(300.0);
     let html =
         page(found, &RigPage { data: "lab/rig.csv", case: "my rig/case.toml", in_case: &in_case }).unwrap();
-    // To look at it in a browser.
-    if let Some(folder) = std::env::var_os("NEARWALL_PAGES") {
-        std::fs::write(std::path::Path::new(&folder).join(format!("{name}.html")), &html).unwrap();
-    }
     assert!(!html.contains("NaN") && !html.contains("inf ") && !html.contains("nats"), "{html}");
     assert!(!html.contains("https:") && !html.contains("src="), "{html}");
     for figure in html.split("<figure id=\"").skip(1) {
@@ -33,7 +29,7 @@ fn seen(name: &str, found: &RigDiagnosis) -> (String, usize, String) {
     let body = html.split_once("<body>").map_or("", |(_, body)| body);
     let pieces = body.split('<').map(|piece| piece.split_once('>').map_or(piece, |(_, text)| text));
     let text = pieces.collect::<Vec<_>>().join(" ").replace("&#34;", "\"").replace("&#39;", "'");
-    (name.to_owned(), html.matches("<figure").count(), text.split_whitespace().collect::<Vec<_>>().join(" "))
+    (html.matches("<figure").count(), text.split_whitespace().collect::<Vec<_>>().join(" "))
 }
 
 fn shows(text: &str, sentences: &[&str]) {
@@ -204,7 +200,7 @@ fn a_cause_on_several_walls_is_shown_in_full() {
         pins_numbers: 0.7,
         predicted: vec![("melting-transition".into(), 0.5), ("level:capture".into(), 0.25)],
     }];
-    let (_, figures, text) = seen("walls", &found);
+    let (figures, text) = seen(&found);
     assert_eq!(figures, 5, "three columns and the parity of two kinds");
     shows(
         &text,
@@ -242,8 +238,7 @@ fn a_cause_on_several_walls_is_shown_in_full() {
 
 #[test]
 fn nothing_found_is_a_short_page() {
-    let (_, figures, text) =
-        seen("nothing", &found(rows(6, &["capture_efficiency@a"]), &["capture_efficiency"]));
+    let (figures, text) = seen(&found(rows(6, &["capture_efficiency@a"]), &["capture_efficiency"]));
     assert_eq!(figures, 2);
     shows(&text, &["Yes. The misfit of the base model is no larger", "Nothing was added to the model."]);
     for absent in ["extended model 0", "Causes at a glance", "What to measure next", "held out [1]"] {
@@ -255,7 +250,7 @@ fn nothing_found_is_a_short_page() {
 #[test]
 fn one_experiment_is_enough_for_a_page() {
     let readings = rows(1, &["captured@a", "mean_e_n@a", "mean_e_t@a"]);
-    let (_, figures, text) = seen("one", &found(readings, &["captured", "mean_e_n", "mean_e_t"]));
+    let (figures, text) = seen(&found(readings, &["captured", "mean_e_n", "mean_e_t"]));
     assert_eq!(figures, 1);
     shows(
         &text,
@@ -270,7 +265,7 @@ fn bins_along_a_wall_are_a_profile() {
         .collect();
     let bins: Vec<&str> = bins.iter().map(String::as_str).collect();
     let found = with_cause(found(rows(12, &bins), &["captured"]), "unknown:T_p");
-    let (_, figures, text) = seen("profile", &found);
+    let (figures, text) = seen(&found);
     assert_eq!(figures, 9, "eight profiles and one parity");
     shows(
         &text,
@@ -305,8 +300,7 @@ fn two_hundred_readings_of_many_kinds_stay_few_figures() {
         "quantile_e_n",
         "mean_conversion",
     ];
-    let (_, figures, text) =
-        seen("many", &with_cause(found(rows(20, &observables), &kinds), "melting-transition"));
+    let (figures, text) = seen(&with_cause(found(rows(20, &observables), &kinds), "melting-transition"));
     assert_eq!(figures, 15, "eight figures over a setting, seven parities");
     shows(&text, &["20 experiments with 200 readings", "8 of 10 figures", "90 % quantile of e_n"]);
 }
@@ -328,7 +322,7 @@ fn readings_without_errors_and_predictions_are_said_to_be_so() {
         at: vec!["300".into(), "330".into(), "360".into()],
         adds: vec![0.0, 0.2, -0.1],
     });
-    let (_, figures, text) = seen("no-errors", &found);
+    let (figures, text) = seen(&found);
     assert_eq!(figures, 3);
     shows(
         &text,
