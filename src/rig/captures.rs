@@ -63,11 +63,7 @@ pub struct Flights<'a> {
 impl<'a> Flights<'a> {
     /// Flies at most `particles` particles, spread evenly over all of the case.
     pub fn new(case: &'a Case, particles: u64) -> Self {
-        let count = case.count();
-        let wanted = particles.min(count).max(1);
-        let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
-        let particles = numbers.par_iter().map(|number| PathTree::new(case, *number)).collect();
-        Self { case, particles }
+        Self { case, particles: PathTree::sample(case, particles) }
     }
 
     /// What the walls capture under a model; particles with a model of their own keep it.

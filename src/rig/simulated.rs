@@ -123,12 +123,7 @@ impl<'a> Simulated<'a> {
 impl<'a> Paths<'a> {
     fn new(rig: &'a RigCase, particles: u64) -> Result<Self, String> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
-        let count = rig.case.count();
-        // Evenly over all injections, which are numbered one after the other.
-        let wanted = particles.min(count).max(1);
-        let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
-        let flown: Vec<Result<PathTree<'a>, String>> =
-            numbers.par_iter().map(|number| PathTree::new(&rig.case, *number)).collect();
+        let flown = PathTree::sample(&rig.case, particles);
         let first_trouble = flown.iter().find_map(|one| one.as_ref().err().cloned());
         let particles: Vec<PathTree<'a>> = flown.into_iter().filter_map(Result::ok).collect();
         match first_trouble {

@@ -12,6 +12,7 @@ use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::Vector3;
+use rayon::prelude::*;
 
 use super::case::Case;
 use super::near_wall::StayTimes;
@@ -78,6 +79,15 @@ pub struct ExpectedHit<'a> {
 }
 
 impl<'a> PathTree<'a> {
+    /// At most `particles` particles of a case at their first contacts, evenly over all injections, which are numbered one after the
+    /// other; or why one cannot be followed.
+    pub fn sample(case: &'a Case, particles: u64) -> Vec<Result<Self, String>> {
+        let count = case.count();
+        let wanted = particles.min(count).max(1);
+        let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
+        numbers.par_iter().map(|number| Self::new(case, *number)).collect()
+    }
+
     /// Flies the particle with this number to its first contact.
     ///
     /// # Errors

@@ -123,9 +123,17 @@ fn write(
     let inputs: Vec<&Path> = [data.as_path(), model].into_iter().chain(columns.as_deref()).collect();
     let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
     let named = results.into_iter().map(|(name, text)| (name.to_owned(), text));
-    let results = named.chain(drawn_files(out, draws)?);
+    commit(out, &inputs, named.chain(drawn_files(out, draws)?))
+}
+
+/// Writes all of these names and texts into a folder, or none; no file may be one of `inputs`.
+pub(crate) fn commit<'a>(
+    out: &Path,
+    inputs: &[&Path],
+    results: impl Iterator<Item = (String, &'a str)>,
+) -> CommandResult {
     let write = |(name, text): (String, &str)| {
-        let mut file = AtomicFile::new(&out.join(name), &inputs)?;
+        let mut file = AtomicFile::new(&out.join(name), inputs)?;
         file.put(text)?;
         Ok::<_, String>(file)
     };

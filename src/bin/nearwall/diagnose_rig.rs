@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::Path;
 
 use nearwall::Model;
-use nearwall::atomic_file::{AtomicFile, refused};
+use nearwall::atomic_file::refused;
 use nearwall::dataset::RigMeasurements;
 use nearwall::diagnose::Options;
 use nearwall::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
@@ -12,7 +12,7 @@ use nearwall::input::Document;
 use nearwall::report::{RigPage, rig_page};
 use nearwall::rig::{CaseText, Forward, Replayed, RigCase, Simulated, particles_for};
 
-use crate::diagnose::{Arguments, drawn_files, summary};
+use crate::diagnose::{Arguments, commit, drawn_files, summary};
 use crate::{CommandResult, progress};
 
 pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
@@ -92,11 +92,5 @@ fn write(
         results.push(("next_experiments.csv".to_owned(), &found.next_table));
     }
     results.extend(drawn_files(out, &found.draws)?);
-    let write = |(name, text): (String, &str)| {
-        let mut file = AtomicFile::new(&out.join(name), &inputs)?;
-        file.put(text)?;
-        Ok::<_, String>(file)
-    };
-    let files = results.into_iter().map(write).collect::<Result<Vec<_>, _>>()?;
-    Ok(AtomicFile::commit(files)?)
+    commit(out, &inputs, results.into_iter())
 }

@@ -156,7 +156,7 @@ impl<'a> RigStudy<'a> {
                 }
                 let start = Choice { additions: self.fit(&start.additions, weights), ..start };
                 let grown = self.grown(start, weights)?;
-                if self.worth(&grown, weights) > self.worth(&best, weights) + EXCHANGED {
+                if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) + EXCHANGED {
                     best = grown;
                 }
             }
@@ -166,9 +166,9 @@ impl<'a> RigStudy<'a> {
     }
 
     /// Log likelihood less the number of parameters [nats].
-    fn worth(&self, choice: &Choice, weights: &[f64]) -> f64 {
-        let parameters: usize = choice.additions.iter().map(|one| one.axes.len()).sum();
-        self.score(&choice.additions, weights) - parameters as f64
+    fn worth(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
+        let parameters: usize = additions.iter().map(|one| one.axes.len()).sum();
+        self.score(additions, weights) - parameters as f64
     }
 
     /// The choice with further causes, one a round, until none is significant.
@@ -206,7 +206,7 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The choice without the causes, from the last one on, that do not help to predict experiments that they have not seen, and the names of
-    /// those left out; with the cross-validation of the rest.
+    /// those left out.
     ///
     /// # Errors
     /// Why a model cannot decide an impact.
@@ -243,7 +243,6 @@ impl<'a> RigStudy<'a> {
 
     /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
     fn exchanged(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
-        let cost = |additions: &[RigAddition]| additions.iter().map(|one| one.axes.len() as f64).sum::<f64>();
         let mut place = 0;
         while choice.additions.len() > 1 && place < choice.additions.len() {
             let mut rest = choice.additions.clone();
@@ -252,11 +251,11 @@ impl<'a> RigStudy<'a> {
             let null = NullGains::new(&shelf, &self.data, weights, self.seed);
             let scored = self.first_look(&shelf, &null, weights, &[]);
             let fitted = self.fit_all(&rest, &scored, weights);
-            let now = self.score(&choice.additions, weights) - cost(&choice.additions);
+            let now = self.worth(&choice.additions, weights);
             let better = fitted.iter().find(|one| one.addition.key() != removed.key()).and_then(|one| {
                 let joint =
                     self.fit(&[rest.as_slice(), std::slice::from_ref(&one.addition)].concat(), weights);
-                (self.score(&joint, weights) - cost(&joint) > now + EXCHANGED).then_some(joint)
+                (self.worth(&joint, weights) > now + EXCHANGED).then_some(joint)
             });
             match better.and_then(|joint| Some((joint, self.decide(&shelf, fitted, weights)?))) {
                 Some((joint, round))
