@@ -73,7 +73,7 @@ case_deposit() {
         parcel_columns "0.1/$d" active coordinates > still.earlier
         parcel_columns "0.2/$d" active coordinates > still.after
         if [ "$(awk '$3 == 0' still.after | wc -l)" = 12 ] && [ -z "$(comm -3 still.earlier still.after)" ] \
-            && ! values "0.2/$d/U" | grep -qv '^0 0 0$'
+            && ! values "0.2/$d/U" | grep -v '^0 0 0$' > /dev/null
         then ok "deposit/react/$cloud/still (12 parcels, no velocity)"; else bad "deposit/react/$cloud/still" "one moved or has a velocity"; fi
         parcel_columns "0.1/$d" T > changed.earlier; parcel_columns "0.2/$d" T > changed.after
         if [ "$(comm -13 changed.earlier changed.after | wc -l)" = 12 ]
