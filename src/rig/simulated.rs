@@ -1,19 +1,20 @@
 //! `nearwall simulate` as the forward model of a rig.
 //!
-//! The path of every particle up to its first contact does not depend on the wall law and is computed once. From there every changed law
-//! follows the particle with the share of its weight that is not caught ([`crate::simulate::PathTree`]), and with the same random numbers, so that
+//! The base law is followed once, with many particles on their exact paths ([`crate::simulate::follow_exactly`]). For a changed law the difference
+//! from the base is computed with fewer particles, whose flights all laws share ([`crate::simulate::PathTree`]): up to the first contact their paths
+//! do not depend on the wall law, and after it they have the share of their weight that is not caught and the same random numbers, so that
 //! predictions change smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are independent.
 //! Walls with a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random captures.
 
 use rayon::prelude::*;
 
 use super::case_text::{CaseText, SettingError};
-use super::tally::{Predicted, TalliedHit, Tally};
+use super::tally::{Blocks, Predicted, TalliedHit, Tally};
 use super::{Forward, ModelChange};
 use crate::dataset::{Experiment, RigMeasurements};
 use crate::impact::INPUTS;
 use crate::model::Model;
-use crate::simulate::{Case, PathTree, run_once};
+use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
 
 /// An experiment with its case.
 #[derive(Debug)]
@@ -88,7 +89,10 @@ impl RigCase {
 struct Paths<'a> {
     rig: &'a RigCase,
     walls: Vec<String>,
-    particles: Vec<PathTree<'a>>,
+    /// In independent blocks.
+    blocks: Vec<Vec<PathTree<'a>>>,
+    /// What the base law gives with many particles, and in these blocks.
+    base: Vec<(Predicted, Blocks)>,
 }
 
 /// All experiments with the paths of their particles up to the first contact.
@@ -101,16 +105,18 @@ pub struct Simulated<'a> {
 /// Relative error of a step of a path: far below the Monte Carlo error [1].
 const TOLERANCE: f64 = 1e-4;
 /// Fewest and most particles of an experiment.
-const PARTICLES: [f64; 2] = [200.0, 1000.0];
+const PARTICLES: [f64; 2] = [256.0, 512.0];
+/// Times as many follow the base law.
+const BASE_PARTICLES: u64 = 8;
 
-/// Number of particles with which the Monte Carlo error is well below that of the readings: twice the largest count.
+/// Number of particles with which the Monte Carlo error is well below that of the readings.
 pub fn particles_for(data: &RigMeasurements) -> u64 {
     let counts = data.experiments.iter().flat_map(|one| &one.readings).filter_map(|reading| reading.count);
     (2.0 * counts.fold(0.0, f64::max)).clamp(PARTICLES[0], PARTICLES[1]) as u64
 }
 
 impl<'a> Simulated<'a> {
-    /// Flies at most `particles` particles of each case to their first contact; all that the case has if it has fewer.
+    /// Flies about `particles` particles of each case to their first contact.
     ///
     /// # Errors
     /// Why no particle of an experiment can be followed.
@@ -123,41 +129,70 @@ impl<'a> Simulated<'a> {
 impl<'a> Paths<'a> {
     fn new(rig: &'a RigCase, particles: u64) -> Result<Self, String> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
-        let flown = PathTree::sample(&rig.case, particles);
-        let first_trouble = flown.iter().find_map(|one| one.as_ref().err().cloned());
-        let particles: Vec<PathTree<'a>> = flown.into_iter().filter_map(Result::ok).collect();
-        match first_trouble {
-            Some(trouble) if particles.is_empty() => Err(format!("{}: {trouble}", rig.place)),
-            _ => Ok(Self { rig, walls, particles }),
+        let starts = even_starts(&rig.case, particles);
+        let fly = |block: &Vec<Start>| -> Vec<Result<PathTree<'a>, String>> {
+            block.par_iter().map(|start| PathTree::new(&rig.case, *start)).collect()
+        };
+        let flown: Vec<Vec<Result<PathTree<'a>, String>>> = starts.iter().map(fly).collect();
+        let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());
+        let usable = |block: Vec<_>| block.into_iter().filter_map(Result::ok).collect();
+        let blocks: Vec<Vec<PathTree<'a>>> = flown.into_iter().map(usable).collect();
+        if let Some(trouble) = first_trouble
+            && blocks.iter().all(Vec::is_empty)
+        {
+            return Err(format!("{}: {trouble}", rig.place));
         }
+        let mut paths = Self { rig, walls, blocks, base: Vec::new() };
+        if rig.case.deposit.is_none() {
+            let known = paths.exactly(BASE_PARTICLES * particles);
+            paths.base = known.into_iter().zip(paths.blocks(&rig.case.model)?).collect();
+        }
+        Ok(paths)
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
-        let RigCase { case, experiment, place, .. } = self.rig;
+        let RigCase { case, experiment, .. } = self.rig;
         let model = change(&case.model);
-        let mut tally = Tally::new(&experiment.readings, &self.walls);
         if case.deposit.is_some() {
+            let mut tally = Tally::new(&experiment.readings, &self.walls);
             self.run_with_memory(model, &mut tally)?;
             return Ok(tally.predicted());
         }
-        for particle in &self.particles {
-            let followed = particle.follow(&model, |hit| {
-                let coordinate = case.surfaces[hit.surface].shape.coordinate(&hit.position);
-                tally.hit(&TalliedHit {
-                    wall: hit.surface,
-                    coordinate,
-                    impact: hit.impact,
-                    outcome: hit.outcome,
-                    share: hit.share,
-                    caught: hit.outcome.sticking_probability,
-                    weight: hit.weight,
-                    mass: hit.mass,
-                });
-            });
-            followed.map_err(|error| format!("{place}: {error}"))?;
-            tally.end_particle(particle.mass);
+        let blocks = self.blocks(&model)?;
+        Ok(blocks.iter().zip(&self.base).map(|(one, (known, base))| one.moved(known, base)).collect())
+    }
+
+    /// What the base law gives with this number of particles on exact paths.
+    fn exactly(&self, particles: u64) -> Vec<Predicted> {
+        let RigCase { case, experiment, .. } = self.rig;
+        let mut tally = Tally::new(&experiment.readings, &self.walls);
+        for block in even_starts(case, particles) {
+            let of = |start: &Start| {
+                let mut own = Tally::new(&experiment.readings, &self.walls);
+                let followed =
+                    follow_exactly(case, *start, &case.model, |hit| own.hit(&tallied(case, hit)));
+                followed.map(|mass| own.end_particle_of_block(mass)).map(|()| own)
+            };
+            // A particle that cannot be followed is left out, as `simulate` does.
+            block.par_iter().filter_map(|start| of(start).ok()).collect::<Vec<_>>().into_iter().for_each(|own| tally.add(own));
+            tally.end_block();
         }
-        Ok(tally.predicted())
+        tally.predicted()
+    }
+
+    /// What a model gives in each block.
+    fn blocks(&self, model: &Model) -> Result<Vec<Blocks>, String> {
+        let RigCase { case, experiment, place, .. } = self.rig;
+        let mut tally = Tally::new(&experiment.readings, &self.walls);
+        for block in &self.blocks {
+            for particle in block {
+                let followed = particle.follow(model, |hit| tally.hit(&tallied(case, hit)));
+                followed.map_err(|error| format!("{place}: {error}"))?;
+                tally.end_particle_of_block(particle.mass);
+            }
+            tally.end_block();
+        }
+        Ok(tally.blocks())
     }
 
     /// Runs the whole case, whose walls change with what they caught.
@@ -186,6 +221,19 @@ impl<'a> Paths<'a> {
     }
 }
 
+fn tallied<'h>(case: &Case, hit: &ExpectedHit<'h>) -> TalliedHit<'h> {
+    TalliedHit {
+        wall: hit.surface,
+        coordinate: case.surfaces[hit.surface].shape.coordinate(&hit.position),
+        impact: hit.impact,
+        outcome: hit.outcome,
+        share: hit.share,
+        caught: hit.outcome.sticking_probability,
+        weight: hit.weight,
+        mass: hit.mass,
+    }
+}
+
 impl Forward for Simulated<'_> {
     fn experiments(&self) -> &[Experiment] {
         &self.experiments
@@ -200,12 +248,12 @@ impl Forward for Simulated<'_> {
     }
 
     fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
-        let Paths { rig, particles, .. } = &self.runs[experiment];
+        let Paths { rig, blocks, .. } = &self.runs[experiment];
         let of = |particle: &PathTree<'_>| {
             let impact = particle.impact(&rig.case.model)?;
             let value = INPUTS.get(input).map(|input| (input.value)(&impact))?;
             Some((value, particle.weight))
         };
-        particles.iter().filter_map(of).collect()
+        blocks.iter().flatten().filter_map(of).collect()
     }
 }

@@ -24,6 +24,35 @@ pub struct Predicted {
     pub particles: f64,
 }
 
+/// A predicted reading with the part of each block of particles in it. The blocks are the same for all models.
+#[derive(Debug, Clone)]
+pub struct Blocks {
+    /// The reading.
+    pub predicted: Predicted,
+    /// What each block adds to the error of the reading [1]; none for a quantile.
+    residuals: Vec<f64>,
+}
+
+impl Blocks {
+    /// A better known value with the difference of these blocks from those of its model. What the difference shares with the blocks' own error is
+    /// gone from its variance; of a quantile half is taken to be shared.
+    pub fn moved(&self, known: &Predicted, of_its_model: &Self) -> Predicted {
+        let difference = self.predicted.value - of_its_model.predicted.value;
+        let value = known.value + difference;
+        if !value.is_finite() {
+            return self.predicted;
+        }
+        let count = self.residuals.len() as f64;
+        let variance = if self.residuals.is_empty() {
+            if difference == 0.0 { 0.0 } else { 0.5 * self.predicted.variance }
+        } else {
+            let pairs = self.residuals.iter().zip(&of_its_model.residuals);
+            count / (count - 1.0).max(1.0) * pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>()
+        };
+        Predicted { value, variance: known.variance + variance, particles: self.predicted.particles }
+    }
+}
+
 /// A hit as the tally takes it.
 #[derive(Debug, Clone, Copy)]
 pub struct TalliedHit<'a> {
@@ -80,6 +109,8 @@ struct Line {
     quantity: RigQuantity,
     wall: usize,
     ratio: Ratio,
+    /// Sums of each block.
+    blocks: Vec<[f64; 2]>,
     /// Sums of the present particle.
     own: [f64; 2],
     /// Whether the present particle has hit the wall.
@@ -105,6 +136,7 @@ impl Tally {
             quantity: reading.quantity,
             wall: walls.iter().position(|wall| *wall == reading.wall).unwrap_or(usize::MAX),
             ratio: Ratio::default(),
+            blocks: Vec::new(),
             own: [0.0; 2],
             arrived: false,
             values: Vec::new(),
@@ -128,15 +160,51 @@ impl Tally {
         self.doubt = share;
     }
 
-    /// Ends the present particle, whose mass at the start is `injected` [kg].
+    /// Ends the present particle, whose mass at the start is `injected` [kg]. It is independent of all others.
     pub fn end_particle(&mut self, injected: f64) {
+        self.end_particle_of_block(injected);
         for line in &mut self.lines {
-            let [a, b] = std::mem::take(&mut line.own);
-            line.arrived = false;
-            use RigQuantity::{Captured, CapturedAlong, CapturedBySize};
-            let by_mass = matches!(line.quantity, Captured | CapturedAlong(_) | CapturedBySize(_));
-            line.ratio.add([a, if by_mass { injected } else { b }]);
+            line.ratio.add(std::mem::take(&mut line.own));
         }
+    }
+
+    /// Ends the present particle; only its block as a whole is independent of others.
+    pub fn end_particle_of_block(&mut self, injected: f64) {
+        use RigQuantity::{Captured, CapturedAlong, CapturedBySize};
+        for line in &mut self.lines {
+            line.arrived = false;
+            let by_mass = matches!(line.quantity, Captured | CapturedAlong(_) | CapturedBySize(_));
+            line.own[1] += if by_mass { injected } else { 0.0 };
+        }
+    }
+
+    /// Adds what another tally of the same readings has of its present block.
+    pub fn add(&mut self, other: Self) {
+        for (line, own) in self.lines.iter_mut().zip(other.lines) {
+            line.own[0] += own.own[0];
+            line.own[1] += own.own[1];
+            line.values.extend(own.values);
+        }
+    }
+
+    /// Ends a block of particles.
+    pub fn end_block(&mut self) {
+        for line in &mut self.lines {
+            line.blocks.push(line.own);
+            line.ratio.add(std::mem::take(&mut line.own));
+        }
+    }
+
+    /// What the blocks give for each reading.
+    pub fn blocks(mut self) -> Vec<Blocks> {
+        let of = |line: &mut Line| {
+            let predicted = line.predicted();
+            let [_, sum] = line.ratio.sums;
+            let residuals = line.blocks.iter().map(|[a, b]| (a - predicted.value * b) / sum);
+            let is_ratio = !matches!(line.quantity, RigQuantity::Quantile(..));
+            Blocks { predicted, residuals: if is_ratio { residuals.collect() } else { Vec::new() } }
+        };
+        self.lines.iter_mut().map(of).collect()
     }
 
     /// Ends this number of particles that hit no wall; `injected` is the mass of each at the start [kg].

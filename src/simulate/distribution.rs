@@ -15,6 +15,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::Distribution as _;
 use rand_distr::{LogNormal, Normal, Uniform, Weibull};
+use statrs::function::erf::{erfc, erfc_inv};
 
 use super::geometry::required_within;
 use crate::input::{InputError, Section};
@@ -99,6 +100,16 @@ impl Distribution {
         value.clamp(self.min, self.max)
     }
 
+    /// The value below which this share of what lies within the bounds lies [1].
+    pub fn quantile(&self, share: f64) -> f64 {
+        let [low, high] = [self.min, self.max].map(|bound| self.family.share_below(bound));
+        let value = match self.family {
+            Family::Uniform => self.min + share * (self.max - self.min),
+            family => family.quantile(low + share * (high - low)),
+        };
+        if let Family::Fixed(_) = self.family { value } else { value.clamp(self.min, self.max) }
+    }
+
     /// A value that may lie out of bounds.
     fn draw(&self, random: &mut ChaCha8Rng) -> f64 {
         // The parameters were checked on reading; one that the crate refuses all the same gives no number, which no
@@ -150,6 +161,33 @@ impl Family {
         }
     }
 
+    /// Share below a value [1]; of a uniform distribution the bounds decide.
+    fn share_below(self, value: f64) -> f64 {
+        match self {
+            Self::Fixed(_) | Self::Uniform => 0.5,
+            Self::Normal { mean, deviation } => normal_below((value - mean) / deviation),
+            Self::LogNormal { .. } | Self::RosinRammler { .. } if value <= 0.0 => 0.0,
+            Self::LogNormal { median, geometric_deviation } => {
+                normal_below((value / median).ln() / geometric_deviation.ln())
+            }
+            Self::RosinRammler { scale, exponent } => -(-(value / scale).powf(exponent)).exp_m1(),
+        }
+    }
+
+    /// The value with this share below it [1]; of a uniform distribution the bounds decide.
+    fn quantile(self, share: f64) -> f64 {
+        match self {
+            Self::Fixed(value) => value,
+            Self::Uniform => f64::NAN,
+            Self::Normal { mean, deviation: 0.0 } => mean,
+            Self::Normal { mean, deviation } => mean + deviation * normal_quantile(share),
+            Self::LogNormal { median, geometric_deviation } => {
+                median * geometric_deviation.powf(normal_quantile(share))
+            }
+            Self::RosinRammler { scale, exponent } => scale * (-(-share).ln_1p()).powf(1.0 / exponent),
+        }
+    }
+
     fn draw(self, [min, max]: [f64; 2], random: &mut ChaCha8Rng) -> Option<f64> {
         Some(match self {
             Self::Fixed(value) => value,
@@ -161,6 +199,16 @@ impl Family {
             Self::RosinRammler { scale, exponent } => Weibull::new(scale, exponent).ok()?.sample(random),
         })
     }
+}
+
+/// Share of the standard normal distribution below a value [1].
+fn normal_below(value: f64) -> f64 {
+    0.5 * erfc(-value * std::f64::consts::FRAC_1_SQRT_2)
+}
+
+/// The value below which this share of the standard normal distribution lies.
+fn normal_quantile(share: f64) -> f64 {
+    -std::f64::consts::SQRT_2 * erfc_inv(2.0 * share)
 }
 
 #[cfg(test)]
@@ -206,6 +254,27 @@ mod tests {
         assert!(wax.iter().all(|d| (50.0..=110.0).contains(d)));
         // Inside, the shape is kept: half lies below the middle of a symmetric cut.
         assert!((share_below(&wax, 80.0) - 0.5).abs() < 0.006);
+    }
+
+    /// A quantile is the value below which that share of the draws lies, with bounds and without.
+    #[test]
+    fn quantiles_are_those_of_the_draws() {
+        for text in [
+            "{ distribution = 'rosin-rammler', scale = 60, exponent = 1.4, min = 20 }",
+            "{ distribution = 'rosin-rammler', scale = 60, exponent = 4 }",
+            "{ distribution = 'lognormal', median = 5, geometric_deviation = 2, max = 9 }",
+            "{ distribution = 'normal', mean = 10, deviation = 2, min = 9 }",
+            "{ distribution = 'uniform', min = 2, max = 6 }",
+        ] {
+            let (distribution, draws) = (read(text).unwrap(), draws(text));
+            for share in [0.01, 0.2, 0.5, 0.8, 0.99] {
+                let below = share_below(&draws, distribution.quantile(share));
+                assert!((below - share).abs() < 5.0 * (0.25f64 / 200_000.0).sqrt(), "{text} {share} {below}");
+            }
+        }
+        for (text, value) in [("3.5", 3.5), ("{ distribution = 'normal', mean = 4, deviation = 0 }", 4.0)] {
+            assert_eq!(read(text).unwrap().quantile(0.3), value, "{text}");
+        }
     }
 
     #[test]

@@ -82,6 +82,25 @@ enum Place {
     Disc { centre: Vector3<f64>, normal: Vector3<f64>, radii: [f64; 2] },
 }
 
+/// The numbers from which a particle's start follows: random ones, or such that are evenly spread over all particles.
+pub(super) trait StartNumbers {
+    /// A number between 0 and 1.
+    fn share(&mut self) -> f64;
+
+    /// A value of a distribution.
+    fn of(&mut self, distribution: &Distribution) -> f64;
+}
+
+impl StartNumbers for ChaCha8Rng {
+    fn share(&mut self) -> f64 {
+        StandardUniform.sample(self)
+    }
+
+    fn of(&mut self, distribution: &Distribution) -> f64 {
+        distribution.sample(self)
+    }
+}
+
 /// Quantities of particles that a sweep can change, in SI units or degrees.
 pub const SWEEPABLE: [&str; 5] = ["diameter", "speed", "angle_deg", "particle_temperature", "conversion"];
 
@@ -182,16 +201,20 @@ impl Injection {
     pub fn draw(&self, seed: u64, number: u64) -> (f64, State) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(number);
-        let random = &mut random;
-        let position = self.place.draw(random);
-        let diameter = self.diameter.sample(random);
-        let speed = self.speed.sample(random);
-        let angle = self.angle.sample(random).to_radians();
-        let azimuth = self.azimuth.sample(random).to_radians();
+        self.start(&mut random)
+    }
+
+    /// The diameter [m] and the first state that these numbers give.
+    pub(super) fn start(&self, numbers: &mut impl StartNumbers) -> (f64, State) {
+        let position = self.place.start(numbers);
+        let diameter = numbers.of(&self.diameter);
+        let speed = numbers.of(&self.speed);
+        let angle = numbers.of(&self.angle).to_radians();
+        let azimuth = numbers.of(&self.azimuth).to_radians();
         let [first, second] = across(&self.along);
         let sideways = first * azimuth.cos() + second * azimuth.sin();
         let velocity = speed * (self.along * angle.sin() + sideways * angle.cos());
-        let (temperature, conversion) = (self.temperature.sample(random), self.conversion.sample(random));
+        let (temperature, conversion) = (numbers.of(&self.temperature), numbers.of(&self.conversion));
         (diameter, state(&position, &velocity, temperature, conversion))
     }
 
@@ -229,14 +252,13 @@ impl Place {
     }
 
     /// Evenly over the area.
-    fn draw(&self, random: &mut ChaCha8Rng) -> Vector3<f64> {
+    fn start(&self, numbers: &mut impl StartNumbers) -> Vector3<f64> {
         match self {
             Self::Point(point) => *point,
             Self::Disc { centre, normal, radii: [inner, outer] } => {
-                let uniform = |random: &mut ChaCha8Rng| -> f64 { StandardUniform.sample(random) };
-                let share = uniform(random);
+                let share = numbers.share();
                 let radius = (inner * inner + share * (outer * outer - inner * inner)).sqrt();
-                let angle = TAU * uniform(random);
+                let angle = TAU * numbers.share();
                 let [first, second] = across(normal);
                 centre + radius * (first * angle.cos() + second * angle.sin())
             }

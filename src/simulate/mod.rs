@@ -10,6 +10,7 @@ mod burning;
 mod case;
 mod distribution;
 pub mod drag;
+mod even_starts;
 mod flight;
 mod fusion;
 pub mod gas;
@@ -27,6 +28,7 @@ mod weighted;
 pub use burning::{Burning, GAS_CONSTANT};
 pub use case::{Case, Reference, SWEEP_KEYS, Sweep, sweep_unit};
 pub use distribution::Distribution;
+pub use even_starts::even_starts;
 pub use flight::{Body, FlightEnd, FlightError, ParticleMotion, State, fly, position, state, velocity};
 pub use fusion::Fusion;
 pub use injection::{Injection, ParticleWeight};
@@ -34,9 +36,9 @@ pub use near_wall::StayTime;
 pub use profile::Profile;
 pub use shrinkage::Shrinkage;
 pub use surface::{Shape, Surface, SurfaceKind};
-pub use trajectory::{Fate, Hit, Trajectory};
+pub use trajectory::{Fate, Hit, Start, Trajectory};
 pub use wall_deposits::{BinHistory, DepositHistory, DepositSettings, WallHistory};
-pub use weighted::{ExpectedHit, PathTree};
+pub use weighted::{ExpectedHit, PathTree, follow_exactly};
 
 use rayon::prelude::*;
 

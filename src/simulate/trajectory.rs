@@ -86,13 +86,13 @@ pub struct Trajectory {
 /// Follows the particle with this number; the walls stay as they are.
 pub(super) fn follow(case: &Case, walls: Option<&WallDeposits>, number: u64) -> Trajectory {
     let stays = StayTimes::new(case.near_wall_distance, case.surfaces.len());
-    let (mut tracker, trouble) = Tracker::start(case, walls, number, stays);
+    let (start, own) = Start::drawn(case, number);
+    let (mut tracker, trouble) = Tracker::start(case, walls, start, stays);
     let mass = tracker.mass();
     let fate = trouble.map_or_else(|| tracker.travel(), Fate::Unusable);
-    let (index, own) = case.origin(number).unwrap_or_default();
     Trajectory {
         fate,
-        injection: index,
+        injection: start.injection,
         released: case.deposit.map_or(0.0, |deposit| deposit.release(own, tracker.injection.count)),
         diameter: tracker.diameter(),
         weight: tracker.weight,
@@ -123,13 +123,35 @@ fn nothing_known(diameter: f64, injection: &Injection) -> Body {
     }
 }
 
+/// The start of a particle.
+#[derive(Debug, Clone, Copy)]
+pub struct Start {
+    /// Its number, from which its random numbers follow.
+    pub number: u64,
+    /// Index of its injection.
+    pub injection: usize,
+    /// [m].
+    pub diameter: f64,
+    /// As the injection gives it.
+    pub state: State,
+}
+
+impl Start {
+    /// The start of the particle with this number, and its number within its injection.
+    pub fn drawn(case: &Case, number: u64) -> (Self, u64) {
+        let (injection, own) = case.origin(number).unwrap_or_default();
+        let (diameter, state) = case.injections[injection].draw(case.seed, number);
+        (Self { number, injection, diameter, state }, own)
+    }
+}
+
 /// A particle on its way.
 #[derive(Debug, Clone)]
 pub(super) struct Tracker<'a> {
     pub case: &'a Case,
     pub injection: &'a Injection,
     walls: Option<&'a WallDeposits>,
-    pub number: u64,
+    number: u64,
     motion: ParticleMotion<'a>,
     time: f64,
     state: State,
@@ -154,16 +176,14 @@ pub(super) struct WallContact {
 }
 
 impl<'a> Tracker<'a> {
-    /// The particle with this number at its start, and why it cannot be followed, if it cannot.
+    /// A particle at its start, and why it cannot be followed, if it cannot.
     pub fn start(
         case: &'a Case,
         walls: Option<&'a WallDeposits>,
-        number: u64,
+        Start { number, injection, diameter, state: mut start }: Start,
         stays: StayTimes,
     ) -> (Self, Option<String>) {
-        let (index, _) = case.origin(number).unwrap_or_default();
-        let injection = &case.injections[index];
-        let (diameter, mut start) = injection.draw(case.seed, number);
+        let injection = &case.injections[injection];
         let (body, trouble) = match body(case, injection, diameter, start[TEMPERATURE]) {
             Ok(body) => (body, None),
             Err(reason) => (nothing_known(diameter, injection), Some(reason)),
@@ -260,7 +280,8 @@ impl<'a> Tracker<'a> {
         let model = self.case.model_of(self.injection);
         let Some(contact) = self.contact(index, model)? else { return Ok(Some(Fate::Escaped(index))) };
         let WallContact { impact, wall, position, .. } = contact;
-        let outcome = model.resolve(wall, &impact, self.random(self.hits.len() as u64))?;
+        let random = impact_random(self.case, self.number, self.hits.len() as u64);
+        let outcome = model.resolve(wall, &impact, random)?;
         let (time, mass) = (self.time, self.mass());
         let (eroded, density) = (model.erosion(wall, &impact, mass)?, impact.particle_density);
         self.hits.push(Hit { time, surface: index, position, impact, outcome, density, eroded, mass });
@@ -268,11 +289,6 @@ impl<'a> Tracker<'a> {
             return Ok(Some(Fate::Stuck(index)));
         }
         Ok((!self.rebound(&contact, &outcome)).then_some(Fate::GivenUp))
-    }
-
-    /// The random numbers of a hit, by how many the particle had before.
-    pub fn random(&self, before: u64) -> ImpactRng {
-        ImpactRng::new(self.case.seed, (self.number << HIT_BITS) | before)
     }
 
     /// The impact on a surface that was reached, with what lies on the wall; `None` on an exit.
@@ -321,6 +337,11 @@ impl<'a> Tracker<'a> {
         self.spin += frame.spin_axis() * (outcome.spin - impact.spin);
         true
     }
+}
+
+/// The random numbers of a hit of the particle with this number, by how many it had before.
+pub(super) fn impact_random(case: &Case, number: u64, before: u64) -> ImpactRng {
+    ImpactRng::new(case.seed, (number << HIT_BITS) | before)
 }
 
 /// The wall at a hit: its normal into the gas, the direction of sliding, and the two speeds.

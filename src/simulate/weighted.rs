@@ -4,9 +4,10 @@
 //! where a parameter changes. Here a hit with the probability `p` catches the share `p` of what is left of the particle, and `1 - p` flies
 //! on, until almost nothing is left.
 //!
-//! Flights are what takes time, so they are shared by all models that are compared ([`PathTree`]): the path up to the first contact does not
-//! depend on the model; a rebound flies on with the middle of the cell of a grid into which its restitutions and its spin fall. The grid is
-//! shifted for every particle, so that the differences from the middle average out.
+//! [`follow_exactly`] follows one particle so. To compare many models, their flights are shared, which is what takes time ([`PathTree`]): the
+//! path up to the first contact does not depend on the model; a rebound flies on with the middle of the cell of a grid into which its
+//! restitutions and its spin fall. The grid is shifted for every particle, so that the differences from the middle average out. Where a
+//! threshold is sharp some bias is left, which nearly cancels in differences between models.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -16,17 +17,16 @@ use rayon::prelude::*;
 
 use super::case::Case;
 use super::near_wall::StayTimes;
-use super::trajectory::{Fate, Tracker, WallContact};
+use super::trajectory::{Fate, Start, Tracker, WallContact, impact_random};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::model::Model;
+use crate::rng::ImpactRng;
 
 /// A share of a particle below this is not followed further [1].
 const LEAST_SHARE: f64 = 1e-3;
 
-/// Widths of a cell of `e_n`, `e_t` and of the spin over that of rolling with the arriving speed [1].
+/// Widths of a cell of `ln e_n`, of `e_t` and of the spin over that of rolling with the arriving speed [1].
 const CELLS: [f64; 3] = [0.05, 0.05, 0.2];
-/// Most rebounds after each of which a cell is twice as wide: later hits matter less.
-const WIDER: u64 = 2;
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
 const MOST_HITS: u64 = 40;
 /// Most flights of a particle that are kept.
@@ -49,8 +49,11 @@ struct Node<'a> {
 /// The flights of one particle, which all compared models share.
 #[derive(Debug)]
 pub struct PathTree<'a> {
+    case: &'a Case,
     /// The first contact, if there is one, and the number of flights kept after it.
     first: Mutex<(Option<Box<Node<'a>>>, usize)>,
+    /// From which the random numbers of its hits follow.
+    number: u64,
     /// Mass at the start [kg].
     pub mass: f64,
     /// Number of real particles that it represents.
@@ -78,6 +81,27 @@ pub struct ExpectedHit<'a> {
     pub mass: f64,
 }
 
+/// Follows a particle under a model from its start, and hands over each of its hits; its mass at the start [kg].
+///
+/// # Errors
+/// Why it cannot be followed.
+pub fn follow_exactly(
+    case: &Case,
+    start: Start,
+    model: &Model,
+    mut observer: impl FnMut(&ExpectedHit<'_>),
+) -> Result<f64, String> {
+    let ([mass, _], mut node) = Node::first(case, start)?;
+    let mut share = 1.0;
+    for before in 0..case.hit_limit.min(MOST_HITS) {
+        let Some(at) = node else { break };
+        let random = impact_random(case, start.number, before);
+        let outcome = at.decide(model, random, &mut share, &mut observer).map_err(|e| e.to_string())?;
+        node = outcome.and_then(|outcome| at.after_rebound(&outcome));
+    }
+    Ok(mass)
+}
+
 impl<'a> PathTree<'a> {
     /// At most `particles` particles of a case at their first contacts, evenly over all injections, which are numbered one after the
     /// other; or why one cannot be followed.
@@ -85,23 +109,20 @@ impl<'a> PathTree<'a> {
         let count = case.count();
         let wanted = particles.min(count).max(1);
         let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
-        numbers.par_iter().map(|number| Self::new(case, *number)).collect()
+        numbers.par_iter().map(|number| Self::new(case, Start::drawn(case, *number).0)).collect()
     }
 
-    /// Flies the particle with this number to its first contact.
+    /// Flies a particle from its start to its first contact.
     ///
     /// # Errors
     /// Why it cannot be followed.
-    pub fn new(case: &'a Case, number: u64) -> Result<Self, String> {
-        let (tracker, trouble) = Tracker::start(case, None, number, StayTimes::default());
-        if let Some(trouble) = trouble {
-            return Err(trouble);
-        }
-        let (mass, weight, random) = (tracker.mass(), tracker.weight, tracker.random(0));
-        let first = Node::after_flight(tracker)?.map(Box::new);
+    pub fn new(case: &'a Case, start: Start) -> Result<Self, String> {
+        let ([mass, weight], first) = Node::first(case, start)?;
+        let random = impact_random(case, start.number, 0);
         // Streams that no effect draws from.
         let shift = [100, 101, 102].map(|stream| random.uniform(stream));
-        Ok(Self { first: Mutex::new((first, 0)), mass, weight, shift })
+        let first = Mutex::new((first.map(Box::new), 0));
+        Ok(Self { case, first, number: start.number, mass, weight, shift })
     }
 
     /// Follows the particle under a model, and hands over each of its hits.
@@ -118,23 +139,10 @@ impl<'a> PathTree<'a> {
         let Some(mut node) = first.as_deref_mut() else { return Ok(()) };
         let mut passing;
         let mut share = 1.0;
-        for before in 0..node.tracker.case.hit_limit.min(MOST_HITS) {
-            let (tracker, contact) = (&node.tracker, &node.contact);
-            let outcome = model.resolve(contact.wall, &contact.impact, tracker.random(before))?;
-            observer(&ExpectedHit {
-                surface: node.surface,
-                position: contact.position,
-                impact: &contact.impact,
-                outcome: &outcome,
-                share,
-                weight: tracker.weight,
-                mass: tracker.mass(),
-            });
-            share *= 1.0 - outcome.sticking_probability;
-            if share < LEAST_SHARE {
-                return Ok(());
-            }
-            let (cell, middle) = self.cell(&contact.impact, &outcome, before);
+        for before in 0..self.case.hit_limit.min(MOST_HITS) {
+            let random = impact_random(self.case, self.number, before);
+            let Some(outcome) = node.decide(model, random, &mut share, &mut observer)? else { return Ok(()) };
+            let (cell, middle) = self.cell(&node.contact.impact, &outcome);
             if *kept >= KEPT && !node.next.contains_key(&cell) {
                 let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
                 passing = next;
@@ -155,17 +163,16 @@ impl<'a> PathTree<'a> {
     }
 
     /// The cell of an outcome, and the outcome in its middle.
-    fn cell(&self, impact: &Impact, outcome: &Outcome, before: u64) -> (Cell, Outcome) {
-        let widths = CELLS.map(|width| width * f64::from(1u32 << before.min(WIDER)));
+    fn cell(&self, impact: &Impact, outcome: &Outcome) -> (Cell, Outcome) {
         let rolling = 2.0 * impact.tangential_speed / impact.diameter;
         let spin = if rolling > 0.0 { outcome.spin / rolling } else { 0.0 };
-        let values = [outcome.normal_restitution, outcome.tangential_restitution, spin];
+        let values = [outcome.normal_restitution.ln(), outcome.tangential_restitution, spin];
         let cell: Cell =
-            std::array::from_fn(|which| (values[which] / widths[which] + self.shift[which]).floor() as i32);
+            std::array::from_fn(|which| (values[which] / CELLS[which] + self.shift[which]).floor() as i32);
         let [normal_restitution, tangential_restitution, spin] =
-            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * widths[which]);
+            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * CELLS[which]);
         let middle = Outcome {
-            normal_restitution: normal_restitution.max(0.0),
+            normal_restitution: normal_restitution.exp(),
             tangential_restitution: tangential_restitution.max(0.0),
             spin: if outcome.spin == 0.0 { 0.0 } else { spin * rolling },
             ..*outcome
@@ -188,6 +195,43 @@ impl<'a> PathTree<'a> {
 }
 
 impl<'a> Node<'a> {
+    /// Mass at the start [kg] and number of real particles of a particle, and its first contact, if there is one.
+    ///
+    /// # Errors
+    /// Why it cannot be followed.
+    fn first(case: &'a Case, start: Start) -> Result<([f64; 2], Option<Self>), String> {
+        let (tracker, trouble) = Tracker::start(case, None, start, StayTimes::default());
+        let amount = [tracker.mass(), tracker.weight];
+        match trouble {
+            Some(trouble) => Err(trouble),
+            None => Ok((amount, Self::after_flight(tracker)?)),
+        }
+    }
+
+    /// Decides the hit and hands it over; `share` of the particle arrives, and then flies on. `None` when hardly anything does.
+    fn decide(
+        &self,
+        model: &Model,
+        random: ImpactRng,
+        share: &mut f64,
+        observer: &mut impl FnMut(&ExpectedHit<'_>),
+    ) -> Result<Option<Outcome>, ImpactError> {
+        let contact = &self.contact;
+        let outcome = model.resolve(contact.wall, &contact.impact, random)?;
+        observer(&ExpectedHit {
+            surface: self.surface,
+            position: contact.position,
+            impact: &contact.impact,
+            outcome: &outcome,
+            share: *share,
+            weight: self.tracker.weight,
+            mass: self.tracker.mass(),
+        });
+        *share *= 1.0 - outcome.sticking_probability;
+        let flies = *share >= LEAST_SHARE && outcome.normal_restitution > 0.0;
+        Ok(flies.then_some(outcome))
+    }
+
     /// Flies a particle to its next contact with a wall; `None` for one that leaves or stays in the gas.
     ///
     /// # Errors
