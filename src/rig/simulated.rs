@@ -169,12 +169,16 @@ impl<'a> Paths<'a> {
         for block in even_starts(case, particles) {
             let of = |start: &Start| {
                 let mut own = Tally::new(&experiment.readings, &self.walls);
-                let followed =
-                    follow_exactly(case, *start, &case.model, |hit| own.hit(&tallied(case, hit)));
+                let followed = follow_exactly(case, *start, &case.model, |hit| own.hit(&tallied(case, hit)));
                 followed.map(|mass| own.end_particle_of_block(mass)).map(|()| own)
             };
             // A particle that cannot be followed is left out, as `simulate` does.
-            block.par_iter().filter_map(|start| of(start).ok()).collect::<Vec<_>>().into_iter().for_each(|own| tally.add(own));
+            block
+                .par_iter()
+                .filter_map(|start| of(start).ok())
+                .collect::<Vec<_>>()
+                .into_iter()
+                .for_each(|own| tally.add(own));
             tally.end_block();
         }
         tally.predicted()

@@ -3,7 +3,7 @@
 //! State: position [m], velocity [m/s], temperature without the heat of fusion [K] ([`super::fusion`]), carbon conversion [1].
 //! `dx/dt = v`, `dv/dt = (u - v)/tau + g (1 - rho_g/rho_p)`, `m c_p dT/dt = heat`, `dX/dt` from [`super::burning`].
 //! Diameter and density follow the conversion ([`super::shrinkage`]), also where a contact is looked for.
-//! Dormand–Prince 5(4) with its own step control; contacts are found on its dense output by bisection.
+//! Dormand–Prince 5(4) with its own step control; contacts are found on its dense output.
 
 use std::f64::consts::PI;
 
@@ -162,8 +162,10 @@ pub enum FlightError {
 const STEP_LIMIT: usize = 200_000;
 /// Points on a step's dense output at which contact is checked.
 pub(super) const PLACES: u32 = 8;
-/// Halvings of the interval in which a contact lies.
-const HALVINGS: u32 = 60;
+/// Most iterations until a contact is found.
+const ITERATIONS: u32 = 80;
+/// Gap at a contact, in diameters.
+const NEAR: f64 = 1e-10;
 
 /// Follows a particle from `start` at `time` until it touches a surface or the time `until` is reached.
 ///
@@ -273,7 +275,7 @@ where
         if at_start > reach || at_start < -1e-6 * body.diameter {
             continue;
         }
-        if let Some(arrival) = crossing(solver, &gap, [from, to], &after)
+        if let Some(arrival) = crossing(solver, &gap, NEAR * body.diameter, [from, to], [&before, &after])
             && surface.shape.covers(&position(&arrival.1))
             && first.as_ref().is_none_or(|earlier| arrival.0 < earlier.time)
         {
@@ -283,37 +285,67 @@ where
     first
 }
 
-/// The last time and state in front of the surface, when the step leads behind it.
+/// The last time and state in front of the surface, when the step leads behind it: at most `near` [m] away.
 fn crossing<S>(
     solver: &mut S,
     gap: &impl Fn(&State) -> f64,
+    near: f64,
     [from, to]: [f64; 2],
-    after: &State,
+    [before, after]: [&State; 2],
 ) -> Option<(f64, State)>
 where
     S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
 {
-    let mut low = from;
+    let (mut low, mut in_front) = (from, gap(before));
     for place in 1..=PLACES {
-        let mut high =
+        let high =
             if place == PLACES { to } else { from + (to - from) * f64::from(place) / f64::from(PLACES) };
         let there = if place == PLACES { *after } else { solver.interpolate(high).ok()? };
-        if gap(&there) >= 0.0 {
-            low = high;
+        let behind = gap(&there);
+        if behind >= 0.0 {
+            (low, in_front) = (high, behind);
             continue;
         }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
-            }
-            if gap(&solver.interpolate(middle).ok()?) < 0.0 {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
-        return Some((low, solver.interpolate(low).ok()?));
+        let arrival = arrival(
+            |time| Some(gap(&solver.interpolate(time).ok()?)),
+            near,
+            [low, high],
+            [in_front, behind],
+        )?;
+        return Some((arrival, solver.interpolate(arrival).ok()?));
     }
     None
+}
+
+/// A time at which the gap is within 0 to `near`, between one with a positive and one with a negative gap. Illinois method: the secant, with the
+/// gap of an end that stays for a second time halved.
+fn arrival(
+    mut gap: impl FnMut(f64) -> Option<f64>,
+    near: f64,
+    [mut low, mut high]: [f64; 2],
+    [in_front, behind]: [f64; 2],
+) -> Option<f64> {
+    let aim = 0.5 * near;
+    let (mut at_low, mut at_high) = (in_front - aim, behind - aim);
+    let mut last_moved = 0.0;
+    for _ in 0..ITERATIONS {
+        let secant = high - at_high * (high - low) / (at_high - at_low);
+        let time = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
+        if time <= low || time >= high {
+            break;
+        }
+        let here = gap(time)? - aim;
+        if here.abs() <= aim {
+            return Some(time);
+        }
+        if here > 0.0 {
+            (low, at_low) = (time, here);
+            at_high *= if last_moved > 0.0 { 0.5 } else { 1.0 };
+        } else {
+            (high, at_high) = (time, here);
+            at_low *= if last_moved < 0.0 { 0.5 } else { 1.0 };
+        }
+        last_moved = here;
+    }
+    Some(low)
 }

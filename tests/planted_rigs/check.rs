@@ -99,6 +99,28 @@ fn generator_and_predict_agree() {
     }
 }
 
+/// Where particles hit several times, what the diagnosis predicts for the base agrees with the generator: far better than a reading.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "minutes in a debug build")]
+fn the_diagnosis_predicts_the_base() {
+    let seed = random::seed();
+    let nulls = (0..27).map(|index| made(&format!("null#{index}"), seed));
+    for set in nulls.filter(|set| !set.lab().rig.hits_once()).take(4) {
+        let answer = run::run(&set, seed).diagnosis.unwrap();
+        let truths = set.experiments.iter().flat_map(|one| &one.readings);
+        let off: Vec<f64> = truths
+            .zip(answer["readings"].as_array().unwrap())
+            .map(|(truth, said)| {
+                assert!((said["measured"].as_f64().unwrap() - truth.value).abs() < 1e-4, "{}", set.name);
+                (said["base"].as_f64().unwrap() - truth.truth) / truth.sigma
+            })
+            .collect();
+        let mean_square = off.iter().map(|one| one * one).sum::<f64>() / off.len() as f64;
+        println!("{}: {} readings, off by {:.2} standard errors", set.name, off.len(), mean_square.sqrt());
+        assert!(mean_square.sqrt() < 0.5, "NEARWALL_TEST_SEED={seed} {}: {off:?}", set.name);
+    }
+}
+
 /// The set of this name.
 fn made(name: &str, seed: u64) -> Set {
     recipes(3).into_iter().find(|recipe| recipe.name == name).unwrap().make(seed)

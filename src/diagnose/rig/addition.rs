@@ -88,6 +88,11 @@ impl RigAddition {
         matches!(self.kind, Kind::Part(Part::LawParameter(_)))
     }
 
+    /// Whether it is a number that is usually fitted before any effect is looked for: one of the base's own laws, or the yield ratio.
+    pub fn is_usual_number(&self) -> bool {
+        self.is_number() || matches!(self.kind, Kind::Part(Part::Effect(info)) if info.id == "yield-ratio")
+    }
+
     /// Whether it is a curve or a level without a law.
     pub fn is_curve(&self) -> bool {
         matches!(self.kind, Kind::Curve { .. })

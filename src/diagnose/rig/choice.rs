@@ -28,15 +28,16 @@ const LEAST_THRESHOLD: f64 = 2.0;
 pub(super) const DISTINGUISHABLE: f64 = 2.0;
 /// Gain by which a curve must lead the best law to take its place [nats].
 const BEYOND_LAWS: f64 = 3.0;
-/// Loss on experiments that a cause has not seen for which it is left out [nats].
+/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
+/// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
 const CARRIES: f64 = 0.5;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
-/// Most other beginnings of a choice that are tried.
+/// Most other beginnings of a choice that are tried, besides that with numbers that are usually fitted.
 const OTHER_STARTS: usize = 3;
 /// Gain for which a cause is exchanged [nats].
 const EXCHANGED: f64 = 1.5;
-/// Difference in gain below which the candidate with fewer parameters is taken [nats].
+/// Difference in gain below which the candidate with fewer parameters is taken, and of these a number of the base's own laws [nats].
 const EQUAL: f64 = 0.5;
 /// One cause, and one more for so many readings; and most causes.
 const READINGS_A_CAUSE: usize = 4;
@@ -49,8 +50,9 @@ const CHANGES: f64 = 0.05;
 const TOGETHER: f64 = 0.98;
 /// Most candidates kept of a round that finds none significant.
 const HINTS: usize = 4;
-/// First size of the simplex, and iterations a parameter.
+/// First size of the simplex, and iterations a parameter: for a law that is to be compared with others first, and for one that is promising.
 const SIMPLEX: f64 = 0.08;
+const FIRST_ITERATIONS: u64 = 8;
 const ITERATIONS: u64 = 25;
 /// Resamples for the certainty of a cause; it is named with this share of the gain of the best candidate.
 const RESAMPLES: u64 = 200;
@@ -147,15 +149,18 @@ impl<'a> RigStudy<'a> {
     pub fn choose(&self, weights: &[f64]) -> Result<Choice, String> {
         let nothing =
             Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
-        let mut choice = self.grown(nothing, weights)?;
+        let mut choice = self.grown(nothing.clone(), weights, &|_| true)?;
         if choice.rounds.len() > 1 && self.room(&choice.additions, weights)? > ROOM_TO_EXCHANGE {
-            let mut best = self.grown(self.exchanged(choice.clone(), weights)?, weights)?;
-            for start in other_starts(&choice).into_iter().take(OTHER_STARTS) {
+            let exchanged = self.exchanged(choice.clone(), weights)?;
+            let mut best = self.grown(exchanged, weights, &|_| true)?;
+            let mut starts = vec![self.grown(nothing, weights, &RigAddition::is_usual_number)?];
+            starts.extend(other_starts(&choice).into_iter().take(OTHER_STARTS));
+            for start in starts {
                 if self.room(&best.additions, weights)? < ROOM_TO_EXCHANGE {
                     break;
                 }
                 let start = Choice { additions: self.fit(&start.additions, weights), ..start };
-                let grown = self.grown(start, weights)?;
+                let grown = self.grown(start, weights, &|_| true)?;
                 if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) + EXCHANGED {
                     best = grown;
                 }
@@ -171,8 +176,13 @@ impl<'a> RigStudy<'a> {
         self.score(additions, weights) - parameters as f64
     }
 
-    /// The choice with further causes, one a round, until none is significant.
-    fn grown(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
+    /// The choice with further causes of those `allowed`, one a round, until none is significant.
+    fn grown(
+        &self,
+        mut choice: Choice,
+        weights: &[f64],
+        allowed: &dyn Fn(&RigAddition) -> bool,
+    ) -> Result<Choice, String> {
         let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
         let most = most.min(self.forward.most_causes());
         // What the largest gain without an effect has to be exceeded by; known after the first round.
@@ -185,7 +195,8 @@ impl<'a> RigStudy<'a> {
             let shelf = self.shelf(&choice.additions)?;
             let null = NullGains::new(&shelf, &self.data, weights, self.seed);
             threshold = null.quantile(1.0 - self.level);
-            let scored = self.first_look(&shelf, &null, weights, &[]);
+            let mut scored = self.first_look(&shelf, &null, weights, &[]);
+            scored.retain(|one| allowed(&one.addition));
             let least = scored.iter().map(|one| one.p_value).fold(1.0, f64::min);
             choice.structure[1] = least;
             if choice.rounds.is_empty() {
@@ -229,7 +240,9 @@ impl<'a> RigStudy<'a> {
             // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
             let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
             let seen = if causes > 1 { parameters as f64 } else { 0.0 };
-            if with > without + seen - CARRIES {
+            let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
+            let beyond = (self.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
+            if with > without + seen - CARRIES * beyond {
                 break;
             }
             choice.rounds.pop();
@@ -353,10 +366,27 @@ impl<'a> RigStudy<'a> {
     /// The promising candidates, each fitted beside the additions.
     fn fit_all(&self, additions: &[RigAddition], scored: &[Scored], weights: &[f64]) -> Vec<Scored> {
         let base = self.score(additions, weights);
+        let fitted = |one: &Scored, iterations: u64| {
+            let joint = |at: &[f64]| {
+                let mut all = additions.to_vec();
+                all.push(one.addition.moved(at));
+                -self.score(&all, weights)
+            };
+            let start = one.addition.at.clone();
+            let (at, cost) = descend(joint, &start, SIMPLEX, iterations * start.len() as u64);
+            (self.progress)();
+            let gain = -cost - base - start.len() as f64;
+            Scored { addition: one.addition.moved(&at), gain, p_value: one.p_value, prepared: None }
+        };
+        // The places are coarse: where an effect is strong, the best law may lie between them and seem worse than none.
+        let mut scored: Vec<Scored> = scored
+            .iter()
+            .map(|one| if one.addition.is_curve() { one.clone() } else { fitted(one, FIRST_ITERATIONS) })
+            .collect();
+        scored.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         let promising = MOST_FITTED.map(|(curve, most)| {
             let mut own =
                 scored.iter().filter(move |one| one.addition.is_curve() == curve).cloned().peekable();
-            // The places are coarse: where an effect is strong, the gain of a candidate between them may be much larger.
             let best = own.peek().map_or(0.0, |one| one.gain);
             let least = (best - SHORTLIST).min(PROMISING * best);
             own.filter(move |one| one.gain > least).take(most).collect::<Vec<Scored>>()
@@ -370,20 +400,11 @@ impl<'a> RigStudy<'a> {
             .collect();
         promising.extend(left_out);
         let fit = |one: Scored| {
-            let joint = |at: &[f64]| {
-                let mut all = additions.to_vec();
-                all.push(one.addition.moved(at));
-                -self.score(&all, weights)
-            };
-            let start = one.addition.at.clone();
-            let (at, cost) = descend(joint, &start, SIMPLEX, ITERATIONS * start.len() as u64);
-            let gain = -cost - base - start.len() as f64;
-            (self.progress)();
-            let addition = one.addition.moved(&at);
-            let all = [additions, std::slice::from_ref(&addition)].concat();
+            let one = fitted(&one, ITERATIONS);
+            let all = [additions, std::slice::from_ref(&one.addition)].concat();
             let predicted = predict(self.forward, &all).ok();
             let prepared = predicted.map(|predicted| Arc::new(self.data.prepare(&predicted)));
-            Scored { addition, gain, p_value: one.p_value, prepared }
+            Scored { prepared, ..one }
         };
         let mut fitted: Vec<Scored> = promising.into_iter().map(fit).collect();
         fitted.retain(|one| one.gain > 0.0);
@@ -481,7 +502,7 @@ fn winner(fitted: &[Scored]) -> Option<Scored> {
         let own = fitted.iter().filter(|one| one.addition.is_curve() == curve);
         let best = own.clone().map(|one| one.gain).fold(f64::NEG_INFINITY, f64::max);
         let equal = own.filter(|one| one.gain > best - EQUAL);
-        equal.min_by_key(|one| one.addition.axes.len()).cloned()
+        equal.min_by_key(|one| (one.addition.axes.len(), !one.addition.is_number())).cloned()
     };
     match (best_of(false), best_of(true)) {
         (Some(law), Some(curve)) if curve.gain > law.gain + BEYOND_LAWS => Some(curve),
