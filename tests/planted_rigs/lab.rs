@@ -80,12 +80,7 @@ impl Lab {
         let setting = |index: usize, rng: &mut SetRng| -> Vec<f64> {
             let one = |(place, (knob, (low, high))): (usize, &(Knob, (f64, f64)))| {
                 let share = if place == 0 { (index as f64 + rng.unit()) / count as f64 } else { rng.unit() };
-                let value = if matches!(knob, Knob::Speed | Knob::Size) {
-                    low * (high / low).powf(share)
-                } else {
-                    low + (high - low) * share
-                };
-                rounded(value)
+                Self::within(*knob, (*low, *high), share)
             };
             self.knobs.iter().enumerate().map(one).collect()
         };
@@ -94,6 +89,16 @@ impl Lab {
             all.swap(i, rng.below(i + 1));
         }
         all
+    }
+
+    /// The value of a setting at this share of its range.
+    pub fn within(knob: Knob, (low, high): (f64, f64), share: f64) -> f64 {
+        let value = if matches!(knob, Knob::Speed | Knob::Size) {
+            low * (high / low).powf(share)
+        } else {
+            low + (high - low) * share
+        };
+        rounded(value)
     }
 
     /// Particles of an experiment.

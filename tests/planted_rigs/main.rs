@@ -3,6 +3,8 @@
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with` scores the command on all sets. It takes 10 to 20
 //!   minutes and does not reach all its gates yet: `docs/rig-diagnosis.md` has the table.
 //! - `cargo test --release --test planted_rigs -- --nocapture clear` checks that clear effects are noticed.
+//! - `cargo test --release --test planted_rigs -- --nocapture advice` compares laboratories that follow the advice on what to measure
+//!   next with laboratories that do not.
 //! - `cargo test --release --test planted_rigs agree` compares the generator with `nearwall simulate`.
 //!
 //! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_RIGS_SETS` multiplies the sets (3: every cause at every
@@ -15,6 +17,7 @@
     reason = "clippy.toml's leave for tests does not reach their helpers"
 )]
 
+mod advice;
 #[allow(dead_code, reason = "impacts use all of it")]
 #[path = "../planted_effects/campaign.rs"]
 mod campaign;
@@ -93,6 +96,31 @@ fn clear_effects_are_noticed() {
         let silent = matches!(one.verdict, score::Verdict::Missed | score::Verdict::Failed);
         assert!(!silent, "NEARWALL_TEST_SEED={seed} {}: {}", one.name, one.said.join(" "));
     }
+}
+
+/// The advice on what to measure next identifies the cause in fewer impacts than a uniform design. A few rigs scatter much, so the seeds
+/// are fixed unless one is given; the campaign takes any.
+#[test]
+#[cfg_attr(
+    debug_assertions,
+    ignore = "minutes in a debug build: cargo test --release --test planted_rigs -- --nocapture advice"
+)]
+fn advice_saves_impacts() {
+    let seeds =
+        if std::env::var_os("NEARWALL_TEST_SEED").is_some() { vec![random::seed()] } else { vec![1, 2] };
+    let all: Vec<_> = seeds.iter().flat_map(|seed| advice::compare(*seed, 4)).collect();
+    let [advice, uniform] = advice::report(&all);
+    assert!(advice < 0.9 * uniform, "NEARWALL_TEST_SEED={seeds:?} advice {advice}, uniform {uniform}");
+}
+
+/// The same on many rigs: `NEARWALL_ADVICE_SETS` of them, 24 unless set.
+#[test]
+#[ignore = "10 minutes: cargo test --release --test planted_rigs -- --nocapture --ignored many_rigs"]
+fn advice_saves_impacts_on_many_rigs() {
+    let seed = random::seed();
+    let wanted = std::env::var("NEARWALL_ADVICE_SETS").map_or(24, |count| count.parse().unwrap());
+    let [advice, uniform] = advice::report(&advice::compare(seed, wanted));
+    assert!(advice < 0.9 * uniform, "NEARWALL_TEST_SEED={seed} advice {advice}, uniform {uniform}");
 }
 
 /// Writes every set to the folder `NEARWALL_RIGS_OUT`.

@@ -72,13 +72,27 @@ pub fn run(set: &Set, seed: u64) -> Answer {
     answer
 }
 
+/// Has experiments diagnosed.
+pub fn diagnose(lab: &Lab, experiments: &[Experiment], folder: &Path, seed: u64) -> Result<Value, String> {
+    write_rig(lab, &lab.csv(experiments, false), folder);
+    let _ = std::fs::remove_dir_all(folder.join("out"));
+    let seed = (seed % 1_000_000).to_string();
+    let arguments = ["diagnose", "measured.csv", "--case", "case.toml", "--out", "out", "--seed", &seed];
+    answer(folder, &nearwall(folder, &arguments))
+}
+
 /// Writes the case, the model and the measurements.
-pub fn write(set: &Set, folder: &Path) {
-    let lab = set.lab();
+fn write_rig(lab: &Lab, measured: &str, folder: &Path) {
     let text = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
-    text("measured.csv", &set.csv());
+    text("measured.csv", measured);
     text("base.toml", &lab.model());
     text("case.toml", &lab.rig.case(&lab.source, "base.toml", CASE_COUNT, 1));
+}
+
+/// Writes a set, and the truth about it.
+pub fn write(set: &Set, folder: &Path) {
+    write_rig(set.lab(), &set.csv(), folder);
+    let text = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
     text("truth.txt", &format!("{:?} {:?}\n{:?}\n", set.plan.names, set.plan.parameters, set.oracle));
 }
 

@@ -75,7 +75,7 @@ pub fn judge(set: &Set, answer: &Answer) -> Judgement {
 }
 
 /// Findings, numbers of the base, and what is left open (`?`).
-fn said(diagnosis: &Value) -> Vec<String> {
+pub fn said(diagnosis: &Value) -> Vec<String> {
     let mut all: Vec<String> = list(diagnosis, "findings").map(|one| text(one, "cause").into()).collect();
     all.extend(list(diagnosis, "calibration").map(|one| format!("calibration:{}", text(one, "key"))));
     all.extend(list(diagnosis, "undecided").map(|one| format!("?{}", one.as_str().unwrap_or_default())));
@@ -85,6 +85,15 @@ fn said(diagnosis: &Value) -> Vec<String> {
     all
 }
 
+/// Whether one of these names is the first finding, or a number of the base where there is none.
+pub fn is_first(names: &[&str], diagnosis: &Value) -> bool {
+    let mut numbers = list(diagnosis, "calibration").map(|one| format!("calibration:{}", text(one, "key")));
+    match diagnosis["findings"].get(0) {
+        Some(first) => is_one_of(names, text(first, "cause"), &variables(first)),
+        None => numbers.any(|name| is_one_of(names, &name, &[])),
+    }
+}
+
 fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     let names = &set.plan.names;
     let first = diagnosis["findings"].get(0);
@@ -92,13 +101,9 @@ fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     if set.is_null() {
         return if first.is_none() && numbers.next().is_none() { Verdict::Right } else { Verdict::Wrong };
     }
-    let is_first = match first {
-        Some(first) => is_one_of(names, text(first, "cause"), &variables(first)),
-        None => numbers.by_ref().any(|name| is_one_of(names, &name, &[])),
-    };
     let beside = first.map(|first| list(first, "indistinguishable_from")).into_iter().flatten();
     let mut open = beside.chain(list(diagnosis, "undecided")).filter_map(Value::as_str);
-    if is_first {
+    if is_first(names, diagnosis) {
         Verdict::Right
     } else if open.any(|name| is_one_of(names, name, &[])) {
         Verdict::CannotTell

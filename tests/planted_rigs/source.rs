@@ -148,6 +148,26 @@ impl Source {
         if knob == Knob::GasSpeed { format!("\"[{value:e}, 0, 0]\"") } else { format!("{value:e}") }
     }
 
+    /// The value in such a cell.
+    pub fn value(cell: &str) -> f64 {
+        cell.trim_start_matches('[').split(',').next().unwrap().parse().unwrap()
+    }
+
+    /// The present value of a setting.
+    pub fn get(&self, knob: Knob) -> f64 {
+        match knob {
+            Knob::Speed => self.speed.middle,
+            Knob::Angle => self.angle.middle,
+            Knob::Size => self.diameter.middle,
+            Knob::Temperature => self.temperature.middle,
+            Knob::Conversion => self.conversion,
+            Knob::WallTemperature => self.wall_temperature,
+            Knob::Layer => self.layer,
+            Knob::GasSpeed => self.gas_speed,
+            Knob::GasTemperature => self.gas_temperature,
+        }
+    }
+
     /// Applies a setting.
     pub fn set(&mut self, knob: Knob, value: f64) {
         *match knob {

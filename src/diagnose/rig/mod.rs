@@ -12,6 +12,7 @@ mod next;
 mod noise;
 mod places;
 mod posterior;
+mod proposals;
 mod report;
 mod shelf;
 mod significance;
@@ -86,6 +87,7 @@ pub fn diagnose_rig(
     let valid = valid(forward);
     let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
     let choice = study.choose(&all).map_err(RigError::Undecided)?;
+    let whole = choice.clone();
     let (mut choice, not_carried) = study.carried(choice, &write, &all).map_err(RigError::Undecided)?;
     let undecided = report::undecided(&choice);
     if !undecided.is_empty() {
@@ -105,7 +107,7 @@ pub fn diagnose_rig(
         }
     };
     let next = match case {
-        Some(case) => next::next_experiments(&study, &choice, &posterior, data, case),
+        Some(case) => next::next_experiments(&study, &choice, &whole, &posterior, data, case),
         None => Ok(Vec::new()),
     };
     let next = next.map_err(RigError::Undecided)?;

@@ -1,46 +1,45 @@
 //! What to measure next: the experiments that best tell the surviving causes apart and best pin their numbers.
 //!
-//! An experiment is worth what it is expected to tell. For causes `h` with weights `w_h` (their likelihoods) that predict `m_h` for a reading with
-//! the error `s`, that is about `sum w_h (m_h - m)² / (2 s²)` [nats] with `m = sum w_h m_h`; for the numbers of the chosen cause, with the
-//! variance `V` of its prediction over draws of the fit, `ln(1 + V/s²)/2`. The count that decides between the two leading causes is
-//! that at which the expected ratio of their likelihoods is `e³`.
+//! Every surviving cause `h` with the weight `w_h` (its likelihood) predicts a reading with some values of its numbers that the file leaves
+//! open: mean `m_h`, variance `v_h`. For a reading with the variance `s²` the expected information on which cause it is, is about
+//! `sum w_h (m_h - m)² / (2 (s² + v))` [nats] with `m = sum w_h m_h` and `v = sum w_h v_h`, and that on the numbers of the first cause
+//! `ln(1 + v_1/s²)/2`. The first rows tell the causes apart as well as possible, the others are worth most in both. Each row is the best one
+//! when those above it are measured: their readings shrink the spread of all predictions (linear regression on the expected readings).
+//!
+//! The count that decides between two causes is that at which the expected ratio of their likelihoods is `e³`.
 
 use serde::Serialize;
 
 use super::addition::RigAddition;
-use super::choice::{Choice, RigStudy, Scored, moved};
+use super::choice::{Choice, RigStudy, Round, Scored, moved};
 use super::posterior::Posterior;
+use super::proposals::proposals;
+use super::report::is_rival;
 use super::shelf::predict;
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
-use crate::rig::{CaseText, Predicted, RigCase, Simulated};
+use crate::rig::{CaseText, RigCase, Simulated};
 
 /// Causes within this of the best are asked to be told apart [nats], and most of them.
 const SURVIVES: f64 = 6.0;
 const MOST_CAUSES: usize = 4;
-/// Draws of the fit.
-const DRAWS: usize = 12;
-/// Most proposals, and most rows of the table.
-const PROPOSALS: usize = 36;
+/// Values of the numbers of the first cause, and of any other one.
+const DRAWS: [usize; 2] = [12, 5];
+/// Most rows of the table.
 const ROWS: usize = 8;
-/// Particles followed in each.
+/// Particles followed in each proposal.
 const PARTICLES: u64 = 200;
 /// Count of particles that is assumed where the file states neither counts nor errors.
 const COUNT: f64 = 100.0;
 /// Logarithm of the ratio of likelihoods that decides [nats].
 const DECIDES: f64 = 3.0;
-/// Least expected information of a row [nats].
+/// Readings that decide beyond this many usual ones are not worth waiting for.
+const MOST_REPEATS: f64 = 100.0;
+/// The first rows only tell causes apart, as long as one is expected to tell so much [nats]: a rival of a small weight is worth little, but
+/// as long as it is there the cause has no name.
+const TELLING: usize = 4;
+const LEAST_TOLD: f64 = 0.002;
+/// Least expected information of any other row [nats].
 const LEAST: f64 = 0.02;
-/// Keys of a case that a rig can usually vary, and the factors or steps to try.
-const LEVERS: [(&str, [f64; 2], bool); 8] = [
-    ("particles.speed", [0.5, 2.0], true),
-    ("particles.speed.mean", [0.5, 2.0], true),
-    ("particles.diameter", [0.5, 2.0], true),
-    ("particles.diameter.mean", [0.5, 2.0], true),
-    ("particles.angle_deg", [-20.0, -40.0], false),
-    ("particles.angle_deg.mean", [-20.0, -40.0], false),
-    ("particles.temperature", [-50.0, 50.0], false),
-    ("particles.conversion", [-0.2, 0.2], false),
-];
 
 /// An experiment worth making.
 #[derive(Debug, Clone, Serialize)]
@@ -49,35 +48,83 @@ pub struct NextExperiment {
     pub settings: Vec<(String, String)>,
     /// What to observe, as in `captured@target`.
     pub observable: String,
-    /// Particles to count for it, or repeats of a reading with the usual error.
-    pub repeats: u64,
+    /// Particles to count for it, or repeats of a reading with the usual error; `None` where the leading causes predict nearly the same, so
+    /// that no count decides between them.
+    pub repeats: Option<u64>,
+    /// Standard error to reach with these repeats [1], where the file states errors.
+    pub error: Option<f64>,
     /// Expected information on which cause it is, with as many particles as usual in the file [nats].
     pub tells_causes: f64,
-    /// The same on the numbers of the chosen cause [nats].
+    /// The same on the numbers of the first cause [nats].
     pub pins_numbers: f64,
     /// What each surviving cause predicts [1].
     pub predicted: Vec<(String, f64)>,
 }
 
-/// The error of a reading.
+/// The error of a usual reading.
 #[derive(Debug, Clone, Copy)]
 enum Usual {
-    Count(f64),
+    /// A share of so many particles.
+    Share(f64),
+    /// Stated error [1].
     Error(f64),
+    /// A fitted scatter of a single particle or reading [1], and the number of these.
+    Scatter(f64, f64),
 }
 
-/// Ranks experiments near those of the file and along the usual levers of a rig; the most telling first.
+impl Usual {
+    /// Variance of a reading about a prediction, of one particle or one repeat.
+    fn variance(self, mean: f64) -> f64 {
+        let p = mean.clamp(0.01, 0.99);
+        match self {
+            Self::Share(_) => p * (1.0 - p),
+            Self::Error(error) => error * error,
+            Self::Scatter(scatter, _) => scatter * scatter,
+        }
+    }
+
+    /// Particles or repeats of a usual reading.
+    fn count(self) -> f64 {
+        match self {
+            Self::Error(_) => 1.0,
+            Self::Share(count) | Self::Scatter(_, count) => count,
+        }
+    }
+}
+
+/// A surviving cause.
+struct Cause {
+    name: String,
+    /// Likelihood over that of the first cause.
+    weight: f64,
+    /// Likely values of its numbers, all of one weight; the first is the fit.
+    states: Vec<Vec<RigAddition>>,
+}
+
+/// A reading that could be made.
+#[derive(Debug)]
+struct Possible {
+    /// Index of the proposal and of the column.
+    place: [usize; 2],
+    usual: Usual,
+    /// What each state of each cause predicts, one cause after the other.
+    predicted: Vec<f64>,
+}
+
+/// Ranks experiments over the settings of the file and along the usual levers of a rig; the most telling first. `whole` is the choice with
+/// the causes that did not help to predict unseen experiments.
 ///
 /// # Errors
 /// Why the cases of the proposals cannot be simulated.
 pub(super) fn next_experiments(
     study: &RigStudy<'_>,
     choice: &Choice,
+    whole: &Choice,
     posterior: &Posterior,
     data: &RigMeasurements,
     text: &CaseText,
 ) -> Result<Vec<NextExperiment>, String> {
-    let columns = columns(data);
+    let columns = columns(study, choice, data)?;
     let experiments: Vec<Experiment> = proposals(data, text)
         .into_iter()
         .enumerate()
@@ -90,83 +137,279 @@ pub(super) fn next_experiments(
     let cases: Vec<RigCase> =
         experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
     let forward = Simulated::new(&cases, PARTICLES)?;
-    let causes = causes(choice);
+    let mut causes = causes(study, choice, whole, posterior)?;
+    let mut by_state: Vec<Vec<f64>> = Vec::new();
+    for cause in &mut causes {
+        let mut possible = Vec::new();
+        for state in std::mem::take(&mut cause.states) {
+            if let Ok(predicted) = predict(&forward, &state) {
+                by_state.push(predicted.iter().map(|one| one.value).collect());
+                possible.push(state);
+            }
+        }
+        cause.states = possible;
+    }
+    causes.retain(|cause| !cause.states.is_empty());
     if causes.is_empty() || cases.is_empty() {
         return Ok(Vec::new());
     }
-    let by_cause: Vec<Vec<Predicted>> =
-        causes.iter().filter_map(|(_, additions, _)| predict(&forward, additions).ok()).collect();
-    if by_cause.len() < causes.len() {
-        return Ok(Vec::new());
-    }
-    let drawn = posterior.draws(DRAWS, study.seed);
-    let by_draw: Vec<Vec<Predicted>> =
-        drawn.iter().filter_map(|at| predict(&forward, &moved(&choice.additions, at)).ok()).collect();
-    let total: f64 = causes.iter().map(|(.., weight)| weight).sum();
-    let weights: Vec<f64> = causes.iter().map(|(.., weight)| weight / total).collect();
-    let mut rows = Vec::new();
-    for (place, case) in cases.iter().enumerate() {
-        for (column, (reading, usual)) in columns.iter().enumerate() {
+    let ensemble = Ensemble::new(&causes);
+    let mut options = Vec::new();
+    for place in 0..cases.len() {
+        for (column, (_, usual)) in columns.iter().enumerate() {
             let index = place * columns.len() + column;
-            let means: Vec<f64> = by_cause.iter().map(|all| all[index].value).collect();
-            if means.iter().any(|mean| !mean.is_finite()) {
-                continue;
+            let predicted: Vec<f64> = by_state.iter().map(|all| all[index]).collect();
+            if predicted.iter().all(|value| value.is_finite()) {
+                options.push(Possible { place: [place, column], usual: *usual, predicted });
             }
-            let mean: f64 = means.iter().zip(&weights).map(|(mean, weight)| mean * weight).sum();
-            let one = variance(mean, Usual::Count(1.0), usual);
-            let usual_variance = variance(mean, *usual, usual);
-            let between: f64 =
-                means.iter().zip(&weights).map(|(m, weight)| weight * (m - mean).powi(2)).sum();
-            let apart = means.get(1).map_or(0.0, |other| (means[0] - other).powi(2));
-            let repeats =
-                if apart > 0.0 { (2.0 * DECIDES * one / apart).ceil().max(1.0) } else { f64::INFINITY };
-            let values: Vec<f64> =
-                by_draw.iter().map(|all| all[index].value).filter(|v| v.is_finite()).collect();
-            let row = NextExperiment {
-                settings: case.settings().to_vec(),
-                observable: reading.column.clone(),
-                repeats: if repeats < 1e6 { repeats as u64 } else { usual_count(usual) },
-                tells_causes: 0.5 * between / usual_variance,
-                pins_numbers: 0.5 * (spread(&values) / usual_variance).ln_1p(),
-                predicted: causes.iter().zip(&means).map(|((name, ..), m)| (name.clone(), *m)).collect(),
-            };
-            rows.push(row);
         }
     }
-    rows.retain(|row| row.tells_causes.max(row.pins_numbers) > LEAST);
-    let worth = |row: &NextExperiment| row.tells_causes + row.pins_numbers;
-    rows.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-    rows.truncate(ROWS);
+    let mut rows: Vec<NextExperiment> = Vec::new();
+    while rows.len() < ROWS {
+        let tells = |one: &&Possible| rows.len() < TELLING && ensemble.tells(one) > LEAST_TOLD;
+        let telling = options.iter().filter(tells).max_by(|a, b| {
+            let [a, b] = [a, b].map(|one| ensemble.tells(one));
+            a.total_cmp(&b)
+        });
+        let worth = |one: &Possible| ensemble.tells(one) + ensemble.pins(one);
+        let most = || options.iter().max_by(|a, b| worth(a).total_cmp(&worth(b)));
+        let Some(best) = telling.or_else(|| most().filter(|one| worth(one) > LEAST)) else { break };
+        let [place, column] = best.place;
+        let best = Possible { predicted: best.predicted.clone(), ..*best };
+        let settings = cases[place].settings().to_vec();
+        let index = place * columns.len() + column;
+        let unseen = Possible { predicted: by_state.iter().map(|all| all[index]).collect(), ..best };
+        rows.push(ensemble.row(&unseen, &causes, settings, &columns[column].0.column));
+        options.retain(|one| one.place[0] != place);
+        options.iter_mut().for_each(|one| ensemble.measured(one, &best));
+    }
     Ok(rows)
 }
 
-/// The surviving causes: name, additions, and likelihood as a weight.
-fn causes(choice: &Choice) -> Vec<(String, Vec<RigAddition>, f64)> {
-    let Some(last) = choice.rounds.last() else {
-        return choice.hints.iter().take(MOST_CAUSES).map(hint).chain([nothing()]).collect();
-    };
-    let before = &choice.additions[..choice.additions.len().saturating_sub(1)];
-    let best = last.winner.gain;
-    let other = |one: &Scored| {
-        let mut additions = before.to_vec();
-        additions.push(one.addition.clone());
-        (one.addition.name(), additions, (one.gain - best).exp())
-    };
-    let mut all = vec![(last.winner.addition.name(), choice.additions.clone(), 1.0)];
-    all.extend(last.others.iter().filter(|one| one.gain > best - SURVIVES).take(MOST_CAUSES).map(other));
-    all
+/// Weights of the states of all causes.
+struct Ensemble {
+    /// By state: its weight, which sums up to one, and its cause.
+    states: Vec<(f64, usize)>,
+    /// By cause.
+    weights: Vec<f64>,
 }
 
-fn hint(one: &Scored) -> (String, Vec<RigAddition>, f64) {
-    (one.addition.name(), vec![one.addition.clone()], one.gain.exp())
+impl Ensemble {
+    fn new(causes: &[Cause]) -> Self {
+        let total: f64 = causes.iter().map(|cause| cause.weight).sum();
+        let weights: Vec<f64> = causes.iter().map(|cause| cause.weight / total).collect();
+        let of = |(place, cause): (usize, &Cause)| {
+            let count = cause.states.len();
+            vec![(weights[place] / count as f64, place); count]
+        };
+        Self { states: causes.iter().enumerate().flat_map(of).collect(), weights }
+    }
+
+    /// Mean of each cause.
+    fn means(&self, one: &Possible) -> Vec<f64> {
+        let mut means = vec![0.0; self.weights.len()];
+        for ((weight, cause), value) in self.states.iter().zip(&one.predicted) {
+            means[*cause] += weight * value;
+        }
+        means.iter().zip(&self.weights).map(|(sum, weight)| sum / weight.max(f64::MIN_POSITIVE)).collect()
+    }
+
+    fn mean(&self, one: &Possible) -> f64 {
+        self.states.iter().zip(&one.predicted).map(|((weight, _), value)| weight * value).sum()
+    }
+
+    /// Variance of each cause by its numbers.
+    fn spreads(&self, one: &Possible) -> Vec<f64> {
+        let means = self.means(one);
+        let mut spreads = vec![0.0; self.weights.len()];
+        for ((weight, cause), value) in self.states.iter().zip(&one.predicted) {
+            spreads[*cause] += weight * (value - means[*cause]).powi(2);
+        }
+        spreads.iter().zip(&self.weights).map(|(sum, weight)| sum / weight.max(f64::MIN_POSITIVE)).collect()
+    }
+
+    /// Variance of a usual reading.
+    fn noise(&self, one: &Possible) -> f64 {
+        one.usual.variance(self.mean(one)) / one.usual.count()
+    }
+
+    /// Expected information on the cause [nats].
+    fn tells(&self, one: &Possible) -> f64 {
+        let mean = self.mean(one);
+        let weighted = |values: &[f64]| values.iter().zip(&self.weights).map(|(v, w)| v * w).sum::<f64>();
+        let between: Vec<f64> = self.means(one).iter().map(|m| (m - mean).powi(2)).collect();
+        0.5 * weighted(&between) / (self.noise(one) + weighted(&self.spreads(one)))
+    }
+
+    /// Expected information on the numbers of the first cause [nats].
+    fn pins(&self, one: &Possible) -> f64 {
+        let spread = self.spreads(one).first().copied().unwrap_or(0.0);
+        0.5 * (spread / self.noise(one)).ln_1p()
+    }
+
+    /// Changes the predictions of `one` to those once `other` has been measured: their regression on `other` is removed as far as the noise
+    /// of that reading allows.
+    fn measured(&self, one: &mut Possible, other: &Possible) {
+        let [mean, other_mean] = [self.mean(one), self.mean(other)];
+        let (mut both, mut square) = (0.0, 0.0);
+        for (place, (weight, _)) in self.states.iter().enumerate() {
+            let from = other.predicted[place] - other_mean;
+            both += weight * from * (one.predicted[place] - mean);
+            square += weight * from * from;
+        }
+        let noise = self.noise(other);
+        let slope = both / (square + noise) / (1.0 + (noise / (square + noise)).sqrt());
+        for (value, seen) in one.predicted.iter_mut().zip(&other.predicted) {
+            *value -= slope * (seen - other_mean);
+        }
+    }
+
+    fn row(
+        &self,
+        one: &Possible,
+        causes: &[Cause],
+        settings: Vec<(String, String)>,
+        column: &str,
+    ) -> NextExperiment {
+        let means = self.means(one);
+        let single = one.usual.variance(self.mean(one));
+        let apart = means.get(1).map_or(0.0, |other| (means[0] - other).powi(2));
+        let repeats = (2.0 * DECIDES * single / apart).ceil().max(1.0);
+        let repeats = (repeats <= MOST_REPEATS * one.usual.count()).then_some(repeats as u64);
+        let error = match (one.usual, repeats) {
+            (Usual::Error(error), Some(repeats)) => Some(error / (repeats as f64).sqrt()),
+            _ => None,
+        };
+        NextExperiment {
+            settings,
+            observable: column.to_owned(),
+            repeats,
+            error,
+            tells_causes: self.tells(one),
+            pins_numbers: self.pins(one),
+            predicted: causes.iter().zip(&means).map(|(cause, mean)| (cause.name.clone(), *mean)).collect(),
+        }
+    }
 }
 
-fn nothing() -> (String, Vec<RigAddition>, f64) {
-    ("no further effect".to_owned(), Vec::new(), 1.0)
+/// The surviving causes, the first as likely as any other.
+fn causes(
+    study: &RigStudy<'_>,
+    choice: &Choice,
+    whole: &Choice,
+    posterior: &Posterior,
+) -> Result<Vec<Cause>, String> {
+    let drawn = posterior.draws(DRAWS[0] - 1, study.seed);
+    let drawn = drawn.iter().map(|at| moved(&choice.additions, at));
+    let nothing = |weight: f64| {
+        let states = std::iter::once(choice.additions.clone()).chain(drawn.clone()).collect();
+        Cause { name: "no further effect".to_owned(), weight, states }
+    };
+    let dropped = whole.rounds.get(choice.rounds.len());
+    if choice.rounds.is_empty() || dropped.is_some() {
+        // Nothing is named, or not all that explains the file: the best candidates, and none of them.
+        let candidates: Vec<&Scored> = match dropped {
+            Some(round) => std::iter::once(&round.winner).chain(rivals(round)).collect(),
+            None => choice.hints.iter().filter(|one| !one.addition.is_curve()).collect(),
+        };
+        let candidates = if candidates.is_empty() { choice.hints.iter().collect() } else { candidates };
+        let best = candidates.iter().map(|one| one.gain).fold(0.0, f64::max);
+        let mut all = Vec::new();
+        for one in candidates.into_iter().take(MOST_CAUSES) {
+            let states = states(study, &choice.additions, one, DRAWS[1])?;
+            all.push(Cause { name: one.addition.name(), weight: (one.gain - best).exp(), states });
+        }
+        // It is not significant, so none of them is as likely as the best one.
+        all.insert(all.len().min(1), nothing(1.0));
+        return Ok(all);
+    }
+    let mut all = Vec::new();
+    for (place, round) in choice.rounds.iter().enumerate().rev() {
+        let last = place + 1 == choice.rounds.len();
+        let before: &[RigAddition] = choice.additions.get(..place).unwrap_or_default();
+        let after: &[RigAddition] = choice.additions.get(place + 1..).unwrap_or_default();
+        if last {
+            let mut own: Vec<Vec<RigAddition>> = drawn.clone().collect();
+            // Undecided causes are not among the additions.
+            match choice.additions.is_empty() {
+                true => own = states(study, &[], &round.winner, DRAWS[0])?,
+                false => own.insert(0, choice.additions.clone()),
+            }
+            all.push(Cause { name: round.winner.addition.name(), weight: 1.0, states: own });
+        }
+        for other in rivals(round).take(MOST_CAUSES) {
+            let states = match last {
+                true => states(study, before, other, DRAWS[1])?,
+                false => vec![[before, std::slice::from_ref(&other.addition), after].concat()],
+            };
+            let weight = (other.gain - round.winner.gain).exp().min(1.0);
+            all.push(Cause { name: other.addition.name(), weight, states });
+        }
+    }
+    let first = all.remove(0);
+    all.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+    all.truncate(MOST_CAUSES);
+    all.insert(0, first);
+    if all.len() == 1 {
+        all.extend(alternatives(choice));
+    }
+    Ok(all)
+}
+
+/// Where no rival is left: the last cause's removal, which weighs as little as its gain allows.
+fn alternatives(choice: &Choice) -> Vec<Cause> {
+    let Some(round) = choice.rounds.last() else { return Vec::new() };
+    let before = choice.additions.get(..choice.rounds.len() - 1).unwrap_or_default().to_vec();
+    let weight = (-round.winner.gain).exp().min(1.0);
+    vec![Cause { name: "no further effect".to_owned(), weight, states: vec![before] }]
+}
+
+/// The candidates of a round that its winner could be mistaken for, the best first.
+fn rivals(round: &Round) -> impl Iterator<Item = &Scored> {
+    let survives = |one: &&Scored| one.gain > round.winner.gain - SURVIVES;
+    round.others.iter().filter(survives).filter(|one| is_rival(round, one))
+}
+
+/// A candidate beside additions: the fit, and places of its search range as often as they are likely.
+fn states(
+    study: &RigStudy<'_>,
+    before: &[RigAddition],
+    one: &Scored,
+    count: usize,
+) -> Result<Vec<Vec<RigAddition>>, String> {
+    let with = |addition: &RigAddition| [before, std::slice::from_ref(addition)].concat();
+    let all = vec![1.0; study.data.experiments];
+    let values = study.data.values();
+    let shelf = study.shelf(before)?;
+    let key = one.addition.key();
+    let places = shelf.candidates.iter().filter(|candidate| candidate.blank.key() == key);
+    let places = places.flat_map(|candidate| &candidate.places);
+    let mut scored: Vec<(f64, &[f64])> =
+        places.map(|place| (study.data.score(&place.prepared, &values, &all), place.at.as_slice())).collect();
+    scored.push((study.score(&with(&one.addition), &all), &one.addition.at));
+    let best = scored.iter().map(|(score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
+    let total: f64 = scored.iter().map(|(score, _)| (score - best).exp()).sum();
+    let step = total / (count - 1).max(1) as f64;
+    let (mut sum, mut wanted) = (0.0, 0.5 * step);
+    let mut states = vec![with(&one.addition)];
+    for (score, at) in scored {
+        sum += (score - best).exp();
+        while sum > wanted && states.len() < count {
+            states.push(with(&one.addition.moved(at)));
+            wanted += step;
+        }
+    }
+    Ok(states)
 }
 
 /// The observables of the file with the usual error of each.
-fn columns(data: &RigMeasurements) -> Vec<(RigReading, Usual)> {
+fn columns(
+    study: &RigStudy<'_>,
+    choice: &Choice,
+    data: &RigMeasurements,
+) -> Result<Vec<(RigReading, Usual)>, String> {
+    let weights = vec![1.0; study.data.experiments];
+    let scatter = study.data.scatter(&predict(study.forward, &choice.additions)?, &weights);
     let mut columns: Vec<(RigReading, Usual)> = Vec::new();
     let all = || data.experiments.iter().flat_map(|one| &one.readings);
     for reading in all() {
@@ -174,100 +417,24 @@ fn columns(data: &RigMeasurements) -> Vec<(RigReading, Usual)> {
             continue;
         }
         let own = || all().filter(|one| one.column == reading.column);
-        let counts = median(own().filter_map(|one| one.count).collect());
-        let errors = median(own().filter_map(|one| one.error).collect());
-        let usual = match (errors, counts) {
+        let count = median(own().filter_map(|one| one.count).collect());
+        let error = median(own().filter_map(|one| one.error).collect());
+        let kind = study.data.kinds.iter().position(|kind| *kind == reading.quantity.kind());
+        let usual = match (error, kind.and_then(|kind| scatter.get(kind))) {
             (Some(error), _) => Usual::Error(error),
-            (None, count) => Usual::Count(count.unwrap_or(COUNT)),
+            (None, Some(scatter)) if count.is_none() || !reading.quantity.is_share() => {
+                Usual::Scatter(*scatter, count.unwrap_or(1.0))
+            }
+            _ => Usual::Share(count.unwrap_or(COUNT)),
         };
         columns.push((reading.clone(), usual));
     }
-    columns
-}
-
-fn usual_count(usual: &Usual) -> u64 {
-    match usual {
-        Usual::Count(count) => *count as u64,
-        Usual::Error(_) => 1,
-    }
-}
-
-/// Variance of a reading about a share: of one particle or one repeat, or as usual.
-fn variance(mean: f64, wanted: Usual, usual: &Usual) -> f64 {
-    let p = mean.clamp(0.01, 0.99);
-    match (wanted, usual) {
-        (Usual::Error(error), _) => error * error,
-        (_, Usual::Error(error)) => error * error,
-        (Usual::Count(count), _) => p * (1.0 - p) / count,
-    }
+    Ok(columns)
 }
 
 fn median(mut values: Vec<f64>) -> Option<f64> {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
-}
-
-fn spread(values: &[f64]) -> f64 {
-    let count = values.len().max(1) as f64;
-    let mean = values.iter().sum::<f64>() / count;
-    values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count
-}
-
-/// Settings worth trying: those of the file, halfway between neighbours, beyond the ends, and one lever at a time from the middle.
-fn proposals(data: &RigMeasurements, text: &CaseText) -> Vec<Vec<(String, String)>> {
-    let known: Vec<&Vec<(String, String)>> = data.experiments.iter().map(|one| &one.settings).collect();
-    let mut all: Vec<Vec<(String, String)>> = known.iter().map(|one| (*one).clone()).collect();
-    for pair in known.windows(2) {
-        for (from, to, share) in [(pair[0], pair[1], 0.5), (pair[0], pair[1], -0.5), (pair[1], pair[0], -0.5)]
-        {
-            all.extend(between(from, to, share));
-        }
-    }
-    let middle = known.get(known.len() / 2).map_or(Vec::new(), |one| (*one).clone());
-    for (key, steps, factor) in LEVERS {
-        let cell = middle.iter().find(|(known, _)| known == key).and_then(|(_, cell)| cell.parse().ok());
-        let Some(value) = cell.or_else(|| text.number(key)) else { continue };
-        for step in steps {
-            let moved: f64 = if factor { value * step } else { value + step };
-            let mut settings = middle.clone();
-            settings.retain(|(known, _)| known != key);
-            settings.push((key.to_owned(), cell_of(moved)));
-            all.push(settings);
-        }
-    }
-    let mut distinct: Vec<Vec<(String, String)>> = Vec::new();
-    for one in all {
-        if !distinct.contains(&one) {
-            distinct.push(one);
-        }
-    }
-    distinct.truncate(PROPOSALS);
-    distinct
-}
-
-/// Settings on the line from one experiment to another: 0 is the first, 1 the second; `None` if words differ.
-fn between(from: &[(String, String)], to: &[(String, String)], share: f64) -> Option<Vec<(String, String)>> {
-    if from.len() != to.len() {
-        return None;
-    }
-    let mut moved = Vec::new();
-    for ((key, one), (other_key, other)) in from.iter().zip(to) {
-        if key != other_key {
-            return None;
-        }
-        let cell = match (one.parse::<f64>(), other.parse::<f64>()) {
-            _ if one == other => one.clone(),
-            (Ok(a), Ok(b)) => cell_of(a + share * (b - a)),
-            _ => return None,
-        };
-        moved.push((key.clone(), cell));
-    }
-    Some(moved)
-}
-
-/// A number with four digits.
-fn cell_of(value: f64) -> String {
-    format!("{value:.3e}").parse::<f64>().map_or_else(|_| value.to_string(), |rounded| rounded.to_string())
 }
 
 /// The proposals as a table that can be filled in: the columns of the data file.
@@ -287,7 +454,8 @@ pub(super) fn table(rows: &[NextExperiment]) -> String {
     let mut header: Vec<String> = vec!["experiment".to_owned()];
     header.extend(keys.iter().map(|key| (*key).clone()));
     for observable in &observables {
-        header.extend([(*observable).clone(), format!("{observable}_n")]);
+        let stated = rows.iter().any(|row| row.observable == **observable && row.error.is_some());
+        header.extend([(*observable).clone(), format!("{observable}_{}", if stated { "err" } else { "n" })]);
     }
     header.extend(["tells_causes_nats".to_owned(), "pins_numbers_nats".to_owned()]);
     let mut lines = vec![header];
@@ -296,8 +464,12 @@ pub(super) fn table(rows: &[NextExperiment]) -> String {
         let cell = |key: &String| row.settings.iter().find(|(known, _)| known == key).map(|(_, cell)| cell);
         cells.extend(keys.iter().map(|key| cell(key).cloned().unwrap_or_default()));
         for observable in &observables {
-            let own = **observable == row.observable;
-            cells.extend([String::new(), if own { row.repeats.to_string() } else { String::new() }]);
+            let wanted = match (row.error, row.repeats) {
+                _ if **observable != row.observable => String::new(),
+                (Some(error), _) => format!("{error:.2e}"),
+                (None, repeats) => repeats.map_or(String::new(), |repeats| repeats.to_string()),
+            };
+            cells.extend([String::new(), wanted]);
         }
         cells.extend([format!("{:.2}", row.tells_causes), format!("{:.2}", row.pins_numbers)]);
         lines.push(cells);
@@ -310,4 +482,57 @@ pub(super) fn table(rows: &[NextExperiment]) -> String {
         }
     };
     lines.iter().map(|cells| cells.iter().map(quote).collect::<Vec<_>>().join(",") + "\n").collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cause(name: &str, states: usize) -> Cause {
+        Cause { name: name.to_owned(), weight: 1.0, states: vec![Vec::new(); states] }
+    }
+
+    fn shares(predicted: &[f64]) -> Possible {
+        Possible { place: [0, 0], usual: Usual::Share(100.0), predicted: predicted.to_vec() }
+    }
+
+    #[test]
+    fn no_count_decides_where_two_causes_predict_the_same() {
+        let causes = [cause("one", 2), cause("other", 1)];
+        let ensemble = Ensemble::new(&causes);
+        let row =
+            |predicted: &[f64]| ensemble.row(&shares(predicted), &causes, Vec::new(), "captured@target");
+        let same = row(&[0.3, 0.7, 0.5]);
+        assert_eq!((same.repeats, same.tells_causes), (None, 0.0));
+        assert!(same.pins_numbers > 1.0, "{same:?}");
+        assert!(table(&[same]).ends_with("next 1,,,0.00,1.40\n"));
+        // 2 ln(e³) p (1 - p) / 0.2².
+        let apart = row(&[0.4, 0.4, 0.6]);
+        assert_eq!(apart.repeats, Some(38));
+        assert_eq!(apart.pins_numbers, 0.0);
+    }
+
+    #[test]
+    fn stated_errors_ask_for_an_error() {
+        let causes = [cause("one", 1), cause("other", 1)];
+        let one = Possible { usual: Usual::Error(0.02), ..shares(&[0.5, 0.51]) };
+        let row = Ensemble::new(&causes).row(&one, &causes, Vec::new(), "mean_e_n@target");
+        assert_eq!(row.repeats, Some(24));
+        let text = table(&[row]);
+        assert!(text.starts_with("experiment,mean_e_n@target,mean_e_n@target_err,"), "{text}");
+        assert!(text.contains("next 1,,4.08e-3,"), "{text}");
+    }
+
+    #[test]
+    fn a_reading_that_tells_the_same_is_worth_less_once_the_first_is_measured() {
+        let causes = [cause("one", 2), cause("other", 2)];
+        let ensemble = Ensemble::new(&causes);
+        let first = shares(&[0.3, 0.3, 0.7, 0.7]);
+        let (mut same, mut new) = (shares(&[0.3, 0.3, 0.7, 0.7]), shares(&[0.3, 0.7, 0.3, 0.7]));
+        let pins = ensemble.pins(&new);
+        ensemble.measured(&mut same, &first);
+        ensemble.measured(&mut new, &first);
+        assert!(ensemble.tells(&same) < 0.1 * ensemble.tells(&first));
+        assert_eq!(ensemble.pins(&new), pins);
+    }
 }

@@ -70,7 +70,7 @@ fn cube(dimensions: usize) -> Vec<Vec<f64>> {
 }
 
 /// The element of a Halton sequence with this base.
-fn halton(mut number: usize, base: usize) -> f64 {
+pub(super) fn halton(mut number: usize, base: usize) -> f64 {
     let (mut value, mut digit) = (0.0, 1.0);
     while number > 0 {
         digit /= base as f64;

@@ -121,16 +121,19 @@ pub(super) fn undecided(choice: &Choice) -> Vec<String> {
 /// Causes that the readings cannot tell from the winner of a round.
 fn rivals(round: &Round) -> Vec<String> {
     let close = round.others.iter().filter(|other| other.gain > round.winner.gain - DISTINGUISHABLE);
-    // A free curve over an input contains the laws over it.
-    let own = round.winner.addition.variables();
-    let contained = |other: &&Scored| {
-        other.addition.is_curve() && other.addition.variables().iter().any(|v| own.contains(v))
-    };
-    let level = |other: &&Scored| other.addition.is_curve() && other.addition.variables().is_empty();
     let mut names: Vec<String> =
-        close.filter(|other| !contained(other) && !level(other)).map(|other| other.addition.name()).collect();
+        close.filter(|other| is_rival(round, other)).map(|other| other.addition.name()).collect();
     names.dedup();
     names
+}
+
+/// Whether a candidate can be another cause than the winner of a round, and not only a freer form of it.
+pub(super) fn is_rival(round: &Round, other: &Scored) -> bool {
+    // A free curve over an input contains the laws over it.
+    let own = round.winner.addition.variables();
+    let inputs = other.addition.variables();
+    let freer = inputs.is_empty() || inputs.iter().any(|input| own.contains(input));
+    !(other.addition.is_curve() && freer)
 }
 
 /// Factor on the variance of the likelihood by a misfit that the additions leave.

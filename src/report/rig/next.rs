@@ -33,7 +33,7 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     page.note(
         "The first factor is the expected ratio of the likelihoods of the causes, the second the ratio of the errors of the extended \
          model's prediction before and after, each for a reading with the usual count or error of the file. Particles or repeats: how many \
-         decide between the two leading causes, where they differ.",
+         decide between the two leading causes; none where these predict nearly the same.",
     );
 }
 
@@ -52,7 +52,7 @@ fn row(place: usize, next: &NextExperiment) -> Vec<String> {
         predicted.join(", "),
         factor(next.tells_causes),
         factor(next.pins_numbers),
-        next.repeats.to_string(),
+        next.repeats.map_or(String::new(), |repeats| repeats.to_string()),
     ]
 }
 

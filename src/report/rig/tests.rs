@@ -195,7 +195,8 @@ fn a_cause_on_several_walls_is_shown_in_full() {
     found.next = vec![NextExperiment {
         settings: vec![("particles.temperature".into(), "345".into())],
         observable: "captured@lid".into(),
-        repeats: 60,
+        repeats: Some(60),
+        error: None,
         tells_causes: 2.0,
         pins_numbers: 0.7,
         predicted: vec![("melting-transition".into(), 0.5), ("level:capture".into(), 0.25)],
