@@ -55,7 +55,7 @@ pub struct Start {
     said: String,
 }
 
-/// What a laboratory came to.
+/// What a laboratory needed.
 pub struct Course {
     /// Impacts after the first experiments, over those of one of them.
     pub spent: f64,

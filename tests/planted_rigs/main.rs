@@ -108,7 +108,7 @@ fn clear_effects_are_noticed() {
 fn advice_saves_impacts() {
     let seeds =
         if std::env::var_os("NEARWALL_TEST_SEED").is_some() { vec![random::seed()] } else { vec![1, 2] };
-    let all: Vec<_> = seeds.iter().flat_map(|seed| advice::compare(*seed, 4)).collect();
+    let all: Vec<_> = seeds.iter().flat_map(|seed| advice::compare(*seed, 3)).collect();
     let [advice, uniform] = advice::report(&all);
     assert!(advice < 0.9 * uniform, "NEARWALL_TEST_SEED={seeds:?} advice {advice}, uniform {uniform}");
 }

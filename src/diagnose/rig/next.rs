@@ -505,7 +505,7 @@ mod tests {
         let same = row(&[0.3, 0.7, 0.5]);
         assert_eq!((same.repeats, same.tells_causes), (None, 0.0));
         assert!(same.pins_numbers > 1.0, "{same:?}");
-        assert!(table(&[same]).ends_with("next 1,,,0.00,1.40\n"));
+        assert!(table(&[same]).ends_with("next 1,,,0.00,1.42\n"));
         // 2 ln(e³) p (1 - p) / 0.2².
         let apart = row(&[0.4, 0.4, 0.6]);
         assert_eq!(apart.repeats, Some(38));
