@@ -15,10 +15,10 @@ function value(line) { sub(/^[^:]*: */, "", line); sub(/,$/, "", line); gsub(/"/
 
 BEGIN {
     getline line < (runs "/MEASURED.csv"); n = split(line, head, ",")
-    for (i = 4; i <= n; i += 2) column[++columns] = head[i]
+    for (i = 5; i <= n; i += 2) column[++columns] = head[i]
     while ((getline line < (runs "/MEASURED.csv")) > 0) {
         n = split(line, cell, ","); name[++rows] = cell[1]
-        for (i = 4; i <= n; i += 2) measured[cell[1], i/2 - 1] = cell[i]
+        for (i = 5; i <= n; i += 2) measured[cell[1], (i - 3)/2] = cell[i]
     }
     read_deposits(runs "/deposits-base.csv", base)
     read_deposits(runs "/deposits-after.csv", after)
