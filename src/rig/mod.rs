@@ -10,6 +10,7 @@
 mod captures;
 mod case_text;
 mod draws;
+mod recorded_flight;
 mod replayed;
 pub mod sensitivity;
 mod simulated;
