@@ -16,6 +16,7 @@ mod map;
 mod pages;
 mod published;
 mod real_measurements;
+mod recorded;
 mod report;
 mod runner;
 mod simulate;
