@@ -330,7 +330,9 @@ fn arrival(
     let mut last_moved = 0.0;
     for _ in 0..ITERATIONS {
         let secant = high - at_high * (high - low) / (at_high - at_low);
-        let time = if secant > low && secant < high { secant } else { 0.5 * (low + high) };
+        // A particle that starts at the wall has to leave it first.
+        let leaves = at_low > aim && secant > low && secant < high;
+        let time = if leaves { secant } else { 0.5 * (low + high) };
         if time <= low || time >= high {
             break;
         }

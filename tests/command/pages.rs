@@ -84,7 +84,7 @@ fn page_of_a_rig() {
              radius = 10\ntemperature = 295\n"
         )
     };
-    let case = "model = \"base.toml\"\n[run]\nseed = 1\ntime_limit = 1\ngravity = [0, 0, 0]\n\
+    let case = "model = \"base.toml\"\n[run]\nseed = 1\ntime_limit = 0.06\ngravity = [0, 0, 0]\n\
                 [gas]\nfield = \"uniform\"\nvelocity = [0, 0, 0]\ntemperature = 300\ndensity = 1e-9\nviscosity = 1e-15\n\
                 conductivity = 1e-9\nheat_capacity = 1000\n\
                 [particles]\ncount = 50\nposition = { shape = \"point\", at = [0, 0, 0.01] }\ndirection = [0, 0, -1]\n\

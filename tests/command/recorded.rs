@@ -32,7 +32,7 @@ fn particle(batch: u64, number: u64, mean: u32, capture: fn(f64) -> f64) -> (f64
 
 /// Writes the case of an experiment: a record with its tables.
 fn record(case: &Path, mean: u32, capture: fn(f64) -> f64) {
-    const PARCELS: u64 = 60;
+    const PARCELS: u64 = 400;
     let (mut rows, mut hits, mut sticks) = (String::new(), 0, 0);
     for parcel in 0..PARCELS {
         let (temperature, caught) = particle(u64::from(mean), parcel, mean, capture);
