@@ -209,7 +209,7 @@ impl Flight {
         while there(high) < 0.0 {
             low = high;
             high *= 2.0;
-            if !(high < LONGEST * self.time) {
+            if high >= LONGEST * self.time || high.is_nan() {
                 return None;
             }
         }
