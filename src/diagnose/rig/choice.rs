@@ -31,6 +31,8 @@ const BEYOND_LAWS: f64 = 3.0;
 /// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
 /// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
 const CARRIES: f64 = 0.5;
+/// Most that any cause may lose there [nats].
+const MOST_LOST: f64 = 4.0;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
 /// Most other beginnings of a choice that are tried, besides that with numbers that are usually fitted.
@@ -242,7 +244,7 @@ impl<'a> RigStudy<'a> {
             let seen = if causes > 1 { parameters as f64 } else { 0.0 };
             let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
             let beyond = (self.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
-            if with > without + seen - CARRIES * beyond {
+            if with > without + seen - (CARRIES * beyond).min(MOST_LOST) {
                 break;
             }
             choice.rounds.pop();
