@@ -12,8 +12,8 @@
 //!   *without a record*.
 //! - If a rebound changes, later impacts are an approximation. Between flat parallel walls the flight begins again with the new rebound
 //!   ([`Flight`]): the next impact has other speeds and another place, or is missed. Elsewhere later impacts stay as recorded. The relative
-//!   change of the rebound velocity, of a flight begun again its square, is the share of what follows that is doubtful; it adds to the
-//!   variance of the prediction ([`Tally::set_doubt`]).
+//!   change of the rebound velocity, of a flight begun again a quarter of its square, is the share of what follows that is doubtful; it adds
+//!   to the variance of the prediction ([`Tally::set_doubt`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -32,8 +32,7 @@ use crate::rng::ImpactRng;
 const MOST_IMPACTS: u64 = 20_000;
 /// Probability of capture of the base from which too few parcels go on to stand for the others [1].
 const CERTAIN: f64 = 0.99;
-/// What is doubtful after a flight that begins again, over the square of the relative change of the rebound [1]: reruns of the tutorial
-/// `hiddenDeposit` differ from the replay by less than half of that.
+/// What is doubtful after a flight that begins again, over the square of the relative change of the rebound [1]; assumed.
 const FLOWN_AGAIN: f64 = 0.25;
 /// Largest share of a parcel that arrives [1]: one parcel must not stand for more.
 const MOST_SHARE: f64 = 100.0;

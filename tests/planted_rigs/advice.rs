@@ -27,7 +27,7 @@ const COUNTS: (f64, f64) = (8.0, 30.0);
 /// Particles in a trial of a plan.
 const TRIAL: usize = 200;
 /// Impacts of a round over those of a first experiment; the last is the cap.
-const ROUNDS: [f64; 3] = [2.0, 4.0, 8.0];
+const ROUNDS: [f64; 4] = [2.0, 2.0, 4.0, 6.0];
 /// Most experiments of a round.
 const EXPERIMENTS: usize = 4;
 /// Settings that a laboratory can move when the advice asks for it.
@@ -62,6 +62,13 @@ pub struct Course {
     pub found: bool,
     /// What was named after each round.
     pub said: Vec<String>,
+}
+
+impl Course {
+    /// Impacts until the cause is found; as many again are assumed to be missing where it is not.
+    fn cost(&self) -> f64 {
+        if self.found { self.spent } else { 2.0 * self.spent }
+    }
 }
 
 /// Both laboratories on one rig, the one that follows the advice first.
@@ -292,7 +299,7 @@ pub fn report(all: &[Comparison]) -> [f64; 2] {
             cell(uniform)
         );
     }
-    let sum = |place: usize| all.iter().map(|one| one.courses[place].spent).sum::<f64>();
+    let sum = |place: usize| all.iter().map(|one| one.courses[place].cost()).sum::<f64>();
     let found = |place: usize| all.iter().filter(|one| one.courses[place].found).count();
     println!(
         "| all, in first experiments | | {} (found {}) | {} (found {}) |\n",

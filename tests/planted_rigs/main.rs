@@ -116,7 +116,7 @@ fn advice_saves_impacts() {
 /// The same on many rigs: `NEARWALL_ADVICE_SETS` of them, 24 unless set.
 #[test]
 #[ignore = "10 minutes: cargo test --release --test planted_rigs -- --nocapture --ignored many_rigs"]
-fn advice_saves_impacts_on_many_rigs() {
+fn many_rigs_follow_the_advice() {
     let seed = random::seed();
     let wanted = std::env::var("NEARWALL_ADVICE_SETS").map_or(24, |count| count.parse().unwrap());
     let [advice, uniform] = advice::report(&advice::compare(seed, wanted));

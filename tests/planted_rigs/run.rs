@@ -56,14 +56,9 @@ pub fn run(set: &Set, seed: u64) -> Answer {
     let folder = folder.path.as_path();
     write(set, folder);
     let start = Instant::now();
-    let (seed_text, draws) = ((seed % 1_000_000).to_string(), DRAWS.to_string());
-    let arguments = ["diagnose", "measured.csv", "--case", "case.toml", "--out", "out", "--seed", &seed_text];
     let with_draws = set.lab().rig.hits_once() && !set.is_null();
-    let arguments: Vec<&str> =
-        arguments.into_iter().chain(if with_draws { vec!["--draws", &draws] } else { vec![] }).collect();
-    let output = nearwall(folder, &arguments);
+    let diagnosis = diagnose_files(folder, seed, with_draws.then_some(DRAWS));
     let seconds = start.elapsed().as_secs_f64();
-    let diagnosis = answer(folder, &output);
     let truth = set.fresh.iter().map(|one| one.readings.iter().map(|r| r.truth).collect()).collect();
     let mut answer = Answer { diagnosis, seconds, predicted: None, truth, bands: vec![] };
     if !set.is_null() && folder.join("out/extended.toml").exists() {
@@ -76,8 +71,16 @@ pub fn run(set: &Set, seed: u64) -> Answer {
 pub fn diagnose(lab: &Lab, experiments: &[Experiment], folder: &Path, seed: u64) -> Result<Value, String> {
     write_rig(lab, &lab.csv(experiments, false), folder);
     let _ = std::fs::remove_dir_all(folder.join("out"));
+    diagnose_files(folder, seed, None)
+}
+
+/// Has the files in a folder diagnosed.
+fn diagnose_files(folder: &Path, seed: u64, draws: Option<usize>) -> Result<Value, String> {
     let seed = (seed % 1_000_000).to_string();
-    let arguments = ["diagnose", "measured.csv", "--case", "case.toml", "--out", "out", "--seed", &seed];
+    let draws = draws.map(|count| count.to_string());
+    let mut arguments =
+        vec!["diagnose", "measured.csv", "--case", "case.toml", "--out", "out", "--seed", &seed];
+    arguments.extend(draws.iter().flat_map(|count| ["--draws", count.as_str()]));
     answer(folder, &nearwall(folder, &arguments))
 }
 

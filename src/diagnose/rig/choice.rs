@@ -1,5 +1,6 @@
 //! The choice of causes: round after round the candidate that explains most beside what was found.
 
+use std::cell::LazyCell;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rand_chacha::ChaCha8Rng;
@@ -26,7 +27,7 @@ const PROMISING: f64 = 0.4;
 const LEAST_THRESHOLD: f64 = 2.0;
 /// Gain by which a cause must lead another one to be told from it [nats]: a ratio of likelihoods of 7.
 pub(super) const DISTINGUISHABLE: f64 = 2.0;
-/// Gain by which a curve must lead the best law to take its place [nats].
+/// What a curve must gain beyond a law to be named before it [nats].
 const BEYOND_LAWS: f64 = 3.0;
 /// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
 /// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
@@ -41,12 +42,17 @@ const OTHER_STARTS: usize = 3;
 const EXCHANGED: f64 = 1.5;
 /// Difference in gain below which the candidate with fewer parameters is taken, and of these a number of the base's own laws [nats].
 const EQUAL: f64 = 0.5;
+/// What a law that is not in the model yet must gain beyond one of its numbers to be named first, and what it must gain beyond that if no
+/// experiment changes one of its inputs on purpose [nats]: odds of 3 to 1 each. Over such an input a law is hardly more than a level.
+const NEW_LAW: f64 = 1.1;
+const UNCHANGED: f64 = 1.1;
 /// One cause, and one more for so many readings; and most causes.
-const READINGS_A_CAUSE: usize = 4;
+const READINGS_A_CAUSE: usize = 3;
 const MOST_CAUSES: usize = 5;
 /// How far beyond the range of an input a law's place is searched, as a share of the range.
 const BEYOND: f64 = 0.5;
-/// Least standard deviation of an input's mean over the experiments, as a share of its range, for a curve over it.
+/// Least standard deviation of an input's mean over the experiments, as a share of its range, from which on it is changed on purpose: for a curve
+/// over it.
 const CHANGES: f64 = 0.05;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
@@ -63,8 +69,10 @@ const NEARLY: f64 = 0.75;
 /// A fitted candidate.
 #[derive(Debug, Clone)]
 pub(super) struct Scored {
-    /// Fitted beside what was found before.
+    /// Fitted together with what was found before.
     pub addition: RigAddition,
+    /// What was found before, with the numbers of that fit; empty before it.
+    beside: Vec<RigAddition>,
     /// Gain in log likelihood less the number of parameters [nats].
     pub gain: f64,
     /// Corrected for all candidates.
@@ -110,6 +118,8 @@ pub(super) struct RigStudy<'a> {
     pub level: f64,
     pub seed: u64,
     pub progress: &'a (dyn Fn() + Sync),
+    /// Inputs that vary over the impacts of an experiment, but not from one experiment to the other.
+    unchanged: Vec<&'static str>,
     /// Predictions of the candidates beside causes, by the names of these.
     shelves: Mutex<Vec<(Vec<String>, Arc<Shelf>)>>,
 }
@@ -117,7 +127,15 @@ pub(super) struct RigStudy<'a> {
 impl<'a> RigStudy<'a> {
     pub fn new(forward: &'a dyn Forward, level: f64, seed: u64, progress: &'a (dyn Fn() + Sync)) -> Self {
         let data = Data::new(forward.experiments());
-        Self { forward, data, level, seed, progress, shelves: Mutex::default() }
+        let unchanged = INPUTS
+            .iter()
+            .enumerate()
+            .filter(|(place, input)| {
+                range(forward, input.name).is_some_and(|range| !changes(&means(forward, *place), range))
+            })
+            .map(|(_, input)| input.name)
+            .collect();
+        Self { forward, data, level, seed, progress, unchanged, shelves: Mutex::default() }
     }
 
     /// The predictions of all candidates beside these additions. A later call with the same causes gets the same predictions, whatever
@@ -151,31 +169,54 @@ impl<'a> RigStudy<'a> {
     pub fn choose(&self, weights: &[f64]) -> Result<Choice, String> {
         let nothing =
             Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
-        let mut choice = self.grown(nothing.clone(), weights, &|_| true)?;
-        if choice.rounds.len() > 1 && self.room(&choice.additions, weights)? > ROOM_TO_EXCHANGE {
-            let exchanged = self.exchanged(choice.clone(), weights)?;
-            let mut best = self.grown(exchanged, weights, &|_| true)?;
-            let mut starts = vec![self.grown(nothing, weights, &RigAddition::is_usual_number)?];
-            starts.extend(other_starts(&choice).into_iter().take(OTHER_STARTS));
-            for start in starts {
-                if self.room(&best.additions, weights)? < ROOM_TO_EXCHANGE {
-                    break;
+        let first = self.grown(nothing.clone(), weights, &|_| true)?;
+        if first.rounds.len() < 2 {
+            return Ok(self.without_redundant(first, weights));
+        }
+        let numbers = LazyCell::new(|| self.grown(nothing.clone(), weights, &RigAddition::is_usual_number));
+        let mut best = first;
+        if best.additions.iter().any(RigAddition::is_curve) {
+            // A curve over an input takes what several laws explain together.
+            for start in [nothing.clone(), LazyCell::force(&numbers).clone()?] {
+                let laws = self.grown(start, weights, &|one| !one.is_curve())?;
+                let grown = self.grown(laws, weights, &|_| true)?;
+                if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) - EXCHANGED {
+                    best = grown;
                 }
+            }
+        }
+        if self.room(&best.additions, weights)? > ROOM_TO_EXCHANGE {
+            let exchanged = self.exchanged(best.clone(), weights)?;
+            let others = other_starts(&best);
+            best = self.grown(exchanged, weights, &|_| true)?;
+            let numbers_first = std::iter::once_with(|| LazyCell::force(&numbers).clone());
+            let mut starts = numbers_first.chain(others.into_iter().take(OTHER_STARTS).map(Ok));
+            while self.room(&best.additions, weights)? >= ROOM_TO_EXCHANGE
+                && let Some(start) = starts.next()
+            {
+                let start = start?;
                 let start = Choice { additions: self.fit(&start.additions, weights), ..start };
                 let grown = self.grown(start, weights, &|_| true)?;
                 if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) + EXCHANGED {
                     best = grown;
                 }
             }
-            choice = best;
         }
-        Ok(self.without_redundant(choice, weights))
+        Ok(self.without_redundant(best, weights))
     }
 
-    /// Log likelihood less the number of parameters [nats].
+    /// Log likelihood less the number of parameters and what each addition must gain to be believed [nats].
     fn worth(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
-        let parameters: usize = additions.iter().map(|one| one.axes.len()).sum();
-        self.score(additions, weights) - parameters as f64
+        let cost = |one: &RigAddition| one.axes.len() as f64 + self.surprise(one);
+        self.score(additions, weights) - additions.iter().map(cost).sum::<f64>()
+    }
+
+    /// What an addition must gain beyond a number of the model's own laws to be named before it [nats].
+    fn surprise(&self, addition: &RigAddition) -> f64 {
+        let over = addition.variables();
+        let idle = over.iter().filter(|input| self.unchanged.contains(&input.as_str())).count();
+        let new = if addition.is_number() { 0.0 } else { NEW_LAW };
+        new + UNCHANGED * idle as f64 + if addition.is_curve() { BEYOND_LAWS } else { 0.0 }
     }
 
     /// The choice with further causes of those `allowed`, one a round, until none is significant.
@@ -210,11 +251,9 @@ impl<'a> RigStudy<'a> {
             }
             let fitted = self.fit_all(&choice.additions, &scored, weights);
             let Some(round) = self.decide(&shelf, fitted, weights) else { return Ok(choice) };
+            choice.additions = round.winner.beside.clone();
             choice.additions.push(round.winner.addition.clone());
             choice.rounds.push(round);
-            if choice.additions.len() > 1 {
-                choice.additions = self.fit(&choice.additions, weights);
-            }
         }
     }
 
@@ -230,13 +269,11 @@ impl<'a> RigStudy<'a> {
         weights: &[f64],
     ) -> Result<(Choice, Vec<String>), String> {
         let mut dropped = Vec::new();
-        let score = |choice: &Choice, causes: usize| {
-            let held_out = HeldOut::new(self, choice, causes, None, write)?;
-            Ok::<_, String>(held_out.map(|held_out| held_out.score(self)))
-        };
+        let held_out = |choice: &Choice, causes: usize| HeldOut::new(self, choice, causes, None, write);
         while !choice.rounds.is_empty() {
             let causes = choice.rounds.len();
-            let (Some(with), Some(without)) = (score(&choice, causes)?, score(&choice, causes - 1)?) else {
+            let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?)
+            else {
                 break;
             };
             // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
@@ -244,7 +281,7 @@ impl<'a> RigStudy<'a> {
             let seen = if causes > 1 { parameters as f64 } else { 0.0 };
             let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
             let beyond = (self.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
-            if with > without + seen - (CARRIES * beyond).min(MOST_LOST) {
+            if with.gain_over(&without, self) > seen - (CARRIES * beyond).min(MOST_LOST) {
                 break;
             }
             choice.rounds.pop();
@@ -315,11 +352,9 @@ impl<'a> RigStudy<'a> {
                 break;
             }
             let promising: Vec<Scored> = scored.into_iter().filter(|one| one.gain > 0.0).collect();
-            let Some(winner) = winner(&promising) else { break };
-            let known =
-                whole.rounds.iter().find(|known| known.winner.addition.key() == winner.addition.key());
-            match known {
-                Some(known) => additions.push(known.winner.addition.clone()),
+            let Some(winner) = self.winner(&promising) else { break };
+            match whole.additions.iter().find(|known| known.key() == winner.addition.key()) {
+                Some(known) => additions.push(known.clone()),
                 None => {
                     additions.push(winner.addition);
                     break;
@@ -337,7 +372,7 @@ impl<'a> RigStudy<'a> {
             let (score, at) = self.best(candidate, &values, weights, known);
             let gain = score - base - candidate.cost();
             let addition = candidate.blank.moved(at);
-            Scored { addition, gain, p_value: null.p_value(gain), prepared: None }
+            Scored { addition, beside: Vec::new(), gain, p_value: null.p_value(gain), prepared: None }
         };
         let mut all: Vec<Scored> = shelf.candidates.iter().map(one).collect();
         all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
@@ -365,10 +400,10 @@ impl<'a> RigStudy<'a> {
         }
     }
 
-    /// The promising candidates, each fitted beside the additions.
+    /// The promising candidates, each fitted together with the additions.
     fn fit_all(&self, additions: &[RigAddition], scored: &[Scored], weights: &[f64]) -> Vec<Scored> {
         let base = self.score(additions, weights);
-        let fitted = |one: &Scored, iterations: u64| {
+        let improved = |one: &Scored, iterations: u64| {
             let joint = |at: &[f64]| {
                 let mut all = additions.to_vec();
                 all.push(one.addition.moved(at));
@@ -378,12 +413,12 @@ impl<'a> RigStudy<'a> {
             let (at, cost) = descend(joint, &start, SIMPLEX, iterations * start.len() as u64);
             (self.progress)();
             let gain = -cost - base - start.len() as f64;
-            Scored { addition: one.addition.moved(&at), gain, p_value: one.p_value, prepared: None }
+            Scored { addition: one.addition.moved(&at), gain, ..one.clone() }
         };
         // The places are coarse: where an effect is strong, the best law may lie between them and seem worse than none.
         let mut scored: Vec<Scored> = scored
             .iter()
-            .map(|one| if one.addition.is_curve() { one.clone() } else { fitted(one, FIRST_ITERATIONS) })
+            .map(|one| if one.addition.is_curve() { one.clone() } else { improved(one, FIRST_ITERATIONS) })
             .collect();
         scored.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         let promising = MOST_FITTED.map(|(curve, most)| {
@@ -401,12 +436,18 @@ impl<'a> RigStudy<'a> {
             .cloned()
             .collect();
         promising.extend(left_out);
+        // What was found before took part of this candidate's effect: the numbers are only right together.
         let fit = |one: Scored| {
-            let one = fitted(&one, ITERATIONS);
-            let all = [additions, std::slice::from_ref(&one.addition)].concat();
+            let alone = improved(&one, ITERATIONS);
+            let mut all = [additions, std::slice::from_ref(&alone.addition)].concat();
+            if !additions.is_empty() {
+                all = self.fit(&all, weights);
+            }
             let predicted = predict(self.forward, &all).ok();
             let prepared = predicted.map(|predicted| Arc::new(self.data.prepare(&predicted)));
-            Scored { prepared, ..one }
+            let gain = self.score(&all, weights) - base - alone.addition.axes.len() as f64;
+            let Some(addition) = all.pop() else { return alone };
+            Scored { addition, beside: all, gain, prepared, ..alone }
         };
         let mut fitted: Vec<Scored> = promising.into_iter().map(fit).collect();
         fitted.retain(|one| one.gain > 0.0);
@@ -416,11 +457,19 @@ impl<'a> RigStudy<'a> {
 
     /// The round with its winner and all others.
     fn decide(&self, shelf: &Shelf, fitted: Vec<Scored>, weights: &[f64]) -> Option<Round> {
-        let winner = winner(&fitted)?;
+        let winner = self.winner(&fitted)?;
         let name = winner.addition.key();
         let certainty = self.certainty(shelf, &name, weights, &fitted);
         let others = fitted.into_iter().filter(|one| one.addition.key() != name).collect();
         Some(Round { winner, others, certainty })
+    }
+
+    /// The winner of a round; of equal ones that with fewest parameters.
+    fn winner(&self, fitted: &[Scored]) -> Option<Scored> {
+        let worth = |one: &Scored| one.gain - self.surprise(&one.addition);
+        let best = fitted.iter().map(worth).fold(f64::NEG_INFINITY, f64::max);
+        let equal = fitted.iter().filter(|one| worth(one) > best - EQUAL);
+        equal.min_by_key(|one| (one.addition.axes.len(), !one.addition.is_number())).cloned()
     }
 
     /// Share of resampled experiments in which the candidate gains nearly as much as the best one.
@@ -498,21 +547,6 @@ fn other_starts(choice: &Choice) -> Vec<Choice> {
     starts
 }
 
-/// The winner of a round: the best law, unless a curve leads it by far; of equal ones that with fewest parameters.
-fn winner(fitted: &[Scored]) -> Option<Scored> {
-    let best_of = |curve: bool| {
-        let own = fitted.iter().filter(|one| one.addition.is_curve() == curve);
-        let best = own.clone().map(|one| one.gain).fold(f64::NEG_INFINITY, f64::max);
-        let equal = own.filter(|one| one.gain > best - EQUAL);
-        equal.min_by_key(|one| (one.addition.axes.len(), !one.addition.is_number())).cloned()
-    };
-    match (best_of(false), best_of(true)) {
-        (Some(law), Some(curve)) if curve.gain > law.gain + BEYOND_LAWS => Some(curve),
-        (Some(law), _) => Some(law),
-        (None, curve) => curve,
-    }
-}
-
 /// Additions with all parameters at these coordinates, one addition after the other.
 pub(super) fn moved(additions: &[RigAddition], at: &[f64]) -> Vec<RigAddition> {
     let mut rest = at;
@@ -554,14 +588,8 @@ fn curve_inputs(forward: &dyn Forward) -> Vec<(usize, Vec<f64>)> {
     let mut curves = Vec::new();
     for (place, input) in INPUTS.iter().enumerate() {
         let Some([low, high]) = range(forward, input.name) else { continue };
-        let mean = |experiment: usize| {
-            let values = forward.input_values(experiment, place);
-            let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
-            values.iter().map(|(value, weight)| value * weight).sum::<f64>() / weight
-        };
-        let mut means: Vec<f64> = (0..forward.experiments().len()).map(mean).collect();
-        let spread = deviation(&means);
-        if spread < CHANGES * (high - low) || means_of_earlier.iter().any(|one| together(one, &means)) {
+        let mut means = means(forward, place);
+        if !changes(&means, [low, high]) || means_of_earlier.iter().any(|one| together(one, &means)) {
             continue;
         }
         means_of_earlier.push(means.clone());
@@ -572,6 +600,21 @@ fn curve_inputs(forward: &dyn Forward) -> Vec<(usize, Vec<f64>)> {
         curves.push((place, vec![low, if inside { middle } else { 0.5 * (low + high) }, high]));
     }
     curves
+}
+
+/// The mean of an input, by place, over the first impacts of each experiment.
+fn means(forward: &dyn Forward, place: usize) -> Vec<f64> {
+    let mean = |experiment: usize| {
+        let values = forward.input_values(experiment, place);
+        let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
+        values.iter().map(|(value, weight)| value * weight).sum::<f64>() / weight
+    };
+    (0..forward.experiments().len()).map(mean).collect()
+}
+
+/// Whether an input with these means and this range changes from experiment to experiment.
+fn changes(means: &[f64], [low, high]: [f64; 2]) -> bool {
+    deviation(means) >= CHANGES * (high - low)
 }
 
 fn deviation(values: &[f64]) -> f64 {

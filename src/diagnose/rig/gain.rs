@@ -9,6 +9,7 @@ use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
 use super::addition::{Kind, RigAddition};
 use super::choice::{Choice, RigStudy, moved};
+use super::noise::Prepared;
 use super::posterior::Posterior;
 use super::shelf::predict;
 use crate::model::Model;
@@ -18,6 +19,8 @@ use crate::rig::Predicted;
 const PARTS: usize = 6;
 /// Least number of experiments for a gain.
 const LEAST: usize = 4;
+/// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
+const MOST_OF_ONE: f64 = 2.3;
 
 /// Predictions of experiments by models that have not seen them.
 pub(super) struct HeldOut {
@@ -72,10 +75,22 @@ impl HeldOut {
         Ok(Some(Self { predicted }))
     }
 
-    /// Log likelihood of all readings under models that have not seen their experiments [nats].
-    pub fn score(&self, study: &RigStudy<'_>) -> f64 {
-        let all: Vec<Predicted> = self.predicted.iter().map(|pair| pair[1]).collect();
-        study.score_of(&all, &vec![1.0; study.data.experiments])
+    /// What is gained over `other` on experiments that neither has seen [nats]. One experiment can lose [`MOST_OF_ONE`]: a part that names
+    /// another cause may predict no rebound at all where it is extrapolated.
+    pub fn gain_over(&self, other: &Self, study: &RigStudy<'_>) -> f64 {
+        let experiments = study.data.experiments;
+        let values = study.data.values();
+        let score = |all: &Prepared, of: &dyn Fn(usize) -> bool| {
+            let weights: Vec<f64> = (0..experiments).map(|one| f64::from(u8::from(of(one)))).collect();
+            study.data.score(all, &values, &weights)
+        };
+        let [own, others] = [self, other]
+            .map(|one| study.data.prepare(&one.predicted.iter().map(|pair| pair[1]).collect::<Vec<_>>()));
+        let fails: Vec<bool> = (0..experiments)
+            .map(|one| score(&own, &|i| i == one) < score(&others, &|i| i == one) - MOST_OF_ONE)
+            .collect();
+        let failed = fails.iter().filter(|fails| **fails).count() as f64;
+        score(&own, &|one| !fails[one]) - score(&others, &|one| !fails[one]) - MOST_OF_ONE * failed
     }
 
     /// The gain in one kind of readings; `None` where too few experiments have it.

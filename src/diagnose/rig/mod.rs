@@ -1,8 +1,8 @@
 //! Diagnosis of a simulation from what the whole rig measures.
 //!
-//! Data flow: readings → predictions of every candidate at places of its range ([`shelf`]) → test against data sets without an effect
-//! ([`significance`]) → fits and choice ([`choice`]) → draws of the parameters ([`posterior`]) → gain on held-out experiments
-//! ([`gain`]) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
+//! Data flow: readings → predictions of every candidate at places of its range (`shelf`) → test against data sets without an effect
+//! (`significance`) → fits and choice (`choice`) → draws of the parameters (`posterior`) → gain on held-out experiments
+//! (`gain`) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
 //! decided again. Candidates are those of the diagnosis of impacts. Method and limits: `docs/rig-diagnosis.md`.
 
 mod addition;

@@ -1,12 +1,14 @@
 //! What to measure next: the experiments that best tell the surviving causes apart and best pin their numbers.
 //!
 //! Every surviving cause `h` with the weight `w_h` (its likelihood) predicts a reading with some values of its numbers that the file leaves
-//! open: mean `m_h`, variance `v_h`. For a reading with the variance `s²` the expected information on which cause it is, is about
-//! `sum w_h (m_h - m)² / (2 (s² + v))` [nats] with `m = sum w_h m_h` and `v = sum w_h v_h`, and that on the numbers of the first cause
-//! `ln(1 + v_1/s²)/2`. The first rows tell the causes apart as well as possible, the others are worth most in both. Each row is the best one
-//! when those above it are measured: their readings shrink the spread of all predictions (linear regression on the expected readings).
+//! open. With the error of the reading, of standard deviation `s`, they make a density `p_h(y)` of its value (a kernel estimate that keeps
+//! their variance). The expected information on which cause it is, is `sum w_h ∫ p_h ln(p_h/p) dy` with `p = sum w_h p_h` [nats]: a cause that
+//! predicts one value is also told from one that leaves it open. That on the numbers of the first cause is `ln(1 + v_1/s²)/2` with their
+//! variance `v_1`. The first rows tell the causes apart as well as possible, the others are worth most in both. Each row is the best one
+//! when those above it are measured: on the cause by the density of all readings together, on the numbers by linear regression on
+//! the expected readings.
 //!
-//! The count that decides between two causes is that at which the expected ratio of their likelihoods is `e³`.
+//! The count that decides between the two leading causes is that at which the expected ratio of their likelihoods is `e³`.
 
 use serde::Serialize;
 
@@ -109,6 +111,8 @@ struct Possible {
     usual: Usual,
     /// What each state of each cause predicts, one cause after the other.
     predicted: Vec<f64>,
+    /// The same without what is known once the rows above are measured.
+    left: Vec<f64>,
 }
 
 /// Ranks experiments over the settings of the file and along the usual levers of a rig; the most telling first. `whole` is the choice with
@@ -160,30 +164,49 @@ pub(super) fn next_experiments(
             let index = place * columns.len() + column;
             let predicted: Vec<f64> = by_state.iter().map(|all| all[index]).collect();
             if predicted.iter().all(|value| value.is_finite()) {
-                options.push(Possible { place: [place, column], usual: *usual, predicted });
+                let left = predicted.clone();
+                options.push(Possible { place: [place, column], usual: *usual, predicted, left });
             }
         }
     }
     let mut rows: Vec<NextExperiment> = Vec::new();
+    let mut measured = ensemble.unmeasured();
     while rows.len() < ROWS {
-        let tells = |one: &&Possible| rows.len() < TELLING && ensemble.tells(one) > LEAST_TOLD;
-        let telling = options.iter().filter(tells).max_by(|a, b| {
-            let [a, b] = [a, b].map(|one| ensemble.tells(one));
-            a.total_cmp(&b)
-        });
-        let worth = |one: &Possible| ensemble.tells(one) + ensemble.pins(one);
-        let most = || options.iter().max_by(|a, b| worth(a).total_cmp(&worth(b)));
-        let Some(best) = telling.or_else(|| most().filter(|one| worth(one) > LEAST)) else { break };
+        let before = ensemble.tells(&measured);
+        let with = |one: &Possible| ensemble.with(&measured, one, one.usual.count());
+        let more = |one: &Possible| ensemble.tells(&with(one)) - before;
+        let told: Vec<f64> = options.iter().map(more).collect();
+        let worth: Vec<f64> =
+            options.iter().zip(&told).map(|(one, told)| told + ensemble.pins(one)).collect();
+        let most = |of: &[f64], least: f64| {
+            let best = of.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+            best.filter(|(_, value)| **value > least).map(|(place, _)| &options[place])
+        };
+        let telling = if rows.len() < TELLING { most(&told, LEAST_TOLD) } else { None };
+        let Some(best) = telling.or_else(|| most(&worth, LEAST)) else { break };
         let [place, column] = best.place;
-        let best = Possible { predicted: best.predicted.clone(), ..*best };
-        let settings = cases[place].settings().to_vec();
-        let index = place * columns.len() + column;
-        let unseen = Possible { predicted: by_state.iter().map(|all| all[index]).collect(), ..best };
-        rows.push(ensemble.row(&unseen, &causes, settings, &columns[column].0.column));
+        let best = Possible { predicted: best.predicted.clone(), left: best.left.clone(), ..*best };
+        measured = with(&best);
+        rows.push(ensemble.row(&best, &causes, cases[place].settings().to_vec(), &columns[column].0.column));
         options.retain(|one| one.place[0] != place);
-        options.iter_mut().for_each(|one| ensemble.measured(one, &best));
+        options.iter_mut().for_each(|one| ensemble.regress(one, &best));
     }
     Ok(rows)
+}
+
+/// Errors of readings that stand for a normal distribution, in standard deviations: means of eight parts of it of equal probability.
+/// Their variance is 0.945.
+const NORMAL: [f64; 8] = [-1.647, -0.8949, -0.4905, -0.1580, 0.1580, 0.4905, 0.8949, 1.647];
+
+/// Factor and shift that give each reading of a table its own order of these errors.
+const ORDERS: [[usize; 2]; ROWS] = [[1, 0], [3, 3], [1, 6], [3, 2], [5, 4], [7, 7], [5, 2], [7, 5]];
+
+/// Readings that are taken to be measured.
+struct Measured {
+    /// For each state and error that gives the readings, the logarithm of their density by each state.
+    logs: Vec<Vec<f64>>,
+    /// Number of readings.
+    rows: usize,
 }
 
 /// Weights of the states of all causes.
@@ -206,60 +229,142 @@ impl Ensemble {
     }
 
     /// Mean of each cause.
-    fn means(&self, one: &Possible) -> Vec<f64> {
+    fn means(&self, predicted: &[f64]) -> Vec<f64> {
         let mut means = vec![0.0; self.weights.len()];
-        for ((weight, cause), value) in self.states.iter().zip(&one.predicted) {
+        for ((weight, cause), value) in self.states.iter().zip(predicted) {
             means[*cause] += weight * value;
         }
         means.iter().zip(&self.weights).map(|(sum, weight)| sum / weight.max(f64::MIN_POSITIVE)).collect()
     }
 
-    fn mean(&self, one: &Possible) -> f64 {
-        self.states.iter().zip(&one.predicted).map(|((weight, _), value)| weight * value).sum()
+    fn mean(&self, predicted: &[f64]) -> f64 {
+        self.states.iter().zip(predicted).map(|((weight, _), value)| weight * value).sum()
     }
 
     /// Variance of each cause by its numbers.
-    fn spreads(&self, one: &Possible) -> Vec<f64> {
-        let means = self.means(one);
+    fn spreads(&self, predicted: &[f64]) -> Vec<f64> {
+        let means = self.means(predicted);
         let mut spreads = vec![0.0; self.weights.len()];
-        for ((weight, cause), value) in self.states.iter().zip(&one.predicted) {
+        for ((weight, cause), value) in self.states.iter().zip(predicted) {
             spreads[*cause] += weight * (value - means[*cause]).powi(2);
         }
         spreads.iter().zip(&self.weights).map(|(sum, weight)| sum / weight.max(f64::MIN_POSITIVE)).collect()
     }
 
-    /// Variance of a usual reading.
-    fn noise(&self, one: &Possible) -> f64 {
-        one.usual.variance(self.mean(one)) / one.usual.count()
+    /// Variance of a reading of so many particles or repeats.
+    fn noise(&self, one: &Possible, count: f64) -> f64 {
+        one.usual.variance(self.mean(&one.predicted)) / count
+    }
+
+    /// The kernels of all states for a reading of so many particles: their middles, and their variance with that of the reading.
+    fn kernels(&self, one: &Possible, count: f64) -> Vec<[f64; 2]> {
+        let noise = self.noise(one, count);
+        let [means, spreads] = [self.means(&one.predicted), self.spreads(&one.predicted)];
+        let kernel = |((weight, cause), value): (&(f64, usize), &f64)| {
+            // Silverman's width; the middles move together so that the variance of the cause stays.
+            let share = (weight / self.weights[*cause]).powf(0.4);
+            let middle = means[*cause] + (1.0 - share).max(0.0).sqrt() * (value - means[*cause]);
+            [middle, noise + share * spreads[*cause]]
+        };
+        self.states.iter().zip(&one.predicted).map(kernel).collect()
+    }
+
+    /// Nothing is measured yet.
+    fn unmeasured(&self) -> Measured {
+        let count = self.states.len();
+        Measured { logs: vec![vec![0.0; count]; count * NORMAL.len()], rows: 0 }
+    }
+
+    /// The readings that were measured and one more of so many particles.
+    fn with(&self, measured: &Measured, one: &Possible, count: f64) -> Measured {
+        let kernels = self.kernels(one, count);
+        let [factor, shift] = ORDERS[measured.rows % ROWS];
+        let row = |(place, logs): (usize, &Vec<f64>)| {
+            let [middle, variance] = kernels[place / NORMAL.len()];
+            let reading = middle + variance.sqrt() * NORMAL[(factor * place + shift) % NORMAL.len()];
+            let log = |[middle, variance]: &[f64; 2]| {
+                -0.5 * (reading - middle).powi(2) / variance - 0.5 * variance.ln()
+            };
+            logs.iter().zip(&kernels).map(|(known, kernel)| known + log(kernel)).collect()
+        };
+        Measured { logs: measured.logs.iter().enumerate().map(row).collect(), rows: measured.rows + 1 }
+    }
+
+    /// Logarithms of the densities of all causes at a set of readings, given those of the states.
+    fn log_densities(&self, logs: &[f64]) -> Vec<f64> {
+        let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let mut sums = vec![0.0; self.weights.len()];
+        for ((weight, cause), log) in self.states.iter().zip(logs) {
+            sums[*cause] += weight / self.weights[*cause] * (log - most).exp();
+        }
+        sums.into_iter().map(|sum| most + sum.max(f64::MIN_POSITIVE).ln()).collect()
+    }
+
+    /// Mean over the readings that the states predict of a function of the cause and all causes' log densities, each state with this
+    /// weight.
+    fn expected(
+        &self,
+        measured: &Measured,
+        weight: impl Fn(usize) -> f64,
+        of: impl Fn(usize, &[f64]) -> f64,
+    ) -> f64 {
+        let one = |(place, logs): (usize, &Vec<f64>)| {
+            let state = place / NORMAL.len();
+            let weight = weight(state) / NORMAL.len() as f64;
+            if weight == 0.0 { 0.0 } else { weight * of(self.states[state].1, &self.log_densities(logs)) }
+        };
+        measured.logs.iter().enumerate().map(one).sum()
     }
 
     /// Expected information on the cause [nats].
-    fn tells(&self, one: &Possible) -> f64 {
-        let mean = self.mean(one);
-        let weighted = |values: &[f64]| values.iter().zip(&self.weights).map(|(v, w)| v * w).sum::<f64>();
-        let between: Vec<f64> = self.means(one).iter().map(|m| (m - mean).powi(2)).collect();
-        0.5 * weighted(&between) / (self.noise(one) + weighted(&self.spreads(one)))
+    fn tells(&self, measured: &Measured) -> f64 {
+        let gain = |cause: usize, logs: &[f64]| {
+            let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let all: f64 = logs.iter().zip(&self.weights).map(|(log, w)| w * (log - most).exp()).sum();
+            logs[cause] - most - all.ln()
+        };
+        self.expected(measured, |state| self.states[state].0, gain).max(0.0)
+    }
+
+    /// The least count that decides between the leading causes: the expected logarithm of the ratio of their likelihoods is [`DECIDES`].
+    fn decides(&self, one: &Possible) -> Option<f64> {
+        let first = |state: usize| {
+            let (weight, cause) = self.states[state];
+            if cause == 0 { weight / self.weights[0] } else { 0.0 }
+        };
+        let ratio = |count: f64| {
+            let measured = self.with(&self.unmeasured(), one, count);
+            self.expected(&measured, first, |_, logs| logs[0] - logs[1])
+        };
+        let [mut low, mut high] = [0.0, MOST_REPEATS * one.usual.count()];
+        if self.weights.len() < 2 || ratio(high) < DECIDES {
+            return None;
+        }
+        while high - low > 1e-4 * high {
+            let middle = 0.5 * (low + high);
+            if ratio(middle) < DECIDES { low = middle } else { high = middle }
+        }
+        Some((high * (1.0 - 1e-4)).ceil())
     }
 
     /// Expected information on the numbers of the first cause [nats].
     fn pins(&self, one: &Possible) -> f64 {
-        let spread = self.spreads(one).first().copied().unwrap_or(0.0);
-        0.5 * (spread / self.noise(one)).ln_1p()
+        let spread = self.spreads(&one.left).first().copied().unwrap_or(0.0);
+        0.5 * (spread / self.noise(one, one.usual.count())).ln_1p()
     }
 
-    /// Changes the predictions of `one` to those once `other` has been measured: their regression on `other` is removed as far as the noise
-    /// of that reading allows.
-    fn measured(&self, one: &mut Possible, other: &Possible) {
-        let [mean, other_mean] = [self.mean(one), self.mean(other)];
+    /// Removes from what is left to know of `one` its regression on `other`, as far as the noise of that reading allows.
+    fn regress(&self, one: &mut Possible, other: &Possible) {
+        let [mean, other_mean] = [self.mean(&one.left), self.mean(&other.left)];
         let (mut both, mut square) = (0.0, 0.0);
         for (place, (weight, _)) in self.states.iter().enumerate() {
-            let from = other.predicted[place] - other_mean;
-            both += weight * from * (one.predicted[place] - mean);
+            let from = other.left[place] - other_mean;
+            both += weight * from * (one.left[place] - mean);
             square += weight * from * from;
         }
-        let noise = self.noise(other);
+        let noise = self.noise(other, other.usual.count());
         let slope = both / (square + noise) / (1.0 + (noise / (square + noise)).sqrt());
-        for (value, seen) in one.predicted.iter_mut().zip(&other.predicted) {
+        for (value, seen) in one.left.iter_mut().zip(&other.left) {
             *value -= slope * (seen - other_mean);
         }
     }
@@ -271,11 +376,8 @@ impl Ensemble {
         settings: Vec<(String, String)>,
         column: &str,
     ) -> NextExperiment {
-        let means = self.means(one);
-        let single = one.usual.variance(self.mean(one));
-        let apart = means.get(1).map_or(0.0, |other| (means[0] - other).powi(2));
-        let repeats = (2.0 * DECIDES * single / apart).ceil().max(1.0);
-        let repeats = (repeats <= MOST_REPEATS * one.usual.count()).then_some(repeats as u64);
+        let means = self.means(&one.predicted);
+        let repeats = self.decides(one).map(|repeats| repeats as u64);
         let error = match (one.usual, repeats) {
             (Usual::Error(error), Some(repeats)) => Some(error / (repeats as f64).sqrt()),
             _ => None,
@@ -285,7 +387,7 @@ impl Ensemble {
             observable: column.to_owned(),
             repeats,
             error,
-            tells_causes: self.tells(one),
+            tells_causes: self.tells(&self.with(&self.unmeasured(), one, one.usual.count())),
             pins_numbers: self.pins(one),
             predicted: causes.iter().zip(&means).map(|(cause, mean)| (cause.name.clone(), *mean)).collect(),
         }
@@ -493,23 +595,48 @@ mod tests {
     }
 
     fn shares(predicted: &[f64]) -> Possible {
-        Possible { place: [0, 0], usual: Usual::Share(100.0), predicted: predicted.to_vec() }
+        let [predicted, left] = [predicted.to_vec(), predicted.to_vec()];
+        Possible { place: [0, 0], usual: Usual::Share(100.0), predicted, left }
     }
 
     #[test]
     fn no_count_decides_where_two_causes_predict_the_same() {
-        let causes = [cause("one", 2), cause("other", 1)];
+        let causes = [cause("one", 2), cause("other", 2)];
         let ensemble = Ensemble::new(&causes);
         let row =
             |predicted: &[f64]| ensemble.row(&shares(predicted), &causes, Vec::new(), "captured@target");
-        let same = row(&[0.3, 0.7, 0.5]);
+        let same = row(&[0.3, 0.7, 0.3, 0.7]);
         assert_eq!((same.repeats, same.tells_causes), (None, 0.0));
         assert!(same.pins_numbers > 1.0, "{same:?}");
         assert!(table(&[same]).ends_with("next 1,,,0.00,1.42\n"));
         // 2 ln(e³) p (1 - p) / 0.2².
-        let apart = row(&[0.4, 0.4, 0.6]);
+        let apart = row(&[0.4, 0.4, 0.6, 0.6]);
         assert_eq!(apart.repeats, Some(38));
         assert_eq!(apart.pins_numbers, 0.0);
+    }
+
+    /// Two normal densities of one middle, with variances of 1 and 4 times that of a reading: the information on which it is by
+    /// integration.
+    #[test]
+    fn a_cause_that_leaves_a_reading_open_is_told_from_one_that_does_not() {
+        let causes = [cause("sure", 1), cause("open", 40)];
+        let ensemble = Ensemble::new(&causes);
+        let density = |x: f64, sigma: f64| (-0.5 * (x / sigma).powi(2)).exp() / (sigma * 2.506_628_274_631);
+        let at = |x: f64| {
+            let both = [density(x, 1.0), density(x, 2.0)];
+            let mean = 0.5 * (both[0] + both[1]);
+            both.iter().map(|one| 0.5 * one * (one / mean).ln()).sum::<f64>()
+        };
+        let information: f64 = (-1200..=1200).map(|i| 0.01 * at(0.01 * f64::from(i))).sum();
+        let mut predicted = vec![0.5];
+        // Even in probability: the quantiles of a normal distribution of three times the variance of the reading.
+        let normal = statrs::distribution::Normal::new(0.5, (3.0 * 0.0025_f64).sqrt()).unwrap();
+        let quantile =
+            |i: u32| statrs::distribution::ContinuousCDF::inverse_cdf(&normal, (f64::from(i) + 0.5) / 40.0);
+        predicted.extend((0..40).map(quantile));
+        let one = shares(&predicted);
+        let told = ensemble.tells(&ensemble.with(&ensemble.unmeasured(), &one, 100.0));
+        assert!((told - information).abs() < 0.02, "{told} {information}");
     }
 
     #[test]
@@ -530,9 +657,11 @@ mod tests {
         let first = shares(&[0.3, 0.3, 0.7, 0.7]);
         let (mut same, mut new) = (shares(&[0.3, 0.3, 0.7, 0.7]), shares(&[0.3, 0.7, 0.3, 0.7]));
         let pins = ensemble.pins(&new);
-        ensemble.measured(&mut same, &first);
-        ensemble.measured(&mut new, &first);
-        assert!(ensemble.tells(&same) < 0.1 * ensemble.tells(&first));
+        ensemble.regress(&mut same, &first);
+        ensemble.regress(&mut new, &first);
+        let once = ensemble.with(&ensemble.unmeasured(), &first, 100.0);
+        let told = ensemble.tells(&once);
+        assert!(ensemble.tells(&ensemble.with(&once, &same, 100.0)) - told < 0.1 * told);
         assert_eq!(ensemble.pins(&new), pins);
     }
 }

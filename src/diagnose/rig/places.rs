@@ -3,8 +3,10 @@
 use super::addition::{Kind, RigAddition};
 use crate::diagnose::part::Part;
 
-/// Places of a range with one parameter, and along each of two.
-const EVEN: usize = 20;
+/// Places of the range of a law's own number, of an effect's only parameter, and along each of two. With `sliding-to-rolling` a reading
+/// jumps where the critical angle passes its angle: only between two such angles the law is right.
+const OF_A_NUMBER: usize = 20;
+const OF_AN_EFFECT: usize = 80;
 const SIDE: usize = 6;
 /// Places of a range with three or more parameters.
 const MANY: usize = 48;
@@ -31,7 +33,7 @@ impl RigAddition {
         match (&self.kind, self.axes.first()) {
             (Kind::Curve { .. }, _) => curves(self.axes.len()),
             (Kind::Part(Part::LawParameter(_)), Some(axis)) => {
-                let mut all = cube(1);
+                let mut all = even(OF_A_NUMBER);
                 let here = now.map(|value| axis.coordinate(value));
                 let near = here.into_iter().flat_map(|at| CHANGES.iter().flat_map(move |c| [at - c, at + c]));
                 all.extend(near.filter(|at| (0.0..=1.0).contains(at)).map(|at| vec![at]));
@@ -58,15 +60,22 @@ fn curves(knots: usize) -> Vec<Vec<f64>> {
 
 /// Places of a unit cube of this many dimensions.
 fn cube(dimensions: usize) -> Vec<Vec<f64>> {
-    let even = |count: usize| (0..count).map(move |place| (place as f64 + 0.5) / count as f64);
     match dimensions {
         0 => vec![Vec::new()],
-        1 => even(EVEN).map(|x| vec![x]).collect(),
-        2 => even(SIDE).flat_map(|x| even(SIDE).map(move |y| vec![x, y])).collect(),
+        1 => even(OF_AN_EFFECT),
+        2 => even(SIDE)
+            .into_iter()
+            .flat_map(|x| even(SIDE).into_iter().map(move |y| [&x[..], &y].concat()))
+            .collect(),
         _ => {
             (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect()
         }
     }
+}
+
+/// So many places of one dimension, at the middles of equal parts.
+fn even(count: usize) -> Vec<Vec<f64>> {
+    (0..count).map(|place| vec![(place as f64 + 0.5) / count as f64]).collect()
 }
 
 /// The element of a Halton sequence with this base.
