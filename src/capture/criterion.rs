@@ -162,6 +162,12 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// measured table, and that at the end of the table above it.
     fn film_viscosity(&self, temperature: f64) -> f64;
 
+    /// Viscosity [Pa s] at a temperature [K] of what has not crystallised, as quenched particles that sinter: infinite where it is not
+    /// known.
+    fn glass_viscosity(&self, _temperature: f64) -> f64 {
+        f64::INFINITY
+    }
+
     /// Normal restitution [1] of a droplet that bounces whole from a wall of this material; `None` for one that does not, and for
     /// what is not a droplet.
     ///

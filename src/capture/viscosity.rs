@@ -137,6 +137,10 @@ impl StickinessCriterion for MeltStickiness {
         self.melt.film_viscosity(temperature)
     }
 
+    fn glass_viscosity(&self, temperature: f64) -> f64 {
+        self.viscosity(temperature).unwrap_or(f64::INFINITY)
+    }
+
     fn stiff_below(&self) -> Option<(f64, bool)> {
         self.melt.stiff_below()
     }

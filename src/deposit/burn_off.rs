@@ -50,6 +50,7 @@ pub fn after(deposit: &Deposit, burning: &Burning) -> Deposit {
             powder: combustible * left + ash * left,
             solid: deposit.solid * left,
             cover: deposit.cover * left,
+            closed: deposit.closed * left,
             ..*deposit
         }
     } else {
@@ -61,6 +62,7 @@ pub fn after(deposit: &Deposit, burning: &Burning) -> Deposit {
             powder: ash + combustible * left,
             solid,
             cover: deposit.cover * ratio.powf(2.0 / 3.0),
+            closed: deposit.closed * ratio,
             ..*deposit
         }
     };

@@ -5,15 +5,22 @@
 //! of the particles. [`Model::apply_deposit`] sets the inputs of an impact from the deposit.
 //!
 //! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
-//! droplet, or char that encloses its ash. Powder does not melt again; its carbon burns off where the solver asks for it
-//! ([`burn_off`]: `simulate` does). Melt on a wall that cools later is stiff by its
-//! viscosity.
+//! droplet, or char that encloses its ash. Its carbon burns off, it sinters and melts where the solver asks for it ([`burn_off`],
+//! [`Model::sintered`], [`Model::melting_share`]: `simulate` does, the last two on cooled walls). Melt on a wall that cools later is stiff by
+//! its viscosity.
 //!
 //! [`Model::add_captured`]: crate::Model::add_captured
 //! [`Model::apply_deposit`]: crate::Model::apply_deposit
+//! [`Model::sintered`]: crate::Model::sintered
+//! [`Model::melting_share`]: crate::Model::melting_share
 
 pub mod burn_off;
+pub mod conduction;
+pub mod conductivity;
 pub mod cover;
+pub mod resuspension;
+pub mod shedding;
+pub mod sintering;
 pub mod wetting;
 
 use crate::material::Molten;
@@ -50,6 +57,8 @@ pub struct Deposit {
     pub cover: f64,
     /// Mean carbon conversion by mass [1].
     pub conversion: f64,
+    /// Volume of the powder's voids that sintering has closed [m³/m²].
+    pub closed: f64,
 }
 
 /// Sum of captured particles on a piece of wall, per area of that wall.
@@ -125,6 +134,7 @@ impl Deposit {
             solid: (self.solid + arrivals.solid) * left,
             cover,
             conversion: conversion.clamp(0.0, 1.0),
+            closed: self.closed * left,
         }
     }
 
@@ -136,7 +146,39 @@ impl Deposit {
     /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it: 0.5 is a usual assumption, between
     /// 0.4 of a dense random packing and the higher values of loose cohesive powder.
     pub fn layer_thickness(&self, voidage: f64) -> f64 {
-        self.solid / (1.0 - voidage)
+        (self.solid / (1.0 - voidage) - self.closed).max(self.solid)
+    }
+
+    /// Share of voids in the powder [1], with `voidage` that of fresh powder.
+    pub fn porosity(&self, voidage: f64) -> f64 {
+        let thickness = self.layer_thickness(voidage);
+        if thickness > 0.0 { 1.0 - self.solid / thickness } else { voidage }
+    }
+
+    /// Diameter of spheres with the powder's volume and projected area [m]; 0 without powder.
+    pub fn powder_diameter(&self) -> f64 {
+        if self.cover > 0.0 { 1.5 * self.solid / self.cover } else { 0.0 }
+    }
+
+    /// The deposit with its powder sintered to a porosity [1], if that is less than it has.
+    #[must_use]
+    pub fn sintered(self, voidage: f64, porosity: f64) -> Self {
+        let closed = self.solid / (1.0 - voidage) - self.solid / (1.0 - porosity);
+        Self { closed: closed.max(self.closed), ..self }
+    }
+
+    /// The deposit after a share of its powder [1] has melted.
+    #[must_use]
+    pub fn melted(self, share: f64) -> Self {
+        let left = 1.0 - share;
+        Self {
+            molten: self.molten + self.powder * share,
+            powder: self.powder * left,
+            solid: self.solid * left,
+            cover: self.cover * left,
+            closed: self.closed * left,
+            ..self
+        }
     }
 }
 
@@ -168,7 +210,14 @@ mod tests {
 
     #[test]
     fn mass_and_converted_mass_are_kept_and_the_order_within_a_step_does_not_count() {
-        let mut deposit = Deposit { molten: 0.1, powder: 0.02, solid: 3e-5, cover: 0.7, conversion: 0.5 };
+        let mut deposit = Deposit {
+            molten: 0.1,
+            powder: 0.02,
+            solid: 3e-5,
+            cover: 0.7,
+            conversion: 0.5,
+            ..Deposit::default()
+        };
         let before = deposit;
         let (mut mass, mut converted) = (before.mass(), before.mass() * before.conversion);
         for step in 0..40 {

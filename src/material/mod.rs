@@ -29,7 +29,7 @@ const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) ->
 /// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
 /// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
 /// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
-const FIELDS: [PropertyField; 16] = [
+const FIELDS: [PropertyField; 17] = [
     field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
     field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
     field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
@@ -46,6 +46,7 @@ const FIELDS: [PropertyField; 16] = [
     field("heat_capacity", false, limits("J/(kg K)", 0.01, 2e5, "hot metals 100, liquid hydrogen 1e4")),
     field("thermal_conductivity", false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, diamond 2000")),
     field("heat_of_fusion", false, limits("J/kg", 100.0, 5e7, "mercury 1.1e4, boron 4.6e6")),
+    field("emissivity", false, limits("1", 0.0, 1.0, "a black body has 1")),
 ];
 
 /// The first five fields are the mechanical ones, in the order of [`Mechanical`]; `work_of_adhesion` is one where it is given.
@@ -59,6 +60,7 @@ const MELT_FRACTION: usize = 12;
 const HEAT_CAPACITY: usize = 13;
 const THERMAL_CONDUCTIVITY: usize = 14;
 const HEAT_OF_FUSION: usize = 15;
+const EMISSIVITY: usize = 16;
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -270,6 +272,11 @@ impl Material {
         self.near(HEAT_OF_FUSION, temperature)
     }
 
+    /// As [`Material::surface_tension_near`], the total emissivity of its surface [1].
+    pub fn emissivity_near(&self, temperature: f64) -> Option<f64> {
+        self.near(EMISSIVITY, temperature)
+    }
+
     /// As [`Material::surface_tension_near`], the melting point [K].
     pub fn melting_point_near(&self, temperature: f64) -> Option<f64> {
         self.near(MELTING_POINT, temperature)
@@ -440,12 +447,30 @@ mod tests {
         }
     }
 
+    /// Every material of a deposit or of the wall under it conducts, stores and radiates heat at any temperature.
+    #[test]
+    fn deposits_and_walls_have_thermal_properties() {
+        let library = Library::built_in().unwrap();
+        for name in ["fly-ash", "coal-slag", "refractory", "stainless-steel"] {
+            let material = library.get(name).unwrap();
+            for temperature in [250.0, 900.0, 1600.0, 2500.0] {
+                let capacity = material.heat_capacity_near(temperature).unwrap();
+                let conductivity = material.thermal_conductivity_near(temperature).unwrap();
+                let emissivity = material.emissivity_near(temperature).unwrap();
+                assert!((400.0..1500.0).contains(&capacity), "{name}: {capacity}");
+                assert!((1.0..30.0).contains(&conductivity), "{name}: {conductivity}");
+                assert!((0.5..=1.0).contains(&emissivity), "{name}: {emissivity}");
+            }
+        }
+        assert_eq!(library.get("teflon").unwrap().emissivity_near(300.0), None);
+    }
+
     /// Both ends of every property's limits, just within and just beyond.
     #[test]
     fn a_number_that_no_material_has_is_refused() {
         let usual = [
             "2300", "7e10", "0.2", "3e8", "0.05", "1", "0.4", "1600", "1500", "1700", "1400", "0.5", "0.5",
-            "1000", "2", "4e5",
+            "1000", "2", "4e5", "0.8",
         ];
         let read = |place: usize, value: f64| {
             let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {

@@ -3,8 +3,13 @@
 use super::Model;
 use super::wall::Wall;
 use crate::capture::Stickiness;
+use crate::deposit::shedding::Load;
 use crate::deposit::{CapturedParticles, Deposit, DepositSource, WallMelt, cover, wetting};
 use crate::impact::{Impact, ImpactError};
+use crate::material::Material;
+
+/// Halvings of a layer in search of the depth at which powder melts.
+const BISECTIONS: u32 = 50;
 
 impl Model {
     /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²], with the particle's `density`
@@ -63,9 +68,10 @@ impl Model {
         voidage: f64,
         impact: &Impact,
     ) -> Result<Impact, ImpactError> {
-        let Deposit { molten, powder, solid, cover, .. } = *deposit;
-        for (quantity, value) in [("molten", molten), ("powder", powder), ("solid", solid), ("cover", cover)]
-        {
+        let Deposit { molten, powder, solid, cover, closed, .. } = *deposit;
+        let sizes =
+            [("molten", molten), ("powder", powder), ("solid", solid), ("cover", cover), ("closed", closed)];
+        for (quantity, value) in sizes {
             at_least_zero(quantity, value)?;
         }
         check_voidage(voidage)?;
@@ -88,11 +94,14 @@ impl Model {
         self.wall_melt(wall, temperature)
     }
 
+    /// What melt on a wall consists of: its slag, else what melts of the particles.
+    pub(super) fn melt_material<'a>(&'a self, wall: &'a Wall) -> &'a Material {
+        wall.slag.as_ref().unwrap_or_else(|| self.particle.melting())
+    }
+
     fn wall_melt(&self, wall: &Wall, temperature: f64) -> Result<WallMelt, ImpactError> {
-        let (material, criterion) = match &wall.slag {
-            Some(slag) => (slag, &wall.melt),
-            None => (self.particle.melting(), &self.stickiness),
-        };
+        let material = self.melt_material(wall);
+        let criterion = if wall.slag.is_some() { &wall.melt } else { &self.stickiness };
         let viscosity = criterion.as_ref().map_or(f64::INFINITY, |melt| melt.film_viscosity(temperature));
         let surface_tension = material.surface_tension_near(temperature);
         Ok(WallMelt { density: material.density_near(temperature)?, viscosity, surface_tension })
@@ -134,6 +143,47 @@ impl Model {
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
+    /// The deposit after what the wall cannot hold has fallen off a place, ranked by `draw` ([`Strength::breaks`]): nothing, or all of it.
+    /// A wall without a `shedding` table in the model file holds everything.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for an unknown wall.
+    ///
+    /// [`Strength::breaks`]: crate::deposit::shedding::Strength::breaks
+    pub fn shed(
+        &self,
+        wall: usize,
+        deposit: &Deposit,
+        load: &Load,
+        draw: f64,
+    ) -> Result<Deposit, ImpactError> {
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let falls = wall.shedding.is_some_and(|strength| strength.breaks(deposit.mass(), load, draw));
+        Ok(if falls { Deposit::default() } else { *deposit })
+    }
+
+    /// Share of powder [1] that is hotter than it melts, in a layer with these temperatures [K] of its cold and its hot side and a straight line
+    /// in between. Powder melts where its stickiness at a temperature reaches [`Stickiness::THRESHOLD`], as captured particles do.
+    pub fn melting_share(&self, conversion: f64, cold: f64, hot: f64) -> f64 {
+        let melts = |temperature: f64| {
+            let impact = Impact { wall_temperature: temperature, ..Impact::default() };
+            self.stickiness_depends_on_temperature()
+                && self.stickiness_as_melt(&impact, conversion) >= Stickiness::THRESHOLD
+        };
+        if !melts(hot) {
+            return 0.0;
+        }
+        if melts(cold) {
+            return 1.0;
+        }
+        let [mut low, mut high] = [0.0, 1.0];
+        for _ in 0..BISECTIONS {
+            let depth = 0.5 * (low + high);
+            if melts(cold + depth * (hot - cold)) { high = depth } else { low = depth }
+        }
+        1.0 - high
+    }
+
     /// Whether the stickiness of the particles depends on their temperature.
     fn stickiness_depends_on_temperature(&self) -> bool {
         let depends = |term: &crate::effect::Term| {
@@ -144,7 +194,7 @@ impl Model {
     }
 }
 
-fn check_voidage(voidage: f64) -> Result<(), ImpactError> {
+pub(super) fn check_voidage(voidage: f64) -> Result<(), ImpactError> {
     if (0.0..1.0).contains(&voidage) {
         return Ok(());
     }
@@ -310,7 +360,14 @@ model = "droplet"
 
     #[test]
     fn a_deposit_sets_the_inputs_of_an_impact() {
-        let deposit = Deposit { molten: 0.055, powder: 0.1, solid: 1e-4, cover: 2.0, conversion: 0.5 };
+        let deposit = Deposit {
+            molten: 0.055,
+            powder: 0.1,
+            solid: 1e-4,
+            cover: 2.0,
+            conversion: 0.5,
+            ..Deposit::default()
+        };
         let changed = model().apply_deposit(1, &deposit, 0.5, &at(1700.0)).unwrap();
         assert_eq!(changed.layer_thickness, 2e-4);
         assert_relative_eq!(changed.coverage, 1.0 - (-2.0_f64).exp(), max_relative = 1e-15);

@@ -1,6 +1,7 @@
 //! The content of a model in words, for `nearwall check`.
 
 use super::Model;
+use crate::deposit::shedding::Strength;
 use crate::law::{Origin, Parameter, describe_values};
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
@@ -39,6 +40,11 @@ impl Model {
             }
             if let Some(erosion) = &wall.erosion {
                 text += &format!(", eroded by {}", erosion.describe());
+            }
+            if let Some(Strength { tensile, shear, spread }) = wall.shedding {
+                text += &format!(
+                    ", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}"
+                );
             }
             lines.push(("wall", text));
         }

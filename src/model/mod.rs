@@ -17,6 +17,7 @@ mod prepared_wall;
 mod read;
 mod tilted_frame;
 mod wall;
+mod wall_heat;
 
 use std::path::Path;
 use std::sync::Arc;
@@ -39,6 +40,7 @@ pub use particle::Particle;
 use prepared_wall::PreparedWall;
 use wall::Place;
 pub use wall::Wall;
+pub use wall_heat::{WallCooling, WallHeat, WallHeatError};
 
 /// Everything that decides an impact of a particle on a wall. Immutable after reading.
 #[derive(Debug, Clone)]

@@ -7,6 +7,7 @@ use regex_lite::Regex;
 use super::wall::{Adhesion, Wall};
 use super::{Model, Particle, extra_input};
 use crate::capture::{Capture, Criterion};
+use crate::deposit::shedding::Strength;
 use crate::effect::Term;
 use crate::erosion::{self, Erosion};
 use crate::input::{Document, InputError, Limits, Section};
@@ -177,6 +178,10 @@ impl WallReader<'_> {
             film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
             erosion: own_erosion.or_else(|| self.erosion.clone()),
+            shedding: section
+                .section("shedding")?
+                .map(|table| finished(table, Strength::read))
+                .transpose()?,
             adhesion: self.adhesion,
             prepared,
         })

@@ -7,6 +7,7 @@ use regex_lite::Regex;
 use super::particle::Particle;
 use crate::capture::StickinessCriterion;
 use crate::deposit::cover;
+use crate::deposit::shedding::Strength;
 use crate::erosion::Erosion;
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
@@ -29,6 +30,8 @@ pub struct Wall {
     pub(super) coverage: f64,
     /// How impacts erode it, where the model file says so.
     pub(super) erosion: Option<Arc<dyn Erosion>>,
+    /// How strongly deposits hold to it, where the model file says so.
+    pub(super) shedding: Option<Strength>,
     pub(super) adhesion: Adhesion,
     /// The contact with the particle, where no property depends on temperature.
     pub(super) prepared: Option<Contact>,

@@ -130,6 +130,16 @@ impl Case {
         let injections = read_injections(top, burning, &model, folder)?;
         let surfaces = Surface::read_all(top, &model)?;
         let deposit = top.section("deposit")?.map(|s| DepositSettings::read(&s, &surfaces)).transpose()?;
+        let cooled = |surface: &&Surface| {
+            matches!(&surface.kind, SurfaceKind::Wall { cooling: Some(_), .. }) && deposit.is_none()
+        };
+        if let Some(wall) = surfaces.iter().find(cooled) {
+            let problem = format!(
+                "the temperature of the cooled wall `{}` follows from its deposit; add a table [deposit]",
+                wall.name
+            );
+            return Err(top.fault("walls", problem));
+        }
         let run = top.required_section("run")?;
         let hit_limit = whole(&run, "hit_limit", (1u64 << HIT_BITS) as f64)?.unwrap_or(1000);
         let time_limit = run.number_within("time_limit", f64::MIN_POSITIVE, f64::INFINITY)?;
@@ -200,7 +210,13 @@ impl Case {
         }
         if everything || key == "wall_temperature" {
             for surface in &mut self.surfaces {
-                if let SurfaceKind::Wall { temperature, .. } = &mut surface.kind {
+                if let SurfaceKind::Wall { temperature, cooling, .. } = &mut surface.kind {
+                    if cooling.is_some() {
+                        return Err(format!(
+                            "the wall `{}` is cooled, so its temperature cannot be set",
+                            surface.name
+                        ));
+                    }
                     *temperature = Profile::constant(value);
                 }
             }

@@ -6,8 +6,7 @@
 
 use std::f64::consts::PI;
 
-/// Stefan–Boltzmann constant [W/(m² K⁴)] (CODATA 2018, exact).
-pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
+use crate::deposit::conduction::STEFAN_BOLTZMANN;
 
 /// Nusselt number [1] from Reynolds and Prandtl numbers [1].
 pub fn nusselt(reynolds: f64, prandtl: f64) -> f64 {

@@ -8,6 +8,7 @@
 
 mod burning;
 mod case;
+mod cooling;
 mod distribution;
 pub mod drag;
 mod even_starts;

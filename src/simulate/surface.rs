@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
+use super::cooling::Cooling;
 use super::geometry::{across, direction, required_vector, required_within};
 use super::profile::Profile;
 use crate::input::{InputError, Section, unknown};
@@ -153,8 +154,10 @@ pub enum SurfaceKind {
     Wall {
         /// Index of the model's wall.
         model: usize,
-        /// Wall temperature [K].
+        /// Wall temperature [K]; of a cooled wall that of its coolant.
         temperature: Profile,
+        /// What makes the temperature follow from the deposit.
+        cooling: Option<Cooling>,
     },
     /// The particle leaves.
     Exit,
@@ -207,11 +210,19 @@ impl Surface {
             let (key, word) = wanted.as_ref().map_or(("name", &name), |wanted| ("wall", wanted));
             return Err(section.fault(key, unknown(word, "wall of the model", &known)));
         };
-        let temperature = Profile::read(section, "temperature", 1.0, 1e5)?
-            .ok_or_else(|| section.missing("temperature", "the wall's temperature [K]"))?;
+        let cooling = section.section("cooling")?.map(|s| Cooling::read(&s, model, index)).transpose()?;
+        let given = Profile::read(section, "temperature", 1.0, 1e5)?;
+        let temperature = match (given, &cooling) {
+            (Some(temperature), None) => temperature,
+            (None, Some(cooling)) => Profile::constant(cooling.coolant.temperature),
+            (Some(_), Some(_)) => {
+                return Err(section.fault("temperature", "follows from `cooling`; remove one of them"));
+            }
+            (None, None) => return Err(section.missing("temperature", "the wall's temperature [K]")),
+        };
         let shape = Shape::read(section)?;
         section.finish()?;
-        Ok(Self { name, shape, kind: SurfaceKind::Wall { model: index, temperature } })
+        Ok(Self { name, shape, kind: SurfaceKind::Wall { model: index, temperature, cooling } })
     }
 }
 

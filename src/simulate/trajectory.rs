@@ -294,10 +294,9 @@ impl<'a> Tracker<'a> {
     /// The impact on a surface that was reached, with what lies on the wall; `None` on an exit.
     fn contact(&self, index: usize, model: &Model) -> Result<Option<WallContact>, ImpactError> {
         let Some(mut contact) = self.bare_contact(index) else { return Ok(None) };
-        if let Some((deposit, voidage)) =
-            self.walls.and_then(|walls| walls.at(self.case, index, &contact.position))
-        {
-            contact.impact = model.apply_deposit(contact.wall, deposit, voidage, &contact.impact)?;
+        if let Some(walls) = self.walls {
+            let WallContact { position, wall, impact, .. } = &contact;
+            contact.impact = walls.apply(self.case, index, position, model, *wall, impact)?;
         }
         Ok(Some(contact))
     }
@@ -305,7 +304,7 @@ impl<'a> Tracker<'a> {
     /// The impact on a surface that was reached, without what lies on the wall; `None` on an exit.
     pub fn bare_contact(&self, index: usize) -> Option<WallContact> {
         let surface = &self.case.surfaces[index];
-        let SurfaceKind::Wall { model: wall, temperature } = &surface.kind else { return None };
+        let SurfaceKind::Wall { model: wall, temperature, .. } = &surface.kind else { return None };
         let here = position(&self.state);
         let frame = WallFrame::new(&surface.shape, &here, &velocity(&self.state));
         let gas = self.case.gas.at(&here).velocity;

@@ -18,8 +18,9 @@ use super::shrinkage::ASH_DENSITY;
 use super::surface::{Shape, Surface, SurfaceKind};
 use super::trajectory::{Fate, Trajectory};
 use crate::deposit::{Deposit, DepositSource, burn_off};
-use crate::impact::Impact;
+use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
+use crate::model::{Model, WallHeat};
 
 /// Largest number of states that are kept of one wall.
 const MOST_STATES: u64 = 1_000_000;
@@ -111,6 +112,8 @@ pub struct BinHistory {
     pub burnt: Vec<f64>,
     /// The deposit then.
     pub states: Vec<Deposit>,
+    /// Temperatures then, of a cooled wall.
+    pub heat: Vec<WallHeat>,
 }
 
 /// The walls while a case runs.
@@ -148,16 +151,29 @@ impl WallDeposits {
             let SurfaceKind::Wall { model, .. } = &surface.kind else { return Ok(None) };
             let initial = case.model.initial_deposit(*model, settings.voidage);
             let initial = initial.map_err(|error| format!("{}: {error}", surface.name))?;
-            Ok(Some(bins(&surface.shape, settings.bins, initial)))
+            let mut bins = bins(&surface.shape, settings.bins, initial);
+            bins.iter_mut().try_for_each(|bin| bin.record_heat(case, surface, settings.voidage))?;
+            Ok(Some(bins))
         };
         Ok(Self { settings, walls: case.surfaces.iter().map(wall).collect::<Result<_, String>>()? })
     }
 
-    /// The deposit at a point near a surface, and its voidage; `None` at an exit.
-    pub(super) fn at(&self, case: &Case, surface: usize, position: &Vector3<f64>) -> Option<(&Deposit, f64)> {
-        let bins = self.walls.get(surface)?.as_ref()?;
-        let bin = bins.get(bin_at(bins, case.surfaces[surface].shape.coordinate(position)))?;
-        Some((&bin.deposit, self.settings.voidage))
+    /// What an impact on a surface meets, at a point near it; as it is at an exit.
+    pub(super) fn apply(
+        &self,
+        case: &Case,
+        surface: usize,
+        position: &Vector3<f64>,
+        model: &Model,
+        wall: usize,
+        impact: &Impact,
+    ) -> Result<Impact, ImpactError> {
+        let bins = self.walls.get(surface).and_then(Option::as_ref);
+        let here = |bins: &Vec<Bin>| bin_at(bins, case.surfaces[surface].shape.coordinate(position));
+        let Some(bin) = bins.and_then(|bins| bins.get(here(bins))) else { return Ok(*impact) };
+        let wall_temperature = bin.temperature().unwrap_or(impact.wall_temperature);
+        let impact = Impact { wall_temperature, ..*impact };
+        model.apply_deposit(wall, &bin.deposit, self.settings.voidage, &impact)
     }
 
     /// Adds a particle that was captured in this step.
@@ -188,16 +204,18 @@ impl WallDeposits {
 
     /// Adds what was captured in this step, and lets the powder burn.
     pub(super) fn end_step(&mut self, case: &Case) -> Result<(), String> {
-        let duration = self.settings.step();
+        let (duration, voidage) = (self.settings.step(), self.settings.voidage);
         for (surface, bins) in case.surfaces.iter().zip(&mut self.walls) {
-            let (SurfaceKind::Wall { model, temperature }, Some(bins)) = (&surface.kind, bins) else {
+            let (SurfaceKind::Wall { model, temperature, .. }, Some(bins)) = (&surface.kind, bins) else {
                 continue;
             };
             for bin in bins {
-                let [from, to] = bin.history.range;
-                let middle = surface.shape.point_at(0.5 * (from + to));
-                let burnt = bin.end_step(case, *model, temperature.at(&middle), duration)?;
+                let middle = surface.shape.point_at(bin.middle());
+                let met = bin.temperature().unwrap_or_else(|| temperature.at(&middle));
+                let burnt = bin.end_step(case, *model, met, duration)?;
+                bin.densify(case, voidage, duration);
                 bin.history.record(bin.deposit, bin.caught, burnt);
+                bin.record_heat(case, surface, voidage)?;
                 bin.caught = 0.0;
             }
         }
@@ -235,6 +253,38 @@ impl Bin {
             burnt += self.burn(case, wall, temperature, half)?;
         }
         Ok(burnt)
+    }
+
+    /// Middle of the bin along its wall [m].
+    fn middle(&self) -> f64 {
+        let [from, to] = self.history.range;
+        0.5 * (from + to)
+    }
+
+    /// Temperature of the surface that impacts meet [K]; of a cooled wall only.
+    fn temperature(&self) -> Option<f64> {
+        self.history.heat.last().map(|heat| heat.surface_temperature)
+    }
+
+    /// Records the temperatures of a cooled wall under its deposit.
+    fn record_heat(&mut self, case: &Case, surface: &Surface, voidage: f64) -> Result<(), String> {
+        let SurfaceKind::Wall { model, cooling: Some(cooling), .. } = &surface.kind else { return Ok(()) };
+        let place = surface.shape.point_at(self.middle());
+        let cooling = cooling.at(case, &place);
+        let heat = case.model.wall_heat(*model, &self.deposit, voidage, &cooling);
+        let heat = heat.map_err(|error| format!("{}: {error}", surface.name))?;
+        self.history.heat.push(heat);
+        Ok(())
+    }
+
+    /// Lets the powder on a cooled wall sinter and melt for a step [s] at its present temperatures.
+    fn densify(&mut self, case: &Case, voidage: f64, duration: f64) {
+        let Some(heat) = self.history.heat.last() else { return };
+        let powder = self.deposit.powder;
+        self.deposit = case.model.aged(&self.deposit, voidage, heat, duration);
+        // What melted takes its carbon along.
+        let kept = if powder > 0.0 { self.deposit.powder / powder } else { 1.0 };
+        self.powder = self.powder.times(kept);
     }
 
     /// Lets the powder burn; returns the mass that is gone [kg/m²].
@@ -312,7 +362,7 @@ fn bins(shape: &Shape, count: usize, deposit: Deposit) -> Vec<Bin> {
         let range = [edge(number), edge(number + 1)];
         let area = shape.area_between(range);
         let mut history =
-            BinHistory { range, area, arrived: Vec::new(), burnt: Vec::new(), states: Vec::new() };
+            BinHistory { range, area, arrived: vec![], burnt: vec![], states: vec![], heat: vec![] };
         history.record(deposit, 0.0, 0.0);
         Bin {
             history,

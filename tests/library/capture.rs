@@ -201,7 +201,7 @@ fn a_metal_droplet_is_arrested_by_a_cold_wall() {
     assert_eq!([300.0, 700.0, 1000.0].map(p), [1.0; 3]);
     assert_eq!([2850.0, 2895.0].map(p), [0.0; 2]);
     // Where a thermal property is not known, freezing is not judged.
-    let unknown = Model::from_toml("m.toml", &text.replace("\"tungsten\"", "\"stainless-steel\"")).unwrap();
+    let unknown = Model::from_toml("m.toml", &text.replace("\"tungsten\"", "\"teflon\"")).unwrap();
     let impact = Impact { diameter: 30e-6, ..at(10.0, 2900.0) };
     assert_eq!(hit(&unknown, &impact).sticking_probability, 0.0);
 }

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use super::Run;
 use super::impacts::text;
+use crate::model::WallHeat;
 use crate::results::History;
 use crate::results::openfoam::deposit::{COLUMNS, DepositState};
 use crate::simulate::{BinHistory, Case, WallHistory};
@@ -25,6 +26,9 @@ const HEADER: [&str; 14] = [
     "on_wall_kg",
 ];
 
+/// Further columns of a case with a cooled wall; blank for walls of a given temperature.
+const HEAT_HEADER: [&str; 3] = ["porosity", "surface_temperature_K", "heat_flux_W_m2"];
+
 /// Writes the table: one row for each time, wall and bin, and for each value of a sweep. Masses in kg are of the bin.
 ///
 /// # Errors
@@ -32,7 +36,16 @@ const HEADER: [&str; 14] = [
 pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
     let mut writer = csv::Writer::from_writer(sink);
     let swept = case.sweep.as_ref().map(|sweep| format!("swept_{}", sweep.key));
-    writer.write_record(HEADER.into_iter().map(str::to_owned).chain(swept))?;
+    let cooled = |run: &Run| {
+        run.deposits
+            .iter()
+            .flat_map(|all| &all.walls)
+            .flat_map(|wall| &wall.bins)
+            .any(|bin| !bin.heat.is_empty())
+    };
+    let heat = if runs.iter().any(cooled) { HEAT_HEADER.len() } else { 0 };
+    let header = HEADER.into_iter().chain(HEAT_HEADER.into_iter().take(heat));
+    writer.write_record(header.map(str::to_owned).chain(swept))?;
     let Some(settings) = case.deposit else { return into_sink(writer) };
     for run in runs {
         let walls = || run.deposits.iter().flat_map(|deposits| &deposits.walls);
@@ -41,7 +54,9 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
             for (wall, bin) in walls().flat_map(|wall| wall.bins.iter().map(move |bin| (wall, bin))) {
                 let name = case.surfaces[wall.surface].name.clone();
                 let cells = row(bin, step, settings.voidage).map(text);
-                let cells = [text(time), name].into_iter().chain(cells).chain(run.value.map(text));
+                let heat = heat_row(bin, step, settings.voidage).into_iter().take(heat);
+                let cells =
+                    [text(time), name].into_iter().chain(cells).chain(heat).chain(run.value.map(text));
                 writer.write_record(cells)?;
             }
         }
@@ -71,6 +86,12 @@ fn row(bin: &BinHistory, step: usize, voidage: f64) -> [f64; 12] {
     ]
 }
 
+/// The cells of [`HEAT_HEADER`].
+fn heat_row(bin: &BinHistory, step: usize, voidage: f64) -> [String; 3] {
+    let Some(heat) = bin.heat.get(step) else { return Default::default() };
+    [bin.states[step].porosity(voidage), heat.surface_temperature, heat.heat_flux].map(text)
+}
+
 /// The deposits of a run by wall, in the columns of the page.
 pub(super) fn by_wall(case: &Case, run: &Run) -> Vec<History<DepositState>> {
     let Some((settings, deposits)) = case.deposit.zip(run.deposits.as_ref()) else { return Vec::new() };
@@ -87,10 +108,14 @@ pub(super) fn by_wall(case: &Case, run: &Run) -> Vec<History<DepositState>> {
 /// The columns of [`COLUMNS`] for a wall after a step.
 fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
     let sum = |of: &dyn Fn(&BinHistory) -> f64| bins.iter().map(of).sum::<f64>();
-    let largest = |of: &dyn Fn(&BinHistory) -> f64| bins.iter().map(of).fold(0.0, f64::max);
+    let largest = |of: &dyn Fn(&BinHistory) -> f64| bins.iter().map(of).fold(f64::NAN, f64::max);
     let area = sum(&|bin| bin.area);
     let coverage = |bin: &BinHistory| bin.states[step].coverage();
     let layer = |bin: &BinHistory| bin.states[step].layer_thickness(voidage);
+    // Of a cooled wall; that of another one is given.
+    let heat = |bin: &BinHistory, of: fn(&WallHeat) -> f64| bin.heat.get(step).map_or(f64::NAN, of);
+    let surface = |bin: &BinHistory| heat(bin, |heat| heat.surface_temperature);
+    let flux = |bin: &BinHistory| heat(bin, |heat| heat.heat_flux);
     COLUMNS.map(|column| match column {
         "initial_kg" => sum(&|bin| bin.states[0].mass() * bin.area),
         "arrived_kg" => sum(&|bin| bin.arrived[step]),
@@ -100,6 +125,10 @@ fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
         "coverage_max" => largest(&coverage),
         "layer_thickness_mean_m" => sum(&|bin| layer(bin) * bin.area) / area,
         "layer_thickness_max_m" => largest(&layer),
+        "wall_temperature_mean_K" => sum(&|bin| surface(bin) * bin.area) / area,
+        "wall_temperature_max_K" => largest(&surface),
+        "heat_flux_mean_W_m2" => sum(&|bin| flux(bin) * bin.area) / area,
+        "heat_flux_max_W_m2" => largest(&flux),
         // Nothing drains in a standalone case.
         _ => 0.0,
     })
