@@ -182,6 +182,51 @@ typedef struct nw_outcomes {
   uint32_t *flags;
 } nw_outcomes;
 
+// What cools and heats a wall. Fill it with `nw_wall_cooling_init`, then set what there is.
+typedef struct nw_wall_cooling {
+  // `sizeof(nw_wall_cooling)`.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Temperature of the coolant behind the wall [K], positive.
+  double coolant_temperature;
+  // Heat transfer coefficient of the coolant [W/(m2 K)]; infinite where the back of the wall has its temperature.
+  double coolant_coefficient;
+  // Thickness of the wall over its conductivity [m2 K/W], not negative.
+  double wall_resistance;
+  // Temperature of the gas [K], positive.
+  double gas_temperature;
+  // Heat transfer coefficient of the gas [W/(m2 K)], not negative: in a flow solver the conductivity of the gas over the
+  // distance between wall and cell. Infinite where the temperature of the surface is known: it is `gas_temperature`.
+  double gas_coefficient;
+  // Emissivity of the surface [1], 0 to 1.
+  double emissivity;
+  // Irradiation of the surface [W/m2], not negative: 5.670374419e-8 T^4 of surroundings of one temperature.
+  double irradiation;
+  // Further heat flux into the surface [W/m2], of particles or the net one of a radiation model.
+  double further_flux;
+  // Conductivity of the gas in the voids of the powder [W/(m K)], positive.
+  double gas_conductivity;
+} nw_wall_cooling;
+
+// Temperatures of a wall with a deposit.
+typedef struct nw_wall_heat {
+  // `sizeof(nw_wall_heat)`.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Temperature of the surface that impacts meet [K].
+  double surface_temperature;
+  // Temperature of the wall under the deposit [K].
+  double wall_temperature;
+  // Temperature of the outside of the powder [K], under the melt.
+  double powder_temperature;
+  // Heat flux from the gas to the coolant [W/m2].
+  double heat_flux;
+  // Thermal resistance of the deposit [m2 K/W].
+  double deposit_resistance;
+} nw_wall_heat;
+
 // The deposit on a piece of wall, per wall area. `nw_deposit_init` makes a bare wall.
 typedef struct nw_deposit {
   // `sizeof(nw_deposit)`.
@@ -198,6 +243,8 @@ typedef struct nw_deposit {
   double cover;
   // Carbon conversion [1], mean by mass of the whole deposit.
   double conversion;
+  // Volume of the powder's voids that sintering has closed [m3/m2].
+  double closed;
 } nw_deposit;
 
 // Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
@@ -252,6 +299,9 @@ typedef struct nw_deposit_source {
 
 // The model file declares no input with this index; `nw_extra_input_count` returns their number.
 #define NW_UNKNOWN_INPUT 10
+
+// The material of a layer of the deposit has no `thermal_conductivity` in the model file or the library.
+#define NW_NO_CONDUCTIVITY 11
 
 // Non-sticky particle, non-sticky wall.
 #define NW_NSP_NSW 0
@@ -405,6 +455,57 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            const struct nw_outcomes *outcomes,
                            size_t *first_bad);
 
+// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m K) for the gas in the voids
+// (air at room temperature), zeros. Both temperatures must be set.
+//
+// # Safety
+// `cooling` can be written.
+nw_status nw_wall_cooling_init(struct nw_wall_cooling *cooling);
+
+// Initialises the temperatures of a wall for `nw_deposit_heat`: their size and zeros.
+//
+// # Safety
+// `heat` can be written.
+nw_status nw_wall_heat_init(struct nw_wall_heat *heat);
+
+// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in fresh powder [1]. The
+// surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY` if a layer's material has none.
+//
+// # Safety
+// `model` is a loaded model; `deposit`, `cooling` and `heat` begin with their `struct_size`.
+nw_status nw_deposit_heat(const struct nw_model *model,
+                          const struct nw_deposit *deposit,
+                          double voidage,
+                          const struct nw_wall_cooling *cooling,
+                          struct nw_wall_heat *heat);
+
+// Lets a deposit age for a `duration` [s] at temperatures from `nw_deposit_heat`: powder that is hotter than it melts becomes melt,
+// the rest sinters. Mass is conserved.
+//
+// # Safety
+// `model` is a loaded model; `heat` and `deposit` begin with their `struct_size`.
+nw_status nw_deposit_age(const struct nw_model *model,
+                         double voidage,
+                         const struct nw_wall_heat *heat,
+                         double duration,
+                         struct nw_deposit *deposit);
+
+// Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Strengths are those of the table
+// `shedding` of the wall in the model file; without one nothing falls. `gravity_outward` is the component of gravity away from the
+// wall [m/s2], negative where it presses the deposit on; `gravity_along` that along the wall, not negative; the shear stress of the
+// gas [Pa] is given down the slope and across it. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the
+// strongest; a place keeps its draw.
+//
+// # Safety
+// `model` is a loaded model; `deposit` begins with its `struct_size`.
+nw_status nw_deposit_shed(const struct nw_model *model,
+                          double gravity_outward,
+                          double gravity_along,
+                          double shear_down,
+                          double shear_across,
+                          double draw,
+                          struct nw_deposit *deposit);
+
 // Initialises a deposit: its size, wall 0, a bare wall.
 //
 // # Safety
@@ -466,6 +567,18 @@ nw_status nw_film_velocity(const struct nw_model *model,
                            double T_w,
                            double gravity_along,
                            double *velocity);
+
+// As `nw_film_velocity`, for melt through which heat flows to a cooled wall: its surface has `T_surface` [K], and it is colder and
+// stiffer below, by the `heat_flux` [W/m2] of `nw_deposit_heat` over the conductivity of the melt. `NW_NO_CONDUCTIVITY` if the melt has none.
+//
+// # Safety
+// `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.
+nw_status nw_cooled_film_velocity(const struct nw_model *model,
+                                  const struct nw_deposit *deposit,
+                                  double T_surface,
+                                  double heat_flux,
+                                  double gravity_along,
+                                  double *velocity);
 
 // Counts the inputs that the model file declares under `[inputs]`. Their values are the first entries of `extra`.
 //

@@ -159,6 +159,20 @@ inline nw_deposit_source make_deposit_source() {
     return source;
 }
 
+// What cools and heats a wall: set at least the temperatures of coolant and gas.
+inline nw_wall_cooling make_wall_cooling() {
+    nw_wall_cooling cooling;
+    detail::check(nw_wall_cooling_init(&cooling), std::string("nw_wall_cooling_init"));
+    return cooling;
+}
+
+// Temperatures of a wall, for model::heat.
+inline nw_wall_heat make_wall_heat() {
+    nw_wall_heat heat;
+    detail::check(nw_wall_heat_init(&heat), std::string("nw_wall_heat_init"));
+    return heat;
+}
+
 // Adds the captured particles of a step to a deposit, which is untouched on failure.
 inline nw_status add(const nw_deposit_source& source, nw_deposit& deposit) noexcept {
     return nw_deposit_add(&source, &deposit);
@@ -305,10 +319,34 @@ public:
         return nw_deposit_source_add(raw_, &impact, mass, density, &source);
     }
 
+    // The steady temperatures of a wall under a deposit, with a share `voidage` of voids in fresh powder; no exceptions.
+    nw_status heat(const nw_deposit& deposit, double voidage, const nw_wall_cooling& cooling,
+                   nw_wall_heat& found) const noexcept {
+        return nw_deposit_heat(raw_, &deposit, voidage, &cooling, &found);
+    }
+
+    // Lets a deposit melt and sinter for a `duration` [s] at such temperatures; no exceptions.
+    nw_status age(double voidage, const nw_wall_heat& heat, double duration, nw_deposit& deposit) const noexcept {
+        return nw_deposit_age(raw_, voidage, &heat, duration, &deposit);
+    }
+
+    // Lets what the wall cannot hold fall off, under gravity [m/s2] away from it and along it and the shear of the gas [Pa] down
+    // the slope and across; `draw` ranks the place from the weakest, 0, to the strongest, 1; no exceptions.
+    nw_status shed(double gravity_outward, double gravity_along, double shear_down, double shear_across, double draw,
+                   nw_deposit& deposit) const noexcept {
+        return nw_deposit_shed(raw_, gravity_outward, gravity_along, shear_down, shear_across, draw, &deposit);
+    }
+
     // Mean speed [m/s] at which the melt of a deposit runs down a wall of `T_w` [K]; no exceptions.
     nw_status film_velocity(const nw_deposit& deposit, double T_w, double gravity_along,
                             double& velocity) const noexcept {
         return nw_film_velocity(raw_, &deposit, T_w, gravity_along, &velocity);
+    }
+
+    // The same for melt through which a heat flux [W/m2] flows to a cooled wall; `T_surface` [K]; no exceptions.
+    nw_status film_velocity(const nw_deposit& deposit, double T_surface, double heat_flux, double gravity_along,
+                            double& velocity) const noexcept {
+        return nw_cooled_film_velocity(raw_, &deposit, T_surface, heat_flux, gravity_along, &velocity);
     }
 
     // Resolves arrays of impacts; throws batch_error for the first invalid one, with no outcome written.

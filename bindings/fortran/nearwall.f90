@@ -38,6 +38,7 @@ module nearwall
   integer(c_int32_t), parameter :: NW_OUT_OF_RANGE = 8
   integer(c_int32_t), parameter :: NW_PANIC = 9
   integer(c_int32_t), parameter :: NW_UNKNOWN_INPUT = 10
+  integer(c_int32_t), parameter :: NW_NO_CONDUCTIVITY = 11
   integer(c_int32_t), parameter :: NW_NSP_NSW = 0
   integer(c_int32_t), parameter :: NW_NSP_SW = 1
   integer(c_int32_t), parameter :: NW_SP_NSW = 2
@@ -111,6 +112,30 @@ module nearwall
     type(c_ptr) :: flags = c_null_ptr
   end type nw_outcomes
 
+  type, bind(c) :: nw_wall_cooling
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: reserved
+    real(c_double) :: coolant_temperature
+    real(c_double) :: coolant_coefficient
+    real(c_double) :: wall_resistance
+    real(c_double) :: gas_temperature
+    real(c_double) :: gas_coefficient
+    real(c_double) :: emissivity
+    real(c_double) :: irradiation
+    real(c_double) :: further_flux
+    real(c_double) :: gas_conductivity
+  end type nw_wall_cooling
+
+  type, bind(c) :: nw_wall_heat
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: reserved
+    real(c_double) :: surface_temperature
+    real(c_double) :: wall_temperature
+    real(c_double) :: powder_temperature
+    real(c_double) :: heat_flux
+    real(c_double) :: deposit_resistance
+  end type nw_wall_heat
+
   type, bind(c) :: nw_deposit
     integer(c_int32_t) :: struct_size
     integer(c_int32_t) :: wall
@@ -119,6 +144,7 @@ module nearwall
     real(c_double) :: solid
     real(c_double) :: cover
     real(c_double) :: conversion
+    real(c_double) :: closed
   end type nw_deposit
 
   type, bind(c) :: nw_deposit_source
@@ -264,6 +290,50 @@ module nearwall
       integer(c_int32_t) :: nw_resolve_batch
     end function nw_resolve_batch
 
+    function nw_wall_cooling_init(cooling) bind(c)
+      import
+      type(nw_wall_cooling), intent(inout) :: cooling
+      integer(c_int32_t) :: nw_wall_cooling_init
+    end function nw_wall_cooling_init
+
+    function nw_wall_heat_init(heat) bind(c)
+      import
+      type(nw_wall_heat), intent(inout) :: heat
+      integer(c_int32_t) :: nw_wall_heat_init
+    end function nw_wall_heat_init
+
+    function nw_deposit_heat(model, deposit, voidage, cooling, heat) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_deposit), intent(in) :: deposit
+      real(c_double), value :: voidage
+      type(nw_wall_cooling), intent(in) :: cooling
+      type(nw_wall_heat), intent(inout) :: heat
+      integer(c_int32_t) :: nw_deposit_heat
+    end function nw_deposit_heat
+
+    function nw_deposit_age(model, voidage, heat, duration, deposit) bind(c)
+      import
+      type(c_ptr), value :: model
+      real(c_double), value :: voidage
+      type(nw_wall_heat), intent(in) :: heat
+      real(c_double), value :: duration
+      type(nw_deposit), intent(inout) :: deposit
+      integer(c_int32_t) :: nw_deposit_age
+    end function nw_deposit_age
+
+    function nw_deposit_shed(model, gravity_outward, gravity_along, shear_down, shear_across, draw, deposit) bind(c)
+      import
+      type(c_ptr), value :: model
+      real(c_double), value :: gravity_outward
+      real(c_double), value :: gravity_along
+      real(c_double), value :: shear_down
+      real(c_double), value :: shear_across
+      real(c_double), value :: draw
+      type(nw_deposit), intent(inout) :: deposit
+      integer(c_int32_t) :: nw_deposit_shed
+    end function nw_deposit_shed
+
     function nw_deposit_init(deposit) bind(c)
       import
       type(nw_deposit), intent(inout) :: deposit
@@ -319,6 +389,17 @@ module nearwall
       real(c_double), intent(inout) :: velocity
       integer(c_int32_t) :: nw_film_velocity
     end function nw_film_velocity
+
+    function nw_cooled_film_velocity(model, deposit, T_surface, heat_flux, gravity_along, velocity) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_deposit), intent(in) :: deposit
+      real(c_double), value :: T_surface
+      real(c_double), value :: heat_flux
+      real(c_double), value :: gravity_along
+      real(c_double), intent(inout) :: velocity
+      integer(c_int32_t) :: nw_cooled_film_velocity
+    end function nw_cooled_film_velocity
 
     function nw_extra_input_count(model, count) bind(c)
       import

@@ -33,6 +33,7 @@ BAD_STATE = 7
 OUT_OF_RANGE = 8
 PANIC = 9
 UNKNOWN_INPUT = 10
+NO_CONDUCTIVITY = 11
 NSP_NSW = 0
 NSP_SW = 1
 SP_NSW = 2
@@ -75,10 +76,25 @@ class nw_outcomes(Structure):
         ("omega", c_void_p), ("regime", c_void_p), ("stuck", c_void_p), ("flags", c_void_p)]
 
 
+class nw_wall_cooling(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("coolant_temperature", c_double),
+        ("coolant_coefficient", c_double), ("wall_resistance", c_double), ("gas_temperature", c_double),
+        ("gas_coefficient", c_double), ("emissivity", c_double), ("irradiation", c_double),
+        ("further_flux", c_double), ("gas_conductivity", c_double)]
+
+
+class nw_wall_heat(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("surface_temperature", c_double),
+        ("wall_temperature", c_double), ("powder_temperature", c_double), ("heat_flux", c_double),
+        ("deposit_resistance", c_double)]
+
+
 class nw_deposit(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("wall", c_uint32), ("molten", c_double), ("powder", c_double),
-        ("solid", c_double), ("cover", c_double), ("conversion", c_double)]
+        ("solid", c_double), ("cover", c_double), ("conversion", c_double), ("closed", c_double)]
 
 
 class nw_deposit_source(Structure):
@@ -106,6 +122,11 @@ FUNCTIONS = {
     "nw_erosion": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
     "nw_temperature_ranges": (c_int32, [c_void_p, c_uint32, POINTER(c_double), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "nw_resolve_batch": (c_int32, [c_void_p, POINTER(nw_impacts), POINTER(nw_outcomes), POINTER(c_size_t)]),
+    "nw_wall_cooling_init": (c_int32, [POINTER(nw_wall_cooling)]),
+    "nw_wall_heat_init": (c_int32, [POINTER(nw_wall_heat)]),
+    "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
+    "nw_deposit_age": (c_int32, [c_void_p, c_double, POINTER(nw_wall_heat), c_double, POINTER(nw_deposit)]),
+    "nw_deposit_shed": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double, POINTER(nw_deposit)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
     "nw_deposit_source_init": (c_int32, [POINTER(nw_deposit_source)]),
@@ -113,6 +134,7 @@ FUNCTIONS = {
     "nw_deposit_add": (c_int32, [POINTER(nw_deposit_source), POINTER(nw_deposit)]),
     "nw_deposit_apply": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_impact)]),
     "nw_film_velocity": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, c_double, POINTER(c_double)]),
+    "nw_cooled_film_velocity": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, c_double, c_double, POINTER(c_double)]),
     "nw_extra_input_count": (c_int32, [c_void_p, POINTER(c_uint32)]),
     "nw_extra_input_name": (c_int32, [c_void_p, c_uint32, c_char_p, c_size_t]),
     "nw_extra_input_default": (c_int32, [c_void_p, c_uint32, POINTER(c_double)]),
@@ -138,7 +160,8 @@ class Error(Exception):
 
 class Deposit(nw_deposit):
     """The deposit on a piece of wall, per wall area, initially bare: masses molten and powder [kg/m2], volume solid
-    [m3/m2] and projected area cover [1] of the powder's particles, carbon conversion [1]."""
+    [m3/m2] and projected area cover [1] of the powder's particles, carbon conversion [1], volume closed [m3/m2] of the
+    voids that sintering has closed."""
 
     def __init__(self, wall=0):
         super().__init__()
@@ -156,6 +179,32 @@ class DepositSource(nw_deposit_source):
     def __init__(self):
         super().__init__()
         _check(_library.nw_deposit_source_init(byref(self)))
+
+
+class WallCooling(nw_wall_cooling):
+    """What cools and heats a wall: coolant_temperature and gas_temperature [K]; coolant_coefficient (infinite unless given)
+    and gas_coefficient [W/(m2 K)]; wall_resistance, thickness over conductivity [m2 K/W]; emissivity [1]; irradiation and
+    further_flux [W/m2]; gas_conductivity in the voids of the powder, 0.026 W/(m K) unless given. The others are 0 unless given."""
+
+    def __init__(self, coolant_temperature, gas_temperature, **others):
+        super().__init__()
+        _check(_library.nw_wall_cooling_init(byref(self)))
+        unknown = set(others) - {name for name, kind in nw_wall_cooling._fields_ if kind is c_double}
+        if unknown:
+            raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
+        self.coolant_temperature, self.gas_temperature = coolant_temperature, gas_temperature
+        for name, value in others.items():
+            setattr(self, name, value)
+
+
+class WallHeat(nw_wall_heat):
+    """Temperatures of a wall from `Model.heat`: surface_temperature [K], the T_w of the next impact; wall_temperature [K]
+    under the deposit; powder_temperature [K] at the outside of the powder, under the melt; heat_flux [W/m2] from the gas to
+    the coolant; deposit_resistance [m2 K/W]."""
+
+    def __init__(self):
+        super().__init__()
+        _check(_library.nw_wall_heat_init(byref(self)))
 
 
 def _load():
@@ -371,8 +420,33 @@ class Model:
         impact = self._impact(wall, {"T_w": T_w, **inputs})
         _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(source)))
 
-    def film_velocity(self, deposit, T_w, gravity_along):
-        """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2."""
+    def film_velocity(self, deposit, T_w, gravity_along, heat_flux=None):
+        """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2. With a `heat_flux` to a
+        cooled wall [W/m2], T_w is that of the surface, and the melt is colder below."""
         found = c_double()
-        _check(_library.nw_film_velocity(self._handle, byref(deposit), T_w, gravity_along, byref(found)))
+        if heat_flux is None:
+            _check(_library.nw_film_velocity(self._handle, byref(deposit), T_w, gravity_along, byref(found)))
+        else:
+            _check(_library.nw_cooled_film_velocity(
+                self._handle, byref(deposit), T_w, heat_flux, gravity_along, byref(found)))
         return found.value
+
+    def heat(self, deposit, voidage, cooling):
+        """The steady temperatures of a wall under its deposit, a WallHeat; `voidage` is the share of voids in fresh powder [1],
+        `cooling` a WallCooling."""
+        found = WallHeat()
+        _check(_library.nw_deposit_heat(self._handle, byref(deposit), voidage, byref(cooling), byref(found)))
+        return found
+
+    def age_deposit(self, deposit, voidage, heat, duration):
+        """Lets a deposit age for a `duration` [s] at the temperatures of `heat`: powder that is hotter than it melts becomes
+        melt, the rest sinters. Mass is conserved."""
+        _check(_library.nw_deposit_age(self._handle, voidage, byref(heat), duration, byref(deposit)))
+
+    def shed_deposit(self, deposit, draw, gravity_outward=0.0, gravity_along=0.0, shear_down=0.0, shear_across=0.0):
+        """Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Gravity away from the wall
+        (negative where it presses the deposit on) and along it is in m/s2, the shear stress of the gas down the slope and
+        across it in Pa. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the strongest; a place
+        keeps its draw. A wall without a table `shedding` in the model file holds everything."""
+        _check(_library.nw_deposit_shed(self._handle, gravity_outward, gravity_along, shear_down, shear_across, draw,
+                                        byref(deposit)))

@@ -5,7 +5,6 @@ use super::boundary::{check_size, guarded_status, initialise, reader, sized};
 use super::impact::nw_impact;
 use super::types::{NW_BAD_STATE, NW_NULL_POINTER, nw_model, nw_status, zero_by_default};
 use crate::deposit::{Deposit, DepositSource};
-use crate::slag::film;
 
 /// The deposit on a piece of wall, per wall area. `nw_deposit_init` makes a bare wall.
 #[repr(C)]
@@ -25,6 +24,8 @@ pub struct nw_deposit {
     pub cover: f64,
     /// Carbon conversion [1], mean by mass of the whole deposit.
     pub conversion: f64,
+    /// Volume of the powder's voids that sintering has closed [m3/m2].
+    pub closed: f64,
 }
 
 /// Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
@@ -52,19 +53,19 @@ pub struct nw_deposit_source {
 zero_by_default!(nw_deposit, nw_deposit_source);
 
 impl nw_deposit {
-    fn to_deposit(self) -> Deposit {
-        let Self { molten, powder, solid, cover, conversion, .. } = self;
-        Deposit { molten, powder, solid, cover, conversion }
+    pub(super) fn to_deposit(self) -> Deposit {
+        let Self { molten, powder, solid, cover, conversion, closed, .. } = self;
+        Deposit { molten, powder, solid, cover, conversion, closed }
     }
 
-    fn with(self, deposit: &Deposit) -> Self {
-        let Deposit { molten, powder, solid, cover, conversion } = *deposit;
-        Self { molten, powder, solid, cover, conversion, ..self }
+    pub(super) fn with(self, deposit: &Deposit) -> Self {
+        let Deposit { molten, powder, solid, cover, conversion, closed } = *deposit;
+        Self { molten, powder, solid, cover, conversion, closed, ..self }
     }
 
     /// Refuses overflowed sums, so that every other call accepts what this one writes.
-    fn sound(self) -> Result<Self, nw_status> {
-        let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover]);
+    pub(super) fn sound(self) -> Result<Self, nw_status> {
+        let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover, self.closed]);
         if sizes && (0.0..=1.0).contains(&self.conversion) { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
@@ -237,19 +238,37 @@ pub unsafe extern "C" fn nw_film_velocity(
     gravity_along: f64,
     velocity: *mut f64,
 ) -> nw_status {
+    // SAFETY: the caller's promises.
+    unsafe { nw_cooled_film_velocity(model, deposit, T_w, 0.0, gravity_along, velocity) }
+}
+
+/// As `nw_film_velocity`, for melt through which heat flows to a cooled wall: its surface has `T_surface` [K], and it is colder and
+/// stiffer below, by the `heat_flux` [W/m2] of `nw_deposit_heat` over the conductivity of the melt. `NW_NO_CONDUCTIVITY` if the melt has none.
+///
+/// # Safety
+/// `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.
+#[unsafe(no_mangle)]
+#[allow(non_snake_case)]
+pub unsafe extern "C" fn nw_cooled_film_velocity(
+    model: *const nw_model,
+    deposit: *const nw_deposit,
+    T_surface: f64,
+    heat_flux: f64,
+    gravity_along: f64,
+    velocity: *mut f64,
+) -> nw_status {
     let flow = || {
         // SAFETY: the caller's promises.
         let (model, deposit) = unsafe { (reader(model)?, sized(deposit)?) };
         if velocity.is_null() {
             return Err(NW_NULL_POINTER);
         }
-        if !(are_sizes(&[T_w, gravity_along]) && T_w > 0.0) {
+        if !(are_sizes(&[T_surface, gravity_along]) && T_surface > 0.0 && heat_flux.is_finite()) {
             return Err(NW_BAD_STATE);
         }
         let deposit = deposit.sound()?;
-        let melt = model.inner().melt(deposit.wall as usize, T_w)?;
-        let thickness = deposit.molten / melt.density;
-        let found = film::mean_velocity(thickness, melt.density, melt.viscosity, gravity_along);
+        let wall = deposit.wall as usize;
+        let found = model.inner().film_velocity(wall, deposit.molten, T_surface, heat_flux, gravity_along)?;
         if !found.is_finite() {
             return Err(NW_BAD_STATE);
         }

@@ -9,6 +9,7 @@
 
 mod batch;
 mod boundary;
+mod cooled_wall;
 mod deposit;
 mod extra;
 mod impact;
@@ -23,6 +24,7 @@ use crate::rng::ImpactRng;
 
 pub use batch::*;
 use boundary::{Fault, check_size, guarded, guarded_status, initialise, put, reader, report, sized};
+pub use cooled_wall::*;
 pub use deposit::*;
 pub use extra::*;
 pub use impact::*;

@@ -5,6 +5,7 @@ use std::ffi::CStr;
 
 use crate::impact::{ImpactError, Outcome};
 use crate::model::Model;
+use crate::model::WallHeatError;
 
 /// The default of C structs: their size, and zero or null in every other field.
 macro_rules! zero_by_default {
@@ -63,6 +64,8 @@ pub const NW_OUT_OF_RANGE: nw_status = 8;
 pub const NW_PANIC: nw_status = 9;
 /// The model file declares no input with this index; `nw_extra_input_count` returns their number.
 pub const NW_UNKNOWN_INPUT: nw_status = 10;
+/// The material of a layer of the deposit has no `thermal_conductivity` in the model file or the library.
+pub const NW_NO_CONDUCTIVITY: nw_status = 11;
 
 /// The text of a status.
 pub(super) fn status_text(status: nw_status) -> &'static CStr {
@@ -82,6 +85,9 @@ pub(super) fn status_text(status: nw_status) -> &'static CStr {
         }
         NW_PANIC => c"internal error; please report it",
         NW_UNKNOWN_INPUT => c"the model file declares no such input",
+        NW_NO_CONDUCTIVITY => {
+            c"the material of the particle, its ash or the wall's slag has no thermal_conductivity; give it one"
+        }
         _ => c"unknown status",
     }
 }
@@ -151,6 +157,17 @@ impl From<ImpactError> for nw_status {
             ImpactError::Unusable { .. } => NW_BAD_STATE,
             ImpactError::OutOfRange { .. } => NW_OUT_OF_RANGE,
             ImpactError::NoSuchWall(_) => NW_UNKNOWN_WALL,
+        }
+    }
+}
+
+/// The status of a wall without temperatures.
+impl From<WallHeatError> for nw_status {
+    fn from(error: WallHeatError) -> Self {
+        match error {
+            WallHeatError::NoConductivity(_) => NW_NO_CONDUCTIVITY,
+            WallHeatError::Deposit(error) => error.into(),
+            WallHeatError::Conduction(_) => NW_BAD_STATE,
         }
     }
 }

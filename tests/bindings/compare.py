@@ -12,6 +12,7 @@ import csv
 import ctypes
 import importlib.util
 import itertools
+import math
 import pathlib
 import re
 import struct
@@ -114,8 +115,8 @@ def compare_udf(output, udf, *impacts):
 
 
 def compare_deposit(impacts, output, *others):
-    """Computed here: the deposit has the captured mass and carbon; the speed of a laminar film grows with its thickness squared
-    (Nusselt)."""
+    """Computed here: the deposit has the captured mass and carbon until the wall, which holds 10 Pa of shear, lets it fall; the
+    speed of a laminar film grows with its thickness squared (Nusselt); the wall's two sides pass the same heat."""
     rows = outcomes(output)
     for other in others:
         theirs = outcomes(other)
@@ -126,11 +127,24 @@ def compare_deposit(impacts, output, *others):
     assert len(T_w) == len(rows) == 960, len(rows)
     # The wall begins with 10 um of the model's fly ash, of 2300 kg/m3 and with 0.4 voids.
     mass, carbon, films = 1e-5 * (1 - 0.4) * 2300, 0.0, {}
-    for number, (stuck, _, coverage, _, molten, powder, _, _, conversion, velocity) in enumerate(rows):
+    falls = sintered = melted = 0
+    for number, (stuck, _, coverage, _, molten, powder, solid, cover, conversion, velocity, *cooled) in enumerate(rows):
+        closed, surface, under, outside, flux, resistance = cooled
         mass += stuck * (1 + number % 7) / 1024
         carbon += stuck * (1 + number % 7) / 1024 * (0.5 if number % 2 else 1)
-        assert 0 < coverage <= 1
+        assert 0 <= coverage <= 1
         if number % 4 == 3:
+            gas = 4000 if number % 64 == 63 else 1500
+            given = 300 * (gas - surface) + 0.8 * (4e5 - 5.670374419e-8 * surface**4)
+            taken = (surface - 600) / (1 / 2000 + 1e-3 + resistance)
+            assert max(abs(given - flux), abs(taken - flux)) < 1e-6, f"impact {number}: {given!r}, {taken!r}, {flux!r} W/m2"
+            assert 600 < under <= outside <= surface < gas and resistance > 0, f"impact {number}: {cooled}"
+            sintered += 0 < closed < 0.6 * solid
+            melted += molten > 0 and powder < rows[number - 1][5]
+        if number % 4 == 3 and math.hypot(mass * 9.81 + 0.5, 0.25) >= 10:
+            assert (molten, powder, solid, cover, conversion, closed) == (0,) * 6, f"impact {number}: the wall holds {mass!r} kg/m2"
+            mass, carbon, falls = 0.0, 0.0, falls + 1
+        elif number % 4 == 3 and mass > 0:
             assert abs((molten + powder) / mass - 1) < 1e-12, f"impact {number}: {molten + powder!r} kg/m2 lie there of {mass!r}"
             assert abs(conversion * mass / carbon - 1) < 1e-12 or carbon == 0, f"impact {number}: conversion {conversion!r}"
         if velocity > 0:
@@ -140,7 +154,9 @@ def compare_deposit(impacts, output, *others):
     # Coal slag is stiff below 1528 K.
     flowing = {temperature for temperature in T_w if temperature > 1528}
     assert min(ends) > 0 and films.keys() == flowing and len({row[0] for row in rows}) == 2, (ends, films)
-    print(f"{len(rows)} impacts in {1 + len(others)} languages, the same bits; {ends[0]:.3f} kg/m2 of melt and {ends[1]:.3f} of powder")
+    assert min(falls, sintered, melted) > 2, (falls, sintered, melted)
+    print(f"{len(rows)} impacts in {1 + len(others)} languages, the same bits; {ends[0]:.3f} kg/m2 of melt and {ends[1]:.3f} of "
+          f"powder; the deposit fell {falls} times, sintered in {sintered} steps, melted in {melted}")
 
 
 # --- layout -----------------------------------------------------------------------------------------------------------

@@ -1,7 +1,8 @@
 /* A wall with a growing deposit, in C: the other languages have to print the same, bit for bit.
  * Takes a model and a table of impacts as the examples do; a step is four rows. Prints for each row whether the particle is
- * captured, the deposit at the impact (layer, coverage, melt) and after it (molten, powder, solid, cover, conversion), and
- * the speed of the film. */
+ * captured, the deposit at the impact (layer, coverage, melt) and after it (molten, powder, solid, cover, conversion), the
+ * speed of the film, the void volume that sintering closed, and the wall of the last step (temperatures of surface, wall and
+ * powder, heat flux, resistance of the deposit). At the end of a step the deposit ages for a second and may fall off. */
 #include <nearwall.h>
 
 #include <stdio.h>
@@ -20,6 +21,8 @@ int main(int argc, char **argv) {
     nw_outcome outcome;
     nw_deposit deposit;
     nw_deposit_source source;
+    nw_wall_cooling cooling;
+    nw_wall_heat heat;
     double velocity = 0;
     FILE *table;
 
@@ -33,6 +36,14 @@ int main(int argc, char **argv) {
     must(nw_deposit_init(&deposit));
     must(nw_model_find_wall(model, "default", &deposit.wall));
     must(nw_deposit_initial(model, 0.4, &deposit));
+    must(nw_wall_cooling_init(&cooling));
+    cooling.coolant_temperature = 600;
+    cooling.coolant_coefficient = 2000;
+    cooling.wall_resistance = 1e-3;
+    cooling.gas_coefficient = 300;
+    cooling.emissivity = 0.8;
+    cooling.irradiation = 4e5;
+    must(nw_wall_heat_init(&heat));
     impact.wall = deposit.wall;
     impact.seed = 1;
     for (; fscanf(table, "%lf,%lf,%lf,%lf,%lf", &impact.v_n, &impact.v_t, &impact.d, &impact.T_p, &impact.T_w) == 5;
@@ -44,11 +55,17 @@ int main(int argc, char **argv) {
         if (impact.key % 4 == 3) {
             must(nw_deposit_add(&source, &deposit));
             must(nw_deposit_source_init(&source));
+            cooling.gas_temperature = impact.key % 64 == 63 ? 4000 : 1500;
+            must(nw_deposit_heat(model, &deposit, 0.4, &cooling, &heat));
+            must(nw_deposit_age(model, 0.4, &heat, 1, &deposit));
+            must(nw_deposit_shed(model, 0, 9.81, 0.5, 0.25, 0.5, &deposit));
         }
         must(nw_film_velocity(model, &deposit, impact.T_w, 9.81, &velocity));
-        printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", (unsigned)outcome.stuck, impact.layer_thickness,
+        printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", (unsigned)outcome.stuck, impact.layer_thickness,
                impact.coverage, impact.melt_thickness, deposit.molten, deposit.powder, deposit.solid, deposit.cover,
                deposit.conversion, velocity);
+        printf(" %.17g %.17g %.17g %.17g %.17g %.17g\n", deposit.closed, heat.surface_temperature, heat.wall_temperature,
+               heat.powder_temperature, heat.heat_flux, heat.deposit_resistance);
     }
     fclose(table);
     nw_model_free(model);

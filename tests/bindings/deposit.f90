@@ -8,6 +8,8 @@ program deposit_test
   type(nw_outcome) :: outcome
   type(nw_deposit) :: deposit
   type(nw_deposit_source) :: source
+  type(nw_wall_cooling) :: cooling
+  type(nw_wall_heat) :: heat
   real(c_double) :: velocity
   character(len=1024) :: path
   character(len=512) :: message
@@ -21,6 +23,14 @@ program deposit_test
   call must(nw_deposit_init(deposit))
   call must(nearwall_find_wall(model, 'default', deposit%wall))
   call must(nw_deposit_initial(model, 0.4d0, deposit))
+  call must(nw_wall_cooling_init(cooling))
+  cooling%coolant_temperature = 600
+  cooling%coolant_coefficient = 2000
+  cooling%wall_resistance = 1d-3
+  cooling%gas_coefficient = 300
+  cooling%emissivity = 0.8d0
+  cooling%irradiation = 4d5
+  call must(nw_wall_heat_init(heat))
   impact%wall = deposit%wall
   impact%seed = 1
   call get_command_argument(2, path)
@@ -37,10 +47,16 @@ program deposit_test
     if (modulo(impact%key, 4_c_int64_t) == 3) then
       call must(nw_deposit_add(source, deposit))
       call must(nw_deposit_source_init(source))
+      cooling%gas_temperature = merge(4000.0d0, 1500.0d0, modulo(impact%key, 64_c_int64_t) == 63)
+      call must(nw_deposit_heat(model, deposit, 0.4d0, cooling, heat))
+      call must(nw_deposit_age(model, 0.4d0, heat, 1.0d0, deposit))
+      call must(nw_deposit_shed(model, 0.0d0, 9.81d0, 0.5d0, 0.25d0, 0.5d0, deposit))
     end if
     call must(nw_film_velocity(model, deposit, impact%T_w, 9.81d0, velocity))
-    print '(i0, 9(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
-      deposit%molten, deposit%powder, deposit%solid, deposit%cover, deposit%conversion, velocity
+    print '(i0, 15(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
+      deposit%molten, deposit%powder, deposit%solid, deposit%cover, deposit%conversion, velocity, &
+      deposit%closed, heat%surface_temperature, heat%wall_temperature, heat%powder_temperature, heat%heat_flux, &
+      heat%deposit_resistance
     impact%key = impact%key + 1
   end do
   close (unit)

@@ -8,6 +8,9 @@ import nearwall
 
 model = nearwall.Model.from_file(sys.argv[1])
 deposit, source = model.initial_deposit(model.find_wall("default"), 0.4), nearwall.DepositSource()
+cooling = nearwall.WallCooling(600.0, 1500.0, coolant_coefficient=2000.0, wall_resistance=1e-3, gas_coefficient=300.0,
+                               emissivity=0.8, irradiation=4e5)
+heat = nearwall.WallHeat()
 for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimiter=",", skiprows=1).tolist()):
     met = model.apply_deposit(deposit, 0.4, T_w)
     impact = dict(v_n=v_n, v_t=v_t, d=d, T_p=T_p, conversion=0.5 if row % 2 else 1.0, **met)
@@ -17,6 +20,11 @@ for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimit
     if row % 4 == 3:
         deposit.add(source)
         source = nearwall.DepositSource()
+        cooling.gas_temperature = 4000.0 if row % 64 == 63 else 1500.0
+        heat = model.heat(deposit, 0.4, cooling)
+        model.age_deposit(deposit, 0.4, heat, 1.0)
+        model.shed_deposit(deposit, 0.5, gravity_along=9.81, shear_down=0.5, shear_across=0.25)
     velocity = model.film_velocity(deposit, T_w, 9.81)
     print(out.stuck[0], *(f"{number:.17g}" for number in (
-        met["layer_thickness"], met["coverage"], met["melt_thickness"], deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.conversion, velocity)))
+        met["layer_thickness"], met["coverage"], met["melt_thickness"], deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.conversion, velocity,
+        deposit.closed, heat.surface_temperature, heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance)))

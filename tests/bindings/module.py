@@ -59,6 +59,14 @@ refused(nearwall.Error, lambda: model.apply_deposit(deposit, 1.0, 900.0), "an in
 deposit.molten = -1.0
 refused(nearwall.Error, lambda: deposit.add(nearwall.DepositSource()), "an input is not finite or outside its bounds")
 refused(nearwall.Error, lambda: model.film_velocity(deposit, 1600.0, 9.81), "an input is not finite or outside its bounds")
+cooling = nearwall.WallCooling(600.0, 1700.0, gas_coefficient=100.0)
+heat = model.heat(model.initial_deposit(0, 0.4), 0.4, cooling)
+assert heat.surface_temperature == 600.0 and abs(heat.heat_flux / 110e3 - 1) < 1e-12 and heat.deposit_resistance == 0, heat.heat_flux
+refused(TypeError, lambda: nearwall.WallCooling(600.0, 1700.0, gas_coeficient=1.0), "no such input: gas_coeficient")
+refused(TypeError, lambda: nearwall.WallCooling(600.0, 1700.0, struct_size=1), "no such input: struct_size")
+refused(nearwall.Error, lambda: model.heat(model.initial_deposit(0, 0.4), 1.0, cooling), "an input is not finite or outside its bounds")
+refused(nearwall.Error, lambda: model.age_deposit(model.initial_deposit(0, 0.4), 0.4, heat, -1.0), "an input is not finite or outside its bounds")
+refused(nearwall.Error, lambda: model.shed_deposit(nearwall.Deposit(9), 0.5), "the model has no such wall")
 refused(TypeError, lambda: model.add_captured(nearwall.DepositSource(), 1.0, 2300.0, 900.0, diameter=1e-4), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n, diameter=d), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n.astype(numpy.float32)), "v_n has to be a contiguous array: numpy.ascontiguousarray(v_n, numpy.float64)")
@@ -107,6 +115,10 @@ part = damp.resolve(v_n[:3], v_t=1.0, humidity=numpy.array([0.0, numpy.nan, 1.0]
 assert numpy.allclose(part.e_n, [0.5, 0.58, 0.7], atol=1e-15) and numpy.allclose(part.e_t, 0.66, atol=1e-15), part
 assert numpy.allclose(damp.resolve(2.0, v_t=1.0).e_t, 0.76, atol=1e-15)
 assert damp.speeds(humidity=0.1, plate="steel").sticking >= 0
+powder = nearwall.Deposit()
+powder.solid = 1e-3
+fault = refused(nearwall.Error, lambda: damp.heat(powder, 0.4, cooling), "has no thermal_conductivity")
+assert fault.status == nearwall.NO_CONDUCTIVITY
 refused(nearwall.Error, lambda: damp.resolve(v_n, plate="glas"), "did you mean `glass`? (known here: steel, glass)")
 refused(TypeError, lambda: model.resolve(v_n, humidity=0.1), "no such input: humidity")
 print(f"{checks} faults, {len(v_n)} impacts")

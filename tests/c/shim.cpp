@@ -111,6 +111,19 @@ int deposit(const nearwall::model& model) {
     REQUIRE(model.apply_deposit(deposit, 1, impact) == NW_BAD_STATE);
     REQUIRE(model.initial_deposit(impact.wall, 0.5).cover == 0);
     REQUIRE(thrown([&] { model.initial_deposit(99, 0.5); }) == NW_UNKNOWN_WALL);
+    nw_wall_cooling cooling = nearwall::make_wall_cooling();
+    nw_wall_heat heat = nearwall::make_wall_heat();
+    REQUIRE(model.heat(deposit, 0.5, cooling, heat) == NW_BAD_STATE && heat.surface_temperature == 0);
+    cooling.coolant_temperature = 600;
+    cooling.gas_temperature = 1600;
+    cooling.gas_coefficient = 100;
+    // The back of the deposit has the temperature of the coolant: only the deposit and the gas resist.
+    REQUIRE(model.heat(deposit, 0.5, cooling, heat) == NW_OK && std::fabs(heat.wall_temperature - 600) < 1e-9);
+    REQUIRE(std::fabs(heat.heat_flux * (heat.deposit_resistance + 0.01) - 1000) < 1e-9);
+    const nw_deposit before = deposit;
+    REQUIRE(model.age(0.5, heat, 60, deposit) == NW_OK && deposit.powder == before.powder);
+    REQUIRE(model.shed(0, 9.81, 0, 0, 0.5, deposit) == NW_OK && deposit.powder == before.powder);
+    REQUIRE(model.shed(0, 9.81, 0, 0, 1, deposit) == NW_BAD_STATE);
     return 0;
 }
 

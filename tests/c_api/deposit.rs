@@ -1,10 +1,12 @@
-//! A wall's deposit through the C library: the numbers of the Rust library, and every way to be refused.
+//! A wall's deposit and its temperatures through the C library: the numbers of the Rust library, and every way to be refused.
 
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
+use nearwall::deposit::conduction::{Coolant, HotSide};
 use nearwall::deposit::{Deposit, DepositSource};
+use nearwall::model::{WallCooling, WallHeat};
 use nearwall::{Impact, Model};
 
 use crate::calls::Calls;
@@ -39,8 +41,7 @@ fn a_wall_grows_as_in_the_rust_library() {
         assert_eq!((source.count, source.molten, source.powder), (1, stayed.molten, stayed.powder));
         assert_eq!(unsafe { (calls.nw_deposit_add)(&raw const source, &raw mut deposit) }, NW_OK);
         expected = expected.with(&stayed);
-        let nw_deposit { molten, powder, solid, cover, conversion, .. } = deposit;
-        assert_eq!(Deposit { molten, powder, solid, cover, conversion }, expected);
+        assert_eq!(deposit_in_rust(&deposit), expected);
     }
     calls.free(model);
     assert!(both.iter().all(|count| *count > 20), "{both:?}");
@@ -63,6 +64,50 @@ fn a_deposit_starts_from_its_wall() {
         deposit.read_unaligned()
     };
     assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+}
+
+/// Through a film with a heat flux the hot outside carries the flow: by hand, the sum over 20000 slices of `rho g y²/mu(T(y)) dy`,
+/// `y` from the surface, over the thickness.
+#[test]
+fn a_cooled_film_is_stiff_inside() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let deposit = nw_deposit { wall: 1, molten: 13.75, ..nw_deposit::default() };
+    let ask = |t_surface: f64, flux: f64| {
+        let mut velocity = -1.0;
+        let status = unsafe {
+            (calls.nw_cooled_film_velocity)(
+                model,
+                &raw const deposit,
+                t_surface,
+                flux,
+                9.81,
+                &raw mut velocity,
+            )
+        };
+        (status, velocity)
+    };
+    let mut whole = -1.0;
+    let status = unsafe { (calls.nw_film_velocity)(model, &raw const deposit, 1750.0, 9.81, &raw mut whole) };
+    assert_eq!((status, ask(1750.0, 0.0)), (NW_OK, (NW_OK, whole)));
+
+    let (flux, rust) = (5e4, Model::from_toml("m", EVERY_REGIME).unwrap());
+    let of_slag = EVERY_REGIME.replace("\"refractory\"\nslag", "\"coal-slag\"\nslag");
+    let of_slag = Model::from_toml("m", &of_slag).unwrap();
+    let conductivity = of_slag.walls()[1].material().thermal_conductivity_near(1750.0).unwrap();
+    let (thickness, slices) = (13.75 / 2750.0, 20_000);
+    let slice = thickness / f64::from(slices);
+    let by_hand: f64 = (0..slices)
+        .map(|index| {
+            let depth = slice * (f64::from(index) + 0.5);
+            let melt = rust.melt(1, 1750.0 - flux * depth / conductivity).unwrap();
+            2750.0 * 9.81 * depth * depth / melt.viscosity * slice / thickness
+        })
+        .sum();
+    let (status, cooled) = ask(1750.0, flux);
+    calls.free(model);
+    assert_eq!(status, NW_OK);
+    assert!(cooled < 0.5 * whole && (cooled - by_hand).abs() < 1e-3 * by_hand, "{cooled} {by_hand} {whole}");
 }
 
 /// Nusselt's film of 1 mm of slag, by hand: 2750 * 9.81 * 1e-6/(3 mu).
@@ -201,5 +246,492 @@ fn what_overflows_is_refused_and_nothing_written() {
         let status = (calls.nw_deposit_source_add)(model, &raw const impact, 1.0, 1e3, &raw mut source);
         assert_eq!((status, source.count), (NW_BAD_STATE, 0));
         calls.free(model);
+    }
+}
+
+/// 600 K behind 1 mm of 1 W/(m K), a gas of 1500 K, no radiation.
+fn by_hand() -> nw_wall_cooling {
+    nw_wall_cooling {
+        coolant_temperature: 600.0,
+        coolant_coefficient: 2000.0,
+        wall_resistance: 1e-3,
+        gas_temperature: 1500.0,
+        gas_coefficient: 100.0,
+        gas_conductivity: 0.06,
+        ..nw_wall_cooling::default()
+    }
+}
+
+fn in_rust(cooling: &nw_wall_cooling) -> WallCooling {
+    WallCooling {
+        coolant: Coolant {
+            temperature: cooling.coolant_temperature,
+            coefficient: cooling.coolant_coefficient,
+        },
+        wall_resistance: cooling.wall_resistance,
+        hot: HotSide {
+            gas_temperature: cooling.gas_temperature,
+            coefficient: cooling.gas_coefficient,
+            emissivity: cooling.emissivity,
+            irradiation: cooling.irradiation,
+            particle_flux: cooling.further_flux,
+        },
+        gas_conductivity: cooling.gas_conductivity,
+    }
+}
+
+fn heat_in_rust(heat: &nw_wall_heat) -> WallHeat {
+    let nw_wall_heat { surface_temperature, wall_temperature, powder_temperature, .. } = *heat;
+    let nw_wall_heat { heat_flux, deposit_resistance, .. } = *heat;
+    WallHeat { surface_temperature, wall_temperature, powder_temperature, heat_flux, deposit_resistance }
+}
+
+fn deposit_in_rust(deposit: &nw_deposit) -> Deposit {
+    let nw_deposit { molten, powder, solid, cover, conversion, closed, .. } = *deposit;
+    Deposit { molten, powder, solid, cover, conversion, closed }
+}
+
+/// A heat with its size and -1 in every field, which no call writes.
+fn unset_heat() -> nw_wall_heat {
+    nw_wall_heat {
+        surface_temperature: -1.0,
+        wall_temperature: -1.0,
+        powder_temperature: -1.0,
+        heat_flux: -1.0,
+        deposit_resistance: -1.0,
+        ..nw_wall_heat::default()
+    }
+}
+
+/// The temperatures with `Ok`, the status with `Err`, and then nothing was written.
+fn heat(
+    calls: &Calls,
+    model: *const nw_model,
+    deposit: &nw_deposit,
+    voidage: f64,
+    cooling: &nw_wall_cooling,
+) -> Result<nw_wall_heat, i32> {
+    let mut found = unset_heat();
+    let status = unsafe { (calls.nw_deposit_heat)(model, deposit, voidage, cooling, &raw mut found) };
+    if status == NW_OK {
+        return Ok(found);
+    }
+    assert_eq!(format!("{found:?}"), format!("{:?}", unset_heat()), "written on failure");
+    Err(status)
+}
+
+/// The deposit afterwards with `Ok`, the status with `Err`, and then it is as before.
+fn changed(deposit: &nw_deposit, call: impl FnOnce(*mut nw_deposit) -> i32) -> Result<nw_deposit, i32> {
+    let mut after = *deposit;
+    let status = call(&raw mut after);
+    if status == NW_OK {
+        return Ok(after);
+    }
+    assert_eq!(format!("{after:?}"), format!("{deposit:?}"), "written on failure");
+    Err(status)
+}
+
+fn near(found: f64, expected: f64) {
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+}
+
+/// Deposits that grow, melt and sinter on a cooled wall, by both libraries, to the last bit.
+#[test]
+fn a_cooled_wall_is_that_of_the_rust_library() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
+    let [mut melted, mut sintered] = [0, 0];
+    for (_, impact, draw) in random_cases(seed(), 300) {
+        let uniform = |stream, low: f64, high: f64| low + (high - low) * draw.uniform(stream);
+        let thickness = 10_f64.powf(uniform(1, -5.0, -2.0));
+        let voidage = uniform(2, 0.0, 0.8);
+        let deposit = nw_deposit {
+            wall: (3.0 * draw.uniform(3)) as u32,
+            molten: 2000.0 * thickness * uniform(4, -1.0, 1.0).max(0.0),
+            powder: 2300.0 * thickness,
+            solid: thickness,
+            cover: 1.5 * thickness / impact.diameter,
+            conversion: uniform(5, 0.5, 1.0),
+            closed: thickness * voidage * uniform(6, -1.0, 0.8).max(0.0),
+            ..nw_deposit::default()
+        };
+        let cooling = nw_wall_cooling {
+            coolant_temperature: uniform(7, 300.0, 1300.0),
+            gas_temperature: uniform(8, 900.0, 2500.0),
+            gas_coefficient: uniform(9, 0.0, 300.0),
+            emissivity: draw.uniform(10),
+            irradiation: uniform(11, 0.0, 1.2e6),
+            further_flux: uniform(12, -1e4, 1e5),
+            ..by_hand()
+        };
+        let found = heat(&calls, model, &deposit, voidage, &cooling).unwrap();
+        let wall = deposit.wall as usize;
+        let expected = rust.wall_heat(wall, &deposit_in_rust(&deposit), voidage, &in_rust(&cooling));
+        assert_eq!(Ok(heat_in_rust(&found)), expected);
+        let nw_wall_cooling { coolant_temperature, gas_temperature, emissivity, .. } = cooling;
+        let surface = found.surface_temperature;
+        // The balance of both sides, written down again.
+        let taken = cooling.gas_coefficient * (gas_temperature - surface)
+            + emissivity * (cooling.irradiation - 5.670_374_419e-8 * surface.powi(4))
+            + cooling.further_flux;
+        let given = (surface - coolant_temperature) / (5e-4 + 1e-3 + found.deposit_resistance);
+        let scale = cooling.irradiation + cooling.gas_coefficient * surface + 1e5;
+        assert!((taken - given).abs() < 1e-9 * scale && (given - found.heat_flux).abs() < 1e-9 * scale);
+
+        let duration = 10_f64.powf(uniform(13, 0.0, 6.0));
+        let aged = changed(&deposit, |to| unsafe {
+            (calls.nw_deposit_age)(model, voidage, &raw const found, duration, to)
+        });
+        let aged = aged.unwrap();
+        let expected = rust.aged(&deposit_in_rust(&deposit), voidage, &heat_in_rust(&found), duration);
+        assert_eq!((deposit_in_rust(&aged), aged.wall), (expected, deposit.wall));
+        near(aged.molten + aged.powder, deposit.molten + deposit.powder);
+        melted += usize::from(aged.molten > deposit.molten);
+        // Not by rounding alone.
+        let before = 1.001 * deposit.closed / thickness + 1e-9;
+        sintered += usize::from(aged.powder > 0.0 && aged.closed / aged.solid > before);
+    }
+    calls.free(model);
+    assert!(melted > 20 && sintered > 20, "{melted} melted, {sintered} sintered");
+}
+
+/// Without radiation the resistances are in series: 1/2000, 1e-3, the deposit and 1/100.
+#[test]
+fn a_cooled_wall_by_hand() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let bare = heat(&calls, model, &nw_deposit::default(), 0.4, &by_hand()).unwrap();
+    let flux = 900.0 / 0.0115;
+    near(bare.heat_flux, flux);
+    near(bare.surface_temperature, 1500.0 - flux / 100.0);
+    near(bare.wall_temperature, bare.surface_temperature);
+    near(bare.powder_temperature, bare.surface_temperature);
+    assert_eq!(bare.deposit_resistance, 0.0);
+
+    // 2 mm of slag, 2750 kg/m3 and 1.5 W/(m K), over 1 mm of ash without voids, 1.4 W/(m K).
+    let [melt, powder] = [2e-3 / 1.5, 1e-3 / 1.4];
+    let deposit =
+        nw_deposit { wall: 1, molten: 5.5, powder: 2.3, solid: 1e-3, cover: 30.0, ..nw_deposit::default() };
+    let covered = heat(&calls, model, &deposit, 0.0, &by_hand()).unwrap();
+    let flux = 900.0 / (0.0115 + melt + powder);
+    near(covered.deposit_resistance, melt + powder);
+    near(covered.heat_flux, flux);
+    near(covered.surface_temperature, 1500.0 - flux / 100.0);
+    near(covered.wall_temperature, 600.0 + flux * 1.5e-3);
+    near(covered.powder_temperature, 600.0 + flux * (1.5e-3 + powder));
+
+    // With voids it insulates better than without, and less than their gas would at the same thickness.
+    let powder = nw_deposit { molten: 0.0, ..deposit };
+    let loose = heat(&calls, model, &powder, 0.5, &by_hand()).unwrap().deposit_resistance;
+    assert!(loose > 2e-3 / 1.4 && loose < 2e-3 / 0.06, "{loose}");
+    // Sintering closed 0.6 of 1 mm of voids.
+    let closed = nw_deposit { closed: 0.6e-3, ..powder };
+    let dense = heat(&calls, model, &closed, 0.5, &by_hand()).unwrap().deposit_resistance;
+    assert!(dense > 1.4e-3 / 1.4 && dense < 0.5 * loose, "{dense}");
+    calls.free(model);
+}
+
+/// Powder that is nowhere hot enough stays, powder that is hot throughout melts, and no time changes nothing.
+#[test]
+fn a_deposit_ages() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let deposit = nw_deposit {
+        wall: 1,
+        molten: 0.5,
+        powder: 2.3,
+        solid: 1e-3,
+        cover: 30.0,
+        conversion: 1.0,
+        closed: 1e-5,
+        ..nw_deposit::default()
+    };
+    let age = |wall_temperature, powder_temperature, duration| {
+        let heat = nw_wall_heat { wall_temperature, powder_temperature, ..nw_wall_heat::default() };
+        changed(&deposit, |to| unsafe { (calls.nw_deposit_age)(model, 0.4, &raw const heat, duration, to) })
+    };
+    for unchanged in [age(900.0, 1100.0, 0.0), age(300.0, 350.0, 3600.0)] {
+        let nw_deposit { closed, .. } = unchanged.unwrap();
+        near(closed, deposit.closed);
+        let unchanged = nw_deposit { closed: deposit.closed, ..unchanged.unwrap() };
+        assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
+    }
+    let molten = age(1800.0, 1900.0, 0.0).unwrap();
+    assert_eq!((molten.molten, molten.powder, molten.solid, molten.closed), (2.8, 0.0, 0.0, 0.0));
+    let half = age(900.0, 1900.0, 0.0).unwrap();
+    assert!(half.powder > 0.0 && half.powder < 2.3 && half.molten > 0.5, "{half:?}");
+    near(half.molten + half.powder, 2.8);
+    // Until the pores that stay: 0.03 of the layer are voids, of 0.4.
+    let dense = age(1200.0, 1300.0, 1e12).unwrap();
+    near(dense.closed, 1e-3 / 0.6 - 1e-3 / 0.97);
+    assert_eq!((dense.powder, dense.molten, dense.cover), (2.3, 0.5, 30.0));
+    calls.free(model);
+}
+
+/// A vertical wall that holds 100 Pa: 100/9.81 = 10.19 kg/m2. A ceiling that holds 200 Pa: 20.39 kg/m2.
+#[test]
+fn a_deposit_falls_off() {
+    let calls = Calls::load();
+    let shedding = "[walls.slag.shedding]\ntensile_strength = 200\nshear_strength = 100\n[walls.\"quench.*\".shedding]\n\
+         tensile_strength = 200\nshear_strength = 100\nspread = 2\n";
+    let model = calls.parse(&format!("{EVERY_REGIME}\n{shedding}"));
+    let held = |wall: u32, mass: f64, [outward, along]: [f64; 2], [down, across]: [f64; 2], draw: f64| {
+        // By a third molten.
+        let deposit = nw_deposit {
+            wall,
+            molten: mass / 3.0,
+            powder: mass * 2.0 / 3.0,
+            solid: mass / 4000.0,
+            cover: 3.0,
+            conversion: 0.5,
+            closed: mass / 1e4,
+            ..nw_deposit::default()
+        };
+        let after = changed(&deposit, |to| unsafe {
+            (calls.nw_deposit_shed)(model, outward, along, down, across, draw, to)
+        });
+        let after = format!("{:?}", after.unwrap());
+        let is_held = after == format!("{deposit:?}");
+        assert!(is_held || after == format!("{:?}", nw_deposit { wall, ..nw_deposit::default() }), "{after}");
+        is_held
+    };
+    let calm = [0.0, 0.0];
+    let [vertical, ceiling, floor] = [[0.0, 9.81], [9.81, 0.0], [-9.81, 0.0]];
+    for draw in [0.0, 0.5, 0.999] {
+        // Wall 0 has no table.
+        assert!(held(0, 1e6, vertical, [1e6, 1e6], draw) && held(0, 1e6, ceiling, calm, draw));
+        let critical = 100.0 / 9.81;
+        assert!(held(1, 0.9999 * critical, vertical, calm, draw));
+        assert!(!held(1, 1.0001 * critical, vertical, calm, draw));
+        let critical = 200.0 / 9.81;
+        assert!(held(1, 0.9999 * critical, ceiling, calm, draw));
+        assert!(!held(1, 1.0001 * critical, ceiling, calm, draw));
+        assert!(held(1, 1e9, floor, calm, draw) && held(1, 0.0, ceiling, calm, draw));
+        // 60 Pa of gas leave (100 - 60)/9.81 down the slope, and 80 = sqrt(100² - 60²) across it.
+        let critical = 40.0 / 9.81;
+        assert!(held(1, 0.9999 * critical, vertical, [60.0, 0.0], draw));
+        assert!(!held(1, 1.0001 * critical, vertical, [60.0, 0.0], draw));
+        let critical = 80.0 / 9.81;
+        assert!(held(1, 0.9999 * critical, vertical, [0.0, 60.0], draw));
+        assert!(!held(1, 1.0001 * critical, vertical, [0.0, 60.0], draw));
+    }
+    // Half of the median strength with a spread of 2: of all places the weakest Phi(-1) = 0.1587 lose it.
+    let half = 50.0 / 9.81;
+    let lost = |draw| !held(2, half, vertical, calm, draw);
+    assert_eq!([0.0, 0.15, 0.158, 0.159, 0.2, 0.999].map(lost), [true, true, true, false, false, false]);
+    calls.free(model);
+}
+
+#[test]
+fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
+    let calls = Calls::load();
+    let model = calls.parse(EVERY_REGIME);
+    let mut cooling = by_hand();
+    let mut temperatures = unset_heat();
+    unsafe {
+        assert_eq!((calls.nw_wall_cooling_init)(&raw mut cooling), NW_OK);
+        let initial = nw_wall_cooling {
+            coolant_coefficient: f64::INFINITY,
+            gas_conductivity: 0.026,
+            ..nw_wall_cooling::default()
+        };
+        assert_eq!(format!("{cooling:?}"), format!("{initial:?}"));
+        assert_eq!((calls.nw_wall_heat_init)(&raw mut temperatures), NW_OK);
+        assert_eq!(format!("{temperatures:?}"), format!("{:?}", nw_wall_heat::default()));
+        assert_eq!((calls.nw_wall_cooling_init)(null_mut()), NW_NULL_POINTER);
+        assert_eq!((calls.nw_wall_heat_init)(null_mut()), NW_NULL_POINTER);
+    }
+    let deposit =
+        nw_deposit { wall: 1, molten: 1.0, powder: 2.3, solid: 1e-3, cover: 30.0, ..nw_deposit::default() };
+    let refused = |deposit: &nw_deposit, voidage, cooling: &nw_wall_cooling| {
+        heat(&calls, model, deposit, voidage, cooling).unwrap_err()
+    };
+    // As they were initialised there is no temperature.
+    assert_eq!(refused(&deposit, 0.4, &cooling), NW_BAD_STATE);
+    let cooling = by_hand();
+    assert!(heat(&calls, model, &deposit, 0.4, &cooling).is_ok());
+    for voidage in [-0.1, 1.0, f64::NAN] {
+        assert_eq!(refused(&deposit, voidage, &cooling), NW_BAD_STATE);
+    }
+    let fields: [fn(&mut nw_wall_cooling) -> &mut f64; 9] = [
+        |cooling| &mut cooling.coolant_temperature,
+        |cooling| &mut cooling.gas_temperature,
+        |cooling| &mut cooling.gas_conductivity,
+        |cooling| &mut cooling.coolant_coefficient,
+        |cooling| &mut cooling.wall_resistance,
+        |cooling| &mut cooling.gas_coefficient,
+        |cooling| &mut cooling.emissivity,
+        |cooling| &mut cooling.irradiation,
+        |cooling| &mut cooling.further_flux,
+    ];
+    for (index, field) in fields.into_iter().enumerate() {
+        let mut bad = vec![f64::NAN, f64::NEG_INFINITY];
+        // The flux may have any sign, coefficients may be infinite, and the first three must not be 0.
+        bad.extend((index != 8).then_some(-1.0));
+        bad.extend((index != 3 && index != 5).then_some(f64::INFINITY));
+        bad.extend((index < 3).then_some(0.0));
+        for number in bad {
+            let mut cooling = cooling;
+            *field(&mut cooling) = number;
+            for deposit in [&deposit, &nw_deposit::default()] {
+                assert_eq!(refused(deposit, 0.4, &cooling), NW_BAD_STATE, "field {index}: {number}");
+            }
+        }
+    }
+    assert_eq!(refused(&deposit, 0.4, &nw_wall_cooling { emissivity: 1.1, ..cooling }), NW_BAD_STATE);
+    // No heat leaves; the surface would be colder than 0 K.
+    let closed = nw_wall_cooling { coolant_coefficient: 0.0, gas_coefficient: 0.0, ..cooling };
+    assert_eq!(refused(&deposit, 0.4, &closed), NW_BAD_STATE);
+    assert_eq!(refused(&deposit, 0.4, &nw_wall_cooling { further_flux: -1e9, ..cooling }), NW_BAD_STATE);
+    // A deposit so thick that its resistance overflows, too cold for radiation within it.
+    let cold = nw_wall_cooling { coolant_temperature: 1.0, gas_temperature: 2.0, ..cooling };
+    assert!(heat(&calls, model, &deposit, 0.99, &cold).is_ok());
+    let thick = nw_deposit { solid: 1e306, cover: 1e308, ..deposit };
+    assert_eq!(refused(&thick, 0.99, &cold), NW_BAD_STATE);
+    for bad in [f64::NAN, -1.0, f64::INFINITY] {
+        assert_eq!(refused(&nw_deposit { closed: bad, ..deposit }, 0.4, &cooling), NW_BAD_STATE);
+    }
+    assert_eq!(refused(&nw_deposit { wall: 77, ..deposit }, 0.4, &cooling), NW_UNKNOWN_WALL);
+    assert_eq!(refused(&nw_deposit { struct_size: 48, ..deposit }, 0.4, &cooling), NW_STRUCT_SIZE);
+    assert_eq!(refused(&deposit, 0.4, &nw_wall_cooling { struct_size: 0, ..cooling }), NW_STRUCT_SIZE);
+    unsafe {
+        let mut found = nw_wall_heat { struct_size: 8, ..unset_heat() };
+        let kept = format!("{found:?}");
+        let mut ask = |model, deposit, cooling, size: u32| {
+            found.struct_size = size;
+            (calls.nw_deposit_heat)(model, deposit, 0.4, cooling, &raw mut found)
+        };
+        let size = size_of::<nw_wall_heat>() as u32;
+        let (from, by) = (&raw const deposit, &raw const cooling);
+        assert_eq!(ask(null(), from, by, size), NW_NULL_POINTER);
+        assert_eq!(ask(model, null(), by, size), NW_NULL_POINTER);
+        assert_eq!(ask(model, from, null(), size), NW_NULL_POINTER);
+        assert_eq!(ask(model, from, by, 8), NW_STRUCT_SIZE);
+        assert_eq!(format!("{found:?}"), kept);
+        assert_eq!((calls.nw_deposit_heat)(model, from, 0.4, by, null_mut()), NW_NULL_POINTER);
+    }
+
+    // A material without conductivity matters where a layer consists of it.
+    let wax = calls.parse(
+        "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n[normal]\nmodel = \
+         \"constant\"\ne_n = 0.4\n[tangential]\nmodel = \"constant\"\ne_t = 0.7\n",
+    );
+    assert!(heat(&calls, wax, &nw_deposit::default(), 0.4, &cooling).is_ok());
+    for (molten, solid) in [(0.0, 1e-3), (1.0, 0.0), (1.0, 1e-3)] {
+        let deposit = nw_deposit { wall: 0, molten, solid, ..deposit };
+        assert_eq!(heat(&calls, wax, &deposit, 0.4, &cooling).unwrap_err(), NW_NO_CONDUCTIVITY);
+        let nowhere = nw_wall_cooling { gas_temperature: f64::NAN, ..cooling };
+        assert_eq!(heat(&calls, wax, &deposit, 0.4, &nowhere).unwrap_err(), NW_BAD_STATE);
+    }
+    assert!(
+        calls.text(unsafe { (calls.nw_status_text)(NW_NO_CONDUCTIVITY) }).contains("thermal_conductivity")
+    );
+    calls.free(wax);
+    calls.free(model);
+}
+
+#[test]
+fn ageing_and_shedding_that_cannot_be_are_refused_and_nothing_written() {
+    let calls = Calls::load();
+    let model = calls
+        .parse(&format!("{EVERY_REGIME}\n[walls.slag.shedding]\ntensile_strength = 0\nshear_strength = 0\n"));
+    let deposit = nw_deposit {
+        wall: 1,
+        molten: 1.0,
+        powder: 2.3,
+        solid: 1e-3,
+        cover: 30.0,
+        conversion: 1.0,
+        ..nw_deposit::default()
+    };
+    let hot =
+        nw_wall_heat { wall_temperature: 1200.0, powder_temperature: 1700.0, ..nw_wall_heat::default() };
+    let age = |model, deposit: &nw_deposit, voidage, heat: *const nw_wall_heat, duration| {
+        changed(deposit, |to| unsafe { (calls.nw_deposit_age)(model, voidage, heat, duration, to) })
+            .map(|_| ())
+    };
+    assert_eq!(age(model, &deposit, 0.4, &hot, 60.0), Ok(()));
+    for voidage in [-0.1, 1.0, f64::NAN] {
+        assert_eq!(age(model, &deposit, voidage, &hot, 60.0), Err(NW_BAD_STATE));
+    }
+    for duration in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(age(model, &deposit, 0.4, &hot, duration), Err(NW_BAD_STATE));
+    }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let wall = nw_wall_heat { wall_temperature: bad, ..hot };
+        assert_eq!(age(model, &deposit, 0.4, &wall, 60.0), Err(NW_BAD_STATE));
+        let powder = nw_wall_heat { powder_temperature: bad, ..hot };
+        assert_eq!(age(model, &deposit, 0.4, &powder, 60.0), Err(NW_BAD_STATE));
+    }
+    let old = nw_wall_heat { struct_size: 40, ..hot };
+    assert_eq!(age(model, &deposit, 0.4, &old, 60.0), Err(NW_STRUCT_SIZE));
+    assert_eq!(age(null(), &deposit, 0.4, &hot, 60.0), Err(NW_NULL_POINTER));
+    assert_eq!(age(model, &deposit, 0.4, null(), 60.0), Err(NW_NULL_POINTER));
+    // What melts makes more than there can be.
+    let huge = nw_deposit { molten: f64::MAX, powder: f64::MAX, ..deposit };
+    assert_eq!(age(model, &huge, 0.4, &hot, 60.0), Err(NW_BAD_STATE));
+
+    let shed = |model, deposit: &nw_deposit, loads: [f64; 4], draw| {
+        let [outward, along, down, across] = loads;
+        changed(deposit, |to| unsafe {
+            (calls.nw_deposit_shed)(model, outward, along, down, across, draw, to)
+        })
+        .map(|_| ())
+    };
+    let calm = [0.0, 9.81, 0.0, 0.0];
+    assert_eq!(shed(model, &deposit, calm, 0.5), Ok(()));
+    for draw in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(shed(model, &deposit, calm, draw), Err(NW_BAD_STATE));
+    }
+    for index in 0..4 {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut loads = calm;
+            loads[index] = bad;
+            assert_eq!(shed(model, &deposit, loads, 0.5), Err(NW_BAD_STATE));
+        }
+    }
+    assert_eq!(shed(model, &deposit, [0.0, -1.0, 0.0, 0.0], 0.5), Err(NW_BAD_STATE));
+    assert_eq!(shed(null(), &deposit, calm, 0.5), Err(NW_NULL_POINTER));
+    let nowhere = nw_deposit { wall: 77, ..deposit };
+    assert_eq!(shed(model, &nowhere, calm, 0.5), Err(NW_UNKNOWN_WALL));
+
+    for bad in [
+        nw_deposit { closed: f64::NAN, ..deposit },
+        nw_deposit { powder: -1.0, ..deposit },
+        nw_deposit { conversion: 2.0, ..deposit },
+    ] {
+        assert_eq!(age(model, &bad, 0.4, &hot, 60.0), Err(NW_BAD_STATE));
+        assert_eq!(shed(model, &bad, calm, 0.5), Err(NW_BAD_STATE));
+    }
+    let old = nw_deposit { struct_size: 48, ..deposit };
+    assert_eq!(age(model, &old, 0.4, &hot, 60.0), Err(NW_STRUCT_SIZE));
+    assert_eq!(shed(model, &old, calm, 0.5), Err(NW_STRUCT_SIZE));
+    unsafe {
+        let status = (calls.nw_deposit_age)(model, 0.4, &raw const hot, 60.0, null_mut());
+        assert_eq!(status, NW_NULL_POINTER);
+        assert_eq!((calls.nw_deposit_shed)(model, 0.0, 9.81, 0.0, 0.0, 0.5, null_mut()), NW_NULL_POINTER);
+    }
+    calls.free(model);
+}
+
+/// The table `shedding` of a wall: both strengths, in their bounds, and nothing else.
+#[test]
+fn a_shedding_table_is_checked() {
+    let told = |keys: &str| {
+        let text = format!("{EVERY_REGIME}\n[walls.slag.shedding]\n{keys}");
+        Model::from_toml("m", &text).map(|_| ()).map_err(|fault| fault.to_string())
+    };
+    assert_eq!(told("tensile_strength = 1\nshear_strength = 0\nspread = 1.5\n"), Ok(()));
+    for (keys, word) in [
+        ("shear_strength = 1\n", "tensile_strength"),
+        ("tensile_strength = 1\n", "shear_strength"),
+        ("tensile_strength = -1\nshear_strength = 1\n", "tensile_strength"),
+        ("tensile_strength = nan\nshear_strength = 1\n", "tensile_strength"),
+        ("tensile_strength = 1\nshear_strength = 1\nspread = 0.9\n", "spread"),
+        ("tensile_strength = 1\nshear_strength = 1\nspreed = 2\n", "spread"),
+    ] {
+        let fault = told(keys).unwrap_err();
+        assert!(fault.contains(word), "{fault}");
     }
 }

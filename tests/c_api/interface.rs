@@ -20,6 +20,11 @@ macro_rules! for_each_function {
             nw_erosion: unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, *mut f64) -> i32,
             nw_temperature_ranges: unsafe extern "C" fn(*const nw_model, u32, *mut f64, *mut f64, *mut f64, *mut f64) -> i32,
             nw_resolve_batch: unsafe extern "C" fn(*const nw_model, *const nw_impacts, *const nw_outcomes, *mut usize) -> i32,
+            nw_wall_cooling_init: unsafe extern "C" fn(*mut nw_wall_cooling) -> i32,
+            nw_wall_heat_init: unsafe extern "C" fn(*mut nw_wall_heat) -> i32,
+            nw_deposit_heat: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *const nw_wall_cooling, *mut nw_wall_heat) -> i32,
+            nw_deposit_age: unsafe extern "C" fn(*const nw_model, f64, *const nw_wall_heat, f64, *mut nw_deposit) -> i32,
+            nw_deposit_shed: unsafe extern "C" fn(*const nw_model, f64, f64, f64, f64, f64, *mut nw_deposit) -> i32,
             nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
             nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
             nw_deposit_source_init: unsafe extern "C" fn(*mut nw_deposit_source) -> i32,
@@ -27,6 +32,7 @@ macro_rules! for_each_function {
             nw_deposit_add: unsafe extern "C" fn(*const nw_deposit_source, *mut nw_deposit) -> i32,
             nw_deposit_apply: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *mut nw_impact) -> i32,
             nw_film_velocity: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, *mut f64) -> i32,
+            nw_cooled_film_velocity: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, f64, f64, *mut f64) -> i32,
             nw_extra_input_count: unsafe extern "C" fn(*const nw_model, *mut u32) -> i32,
             nw_extra_input_name: unsafe extern "C" fn(*const nw_model, u32, *mut c_char, usize) -> i32,
             nw_extra_input_default: unsafe extern "C" fn(*const nw_model, u32, *mut f64) -> i32,
@@ -43,7 +49,9 @@ macro_rules! for_each_struct {
             nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
             nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
-            nw_deposit { struct_size wall molten powder solid cover conversion }
+            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity }
+            nw_wall_heat { struct_size reserved surface_temperature wall_temperature powder_temperature heat_flux deposit_resistance }
+            nw_deposit { struct_size wall molten powder solid cover conversion closed }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
         }
     };
@@ -66,6 +74,7 @@ macro_rules! for_each_number {
             NW_OUT_OF_RANGE
             NW_PANIC
             NW_UNKNOWN_INPUT
+            NW_NO_CONDUCTIVITY
             NW_NSP_NSW
             NW_NSP_SW
             NW_SP_NSW

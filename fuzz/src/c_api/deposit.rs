@@ -13,17 +13,21 @@ use super::impacts::impact;
 pub struct Wall {
     deposit: nw_deposit,
     arrivals: nw_deposit_source,
+    heat: nw_wall_heat,
 }
 
 impl Wall {
     pub fn call(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let model = if bytes.byte() == 0 { null() } else { model };
-        match bytes.byte() % 6 {
+        match bytes.byte() % 9 {
             0 => begin(bytes),
             1 => self.start(bytes, model),
             2 => self.add_captured(bytes, model),
             3 => self.add(bytes),
             4 => self.apply_deposit(bytes, model),
+            6 => self.heat(bytes, model),
+            7 => self.age(bytes, model),
+            8 => self.shed(bytes, model),
             _ => self.flow(bytes, model),
         }
     }
@@ -119,7 +123,15 @@ impl Wall {
         let mut buffer = GuardedBuffer::new(bytes, 8);
         let to = buffer.start_or_null(bytes);
         // SAFETY: each is null or what it should be.
-        let status = unsafe { nw_film_velocity(model, from, t_w, gravity, to) };
+        let status = match bytes.below(2) {
+            // SAFETY: each is null or what it should be.
+            0 => unsafe { nw_film_velocity(model, from, t_w, gravity, to) },
+            _ => {
+                let flux = if bytes.below(2) == 0 { 1e5 } else { bytes.number() };
+                // SAFETY: each is null or what it should be.
+                unsafe { nw_cooled_film_velocity(model, from, t_w, flux, gravity, to) }
+            }
+        };
         known(status);
         asked.assert_guard_intact();
         buffer.assert_guard_intact();
@@ -132,6 +144,91 @@ impl Wall {
         } else {
             buffer.assert_untouched();
         }
+    }
+
+    fn heat(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
+        let voidage = share(bytes);
+        let deposit = self.deposit(bytes);
+        let cooling = cooling(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, deposit);
+        let from: *const nw_deposit = asked.start_or_null(bytes);
+        let mut sides = GuardedBuffer::holding(bytes, cooling);
+        let by: *const nw_wall_cooling = sides.start_or_null(bytes);
+        let before = self.temperatures(bytes);
+        let status = changed(bytes, before, |to| {
+            // SAFETY: each is null or what it should be.
+            unsafe { nw_deposit_heat(model, from, voidage, by, to) }
+        });
+        asked.assert_guard_intact();
+        sides.assert_guard_intact();
+        let Some(after) = status else { return };
+        let found = [after.surface_temperature, after.wall_temperature, after.powder_temperature];
+        assert!(found.iter().all(|kelvin| kelvin.is_finite() && *kelvin > 0.0), "{after:?} by {cooling:?}");
+        assert!(after.heat_flux.is_finite(), "{after:?} by {cooling:?}");
+        assert!(after.deposit_resistance.is_finite() && after.deposit_resistance >= 0.0, "{after:?}");
+        if deposit.molten == 0.0 && deposit.solid == 0.0 {
+            assert!(after.deposit_resistance == 0.0, "{after:?} of a bare wall");
+        }
+        self.heat = after;
+    }
+
+    fn age(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
+        let voidage = share(bytes);
+        let duration = if bytes.below(2) == 0 { 60.0 } else { bytes.number() };
+        let heat = self.temperatures(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, heat);
+        let from: *const nw_wall_heat = asked.start_or_null(bytes);
+        let before = self.deposit(bytes);
+        let status = changed(bytes, before, |to| {
+            // SAFETY: each is null or what it should be.
+            unsafe { nw_deposit_age(model, voidage, from, duration, to) }
+        });
+        asked.assert_guard_intact();
+        let Some(after) = status else { return };
+        sound(&after);
+        alike(0.5 * before.molten + 0.5 * before.powder, 0.5 * after.molten + 0.5 * after.powder);
+        assert!(after.wall == before.wall && after.molten >= before.molten, "{after:?} of {before:?}");
+        assert!(after.powder <= before.powder && after.solid <= before.solid, "{after:?} of {before:?}");
+        self.deposit = after;
+    }
+
+    fn shed(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
+        let draw = share(bytes);
+        let loads = [0; 4].map(|_| if bytes.below(2) == 0 { 9.81 } else { bytes.number() });
+        let [outward, along, down, across] = loads;
+        let before = self.deposit(bytes);
+        let status = changed(bytes, before, |to| {
+            // SAFETY: null or what it should be.
+            unsafe { nw_deposit_shed(model, outward, along, down, across, draw, to) }
+        });
+        let Some(after) = status else { return };
+        sound(&after);
+        let bare = nw_deposit { wall: before.wall, ..nw_deposit::default() };
+        let is = |other: &nw_deposit| format!("{after:?}") == format!("{other:?}");
+        assert!(is(&before) || is(&bare), "{after:?} is left of {before:?}");
+        self.deposit = after;
+    }
+
+    /// The wall's own temperatures, or hostile ones.
+    fn temperatures(&self, bytes: &mut Bytes<'_>) -> nw_wall_heat {
+        let mut heat = self.heat;
+        let which = bytes.byte();
+        let fields = [
+            &mut heat.surface_temperature,
+            &mut heat.wall_temperature,
+            &mut heat.powder_temperature,
+            &mut heat.heat_flux,
+            &mut heat.deposit_resistance,
+        ];
+        for (bit, field) in fields.into_iter().enumerate() {
+            if which >> bit & 1 == 1 {
+                *field = bytes.number();
+            }
+        }
+        if which >> 6 == 3 {
+            heat.struct_size = bytes.word() as u32;
+        }
+        heat
     }
 
     /// The wall's own deposit, or a hostile one.
@@ -152,6 +249,9 @@ impl Wall {
         }
         if which >> 5 & 1 == 1 {
             deposit.wall = bytes.below(4) as u32;
+        }
+        if which >> 6 == 2 {
+            deposit.closed = bytes.number();
         }
         if which >> 6 == 3 {
             deposit.struct_size = bytes.word() as u32;
@@ -186,13 +286,61 @@ impl Wall {
     }
 }
 
+/// What cools and heats an ordinary wall, or a hostile one.
+fn cooling(bytes: &mut Bytes<'_>) -> nw_wall_cooling {
+    let mut cooling = nw_wall_cooling {
+        coolant_temperature: 600.0,
+        coolant_coefficient: f64::INFINITY,
+        wall_resistance: 1e-3,
+        gas_temperature: 1700.0,
+        gas_coefficient: 60.0,
+        emissivity: 0.8,
+        irradiation: 3e5,
+        further_flux: 0.0,
+        gas_conductivity: 0.06,
+        ..nw_wall_cooling::default()
+    };
+    let which = [bytes.byte(), bytes.byte()];
+    let fields = [
+        &mut cooling.coolant_temperature,
+        &mut cooling.coolant_coefficient,
+        &mut cooling.wall_resistance,
+        &mut cooling.gas_temperature,
+        &mut cooling.gas_coefficient,
+        &mut cooling.emissivity,
+        &mut cooling.irradiation,
+        &mut cooling.further_flux,
+        &mut cooling.gas_conductivity,
+    ];
+    let which = u16::from_le_bytes(which);
+    for (bit, field) in fields.into_iter().enumerate() {
+        if which >> bit & 1 == 1 {
+            *field = bytes.number();
+        }
+    }
+    if which >> 14 == 3 {
+        cooling.struct_size = bytes.word() as u32;
+    }
+    cooling
+}
+
 fn begin(bytes: &mut Bytes<'_>) {
     let mut deposit = GuardedBuffer::new(bytes, size_of::<nw_deposit>());
     let mut arrivals = GuardedBuffer::new(bytes, size_of::<nw_deposit_source>());
+    let mut cooling = GuardedBuffer::new(bytes, size_of::<nw_wall_cooling>());
+    let mut heat = GuardedBuffer::new(bytes, size_of::<nw_wall_heat>());
     let (to_deposit, to_arrivals) = (deposit.start_or_null(bytes), arrivals.start_or_null(bytes));
+    let (to_cooling, to_heat) = (cooling.start_or_null(bytes), heat.start_or_null(bytes));
     // SAFETY: each is null or a buffer large enough for what is written.
-    let found = unsafe { [nw_deposit_init(to_deposit), nw_deposit_source_init(to_arrivals)] };
-    for (buffer, status) in [deposit, arrivals].iter().zip(found) {
+    let found = unsafe {
+        [
+            nw_deposit_init(to_deposit),
+            nw_deposit_source_init(to_arrivals),
+            nw_wall_cooling_init(to_cooling),
+            nw_wall_heat_init(to_heat),
+        ]
+    };
+    for (buffer, status) in [deposit, arrivals, cooling, heat].iter().zip(found) {
         known(status);
         buffer.assert_guard_intact();
         if status != NW_OK {
@@ -227,7 +375,7 @@ fn share(bytes: &mut Bytes<'_>) -> f64 {
 }
 
 fn sound(deposit: &nw_deposit) {
-    let sizes = [deposit.molten, deposit.powder, deposit.solid, deposit.cover];
+    let sizes = [deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.closed];
     assert!(sizes.iter().all(|size| size.is_finite() && *size >= 0.0), "{deposit:?}");
     assert!((0.0..=1.0).contains(&deposit.conversion), "{deposit:?}");
 }
@@ -237,9 +385,12 @@ fn sound_sums(sums: &nw_deposit_source) {
     assert!(sizes.iter().all(|size| size.is_finite() && *size >= 0.0), "{sums:?}");
 }
 
-/// Mass is kept to the rounding of a few additions; the halves keep the sum of two large masses finite.
+/// Mass is kept to the rounding of a few additions, also of denormals; halves keep the sum of two large masses finite.
 fn alike(before: f64, after: f64) {
-    assert!((before - after).abs() <= 1e-12 * before, "{before} kg/m2 before, {after} after");
+    assert!(
+        (before - after).abs() <= 1e-12 * before + f64::MIN_POSITIVE,
+        "{before} kg/m2 before, {after} after"
+    );
 }
 
 /// An impact's bytes, so that numbers that are no numbers can be compared.

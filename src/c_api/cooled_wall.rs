@@ -1,0 +1,245 @@
+//! A cooled wall under its deposit: temperatures, ageing and shedding.
+#![allow(non_camel_case_types)]
+
+use super::boundary::{guarded_status, initialise, reader, sized};
+use super::deposit::nw_deposit;
+use super::types::{NW_BAD_STATE, nw_model, nw_status, zero_by_default};
+use crate::deposit::conduction::{Coolant, HotSide};
+use crate::deposit::shedding::Load;
+use crate::model::{WallCooling, WallHeat};
+
+/// What cools and heats a wall. Fill it with `nw_wall_cooling_init`, then set what there is.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct nw_wall_cooling {
+    /// `sizeof(nw_wall_cooling)`.
+    pub struct_size: u32,
+    /// Zero.
+    pub reserved: u32,
+    /// Temperature of the coolant behind the wall [K], positive.
+    pub coolant_temperature: f64,
+    /// Heat transfer coefficient of the coolant [W/(m2 K)]; infinite where the back of the wall has its temperature.
+    pub coolant_coefficient: f64,
+    /// Thickness of the wall over its conductivity [m2 K/W], not negative.
+    pub wall_resistance: f64,
+    /// Temperature of the gas [K], positive.
+    pub gas_temperature: f64,
+    /// Heat transfer coefficient of the gas [W/(m2 K)], not negative: in a flow solver the conductivity of the gas over the
+    /// distance between wall and cell. Infinite where the temperature of the surface is known: it is `gas_temperature`.
+    pub gas_coefficient: f64,
+    /// Emissivity of the surface [1], 0 to 1.
+    pub emissivity: f64,
+    /// Irradiation of the surface [W/m2], not negative: 5.670374419e-8 T^4 of surroundings of one temperature.
+    pub irradiation: f64,
+    /// Further heat flux into the surface [W/m2], of particles or the net one of a radiation model.
+    pub further_flux: f64,
+    /// Conductivity of the gas in the voids of the powder [W/(m K)], positive.
+    pub gas_conductivity: f64,
+}
+
+/// Temperatures of a wall with a deposit.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct nw_wall_heat {
+    /// `sizeof(nw_wall_heat)`.
+    pub struct_size: u32,
+    /// Zero.
+    pub reserved: u32,
+    /// Temperature of the surface that impacts meet [K].
+    pub surface_temperature: f64,
+    /// Temperature of the wall under the deposit [K].
+    pub wall_temperature: f64,
+    /// Temperature of the outside of the powder [K], under the melt.
+    pub powder_temperature: f64,
+    /// Heat flux from the gas to the coolant [W/m2].
+    pub heat_flux: f64,
+    /// Thermal resistance of the deposit [m2 K/W].
+    pub deposit_resistance: f64,
+}
+
+zero_by_default!(nw_wall_heat);
+
+impl Default for nw_wall_cooling {
+    /// An ideal coolant, air at room temperature in the voids, and zeros.
+    fn default() -> Self {
+        Self {
+            struct_size: size_of::<Self>() as u32,
+            reserved: 0,
+            coolant_temperature: 0.0,
+            coolant_coefficient: f64::INFINITY,
+            wall_resistance: 0.0,
+            gas_temperature: 0.0,
+            gas_coefficient: 0.0,
+            emissivity: 0.0,
+            irradiation: 0.0,
+            further_flux: 0.0,
+            gas_conductivity: 0.026,
+        }
+    }
+}
+
+impl nw_wall_cooling {
+    fn to_cooling(self) -> WallCooling {
+        WallCooling {
+            coolant: Coolant { temperature: self.coolant_temperature, coefficient: self.coolant_coefficient },
+            wall_resistance: self.wall_resistance,
+            hot: HotSide {
+                gas_temperature: self.gas_temperature,
+                coefficient: self.gas_coefficient,
+                emissivity: self.emissivity,
+                irradiation: self.irradiation,
+                particle_flux: self.further_flux,
+            },
+            gas_conductivity: self.gas_conductivity,
+        }
+    }
+}
+
+impl nw_wall_heat {
+    fn to_heat(self) -> WallHeat {
+        let Self { surface_temperature, wall_temperature, powder_temperature, heat_flux, .. } = self;
+        let deposit_resistance = self.deposit_resistance;
+        WallHeat { surface_temperature, wall_temperature, powder_temperature, heat_flux, deposit_resistance }
+    }
+
+    fn with(self, heat: &WallHeat) -> Self {
+        let WallHeat { surface_temperature, wall_temperature, powder_temperature, .. } = *heat;
+        let WallHeat { heat_flux, deposit_resistance, .. } = *heat;
+        Self {
+            surface_temperature,
+            wall_temperature,
+            powder_temperature,
+            heat_flux,
+            deposit_resistance,
+            ..self
+        }
+    }
+}
+
+fn is_positive(number: f64) -> bool {
+    number.is_finite() && number > 0.0
+}
+
+/// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m K) for the gas in the voids
+/// (air at room temperature), zeros. Both temperatures must be set.
+///
+/// # Safety
+/// `cooling` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_wall_cooling_init(cooling: *mut nw_wall_cooling) -> nw_status {
+    // SAFETY: the caller's promise.
+    unsafe { initialise(cooling) }
+}
+
+/// Initialises the temperatures of a wall for `nw_deposit_heat`: their size and zeros.
+///
+/// # Safety
+/// `heat` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_wall_heat_init(heat: *mut nw_wall_heat) -> nw_status {
+    // SAFETY: the caller's promise.
+    unsafe { initialise(heat) }
+}
+
+/// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in fresh powder [1]. The
+/// surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY` if a layer's material has none.
+///
+/// # Safety
+/// `model` is a loaded model; `deposit`, `cooling` and `heat` begin with their `struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_deposit_heat(
+    model: *const nw_model,
+    deposit: *const nw_deposit,
+    voidage: f64,
+    cooling: *const nw_wall_cooling,
+    heat: *mut nw_wall_heat,
+) -> nw_status {
+    let conduct = || {
+        // SAFETY: the caller's promises.
+        let (model, deposit, cooling, before) =
+            unsafe { (reader(model)?, sized(deposit)?, sized(cooling)?, sized(heat.cast_const())?) };
+        let cooling = cooling.to_cooling();
+        // Before the model takes a property at a temperature that is no number.
+        let given = [cooling.coolant.temperature, cooling.hot.gas_temperature, cooling.gas_conductivity];
+        if !given.into_iter().all(is_positive) {
+            return Err(NW_BAD_STATE);
+        }
+        let (wall, deposit) = (deposit.wall as usize, deposit.sound()?.to_deposit());
+        let after = before.with(&model.inner().wall_heat(wall, &deposit, voidage, &cooling)?);
+        // As `nw_deposit_age` accepts them: an infinite resistance leaves no temperature below it.
+        let found = [after.surface_temperature, after.wall_temperature, after.powder_temperature];
+        let others = after.heat_flux.is_finite() && after.deposit_resistance.is_finite();
+        if !(found.into_iter().all(is_positive) && others) {
+            return Err(NW_BAD_STATE);
+        }
+        // SAFETY: checked just above.
+        unsafe { heat.write_unaligned(after) };
+        Ok(())
+    };
+    guarded_status(conduct)
+}
+
+/// Lets a deposit age for a `duration` [s] at temperatures from `nw_deposit_heat`: powder that is hotter than it melts becomes melt,
+/// the rest sinters. Mass is conserved.
+///
+/// # Safety
+/// `model` is a loaded model; `heat` and `deposit` begin with their `struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_deposit_age(
+    model: *const nw_model,
+    voidage: f64,
+    heat: *const nw_wall_heat,
+    duration: f64,
+    deposit: *mut nw_deposit,
+) -> nw_status {
+    let age = || {
+        // SAFETY: the caller's promises.
+        let (model, heat, before) = unsafe { (reader(model)?, sized(heat)?, sized(deposit.cast_const())?) };
+        let heat = heat.to_heat();
+        let temperatures = is_positive(heat.wall_temperature) && is_positive(heat.powder_temperature);
+        let lasts = duration.is_finite() && duration >= 0.0;
+        if !(temperatures && lasts && (0.0..1.0).contains(&voidage)) {
+            return Err(NW_BAD_STATE);
+        }
+        let aged = model.inner().aged(&before.sound()?.to_deposit(), voidage, &heat, duration);
+        let after = before.with(&aged).sound()?;
+        // SAFETY: checked just above.
+        unsafe { deposit.write_unaligned(after) };
+        Ok(())
+    };
+    guarded_status(age)
+}
+
+/// Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Strengths are those of the table
+/// `shedding` of the wall in the model file; without one nothing falls. `gravity_outward` is the component of gravity away from the
+/// wall [m/s2], negative where it presses the deposit on; `gravity_along` that along the wall, not negative; the shear stress of the
+/// gas [Pa] is given down the slope and across it. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the
+/// strongest; a place keeps its draw.
+///
+/// # Safety
+/// `model` is a loaded model; `deposit` begins with its `struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_deposit_shed(
+    model: *const nw_model,
+    gravity_outward: f64,
+    gravity_along: f64,
+    shear_down: f64,
+    shear_across: f64,
+    draw: f64,
+    deposit: *mut nw_deposit,
+) -> nw_status {
+    let shed = || {
+        // SAFETY: the caller's promises.
+        let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
+        let finite = [gravity_outward, gravity_along, shear_down, shear_across].map(f64::is_finite);
+        if finite.contains(&false) || gravity_along < 0.0 || !(0.0..1.0).contains(&draw) {
+            return Err(NW_BAD_STATE);
+        }
+        let load = Load { gravity_outward, gravity_along, gas_shear: [shear_down, shear_across] };
+        let held = model.inner().shed(before.wall as usize, &before.sound()?.to_deposit(), &load, draw)?;
+        // SAFETY: checked just above.
+        unsafe { deposit.write_unaligned(before.with(&held)) };
+        Ok(())
+    };
+    guarded_status(shed)
+}
