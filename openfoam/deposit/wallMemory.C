@@ -3,10 +3,16 @@
 
 #include "wallMemory.H"
 #include "dictionaryChecks.H"
+#include "impactKey.H"
 #include "mathematicalConstants.H"
+#include "nearWallDepositTemperatureFvPatchScalarField.H"
 #include "surfaceFields.H"
 #include "versionCompat.H"
 #include "wallHitFields.H"
+
+namespace Foam { namespace nearWall {
+    defineTypeNameAndDebug(wallMemory, 0);
+}}
 
 namespace
 {
@@ -14,10 +20,14 @@ namespace
 using namespace Foam;
 using namespace Foam::nearWall;
 
+//- Rise of a surface's temperature in a step above which the log warns [K]
+const scalar largestSoundRise = 5;
+
+
 //- Names of the terms, in their order: keys of a restart and columns
 const wordList termNames
 ({
-    "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg"
+    "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg", "shed_kg"
 });
 
 
@@ -52,14 +62,21 @@ void requireViscosity
 
 
 //- What a row has the mean and the largest value of
-enum faceQuantity { moltenOf, powderOf, layerOf, coverageOf, wallTOf, nQuantities };
+enum faceQuantity
+{
+    moltenOf, powderOf, layerOf, coverageOf, wallTOf, heatFluxOf, nQuantities
+};
 
 const char* const quantityNames[] =
 {
-    "molten", "powder", "layer_thickness", "coverage", "wall_temperature"
+    "molten", "powder", "layer_thickness", "coverage", "wall_temperature",
+    "heat_flux"
 };
 
-const char* const quantityUnits[] = {"_kg_m2", "_kg_m2", "_m", "", "_K"};
+const char* const quantityUnits[] =
+{
+    "_kg_m2", "_kg_m2", "_m", "", "_K", "_W_m2"
+};
 
 
 struct largerOf
@@ -82,11 +99,17 @@ struct faceSums
     List<scalar> sums;
     List<scalar> largest;
 
-    explicit faceSums(const label nPatches)
+    //- `rise` is the largest one on this rank, kept behind the quantities
+    faceSums(const label nPatches, const scalar rise)
     :
         sums(nPatches*perPatch, Zero),
-        largest(nPatches*nQuantities, Zero)
-    {}
+        largest(nPatches*nQuantities + 1, Zero)
+    {
+        largest.last() = rise;
+    }
+
+    //- Known on the master
+    scalar rise() const { return largest.last(); }
 
     void add
     (
@@ -150,6 +173,17 @@ Foam::nearWall::wallMemory::wallMemory
     const fileName& folder
 )
 :
+    regIOobject
+    (
+        IOobject
+        (
+            cloudName + ":memory",
+            mesh.time().constant(),
+            mesh,
+            IOobject::NO_READ,
+            IOobject::NO_WRITE
+        )
+    ),
     mesh_(mesh),
     rules_(rules),
     model_(model),
@@ -161,6 +195,15 @@ Foam::nearWall::wallMemory::wallMemory
             "from 0 to below 1"
         )
     ),
+    acceleration_
+    (
+        readChecked<scalar>
+        (
+            dict, "acceleration", 1, [](scalar a) { return a >= 1; },
+            "1 or more"
+        )
+    ),
+    gravity_(gravity),
     molten_(readWallField(mesh, cloudName + ":moltenMass", dimMass/dimArea)),
     powder_(readWallField(mesh, cloudName + ":powderMass", dimMass/dimArea)),
     layer_(readWallField(mesh, cloudName + ":layerThickness", dimLength)),
@@ -171,14 +214,16 @@ Foam::nearWall::wallMemory::wallMemory
     (
         readWallField(mesh, cloudName + ":wallTemperature", dimTemperature)
     ),
+    resistance_(rules.size()),
     captured_(rules.size())
 {
-    refuseUnknownKeys(dict, wordList({"voidage", "film"}), "memory");
+    refuseUnknownKeys(dict, wordList({"voidage", "film", "acceleration"}), "memory");
 
     forAll(rules, patchi)
     {
         if (rules[patchi].type == patchRule::interact) patches_.append(patchi);
     }
+    setCooled(cloudName);
     setInitial();
 
     added_.resize(patches_.size());
@@ -210,6 +255,125 @@ Foam::nearWall::wallMemory::wallMemory
     }
     Info<< "    nearWallInteraction, memory of the walls: voidage " << voidage_
         << ", film " << (film_ ? "yes" : "no") << nl;
+    if (acceleration_ > 1)
+    {
+        Info<< "        acceleration " << acceleration_ << ": 1 s of the flow is "
+            << acceleration_ << " s of the deposit" << nl;
+    }
+}
+
+
+const Foam::nearWall::wallMemory* Foam::nearWall::wallMemory::find
+(
+    const objectRegistry& mesh,
+    const word& cloudName,
+    const label patchi
+)
+{
+    const wallMemory* found = nullptr;
+    for (const word& name : mesh.lookupClass<wallMemory>().toc())
+    {
+        const wallMemory& one = mesh.lookupObject<wallMemory>(name);
+        const bool named =
+            cloudName.empty() || one.name() == cloudName + ":memory";
+        if (!named || one.rules_[patchi].type != patchRule::interact) continue;
+        if (found)
+        {
+            FatalErrorInFunction
+                << "Two clouds have a deposit on patch '"
+                << patchesOf(one.mesh_)[patchi].name() << "': " << found->name()
+                << " and " << one.name() << "." << nl
+                << "    Name one of them in the temperature's condition,"
+                << " cloud ...;" << exit(FatalError);
+        }
+        found = &one;
+    }
+    return found;
+}
+
+
+const Foam::nearWallDepositTemperatureFvPatchScalarField*
+Foam::nearWall::wallMemory::condition(const label patchi) const
+{
+    const patchRule& rule = rules_[patchi];
+    if (!mesh_.foundObject<volScalarField>(rule.temperatureField)) return nullptr;
+
+    return dynamic_cast<const nearWallDepositTemperatureFvPatchScalarField*>
+    (
+        &rule.temperatureOn(mesh_, patchi)
+    );
+}
+
+
+void Foam::nearWall::wallMemory::setCooled(const word& cloudName)
+{
+    bool any = false;
+    for (const label patchi : patches_)
+    {
+        if (cooled(patchi)) any = true;
+        else if (condition(patchi))
+        {
+            Info<< "    nearWallInteraction, warning: patch "
+                << patchesOf(mesh_)[patchi].name() << " has the temperature"
+                << " condition nearWallDepositTemperature, but impacts meet the"
+                << " number of wallTemperature; write wallTemperature field;"
+                << nl;
+        }
+    }
+    if (!any) return;
+
+    closed_.reset
+    (
+        new volScalarField
+        (
+            readWallField(mesh_, cloudName + ":closedVoids", dimLength)
+        )
+    );
+    heatFlux_.reset
+    (
+        new volScalarField
+        (
+            readWallField
+            (
+                mesh_, cloudName + ":wallHeatFlux", dimPower/dimArea
+            )
+        )
+    );
+    for (const label patchi : patches_)
+    {
+        if (!cooled(patchi)) continue;
+
+        resistance_[patchi].setSize(patchesOf(mesh_)[patchi].size(), -1);
+        nw_deposit all(nearwall::make_deposit(rules_[patchi].wall));
+        all.molten = all.powder = all.cover = 1;
+        all.solid = 1e-3;
+        nw_wall_cooling cooling(nearwall::make_wall_cooling());
+        cooling.coolant_temperature = cooling.gas_temperature = 1000;
+        cooling.wall_resistance = cooling.gas_coefficient = 1;
+        heatUnder(all, patchi, cooling);
+    }
+}
+
+
+nw_wall_heat Foam::nearWall::wallMemory::heatUnder
+(
+    const nw_deposit& d,
+    const label patchi,
+    const nw_wall_cooling& cooling
+) const
+{
+    nw_wall_heat found(nearwall::make_wall_heat());
+    const nw_status status = model_->heat(d, voidage_, cooling, found);
+    if (status != NW_OK)
+    {
+        FatalErrorInFunction
+            << "The temperature under the deposit on patch '"
+            << patchesOf(mesh_)[patchi].name() << "' cannot be computed (gas or"
+            << " surface " << cooling.gas_temperature << " K, coolant "
+            << cooling.coolant_temperature << " K): " << nw_status_text(status)
+            << exit(FatalError);
+    }
+    return found;
 }
 
 
@@ -222,7 +386,9 @@ nw_deposit Foam::nearWall::wallMemory::deposit
     nw_deposit d(nearwall::make_deposit(rules_[patchi].wall));
     d.molten = molten_.boundaryField()[patchi][facei];
     d.powder = powder_.boundaryField()[patchi][facei];
-    d.solid = layer_.boundaryField()[patchi][facei]*(1 - voidage_);
+    if (closed_) d.closed = closed_->boundaryField()[patchi][facei];
+    d.solid =
+        (layer_.boundaryField()[patchi][facei] + d.closed)*(1 - voidage_);
     d.cover = cover_.boundaryField()[patchi][facei];
     d.conversion = conversion_.boundaryField()[patchi][facei];
     return d;
@@ -238,7 +404,9 @@ void Foam::nearWall::wallMemory::setDeposit
 {
     molten_.boundaryFieldRef()[patchi][facei] = d.molten;
     powder_.boundaryFieldRef()[patchi][facei] = d.powder;
-    layer_.boundaryFieldRef()[patchi][facei] = d.solid/(1 - voidage_);
+    layer_.boundaryFieldRef()[patchi][facei] =
+        d.solid/(1 - voidage_) - d.closed;
+    if (closed_) closed_->boundaryFieldRef()[patchi][facei] = d.closed;
     cover_.boundaryFieldRef()[patchi][facei] = d.cover;
     conversion_.boundaryFieldRef()[patchi][facei] = d.conversion;
 }
@@ -318,7 +486,10 @@ nw_status Foam::nearWall::wallMemory::addToSource
     const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
     const scalar volume =
         e.particles*constant::mathematical::pi/6*pow3(e.impact.d);
-    return e.model->add_captured(e.impact, e.mass/area, e.mass/volume, sum);
+    return e.model->add_captured
+    (
+        e.impact, acceleration_*e.mass/area, e.mass/volume, sum
+    );
 }
 
 
@@ -348,6 +519,22 @@ void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
 }
 
 
+void Foam::nearWall::wallMemory::require
+(
+    const nw_status status,
+    const label patchi,
+    const char* const what
+) const
+{
+    if (status == NW_OK) return;
+
+    FatalErrorInFunction
+        << "The deposit on patch '" << patchesOf(mesh_)[patchi].name()
+        << "' cannot " << what << ": " << nw_status_text(status)
+        << exit(FatalError);
+}
+
+
 void Foam::nearWall::wallMemory::addSources(const label i)
 {
     const label patchi = patches_[i];
@@ -360,13 +547,7 @@ void Foam::nearWall::wallMemory::addSources(const label i)
 
         nw_deposit d(deposit(patchi, facei));
         const nw_status status = nearwall::add(faces[facei], d);
-        if (status != NW_OK)
-        {
-            FatalErrorInFunction
-                << "The deposit on patch '" << sums_[i].name()
-                << "' cannot grow: " << nw_status_text(status)
-                << exit(FatalError);
-        }
+        require(status, patchi, "grow");
         setDeposit(patchi, facei, d);
         mass += (faces[facei].molten + faces[facei].powder)*area[facei];
         nw_deposit_source_init(&faces[facei]);
@@ -404,6 +585,10 @@ void Foam::nearWall::wallMemory::flow(const scalar duration)
         film[i].wall = rules_[patchi].wall;
         film[i].area = mesh_.magSf().boundaryField()[patchi];
         film[i].T = temperature_.boundaryField()[patchi];
+        film[i].heatFlux =
+            heatFlux_
+          ? scalarField(heatFlux_->boundaryField()[patchi])
+          : scalarField(film[i].T.size(), Zero);
         film[i].molten = molten_.boundaryField()[patchi];
         film[i].solid = powder_.boundaryField()[patchi];
         film[i].conversion = conversion_.boundaryField()[patchi];
@@ -422,6 +607,86 @@ void Foam::nearWall::wallMemory::flow(const scalar duration)
 }
 
 
+void Foam::nearWall::wallMemory::age
+(
+    const label patchi,
+    const scalar duration
+)
+{
+    const nearWallDepositTemperatureFvPatchScalarField* const T = cooled(patchi);
+    if (!T) return;
+
+    const scalarField gas(T->voidConductivity());
+    scalarField& flux = heatFlux_->boundaryFieldRef()[patchi];
+    scalarField& resistance = resistance_[patchi];
+    forAll(flux, facei)
+    {
+        nw_deposit d(deposit(patchi, facei));
+        const nw_wall_heat found
+        (
+            heatUnder(d, patchi, T->cooling(facei, gas[facei]))
+        );
+        flux[facei] = found.heat_flux;
+        const scalar rise =
+            flux[facei]*(found.deposit_resistance - resistance[facei]);
+        if (resistance[facei] >= 0) largestRise_ = max(largestRise_, mag(rise));
+        resistance[facei] = found.deposit_resistance;
+        if (d.powder <= 0) continue;
+
+        require(model_->age(voidage_, found, duration, d), patchi, "age");
+        setDeposit(patchi, facei, d);
+    }
+}
+
+
+bool Foam::nearWall::wallMemory::canShed(const label patchi) const
+{
+    nw_deposit heavy(nearwall::make_deposit(rules_[patchi].wall));
+    heavy.molten = 1;
+    const scalar huge = 1e100;
+    return
+        model_->shed(huge, huge, 0, 0, 0, heavy) == NW_OK && heavy.molten == 0;
+}
+
+
+void Foam::nearWall::wallMemory::shedFrom(const label i)
+{
+    const label patchi = patches_[i];
+    if (!canShed(patchi)) return;
+
+    const vectorField& Sf = mesh_.Sf().boundaryField()[patchi];
+    const vectorField& centres = mesh_.Cf().boundaryField()[patchi];
+    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    scalar mass = 0;
+    forAll(centres, facei)
+    {
+        nw_deposit d(deposit(patchi, facei));
+        const scalar before = d.molten + d.powder;
+        if (before <= 0) continue;
+
+        // Into the gas
+        const vector n(-Sf[facei]/area[facei]);
+        const scalar outward = gravity_ & n;
+        const scalar along = mag(gravity_ - outward*n);
+
+        // The place ranks the same on any ranks and after any restart
+        impactKey place;
+        place.add(centres[facei], mesh_.bounds().mag());
+        const scalar draw = scalar(place.value() >> 11)/9007199254740992.0;
+        const nw_status status =
+            model_->shed(outward, along, 0, 0, draw, d);
+        require(status, patchi, "fall off");
+
+        const scalar after = d.molten + d.powder;
+        if (after >= before) continue;
+
+        mass += (before - after)*area[facei];
+        setDeposit(patchi, facei, d);
+    }
+    addToSum(i, shed, mass);
+}
+
+
 void Foam::nearWall::wallMemory::finishStep(const scalar duration)
 {
     if (mesh_.changing())
@@ -434,12 +699,24 @@ void Foam::nearWall::wallMemory::finishStep(const scalar duration)
 
     // What was captured in this step flows in the next one. So a steady film is
     // that of the flow alone.
-    if (film_) flow(duration);
+    if (film_) flow(acceleration_*duration);
     forAll(patches_, i)
     {
         addSources(i);
+        age(patches_[i], acceleration_*duration);
+        shedFrom(i);
         setCoverage(patches_[i]);
     }
+}
+
+
+void Foam::nearWall::wallMemory::reportRise(Ostream& os, const scalar rise)
+{
+    if (rise <= largestSoundRise) return;
+
+    os  << "    nearWallInteraction, warning: the deposit grew so much in this"
+        << " step that the surface of a face changes by some " << rise
+        << " K; take shorter steps or less acceleration" << nl;
 }
 
 
@@ -451,10 +728,12 @@ void Foam::nearWall::wallMemory::report
     const bool writeRow
 )
 {
-    faceSums faces(patches_.size());
+    faceSums faces(patches_.size(), largestRise_);
+    largestRise_ = 0;
     forAll(patches_, i)
     {
         const label patchi = patches_[i];
+        const scalarField none(patchesOf(mesh_)[patchi].size(), Zero);
         faces.add
         (
             i,
@@ -465,11 +744,13 @@ void Foam::nearWall::wallMemory::report
                 &powder_.boundaryField()[patchi],
                 &layer_.boundaryField()[patchi],
                 &coverage_.boundaryField()[patchi],
-                &temperature_.boundaryField()[patchi]
+                &temperature_.boundaryField()[patchi],
+                heatFlux_ ? &heatFlux_->boundaryField()[patchi] : &none
             }
         );
     }
     faces.overRanks();
+    reportRise(os, faces.rise());
 
     forAll(patches_, i)
     {
@@ -478,7 +759,8 @@ void Foam::nearWall::wallMemory::report
         const scalarList& t = totals[i];
         const scalar in = t[initial] + t[arrived];
         const scalar deposited = moltenMass + powderMass;
-        const scalar rest = in + t[fromOthers] - t[drained] - deposited;
+        const scalar rest =
+            in + t[fromOthers] - t[drained] - t[shed] - deposited;
         const scalar all = max(in, in + t[fromOthers]);
         if (in > 0 || deposited > 0)
         {
@@ -486,6 +768,7 @@ void Foam::nearWall::wallMemory::report
                 << moltenMass << " kg, powder " << powderMass
                 << " kg, coverage " << faces.mean(i, coverageOf);
             if (film_) os << ", drained " << t[drained] << " kg";
+            if (t[shed] > 0) os << ", shed " << t[shed] << " kg";
             os  << nl;
         }
         if (!writeRow) continue;
@@ -498,7 +781,7 @@ void Foam::nearWall::wallMemory::report
             row.add(name + "_max" + quantityUnits[q], faces.maximum(i, q));
         };
         row.add("time_s", time);
-        for (label k = 0; k < nTerms; ++k) row.add(termNames[k], t[k]);
+        for (label k = 0; k < shed; ++k) row.add(termNames[k], t[k]);
         row.add("molten_kg", moltenMass);
         row.add("powder_kg", powderMass);
         row.add("residual", all > 0 ? rest/all : 0);
@@ -509,6 +792,8 @@ void Foam::nearWall::wallMemory::report
         const scalar converted = faces.converted(i);
         row.add("conversion_mean", deposited > 0 ? converted/deposited : 0);
         addMeanAndMax(wallTOf);
+        row.add(termNames[shed], t[shed]);
+        if (cooled(patches_[i])) addMeanAndMax(heatFluxOf);
         tables_[i].write(row);
     }
 }

@@ -34,7 +34,7 @@ Foam::vector Foam::nearWall::wallFilm::velocity
     here.molten = p.molten[facei];
     scalar speed = 0;
     const nw_status status =
-        model_->film_velocity(here, p.T[facei], g, speed);
+        model_->film_velocity(here, p.T[facei], p.heatFlux[facei], g, speed);
     if (status != NW_OK)
     {
         FatalErrorInFunction

@@ -349,7 +349,7 @@ struct ruleReader
         const scalarField T
         (
             rule.temperatureFromField
-          ? rule.temperatureOn(mesh, pp.index())
+          ? scalarField(rule.temperatureOn(mesh, pp.index()))
           : scalarField(pp.size(), rule.temperature)
         );
         label outside = 0;
@@ -449,7 +449,7 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
 }
 
 
-const Foam::scalarField& Foam::nearWall::patchRule::temperatureOn
+const Foam::fvPatchScalarField& Foam::nearWall::patchRule::temperatureOn
 (
     const fvMesh& mesh,
     const label patchi

@@ -7,7 +7,7 @@
 # OpenFOAM.com's tutorials), or compare with places and times by hand: the function object `particles` solves once more at
 # the start of a run and after the fields of its time are written.
 foundation_cases="kinematic colliding mppic coal multiphase spray reacting single spin allwmake stuck cost remove inline groups
-    list soft_restart unusable outside fields draws one-rank memory hot-wall density extra-inputs film-effect alone bad-input"
+    list soft_restart unusable outside fields draws one-rank memory hot-wall cooled grown forgotten density extra-inputs film-effect alone bad-input"
 
 # kind: change the case in this folder
 as_foundation() {

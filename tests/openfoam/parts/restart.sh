@@ -50,14 +50,19 @@ ranks_are() {   # n
     sed -i "s/numberOfSubdomains .*/numberOfSubdomains $1;/; s/n (. . .)/n ($split)/" system/decomposeParDict
 }
 
-# A wall field's values: patch value, for a list in one line or in many
+# A wall field's values: patch value, for a list in one line or in many; nothing for a uniform value
 face_values() {
     tr '\n()' '   ' < "$1" | awk -v RS='[ ;]+' '
-        $1 == "floor" || $1 == "lid" || $1 == "sides" { patch = $1; list = 0 }
-        $1 == "}" { patch = "" }
-        patch && $1 == "List<scalar>" { list = 1; next }
-        patch && list == 1 { list = 2; next }
-        patch && list == 2 && $1 != "" { print patch, $1 }'
+        $1 == "floor" || $1 == "lid" || $1 == "sides" { patch = $1; list = 0; next }
+        $1 == "{" { depth++ }
+        $1 == "}" { depth-- }
+        depth == 2 && $1 == "value" { list = patch != ""; next }
+        depth < 2 && $1 == "}" { patch = "" }
+        list == 1 && $1 == "nonuniform" { next }
+        list == 1 { list = $1 == "List<scalar>" ? 2 : 0; next }
+        list == 2 { list = 3; next }
+        list == 3 && $1 ~ /^[-+0-9.]|^nan|^inf/ { print patch, $1; next }
+        list == 3 { list = 0 }'
 }
 
 # What must be the same after all is done: totals, the wall fields face by face,

@@ -1,0 +1,385 @@
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "nearWallDepositTemperatureFvPatchScalarField.H"
+#include "addToRunTimeSelectionTable.H"
+#include "basicThermo.H"
+#include "dictionaryChecks.H"
+#include "physicoChemicalConstants.H"
+#include "wallMemory.H"
+
+namespace
+{
+
+using namespace Foam;
+using namespace Foam::nearWall;
+
+//- Read a number, with the word before it that a file for
+//  externalWallHeatFluxTemperature has: `h uniform 100;`, `Ta constant 300;`
+scalar readNumber(const dictionary& dict, const word& key)
+{
+    const tokenList& given = dict.lookup(key);
+    const label n = given.size();
+    const bool named =
+        n == 2 && given[0].isWord()
+     && (given[0].wordToken() == "uniform" || given[0].wordToken() == "constant");
+    if ((n == 1 || named) && given[n - 1].isNumber() && given[n - 1].number() > 0)
+    {
+        return given[n - 1].number();
+    }
+    FatalIOErrorInFunction(dict)
+        << "Key '" << key << "' must be one number above 0, without a unit."
+        << exit(FatalIOError);
+    return 0;
+}
+
+
+//- Refuse what externalWallHeatFluxTemperature knows and this condition not
+void refuseOtherModes(const dictionary& dict)
+{
+    const word mode(readOr<word>(dict, "mode", word("coefficient")));
+    if (mode == "coefficient" && !dict.found("Q") && !dict.found("q")) return;
+
+    FatalIOErrorInFunction(dict)
+        << "nearWallDepositTemperature computes the heat flux: it knows only"
+        << " mode coefficient, without Q and q." << exit(FatalIOError);
+}
+
+} // End anonymous namespace
+
+
+Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
+(
+    const dictionary& dict
+)
+:
+    Ta(readNumber(dict, "Ta")),
+    thicknessLayers(readOr<scalarList>(dict, "thicknessLayers", scalarList())),
+    kappaLayers(readOr<scalarList>(dict, "kappaLayers", scalarList())),
+    emissivity
+    (
+        readChecked<scalar>
+        (
+            dict, "emissivity", 0, [](scalar e) { return e >= 0 && e <= 1; },
+            "from 0 to 1"
+        )
+    ),
+    qr(readOr<word>(dict, "qr", word("none"))),
+    alphat(readOr<word>(dict, "alphat", word("alphat"))),
+    cloud(readOr<word>(dict, "cloud", word())),
+    relaxation
+    (
+        readChecked<scalar>
+        (
+            dict, "relaxation", 1, [](scalar r) { return r > 0 && r <= 1; },
+            "above 0 and at most 1"
+        )
+    )
+{
+    refuseOtherModes(dict);
+    if (dict.found("h")) h = readNumber(dict, "h");
+    if (dict.found("surroundingsTemperature"))
+    {
+        surroundingsTemperature = readNumber(dict, "surroundingsTemperature");
+    }
+
+    bool sound = thicknessLayers.size() == kappaLayers.size();
+    for (const scalar l : thicknessLayers) sound = sound && l >= 0;
+    for (const scalar k : kappaLayers) sound = sound && k > 0;
+    if (!sound)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Keys 'thicknessLayers' [m] and 'kappaLayers' [W/m/K] need as"
+            << " many numbers, no thickness below 0 and each conductivity"
+            << " above 0." << exit(FatalIOError);
+    }
+    if (resistance() <= 2/VGREAT)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Nothing lies between coolant and deposit: give 'h' [W/m2/K], or"
+            << " 'thicknessLayers' and 'kappaLayers'." << exit(FatalIOError);
+    }
+    if ((emissivity > 0) != (surroundingsTemperature > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Give 'emissivity' and 'surroundingsTemperature' [K] together, or"
+            << " 'qr' with a radiation model." << exit(FatalIOError);
+    }
+}
+
+
+Foam::scalar
+Foam::nearWallDepositTemperatureFvPatchScalarField::settings::resistance() const
+{
+    scalar sum = 1/h;
+    forAll(thicknessLayers, i) sum += thicknessLayers[i]/kappaLayers[i];
+    return sum;
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::write
+(
+    Ostream& os
+) const
+{
+    writeKey(os, "Ta", Ta);
+    if (h < VGREAT) writeKey(os, "h", h);
+    if (thicknessLayers.size())
+    {
+        writeKey(os, "thicknessLayers", thicknessLayers);
+        writeKey(os, "kappaLayers", kappaLayers);
+    }
+    if (emissivity > 0)
+    {
+        writeKey(os, "emissivity", emissivity);
+        writeKey(os, "surroundingsTemperature", surroundingsTemperature);
+    }
+    writeKey(os, "qr", qr);
+    writeKey(os, "alphat", alphat);
+    if (!cloud.empty()) writeKey(os, "cloud", cloud);
+    writeKey(os, "relaxation", relaxation);
+}
+
+
+Foam::nearWallDepositTemperatureFvPatchScalarField::
+nearWallDepositTemperatureFvPatchScalarField
+(
+    const fvPatch& p,
+    const volScalarField::Internal& iF
+)
+:
+    mixedFvPatchScalarField(p, iF)
+{
+    refValue() = 0;
+    refGrad() = 0;
+    valueFraction() = 1;
+}
+
+
+Foam::nearWallDepositTemperatureFvPatchScalarField::
+nearWallDepositTemperatureFvPatchScalarField
+(
+    const fvPatch& p,
+    const volScalarField::Internal& iF,
+    const dictionary& dict
+)
+:
+    mixedFvPatchScalarField(p, iF),
+    given_(dict)
+{
+    const dimensionSet& K = iF.dimensions();
+    fvPatchScalarField::operator=(readField(dict, "value", K, p.size()));
+    refValue() = *this;
+    refGrad() = 0;
+    valueFraction() = 1;
+    if (dict.found("refValue"))
+    {
+        // A run that goes on
+        refValue() = readField(dict, "refValue", K, p.size());
+        if (dict.found("radiating"))
+        {
+            radiating_ = readField(dict, "radiating", K, p.size());
+        }
+        valueFraction() = readField(dict, "valueFraction", dimless, p.size());
+    }
+}
+
+
+Foam::nearWallDepositTemperatureFvPatchScalarField::
+nearWallDepositTemperatureFvPatchScalarField
+(
+    const nearWallDepositTemperatureFvPatchScalarField& from,
+    const fvPatch& p,
+    const volScalarField::Internal& iF,
+    const fvPatchFieldMapper& m
+)
+:
+    mixedFvPatchScalarField(from, p, iF, m),
+    given_(from.given_)
+{}
+
+
+const Foam::nearWall::wallMemory*
+Foam::nearWallDepositTemperatureFvPatchScalarField::memory() const
+{
+    return nearWall::wallMemory::find
+    (
+        refCast<const fvMesh>(db()), given_.cloud, patch().index()
+    );
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::voidConductivity() const
+{
+    return nearWall::conductivityOf(thermo(), patch().index());
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::effectiveConductivity() const
+{
+    const scalarField none(size(), Zero);
+    const bool turbulent = db().foundObject<volScalarField>(given_.alphat);
+    const scalarField& alphat =
+        turbulent
+      ? db().lookupObject<volScalarField>(given_.alphat)
+       .boundaryField()[patch().index()]
+      : none;
+    return nearWall::effectiveConductivityOf(thermo(), alphat, patch().index());
+}
+
+
+const Foam::basicThermo&
+Foam::nearWallDepositTemperatureFvPatchScalarField::thermo() const
+{
+    const word& name = nearWall::thermoName();
+    if (!db().foundObject<basicThermo>(name))
+    {
+        FatalErrorInFunction
+            << "Patch '" << patch().name() << "' of "
+            << internalField().name() << ": nearWallDepositTemperature needs the"
+            << " conductivity of the gas, but this solver has no " << name << "."
+            << nl << "    Take a compressible solver with thermophysical"
+            << " properties, or another condition." << exit(FatalError);
+    }
+    return db().lookupObject<basicThermo>(name);
+}
+
+
+nw_wall_cooling Foam::nearWallDepositTemperatureFvPatchScalarField::cooling
+(
+    const label facei,
+    const scalar conductivity
+) const
+{
+    nw_wall_cooling c(nearwall::make_wall_cooling());
+    c.coolant_temperature = given_.Ta;
+    c.wall_resistance = given_.resistance();
+    c.gas_temperature = (*this)[facei];
+    c.gas_coefficient = std::numeric_limits<double>::infinity();
+    c.gas_conductivity = conductivity;
+    return c;
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::depositResistance() const
+{
+    tmp<scalarField> found(new scalarField(size(), Zero));
+    const nearWall::wallMemory* const deposits = memory();
+    if (!deposits)
+    {
+        // The cloud is made after the temperature, and works from the first
+        // step on
+        const Time& time = db().time();
+        if (time.timeIndex() > time.startTimeIndex() + 1 && !isSaid_)
+        {
+            isSaid_ = true;
+            Info<< "nearWallDepositTemperature, warning: no cloud with the key"
+                << " 'memory' and a rule 'interact' leaves a deposit on patch "
+                << patch().name() << "; the wall stays bare" << endl;
+        }
+        return found;
+    }
+
+    const scalarField gas(voidConductivity());
+    scalarField& resistance = found.ref();
+    forAll(resistance, facei)
+    {
+        resistance[facei] =
+            deposits->heat(patch().index(), facei, cooling(facei, gas[facei]))
+           .deposit_resistance;
+    }
+    return found;
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::noteRadiation
+(
+    const scalarField& qr
+)
+{
+    if (radiating_.size() != size()) radiating_ = *this;
+    if (radiated_.size() != size()) radiated_ = qr;
+    forAll(qr, i)
+    {
+        if (qr[i] == radiated_[i]) continue;
+
+        radiated_[i] = qr[i];
+        radiating_[i] = (*this)[i];
+    }
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::updateCoeffs()
+{
+    if (updated()) return;
+
+    const scalarField& T = *this;
+    const scalarField conducted
+    (
+        effectiveConductivity()*patch().deltaCoeffs()
+    );
+    const bool hasModel = given_.qr != "none";
+    scalarField qr(size(), Zero);
+    if (hasModel)
+    {
+        qr =
+            db().lookupObject<volScalarField>(given_.qr)
+           .boundaryField()[patch().index()];
+        noteRadiation(qr);
+    }
+    const scalarField resistance(given_.resistance() + depositResistance());
+    const scalar sigma = constant::physicoChemical::sigma.value();
+    const scalar around = given_.surroundingsTemperature;
+    forAll(T, i)
+    {
+        // Heat leaves by `given` - `taken` T: to the coolant, and by radiation
+        // about the present temperature
+        const scalar radiated =
+            given_.emissivity*sigma*(sqr(T[i]) + sqr(around))
+           *(T[i] + around);
+        scalar taken = 1/resistance[i] + radiated;
+        scalar given = given_.Ta/resistance[i] + radiated*around;
+        // The radiation model computed its flux at an earlier temperature. So
+        // that an insulated surface does not overshoot, it loses more by the
+        // slope of a black one in P1; this term vanishes once the temperature
+        // stays.
+        if (hasModel)
+        {
+            const scalar slope = 8*sigma*pow3(radiating_[i]);
+            taken += slope;
+            given += qr[i] + slope*radiating_[i];
+        }
+
+        refValue()[i] = given/taken;
+        valueFraction()[i] = taken/(taken + conducted[i]);
+    }
+    refGrad() = 0;
+    valueFraction() = given_.relaxation*valueFraction() + (1 - given_.relaxation);
+    refValue() = given_.relaxation*refValue() + (1 - given_.relaxation)*T;
+
+    mixedFvPatchScalarField::updateCoeffs();
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::write
+(
+    Ostream& os
+) const
+{
+    mixedFvPatchScalarField::write(os);
+    given_.write(os);
+    if (radiating_.size()) nearWall::writePatchField(os, "radiating", radiating_);
+}
+
+
+namespace Foam
+{
+    makePatchTypeField
+    (
+        fvPatchScalarField,
+        nearWallDepositTemperatureFvPatchScalarField
+    );
+}
