@@ -8,6 +8,7 @@ pub mod classes;
 pub mod openfoam;
 pub mod standalone;
 mod statistics;
+pub mod surface;
 
 use regex_lite::Regex;
 
@@ -16,6 +17,7 @@ pub use statistics::{Amount, Mass, Moments, bin, share, wilson};
 use crate::impact::Regime;
 use classes::Class;
 use openfoam::deposit::DepositState;
+use surface::WallSurface;
 
 /// Number of equal classes of carbon conversion from 0 to 1.
 pub const CONVERSION_BINS: usize = 10;
@@ -223,6 +225,8 @@ pub struct RunResults {
     pub classes: Vec<History<Vec<Class>>>,
     /// What lies on each wall that keeps a deposit.
     pub deposits: Vec<History<DepositState>>,
+    /// Deposit, temperature and heat flux on the faces of the walls at the last written time.
+    pub surfaces: Vec<WallSurface>,
     /// Arrivals recorded by OpenFOAM's own cloud function, in the order of time.
     pub arrivals: Vec<RecordedArrival>,
     /// Time [s] and injected mass [kg].

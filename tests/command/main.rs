@@ -20,3 +20,4 @@ mod recorded;
 mod report;
 mod runner;
 mod simulate;
+mod wall_maps;

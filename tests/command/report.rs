@@ -12,7 +12,7 @@ use nearwall::results::{Amount, History, WallModel, WallTotals};
 
 const PATCHES: [&str; 2] = ["slagWall", "quenchWall"];
 
-fn write(root: &Path, name: &str, text: &str) {
+pub(crate) fn write(root: &Path, name: &str, text: &str) {
     let path = root.join(name);
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
     std::fs::write(path, text).unwrap();
@@ -97,7 +97,7 @@ fn distributions(time: f64, scale: f64) -> String {
 }
 
 /// A case with our wall model, restarted at 0.5 s, with stuck parcels at its last time.
-fn ours(root: &Path) {
+pub(crate) fn ours(root: &Path) {
     skeleton(root, "nearWallInteraction");
     let tables = "postProcessing/nearWallInteraction/coalCloud1";
     write(

@@ -6,6 +6,8 @@
 mod axis;
 mod bars;
 mod map;
+mod scale;
+mod surface;
 mod svg;
 
 use kuva::plot::annotations::ReferenceLine;
@@ -21,6 +23,8 @@ use axis::{all_drawable, drawable, ends, finite, round_step};
 pub use axis::round_edges;
 pub use bars::BarChart;
 pub use map::FigureMap;
+pub(super) use scale::{ColourScale, regime_colour};
+pub(super) use surface::SurfaceMap;
 pub use svg::Figure;
 
 /// Okabe and Ito's colours in an order that keeps neighbours apart; black is left for text.

@@ -59,12 +59,17 @@ fn embedded(svg: &str, id: &str, title: &str) -> String {
         rest.split('"').next()
     };
     let (Some(width), Some(height)) = (size("width"), size("height")) else { return svg };
-    let label = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;");
+    let label = escaped(title);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\" \
          font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" fill=\"black\">{}",
         body.replacen("<rect width=\"100%\" height=\"100%\" fill=\"white\" />", "", 1)
     )
+}
+
+/// A text as it may stand in an attribute.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// Names clip paths after the figure. The plotting crate numbers them through a whole program, but the same figure has to

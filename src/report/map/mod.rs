@@ -1,15 +1,13 @@
 //! The page of a map: restitution, capture and regime over two inputs.
 
 mod panel;
-mod scale;
 
-use super::chart::{Figure, round_edges};
+use super::chart::{ColourScale, Figure, regime_colour, round_edges};
 use super::format::{number, percent, with_unit};
 use super::page::{Page, Table};
 use crate::impact::Regime;
 use crate::map::{Axis, Cell, Map};
 use panel::{Fill, Panel};
-use scale::ColourScale;
 
 /// The page of a map of the model in the file `file`.
 ///
@@ -84,10 +82,10 @@ fn regimes(map: &Map) -> Figure {
     let share = |regime: Regime| {
         map.cells.iter().flatten().filter(|cell| cell.regime == regime).count() as f64 / decided
     };
-    let fills = fills(map, |cell| Some(scale::regime_colour(cell.regime).to_owned()));
+    let fills = fills(map, |cell| Some(regime_colour(cell.regime).to_owned()));
     let shares = Regime::ALL.into_iter().filter(|regime| share(*regime) > 0.0);
     let legend: Vec<(&str, String)> = shares
-        .map(|regime| (scale::regime_colour(regime), format!("{} {}", regime.name(), percent(share(regime)))))
+        .map(|regime| (regime_colour(regime), format!("{} {}", regime.name(), percent(share(regime)))))
         .collect();
     let caption = "SP, NSP: sticky and non-sticky particle; SW, NSW: sticky and non-sticky wall, of the share of the wall that \
         an impact more probably meets (bare or covered). Per cent: share of this map.";

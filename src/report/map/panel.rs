@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::scale::ColourScale;
 use crate::impact::Regime;
 use crate::map::{Axis, Map};
-use crate::report::chart::{Figure, round_edges};
+use crate::report::chart::{ColourScale, Figure, round_edges};
 use crate::report::format::number;
 
 /// Size of the drawing and of its plot [px].
@@ -75,7 +74,7 @@ impl<'a> Panel<'a> {
         svg += &self.axes();
         svg += &self.area_names();
         svg += &beside(swatches);
-        svg += &scale.map_or(String::new(), colour_bar);
+        svg += &scale.map_or(String::new(), |scale| scale.bar([LEFT + PLOT[0] + 16.0, TOP], [18.0, PLOT[1]]));
         svg += &legend(&marks, height - 10.0);
         svg += "</svg>";
         let Self { id, title, caption, .. } = self;
@@ -232,34 +231,6 @@ fn legend(marks: &[(String, &str)], y: f64) -> String {
             x + 21.0
         );
         x += 36.0 + 6.5 * text.len() as f64;
-    }
-    svg
-}
-
-/// The scale of colours right of the plot.
-fn colour_bar(scale: &ColourScale) -> String {
-    const STEPS: usize = 64;
-    let [low, high] = scale.ends();
-    let x = LEFT + PLOT[0] + 16.0;
-    let step = PLOT[1] / STEPS as f64;
-    let mut svg = "<g shape-rendering=\"crispEdges\">".to_owned();
-    for place in 0..STEPS {
-        let colour = scale.colour(low + (high - low) * (place as f64 + 0.5) / STEPS as f64);
-        let y = TOP + PLOT[1] - (place + 1) as f64 * step;
-        svg += &format!(
-            "<rect x=\"{x}\" y=\"{y:.2}\" width=\"18\" height=\"{:.2}\" fill=\"{colour}\"/>",
-            step + 0.3
-        );
-    }
-    svg += "</g>";
-    svg += &format!(
-        "<rect x=\"{x}\" y=\"{TOP}\" width=\"18\" height=\"{}\" fill=\"none\" stroke=\"black\"/>",
-        PLOT[1]
-    );
-    for value in round_edges(low, high, 5).into_iter().filter(|value| *value <= high + 1e-9 * (high - low)) {
-        let y = TOP + PLOT[1] * (1.0 - (value - low) / (high - low));
-        svg += &format!("<path d=\"M{} {y:.2}h5\" stroke=\"black\"/>", x + 18.0);
-        svg += &format!("<text x=\"{}\" y=\"{:.2}\">{}</text>", x + 27.0, y + 4.0, short(value));
     }
     svg
 }

@@ -6,6 +6,9 @@ use crate::report::{Chart, Figure};
 use crate::results::History;
 use crate::results::openfoam::deposit::{DepositState, value};
 
+/// Relative change of a column over time from which on it is drawn [1].
+const LEAST_CHANGE: f64 = 1e-3;
+
 pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
     let all = comparison.each().flat_map(|(label, run)| run.deposits.iter().map(move |wall| (label, wall)));
     let walls: Vec<(&String, &History<DepositState>)> = all.filter(|(_, wall)| is_something(wall)).collect();
@@ -44,7 +47,30 @@ pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
         "Mean over the area of the wall, and the thickest face or bin, with the powder spread evenly on it. Powder damps \
          rebounds.",
     ));
+    let any_changes = |column: &str| walls.iter().any(|(_, wall)| changes(wall, column));
+    let temperature = ["wall_temperature_mean_K", "wall_temperature_max_K"];
+    if any_changes(temperature[0]) {
+        figures.push(over_time("Surface of the deposit", "temperature [K]", temperature).figure(
+            "wall-temperature",
+            "Mean over the area of the wall, and the hottest face or bin: what impacts meet.",
+        ));
+    }
+    let flux = ["heat_flux_mean_W_m2", "heat_flux_max_W_m2"];
+    if any_changes(flux[0]) {
+        figures.push(over_time("Heat through the wall", "heat flux [W/m²]", flux).figure(
+            "wall-heat-flux",
+            "Into the coolant; mean over the area of the wall, and the face or bin with the largest flux.",
+        ));
+    }
     figures
+}
+
+/// Whether a column is there and changes over time.
+fn changes(wall: &History<DepositState>, column: &str) -> bool {
+    let mut values =
+        wall.rows.iter().map(|(_, state)| value(state, column)).filter(|value| value.is_finite());
+    let first = values.next();
+    first.is_some_and(|first| values.any(|value| (value - first).abs() > LEAST_CHANGE * first.abs()))
 }
 
 fn is_something(wall: &History<DepositState>) -> bool {
@@ -58,13 +84,17 @@ fn line(wall: &History<DepositState>, column: &str) -> Vec<[f64; 2]> {
 
 fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
     let mut chart = Chart::new(title, "time [s]", "mass [kg]");
-    for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg"), ("drained", "drained_kg")] {
+    for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg")] {
+        chart = chart.line(name, &line(wall, column));
+    }
+    for (name, column) in [("drained", "drained_kg"), ("fallen off", "shed_kg")] {
         let points = line(wall, column);
-        if column != "drained_kg" || points.iter().any(|[_, mass]| *mass > 0.0) {
+        if points.iter().any(|[_, mass]| *mass > 0.0) {
             chart = chart.line(name, &points);
         }
     }
-    let caption = "Molten mass and powder in the deposit of the wall, and, where it runs down, the mass that drained from \
-                   it as a film. In OpenFOAM with the mass at capture; a standalone case counts out what burns off.";
+    let caption = "Molten mass and powder in the deposit of the wall, and, where there is some, the mass that drained from \
+                   it as a film and that fell off. In OpenFOAM with the mass at capture; a standalone case counts out \
+                   what burns off.";
     chart.figure(&format!("wall-deposit-{}", index + 1), caption)
 }

@@ -12,6 +12,7 @@ mod injections;
 mod near_wall;
 mod places;
 mod rebound;
+mod surfaces;
 mod sweep;
 mod verdict;
 
@@ -21,8 +22,8 @@ use crate::results::{Moments, RunResults, WallModel, WallTotals};
 use crate::rig::{Band, CaptureBand};
 use crate::simulate::Case;
 
-/// The sections of a page: heading, figures, and the table under them.
-const SECTIONS: [PageSection; 10] = [
+/// The sections of a page before and after the maps of the deposit: heading, figures, and the table under them.
+const SECTIONS: [PageSection; 8] = [
     (
         "Where material is captured",
         &[captured::by_wall, captured::regimes, captured::hit_regimes, places::along, captured::history],
@@ -35,9 +36,9 @@ const SECTIONS: [PageSection; 10] = [
     ("How densely particles linger at the walls", &[near_wall::figures], near_wall::table),
     ("Where captured particles lie", &[places::maps, places::scatter], nothing),
     ("What lies on the walls over time", &[deposit::figures], nothing),
-    ("Which injection is captured", &[], injections::table),
-    ("Balance", &[], balance::table),
 ];
+const LAST_SECTIONS: [PageSection; 2] =
+    [("Which injection is captured", &[], injections::table), ("Balance", &[], balance::table)];
 
 type PageSection =
     (&'static str, &'static [fn(&Comparison<'_>) -> Vec<Figure>], fn(&Comparison<'_>) -> Option<Table>);
@@ -207,18 +208,23 @@ impl<'a> Comparison<'a> {
             }
             page_later_captures(page, run);
         }
-        for (heading, figures, table) in SECTIONS {
-            let figures: Vec<Figure> = figures.iter().flat_map(|figures| figures(self)).collect();
-            let table = table(self).filter(|table| !table.rows.is_empty());
-            if figures.is_empty() && table.is_none() {
-                continue;
-            }
-            page.heading(heading);
-            if let Some(table) = table {
-                page.table(table);
-            }
-            page.figures(figures);
+        SECTIONS.iter().for_each(|section| self.add_section(page, section));
+        surfaces::add_to(self, page);
+        LAST_SECTIONS.iter().for_each(|section| self.add_section(page, section));
+    }
+
+    /// Adds a section that has anything to show.
+    fn add_section(&self, page: &mut Page, (heading, figures, table): &PageSection) {
+        let figures: Vec<Figure> = figures.iter().flat_map(|figures| figures(self)).collect();
+        let table = table(self).filter(|table| !table.rows.is_empty());
+        if figures.is_empty() && table.is_none() {
+            return;
         }
+        page.heading(*heading);
+        if let Some(table) = table {
+            page.table(table);
+        }
+        page.figures(figures);
     }
 
     /// The time of the comparison in words.

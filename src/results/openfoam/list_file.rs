@@ -5,6 +5,8 @@
 
 use std::path::Path;
 
+use super::foam_file::Arch;
+
 /// Places of all parcels [m].
 ///
 /// # Errors
@@ -68,11 +70,9 @@ struct Binary {
     count: usize,
     /// From the opening bracket on.
     body: Vec<u8>,
-    /// Bytes of a label and of a scalar, and whether the list holds labels.
-    label: usize,
-    scalar: usize,
+    arch: Arch,
+    /// Whether the list holds labels.
     labels: bool,
-    big_endian: bool,
 }
 
 impl Binary {
@@ -88,7 +88,6 @@ impl Binary {
             return None;
         }
         let arch = header.lines().find(|line| line.trim_start().starts_with("arch")).unwrap_or_default();
-        let width = |name: &str| arch.split_once(name)?.1.get(..2)?.parse::<usize>().ok();
         let rest = &bytes[end..];
         let mut from = 0;
         // The line of stars is a comment.
@@ -99,10 +98,8 @@ impl Binary {
                 return Some(Self {
                     count,
                     body: rest[from..].to_vec(),
-                    label: width("label=").unwrap_or(32) / 8,
-                    scalar: width("scalar=").unwrap_or(64) / 8,
+                    arch: Arch::of(arch),
                     labels: value("class").is_some_and(|class| class.starts_with("label")),
-                    big_endian: arch.contains("MSB"),
                 });
             }
         }
@@ -111,33 +108,24 @@ impl Binary {
 
     /// A number of this many bytes at a place of the body.
     fn number(&self, at: usize, width: usize, label: bool) -> Option<f64> {
-        let mut bytes = self.body.get(at..at + width)?.to_vec();
-        if self.big_endian {
-            bytes.reverse();
-        }
-        Some(match (width, label) {
-            (4, true) => f64::from(i32::from_le_bytes(bytes.try_into().ok()?)),
-            (8, true) => i64::from_le_bytes(bytes.try_into().ok()?) as f64,
-            (4, false) => f64::from(f32::from_le_bytes(bytes.try_into().ok()?)),
-            (8, false) => f64::from_le_bytes(bytes.try_into().ok()?),
-            _ => return None,
-        })
+        self.arch.number(self.body.get(at..at + width)?, label)
     }
 
     /// The numbers between the brackets.
     fn numbers(&self) -> Option<Vec<f64>> {
-        let width = if self.labels { self.label } else { self.scalar };
+        let width = if self.labels { self.arch.label } else { self.arch.scalar };
         (0..self.count).map(|place| self.number(1 + place * width, width, self.labels)).collect()
     }
 
     /// The places: each parcel has a line with a bracket, three scalars, its cell and a bracket.
     fn positions(&self) -> Option<Vec<[f64; 3]>> {
-        let length = 3 * self.scalar + self.label + 3;
+        let length = 3 * self.arch.scalar + self.arch.label + 3;
         let first = 1 + self.body.iter().skip(1).position(|byte| *byte == b'(')?;
         let place = |parcel: usize| {
             let at = first + parcel * length;
             (*self.body.get(at)? == b'(').then_some(())?;
-            let coordinate = |axis: usize| self.number(at + 1 + axis * self.scalar, self.scalar, false);
+            let coordinate =
+                |axis: usize| self.number(at + 1 + axis * self.arch.scalar, self.arch.scalar, false);
             Some([coordinate(0)?, coordinate(1)?, coordinate(2)?])
         };
         (0..self.count).map(place).collect()

@@ -2,20 +2,26 @@
 //!
 //! Sources are the tables of nearWallInteraction ([`tables`], [`deposit`]), the counts of the stock models in the logs
 //! ([`log`]), the arrivals that the cloud function `patchPostProcessing` recorded ([`recorded`]), and the captured
-//! parcels of the last written time ([`parcels`]). [`impact_history`] reads the impacts of each parcel. What is missing is listed in [`RunResults::missing`].
+//! parcels of the last written time ([`parcels`]) and its fields on the walls ([`surfaces`]). [`impact_history`] reads the
+//! impacts of each parcel. What is missing is listed in [`RunResults::missing`].
 
+mod boundary_field;
 pub mod deposit;
+mod foam_file;
 pub mod impact_history;
 mod list_file;
 pub mod log;
+mod mesh;
 pub mod parcels;
 pub mod recorded;
+pub mod surfaces;
 pub mod table;
 pub mod tables;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::surface::add_regimes;
 use super::{BalanceLine, RunResults, WallModel};
 
 /// A folder that holds no case.
@@ -134,6 +140,13 @@ fn complete(folder: &Path, mut results: RunResults) -> RunResults {
     }
     match parcels::read_last(folder, &cloud) {
         Ok(captures) => results.captures = captures,
+        Err(reason) => results.missing.push(reason),
+    }
+    match surfaces::read_last(folder, &cloud) {
+        Ok(mut surfaces) => {
+            add_regimes(&mut surfaces, &results.captures);
+            results.surfaces = surfaces;
+        }
         Err(reason) => results.missing.push(reason),
     }
     if results.injected.is_empty() {

@@ -1,7 +1,7 @@
 //! The captured parcels of a cloud at the last written time.
 //!
 //! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and the deposit of `nearWallInteraction`,
-//! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, ASCII or binary. Compressed files are not read; the page
+//! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, `regime`, ASCII or binary. Compressed files are not read; the page
 //! then states it.
 
 use std::f64::consts::PI;
@@ -10,6 +10,7 @@ use std::path::Path;
 use super::super::Capture;
 use super::list_file::{numbers, positions};
 use super::time_folders;
+use crate::impact::Regime;
 
 /// Reads the parcels that lie still at the last time that has any parcels, in the cloud or in its deposit.
 ///
@@ -53,8 +54,17 @@ fn read_deposit(folder: &Path) -> Result<Vec<Capture>, String> {
     let positions = positions(folder)?;
     let numbers = |name: &str| numbers(folder, name, positions.len());
     let (diameters, masses) = (numbers("d")?, numbers("mass")?);
-    let parcels = positions.iter().zip(diameters).zip(masses);
-    Ok(parcels.map(|((position, diameter), mass)| capture(*position, mass, diameter)).collect())
+    // -1 where no model decided.
+    let regimes = numbers("regime").unwrap_or_default();
+    let regime = |index: usize| {
+        Regime::ALL.into_iter().find(|regime| regimes.get(index) == Some(&f64::from(*regime as u8)))
+    };
+    let parcels = positions.iter().zip(diameters).zip(masses).enumerate();
+    let parcel = |(index, ((position, diameter), mass)): (usize, ((&[f64; 3], f64), f64))| Capture {
+        regime: regime(index),
+        ..capture(*position, mass, diameter)
+    };
+    Ok(parcels.map(parcel).collect())
 }
 
 fn capture(position: [f64; 3], mass: f64, diameter: f64) -> Capture {
@@ -78,13 +88,17 @@ mod tests {
         {
             write(&format!("0.1/lagrangian/coal/{file}"), body);
         }
-        for (file, body) in
-            [("positions", "2\n(\n(0 0 1) 7\n(0 0 2) 8\n)"), ("d", "2{1e-4}"), ("mass", "2(3e-6 4e-6)")]
-        {
+        for (file, body) in [
+            ("positions", "2\n(\n(0 0 1) 7\n(0 0 2) 8\n)"),
+            ("d", "2{1e-4}"),
+            ("mass", "2(3e-6 4e-6)"),
+            ("regime", "2(-1 2)"),
+        ] {
             write(&format!("0.2/lagrangian/coalDeposit/{file}"), body);
         }
         let parcels = read_last(case.path(), "coal");
         let lying = |z, mass| capture([0.0, 0.0, z], mass, 1e-4);
-        assert_eq!(parcels.unwrap(), [lying(1.0, 3e-6), lying(2.0, 4e-6)]);
+        let sticky = Capture { regime: Some(Regime::SpNsw), ..lying(2.0, 4e-6) };
+        assert_eq!(parcels.unwrap(), [lying(1.0, 3e-6), sticky]);
     }
 }
