@@ -114,7 +114,7 @@ same_walls() { # name start-folder tolerance-of-temperatures
 
 # What is the same at the end however the run is cut: stopped, killed, on two ranks
 case_grown() {
-    local dir="$work/grown" f t molten shed pid tries=0
+    local dir="$work/grown" f t molten shed
     growing_box "$dir" || return
     solve grown serial "$solver" || return
     same_walls grown/serial 0 0
@@ -131,10 +131,7 @@ case_grown() {
     solve grown restart "$solver" && same_walls grown/restart 0.06 1e-6
 
     rm -rf "$dir-killed"; mkdir "$dir-killed"; cp -r "$dir"/{0,constant,system} "$dir-killed"; cd "$dir-killed" || return
-    "$solver" > log.killed 2>&1 &
-    pid=$!
-    until grep -qs '^Time = 0.07' log.killed || ! kill -0 "$pid" 2>/dev/null || [ $((++tries)) -gt 30000 ]; do sleep 0.02; done
-    kill -9 "$pid" 2>/dev/null; wait "$pid" 2>/dev/null
+    kill_at 0.07 killed
     settings 0.1 0.02 latestTime ascii
     solve grown again "$solver" && same_walls grown/killed 0.06 1e-6
 

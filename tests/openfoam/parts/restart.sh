@@ -215,16 +215,13 @@ merged() {  # patch start...
 
 # SIGKILL between two writes, then go on from the last one
 case_kill() {
-    local dir="$work/kill" pid waited=0 killed rows
+    local dir="$work/kill" killed rows
     bouncing_box "$dir" 20000 || return
     settings 0.4 0.1 startTime ascii
     solve kill whole "$solver" || return
     state_of 0.4 0 > state.whole
     rm -rf "$dir-killed"; mkdir "$dir-killed"; cp -r 0 constant system "$dir-killed"; cd "$dir-killed" || return
-    "$solver" > log.killed 2>&1 &
-    pid=$!
-    until grep -q 'Time = 0.15' log.killed || [ $((waited += 1)) -gt 1000 ]; do sleep 0.02; done
-    kill -KILL "$pid"; wait "$pid" 2>/dev/null
+    kill_at 0.15 killed
     killed="$(tail -n 1 "$(folder kinematicCloud)/balance.dat" | cut -d' ' -f1)"
     if awk -v t="$killed" 'BEGIN { exit !(t > 0.1001 && t < 0.2) }' && [ ! -e 0.2 ]
     then ok "kill/between-writes (last row at $killed s)"; else bad kill/between-writes "killed at $killed"; return; fi
