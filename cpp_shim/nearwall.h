@@ -245,6 +245,8 @@ typedef struct nw_deposit {
   double conversion;
   // Volume of the powder's voids that sintering has closed [m3/m2].
   double closed;
+  // Share of the powder that landed and has left with the gas [1].
+  double resuspended;
 } nw_deposit;
 
 // Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
@@ -505,6 +507,20 @@ nw_status nw_deposit_shed(const struct nw_model *model,
                           double shear_across,
                           double draw,
                           struct nw_deposit *deposit);
+
+// Lets the gas at a wall carry powder away for a `duration` [s] (Reeks & Hall 2001). `voidage` is the share of voids in fresh powder [1];
+// `density` [kg/m3] and `kinematic_viscosity` [m2/s] are those of the gas, `friction_velocity` [m/s] is the root of shear stress over
+// density, 0 or more. The adhesion is that of the table `resuspension` of the wall in the model file; without one nothing leaves.
+//
+// # Safety
+// `model` is a loaded model; `deposit` begins with its `struct_size`.
+nw_status nw_deposit_resuspend(const struct nw_model *model,
+                               double voidage,
+                               double density,
+                               double kinematic_viscosity,
+                               double friction_velocity,
+                               double duration,
+                               struct nw_deposit *deposit);
 
 // Initialises a deposit: its size, wall 0, a bare wall.
 //

@@ -337,6 +337,13 @@ public:
         return nw_deposit_shed(raw_, gravity_outward, gravity_along, shear_down, shear_across, draw, &deposit);
     }
 
+    // Lets the gas at the wall carry powder away for a `duration` [s]: its density [kg/m3], kinematic viscosity [m2/s] and friction
+    // velocity [m/s]; `voidage` is the share of voids in fresh powder; no exceptions.
+    nw_status resuspend(double voidage, double density, double kinematic_viscosity, double friction_velocity,
+                        double duration, nw_deposit& deposit) const noexcept {
+        return nw_deposit_resuspend(raw_, voidage, density, kinematic_viscosity, friction_velocity, duration, &deposit);
+    }
+
     // Mean speed [m/s] at which the melt of a deposit runs down a wall of `T_w` [K]; no exceptions.
     nw_status film_velocity(const nw_deposit& deposit, double T_w, double gravity_along,
                             double& velocity) const noexcept {

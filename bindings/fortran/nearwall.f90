@@ -145,6 +145,7 @@ module nearwall
     real(c_double) :: cover
     real(c_double) :: conversion
     real(c_double) :: closed
+    real(c_double) :: resuspended
   end type nw_deposit
 
   type, bind(c) :: nw_deposit_source
@@ -333,6 +334,18 @@ module nearwall
       type(nw_deposit), intent(inout) :: deposit
       integer(c_int32_t) :: nw_deposit_shed
     end function nw_deposit_shed
+
+    function nw_deposit_resuspend(model, voidage, density, kinematic_viscosity, friction_velocity, duration, deposit) bind(c)
+      import
+      type(c_ptr), value :: model
+      real(c_double), value :: voidage
+      real(c_double), value :: density
+      real(c_double), value :: kinematic_viscosity
+      real(c_double), value :: friction_velocity
+      real(c_double), value :: duration
+      type(nw_deposit), intent(inout) :: deposit
+      integer(c_int32_t) :: nw_deposit_resuspend
+    end function nw_deposit_resuspend
 
     function nw_deposit_init(deposit) bind(c)
       import

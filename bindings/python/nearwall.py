@@ -94,7 +94,8 @@ class nw_wall_heat(Structure):
 class nw_deposit(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("wall", c_uint32), ("molten", c_double), ("powder", c_double),
-        ("solid", c_double), ("cover", c_double), ("conversion", c_double), ("closed", c_double)]
+        ("solid", c_double), ("cover", c_double), ("conversion", c_double), ("closed", c_double),
+        ("resuspended", c_double)]
 
 
 class nw_deposit_source(Structure):
@@ -127,6 +128,7 @@ FUNCTIONS = {
     "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
     "nw_deposit_age": (c_int32, [c_void_p, c_double, POINTER(nw_wall_heat), c_double, POINTER(nw_deposit)]),
     "nw_deposit_shed": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double, POINTER(nw_deposit)]),
+    "nw_deposit_resuspend": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double, POINTER(nw_deposit)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
     "nw_deposit_source_init": (c_int32, [POINTER(nw_deposit_source)]),

@@ -1,10 +1,11 @@
-//! A cooled wall under its deposit: temperatures, ageing and shedding.
+//! A wall under its deposit: temperatures, ageing, shedding, and what the gas carries away.
 #![allow(non_camel_case_types)]
 
 use super::boundary::{guarded_status, initialise, reader, sized};
 use super::deposit::nw_deposit;
 use super::types::{NW_BAD_STATE, nw_model, nw_status, zero_by_default};
 use crate::deposit::conduction::{Coolant, HotSide};
+use crate::deposit::resuspension::WallGas;
 use crate::deposit::shedding::Load;
 use crate::model::{WallCooling, WallHeat};
 
@@ -242,4 +243,38 @@ pub unsafe extern "C" fn nw_deposit_shed(
         Ok(())
     };
     guarded_status(shed)
+}
+
+/// Lets the gas at a wall carry powder away for a `duration` [s] (Reeks & Hall 2001). `voidage` is the share of voids in fresh powder [1];
+/// `density` [kg/m3] and `kinematic_viscosity` [m2/s] are those of the gas, `friction_velocity` [m/s] is the root of shear stress over
+/// density, 0 or more. The adhesion is that of the table `resuspension` of the wall in the model file; without one nothing leaves.
+///
+/// # Safety
+/// `model` is a loaded model; `deposit` begins with its `struct_size`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_deposit_resuspend(
+    model: *const nw_model,
+    voidage: f64,
+    density: f64,
+    kinematic_viscosity: f64,
+    friction_velocity: f64,
+    duration: f64,
+    deposit: *mut nw_deposit,
+) -> nw_status {
+    let resuspend = || {
+        // SAFETY: the caller's promises.
+        let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
+        let zero_or_more = [friction_velocity, duration].map(|number| number.is_finite() && number >= 0.0);
+        if !(is_positive(density) && is_positive(kinematic_viscosity)) || zero_or_more.contains(&false) {
+            return Err(NW_BAD_STATE);
+        }
+        let gas = WallGas { density, kinematic_viscosity, friction_velocity };
+        let (wall, given) = (before.wall as usize, before.sound()?.to_deposit());
+        let left = model.inner().resuspended(wall, &given, voidage, &gas, duration)?;
+        let after = before.with(&left).sound()?;
+        // SAFETY: checked just above.
+        unsafe { deposit.write_unaligned(after) };
+        Ok(())
+    };
+    guarded_status(resuspend)
 }

@@ -26,6 +26,8 @@ pub struct nw_deposit {
     pub conversion: f64,
     /// Volume of the powder's voids that sintering has closed [m3/m2].
     pub closed: f64,
+    /// Share of the powder that landed and has left with the gas [1].
+    pub resuspended: f64,
 }
 
 /// Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
@@ -54,19 +56,20 @@ zero_by_default!(nw_deposit, nw_deposit_source);
 
 impl nw_deposit {
     pub(super) fn to_deposit(self) -> Deposit {
-        let Self { molten, powder, solid, cover, conversion, closed, .. } = self;
-        Deposit { molten, powder, solid, cover, conversion, closed }
+        let Self { molten, powder, solid, cover, conversion, closed, resuspended, .. } = self;
+        Deposit { molten, powder, solid, cover, conversion, closed, resuspended }
     }
 
     pub(super) fn with(self, deposit: &Deposit) -> Self {
-        let Deposit { molten, powder, solid, cover, conversion, closed } = *deposit;
-        Self { molten, powder, solid, cover, conversion, closed, ..self }
+        let Deposit { molten, powder, solid, cover, conversion, closed, resuspended } = *deposit;
+        Self { molten, powder, solid, cover, conversion, closed, resuspended, ..self }
     }
 
     /// Refuses overflowed sums, so that every other call accepts what this one writes.
     pub(super) fn sound(self) -> Result<Self, nw_status> {
         let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover, self.closed]);
-        if sizes && (0.0..=1.0).contains(&self.conversion) { Ok(self) } else { Err(NW_BAD_STATE) }
+        let shares = [self.conversion, self.resuspended].map(|share| (0.0..=1.0).contains(&share));
+        if sizes && shares == [true; 2] { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 

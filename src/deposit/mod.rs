@@ -6,13 +6,16 @@
 //!
 //! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
 //! droplet, or char that encloses its ash. Its carbon burns off, it sinters and melts where the solver asks for it ([`burn_off`],
-//! [`Model::sintered`], [`Model::melting_share`]: `simulate` does, the last two on cooled walls). Melt on a wall that cools later is stiff by
+//! [`Model::sintered`], [`Model::melting_share`]: `simulate` does, the last two on cooled walls); it falls off and the gas carries it away
+//! where the model file says so ([`Model::shed`], [`Model::resuspended`]). Melt on a wall that cools later is stiff by
 //! its viscosity.
 //!
 //! [`Model::add_captured`]: crate::Model::add_captured
 //! [`Model::apply_deposit`]: crate::Model::apply_deposit
 //! [`Model::sintered`]: crate::Model::sintered
 //! [`Model::melting_share`]: crate::Model::melting_share
+//! [`Model::shed`]: crate::Model::shed
+//! [`Model::resuspended`]: crate::Model::resuspended
 
 pub mod burn_off;
 pub mod conduction;
@@ -59,6 +62,8 @@ pub struct Deposit {
     pub conversion: f64,
     /// Volume of the powder's voids that sintering has closed [m³/m²].
     pub closed: f64,
+    /// Share of the powder that landed and has left with the gas [1] ([`resuspension`]).
+    pub resuspended: f64,
 }
 
 /// Sum of captured particles on a piece of wall, per area of that wall.
@@ -128,6 +133,11 @@ impl Deposit {
         let left = if all > 0.0 { cover / all } else { 1.0 };
         let powder = self.powder + arrivals.powder;
         let conversion = (self.mass() * self.conversion + arrivals.converted) / mass;
+        let gone = if self.powder > 0.0 && self.resuspended < 1.0 {
+            self.powder * self.resuspended / (1.0 - self.resuspended)
+        } else {
+            0.0
+        };
         Self {
             molten: self.molten + arrivals.molten + powder * (1.0 - left),
             powder: powder * left,
@@ -135,6 +145,7 @@ impl Deposit {
             cover,
             conversion: conversion.clamp(0.0, 1.0),
             closed: self.closed * left,
+            resuspended: if powder > 0.0 { gone / (powder + gone) } else { 0.0 },
         }
     }
 
@@ -170,9 +181,18 @@ impl Deposit {
     /// The deposit after a share of its powder [1] has melted.
     #[must_use]
     pub fn melted(self, share: f64) -> Self {
+        Self { molten: self.molten + self.powder * share, ..self.with_powder_left(1.0 - share) }
+    }
+
+    /// The deposit after the gas carried a share of its powder [1] away.
+    #[must_use]
+    pub fn blown(self, share: f64) -> Self {
         let left = 1.0 - share;
+        Self { resuspended: 1.0 - (1.0 - self.resuspended) * left, ..self.with_powder_left(left) }
+    }
+
+    fn with_powder_left(self, left: f64) -> Self {
         Self {
-            molten: self.molten + self.powder * share,
             powder: self.powder * left,
             solid: self.solid * left,
             cover: self.cover * left,

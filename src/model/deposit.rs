@@ -3,6 +3,7 @@
 use super::Model;
 use super::wall::Wall;
 use crate::capture::Stickiness;
+use crate::deposit::resuspension::{self, WallGas};
 use crate::deposit::shedding::Load;
 use crate::deposit::{CapturedParticles, Deposit, DepositSource, WallMelt, cover, wetting};
 use crate::impact::{Impact, ImpactError};
@@ -160,6 +161,25 @@ impl Model {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         let falls = wall.shedding.is_some_and(|strength| strength.breaks(deposit.mass(), load, draw));
         Ok(if falls { Deposit::default() } else { *deposit })
+    }
+
+    /// The deposit after a time [s] in which the gas at the wall carried powder away ([`resuspension::after`]). A wall without a `resuspension`
+    /// table in the model file holds everything.
+    ///
+    /// # Errors
+    /// [`ImpactError`] for a voidage without physical meaning or an unknown wall.
+    pub fn resuspended(
+        &self,
+        wall: usize,
+        deposit: &Deposit,
+        voidage: f64,
+        gas: &WallGas,
+        duration: f64,
+    ) -> Result<Deposit, ImpactError> {
+        check_voidage(voidage)?;
+        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let blown = |adhesion| resuspension::after(deposit, voidage, &adhesion, gas, duration);
+        Ok(wall.resuspension.map_or(*deposit, blown))
     }
 
     /// Share of powder [1] that is hotter than it melts, in a layer with these temperatures [K] of its cold and its hot side and a straight line

@@ -1,6 +1,7 @@
 //! The content of a model in words, for `nearwall check`.
 
 use super::Model;
+use crate::deposit::resuspension::PowderAdhesion;
 use crate::deposit::shedding::Strength;
 use crate::law::{Origin, Parameter, describe_values};
 use crate::normal::NormalLaw;
@@ -45,6 +46,13 @@ impl Model {
                 text += &format!(
                     ", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}"
                 );
+            }
+            if let Some(PowderAdhesion { work_of_adhesion, reduced }) = wall.resuspension {
+                text += &format!(", powder sticks to it with {work_of_adhesion} J/m2");
+                match reduced {
+                    Some([median, spread]) => text += &format!(", median {median}, spread {spread}"),
+                    None => text += " and the roughness of Biasi et al. 2001",
+                }
             }
             lines.push(("wall", text));
         }

@@ -7,6 +7,7 @@ use regex_lite::Regex;
 use super::wall::{Adhesion, Wall};
 use super::{Model, Particle, extra_input};
 use crate::capture::{Capture, Criterion};
+use crate::deposit::resuspension::PowderAdhesion;
 use crate::deposit::shedding::Strength;
 use crate::effect::Term;
 use crate::erosion::{self, Erosion};
@@ -181,6 +182,10 @@ impl WallReader<'_> {
             shedding: section
                 .section("shedding")?
                 .map(|table| finished(table, Strength::read))
+                .transpose()?,
+            resuspension: section
+                .section("resuspension")?
+                .map(|table| finished(table, PowderAdhesion::read))
                 .transpose()?,
             adhesion: self.adhesion,
             prepared,

@@ -7,6 +7,7 @@ use regex_lite::Regex;
 use super::particle::Particle;
 use crate::capture::StickinessCriterion;
 use crate::deposit::cover;
+use crate::deposit::resuspension::PowderAdhesion;
 use crate::deposit::shedding::Strength;
 use crate::erosion::Erosion;
 use crate::impact::{Impact, ImpactError};
@@ -32,6 +33,8 @@ pub struct Wall {
     pub(super) erosion: Option<Arc<dyn Erosion>>,
     /// How strongly deposits hold to it, where the model file says so.
     pub(super) shedding: Option<Strength>,
+    /// How powder sticks to it against the gas, where the model file says so.
+    pub(super) resuspension: Option<PowderAdhesion>,
     pub(super) adhesion: Adhesion,
     /// The contact with the particle, where no property depends on temperature.
     pub(super) prepared: Option<Contact>,

@@ -287,8 +287,8 @@ fn heat_in_rust(heat: &nw_wall_heat) -> WallHeat {
 }
 
 fn deposit_in_rust(deposit: &nw_deposit) -> Deposit {
-    let nw_deposit { molten, powder, solid, cover, conversion, closed, .. } = *deposit;
-    Deposit { molten, powder, solid, cover, conversion, closed }
+    let nw_deposit { molten, powder, solid, cover, conversion, closed, resuspended, .. } = *deposit;
+    Deposit { molten, powder, solid, cover, conversion, closed, resuspended }
 }
 
 /// A heat with its size and -1 in every field, which no call writes.

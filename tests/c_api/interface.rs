@@ -25,6 +25,7 @@ macro_rules! for_each_function {
             nw_deposit_heat: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *const nw_wall_cooling, *mut nw_wall_heat) -> i32,
             nw_deposit_age: unsafe extern "C" fn(*const nw_model, f64, *const nw_wall_heat, f64, *mut nw_deposit) -> i32,
             nw_deposit_shed: unsafe extern "C" fn(*const nw_model, f64, f64, f64, f64, f64, *mut nw_deposit) -> i32,
+            nw_deposit_resuspend: unsafe extern "C" fn(*const nw_model, f64, f64, f64, f64, f64, *mut nw_deposit) -> i32,
             nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
             nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
             nw_deposit_source_init: unsafe extern "C" fn(*mut nw_deposit_source) -> i32,
@@ -51,7 +52,7 @@ macro_rules! for_each_struct {
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
             nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity }
             nw_wall_heat { struct_size reserved surface_temperature wall_temperature powder_temperature heat_flux deposit_resistance }
-            nw_deposit { struct_size wall molten powder solid cover conversion closed }
+            nw_deposit { struct_size wall molten powder solid cover conversion closed resuspended }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
         }
     };
