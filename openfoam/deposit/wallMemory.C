@@ -27,7 +27,8 @@ const scalar largestSoundRise = 5;
 //- Names of the terms, in their order: keys of a restart and columns
 const wordList termNames
 ({
-    "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg", "shed_kg"
+    "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg",
+    "shed_kg", "resuspended_kg"
 });
 
 
@@ -169,6 +170,7 @@ Foam::nearWall::wallMemory::wallMemory
     const List<patchRule>& rules,
     const wallModelPtr& model,
     const vector& gravity,
+    const wallShear& shear,
     const dictionary& saved,
     const fileName& folder
 )
@@ -204,6 +206,7 @@ Foam::nearWall::wallMemory::wallMemory
         )
     ),
     gravity_(gravity),
+    shear_(shear),
     molten_(readWallField(mesh, cloudName + ":moltenMass", dimMass/dimArea)),
     powder_(readWallField(mesh, cloudName + ":powderMass", dimMass/dimArea)),
     layer_(readWallField(mesh, cloudName + ":layerThickness", dimLength)),
@@ -224,6 +227,18 @@ Foam::nearWall::wallMemory::wallMemory
         if (rules[patchi].type == patchRule::interact) patches_.append(patchi);
     }
     setCooled(cloudName);
+    for (const label patchi : patches_)
+    {
+        if (resuspended_ || !canResuspend(patchi)) continue;
+
+        resuspended_.reset
+        (
+            new volScalarField
+            (
+                readWallField(mesh, cloudName + ":resuspendedShare", dimless)
+            )
+        );
+    }
     setInitial();
 
     added_.resize(patches_.size());
@@ -391,6 +406,7 @@ nw_deposit Foam::nearWall::wallMemory::deposit
         (layer_.boundaryField()[patchi][facei] + d.closed)*(1 - voidage_);
     d.cover = cover_.boundaryField()[patchi][facei];
     d.conversion = conversion_.boundaryField()[patchi][facei];
+    if (resuspended_) d.resuspended = resuspended_->boundaryField()[patchi][facei];
     return d;
 }
 
@@ -409,15 +425,20 @@ void Foam::nearWall::wallMemory::setDeposit
     if (closed_) closed_->boundaryFieldRef()[patchi][facei] = d.closed;
     cover_.boundaryFieldRef()[patchi][facei] = d.cover;
     conversion_.boundaryFieldRef()[patchi][facei] = d.conversion;
+    if (resuspended_)
+    {
+        resuspended_->boundaryFieldRef()[patchi][facei] = d.resuspended;
+    }
 }
 
 
 void Foam::nearWall::wallMemory::setInitial()
 {
-    volScalarField* const fields[] =
-    {
+    std::vector<volScalarField*> fields
+    ({
         &molten_, &powder_, &layer_, &cover_, &conversion_
-    };
+    });
+    if (resuspended_) fields.push_back(resuspended_.get());
     bool given = false;
     for (volScalarField* const field : fields)
     {
@@ -438,7 +459,9 @@ void Foam::nearWall::wallMemory::setInitial()
 
     for (const volScalarField* const field : fields)
     {
-        const scalar most = field == &conversion_ ? 1 : GREAT;
+        const bool isShare =
+            field == &conversion_ || field == resuspended_.get();
+        const scalar most = isShare ? 1 : GREAT;
         for (const label patchi : patches_)
         {
             for (const scalar x : field->boundaryField()[patchi])
@@ -639,6 +662,51 @@ void Foam::nearWall::wallMemory::age
 }
 
 
+bool Foam::nearWall::wallMemory::canResuspend(const label patchi) const
+{
+    // Grains of 10 um in a storm
+    nw_deposit loose(nearwall::make_deposit(rules_[patchi].wall));
+    loose.powder = 1e-3;
+    loose.solid = 1e-6;
+    loose.cover = 0.15;
+    const nw_status status =
+        model_->resuspend(voidage_, 1, 1e-5, 1000, 1, loose);
+    return status == NW_OK && loose.powder < 1e-3;
+}
+
+
+void Foam::nearWall::wallMemory::resuspendFrom
+(
+    const label i,
+    const scalar duration
+)
+{
+    const label patchi = patches_[i];
+    if (!canResuspend(patchi)) return;
+
+    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    const scalarField& rho = shear_.density(patchi);
+    const scalarField nu(shear_.kinematicViscosity(patchi));
+    const scalarField uTau(sqrt(mag(shear_.stress(patchi))/rho));
+    scalar mass = 0;
+    forAll(area, facei)
+    {
+        nw_deposit d(deposit(patchi, facei));
+        const scalar before = d.powder;
+        if (before <= 0) continue;
+
+        const nw_status status = model_->resuspend
+        (
+            voidage_, rho[facei], nu[facei], uTau[facei], duration, d
+        );
+        require(status, patchi, "be carried away by the gas");
+        mass += (before - d.powder)*area[facei];
+        setDeposit(patchi, facei, d);
+    }
+    addToSum(i, resuspended, mass);
+}
+
+
 bool Foam::nearWall::wallMemory::canShed(const label patchi) const
 {
     nw_deposit heavy(nearwall::make_deposit(rules_[patchi].wall));
@@ -657,6 +725,7 @@ void Foam::nearWall::wallMemory::shedFrom(const label i)
     const vectorField& Sf = mesh_.Sf().boundaryField()[patchi];
     const vectorField& centres = mesh_.Cf().boundaryField()[patchi];
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    const vectorField stress(shear_.stress(patchi));
     scalar mass = 0;
     forAll(centres, facei)
     {
@@ -667,14 +736,18 @@ void Foam::nearWall::wallMemory::shedFrom(const label i)
         // Into the gas
         const vector n(-Sf[facei]/area[facei]);
         const scalar outward = gravity_ & n;
-        const scalar along = mag(gravity_ - outward*n);
+        const vector slope(gravity_ - outward*n);
+        const scalar along = mag(slope);
+        const vector down(slope/max(along, VSMALL));
+        const scalar shearDown = stress[facei] & down;
+        const scalar shearAcross = mag(stress[facei] - shearDown*down);
 
         // The place ranks the same on any ranks and after any restart
         impactKey place;
         place.add(centres[facei], mesh_.bounds().mag());
         const scalar draw = scalar(place.value() >> 11)/9007199254740992.0;
         const nw_status status =
-            model_->shed(outward, along, 0, 0, draw, d);
+            model_->shed(outward, along, shearDown, shearAcross, draw, d);
         require(status, patchi, "fall off");
 
         const scalar after = d.molten + d.powder;
@@ -704,6 +777,7 @@ void Foam::nearWall::wallMemory::finishStep(const scalar duration)
     {
         addSources(i);
         age(patches_[i], acceleration_*duration);
+        resuspendFrom(i, acceleration_*duration);
         shedFrom(i);
         setCoverage(patches_[i]);
     }
@@ -760,7 +834,8 @@ void Foam::nearWall::wallMemory::report
         const scalar in = t[initial] + t[arrived];
         const scalar deposited = moltenMass + powderMass;
         const scalar rest =
-            in + t[fromOthers] - t[drained] - t[shed] - deposited;
+            in + t[fromOthers] - t[drained] - t[shed] - t[resuspended]
+          - deposited;
         const scalar all = max(in, in + t[fromOthers]);
         if (in > 0 || deposited > 0)
         {
@@ -769,6 +844,10 @@ void Foam::nearWall::wallMemory::report
                 << " kg, coverage " << faces.mean(i, coverageOf);
             if (film_) os << ", drained " << t[drained] << " kg";
             if (t[shed] > 0) os << ", shed " << t[shed] << " kg";
+            if (t[resuspended] > 0)
+            {
+                os << ", resuspended " << t[resuspended] << " kg";
+            }
             os  << nl;
         }
         if (!writeRow) continue;
@@ -792,7 +871,7 @@ void Foam::nearWall::wallMemory::report
         const scalar converted = faces.converted(i);
         row.add("conversion_mean", deposited > 0 ? converted/deposited : 0);
         addMeanAndMax(wallTOf);
-        row.add(termNames[shed], t[shed]);
+        for (const term k : {shed, resuspended}) row.add(termNames[k], t[k]);
         if (cooled(patches_[i])) addMeanAndMax(heatFluxOf);
         tables_[i].write(row);
     }

@@ -105,6 +105,10 @@ void Foam::nearWallInteraction<CloudType>::makeMemory()
             rules(),
             models_.ofCloud().model,
             this->owner().g().value(),
+            nearWall::wallShear
+            (
+                this->owner().rho(), this->owner().U(), this->owner().mu()
+            ),
             saved("memory"),
             tableFolder()
         )

@@ -71,6 +71,11 @@ impl Wall {
         &self.material
     }
 
+    /// Whether the model file says how it loses deposits.
+    pub fn loses_deposits(&self) -> bool {
+        self.shedding.is_some() || self.resuspension.is_some()
+    }
+
     /// Whether the name of the wall is a regular expression that matches the whole of `patch`.
     pub(super) fn fits(&self, patch: &str) -> bool {
         self.pattern.as_ref().is_some_and(|pattern| pattern.is_match(patch))

@@ -18,6 +18,7 @@ pub mod gas;
 mod geometry;
 pub mod heating;
 mod injection;
+mod losses;
 mod near_wall;
 mod profile;
 mod shrinkage;

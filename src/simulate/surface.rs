@@ -158,6 +158,8 @@ pub enum SurfaceKind {
         temperature: Profile,
         /// What makes the temperature follow from the deposit.
         cooling: Option<Cooling>,
+        /// Friction velocity of the gas at it [m/s].
+        friction_velocity: f64,
     },
     /// The particle leaves.
     Exit,
@@ -220,9 +222,11 @@ impl Surface {
             }
             (None, None) => return Err(section.missing("temperature", "the wall's temperature [K]")),
         };
+        let friction_velocity = section.number_within("friction_velocity", 0.0, 1e3)?.unwrap_or(0.0);
         let shape = Shape::read(section)?;
         section.finish()?;
-        Ok(Self { name, shape, kind: SurfaceKind::Wall { model: index, temperature, cooling } })
+        let kind = SurfaceKind::Wall { model: index, temperature, cooling, friction_velocity };
+        Ok(Self { name, shape, kind })
     }
 }
 

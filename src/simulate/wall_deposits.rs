@@ -3,7 +3,8 @@
 //! The particles of each injection are released evenly over the duration of the feed. The duration has equal steps.
 //! Particles that are released in a step meet the walls as they were at its beginning; at its end the captured ones are
 //! added ([`crate::Model::add_captured`], [`Deposit::with`]) and the carbon of the powder burns for the length of the step,
-//! by the case's law of conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over the step.
+//! by the case's law of conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over the step. Then the gas
+//! carries loose powder away, and what the wall cannot hold falls off ([`super::losses`]).
 //! So the flight has to be short against a step, and what one step adds has to be small. The sums go in the order of the
 //! particles, so that they do not depend on the number of threads. A wall has equal bins along a pipe, or rings of equal
 //! width on a disc; each is one [`Deposit`].
@@ -14,6 +15,7 @@ use nalgebra::Vector3;
 
 use super::case::{Case, whole};
 use super::geometry::required_within;
+use super::losses;
 use super::shrinkage::ASH_DENSITY;
 use super::surface::{Shape, Surface, SurfaceKind};
 use super::trajectory::{Fate, Trajectory};
@@ -110,6 +112,10 @@ pub struct BinHistory {
     pub arrived: Vec<f64>,
     /// Mass that burnt away up to then [kg].
     pub burnt: Vec<f64>,
+    /// Mass that the gas carried away up to then [kg].
+    pub resuspended: Vec<f64>,
+    /// Mass that fell off up to then [kg].
+    pub shed: Vec<f64>,
     /// The deposit then.
     pub states: Vec<Deposit>,
     /// Temperatures then, of a cooled wall.
@@ -132,8 +138,17 @@ struct Bin {
     powder: PowderCarbon,
     /// Of the captured powder in this step.
     powder_source: PowderCarbon,
-    /// Mass captured in this step [kg/m²].
+    /// What came and went in this step.
+    step: Step,
+}
+
+/// Mass that came to a bin and left it in a step [kg/m²].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Step {
     caught: f64,
+    burnt: f64,
+    resuspended: f64,
+    shed: f64,
 }
 
 /// Combustible matter in the powder per area of wall.
@@ -192,7 +207,7 @@ impl WallDeposits {
         bin.source = model
             .add_captured(wall, &hit.impact, mass, hit.density, bin.source)
             .map_err(|error| error.to_string())?;
-        bin.caught += mass;
+        bin.step.caught += mass;
         if bin.source.powder > powder {
             let share = injection.burning.carbon;
             let unburnt = mass * share / (1.0 - share * hit.impact.conversion);
@@ -209,14 +224,15 @@ impl WallDeposits {
             let (SurfaceKind::Wall { model, temperature, .. }, Some(bins)) = (&surface.kind, bins) else {
                 continue;
             };
-            for bin in bins {
+            for (number, bin) in bins.iter_mut().enumerate() {
                 let middle = surface.shape.point_at(bin.middle());
                 let met = bin.temperature().unwrap_or_else(|| temperature.at(&middle));
-                let burnt = bin.end_step(case, *model, met, duration)?;
+                bin.step.burnt = bin.end_step(case, *model, met, duration)?;
                 bin.densify(case, voidage, duration);
-                bin.history.record(bin.deposit, bin.caught, burnt);
+                bin.lose(case, surface, number, voidage, duration)
+                    .map_err(|error| format!("{}: {error}", surface.name))?;
+                bin.history.record(bin.deposit, &std::mem::take(&mut bin.step));
                 bin.record_heat(case, surface, voidage)?;
-                bin.caught = 0.0;
             }
         }
         Ok(())
@@ -287,6 +303,29 @@ impl Bin {
         self.powder = self.powder.times(kept);
     }
 
+    /// Lets the gas carry powder away for a step [s], and what the wall cannot hold fall.
+    fn lose(
+        &mut self,
+        case: &Case,
+        surface: &Surface,
+        number: usize,
+        voidage: f64,
+        duration: f64,
+    ) -> Result<(), ImpactError> {
+        let SurfaceKind::Wall { model, friction_velocity, .. } = &surface.kind else { return Ok(()) };
+        let place = surface.shape.point_at(self.middle());
+        let before = self.deposit;
+        let blown =
+            losses::resuspended(case, *model, *friction_velocity, &place, &before, voidage, duration)?;
+        let left = losses::shed(case, *model, surface, *friction_velocity, &place, number, &blown)?;
+        self.step.resuspended = before.mass() - blown.mass();
+        self.step.shed = blown.mass() - left.mass();
+        let kept = if before.powder > 0.0 { left.powder / before.powder } else { 1.0 };
+        self.powder = self.powder.times(kept);
+        self.deposit = left;
+        Ok(())
+    }
+
     /// Lets the powder burn; returns the mass that is gone [kg/m²].
     fn burn(&mut self, case: &Case, wall: usize, temperature: f64, duration: f64) -> Result<f64, String> {
         // The law is that of the case, the same for all injections.
@@ -344,12 +383,18 @@ impl PowderCarbon {
 }
 
 impl BinHistory {
-    /// Adds a state; `caught` and `burnt` are of the last step [kg/m²].
-    fn record(&mut self, deposit: Deposit, caught: f64, burnt: f64) {
-        let sum = |values: &[f64], more: f64| values.last().copied().unwrap_or(0.0) + more * self.area;
-        let (arrived, burnt) = (sum(&self.arrived, caught), sum(&self.burnt, burnt));
-        self.arrived.push(arrived);
-        self.burnt.push(burnt);
+    /// Adds a state after a step.
+    fn record(&mut self, deposit: Deposit, step: &Step) {
+        let Step { caught, burnt, resuspended, shed } = *step;
+        let sums = [
+            (&mut self.arrived, caught),
+            (&mut self.burnt, burnt),
+            (&mut self.resuspended, resuspended),
+            (&mut self.shed, shed),
+        ];
+        for (sum, more) in sums {
+            sum.push(sum.last().copied().unwrap_or(0.0) + more * self.area);
+        }
         self.states.push(deposit);
     }
 }
@@ -361,16 +406,24 @@ fn bins(shape: &Shape, count: usize, deposit: Deposit) -> Vec<Bin> {
     let bin = |number: usize| {
         let range = [edge(number), edge(number + 1)];
         let area = shape.area_between(range);
-        let mut history =
-            BinHistory { range, area, arrived: vec![], burnt: vec![], states: vec![], heat: vec![] };
-        history.record(deposit, 0.0, 0.0);
+        let mut history = BinHistory {
+            range,
+            area,
+            arrived: vec![],
+            burnt: vec![],
+            resuspended: vec![],
+            shed: vec![],
+            states: vec![],
+            heat: vec![],
+        };
+        history.record(deposit, &Step::default());
         Bin {
             history,
             deposit,
             source: DepositSource::default(),
             powder: PowderCarbon::default(),
             powder_source: PowderCarbon::default(),
-            caught: 0.0,
+            step: Step::default(),
         }
     };
     (0..count).map(bin).collect()

@@ -1,13 +1,14 @@
 //! What lies on a patch that keeps a deposit, by the columns of `<patch>.wall.dat`.
 
 /// The columns that are read, in the order of [`DepositState`].
-pub const COLUMNS: [&str; 14] = [
+pub const COLUMNS: [&str; 15] = [
     "initial_kg",
     "arrived_kg",
     "molten_kg",
     "powder_kg",
     "drained_kg",
     "shed_kg",
+    "resuspended_kg",
     "coverage_mean",
     "coverage_max",
     "layer_thickness_mean_m",

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use super::Run;
 use super::impacts::text;
-use crate::model::WallHeat;
+use crate::model::{Wall, WallHeat};
 use crate::results::History;
 use crate::results::openfoam::deposit::{COLUMNS, DepositState};
 use crate::simulate::{BinHistory, Case, WallHistory};
@@ -29,6 +29,9 @@ const HEADER: [&str; 14] = [
 /// Further columns of a case with a cooled wall; blank for walls of a given temperature.
 const HEAT_HEADER: [&str; 3] = ["porosity", "surface_temperature_K", "heat_flux_W_m2"];
 
+/// Further columns of a case with a wall that loses deposits.
+const LOSS_HEADER: [&str; 2] = ["resuspended_kg", "shed_kg"];
+
 /// Writes the table: one row for each time, wall and bin, and for each value of a sweep. Masses in kg are of the bin.
 ///
 /// # Errors
@@ -44,7 +47,12 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
             .any(|bin| !bin.heat.is_empty())
     };
     let heat = if runs.iter().any(cooled) { HEAT_HEADER.len() } else { 0 };
-    let header = HEADER.into_iter().chain(HEAT_HEADER.into_iter().take(heat));
+    let loses = case.model.walls().iter().any(Wall::loses_deposits);
+    let losses = if loses { LOSS_HEADER.len() } else { 0 };
+    let header = HEADER
+        .into_iter()
+        .chain(HEAT_HEADER.into_iter().take(heat))
+        .chain(LOSS_HEADER.into_iter().take(losses));
     writer.write_record(header.map(str::to_owned).chain(swept))?;
     let Some(settings) = case.deposit else { return into_sink(writer) };
     for run in runs {
@@ -55,8 +63,9 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
                 let name = case.surfaces[wall.surface].name.clone();
                 let cells = row(bin, step, settings.voidage).map(text);
                 let heat = heat_row(bin, step, settings.voidage).into_iter().take(heat);
-                let cells =
-                    [text(time), name].into_iter().chain(cells).chain(heat).chain(run.value.map(text));
+                let losses = [&bin.resuspended, &bin.shed].map(|mass| text(mass[step])).into_iter().take(losses);
+                let cells = [text(time), name].into_iter().chain(cells).chain(heat).chain(losses);
+                let cells = cells.chain(run.value.map(text));
                 writer.write_record(cells)?;
             }
         }
@@ -119,6 +128,8 @@ fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
     COLUMNS.map(|column| match column {
         "initial_kg" => sum(&|bin| bin.states[0].mass() * bin.area),
         "arrived_kg" => sum(&|bin| bin.arrived[step]),
+        "resuspended_kg" => sum(&|bin| bin.resuspended[step]),
+        "shed_kg" => sum(&|bin| bin.shed[step]),
         "molten_kg" => sum(&|bin| bin.states[step].molten * bin.area),
         "powder_kg" => sum(&|bin| bin.states[step].powder * bin.area),
         "coverage_mean" => sum(&|bin| coverage(bin) * bin.area) / area,
