@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use nalgebra::{Complex, Vector3};
+use nearwall::deposit::resuspension::{Adhesion, Conditions, jkr_force};
 use nearwall::results::standalone::{ImpactRecorder, Run, run};
 use nearwall::simulate::{
     Body, Burning, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly, position, state,
@@ -588,6 +589,46 @@ fn powder_on_a_cooled_wall_melts_where_it_is_hot() {
     assert!(dry > 2);
     assert_eq!(bin.states[dry - 1].mass(), cold.states[dry - 1].mass());
     assert!(bin.heat[dry - 1].powder_temperature > 399.0, "{:?}", bin.heat[dry - 1]);
+}
+
+/// Gravity pulls away from the wall: each step adds 1e-5 kg/20 on a ring of 2.5 mm radius, 0.25 Pa, and the fifth exceeds 1.1 Pa.
+#[test]
+fn a_deposit_that_hangs_falls_off_when_it_is_too_heavy() {
+    let strength = "[model.walls.default.shedding]\ntensile_strength = 1.1\nshear_strength = 9\n";
+    let text = falling(strength, "").replace("[run]\n", "[run]\ngravity = [0, 0, 9.81]\n");
+    let (_, runs) = trajectories_of(&text);
+    let bin = &runs[0].deposits.as_ref().unwrap().walls[0].bins[0];
+    for step in 0..=20 {
+        let landed = 1e-5 * step as f64 / 20.0;
+        let lies = 1e-5 * (step % 5) as f64 / 20.0;
+        assert!((bin.states[step].mass() * bin.area - lies).abs() < 1e-17, "{step}");
+        assert!((bin.shed[step] - (landed - lies)).abs() < 1e-17, "{step}");
+    }
+    assert_eq!(bin.resuspended[20], 0.0);
+}
+
+/// Powder that lands at a constant rate while gas carries it away: each cohort has its own age, which the deposit does not know.
+#[test]
+fn the_gas_carries_powder_away() {
+    let adhesion = "[model.walls.default.resuspension]\nwork_of_adhesion = 2\nadhesion_median = 0.01\n\
+                    adhesion_spread = 3\n";
+    let text = falling(adhesion, "").replace("[[walls]]\n", "[[walls]]\nfriction_velocity = 0.5\n");
+    let text = text.replace(THIN, "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005");
+    let (_, runs) = trajectories_of(&text.replace("\nmass = 1e-5", "\nmass = 1e-6"));
+    let bin = &runs[0].deposits.as_ref().unwrap().walls[0].bins[0];
+    let law = Conditions {
+        radius: 50e-6,
+        adhesion: Adhesion { smooth_force: jkr_force(50e-6, 2.0), median: 0.01, spread: 3.0 },
+        gas_density: 1.2,
+        kinematic_viscosity: 1.5e-5,
+        friction_velocity: 0.5,
+    };
+    let left: f64 = (1..=20).map(|age| 1e-6 / 20.0 * law.fraction_remaining(2.0 * f64::from(age))).sum();
+    let lies = bin.states[20].mass() * bin.area;
+    assert!(lies > left && lies < left + 0.025 * 1e-6 && left > 1e-7 && left < 9e-7, "{lies} {left}");
+    for step in 0..=20 {
+        near(bin.states[step].mass() * bin.area + bin.resuspended[step], bin.arrived[step], 1e-12);
+    }
 }
 
 #[test]
