@@ -51,6 +51,7 @@
 
 use statrs::function::erf::erfc;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
+use std::sync::LazyLock;
 
 use super::{Deposit, sintering};
 use crate::input::{InputError, Section};
@@ -79,7 +80,11 @@ const CAP: f64 = 0.728_600_1;
 /// `x` above which no particle leaves: at 10 the rate constant is 2e-22 of the burst frequency.
 const LAST: f64 = 10.0;
 /// Classes of adhesion between the two.
-const CLASSES: usize = 200;
+const CLASSES: usize = 64;
+/// Their middles in `x`, and the rate constants there over the burst frequency [1].
+static RELATIVE_RATES: LazyLock<[f64; CLASSES]> = LazyLock::new(|| {
+    std::array::from_fn(|i| relative_rate(CAP + (LAST - CAP) * (i as f64 + 0.5) / CLASSES as f64))
+});
 /// Search for an equivalent time: range of the logarithm of time times burst frequency. Between 1e-17 and 1e22.
 const LOG_TIMES: (f64, f64) = (-40.0, 50.0);
 /// Most steps of a search; a Newton step that leaves the bracket is replaced by a halving.
@@ -184,7 +189,13 @@ pub struct WallGas {
 
 /// The deposit after a time [s] in which the gas carried powder away; fresh powder has a `voidage` [1].
 #[must_use]
-pub fn after(deposit: &Deposit, voidage: f64, adhesion: &PowderAdhesion, gas: &WallGas, time: f64) -> Deposit {
+pub fn after(
+    deposit: &Deposit,
+    voidage: f64,
+    adhesion: &PowderAdhesion,
+    gas: &WallGas,
+    time: f64,
+) -> Deposit {
     let radius = 0.5 * deposit.powder_diameter();
     let bonded = sintering::neck_of_porosity(deposit.porosity(voidage), voidage) > BONDED_NECK;
     if radius <= 0.0 || bonded || deposit.molten > 0.0 {
@@ -278,10 +289,9 @@ impl Conditions {
         let mut lower = below(CAP);
         let mut classes = [(0.0, 0.0); CLASSES + 1];
         classes[0] = (lower, frequency);
-        for (i, class) in classes[1..].iter_mut().enumerate() {
-            let start = CAP + step * i as f64;
-            let upper = below(start + step);
-            *class = (upper - lower, frequency * relative_rate(start + 0.5 * step));
+        for (i, (class, rate)) in classes[1..].iter_mut().zip(RELATIVE_RATES.iter()).enumerate() {
+            let upper = below(CAP + step * (i + 1) as f64);
+            *class = (upper - lower, frequency * rate);
             lower = upper;
         }
         Release { classes, staying: 1.0 - lower, frequency }
@@ -322,13 +332,20 @@ pub struct Release {
 impl Release {
     /// Fraction [1] that remains after a time [s].
     pub fn fraction_remaining(&self, time: f64) -> f64 {
-        let left: f64 = self.classes.iter().map(|(share, rate)| share * (-rate * time).exp()).sum();
-        left + self.staying
+        self.at(time).0
     }
 
     /// Share of all that landed that leaves per time [1/s] after a time [s]: `-dR/dt`.
     pub fn release_rate(&self, time: f64) -> f64 {
-        self.classes.iter().map(|(share, rate)| share * rate * (-rate * time).exp()).sum()
+        self.at(time).1
+    }
+
+    /// Both, with one exponential a class.
+    fn at(&self, time: f64) -> (f64, f64) {
+        self.classes.iter().fold((self.staying, 0.0), |(left, leaving), (share, rate)| {
+            let still = share * (-rate * time).exp();
+            (left + still, leaving + rate * still)
+        })
     }
 
     /// Time [s] after which this fraction [1] remains; 0 for 1, infinite where it is not reached.
@@ -345,13 +362,14 @@ impl Release {
         }
         let mut guess = 0.0;
         for _ in 0..MOST_STEPS {
-            let excess = self.fraction_remaining(time(guess)) - fraction;
+            let (remaining, leaving) = self.at(time(guess));
+            let excess = remaining - fraction;
             if excess > 0.0 {
                 low = guess
             } else {
                 high = guess
             }
-            let newton = guess + excess / (self.release_rate(time(guess)) * time(guess));
+            let newton = guess + excess / (leaving * time(guess));
             let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
             if (next - guess).abs() < 1e-13 {
                 break;
@@ -607,15 +625,15 @@ mod tests {
         assert_relative_eq!(blown.powder, 1e-3 * left, max_relative = 1e-9);
         assert_relative_eq!(blown.resuspended, 1.0 - left, max_relative = 1e-9);
         assert_relative_eq!(blown.powder_diameter(), 10e-6, max_relative = 1e-12);
-        assert_relative_eq!(blown.layer_thickness(0.5), thin.layer_thickness(0.5) * left, max_relative = 1e-9);
+        assert_relative_eq!(
+            blown.layer_thickness(0.5),
+            thin.layer_thickness(0.5) * left,
+            max_relative = 1e-9
+        );
         // In two steps the same, and fresh powder is not taken for old.
         let twice = after(&after(&thin, 0.5, &adhesion, &gas, 4.0), 0.5, &adhesion, &gas, 6.0);
         assert_relative_eq!(twice.powder, blown.powder, max_relative = 1e-9);
-        assert_relative_eq!(
-            blown.with(&landed(1e-3)).resuspended,
-            (1.0 - left) / 2.0,
-            max_relative = 1e-9
-        );
+        assert_relative_eq!(blown.with(&landed(1e-3)).resuspended, (1.0 - left) / 2.0, max_relative = 1e-9);
         // 1.5 m/(rho d) = 15 layers: after 150 s as one layer after 10 s.
         let thick = after(&Deposit::default().with(&landed(0.1)), 0.5, &adhesion, &gas, 150.0);
         assert_relative_eq!(thick.powder, 0.1 * left, max_relative = 1e-9);

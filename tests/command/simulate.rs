@@ -613,7 +613,8 @@ fn the_gas_carries_powder_away() {
     let adhesion = "[model.walls.default.resuspension]\nwork_of_adhesion = 2\nadhesion_median = 0.01\n\
                     adhesion_spread = 3\n";
     let text = falling(adhesion, "").replace("[[walls]]\n", "[[walls]]\nfriction_velocity = 0.5\n");
-    let text = text.replace(THIN, "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005");
+    let text =
+        text.replace(THIN, "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005");
     let (_, runs) = trajectories_of(&text.replace("\nmass = 1e-5", "\nmass = 1e-6"));
     let bin = &runs[0].deposits.as_ref().unwrap().walls[0].bins[0];
     let law = Conditions {

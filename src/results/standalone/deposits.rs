@@ -63,7 +63,8 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
                 let name = case.surfaces[wall.surface].name.clone();
                 let cells = row(bin, step, settings.voidage).map(text);
                 let heat = heat_row(bin, step, settings.voidage).into_iter().take(heat);
-                let losses = [&bin.resuspended, &bin.shed].map(|mass| text(mass[step])).into_iter().take(losses);
+                let losses =
+                    [&bin.resuspended, &bin.shed].map(|mass| text(mass[step])).into_iter().take(losses);
                 let cells = [text(time), name].into_iter().chain(cells).chain(heat).chain(losses);
                 let cells = cells.chain(run.value.map(text));
                 writer.write_record(cells)?;
