@@ -5,6 +5,7 @@
 //! run. A new statistic is a field of [`WallTotals`] that the sources fill and a figure or column that shows it.
 
 pub mod classes;
+pub mod gas;
 pub mod openfoam;
 pub mod standalone;
 mod statistics;
@@ -16,6 +17,7 @@ pub use statistics::{Amount, Mass, Moments, bin, share, wilson};
 
 use crate::impact::Regime;
 use classes::Class;
+use gas::GasCut;
 use openfoam::deposit::DepositState;
 use surface::WallSurface;
 
@@ -227,6 +229,8 @@ pub struct RunResults {
     pub deposits: Vec<History<DepositState>>,
     /// Deposit, temperature and heat flux on the faces of the walls at the last written time.
     pub surfaces: Vec<WallSurface>,
+    /// Gas and parcels in a plane, at the last written time with parcels.
+    pub gas: Option<GasCut>,
     /// Arrivals recorded by OpenFOAM's own cloud function, in the order of time.
     pub arrivals: Vec<RecordedArrival>,
     /// Time [s] and injected mass [kg].

@@ -12,6 +12,7 @@ mod extra_inputs;
 #[cfg(unix)]
 mod faults;
 mod forecast;
+mod gas_and_parcels;
 mod map;
 mod pages;
 mod published;

@@ -5,6 +5,7 @@
 
 mod axis;
 mod bars;
+mod gas;
 mod map;
 mod scale;
 mod surface;
@@ -22,8 +23,9 @@ use axis::{all_drawable, drawable, ends, finite, round_step};
 
 pub use axis::round_edges;
 pub use bars::BarChart;
+pub(super) use gas::GasPicture;
 pub use map::FigureMap;
-pub(super) use scale::{ColourScale, regime_colour};
+pub(super) use scale::{ColourScale, Palette, regime_colour};
 pub(super) use surface::SurfaceMap;
 pub use svg::Figure;
 

@@ -9,21 +9,72 @@ use crate::impact::Regime;
 /// Number of colours of a scale.
 const LEVELS: f64 = 64.0;
 
-/// A range of values as colours of cividis, which reads the same with every kind of colour vision.
+/// Light yellow to dark red: the colours YlOrRd of ColorBrewer (Harrower and Brewer, doi:10.1179/000870403235002042), lightened.
+const HEAT: [[f64; 3]; 6] = [
+    [255.0, 252.0, 224.0],
+    [255.0, 237.0, 160.0],
+    [254.0, 204.0, 92.0],
+    [253.0, 161.0, 80.0],
+    [244.0, 110.0, 67.0],
+    [222.0, 74.0, 56.0],
+];
+/// Black by blue to white: fresh coal is dark, ash is light. Every shade stands out from [`HEAT`].
+const CHAR_TO_ASH: [[f64; 3]; 5] =
+    [[0.0, 0.0, 0.0], [8.0, 48.0, 120.0], [33.0, 113.0, 200.0], [120.0, 196.0, 245.0], [255.0, 255.0, 255.0]];
+
+/// The colours of a scale.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::report) enum Palette {
+    /// Blue to yellow; reads the same with every kind of colour vision.
+    Cividis,
+    /// Light yellow to red, for gas behind other things.
+    Heat,
+    /// Black by blue to white, for small things on [`Self::Heat`].
+    CharToAsh,
+}
+
+impl Palette {
+    /// The colour at a share of the way [1].
+    fn colour(self, share: f64) -> String {
+        match self {
+            Self::Cividis => ColorMap::Cividis.map(share),
+            Self::Heat => between(&HEAT, share),
+            Self::CharToAsh => between(&CHAR_TO_ASH, share),
+        }
+    }
+}
+
+/// The colour at a share of the way through evenly spaced ones.
+fn between(stops: &[[f64; 3]], share: f64) -> String {
+    let way = share * (stops.len() - 1) as f64;
+    let from = (way as usize).min(stops.len().saturating_sub(2));
+    let [red, green, blue] = [0, 1, 2].map(|part| {
+        (stops[from][part] + (way - from as f64) * (stops[from + 1][part] - stops[from][part])).round() as u8
+    });
+    format!("#{red:02x}{green:02x}{blue:02x}")
+}
+
+/// A range of values as colours: by default those of cividis.
 pub(in crate::report) struct ColourScale {
     low: f64,
     high: f64,
+    palette: Palette,
 }
 
 impl ColourScale {
     pub fn new(low: f64, high: f64) -> Self {
-        Self { low, high }
+        Self { low, high, palette: Palette::Cividis }
+    }
+
+    /// The same range with other colours.
+    pub fn with(self, palette: Palette) -> Self {
+        Self { palette, ..self }
     }
 
     /// The colour of a value, in one of 64 levels.
     pub fn colour(&self, value: f64) -> String {
         let share = ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
-        ColorMap::Cividis.map((share * LEVELS).round() / LEVELS)
+        self.palette.colour((share * LEVELS).round() / LEVELS)
     }
 
     /// The scale as an upright bar with numbers on its right; its upper left corner and its size are in px.

@@ -8,6 +8,7 @@ mod balance;
 mod captured;
 mod conversion;
 mod deposit;
+mod gas;
 mod injections;
 mod near_wall;
 mod places;
@@ -209,6 +210,7 @@ impl<'a> Comparison<'a> {
             page_later_captures(page, run);
         }
         SECTIONS.iter().for_each(|section| self.add_section(page, section));
+        gas::add_to(self, page);
         surfaces::add_to(self, page);
         LAST_SECTIONS.iter().for_each(|section| self.add_section(page, section));
     }

@@ -248,7 +248,10 @@ impl FoamFile {
     }
 
     /// An entry in ASCII.
-    fn entry(&mut self, entries: Entries) -> Result<Vec<f64>, String> {
+    ///
+    /// # Errors
+    /// When it is none.
+    pub fn entry(&mut self, entries: Entries) -> Result<Vec<f64>, String> {
         let Entries::Scalars(parts @ 2..) = entries else { return Ok(vec![self.number()?]) };
         self.expect("(")?;
         let entry: Result<Vec<f64>, String> = (0..parts).map(|_| self.number()).collect();

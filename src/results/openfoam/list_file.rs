@@ -2,35 +2,87 @@
 //!
 //! ASCII: one entry a line between brackets, `n(a b c)`, or `n{value}` for `n` equal entries. Binary: `n(` and the bytes of the
 //! numbers, for `positions` each parcel with brackets of its own; the widths of labels and scalars are in the header (`arch`).
+//!
+//! v1912 writes Cartesian places to `positions` and barycentric coordinates to `coordinates`; OpenFOAM of the Foundation writes the
+//! latter to `positions`.
 
 use std::path::Path;
 
-use super::foam_file::Arch;
+use super::foam_file::{Arch, is_written};
+
+/// Where a parcel is within a tetrahedron of a cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TetPlace {
+    /// Weights of the four corners, whose sum is 1: centre of the cell, base point of the face, and two further corners.
+    pub weights: [f64; 4],
+    pub cell: usize,
+    pub face: usize,
+    /// Number of the second corner of the triangle, from the base point of the face on.
+    pub corner: usize,
+}
+
+/// Places of all parcels.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Places {
+    /// In m.
+    Cartesian(Vec<[f64; 3]>),
+    Barycentric(Vec<TetPlace>),
+}
 
 /// Places of all parcels [m].
 ///
 /// # Errors
-/// Why they cannot be read, for the page.
+/// Why they cannot be read.
 pub(super) fn positions(folder: &Path) -> Result<Vec<[f64; 3]>, String> {
     let path = folder.join("positions");
-    let read = || match Contents::of(&path)? {
-        Contents::Text(text) => {
-            let place = |entry: &String| {
-                let entry = entry.trim_start_matches('(');
-                let mut words = entry.split([' ', ')']).filter_map(|word| word.parse().ok());
-                Some([words.next()?, words.next()?, words.next()?])
-            };
-            Some(list(&text, None)?.iter().filter_map(place).collect())
-        }
-        Contents::Binary(binary) => binary.positions(),
+    match places_in(&path)? {
+        Places::Cartesian(places) => Ok(places),
+        Places::Barycentric(_) => Err(format!("{} has barycentric coordinates", path.display())),
+    }
+}
+
+/// Places of all parcels, from `positions` or else from `coordinates`.
+///
+/// # Errors
+/// Why they cannot be read.
+pub(super) fn places(folder: &Path) -> Result<Places, String> {
+    let positions = folder.join("positions");
+    let coordinates = folder.join("coordinates");
+    let has_other = !is_written(&positions) && is_written(&coordinates);
+    places_in(if has_other { &coordinates } else { &positions })
+}
+
+fn places_in(path: &Path) -> Result<Places, String> {
+    let read = || match Contents::of(path)? {
+        Contents::Text(text) => places_of_text(&list(&text, None)?),
+        Contents::Binary(binary) => binary.places(),
     };
-    read().ok_or_else(|| unreadable(&path))
+    read().ok_or_else(|| unreadable(path))
+}
+
+/// `(x y z) cell`, or `(a b c d) cell face corner`.
+fn places_of_text(entries: &[String]) -> Option<Places> {
+    let rows: Vec<Vec<f64>> = entries
+        .iter()
+        .map(|entry| entry.split(['(', ' ', ')']).filter_map(|word| word.parse().ok()).collect())
+        .collect();
+    if rows.first().is_some_and(|row| row.len() >= 7) {
+        return rows.iter().map(|row| tet_place(row)).collect::<Option<_>>().map(Places::Barycentric);
+    }
+    let place = |row: &Vec<f64>| Some([*row.first()?, *row.get(1)?, *row.get(2)?]);
+    Some(Places::Cartesian(rows.iter().filter_map(place).collect()))
+}
+
+fn tet_place(row: &[f64]) -> Option<TetPlace> {
+    let [a, b, c, d, labels @ ..] = row else { return None };
+    let label = |place: usize| labels.get(place).filter(|label| **label >= 0.0).map(|label| *label as usize);
+    Some(TetPlace { weights: [*a, *b, *c, *d], cell: label(0)?, face: label(1)?, corner: label(2)? })
 }
 
 /// Values of a property of all parcels.
 ///
 /// # Errors
-/// Why they cannot be read, for the page.
+/// Why they cannot be read.
 pub(super) fn numbers(folder: &Path, name: &str, parcels: usize) -> Result<Vec<f64>, String> {
     let path = folder.join(name);
     let read = || match Contents::of(&path)? {
@@ -43,10 +95,7 @@ pub(super) fn numbers(folder: &Path, name: &str, parcels: usize) -> Result<Vec<f
 }
 
 fn unreadable(path: &Path) -> String {
-    format!(
-        "{} is absent, compressed or no list, so the places of captured parcels are unknown",
-        path.display()
-    )
+    format!("{} is absent, compressed or no list", path.display())
 }
 
 /// The contents of a file.
@@ -117,18 +166,31 @@ impl Binary {
         (0..self.count).map(|place| self.number(1 + place * width, width, self.labels)).collect()
     }
 
-    /// The places: each parcel has a line with a bracket, three scalars, its cell and a bracket.
-    fn positions(&self) -> Option<Vec<[f64; 3]>> {
-        let length = 3 * self.arch.scalar + self.arch.label + 3;
+    /// The places: each parcel has a line with a bracket, three scalars and its cell, or four scalars and three labels, and a bracket.
+    fn places(&self) -> Option<Places> {
+        if self.count == 0 {
+            return Some(Places::Cartesian(Vec::new()));
+        }
+        if let Some(rows) = self.rows(3, 1) {
+            return Some(Places::Cartesian(rows.iter().map(|row| [row[0], row[1], row[2]]).collect()));
+        }
+        self.rows(4, 3)?.iter().map(|row| tet_place(row)).collect::<Option<_>>().map(Places::Barycentric)
+    }
+
+    /// Lines of so many scalars and labels between brackets; `None` when they are of another form.
+    fn rows(&self, scalars: usize, labels: usize) -> Option<Vec<Vec<f64>>> {
+        let [scalar, label] = [self.arch.scalar, self.arch.label];
+        let length = scalars * scalar + labels * label;
         let first = 1 + self.body.iter().skip(1).position(|byte| *byte == b'(')?;
-        let place = |parcel: usize| {
-            let at = first + parcel * length;
-            (*self.body.get(at)? == b'(').then_some(())?;
-            let coordinate =
-                |axis: usize| self.number(at + 1 + axis * self.arch.scalar, self.arch.scalar, false);
-            Some([coordinate(0)?, coordinate(1)?, coordinate(2)?])
+        let row = |parcel: usize| {
+            let at = first + parcel * (length + 3);
+            let is_whole = *self.body.get(at)? == b'(' && *self.body.get(at + 1 + length)? == b')';
+            is_whole.then_some(())?;
+            let scalar_at = |place: usize| self.number(at + 1 + place * scalar, scalar, false);
+            let label_at = |place: usize| self.number(at + 1 + scalars * scalar + place * label, label, true);
+            (0..scalars).map(scalar_at).chain((0..labels).map(label_at)).collect()
         };
-        (0..self.count).map(place).collect()
+        (0..self.count).map(row).collect()
     }
 }
 

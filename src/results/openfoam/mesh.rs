@@ -29,7 +29,7 @@ pub(super) struct Mesh<'a> {
 
 impl Mesh<'_> {
     /// A file of `polyMesh`: that of the last time that has one, up to the time of the mesh, else that of `constant`.
-    fn path(&self, name: &str) -> PathBuf {
+    pub(super) fn path(&self, name: &str) -> PathBuf {
         let times = time_folders(self.root).into_iter().rev().filter(|(time, _)| *time <= self.time);
         let moved = times.map(|(_, folder)| folder.join("polyMesh").join(name));
         let fixed = self.root.join("constant/polyMesh").join(name);
@@ -116,7 +116,7 @@ fn patch(file: &mut FoamFile) -> Result<Patch, String> {
 }
 
 /// Labels of the corners of all faces, one face after the other.
-struct Faces {
+pub(super) struct Faces {
     /// Where each face begins, and the end of the last one.
     starts: Vec<usize>,
     labels: Vec<usize>,
@@ -124,7 +124,10 @@ struct Faces {
 
 impl Faces {
     /// ASCII: a list of lists. Binary: the starts of the faces, and the labels of all.
-    fn open(path: &Path) -> Result<Self, String> {
+    ///
+    /// # Errors
+    /// File, fault and remedy.
+    pub(super) fn open(path: &Path) -> Result<Self, String> {
         let mut file = FoamFile::open(path)?;
         if file.is_binary() {
             return Ok(Self { starts: file.labels()?, labels: file.labels()? });
@@ -139,7 +142,18 @@ impl Faces {
         Ok(faces)
     }
 
-    fn corners(&self, face: usize) -> Option<&[usize]> {
+    /// Number of faces.
+    pub(super) fn count(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// Labels of the corners of all faces.
+    pub(super) fn all_labels(&self) -> &[usize] {
+        &self.labels
+    }
+
+    /// Labels of the corners of a face.
+    pub(super) fn corners(&self, face: usize) -> Option<&[usize]> {
         self.labels.get(*self.starts.get(face)?..*self.starts.get(face + 1)?)
     }
 }

@@ -2,13 +2,18 @@
 //!
 //! Sources are the tables of nearWallInteraction ([`tables`], [`deposit`]), the counts of the stock models in the logs
 //! ([`log`]), the arrivals that the cloud function `patchPostProcessing` recorded ([`recorded`]), and the captured
-//! parcels of the last written time ([`parcels`]) and its fields on the walls ([`surfaces`]). [`impact_history`] reads the
-//! impacts of each parcel. What is missing is listed in [`RunResults::missing`].
+//! parcels of the last written time ([`parcels`]), its fields on the walls ([`surfaces`]), and the gas with the parcels in it
+//! ([`gas`]). [`impact_history`] reads the impacts of each parcel. What is missing is listed in [`RunResults::missing`].
 
+mod barycentric;
 mod boundary_field;
+mod cells;
 pub mod deposit;
+mod flying;
 mod foam_file;
+pub mod gas;
 pub mod impact_history;
+mod internal_field;
 mod list_file;
 pub mod log;
 mod mesh;
@@ -148,6 +153,10 @@ fn complete(folder: &Path, mut results: RunResults) -> RunResults {
             results.surfaces = surfaces;
         }
         Err(reason) => results.missing.push(reason),
+    }
+    match gas::read_last(folder, &cloud) {
+        Ok(gas) => results.gas = gas,
+        Err(reason) => results.missing.push(reason.to_string()),
     }
     if results.injected.is_empty() {
         let note = "neither tables nor logs give the injected mass, so shares of it are unknown";

@@ -29,11 +29,14 @@ pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Capture>, String> {
         ));
     };
     // OpenFOAM writes no folder for a cloud that is empty
-    let mut parcels = if own.is_dir() { read_cloud(&own)? } else { Vec::new() };
-    if deposit.is_dir() {
-        parcels.extend(read_deposit(&deposit)?);
-    }
-    Ok(parcels)
+    let read = || -> Result<Vec<Capture>, String> {
+        let mut parcels = if own.is_dir() { read_cloud(&own)? } else { Vec::new() };
+        if deposit.is_dir() {
+            parcels.extend(read_deposit(&deposit)?);
+        }
+        Ok(parcels)
+    };
+    read().map_err(|reason| format!("{reason}, so the places of captured parcels are unknown"))
 }
 
 fn read_cloud(folder: &Path) -> Result<Vec<Capture>, String> {

@@ -44,6 +44,11 @@ impl Carbon {
         (share > 0.0).then_some(Self { share, place })
     }
 
+    /// Conversion [1] from the mass of a particle at injection and its present carbon [kg]: 1 - m_C/(m_0 Y_C0).
+    pub(super) fn conversion_of(&self, fresh: f64, carbon: f64) -> f64 {
+        self.conversion(fresh, carbon, 1.0, 1.0)
+    }
+
     /// Conversion [1] from the fresh and the present mass [kg], the share of solids and carbon's share of them [1].
     fn conversion(&self, fresh: f64, now: f64, solid: f64, carbon: f64) -> f64 {
         (1.0 - now * solid * carbon / (fresh * self.share)).clamp(0.0, 1.0)

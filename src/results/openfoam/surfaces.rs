@@ -150,7 +150,7 @@ fn last_time(root: &Path, cloud: &str) -> Option<(f64, String)> {
 }
 
 /// The folders of the ranks of a decomposed case, in their order.
-fn ranks(case: &Path) -> Vec<PathBuf> {
+pub(super) fn ranks(case: &Path) -> Vec<PathBuf> {
     let number = |path: &PathBuf| file_name(path).strip_prefix("processor")?.parse::<usize>().ok();
     let folders = entries(case, Path::is_dir).into_iter();
     let mut ranks: Vec<(usize, PathBuf)> = folders.filter_map(|path| Some((number(&path)?, path))).collect();
@@ -159,6 +159,6 @@ fn ranks(case: &Path) -> Vec<PathBuf> {
 }
 
 /// Whether there are folders `processors4`, which hold all ranks in one file.
-fn has_collated(case: &Path) -> bool {
+pub(super) fn has_collated(case: &Path) -> bool {
     entries(case, Path::is_dir).iter().any(|path| file_name(path).starts_with("processors"))
 }
