@@ -184,7 +184,13 @@ pub struct WallGas {
 
 /// The deposit after a time [s] in which the gas carried powder away; fresh powder has a `voidage` [1].
 #[must_use]
-pub fn after(deposit: &Deposit, voidage: f64, adhesion: &PowderAdhesion, gas: &WallGas, time: f64) -> Deposit {
+pub fn after(
+    deposit: &Deposit,
+    voidage: f64,
+    adhesion: &PowderAdhesion,
+    gas: &WallGas,
+    time: f64,
+) -> Deposit {
     let radius = 0.5 * deposit.powder_diameter();
     let bonded = sintering::neck_of_porosity(deposit.porosity(voidage), voidage) > BONDED_NECK;
     if radius <= 0.0 || bonded || deposit.molten > 0.0 {
@@ -607,15 +613,15 @@ mod tests {
         assert_relative_eq!(blown.powder, 1e-3 * left, max_relative = 1e-9);
         assert_relative_eq!(blown.resuspended, 1.0 - left, max_relative = 1e-9);
         assert_relative_eq!(blown.powder_diameter(), 10e-6, max_relative = 1e-12);
-        assert_relative_eq!(blown.layer_thickness(0.5), thin.layer_thickness(0.5) * left, max_relative = 1e-9);
+        assert_relative_eq!(
+            blown.layer_thickness(0.5),
+            thin.layer_thickness(0.5) * left,
+            max_relative = 1e-9
+        );
         // In two steps the same, and fresh powder is not taken for old.
         let twice = after(&after(&thin, 0.5, &adhesion, &gas, 4.0), 0.5, &adhesion, &gas, 6.0);
         assert_relative_eq!(twice.powder, blown.powder, max_relative = 1e-9);
-        assert_relative_eq!(
-            blown.with(&landed(1e-3)).resuspended,
-            (1.0 - left) / 2.0,
-            max_relative = 1e-9
-        );
+        assert_relative_eq!(blown.with(&landed(1e-3)).resuspended, (1.0 - left) / 2.0, max_relative = 1e-9);
         // 1.5 m/(rho d) = 15 layers: after 150 s as one layer after 10 s.
         let thick = after(&Deposit::default().with(&landed(0.1)), 0.5, &adhesion, &gas, 150.0);
         assert_relative_eq!(thick.powder, 0.1 * left, max_relative = 1e-9);
