@@ -104,14 +104,15 @@ impl Wall {
             ..dressed
         };
         assert!(plain(&undressed) == plain(&bare), "more than the dress was changed");
-        // What was an impact is one with a deposit, too.
+        // What was an impact is one with a deposit, too; that may need a property at a temperature outside its table.
         let resolve = |impact: &nw_impact| {
             let mut outcome = nw_outcome::default();
             // SAFETY: all on the stack.
             unsafe { nw_resolve(model, impact, &raw mut outcome) }
         };
         if resolve(&bare) == NW_OK {
-            assert_eq!(resolve(&dressed), NW_OK, "{dressed:?}");
+            let status = resolve(&dressed);
+            assert!(status == NW_OK || status == NW_OUT_OF_RANGE, "{status}: {dressed:?}");
         }
     }
 
