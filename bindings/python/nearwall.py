@@ -452,3 +452,12 @@ class Model:
         keeps its draw. A wall without a table `shedding` in the model file holds everything."""
         _check(_library.nw_deposit_shed(self._handle, gravity_outward, gravity_along, shear_down, shear_across, draw,
                                         byref(deposit)))
+
+    def resuspend_deposit(self, deposit, voidage, density, kinematic_viscosity, friction_velocity, duration):
+        """Lets the gas at the wall carry powder away for a `duration` [s]; `voidage` is the share of voids in fresh powder [1].
+        The gas has a `density` [kg/m3], a `kinematic_viscosity` [m2/s] and a `friction_velocity` [m/s], the root of shear stress
+        over density. Melt and bonded powder stay. A wall without a table `resuspension` in the model file holds everything.
+        Raises Error, and leaves the deposit as it is, where density or viscosity are not above 0, friction velocity or duration
+        are negative, a number is not finite, or the model has no such wall."""
+        _check(_library.nw_deposit_resuspend(self._handle, voidage, density, kinematic_viscosity, friction_velocity, duration,
+                                             byref(deposit)))

@@ -1,8 +1,9 @@
 /* A wall with a growing deposit, in C: the other languages have to print the same, bit for bit.
  * Takes a model and a table of impacts as the examples do; a step is four rows. Prints for each row whether the particle is
  * captured, the deposit at the impact (layer, coverage, melt) and after it (molten, powder, solid, cover, conversion), the
- * speed of the film, the void volume that sintering closed, and the wall of the last step (temperatures of surface, wall and
- * powder, heat flux, resistance of the deposit). At the end of a step the deposit ages for a second and may fall off. */
+ * speed of the film, the void volume that sintering closed, the share of the powder that the gas carried away, and the wall of
+ * the last step (temperatures of surface, wall and powder, heat flux, resistance of the deposit). At the end of a step the deposit
+ * ages for a second and may fall off; a bare wall gets its initial deposit. After every other impact the gas may carry powder away. */
 #include <nearwall.h>
 
 #include <stdio.h>
@@ -59,13 +60,16 @@ int main(int argc, char **argv) {
             must(nw_deposit_heat(model, &deposit, 0.4, &cooling, &heat));
             must(nw_deposit_age(model, 0.4, &heat, 1, &deposit));
             must(nw_deposit_shed(model, 0, 9.81, 0.5, 0.25, 0.5, &deposit));
+            if (deposit.molten + deposit.powder <= 0) must(nw_deposit_initial(model, 0.4, &deposit));
+        } else {
+            must(nw_deposit_resuspend(model, 0.4, 0.25, 2.5e-4, 0.25 * (double)(1 + impact.key % 5), 1, &deposit));
         }
         must(nw_film_velocity(model, &deposit, impact.T_w, 9.81, &velocity));
         printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", (unsigned)outcome.stuck, impact.layer_thickness,
                impact.coverage, impact.melt_thickness, deposit.molten, deposit.powder, deposit.solid, deposit.cover,
                deposit.conversion, velocity);
-        printf(" %.17g %.17g %.17g %.17g %.17g %.17g\n", deposit.closed, heat.surface_temperature, heat.wall_temperature,
-               heat.powder_temperature, heat.heat_flux, heat.deposit_resistance);
+        printf(" %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", deposit.closed, deposit.resuspended, heat.surface_temperature,
+               heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance);
     }
     fclose(table);
     nw_model_free(model);

@@ -51,12 +51,16 @@ program deposit_test
       call must(nw_deposit_heat(model, deposit, 0.4d0, cooling, heat))
       call must(nw_deposit_age(model, 0.4d0, heat, 1.0d0, deposit))
       call must(nw_deposit_shed(model, 0.0d0, 9.81d0, 0.5d0, 0.25d0, 0.5d0, deposit))
+      if (deposit%molten + deposit%powder <= 0) call must(nw_deposit_initial(model, 0.4d0, deposit))
+    else
+      call must(nw_deposit_resuspend(model, 0.4d0, 0.25d0, 2.5d-4, &
+        0.25d0*real(1 + modulo(impact%key, 5_c_int64_t), c_double), 1.0d0, deposit))
     end if
     call must(nw_film_velocity(model, deposit, impact%T_w, 9.81d0, velocity))
-    print '(i0, 15(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
+    print '(i0, 16(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
       deposit%molten, deposit%powder, deposit%solid, deposit%cover, deposit%conversion, velocity, &
-      deposit%closed, heat%surface_temperature, heat%wall_temperature, heat%powder_temperature, heat%heat_flux, &
-      heat%deposit_resistance
+      deposit%closed, deposit%resuspended, heat%surface_temperature, heat%wall_temperature, heat%powder_temperature, &
+      heat%heat_flux, heat%deposit_resistance
     impact%key = impact%key + 1
   end do
   close (unit)

@@ -24,7 +24,11 @@ for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimit
         heat = model.heat(deposit, 0.4, cooling)
         model.age_deposit(deposit, 0.4, heat, 1.0)
         model.shed_deposit(deposit, 0.5, gravity_along=9.81, shear_down=0.5, shear_across=0.25)
+        if deposit.molten + deposit.powder <= 0:
+            deposit = model.initial_deposit(deposit.wall, 0.4)
+    else:
+        model.resuspend_deposit(deposit, 0.4, 0.25, 2.5e-4, friction_velocity=0.25 * (1 + row % 5), duration=1.0)
     velocity = model.film_velocity(deposit, T_w, 9.81)
     print(out.stuck[0], *(f"{number:.17g}" for number in (
         met["layer_thickness"], met["coverage"], met["melt_thickness"], deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.conversion, velocity,
-        deposit.closed, heat.surface_temperature, heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance)))
+        deposit.closed, deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance)))

@@ -67,6 +67,11 @@ refused(TypeError, lambda: nearwall.WallCooling(600.0, 1700.0, struct_size=1), "
 refused(nearwall.Error, lambda: model.heat(model.initial_deposit(0, 0.4), 1.0, cooling), "an input is not finite or outside its bounds")
 refused(nearwall.Error, lambda: model.age_deposit(model.initial_deposit(0, 0.4), 0.4, heat, -1.0), "an input is not finite or outside its bounds")
 refused(nearwall.Error, lambda: model.shed_deposit(nearwall.Deposit(9), 0.5), "the model has no such wall")
+refused(nearwall.Error, lambda: model.resuspend_deposit(nearwall.Deposit(9), 0.4, 1.2, 1.5e-5, 1.0, 60.0), "the model has no such wall")
+deposit = model.initial_deposit(0, 0.4)
+refused(nearwall.Error, lambda: model.resuspend_deposit(deposit, 0.4, 0.0, 1.5e-5, 1.0, 60.0), "an input is not finite or outside its bounds")
+model.resuspend_deposit(deposit, 0.4, 1.2, 1.5e-5, 1e3, 60.0)
+assert bytes(deposit) == bytes(model.initial_deposit(0, 0.4)), "a model without a table of adhesion lost powder"
 refused(TypeError, lambda: model.add_captured(nearwall.DepositSource(), 1.0, 2300.0, 900.0, diameter=1e-4), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n, diameter=d), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n.astype(numpy.float32)), "v_n has to be a contiguous array: numpy.ascontiguousarray(v_n, numpy.float64)")

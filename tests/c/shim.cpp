@@ -124,6 +124,9 @@ int deposit(const nearwall::model& model) {
     REQUIRE(model.age(0.5, heat, 60, deposit) == NW_OK && deposit.powder == before.powder);
     REQUIRE(model.shed(0, 9.81, 0, 0, 0.5, deposit) == NW_OK && deposit.powder == before.powder);
     REQUIRE(model.shed(0, 9.81, 0, 0, 1, deposit) == NW_BAD_STATE);
+    // This model has no table of adhesion.
+    REQUIRE(model.resuspend(0.5, 1.2, 1.5e-5, 100, 60, deposit) == NW_OK && deposit.powder == before.powder);
+    REQUIRE(deposit.resuspended == 0 && model.resuspend(0.5, 0, 1.5e-5, 100, 60, deposit) == NW_BAD_STATE);
     return 0;
 }
 

@@ -5,6 +5,7 @@ use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
 use nearwall::deposit::conduction::{Coolant, HotSide};
+use nearwall::deposit::resuspension::WallGas;
 use nearwall::deposit::{Deposit, DepositSource};
 use nearwall::model::{WallCooling, WallHeat};
 use nearwall::{Impact, Model};
@@ -523,6 +524,68 @@ fn a_deposit_falls_off() {
     calls.free(model);
 }
 
+const ADHESION: &str = "[walls.slag.resuspension]\nwork_of_adhesion = 0.5\n[walls.\"quench.*\".resuspension]\n\
+     work_of_adhesion = 0.3\nadhesion_median = 0.02\nadhesion_spread = 3\n";
+
+/// Powder of random size under random gas, twice in a row, by both libraries, to the last bit. The first wall has no table.
+#[test]
+fn the_gas_carries_away_as_in_the_rust_library() {
+    let calls = Calls::load();
+    let text = format!("{EVERY_REGIME}\n{ADHESION}");
+    let model = calls.parse(&text);
+    let rust = Model::from_toml("m", &text).unwrap();
+    let [mut lost, mut kept, mut bare] = [0, 0, 0];
+    for (_, _, draw) in random_cases(seed(), 600) {
+        let power = |stream, low: f64, high: f64| 10_f64.powf(low + (high - low) * draw.uniform(stream));
+        let wall = (3.0 * draw.uniform(1)) as u32;
+        let (solid, diameter, voidage) = (power(2, -8.0, -3.0), power(3, -6.0, -3.5), 0.8 * draw.uniform(4));
+        let rarely = |stream, number: f64| if draw.uniform(stream) < 0.1 { number } else { 0.0 };
+        let mut deposit = nw_deposit {
+            wall,
+            molten: rarely(5, 0.1),
+            powder: 2300.0 * solid,
+            solid,
+            cover: 1.5 * solid / diameter,
+            conversion: draw.uniform(6),
+            closed: rarely(7, 0.2 * solid),
+            resuspended: 0.5 * draw.uniform(8),
+            ..nw_deposit::default()
+        };
+        for step in 0..2 {
+            let gas = WallGas {
+                density: power(10 + step, -1.0, 1.0),
+                kinematic_viscosity: power(20 + step, -6.0, -3.0),
+                friction_velocity: if draw.uniform(30) < 0.05 { 0.0 } else { power(40 + step, -2.0, 1.0) },
+            };
+            let duration = if draw.uniform(50) < 0.05 { 0.0 } else { power(60 + step, -3.0, 5.0) };
+            let expected =
+                rust.resuspended(wall as usize, &deposit_in_rust(&deposit), voidage, &gas, duration).unwrap();
+            let WallGas { density, kinematic_viscosity, friction_velocity } = gas;
+            let after = changed(&deposit, |to| unsafe {
+                let resuspend = calls.nw_deposit_resuspend;
+                resuspend(model, voidage, density, kinematic_viscosity, friction_velocity, duration, to)
+            })
+            .unwrap();
+            assert_eq!(deposit_in_rust(&after), expected);
+            assert_eq!((after.wall, after.molten), (wall, deposit.molten));
+            if format!("{after:?}") == format!("{deposit:?}") {
+                kept += i32::from(wall > 0);
+            } else {
+                let share = after.powder / deposit.powder;
+                let remaining = (1.0 - deposit.resuspended) * share;
+                assert!(wall > 0 && share <= 1.0 && deposit.molten == 0.0, "{after:?} of {deposit:?}");
+                assert!((1.0 - after.resuspended - remaining).abs() < 1e-12, "{after:?} of {deposit:?}");
+                lost += 1;
+                bare += i32::from(share < 0.1);
+            }
+            deposit = after;
+        }
+    }
+    calls.free(model);
+    println!("{lost} lost powder, {bare} of them most of it; {kept} kept all on walls that may lose it");
+    assert!(lost > 50 && kept > 50 && bare > 5, "{lost} {kept} {bare}");
+}
+
 #[test]
 fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
     let calls = Calls::load();
@@ -713,6 +776,89 @@ fn ageing_and_shedding_that_cannot_be_are_refused_and_nothing_written() {
         assert_eq!((calls.nw_deposit_shed)(model, 0.0, 9.81, 0.0, 0.0, 0.5, null_mut()), NW_NULL_POINTER);
     }
     calls.free(model);
+}
+
+#[test]
+fn gas_that_cannot_be_is_refused_and_nothing_written() {
+    let calls = Calls::load();
+    let model = calls.parse(&format!("{EVERY_REGIME}\n{ADHESION}"));
+    let deposit = nw_deposit { wall: 1, powder: 2.3e-3, solid: 1e-6, cover: 0.05, ..nw_deposit::default() };
+    let resuspend = |model, deposit: &nw_deposit, numbers: [f64; 5]| {
+        let [voidage, density, viscosity, friction_velocity, duration] = numbers;
+        changed(deposit, |to| unsafe {
+            let resuspend = calls.nw_deposit_resuspend;
+            resuspend(model, voidage, density, viscosity, friction_velocity, duration, to)
+        })
+    };
+    let wind = [0.4, 1.2, 1.5e-5, 2.0, 60.0];
+    let left = resuspend(model, &deposit, wind).unwrap();
+    assert!(left.powder < deposit.powder && left.resuspended > 0.0, "{left:?}");
+    // A calm gas, no time, and a wall without the table.
+    for (index, wall) in [(3, 1), (4, 1), (3, 0), (4, 0)] {
+        let (mut calm, deposit) = (wind, nw_deposit { wall, ..deposit });
+        calm[index] = 0.0;
+        for numbers in [calm, if wall == 0 { wind } else { calm }] {
+            let unchanged = resuspend(model, &deposit, numbers).unwrap();
+            assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
+        }
+    }
+    for wall in [0, 1] {
+        let deposit = nw_deposit { wall, ..deposit };
+        for index in 0..5 {
+            let mut bad = vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0];
+            bad.extend((index == 0).then_some(1.0));
+            bad.extend((index == 1 || index == 2).then_some(0.0));
+            for number in bad {
+                let mut numbers = wind;
+                numbers[index] = number;
+                let status = resuspend(model, &deposit, numbers).map(|_| ());
+                assert_eq!(status, Err(NW_BAD_STATE), "number {index}: {number}");
+            }
+        }
+    }
+    for (bad, status) in [
+        (nw_deposit { resuspended: -0.1, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { resuspended: 1.1, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { resuspended: f64::NAN, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { powder: -1.0, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { closed: f64::NAN, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { wall: 77, ..deposit }, NW_UNKNOWN_WALL),
+        (nw_deposit { struct_size: 56, ..deposit }, NW_STRUCT_SIZE),
+        (nw_deposit { struct_size: 0, ..deposit }, NW_STRUCT_SIZE),
+    ] {
+        assert_eq!(resuspend(model, &bad, wind).map(|_| ()), Err(status), "{bad:?}");
+    }
+    assert_eq!(resuspend(null(), &deposit, wind).map(|_| ()), Err(NW_NULL_POINTER));
+    let status = unsafe { (calls.nw_deposit_resuspend)(model, 0.4, 1.2, 1.5e-5, 2.0, 60.0, null_mut()) };
+    assert_eq!(status, NW_NULL_POINTER);
+    calls.free(model);
+}
+
+/// The table `resuspension` of a wall: the work of adhesion, the other two together or not at all, and nothing else.
+#[test]
+fn a_resuspension_table_is_checked() {
+    let told = |keys: &str| {
+        let text = format!("{EVERY_REGIME}\n[walls.slag.resuspension]\n{keys}");
+        Model::from_toml("m", &text).map(|_| ()).map_err(|fault| fault.to_string())
+    };
+    let all = "work_of_adhesion = 0.5\nadhesion_median = 0.02\nadhesion_spread = 3\n";
+    assert_eq!((told("work_of_adhesion = 0.5\n"), told(all)), (Ok(()), Ok(())));
+    for (keys, word) in [
+        ("", "work_of_adhesion"),
+        ("adhesion_median = 0.02\nadhesion_spread = 3\n", "work_of_adhesion"),
+        ("work_of_adhesion = 0.5\nadhesion_spread = 3\n", "adhesion_median"),
+        ("work_of_adhesion = 0.5\nadhesion_median = 0.02\n", "adhesion_spread"),
+        ("work_of_adhesion = 0\n", "work_of_adhesion"),
+        ("work_of_adhesion = 1001\n", "work_of_adhesion"),
+        ("work_of_adhesion = nan\n", "work_of_adhesion"),
+        ("work_of_adhesion = 0.5\nadhesion_median = 0\nadhesion_spread = 3\n", "adhesion_median"),
+        ("work_of_adhesion = 0.5\nadhesion_median = 0.02\nadhesion_spread = 1\n", "adhesion_spread"),
+        ("work_of_adhesion = 0.5\nadhesion_median = 0.02\nadhesion_spread = 101\n", "adhesion_spread"),
+        ("work_of_adhesion = 0.5\nadhesion_medium = 0.02\n", "adhesion_median"),
+    ] {
+        let fault = told(keys).unwrap_err();
+        assert!(fault.contains(word), "{keys}: {fault}");
+    }
 }
 
 /// The table `shedding` of a wall: both strengths, in their bounds, and nothing else.

@@ -19,7 +19,7 @@ const MODELS: [&str; 4] = [
     include_str!("../../../tutorials/slaggingGasifier/constant/nearWall.toml"),
     "[particle]\nmaterial = \"montan-wax\"\n[walls.\"w.*\"]\nmaterial = \"pyrex\"\n[walls.hot]\nmaterial = \
      \"stainless-steel\"\n[walls.hot.shedding]\ntensile_strength = 200\nshear_strength = 100\nspread = 2\n\
-     [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \
+     [walls.hot.resuspension]\nwork_of_adhesion = 0.5\n[normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \
      \"sliding-rolling\"\nfriction = 0.3\n[[effects]]\nkind = \"melting-transition\"\ntemperature = 360\nwidth = 7\n",
     include_str!("../models/lying.toml"),
     include_str!("../models/extra-inputs.toml"),
