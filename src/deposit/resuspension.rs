@@ -33,7 +33,7 @@
 //! 0.11 for 20 µm (39). Below 1 m/s, where most leave, 0.11 and 0.15: the measured curve of 10 µm is steeper, and half have left at
 //! some 0.7 m/s against 0.92 computed. The gas is not certain: the later version of the first program takes air (1.181 kg/m³,
 //! 1.539e-5 m²/s) as a correction of hot helium (1.92 kg/m³, 1.96e-5 m²/s), which would give 0.06 and 0.10, half at 0.73 m/s.
-//! This is no blind test, for Biasi et al. fitted resuspension data, those of Reeks & Hall probably among them (assumed).
+//! `tests/library/resuspension.rs` and the validation page have the points. This is no blind test, for Biasi et al. fitted resuspension data, those of Reeks & Hall probably among them (assumed).
 //!
 //! # Deposits
 //!
@@ -402,39 +402,7 @@ mod tests {
     use crate::deposit::{CapturedParticles, DepositSource};
     use approx::assert_relative_eq;
 
-    /// Friction velocity [m/s] and fraction remaining after 1 s [1]: alumina spheres on polished stainless steel in air, Reeks & Hall
-    /// 2001, runs 9, 10 and 15, read off their figure by V. Bourgin (`discrete-rocknroll`, data/*.csv), rounded.
-    #[rustfmt::skip]
-    #[allow(clippy::approx_constant, reason = "2.718 m/s was measured")]
-    const TEN_MICROMETRES: [(f64, f64); 34] = [
-        // Run 9.
-        (0.392, 0.938), (1.519, 0.144), (2.548, 0.063), (2.808, 0.059), (3.151, 0.058), (3.225, 0.036),
-        (3.472, 0.057), (3.721, 0.046), (3.988, 0.045), (4.255, 0.039), (4.865, 0.032), (5.262, 0.020),
-        // Run 10.
-        (0.261, 0.993), (0.350, 0.970), (0.413, 0.936), (0.530, 0.882), (0.646, 0.746), (0.699, 0.519),
-        (0.953, 0.212), (1.125, 0.173), (1.526, 0.119), (2.178, 0.082), (2.693, 0.051),
-        // Run 15.
-        (1.477, 0.131), (2.572, 0.053), (2.718, 0.038), (3.151, 0.038), (3.488, 0.026), (3.773, 0.024),
-        (4.007, 0.023), (4.275, 0.022), (4.560, 0.022), (4.887, 0.019), (5.262, 0.011),
-    ];
-
-    /// The same for 20 µm: runs 7, 8 and 20.
-    #[rustfmt::skip]
-    const TWENTY_MICROMETRES: [(f64, f64); 39] = [
-        // Run 7.
-        (0.200, 0.989), (0.402, 0.590), (0.536, 0.197), (0.531, 0.493), (0.644, 0.461), (0.859, 0.222),
-        (0.965, 0.182), (1.445, 0.089), (2.165, 0.049), (3.091, 0.053), (4.008, 0.025), (4.246, 0.042),
-        (5.197, 0.019),
-        // Run 8.
-        (0.170, 0.986), (0.192, 0.993), (0.220, 0.779), (0.358, 0.928), (0.526, 0.418), (0.602, 0.374),
-        (0.650, 0.142), (0.839, 0.256), (1.269, 0.126), (1.364, 0.117), (2.186, 0.071), (2.612, 0.036),
-        (3.091, 0.054), (5.197, 0.014),
-        // Run 20.
-        (0.232, 0.946), (0.338, 0.911), (0.518, 0.685), (0.626, 0.324), (0.672, 0.315), (0.868, 0.115),
-        (1.411, 0.076), (2.103, 0.076), (2.562, 0.061), (3.136, 0.032), (3.951, 0.042), (4.564, 0.026),
-    ];
-
-    /// Air at room temperature and 0.56 J/m², as the later version of that program takes them for these runs.
+    /// Air at room temperature and 0.56 J/m², as `discrete-rocknroll` takes them for runs of Reeks & Hall.
     fn alumina(radius: f64, friction_velocity: f64) -> Conditions {
         Conditions {
             radius,
@@ -655,32 +623,5 @@ mod tests {
         assert_relative_eq!(u, 0.9224, max_relative = 1e-3);
         assert!(c.critical_friction_velocity(0.5, 3600.0).unwrap() < u);
         assert!(c.critical_friction_velocity(1.0, 1.0).is_none());
-    }
-
-    /// Root mean square and mean of computed minus measured over points with a friction velocity in a range.
-    fn difference(points: &[(f64, f64)], radius: f64, range: std::ops::Range<f64>) -> [f64; 2] {
-        let errors: Vec<f64> = points
-            .iter()
-            .filter(|(u, _)| range.contains(u))
-            .map(|(u, measured)| alumina(radius, *u).fraction_remaining(1.0) - measured)
-            .collect();
-        let mean = |f: fn(&f64) -> f64| errors.iter().map(f).sum::<f64>() / errors.len() as f64;
-        [mean(|e| e * e).sqrt(), mean(|e| *e)]
-    }
-
-    /// The bounds are what was found, rounded up; they are no claim of accuracy.
-    #[test]
-    fn measured_fractions_of_alumina_on_steel() {
-        let found = |name: &str, points: &[(f64, f64)], radius: f64| {
-            [0.0..9.0, 0.0..1.0, 1.0..9.0].map(|range| {
-                let [rms, bias] = difference(points, radius, range.clone());
-                println!("{name}, {range:?} m/s: rms difference {rms:.3}, mean {bias:+.3}");
-                rms
-            })
-        };
-        let [all, slow, fast] = found("10 µm", &TEN_MICROMETRES, 5e-6);
-        assert!(all < 0.075 && slow < 0.12 && fast < 0.055);
-        let [all, slow, fast] = found("20 µm", &TWENTY_MICROMETRES, 10e-6);
-        assert!(all < 0.115 && slow < 0.15 && fast < 0.035);
     }
 }

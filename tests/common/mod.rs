@@ -1,4 +1,4 @@
-//! What several tests share: the golden table, the measured slags, random impacts, compilers and a browser.
+//! What several tests share: the golden table, measured slags and resuspension, random impacts, compilers and a browser.
 #![allow(dead_code, reason = "each test uses its part")]
 #![allow(
     clippy::unwrap_used,
@@ -10,5 +10,6 @@
 pub mod browser;
 pub mod compile;
 pub mod golden;
+pub mod measured_resuspension;
 pub mod measured_slags;
 pub mod random;

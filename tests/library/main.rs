@@ -19,5 +19,6 @@ mod interface;
 mod laws;
 mod oblique_impact;
 mod published_sticking;
+mod resuspension;
 mod slag_viscosity;
 mod slag_viscosity_study;
