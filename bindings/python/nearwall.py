@@ -449,14 +449,14 @@ class Model:
         """Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Gravity away from the wall
         (negative where it presses the deposit on) and along it is in m/s2, the shear stress of the gas down the slope and
         across it in Pa. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the strongest; a place
-        keeps its draw. A wall without a table `shedding` in the model file holds everything."""
+        keeps its draw. From a wall without a table `shedding` in the model file nothing falls."""
         _check(_library.nw_deposit_shed(self._handle, gravity_outward, gravity_along, shear_down, shear_across, draw,
                                         byref(deposit)))
 
     def resuspend_deposit(self, deposit, voidage, density, kinematic_viscosity, friction_velocity, duration):
         """Lets the gas at the wall carry powder away for a `duration` [s]; `voidage` is the share of voids in fresh powder [1].
         The gas has a `density` [kg/m3], a `kinematic_viscosity` [m2/s] and a `friction_velocity` [m/s], the root of shear stress
-        over density. Melt and bonded powder stay. A wall without a table `resuspension` in the model file holds everything.
+        over density. Melt and bonded powder stay. A wall without a table `resuspension` in the model file loses nothing.
         Raises Error, and leaves the deposit as it is, where density or viscosity are not above 0, friction velocity or duration
         are negative, a number is not finite, or the model has no such wall."""
         _check(_library.nw_deposit_resuspend(self._handle, voidage, density, kinematic_viscosity, friction_velocity, duration,

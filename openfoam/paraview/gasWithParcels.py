@@ -1,8 +1,8 @@
 #------------------------------------------------------------------------------
 # gasWithParcels.py - gas, parcels and walls of a finished case in ParaView.
 #
-#     paraview --script=openfoam/paraview/gasWithParcels.py     from the folder of the case, or with CASE=/its/folder
-#     pvbatch openfoam/paraview/gasWithParcels.py CASE picture.png [CLOUD]
+#     paraview --script=PATH/gasWithParcels.py     from the folder of the case, or with CASE=/its/folder
+#     pvbatch PATH/gasWithParcels.py CASE picture.png [CLOUD]
 #                                       without a screen: xvfb-run -a -s -noreset pvbatch ...
 #
 # Left: a cut through the middle of the domain, coloured by T (by |U| without T), and the
@@ -97,8 +97,19 @@ clouds = [cloud for cloud in clouds if not cloud.endswith('Deposit')]
 cloud = arguments[2] if len(arguments) > 2 else (clouds or [None])[0]
 
 
+def time_of(folder):
+    try:
+        return float(folder)
+    except ValueError:
+        return None
+
+
+with_parcels = [time_of(folder) for folder in os.listdir(case)
+                if os.path.isfile(f'{case}/{folder}/lagrangian/{cloud}/positions')]
+
+
 def has_parcels(time):
-    return os.path.isfile(f'{case}/{time:g}/lagrangian/{cloud}/positions')
+    return any(other is not None and abs(other - time) <= 1e-9*abs(time) for other in with_parcels)
 
 
 time = max((t for t in times if has_parcels(t)), default=times[-1])

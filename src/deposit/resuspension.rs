@@ -39,13 +39,13 @@
 //!
 //! A [`Deposit`] stores one number for the past, the share of its powder that has left, and no distribution. [`Release::advance`] replaces
 //! that past by the time under the present conditions that would leave the same share, and goes on from there. This is exact under
-//! constant conditions. Otherwise it assumes that the weakest bonds break first, which holds nearly, for `p` falls from `n` to
+//! constant conditions for less than one layer; of more, the cover is that at the start of the step. Otherwise it assumes that the weakest bonds break first, which holds nearly, for `p` falls from `n` to
 //! nothing within a factor of 2 of `f`. After a change between 0.3 and 1.2 m/s the error of the fraction is below 0.01
 //! in the tests. Old and fresh powder count as one population, which keeps up to 0.025 of what landed too much under steady landing.
 //!
 //! *Assumed* for deposits, beyond the law: all particles have the mean diameter by volume over area; of powder that would cover the wall `A`
-//! times, each particle lies open for the share `1/A` of the time; powder on melt, or with necks of more than [`BONDED_NECK`] of its
-//! radius, is bonded and stays.
+//! times, each particle lies open for the share `1/A` of the time; powder on a piece of wall with any melt, or with necks of more than [`BONDED_NECK`] of
+//! its radius, is bonded and stays; the law also acts outside its range, with spheres beyond the sublayer, and where the flow is laminar.
 //!
 //! No function fails. Inputs that are not positive numbers (a friction velocity of 0 is allowed) give NaN or no release.
 
@@ -68,8 +68,8 @@ pub const FLUCTUATION_RATIO: f64 = 0.2;
 /// Largest radius [m] for [`Adhesion::biasi`]: of the larger spheres above. The fit itself reaches a median of 0 at 35 µm.
 pub const LARGEST_FITTED_RADIUS: f64 = 10e-6;
 
-/// Neck over radius `x/r` [1] above which powder is bonded; assumed. Already such a neck of a solid that bears 1 MPa holds 3e-8 N on a
-/// radius of 10 µm, as much as the median of dry adhesion.
+/// Neck over radius `x/r` [1] above which powder is bonded; assumed. Such a neck of a solid that bears 10 MPa holds 3e-7 N on a
+/// radius of 10 µm, more than the 2e-7 N of the median of dry adhesion (0.56 J/m²).
 pub const BONDED_NECK: f64 = 0.01;
 
 /// Share [1] of particles too small to follow: where fewer can leave, nothing does.

@@ -145,7 +145,7 @@ impl Model {
     }
 
     /// The deposit after what the wall cannot hold has fallen off a place, ranked by `draw` ([`Strength::breaks`]): nothing, or all of it.
-    /// A wall without a `shedding` table in the model file holds everything.
+    /// A wall without a `shedding` table in the model file lets nothing fall.
     ///
     /// # Errors
     /// [`ImpactError`] for an unknown wall.
@@ -164,7 +164,7 @@ impl Model {
     }
 
     /// The deposit after a time [s] in which the gas at the wall carried powder away ([`resuspension::after`]). A wall without a `resuspension`
-    /// table in the model file holds everything.
+    /// table in the model file loses nothing to it.
     ///
     /// # Errors
     /// [`ImpactError`] for a voidage without physical meaning or an unknown wall.

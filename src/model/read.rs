@@ -166,6 +166,15 @@ impl WallReader<'_> {
             }
             _ => None,
         };
+        let coverage = section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0);
+        let resuspension = section
+            .section("resuspension")?
+            .map(|table| finished(table, PowderAdhesion::read))
+            .transpose()?;
+        if coverage > 0.0 && resuspension.is_some() {
+            let problem = "is powder without a mass, so its grains have no size for `resuspension`; give a layer_thickness instead";
+            return Err(section.fault("coverage", problem));
+        }
         let own_erosion =
             section.section("erosion")?.map(|table| finished(table, erosion::read)).transpose()?;
         Ok(Wall {
@@ -177,16 +186,13 @@ impl WallReader<'_> {
             powder: self.library.named_by(section, "powder")?,
             layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
             film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
-            coverage: section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0),
+            coverage,
             erosion: own_erosion.or_else(|| self.erosion.clone()),
             shedding: section
                 .section("shedding")?
                 .map(|table| finished(table, Strength::read))
                 .transpose()?,
-            resuspension: section
-                .section("resuspension")?
-                .map(|table| finished(table, PowderAdhesion::read))
-                .transpose()?,
+            resuspension,
             adhesion: self.adhesion,
             prepared,
         })

@@ -71,6 +71,11 @@ impl Wall {
         &self.material
     }
 
+    /// Whether the model file says how strongly deposits hold to it.
+    pub fn sheds(&self) -> bool {
+        self.shedding.is_some()
+    }
+
     /// Whether the model file says how it loses deposits.
     pub fn loses_deposits(&self) -> bool {
         self.shedding.is_some() || self.resuspension.is_some()

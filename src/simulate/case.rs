@@ -9,7 +9,7 @@ use super::gas::Gas;
 use super::geometry::vector;
 use super::injection::{Injection, SWEEPABLE, model_file};
 use super::profile::Profile;
-use super::surface::{Surface, SurfaceKind};
+use super::surface::{Shape, Surface, SurfaceKind};
 use super::wall_deposits::DepositSettings;
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Section};
@@ -163,9 +163,26 @@ impl Case {
             sweep: top.section("sweep")?.map(|s| read_sweep(&s)).transpose()?,
             model,
         };
+        if let Some(pipe) = case.pipe_that_sheds_sideways() {
+            let problem = format!(
+                "pulls across the pipe `{pipe}`, whose bins go all around it and cannot tell above from below; a wall with \
+                 `shedding` needs a pipe along gravity, or the shape \"plane\""
+            );
+            return Err(run.fault("gravity", problem));
+        }
         run.finish()?;
         case.try_sweep(top)?;
         Ok(case)
+    }
+
+    /// The first pipe that sheds its deposit although gravity points across it.
+    fn pipe_that_sheds_sideways(&self) -> Option<&str> {
+        let sheds = |surface: &&Surface| {
+            let SurfaceKind::Wall { model, .. } = &surface.kind else { return false };
+            matches!(surface.shape, Shape::Pipe { .. }) && self.model.walls()[*model].sheds()
+        };
+        let sideways = self.deposit.is_some() && self.gravity.xy().norm() > 0.0;
+        self.surfaces.iter().find(sheds).filter(|_| sideways).map(|surface| surface.name.as_str())
     }
 
     /// Number of all particles.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::report::{ours, write};
 use nearwall::report::openfoam_page;
-use nearwall::results::gas::{GasCut, GasQuantity, ParcelQuantity};
+use nearwall::results::gas::{CutCell, GasCut, GasQuantity, ParcelQuantity};
 use nearwall::results::openfoam::{self, gas::read_last};
 
 const CLOUD: &str = "kinematicCloud";
@@ -74,6 +74,32 @@ fn the_cut_has_the_area_of_the_section_and_the_parcels_their_places() {
         // Those within 0.025 m of y = 0.25 m.
         let shown = gas.shown().into_iter().map(|(place, _)| place.map(|part| (1e3 * part).round()));
         assert_eq!(shown.collect::<Vec<_>>(), [[1900.0, 50.0], [1200.0, 900.0], [600.0, 300.0]]);
+    }
+}
+
+/// Each cell has its own temperature: blockMesh numbers three cells along x, then two along y, then two along z.
+#[test]
+fn every_cell_has_its_own_value() {
+    let folder = copied("ascii");
+    let value = |x: usize, z: usize| 300.0 + (x + 6 * z) as f64 + 3.0;
+    let values: Vec<String> = (0..12).map(|cell| format!("{}", 300 + cell)).collect();
+    let field = format!(
+        "FoamFile\n{{\n    format ascii;\n    class volScalarField;\n}}\ndimensions [0 0 0 1 0 0 0];\n\
+         internalField nonuniform List<scalar>\n12\n(\n{}\n);\nboundaryField {{}}\n",
+        values.join("\n")
+    );
+    write(folder.path(), "0.1/T", &field);
+    let gas = read(folder.path());
+    assert_eq!((gas.quantity, gas.cells.len()), (GasQuantity::Temperature, 6));
+    let middle = |outline: &[[f64; 2]], axis: usize| {
+        outline.iter().map(|corner| corner[axis]).sum::<f64>() / outline.len() as f64
+    };
+    for z in [0, 1] {
+        let in_row = |cell: &&CutCell| (middle(&cell.outline, 1) > 0.5) == (z == 1);
+        let mut row: Vec<&CutCell> = gas.cells.iter().filter(in_row).collect();
+        row.sort_by(|a, b| middle(&a.outline, 0).total_cmp(&middle(&b.outline, 0)));
+        let found: Vec<f64> = row.iter().map(|cell| cell.value).collect();
+        assert_eq!(found, [0, 1, 2].map(|x| value(x, z)));
     }
 }
 

@@ -27,6 +27,7 @@ model = "constant"
 e_t = 0.8
 "#;
 
+const AIR: &str = "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005";
 const THIN: &str = "density = 1e-9\nviscosity = 1e-15\nconductivity = 1e-9\nheat_capacity = 1000";
 
 /// A case of one wall, the plane z = 0.
@@ -605,6 +606,30 @@ fn a_deposit_that_hangs_falls_off_when_it_is_too_heavy() {
         assert!((bin.shed[step] - (landed - lies)).abs() < 1e-17, "{step}");
     }
     assert_eq!(bin.resuspended[20], 0.0);
+}
+
+/// Air at 1 m/s of friction velocity shears a floor by 1.2 Pa: what holds less falls, what holds more stays.
+#[test]
+fn the_gas_shears_a_deposit_off() {
+    let lies = |strength: f64| {
+        let table =
+            format!("[model.walls.default.shedding]\ntensile_strength = 1\nshear_strength = {strength}\n");
+        let text = falling(&table, "").replace("[[walls]]\n", "[[walls]]\nfriction_velocity = 1\n");
+        let (_, runs) = trajectories_of(&text.replace(THIN, AIR));
+        let bin = &runs[0].deposits.as_ref().unwrap().walls[0].bins[0];
+        bin.states[20].mass() * bin.area
+    };
+    assert_eq!(lies(1.19), 0.0);
+    near(lies(1.21), 1e-5, 1e-12);
+    // A bin goes all around a pipe, so it has no side that hangs.
+    let pipe = falling("[model.walls.default.shedding]\ntensile_strength = 1\nshear_strength = 1\n", "")
+        .replace(
+            "\"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n",
+            "\"pipe\"\nradius = 0.01\nzone = [0, 1]\n",
+        )
+        .replace("temperature = 300\nradius = 0.01\n", "temperature = 300\n");
+    let error = refusal(&pipe, "[run]\n", "[run]\ngravity = [0, 9.81, 0]\n");
+    assert!(error.contains("run.gravity: pulls across the pipe `floor`"), "{error}");
 }
 
 /// Powder that lands at a constant rate while gas carries it away: each cohort has its own age, which the deposit does not know.

@@ -26,7 +26,7 @@ const LEAST_WIDTH: f64 = 470.0;
 /// Length of an axis for a number [px].
 const TICK: [f64; 2] = [50.0, 44.0];
 
-/// A picture under construction; one metre is equally long along both axes.
+/// A picture under construction; one metre is equally long along both axes, unless the domain is very thin.
 pub(in crate::report) struct GasPicture<'a> {
     cells: &'a [CutCell],
     ends: [[f64; 2]; 2],

@@ -21,7 +21,7 @@ pub(super) fn add_to(comparison: &Comparison<'_>, page: &mut Page) {
         page.heading("Gas and parcels");
         page.text(
             "A cut through the middle of the domain, with the parcels in flight near it. ParaView shows the same with the walls: start \
-             paraview --script=openfoam/paraview/gasWithParcels.py in the folder of the case.",
+             paraview --script=PATH/gasWithParcels.py in the folder of the case; the script is in openfoam/paraview of nearwall.",
         );
         page.figures(figures);
     }
@@ -80,7 +80,7 @@ fn caption(run: &RunResults, gas: &GasCut, [cells, near, every]: [usize; 3]) -> 
     }
     let all = gas.parcels.len();
     words.push(match gas.slab() {
-        None => format!("All {all} parcels of the cloud in flight."),
+        None => format!("The cloud has {all} parcels in flight."),
         Some(slab) => format!(
             "{near} of the {all} parcels of the cloud in flight: those within {} m of the plane.",
             number(0.5 * slab)

@@ -17,8 +17,8 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through the middle of a box, whose ends are in m. Of equal extents the later axis counts as the smaller one, but
-    /// z last: in a round vertical vessel the plane is normal to y. `None` for a box without an extent.
+    /// The plane through the middle of a box, whose ends are in m. Of equal extents it takes y, then x,
+    /// then z: in a round vertical vessel the plane is normal to y. `None` for a box without an extent.
     pub fn through(ends: &[[f64; 2]; 3]) -> Option<Self> {
         let extents = ends.map(|[low, high]| high - low);
         if !extents.iter().all(|extent| extent.is_finite() && *extent > 0.0) {

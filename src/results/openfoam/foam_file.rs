@@ -41,15 +41,17 @@ impl Arch {
 
     /// The number that these bytes are; `None` for an unknown width.
     pub fn number(&self, bytes: &[u8], is_label: bool) -> Option<f64> {
-        let mut bytes = bytes.to_vec();
+        let mut number = [0; 8];
+        let number = number.get_mut(..bytes.len())?;
+        number.copy_from_slice(bytes);
         if self.big_endian {
-            bytes.reverse();
+            number.reverse();
         }
         Some(match (bytes.len(), is_label) {
-            (4, true) => f64::from(i32::from_le_bytes(bytes.try_into().ok()?)),
-            (8, true) => i64::from_le_bytes(bytes.try_into().ok()?) as f64,
-            (4, false) => f64::from(f32::from_le_bytes(bytes.try_into().ok()?)),
-            (8, false) => f64::from_le_bytes(bytes.try_into().ok()?),
+            (4, true) => f64::from(i32::from_le_bytes((&*number).try_into().ok()?)),
+            (8, true) => i64::from_le_bytes((&*number).try_into().ok()?) as f64,
+            (4, false) => f64::from(f32::from_le_bytes((&*number).try_into().ok()?)),
+            (8, false) => f64::from_le_bytes((&*number).try_into().ok()?),
             _ => return None,
         })
     }

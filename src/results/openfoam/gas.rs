@@ -14,6 +14,9 @@ use super::surfaces::{has_collated, ranks};
 use super::{file_name, internal_field, time_folders};
 use crate::results::gas::{CutCell, GasCut, GasQuantity, Plane};
 
+/// Largest size of the files `faces` of a mesh that is cut, in all [bytes]: some four million cells, for which reading takes a gigabyte.
+const LARGEST_MESH: u64 = 250_000_000;
+
 /// Why there is no picture of gas and parcels.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GasError {
@@ -26,6 +29,11 @@ pub enum GasError {
          parcels"
     )]
     Collated(String),
+    /// The mesh is too large to be cut.
+    #[error(
+        "{0}: the mesh is too large for a picture of gas and parcels here; openfoam/paraview/gasWithParcels.py shows it in ParaView"
+    )]
+    TooLarge(String),
 }
 
 /// Reads gas and parcels; `None` when the case has no parcels, no mesh, or neither `T` nor `U` at that time.
@@ -41,6 +49,9 @@ pub fn read_last(case: &Path, cloud: &str) -> Result<Option<GasCut>, GasError> {
         };
     };
     let Some(quantity) = source.quantity() else { return Ok(None) };
+    if source.size() > LARGEST_MESH {
+        return Err(GasError::TooLarge(case.display().to_string()));
+    }
     source.read(case, cloud, quantity).map_err(GasError::Unreadable)
 }
 
@@ -65,6 +76,12 @@ impl Source {
         };
         let has_mesh = |root: &PathBuf| is_written(&Mesh { root, time }.path("owner"));
         roots.iter().all(has_mesh).then_some(Self { roots, time, folder })
+    }
+
+    /// Size of the files `faces` [bytes].
+    fn size(&self) -> u64 {
+        let faces = self.roots.iter().map(|root| Mesh { root, time: self.time }.path("faces"));
+        faces.filter_map(|path| std::fs::metadata(path).ok()).map(|file| file.len()).sum()
     }
 
     fn file(&self, root: &Path, name: &str) -> PathBuf {

@@ -190,7 +190,9 @@ impl Binary {
             let label_at = |place: usize| self.number(at + 1 + scalars * scalar + place * label, label, true);
             (0..scalars).map(scalar_at).chain((0..labels).map(label_at)).collect()
         };
-        (0..self.count).map(row).collect()
+        // The bracket that closes the list tells rows of this form from longer ones, also where there is but one.
+        let is_end = self.body.get(first + self.count * (length + 3)) == Some(&b')');
+        if is_end { (0..self.count).map(row).collect() } else { None }
     }
 }
 

@@ -14,9 +14,11 @@ use measured_resuspension::{alumina, measured};
 
 const PLACE: &str = "Reeks & Hall 2001, as read off by V. Bourgin";
 
+pub(super) const HEADING: &str = "Resuspension: alumina spheres on polished steel";
+
 pub fn part() -> Part {
     Part {
-        heading: "Resuspension: alumina spheres on polished steel".to_owned(),
+        heading: HEADING.to_owned(),
         text: vec![
             "The law of Reeks & Hall with the reduced adhesion of Biasi et al. 2001, 0.56 J/m² and air at room \
              temperature; the fraction that remains after 1 s. No blind test, for Biasi et al. fitted \
