@@ -859,6 +859,13 @@ fn a_resuspension_table_is_checked() {
         let fault = told(keys).unwrap_err();
         assert!(fault.contains(word), "{keys}: {fault}");
     }
+    // Covered by powder that has no mass.
+    let covered = format!(
+        "{EVERY_REGIME}\n[walls.dusty]\nmaterial = \"pyrex\"\ncoverage = 0.3\n\
+                           [walls.dusty.resuspension]\nwork_of_adhesion = 0.5\n"
+    );
+    let fault = Model::from_toml("m", &covered).map(|_| ()).unwrap_err().to_string();
+    assert!(fault.contains("walls.dusty.coverage: is powder without a mass"), "{fault}");
 }
 
 /// The table `shedding` of a wall: both strengths, in their bounds, and nothing else.
