@@ -78,7 +78,7 @@ impl Wall {
 
     /// Whether the model file says how it loses deposits.
     pub fn loses_deposits(&self) -> bool {
-        self.shedding.is_some() || self.resuspension.is_some()
+        self.sheds() || self.resuspension.is_some()
     }
 
     /// Whether the name of the wall is a regular expression that matches the whole of `patch`.

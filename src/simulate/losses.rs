@@ -6,7 +6,7 @@
 use nalgebra::Vector3;
 
 use super::case::Case;
-use super::surface::Surface;
+use super::surface::{Surface, SurfaceKind};
 use crate::deposit::Deposit;
 use crate::deposit::resuspension::WallGas;
 use crate::deposit::shedding::Load;
@@ -19,36 +19,29 @@ fn rank(bin: usize) -> f64 {
     (0.5 + bin as f64 * GOLDEN).fract()
 }
 
-/// The deposit of a bin after the gas carried powder away for a time [s].
-pub(super) fn resuspended(
+/// The deposit of a bin of a wall, at a place of it: after the gas carried powder away for a time [s], and after what the wall cannot hold
+/// has fallen off as well.
+pub(super) fn after(
     case: &Case,
-    wall: usize,
-    friction_velocity: f64,
-    place: &Vector3<f64>,
-    deposit: &Deposit,
-    voidage: f64,
-    duration: f64,
-) -> Result<Deposit, ImpactError> {
-    let gas = case.gas.at(place);
-    let kinematic_viscosity = gas.viscosity / gas.density;
-    let gas = WallGas { density: gas.density, kinematic_viscosity, friction_velocity };
-    case.model.resuspended(wall, deposit, voidage, &gas, duration)
-}
-
-/// The deposit of a bin after what the wall cannot hold has fallen off.
-pub(super) fn shed(
-    case: &Case,
-    wall: usize,
     surface: &Surface,
-    friction_velocity: f64,
     place: &Vector3<f64>,
     bin: usize,
     deposit: &Deposit,
-) -> Result<Deposit, ImpactError> {
+    voidage: f64,
+    duration: f64,
+) -> Result<[Deposit; 2], ImpactError> {
+    let SurfaceKind::Wall { model: wall, friction_velocity, .. } = surface.kind else {
+        return Ok([*deposit; 2]);
+    };
+    let gas = case.gas.at(place);
+    let kinematic_viscosity = gas.viscosity / gas.density;
+    let gas = WallGas { density: gas.density, kinematic_viscosity, friction_velocity };
+    let blown = case.model.resuspended(wall, deposit, voidage, &gas, duration)?;
+
     let normal = surface.shape.normal(place);
     let gravity_outward = case.gravity.dot(&normal);
     let gravity_along = (case.gravity - gravity_outward * normal).norm();
-    let shear = case.gas.at(place).density * friction_velocity * friction_velocity;
+    let shear = gas.density * friction_velocity * friction_velocity;
     let load = Load { gravity_outward, gravity_along, gas_shear: [shear, 0.0] };
-    case.model.shed(wall, deposit, &load, rank(bin))
+    Ok([blown, case.model.shed(wall, &blown, &load, rank(bin))?])
 }

@@ -312,12 +312,9 @@ impl Bin {
         voidage: f64,
         duration: f64,
     ) -> Result<(), ImpactError> {
-        let SurfaceKind::Wall { model, friction_velocity, .. } = &surface.kind else { return Ok(()) };
         let place = surface.shape.point_at(self.middle());
         let before = self.deposit;
-        let blown =
-            losses::resuspended(case, *model, *friction_velocity, &place, &before, voidage, duration)?;
-        let left = losses::shed(case, *model, surface, *friction_velocity, &place, number, &blown)?;
+        let [blown, left] = losses::after(case, surface, &place, number, &before, voidage, duration)?;
         self.step.resuspended = before.mass() - blown.mass();
         self.step.shed = blown.mass() - left.mass();
         let kept = if before.powder > 0.0 { left.powder / before.powder } else { 1.0 };

@@ -128,39 +128,8 @@ work_of_adhesion = 5
 END
     sed -i 's/^\[walls.floor\]/&\nlayer_thickness = 5e-5/' constant/nearWall.toml
     solve blown agrees "$solver" || return
-    cat > case.toml <<END
-model = "constant/nearWall.toml"
-[run]
-time_limit = 1
-[gas]
-field = "uniform"
-velocity = [0, 0, 0]
-temperature = 700
-density = $(awk 'BEGIN { printf "%.12g", 1e5/(8314.47/28.9*700) }')
-viscosity = 1.8e-5
-conductivity = 0.026
-heat_capacity = 1007
-[particles]
-count = 1
-position = { shape = "point", at = [0, 0, 1] }
-direction = [0, 0, 1]
-speed = 3
-diameter = 1e-4
-temperature = 700
-[[walls]]
-name = "floor"
-temperature = 700
-friction_velocity = $u
-shape = "plane"
-point = [0, 0, 0]
-normal = [0, 0, 1]
-radius = 0.01
-[deposit]
-duration = 10
-steps = 7
-bins = 1
-END
-    nearwall simulate case.toml -o simulated > log.simulate 2>&1 || { bad blown/agrees "$(tail -n 3 log.simulate)"; return; }
+    simulate_floor blown/agrees 700 "$(awk 'BEGIN { printf "%.12g", 1e5/(8314.47/28.9*700) }')" 0.026 10 7 "temperature = 700
+friction_velocity = $u" || return
     want="$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next } NR == 2 { m = $at["on_wall_kg"] }
         END { printf "%.12g", $at["resuspended_kg"]/m }' simulated/deposit.csv)"
     got="$(awk -v r="$(last "$(folder kinematicCloud)/floor.wall.dat" resuspended_kg)" -v m="$(last "$(folder kinematicCloud)/floor.wall.dat" initial_kg)" 'BEGIN { printf "%.12g", r/m }')"

@@ -143,6 +143,46 @@ case_grown() {
     same_walls grown/ranks 0 1e-9
 }
 
+# A floor in `nearwall simulate` for some time [s] and steps, with the model of the case and gas of 1.8e-5 Pa s above it; no particle
+# reaches it
+simulate_floor() { # name gas-temperature density conductivity duration steps keys-of-the-wall
+    cat > case.toml <<END
+model = "constant/nearWall.toml"
+[run]
+time_limit = 1
+[gas]
+field = "uniform"
+velocity = [0, 0, 0]
+temperature = $2
+density = $3
+viscosity = 1.8e-5
+conductivity = $4
+heat_capacity = 1007
+[particles]
+count = 1
+position = { shape = "point", at = [0, 0, 1] }
+direction = [1, 0, 0]
+speed = 3
+diameter = 1e-4
+temperature = 300
+density = 1000
+sizes_count = "mass"
+mass = 1e-12
+[[walls]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+radius = 0.01
+$7
+[deposit]
+duration = $5
+steps = $6
+bins = 1
+END
+    nearwall simulate case.toml -o simulated > log.simulate 2>&1 || { bad "$1" "$(tail -n 3 log.simulate)"; return 1; }
+}
+
 # The same wall in `nearwall simulate`: 2 mm of powder that sinters and melts from outside under radiation, for 1000 s. The
 # gas of the box conducts 0.0259 W/m/K over half a cell of 25 mm, and hardly cools.
 case_agrees() {
@@ -163,42 +203,8 @@ END
     solve agrees openfoam "$solver" || return
     f="$(folder coalCloud1)/floor.wall.dat"
     theirs="$(last "$f" molten_mean_kg_m2) $(last "$f" powder_mean_kg_m2) $(last "$f" layer_thickness_mean_m) $(last "$f" wall_temperature_mean_K) $(last "$f" heat_flux_mean_W_m2)"
-    cat > case.toml <<'END'
-model = "constant/nearWall.toml"
-[run]
-time_limit = 1
-[gas]
-field = "uniform"
-velocity = [0, 0, 0]
-temperature = 1200
-density = 0.29
-viscosity = 1.8e-5
-conductivity = 0.02589
-heat_capacity = 1007
-[particles]
-count = 1
-position = { shape = "point", at = [0, 0, 1] }
-direction = [1, 0, 0]
-speed = 3
-diameter = 1e-4
-temperature = 300
-density = 1000
-sizes_count = "mass"
-mass = 1e-12
-[[walls]]
-name = "floor"
-wall = "default"
-shape = "plane"
-point = [0, 0, 0]
-normal = [0, 0, 1]
-radius = 0.01
-cooling = { coolant_temperature = 500, coolant_coefficient = 900, thickness = 0, conductivity = 1, gas_coefficient = 2.0715, emissivity = 0.9, surroundings_temperature = 1700 }
-[deposit]
-duration = 1000
-steps = 50
-bins = 1
-END
-    nearwall simulate case.toml -o simulated > log.simulate 2>&1 || { bad agrees "$(tail -n 3 log.simulate)"; return; }
+    simulate_floor agrees 1200 0.29 0.02589 1000 50 'wall = "default"
+cooling = { coolant_temperature = 500, coolant_coefficient = 900, thickness = 0, conductivity = 1, gas_coefficient = 2.0715, emissivity = 0.9, surroundings_temperature = 1700 }' || return
     ours="$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
         { m = $at["molten_kg_m2"]; p = $at["powder_kg_m2"]; l = $at["layer_thickness_m"]; T = $at["surface_temperature_K"]; q = $at["heat_flux_W_m2"] }
         END { print m, p, l, T, q }' simulated/deposit.csv)"
