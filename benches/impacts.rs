@@ -13,7 +13,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use nearwall::c_api::{
     NW_OK, nw_impact, nw_model, nw_model_find_wall, nw_outcome, nw_resolve, nw_resolve_batch, nw_status,
 };
-use nearwall::model::block::{BLOCK, Outcomes};
+use nearwall::model::block::{BLOCK, Outcomes, Workspace};
 use nearwall::normal::Contact;
 use nearwall::{Impact, ImpactRng, Model};
 use nearwall_benches::*;
@@ -36,6 +36,7 @@ fn main() {
 fn blocks(criterion: &mut Criterion) {
     let (model, block) = (model(), block());
     let (mut sink, mut outcomes): (Sink, _) = ([[0.0; BLOCK]; 3], Outcomes::default());
+    let mut workspace = Workspace::default();
     let mut group = criterion.benchmark_group("block");
     group.throughput(Throughput::Elements(BLOCK as u64));
     for (name, level) in levels() {
@@ -47,7 +48,9 @@ fn blocks(criterion: &mut Criterion) {
         });
         group.bench_function(BenchmarkId::new("resolve", name), |b| {
             b.iter(|| {
-                model.resolve_block_at(level, 0, black_box(&block), SEED, &mut outcomes).unwrap();
+                model
+                    .resolve_block_at(level, 0, black_box(&block), SEED, &mut outcomes, &mut workspace)
+                    .unwrap();
                 black_box(&mut outcomes);
             });
         });

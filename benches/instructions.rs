@@ -10,23 +10,23 @@ use fearless_simd::Level;
 use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 use nearwall::Model;
 use nearwall::c_api::{nw_impact, nw_model, nw_outcome, nw_resolve};
-use nearwall::model::block::{Block, Outcomes};
+use nearwall::model::block::{Block, Outcomes, Workspace};
 use nearwall_benches::*;
 
 /// On the heap, so that what is counted does not move it about.
-type Blocks = Box<(Model, Block, Level, Outcomes)>;
+type Blocks = Box<(Model, Block, Level, Outcomes, Workspace)>;
 
 fn at(name: &str) -> Blocks {
     let level = levels().into_iter().find(|level| level.0 == name).unwrap().1;
-    Box::new((model(), block(), level, Outcomes::default()))
+    Box::new((model(), block(), level, Outcomes::default(), Workspace::default()))
 }
 
 #[library_benchmark]
 #[bench::sse2(args = ("SSE2"), setup = at)]
 #[bench::avx2(args = ("AVX2"), setup = at)]
 fn block_of_128(mut blocks: Blocks) -> Blocks {
-    let (model, block, level, outcomes) = &mut *blocks;
-    model.resolve_block_at(*level, 0, black_box(block), SEED, outcomes).unwrap();
+    let (model, block, level, outcomes, workspace) = &mut *blocks;
+    model.resolve_block_at(*level, 0, black_box(block), SEED, outcomes, workspace).unwrap();
     blocks
 }
 

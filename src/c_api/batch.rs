@@ -6,9 +6,9 @@ use super::impact::nw_impacts;
 use super::types::{
     NW_NULL_POINTER, NW_OUTSIDE_VALID_RANGE, NW_STRUCT_SIZE, flags, nw_model, nw_status, zero_by_default,
 };
-use crate::impact::{INPUTS, Input, Outcome};
-use crate::model::Model;
-use crate::model::block::{BLOCK, Block, Outcomes};
+use crate::impact::{INPUTS, Impact, Input, Outcome};
+use crate::model::block::{BLOCK, Block, Outcomes, Workspace};
+use crate::model::{Model, TemperatureRanges};
 
 /// Arrays that receive the outcomes, each with room for `count` entries of `nw_impacts`; null if not wanted. They must
 /// not overlap the inputs or each other.
@@ -79,11 +79,23 @@ impl nw_impacts {
     /// # Safety
     /// Every array that is not null has `count` entries.
     unsafe fn check(&self, model: &Model) -> Result<(), (usize, nw_status)> {
-        // SAFETY: the caller's promise.
-        let prepared = unsafe {
-            let wall = |index| get(self.walls, index, self.wall) as usize;
-            let differing = if self.walls.is_null() { self.count.min(1) } else { self.count };
-            (0..differing).all(|index| model.is_prepared(wall(index)))
+        let within = |value: f64, [low, high]: [f64; 2]| (value >= low) & (value <= high);
+        let usual = Impact::default();
+        // SAFETY: the caller's promise, here and below.
+        let wall = |index| unsafe { get(self.walls, index, self.wall) as usize };
+        let known = |ranges: TemperatureRanges, index| unsafe {
+            within(get(self.T_p, index, usual.particle_temperature), ranges.particle)
+                & within(get(self.T_w, index, usual.wall_temperature), ranges.wall)
+        };
+        let prepared = if self.walls.is_null() {
+            let all_known = |ranges| {
+                let each = |all, index| all & known(ranges, index);
+                ranges == TemperatureRanges::ALL || (0..self.count).fold(true, each)
+            };
+            self.count == 0 || model.prepared_temperatures(wall(0)).is_some_and(all_known)
+        } else {
+            let is_known = |index| model.prepared_temperatures(wall(index)).is_some_and(|r| known(r, index));
+            (0..self.count).all(is_known)
         };
         let allowed = |(column, Input { bounds, .. }): (*const f64, &Input)| {
             // SAFETY: as above. Without branches, so that memory limits the speed.
@@ -105,7 +117,8 @@ impl nw_impacts {
     /// # Safety
     /// Every array that is not null has `count` entries.
     unsafe fn resolve(&self, model: &Model, outcomes: &nw_outcomes) -> Result<(), nw_status> {
-        let (mut block, mut results) = (Block::default(), Outcomes::default());
+        let (mut block, mut results, mut workspace) =
+            (Block::default(), Outcomes::default(), Workspace::default());
         for start in (0..self.count).step_by(BLOCK) {
             block.length = (self.count - start).min(BLOCK);
             // SAFETY: `start + length <= count`.
@@ -116,7 +129,7 @@ impl nw_impacts {
                 let plain = self.extra.iter().all(|array| array.is_null());
                 if plain && walls.clone().all(|index| get(self.walls, index, wall) == wall) {
                     self.load(start, &mut block);
-                    model.resolve_block(wall as usize, &block, self.seed, &mut results)?;
+                    model.resolve_block(wall as usize, &block, self.seed, &mut results, &mut workspace)?;
                     outcomes.store(start, block.length, &results);
                 } else {
                     for index in walls {

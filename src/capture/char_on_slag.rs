@@ -113,6 +113,31 @@ pub fn detaching_work(diameter: f64, surface_tension: f64, contact_angle: f64) -
     PI / 4.0 * diameter * diameter * surface_tension * (1.0 + contact_angle.cos()).powi(2)
 }
 
+/// [`CharOnSlag::restitution`], 0 for char that stays: from the char's diameter [m], density [kg/m³] and speed towards the slag [m/s], the
+/// slag's viscosity [Pa s] and surface tension [N/m], and the cosine of the contact angle [1]. Without branches, for vectors.
+#[inline(always)]
+pub(crate) fn rebound_from_slag(
+    [diameter, density, normal_speed]: [f64; 3],
+    [viscosity, surface_tension]: [f64; 2],
+    cosine: f64,
+) -> f64 {
+    // Speeds: drag along one diameter takes `18 mu/(rho d)`, a work `pi R² sigma x²` leaves `v² - 3 sigma x²/(rho d)`.
+    let size = 1.0 / (density * diameter);
+    let drag = 18.0 * viscosity * size;
+    let squared = |part: f64| 3.0 * surface_tension * (part * part) * size;
+    let inwards = at_least_zero(normal_speed - drag);
+    let outwards = at_least_zero(2.0 * inwards - normal_speed);
+    let left = outwards * outwards - squared(1.0 + cosine);
+    let leaves = (inwards * inwards < squared(1.0 - cosine)) & (left > 0.0);
+    let e_n = at_least_zero(left).sqrt() / normal_speed;
+    if leaves { e_n } else { 0.0 }
+}
+
+#[inline(always)]
+fn at_least_zero(speed: f64) -> f64 {
+    if speed > 0.0 { speed } else { 0.0 }
+}
+
 /// Share of a wall that char covers [1], `1 - exp(-A)` with `A exp(A) = N`, from the area `N` [1] that would arrive within one stay.
 pub fn char_coverage(arriving: f64) -> f64 {
     if arriving.is_infinite() {
@@ -160,16 +185,12 @@ impl CharOnSlag {
 
     /// Normal restitution [1] of char that leaves the slag again; `None` when it sinks or surface tension holds it.
     pub fn restitution(&self) -> Option<f64> {
-        let mass = self.density * PI / 6.0 * self.diameter.powi(3);
-        let tension = self.slag.surface_tension;
-        let energy = |speed: f64| 0.5 * mass * speed * speed;
-        let inwards = self.speed_left();
-        if energy(inwards) >= submerging_work(self.diameter, tension, self.contact_angle) {
-            return None;
-        }
-        let outwards = (2.0 * inwards - self.normal_speed).max(0.0);
-        let left = energy(outwards) - detaching_work(self.diameter, tension, self.contact_angle);
-        (left > 0.0).then(|| (2.0 * left / mass).sqrt() / self.normal_speed)
+        let e_n = rebound_from_slag(
+            [self.diameter, self.density, self.normal_speed],
+            [self.slag.viscosity, self.slag.surface_tension],
+            self.contact_angle.cos(),
+        );
+        (e_n > 0.0).then_some(e_n)
     }
 
     /// Fresh slag [kg/m²] that buries it, as high as the char stands out.

@@ -6,11 +6,13 @@
 
 use std::sync::Arc;
 
+use fearless_simd::Level;
+
 use super::droplet::DropletCriterion;
 use super::melt_fraction::MeltFractionCriterion;
 use super::stickiness::Combination;
 use super::viscosity::ViscosityCriterion;
-use crate::impact::{Impact, ImpactError};
+use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::Material;
 use crate::slag::UnsuitableComposition;
@@ -143,6 +145,35 @@ impl Criterion {
     }
 }
 
+/// A material on a wall, as one impact meets it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallState {
+    /// Its stickiness [1].
+    pub stickiness: f64,
+    /// Its viscosity [Pa s], infinite where it is stiff.
+    pub viscosity: f64,
+    /// Whether the criterion is stated for it.
+    pub holds: bool,
+}
+
+/// A material in flight or on a wall, as a block of impacts meets it.
+#[derive(Debug, Clone)]
+pub struct MeltStates {
+    /// Its stickiness [1].
+    pub stickiness: [f64; BLOCK],
+    /// Its viscosity [Pa s], infinite where it is stiff.
+    pub viscosity: [f64; BLOCK],
+    /// 1 where the criterion is stated for it, else 0.
+    pub holds: [u64; BLOCK],
+}
+
+impl Default for MeltStates {
+    /// A material that is never sticky.
+    fn default() -> Self {
+        Self { stickiness: [0.0; BLOCK], viscosity: [f64::INFINITY; BLOCK], holds: [1; BLOCK] }
+    }
+}
+
 /// A criterion for one material.
 pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// The model's name in the `[capture]` table.
@@ -157,6 +188,37 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// Stickiness [1] of the material on a wall, at the wall's temperature, where it had time to crystallise. Outside a table the
     /// value at its nearest end, or 0 where that is colder. By the droplet criterion it is 1 above the melting point and 0 below.
     fn on_wall(&self, impact: &Impact) -> f64;
+
+    /// [`Self::on_wall`], [`Self::film_viscosity`] and [`Self::holds_on_wall`] of one impact.
+    fn wall_state(&self, impact: &Impact) -> WallState {
+        let temperature = impact.wall_temperature;
+        WallState {
+            stickiness: self.on_wall(impact),
+            viscosity: self.film_viscosity(temperature),
+            holds: self.holds_on_wall(temperature),
+        }
+    }
+
+    /// [`Self::in_flight`] and [`Self::holds_in_flight`] of a block of impacts whose particles have a temperature in
+    /// [`Self::known_range`], with the vectors of `level`.
+    fn in_flight_each(&self, _level: Level, block: &Block, states: &mut MeltStates) {
+        for index in 0..block.length.min(BLOCK) {
+            let impact = block.impact(index);
+            // In the known range there is no error.
+            states.stickiness[index] = self.in_flight(&impact).unwrap_or(f64::NAN);
+            states.holds[index] = u64::from(self.holds_in_flight(impact.particle_temperature));
+        }
+    }
+
+    /// [`Self::wall_state`] of a block of impacts, with the vectors of `level`.
+    fn on_wall_each(&self, _level: Level, block: &Block, states: &mut MeltStates) {
+        for index in 0..block.length.min(BLOCK) {
+            let WallState { stickiness, viscosity, holds } = self.wall_state(&block.impact(index));
+            states.stickiness[index] = stickiness;
+            states.viscosity[index] = viscosity;
+            states.holds[index] = u64::from(holds);
+        }
+    }
 
     /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is frozen, too stiff to flow, or below a
     /// measured table, and that at the end of the table above it.
@@ -181,6 +243,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// without such a temperature.
     fn stiff_below(&self) -> Option<(f64, bool)> {
         None
+    }
+
+    /// Whether particles may be droplets.
+    fn has_droplets(&self) -> bool {
+        false
     }
 
     /// Whether a particle at a temperature [K] is a droplet, whose capture does not depend on the wall.

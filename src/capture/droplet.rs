@@ -229,6 +229,10 @@ impl StickinessCriterion for Droplet {
     }
 
     /// Whether the material is molten; no where that is not known.
+    fn has_droplets(&self) -> bool {
+        true
+    }
+
     fn is_droplet(&self, temperature: f64) -> bool {
         self.is_molten(temperature).unwrap_or(false)
     }

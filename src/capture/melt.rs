@@ -1,8 +1,10 @@
 //! The viscosity of a melt: a material's own, or by a law from its composition; on a wall it stiffens as it crystallises.
 
+use fearless_simd::{Level, dispatch};
+
 use super::Unsuitable;
 use super::solidification::{Solidification, Stiffening};
-use crate::impact::ImpactError;
+use crate::impact::{BLOCK, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::Material;
 use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw, withdrawn};
@@ -95,6 +97,60 @@ impl Melt {
         known.flatten().unwrap_or(f64::INFINITY) * self.stiffening.factor(temperature)
     }
 
+    /// As [`Self::viscosity`] for many temperatures [K] at which it is known, with the vectors of `level`.
+    pub fn viscosities(&self, level: Level, temperatures: &[f64], out: &mut [f64]) {
+        match &self.viscosity {
+            MeltViscosity::Oxides(law) => law.at_each(level, temperatures, out),
+            MeltViscosity::Given(material) => {
+                if let Some(property) = material.property("viscosity") {
+                    let out = &mut out[..temperatures.len()];
+                    dispatch!(level, _simd => property.within_range_each(temperatures, out));
+                }
+            }
+        }
+    }
+
+    /// As [`Self::film_viscosity`] for the wall temperatures [K] of a block.
+    pub fn film_viscosities(&self, level: Level, temperatures: &[f64], out: &mut [f64]) {
+        let [low, high] = self.known_range();
+        let mut known = [0.0; BLOCK];
+        let known = &mut known[..temperatures.len()];
+        dispatch!(level, _simd => {
+            known.iter_mut().zip(temperatures).for_each(|(known, t)| *known = t.max(low).min(high));
+        });
+        self.viscosities(level, known, out);
+        dispatch!(level, _simd => self.stiffening.for_each(temperatures, out, |factor, temperature, viscosity| {
+            let known = if temperature >= low { viscosity } else { f64::INFINITY };
+            known * factor
+        }));
+    }
+
+    /// As [`Self::holds_in_flight`] for many temperatures [K]: 1 or 0.
+    pub fn hold_in_flight(&self, level: Level, temperatures: &[f64], out: &mut [u64]) {
+        let [low, high] = self.stated_range();
+        dispatch!(level, _simd => {
+            let inside = |t: f64| u64::from((t >= low) & (t <= high));
+            out.iter_mut().zip(temperatures).for_each(|(holds, t)| *holds = inside(*t));
+        });
+    }
+
+    /// As [`Self::holds_on_wall`] for many temperatures [K]: 1 or 0.
+    pub fn hold_on_wall(&self, level: Level, temperatures: &[f64], out: &mut [u64]) {
+        let [low, high] = self.stated_range();
+        let stated = self.stiffening.holds();
+        dispatch!(level, _simd => self.stiffening.for_each(temperatures, out, |factor, t, _| {
+            u64::from(stated & ((factor == f64::INFINITY) | ((t >= low) & (t <= high))))
+        }));
+    }
+
+    /// Temperatures [K] for which the viscosity is stated; from infinity to 0 for none.
+    fn stated_range(&self) -> [f64; 2] {
+        match &self.viscosity {
+            MeltViscosity::Oxides(law) => law.range().unwrap_or([f64::INFINITY, 0.0]),
+            MeltViscosity::Given(_) => self.known_range(),
+        }
+    }
+
     /// Temperatures [K] at which the viscosity is known.
     pub fn known_range(&self) -> [f64; 2] {
         match &self.viscosity {
@@ -105,13 +161,8 @@ impl Melt {
 
     /// Whether the viscosity is stated for the material at a temperature [K]; a material's own is within [`Self::known_range`].
     pub fn holds_in_flight(&self, temperature: f64) -> bool {
-        match &self.viscosity {
-            MeltViscosity::Oxides(law) => law.holds_at(temperature),
-            MeltViscosity::Given(_) => {
-                let [low, high] = self.known_range();
-                (low..=high).contains(&temperature)
-            }
-        }
+        let [low, high] = self.stated_range();
+        (low..=high).contains(&temperature)
     }
 
     /// Temperature [K] below which it is stiff on a wall, and whether the law for that is stated for the material; `None` for a

@@ -90,8 +90,16 @@ pub(super) enum Stiffening {
     },
 }
 
+#[inline(always)]
+fn each<T: Copy>(temperatures: &[f64], out: &mut [T], change: impl Fn(f64, T) -> T) {
+    for (entry, temperature) in out.iter_mut().zip(temperatures) {
+        *entry = change(*temperature, *entry);
+    }
+}
+
 impl Stiffening {
     /// Factor on the viscosity of the liquid [1] at a temperature [K]: 1 or more, infinite where it is stiff.
+    #[inline(always)]
     pub fn factor(self, temperature: f64) -> f64 {
         match self {
             Self::Never => 1.0,
@@ -104,6 +112,23 @@ impl Stiffening {
             }
             Self::Crystals { liquidus, solidus } => {
                 crystal_load::einstein_roscoe(crystal_load::crystal_share(temperature, solidus, liquidus))
+            }
+        }
+    }
+
+    /// Changes each entry by [`Self::factor`], its temperature [K] and its value before. The law is matched outside the loop, which the
+    /// compiler turns into vector instructions.
+    #[inline(always)]
+    pub fn for_each<T: Copy>(self, temperatures: &[f64], out: &mut [T], change: impl Fn(f64, f64, T) -> T) {
+        match self {
+            Self::Never => each(temperatures, out, |t, before| change(1.0, t, before)),
+            Self::Below { temperature, stated } => {
+                let law = Self::Below { temperature, stated };
+                each(temperatures, out, |t, before| change(law.factor(t), t, before));
+            }
+            Self::Crystals { liquidus, solidus } => {
+                let law = Self::Crystals { liquidus, solidus };
+                each(temperatures, out, |t, before| change(law.factor(t), t, before));
             }
         }
     }

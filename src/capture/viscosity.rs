@@ -6,14 +6,17 @@
 //! critical viscosity ([`super::Solidification`]). It does not include residual carbon (see the effect
 //! `conversion-transition`).
 
+use fearless_simd::{Level, dispatch};
+
 use super::kinetic_energy::EnergyLaw;
 use super::melt::{Melt, MeltLaws};
-use super::{StickinessCriterion, Unsuitable};
-use crate::impact::{Impact, ImpactError};
+use super::{MeltStates, StickinessCriterion, Unsuitable, WallState};
+use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
 
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
+#[inline(always)]
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
     // Without motion every viscosity is below an infinite reference.
     if reference == f64::INFINITY { 1.0 } else { (reference / viscosity).min(1.0) }
@@ -118,6 +121,39 @@ impl MeltStickiness {
     }
 }
 
+impl MeltStickiness {
+    /// Sets the stickiness of a block from its viscosities.
+    fn each_reference(
+        &self,
+        level: Level,
+        block: &Block,
+        states: &mut MeltStates,
+        stickiness: impl Fn(f64, f64) -> f64,
+    ) {
+        let length = block.length.min(BLOCK);
+        match self.criterion.reference {
+            Reference::Constant(reference) => dispatch!(level, _simd => {
+                let (reference, MeltStates { stickiness: sticky, viscosity, .. }) = (reference, &mut *states);
+                for index in 0..length {
+                    sticky[index] = stickiness(viscosity[index], reference);
+                }
+            }),
+            Reference::Energy(_) => {
+                for index in 0..length {
+                    let reference = self.reference(&block.impact(index));
+                    states.stickiness[index] = stickiness(states.viscosity[index], reference);
+                }
+            }
+        }
+    }
+}
+
+/// Stickiness [1] of melt on a wall: what is stiff holds nothing, however slow.
+#[inline(always)]
+fn film_stickiness(viscosity: f64, reference: f64) -> f64 {
+    if viscosity == f64::INFINITY { 0.0 } else { sticking_probability(viscosity, reference) }
+}
+
 impl StickinessCriterion for MeltStickiness {
     fn name(&self) -> &'static str {
         self.criterion.name()
@@ -128,9 +164,30 @@ impl StickinessCriterion for MeltStickiness {
     }
 
     fn on_wall(&self, impact: &Impact) -> f64 {
+        film_stickiness(self.film_viscosity(impact.wall_temperature), self.reference(impact))
+    }
+
+    fn wall_state(&self, impact: &Impact) -> WallState {
         let viscosity = self.film_viscosity(impact.wall_temperature);
-        // What is stiff holds nothing, however slow.
-        if viscosity == f64::INFINITY { 0.0 } else { sticking_probability(viscosity, self.reference(impact)) }
+        WallState {
+            stickiness: film_stickiness(viscosity, self.reference(impact)),
+            viscosity,
+            holds: self.holds_on_wall(impact.wall_temperature),
+        }
+    }
+
+    fn in_flight_each(&self, level: Level, block: &Block, states: &mut MeltStates) {
+        let temperatures = &block.inputs[Impact::PARTICLE_TEMPERATURE][..block.length.min(BLOCK)];
+        self.melt.viscosities(level, temperatures, &mut states.viscosity);
+        self.melt.hold_in_flight(level, temperatures, &mut states.holds);
+        self.each_reference(level, block, states, sticking_probability);
+    }
+
+    fn on_wall_each(&self, level: Level, block: &Block, states: &mut MeltStates) {
+        let temperatures = &block.inputs[Impact::WALL_TEMPERATURE][..block.length.min(BLOCK)];
+        self.melt.film_viscosities(level, temperatures, &mut states.viscosity);
+        self.melt.hold_on_wall(level, temperatures, &mut states.holds);
+        self.each_reference(level, block, states, film_stickiness);
     }
 
     fn film_viscosity(&self, temperature: f64) -> f64 {

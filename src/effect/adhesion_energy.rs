@@ -32,7 +32,7 @@ impl Effect for AdhesionEnergy {
     }
 
     fn precompute(&self) -> Option<Precomputed> {
-        Some(Precomputed::Contact)
+        Some(Precomputed::WorkOfAdhesion(self.work_of_adhesion))
     }
 }
 

@@ -38,6 +38,7 @@ pub use crate::law::{Parameter, Search};
 use crate::model::ExtraInput;
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
+pub use dry_on_melt::DryOnMelt;
 pub use transition::Transition;
 
 /// Every effect that is a law. A diagnosis takes its candidates from here.
@@ -160,8 +161,12 @@ pub enum OnMelt {
 /// An effect that is computed when the model is read.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Precomputed {
-    /// It changes only the contact, equally for all impacts.
-    Contact,
+    /// It sets `c = p_y / sigma_y` [1] of every contact.
+    YieldRatio(f64),
+    /// It sets the work of adhesion [J/m²] of every contact.
+    WorkOfAdhesion(f64),
+    /// It decides what a melt on the wall does to a dry particle, and nothing else.
+    OnMelt(DryOnMelt),
     /// It makes the particle sticky by one input, and reduces its rebound.
     Transition(Transition),
 }

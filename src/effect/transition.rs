@@ -46,8 +46,21 @@ impl Transition {
     /// Stickiness [1] at a particle temperature [K] and carbon conversion [1].
     #[inline(always)]
     pub(crate) fn at(&self, particle_temperature: f64, conversion: f64) -> f64 {
-        let value = self.variable.value(particle_temperature, conversion);
+        self.at_value(self.variable.value(particle_temperature, conversion))
+    }
+
+    /// Stickiness [1] at a value of [`Self::input`].
+    #[inline(always)]
+    pub(crate) fn at_value(&self, value: f64) -> f64 {
         1.0 / (1.0 + exponential((self.middle - value) * self.sharpness))
+    }
+
+    /// Place in [`INPUTS`](crate::impact::INPUTS) of the input that stickiness rises over.
+    pub(crate) fn input(&self) -> usize {
+        match self.variable {
+            Variable::Temperature => Impact::PARTICLE_TEMPERATURE,
+            Variable::Conversion => Impact::CONVERSION,
+        }
     }
 }
 

@@ -32,7 +32,7 @@ impl Effect for YieldRatio {
     }
 
     fn precompute(&self) -> Option<Precomputed> {
-        Some(Precomputed::Contact)
+        Some(Precomputed::YieldRatio(self.ratio))
     }
 }
 

@@ -1,10 +1,12 @@
 //! What arrives at a wall and what leaves it.
 
+mod block;
 mod extra;
 mod inputs;
 
 use std::borrow::Cow;
 
+pub use block::{BLOCK, Block};
 pub use extra::{EXTRA_INPUTS, ExtraInputs};
 pub(crate) use inputs::for_each_input;
 pub use inputs::{Bounds, INPUTS, Impact, Input};

@@ -72,7 +72,7 @@ pub struct Material {
 }
 
 /// The mechanical properties at one temperature.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Mechanical {
     /// Density `rho` [kg/m³].
     pub density: f64,
@@ -91,6 +91,7 @@ pub struct Mechanical {
 impl Mechanical {
     /// Between these properties and those of another solid, linear in `share` [1]: 0 these, 1 the others.
     #[must_use]
+    #[inline(always)]
     pub fn mixed(&self, other: &Self, share: f64) -> Self {
         let between = |of: fn(&Self) -> f64| of(self) + (of(other) - of(self)) * share;
         Self {
@@ -227,6 +228,23 @@ impl Material {
                 None => None,
             },
         })
+    }
+
+    /// The mechanical properties, in the order of [`Mechanical`]; the last is `None` for a material without a fitted work of adhesion.
+    pub(crate) fn mechanical_by_field(&self) -> Option<([&Property; MECHANICAL], Option<&Property>)> {
+        let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|field| self.properties[field].as_ref());
+        Some(([a?, b?, c?, d?, e?], self.properties[WORK_OF_ADHESION].as_ref()))
+    }
+
+    /// Temperatures [K] at which every mechanical property is stated to hold, where they are one range; `None` where a property has a
+    /// melt of its own.
+    pub(crate) fn stated_range(&self) -> Option<[f64; 2]> {
+        let ranges: Option<Vec<_>> = self.mechanical_properties().map(Property::stated_range).collect();
+        Some(
+            ranges?
+                .into_iter()
+                .fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], [l, h]| [low.max(l), high.min(h)]),
+        )
     }
 
     /// The properties of its melt at a temperature [K].

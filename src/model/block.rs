@@ -2,25 +2,11 @@
 
 pub use fearless_simd::Level;
 
-use super::Model;
-use crate::impact::{INPUTS, Impact, ImpactError};
+use super::varying_block::Columns;
+use super::{Model, Prepared, TemperatureRanges};
+pub use crate::impact::{BLOCK, Block};
+use crate::impact::{Impact, ImpactError};
 use crate::rng::ImpactRng;
-
-/// Largest number of impacts in a block: the columns stay in the first-level cache.
-pub const BLOCK: usize = 128;
-
-/// Up to [`BLOCK`] impacts on one wall, as columns.
-#[derive(Debug, Clone)]
-pub struct Block {
-    /// A column for each of [`INPUTS`], in their order and units.
-    pub inputs: [[f64; BLOCK]; INPUTS.len()],
-    /// A column for each input that the model declares, in their order, NaN where an impact does not state it; may be shorter.
-    pub extra: Vec<[f64; BLOCK]>,
-    /// Unique key of each impact, for its random numbers.
-    pub keys: [u64; BLOCK],
-    /// Number of impacts, at most [`BLOCK`].
-    pub length: usize,
-}
 
 /// The outcomes of a [`Block`], as columns: the fields of [`Outcome`](crate::Outcome).
 #[derive(Debug, Clone)]
@@ -41,13 +27,9 @@ pub struct Outcomes {
     pub outside_range: [u32; BLOCK],
 }
 
-impl Default for Block {
-    fn default() -> Self {
-        let impact = Impact::default();
-        let inputs = std::array::from_fn(|input| [(INPUTS[input].value)(&impact); BLOCK]);
-        Self { inputs, extra: Vec::new(), keys: [0; BLOCK], length: 0 }
-    }
-}
+/// Room for the steps between the loops over a block; empty until a wall needs it. One serves any number of blocks.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace(Option<Columns>);
 
 impl Default for Outcomes {
     fn default() -> Self {
@@ -60,20 +42,6 @@ impl Default for Outcomes {
             stuck: [0; BLOCK],
             outside_range: [0; BLOCK],
         }
-    }
-}
-
-impl Block {
-    /// One of the impacts.
-    fn impact(&self, index: usize) -> Impact {
-        let mut impact = Impact::default();
-        for (input, column) in INPUTS.iter().zip(&self.inputs) {
-            (input.set)(&mut impact, column[index]);
-        }
-        for (value, column) in impact.extra.iter_mut().zip(&self.extra) {
-            *value = column[index];
-        }
-        impact
     }
 }
 
@@ -92,8 +60,9 @@ impl Model {
         block: &Block,
         seed: u64,
         outcomes: &mut Outcomes,
+        workspace: &mut Workspace,
     ) -> Result<(), ImpactError> {
-        self.resolve_block_at(Level::new(), wall, block, seed, outcomes)
+        self.resolve_block_at(Level::new(), wall, block, seed, outcomes, workspace)
     }
 
     /// As [`Model::resolve_block`] with the vectors of `level`; for benchmarks, and for tests that compare the bits.
@@ -107,14 +76,24 @@ impl Model {
         block: &Block,
         seed: u64,
         outcomes: &mut Outcomes,
+        Workspace(workspace): &mut Workspace,
     ) -> Result<(), ImpactError> {
-        if let Some(prepared) = self.prepared.get(wall).ok_or(ImpactError::NoSuchWall(wall))? {
-            // Prepared walls do not support a melt layer.
-            let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
-            if melt.iter().all(|thickness| *thickness == 0.0) {
-                prepared.resolve_block(block, seed, outcomes, level);
+        let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        match self.prepared.get(wall) {
+            Some(Prepared::Constant(prepared)) => {
+                // Prepared walls do not support a melt layer.
+                let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
+                if melt.iter().all(|thickness| *thickness == 0.0) {
+                    prepared.resolve_block(block, seed, outcomes, level);
+                    return Ok(());
+                }
+            }
+            Some(Prepared::Varying(prepared)) if prepared.decides_block(block) => {
+                let columns = workspace.get_or_insert_with(Columns::default);
+                prepared.resolve_block(self, of, block, seed, outcomes, columns, level);
                 return Ok(());
             }
+            _ => {}
         }
         for index in 0..block.length.min(BLOCK) {
             let outcome =
@@ -130,8 +109,18 @@ impl Model {
         Ok(())
     }
 
-    /// Whether the wall is prepared: only [`Impact::check`] can then refuse an impact on it.
+    /// Whether the wall is prepared: within its [temperatures](Model::temperature_ranges) only [`Impact::check`] can then refuse an
+    /// impact on it.
     pub fn is_prepared(&self, wall: usize) -> bool {
-        self.prepared.get(wall).is_some_and(Option::is_some)
+        !matches!(self.prepared.get(wall), Some(Prepared::No) | None)
+    }
+
+    /// The temperatures [K] in which only [`Impact::check`] can refuse an impact on a wall; `None` for one that is not prepared.
+    pub(crate) fn prepared_temperatures(&self, wall: usize) -> Option<TemperatureRanges> {
+        match self.prepared.get(wall)? {
+            Prepared::Constant(_) => Some(TemperatureRanges::ALL),
+            Prepared::Varying(prepared) => Some(prepared.known),
+            Prepared::No => None,
+        }
     }
 }

@@ -220,6 +220,43 @@ impl Model {
         if rebound.is_some() && molten()? { Ok(None) } else { Ok(rebound) }
     }
 
+    /// The outcome after the fitted corrections, in the order of the file; the shifts of the log odds of capture are added up. `reaching` is
+    /// the impact on the wall as a whole.
+    pub(super) fn corrected(
+        &self,
+        reaching: &Impact,
+        plain: Corrected,
+        trace: &mut impl FnMut(&'static str, &'static str, f64),
+    ) -> Corrected {
+        if !self.has_corrections {
+            return plain;
+        }
+        let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
+        let mut shift = 0.0;
+        for term in &self.terms {
+            let Some(curve) = term.effect().correction() else { continue };
+            let value = curve.value(reaching);
+            let (quantity, corrected) = match curve.on {
+                CurveTarget::NormalRestitution => ("e_n", &mut e_n),
+                CurveTarget::TangentialRestitution => ("e_t", &mut e_t),
+                CurveTarget::Capture => ("p_stick", &mut probability),
+            };
+            *corrected = match curve.on {
+                CurveTarget::Capture => {
+                    shift += value;
+                    shifted_probability(plain.probability, shift)
+                }
+                _ => curve.form.apply(*corrected, value),
+            };
+            trace(term.kind().id, quantity, *corrected);
+        }
+        if e_n < 0.0 && e_n != plain.restitution[0] {
+            e_n = 0.0;
+            trace("correction", "e_n", e_n);
+        }
+        Corrected { restitution: [e_n, e_t], probability }
+    }
+
     /// Share of `e_n` [1] that full stickiness of the particle takes: all of it by a capture criterion.
     pub(super) fn rebound_loss(&self) -> f64 {
         let by_criterion = if self.stickiness.is_some() { 1.0 } else { 0.0 };
@@ -381,35 +418,8 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         probability
     }
 
-    /// In the order of the file; the shifts of the log odds of capture are added up.
     fn correct(&mut self, plain: Corrected) -> Corrected {
-        if !self.model.has_corrections {
-            return plain;
-        }
-        let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
-        let mut shift = 0.0;
-        for term in &self.model.terms {
-            let Some(curve) = term.effect().correction() else { continue };
-            let value = curve.value(self.reaching);
-            let (quantity, corrected) = match curve.on {
-                CurveTarget::NormalRestitution => ("e_n", &mut e_n),
-                CurveTarget::TangentialRestitution => ("e_t", &mut e_t),
-                CurveTarget::Capture => ("p_stick", &mut probability),
-            };
-            *corrected = match curve.on {
-                CurveTarget::Capture => {
-                    shift += value;
-                    shifted_probability(plain.probability, shift)
-                }
-                _ => curve.form.apply(*corrected, value),
-            };
-            (self.trace)(term.kind().id, quantity, *corrected);
-        }
-        if e_n < 0.0 && e_n != plain.restitution[0] {
-            e_n = 0.0;
-            (self.trace)("correction", "e_n", e_n);
-        }
-        Corrected { restitution: [e_n, e_t], probability }
+        self.model.corrected(self.reaching, plain, &mut self.trace)
     }
 
     fn left_range(&self) -> bool {

@@ -16,6 +16,8 @@ mod particle;
 mod prepared_wall;
 mod read;
 mod tilted_frame;
+mod varying_block;
+mod varying_wall;
 mod wall;
 mod wall_heat;
 
@@ -38,6 +40,7 @@ pub(crate) use expectation::{DrawLattice, RotatedLattice};
 pub use extra_input::ExtraInput;
 pub use particle::Particle;
 use prepared_wall::PreparedWall;
+use varying_wall::VaryingWall;
 use wall::Place;
 pub use wall::Wall;
 pub use wall_heat::{WallCooling, WallHeat, WallHeatError};
@@ -59,8 +62,28 @@ pub struct Model {
     uses_melt: bool,
     /// Whether a term is a fitted correction.
     has_corrections: bool,
-    /// For each wall its prepared form, where it has one.
-    prepared: Vec<Option<PreparedWall>>,
+    /// For each wall its prepared form.
+    prepared: Vec<Prepared>,
+}
+
+/// A wall as it was prepared when the model was read.
+#[derive(Debug, Clone)]
+enum Prepared {
+    /// Constant properties, no melt: all numbers are known.
+    Constant(PreparedWall),
+    /// Properties that differ between impacts.
+    Varying(Box<VaryingWall>),
+    /// Every impact needs the general steps.
+    No,
+}
+
+impl Prepared {
+    fn new(model: &Model, wall: &Wall) -> Self {
+        if let Some(wall) = PreparedWall::new(model, wall) {
+            return Self::Constant(wall);
+        }
+        VaryingWall::new(model, wall).map_or(Self::No, |wall| Self::Varying(Box::new(wall)))
+    }
 }
 
 /// The effect of one term on one impact.
@@ -81,6 +104,11 @@ pub struct TemperatureRanges {
     pub particle: [f64; 2],
     /// Of the wall.
     pub wall: [f64; 2],
+}
+
+impl TemperatureRanges {
+    /// Every temperature.
+    pub(crate) const ALL: Self = Self { particle: [0.0, f64::INFINITY], wall: [0.0, f64::INFINITY] };
 }
 
 impl Model {
@@ -158,7 +186,7 @@ impl Model {
     fn prepare(mut self) -> Self {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
         self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
-        self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
+        self.prepared = self.walls.iter().map(|wall| Prepared::new(&self, wall)).collect();
         self
     }
 
@@ -175,15 +203,19 @@ impl Model {
     /// [`ImpactError::NoSuchWall`].
     pub fn temperature_ranges(&self, wall: usize) -> Result<TemperatureRanges, ImpactError> {
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        Ok(self.ranges_of(wall))
+    }
+
+    fn ranges_of(&self, wall: &Wall) -> TemperatureRanges {
         let solids = |solids: [Option<&Material>; 2]| {
             solids.into_iter().flatten().map(Material::known_range).collect::<Vec<_>>()
         };
         let particle = solids([Some(self.particle()), self.ash()]);
         let melt = self.stickiness.as_ref().map(|criterion| criterion.known_range());
-        Ok(TemperatureRanges {
+        TemperatureRanges {
             particle: overlap(particle.into_iter().chain(melt)),
             wall: overlap(solids([Some(wall.material()), wall.powder.as_ref()]).into_iter()),
-        })
+        }
     }
 
     /// Checks that [`Model::resolve`] can decide an impact.
@@ -206,14 +238,25 @@ impl Model {
     #[inline(always)]
     pub fn resolve(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
         // Prepared walls do not support a melt layer.
-        if let (Some(Some(prepared)), 0.0) = (self.prepared.get(wall), impact.melt_thickness) {
+        if let (Some(Prepared::Constant(prepared)), 0.0) = (self.prepared.get(wall), impact.melt_thickness) {
             impact.check()?;
             return Ok(prepared.resolve(impact, rng));
+        }
+        self.resolve_varying(wall, impact, rng)
+    }
+
+    /// Not inlined, so that the numbers of a prepared wall stay in registers.
+    #[inline(never)]
+    fn resolve_varying(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
+        if let (Some(Prepared::Varying(prepared)), Some(of)) = (self.prepared.get(wall), self.walls.get(wall))
+            && prepared.decides(impact)
+        {
+            impact.check()?;
+            return Ok(prepared.resolve(self, of, impact, rng));
         }
         self.evaluate_general(wall, impact, rng)
     }
 
-    /// Not inlined, so that the numbers of a prepared wall stay in registers.
     #[inline(never)]
     fn evaluate_general(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
         self.evaluate(wall, impact, |stream| rng.uniform(stream), |_, _, _| {})

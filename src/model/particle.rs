@@ -65,22 +65,42 @@ impl Particle {
         yield_ratio: f64,
         work_of_adhesion: Option<f64>,
     ) -> Result<Contact, ImpactError> {
-        let char = self.material.mechanical(impact.particle_temperature)?;
-        let mut contact = match &self.ash {
-            None => Contact::new(&char, wall, yield_ratio, work_of_adhesion),
-            Some(ash) => {
-                let ash = ash.mechanical(impact.particle_temperature)?;
-                let share = impact.conversion;
-                // A work of adhesion fitted to ash holds for ash: those of the two solids are mixed.
-                let [of_char, of_ash] =
-                    [&char, &ash].map(|solid| normal::work_of_adhesion(solid, wall, work_of_adhesion));
-                let work = (1.0 - share) * of_char + share * of_ash;
-                Contact::new(&char.mixed(&ash, share), wall, yield_ratio, Some(work))
-            }
-        };
-        if impact.particle_density > 0.0 {
-            contact.density = impact.particle_density;
-        }
-        Ok(contact)
+        let temperature = impact.particle_temperature;
+        let char = self.material.mechanical(temperature)?;
+        let ash = self.ash.as_ref().map(|ash| ash.mechanical(temperature)).transpose()?;
+        let density = density_of(impact, &char, ash.as_ref());
+        let work = |solid| normal::work_of_adhesion(solid, wall, work_of_adhesion);
+        let works = [work(&char), ash.as_ref().map_or(0.0, work)];
+        Ok(contact_of(impact.conversion, density, (&char, ash.as_ref()), wall, yield_ratio, works))
     }
+}
+
+/// The contact of a particle of a density [kg/m³] with a wall: of char, or of char and ash at a conversion [1], from the work of adhesion
+/// [J/m²] of both; see [`Particle::contact`].
+#[inline(always)]
+pub(super) fn contact_of(
+    conversion: f64,
+    density: f64,
+    (char, ash): (&Mechanical, Option<&Mechanical>),
+    wall: &Mechanical,
+    yield_ratio: f64,
+    [of_char, of_ash]: [f64; 2],
+) -> Contact {
+    let contact = match ash {
+        None => Contact::new(char, wall, yield_ratio, Some(of_char)),
+        Some(ash) => {
+            // A work of adhesion fitted to ash holds for ash: those of the two solids are mixed.
+            let work = (1.0 - conversion) * of_char + conversion * of_ash;
+            Contact::new(&char.mixed(ash, conversion), wall, yield_ratio, Some(work))
+        }
+    };
+    Contact { density, ..contact }
+}
+
+/// Density [kg/m³] of an impact's particle: the one given, else that of its char, or char and ash.
+#[inline(always)]
+pub(super) fn density_of(impact: &Impact, char: &Mechanical, ash: Option<&Mechanical>) -> f64 {
+    let mixed =
+        ash.map_or(char.density, |ash| char.density + (ash.density - char.density) * impact.conversion);
+    if impact.particle_density > 0.0 { impact.particle_density } else { mixed }
 }

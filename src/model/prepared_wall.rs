@@ -16,7 +16,7 @@ use super::wall::Wall;
 use crate::capture::{Combination, Stickiness};
 use crate::effect::{Precomputed, Term, Transition, stream};
 use crate::impact::{INPUTS, Impact, Outcome};
-use crate::normal::{self, NormalLaw};
+use crate::normal::{self, Contact, NormalLaw};
 use crate::rng::ImpactRng;
 use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw};
 
@@ -56,7 +56,7 @@ enum Normal {
 
 /// The tangential laws that can be prepared.
 #[derive(Debug, Clone, Copy)]
-enum Tangential {
+pub(super) enum Tangential {
     Constant(f64),
     Sliding(f64),
     SlidingRolling(f64),
@@ -64,7 +64,7 @@ enum Tangential {
 
 /// What makes the particle sticky; the stickiness of two transitions is multiplied.
 #[derive(Debug, Clone, Copy)]
-enum Transitions {
+pub(super) enum Transitions {
     None,
     One(Transition),
     Two(Transition, Transition),
@@ -92,7 +92,12 @@ impl PreparedWall {
         let mut transitions = Transitions::None;
         for term in &model.terms {
             match term.effect().precompute()? {
-                Precomputed::Contact => contact = term.effect().contact(&Impact::default(), contact, 0.0),
+                Precomputed::YieldRatio(yield_ratio) => contact = Contact { yield_ratio, ..contact },
+                Precomputed::WorkOfAdhesion(work_of_adhesion) => {
+                    contact = Contact { work_of_adhesion, ..contact };
+                }
+                // There is no melt on a prepared wall.
+                Precomputed::OnMelt(_) => {}
                 Precomputed::Transition(transition) => transitions = transitions.and(transition)?,
             }
         }
@@ -366,12 +371,12 @@ impl WallSteps for PreparedImpact<'_> {
 }
 
 #[inline(always)]
-fn within(value: f64, [low, high]: [f64; 2]) -> bool {
+pub(super) fn within(value: f64, [low, high]: [f64; 2]) -> bool {
     (value >= low) & (value <= high)
 }
 
 impl Tangential {
-    fn new(law: TangentialLaw) -> Option<Self> {
+    pub fn new(law: TangentialLaw) -> Option<Self> {
         match law {
             TangentialLaw::Constant { restitution } => Some(Self::Constant(restitution)),
             TangentialLaw::Sliding { friction } => Some(Self::Sliding(friction)),
@@ -381,7 +386,7 @@ impl Tangential {
     }
 
     #[inline(always)]
-    fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
+    pub fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
         match self {
             Self::Constant(restitution) => TangentialLaw::Constant { restitution }.rebound(kinematics),
             Self::Sliding(friction) => TangentialLaw::Sliding { friction }.rebound(kinematics),
@@ -391,11 +396,34 @@ impl Tangential {
 }
 
 impl Transitions {
-    fn and(self, transition: Transition) -> Option<Self> {
+    pub fn and(self, transition: Transition) -> Option<Self> {
         match self {
             Self::None => Some(Self::One(transition)),
             Self::One(first) => Some(Self::Two(first, transition)),
             Self::Two(..) => None,
+        }
+    }
+
+    /// The transitions, in the order of the file.
+    pub fn each(self) -> [Option<Transition>; 2] {
+        match self {
+            Self::None => [None, None],
+            Self::One(one) => [Some(one), None],
+            Self::Two(one, two) => [Some(one), Some(two)],
+        }
+    }
+
+    /// Stickiness [1] of a particle with a temperature [K] and a conversion [1], from that which a criterion gives where there is one.
+    #[inline(always)]
+    pub fn after(self, criterion: Option<f64>, temperature: f64, conversion: f64) -> f64 {
+        let times = |one: Transition| {
+            let stickiness = one.at(temperature, conversion);
+            criterion.map_or(stickiness, |product| product * stickiness)
+        };
+        match self {
+            Self::None => criterion.unwrap_or(0.0),
+            Self::One(one) => times(one),
+            Self::Two(one, two) => times(one) * two.at(temperature, conversion),
         }
     }
 }

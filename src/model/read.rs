@@ -119,7 +119,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
             return Err(section.missing("yield_ratio", what));
         }
     };
-    Ok((law, Adhesion { yield_ratio, work }))
+    Ok((law, Adhesion { yield_ratio, work, set: None }))
 }
 
 /// What all walls of a model have in common.
@@ -160,7 +160,7 @@ impl WallReader<'_> {
         };
         let prepared = match (self.particle.is_constant(), material.is_constant()) {
             (true, true) => {
-                let Adhesion { yield_ratio, work } = self.adhesion;
+                let Adhesion { yield_ratio, work, .. } = self.adhesion;
                 let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
                 Some(Contact::new(&at(self.particle.material())?, &at(&material)?, yield_ratio, work))
             }

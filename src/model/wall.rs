@@ -45,8 +45,10 @@ pub struct Wall {
 pub(super) struct Adhesion {
     /// `c = p_y / sigma_y` [1].
     pub yield_ratio: f64,
-    /// Work of adhesion [J/m²] where it is given.
+    /// Work of adhesion [J/m²] of the particle's material where it is given.
     pub work: Option<f64>,
+    /// Work of adhesion [J/m²] of every contact, where an effect sets it.
+    pub set: Option<f64>,
 }
 
 /// What an impact meets on a wall.
@@ -90,7 +92,10 @@ impl Wall {
     ///
     /// A layer whose coverage is not given covers like grains of the particle's diameter.
     pub(super) fn apply_deposit(&self, impact: &mut Impact) {
-        let by_layer = |thickness: f64| cover::share(cover::of_layer(thickness, impact.diameter));
+        let diameter = impact.diameter;
+        let by_layer = |thickness: f64| {
+            if thickness > 0.0 { cover::share(cover::of_layer(thickness, diameter)) } else { 0.0 }
+        };
         // A wall's memory knows its cover and gives it with the layer.
         let given = if impact.coverage > 0.0 { impact.coverage } else { by_layer(impact.layer_thickness) };
         impact.coverage = given.max(self.coverage).max(by_layer(self.layer_thickness));
@@ -129,7 +134,7 @@ impl Wall {
             }
         };
         let wall = partner.mechanical(impact.wall_temperature)?;
-        let Adhesion { yield_ratio, work } = self.adhesion;
+        let Adhesion { yield_ratio, work, .. } = self.adhesion;
         particle.contact(impact, &wall, yield_ratio, work)
     }
 

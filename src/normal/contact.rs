@@ -31,6 +31,7 @@ impl Contact {
     ///
     /// `yield_ratio` is `c = p_y / sigma_y` [1]; the weaker solid yields first. `work_of_adhesion` [J/m²] as in
     /// [`work_of_adhesion`].
+    #[inline(always)]
     pub fn new(
         particle: &Mechanical,
         wall: &Mechanical,
@@ -51,23 +52,27 @@ impl Contact {
     /// Largest `rho v_n²` [Pa] at which a sphere that flows plastically stays below
     /// [`LARGEST_CONTACT_RADIUS`]: `a/R = (8 rho v_n²/(3 p_y))^(1/4)`, from the kinetic energy that the pressure `p_y` takes up on the
     /// area `pi a² = 2 pi R h` (indentation `h`).
+    #[inline(always)]
     pub fn largest_impact_pressure(&self) -> f64 {
         0.375 * LARGEST_CONTACT_RADIUS.powi(4) * self.limiting_pressure()
     }
 
     /// Limiting contact pressure `p_y = c sigma_y` [Pa].
+    #[inline(always)]
     pub fn limiting_pressure(&self) -> f64 {
         self.yield_ratio * self.yield_strength
     }
 }
 
 /// Work of adhesion `W` [J/m²] of two solids: the one `given`, else the particle's own, else `2 sqrt(gamma_1 gamma_2)`.
+#[inline(always)]
 pub fn work_of_adhesion(particle: &Mechanical, wall: &Mechanical, given: Option<f64>) -> f64 {
     let geometric = || 2.0 * (particle.surface_energy * wall.surface_energy).sqrt();
     given.or(particle.work_of_adhesion).unwrap_or_else(geometric)
 }
 
 /// Reduced modulus `E*` [Pa]: `1/E* = (1-nu1²)/E1 + (1-nu2²)/E2` (Hertz).
+#[inline(always)]
 pub fn reduced_modulus(particle: &Mechanical, wall: &Mechanical) -> f64 {
     let compliance = |m: &Mechanical| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
     1.0 / (compliance(particle) + compliance(wall))
@@ -78,6 +83,7 @@ pub fn reduced_modulus(particle: &Mechanical, wall: &Mechanical) -> f64 {
 ///
 /// Troiano et al. print Eq. 12 with equal numerator and denominator; the halves in the denominator are
 /// Mindlin's. Wax on Pyrex gives 0.675 to 0.678.
+#[inline(always)]
 pub fn stiffness_ratio(particle: &Mechanical, wall: &Mechanical) -> f64 {
     let shear_compliance = |m: &Mechanical| 2.0 * (1.0 + m.poisson_ratio) / m.youngs_modulus;
     let normal = |m: &Mechanical| (1.0 - m.poisson_ratio) * shear_compliance(m);

@@ -126,6 +126,7 @@ impl NormalLaw {
     }
 
     /// Normal restitution [1] of an impact; `None` when adhesion holds the particle.
+    #[inline(always)]
     pub fn rebound(self, contact: &Contact, impact: &Impact) -> Option<f64> {
         let e_n = match self {
             Self::ThorntonNing => {
@@ -142,7 +143,21 @@ impl NormalLaw {
         (e_n > 0.0).then_some(e_n)
     }
 
+    /// [`Self::rebound`] as a number, and whether adhesion holds the particle.
+    #[inline(always)]
+    pub(crate) fn restitution_or_held(self, contact: &Contact, impact: &Impact) -> (f64, bool) {
+        let e_n = match self {
+            Self::ThorntonNing => {
+                Prepared::new(contact).restitution(contact.density, impact.diameter, impact.normal_speed)
+            }
+            Self::Constant { restitution } => return (restitution, false),
+            Self::PlasticJkr | Self::Listed { .. } => self.rebound(contact, impact).unwrap_or(0.0),
+        };
+        (e_n, !(e_n > 0.0))
+    }
+
     /// Whether the law describes the contact of two solids.
+    #[inline(always)]
     pub fn is_contact_law(self) -> bool {
         match self {
             Self::ThorntonNing | Self::PlasticJkr => true,
@@ -152,6 +167,7 @@ impl NormalLaw {
 
     /// Whether the law is stated for an impact: the contact radius has to stay below [`LARGEST_CONTACT_RADIUS`] times that of the
     /// particle, and a listed law has the range of its fit.
+    #[inline(always)]
     pub fn holds_for(self, contact: &Contact, impact: &Impact) -> bool {
         match self {
             Self::ThorntonNing | Self::PlasticJkr => {

@@ -95,7 +95,7 @@ pub fn yield_velocity(contact: &Contact) -> f64 {
 }
 
 /// `sqrt(rho) v_y` [Pa^½].
-#[inline]
+#[inline(always)]
 fn yielding(contact: &Contact) -> f64 {
     let limiting_pressure = contact.limiting_pressure();
     let strain = limiting_pressure / contact.reduced_modulus;

@@ -19,6 +19,7 @@ pub const PACKING: f64 = 1.35;
 /// Share of crystals [1] at a temperature, between solidus and liquidus [all K].
 ///
 /// A liquidus at or below the solidus is a sharp melting point: 0 from the liquidus on, 1 below.
+#[inline(always)]
 pub fn crystal_share(temperature: f64, solidus: f64, liquidus: f64) -> f64 {
     if temperature >= liquidus {
         0.0
@@ -30,6 +31,7 @@ pub fn crystal_share(temperature: f64, solidus: f64, liquidus: f64) -> f64 {
 }
 
 /// Factor [1] by which a share of crystals [1] raises the viscosity; infinite from `1/1.35` on.
+#[inline(always)]
 pub fn einstein_roscoe(share: f64) -> f64 {
     let room = 1.0 - PACKING * share;
     if room <= 0.0 { f64::INFINITY } else { 1.0 / (room * room * room.sqrt()) }

@@ -28,7 +28,8 @@
 //! ash.
 
 use super::composition::{Composition, Oxide};
-use super::{LARGEST_EXPONENT, ViscosityLaw};
+use super::{ViscosityLaw, for_each_temperature, limited_exponential};
+use fearless_simd::Level;
 
 /// The law.
 pub static GIORDANO_RUSSELL_DINGWELL: ViscosityLaw = ViscosityLaw {
@@ -37,6 +38,7 @@ pub static GIORDANO_RUSSELL_DINGWELL: ViscosityLaw = ViscosityLaw {
                  TiO2 up to 3 and Na2O + K2O at least 1 wt%, 1373 to 1980 K",
     coefficients: |composition| fulcher(composition).ok_or("its viscosity would not fall with temperature"),
     viscosity,
+    viscosities,
     range: |composition| holds_for(composition).then_some([1373.0, 1980.0]),
 };
 
@@ -87,11 +89,12 @@ fn fulcher(composition: &Composition) -> Option<[f64; 2]> {
 }
 
 /// Viscosity [Pa s] at a temperature [K].
+#[inline(always)]
 fn viscosity([b, c]: [f64; 2], temperature: f64) -> f64 {
     use std::f64::consts::LN_10;
     // One kelvin above the pole the exponent is far beyond its ceiling already.
     let above = (temperature - c).max(1.0);
-    (LN_10 * (b / above - 4.55)).min(LARGEST_EXPONENT).exp()
+    limited_exponential(LN_10 * (b / above - 4.55))
 }
 
 fn holds_for(composition: &Composition) -> bool {
@@ -104,6 +107,11 @@ fn holds_for(composition: &Composition) -> bool {
         && RANGES.iter().all(|(oxide, low, high)| (*low..=*high).contains(&share(*oxide)))
         && share(Oxide::Na2O) + share(Oxide::K2O) >= LEAST_ALKALI
         && composition.weight_percent(Oxide::B2O3) == 0.0
+}
+
+/// [`viscosity`] at many temperatures [K].
+fn viscosities(level: Level, coefficients: [f64; 2], temperatures: &[f64], out: &mut [f64]) {
+    for_each_temperature(level, coefficients, temperatures, out, viscosity);
 }
 
 #[cfg(test)]

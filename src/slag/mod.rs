@@ -15,6 +15,9 @@ pub mod surface_tension;
 pub mod urbain;
 pub mod watt_fereday;
 
+use fearless_simd::{Level, dispatch};
+
+use crate::vector_math::exponential;
 pub use composition::{Composition, CompositionError, Oxide, OxideRole};
 
 /// Every viscosity law.
@@ -47,8 +50,41 @@ pub struct ViscosityLaw {
     pub coefficients: fn(&Composition) -> Result<[f64; 2], &'static str>,
     /// Viscosity [Pa s] from the coefficients, at a temperature [K] of 1 or more.
     pub viscosity: fn([f64; 2], f64) -> f64,
+    /// The same for many temperatures: [`for_each_temperature`] of that function.
+    pub viscosities: fn(Level, [f64; 2], &[f64], &mut [f64]),
     /// Temperatures [K] for which the law is stated with a composition; `None` for a composition outside its range.
     pub range: fn(&Composition) -> Option<[f64; 2]>,
+}
+
+/// Calls `viscosity` for each temperature, with the vectors of `level`. A law's function is inlined here, so it becomes vectors where it
+/// has no branches.
+#[inline(always)]
+fn for_each_temperature(
+    level: Level,
+    coefficients: [f64; 2],
+    temperatures: &[f64],
+    viscosities: &mut [f64],
+    viscosity: impl Fn([f64; 2], f64) -> f64,
+) {
+    dispatch!(level, _simd => {
+        // Values, which cannot change while the viscosities are written.
+        let coefficients = coefficients;
+        for (mu, temperature) in viscosities.iter_mut().zip(temperatures) {
+            *mu = viscosity(coefficients, from_one_kelvin(*temperature));
+        }
+    });
+}
+
+/// The laws are not asked below 1 K.
+#[inline(always)]
+fn from_one_kelvin(temperature: f64) -> f64 {
+    if temperature > 1.0 { temperature } else { 1.0 }
+}
+
+/// `exp` with its exponent at most [`LARGEST_EXPONENT`].
+#[inline(always)]
+fn limited_exponential(exponent: f64) -> f64 {
+    exponential(if exponent < LARGEST_EXPONENT { exponent } else { LARGEST_EXPONENT })
 }
 
 /// Laws are equal when their names are.
@@ -128,10 +164,20 @@ impl SlagViscosity {
     /// Not a number when the temperature is not positive.
     pub fn at(&self, temperature: f64) -> f64 {
         if temperature > 0.0 {
-            (self.law.viscosity)(self.coefficients, temperature.max(1.0))
+            (self.law.viscosity)(self.coefficients, from_one_kelvin(temperature))
         } else {
             f64::NAN
         }
+    }
+
+    /// As [`SlagViscosity::at`] for many positive temperatures [K], with the vectors of `level`.
+    pub(crate) fn at_each(&self, level: Level, temperatures: &[f64], viscosities: &mut [f64]) {
+        (self.law.viscosities)(level, self.coefficients, temperatures, viscosities);
+    }
+
+    /// Temperatures [K] for which the law is stated with this composition; `None` outside its range.
+    pub(crate) fn range(&self) -> Option<[f64; 2]> {
+        self.range
     }
 }
 

@@ -37,7 +37,8 @@
 //! carry iron; on them the errors are 0.30 and 0.42.
 
 use super::composition::{Composition, Oxide, OxideRole};
-use super::{LARGEST_EXPONENT, ViscosityLaw, measured_range};
+use super::{ViscosityLaw, for_each_temperature, limited_exponential, measured_range};
+use fearless_simd::Level;
 
 /// Urbain, Cambier, Deletter and Anseau 1981.
 pub static URBAIN: ViscosityLaw = ViscosityLaw {
@@ -45,6 +46,7 @@ pub static URBAIN: ViscosityLaw = ViscosityLaw {
     stated_for: measured_range::IN_WORDS,
     coefficients: |composition| weymann(0.2693, 11.6725, composition),
     viscosity,
+    viscosities,
     range: measured_range::temperatures,
 };
 
@@ -54,6 +56,7 @@ pub static KALMANOVITCH_FRANK: ViscosityLaw = ViscosityLaw {
     stated_for: measured_range::IN_WORDS,
     coefficients: |composition| weymann(0.2812, 11.8279, composition),
     viscosity,
+    viscosities,
     range: measured_range::temperatures,
 };
 
@@ -117,9 +120,14 @@ fn weymann(slope: f64, intercept: f64, composition: &Composition) -> Result<[f64
 }
 
 /// Weymann's form: viscosity [Pa s] at a temperature [K] of 1 or more.
+#[inline(always)]
 pub(super) fn viscosity([factor, activation]: [f64; 2], temperature: f64) -> f64 {
-    let exponent = (activation / temperature).min(LARGEST_EXPONENT);
-    factor * temperature * exponent.exp()
+    factor * temperature * limited_exponential(activation / temperature)
+}
+
+/// [`viscosity`] at many temperatures [K].
+fn viscosities(level: Level, coefficients: [f64; 2], temperatures: &[f64], out: &mut [f64]) {
+    for_each_temperature(level, coefficients, temperatures, out, viscosity);
 }
 
 #[cfg(test)]

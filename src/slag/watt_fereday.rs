@@ -19,7 +19,8 @@
 //! Above 50 wt% SiO2 it is 0.18 to 0.30. The law has a pole at 150 °C and is meaningless for a slag that cold.
 
 use super::composition::{Composition, Oxide};
-use super::{LARGEST_EXPONENT, ViscosityLaw};
+use super::{ViscosityLaw, for_each_temperature, limited_exponential};
+use fearless_simd::Level;
 
 /// Mass of ferric oxide that holds the iron of 1 kg of ferrous oxide [kg].
 const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
@@ -36,6 +37,7 @@ pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
     stated_for: "SiO2 30 to 60, Al2O3 15 to 35, Fe2O3 3 to 30, CaO 2 to 30 and MgO 1 to 10 wt% of the five, 1423 to 1873 K",
     coefficients: |composition| line(composition).ok_or("it has too little SiO2 and Al2O3"),
     viscosity,
+    viscosities,
     range: |composition| FiveOxides::of(composition)?.is_like_british_ash().then_some(TEMPERATURES),
 };
 
@@ -94,12 +96,18 @@ fn line(composition: &Composition) -> Option<[f64; 2]> {
 }
 
 /// Viscosity [Pa s] at a temperature [K].
+#[inline(always)]
 fn viscosity([slope, intercept]: [f64; 2], temperature: f64) -> f64 {
     use std::f64::consts::LN_10;
     // One kelvin above the pole the exponent is far beyond its ceiling already.
     let above = (temperature - POLE).max(1.0);
     let log10 = 1e7 * slope / (above * above) + intercept - 1.0;
-    (LN_10 * log10).min(LARGEST_EXPONENT).exp()
+    limited_exponential(LN_10 * log10)
+}
+
+/// [`viscosity`] at many temperatures [K].
+fn viscosities(level: Level, coefficients: [f64; 2], temperatures: &[f64], out: &mut [f64]) {
+    for_each_temperature(level, coefficients, temperatures, out, viscosity);
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
 use nearwall::impact::{EXTRA_INPUTS, INPUTS};
 use nearwall::model::ExtraInput;
-use nearwall::model::block::{BLOCK, Block, Outcomes};
+use nearwall::model::block::{BLOCK, Block, Outcomes, Workspace};
 use nearwall::{Impact, ImpactRng, Model, Outcome};
 
 use crate::common::random::seed;
@@ -236,11 +236,11 @@ fn blocks_have_declared_inputs_and_laws_alone_stay_prepared() {
     assert!(!model.is_prepared(0) && self::model("").is_prepared(0));
     let mut block = Block { length: 3, ..Block::default() };
     let mut outcomes = Outcomes::default();
-    model.resolve_block(0, &block, 1, &mut outcomes).unwrap();
+    model.resolve_block(0, &block, 1, &mut outcomes, &mut Workspace::default()).unwrap();
     assert!(outcomes.tangential_restitution[..3].iter().all(|e_t| (e_t - 0.76).abs() < 1e-12));
     block.extra = vec![[f64::NAN; BLOCK]];
     block.extra[0][1] = 100.0;
-    model.resolve_block(0, &block, 1, &mut outcomes).unwrap();
+    model.resolve_block(0, &block, 1, &mut outcomes, &mut Workspace::default()).unwrap();
     for (e_t, expected) in outcomes.tangential_restitution.into_iter().zip([0.76, 0.7, 0.76]) {
         close(e_t, expected);
     }
