@@ -87,14 +87,14 @@ impl nw_impacts {
             within(get(self.T_p, index, usual.particle_temperature), ranges.particle)
                 & within(get(self.T_w, index, usual.wall_temperature), ranges.wall)
         };
-        let prepared = if self.walls.is_null() {
+        let decided = if self.walls.is_null() {
             let all_known = |ranges| {
                 let each = |all, index| all & known(ranges, index);
                 ranges == TemperatureRanges::ALL || (0..self.count).fold(true, each)
             };
-            self.count == 0 || model.prepared_temperatures(wall(0)).is_some_and(all_known)
+            self.count == 0 || model.decided_temperatures(wall(0)).is_some_and(all_known)
         } else {
-            let is_known = |index| model.prepared_temperatures(wall(index)).is_some_and(|r| known(r, index));
+            let is_known = |index| model.decided_temperatures(wall(index)).is_some_and(|r| known(r, index));
             (0..self.count).all(is_known)
         };
         let allowed = |(column, Input { bounds, .. }): (*const f64, &Input)| {
@@ -102,7 +102,7 @@ impl nw_impacts {
             let in_bounds = |all, index| all & bounds.allow(unsafe { get(column, index, f64::NAN) });
             column.is_null() || (0..self.count).fold(true, in_bounds)
         };
-        if prepared && self.columns().into_iter().zip(&INPUTS).all(allowed) {
+        if decided && self.columns().into_iter().zip(&INPUTS).all(allowed) {
             return Ok(());
         }
         (0..self.count).try_for_each(|index| {

@@ -112,15 +112,16 @@ impl Model {
     /// Whether the wall is prepared: within its [temperatures](Model::temperature_ranges) only [`Impact::check`] can then refuse an
     /// impact on it.
     pub fn is_prepared(&self, wall: usize) -> bool {
-        !matches!(self.prepared.get(wall), Some(Prepared::No) | None)
+        !matches!(self.prepared.get(wall), Some(Prepared::No(_)) | None)
     }
 
-    /// The temperatures [K] in which only [`Impact::check`] can refuse an impact on a wall; `None` for one that is not prepared.
-    pub(crate) fn prepared_temperatures(&self, wall: usize) -> Option<TemperatureRanges> {
+    /// The temperatures [K] within which only [`Impact::check`] can refuse an impact on a wall; `None` for a wall of which a single
+    /// impact has to be asked ([`Model::check`]).
+    pub(crate) fn decided_temperatures(&self, wall: usize) -> Option<TemperatureRanges> {
         match self.prepared.get(wall)? {
             Prepared::Constant(_) => Some(TemperatureRanges::ALL),
             Prepared::Varying(prepared) => Some(prepared.known),
-            Prepared::No => None,
+            Prepared::No(decided) => *decided,
         }
     }
 }

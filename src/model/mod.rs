@@ -73,8 +73,8 @@ enum Prepared {
     Constant(PreparedWall),
     /// Properties that differ between impacts.
     Varying(Box<VaryingWall>),
-    /// Every impact needs the general steps.
-    No,
+    /// Every impact needs the general steps. With the temperatures within which only [`Impact::check`] can refuse it, where there are such.
+    No(Option<TemperatureRanges>),
 }
 
 impl Prepared {
@@ -82,7 +82,11 @@ impl Prepared {
         if let Some(wall) = PreparedWall::new(model, wall) {
             return Self::Constant(wall);
         }
-        VaryingWall::new(model, wall).map_or(Self::No, |wall| Self::Varying(Box::new(wall)))
+        let decided = !model.has_droplets() && model.extra_inputs.is_empty();
+        VaryingWall::new(model, wall).map_or_else(
+            || Self::No(decided.then(|| model.ranges_of(wall))),
+            |wall| Self::Varying(Box::new(wall)),
+        )
     }
 }
 
@@ -180,6 +184,11 @@ impl Model {
     #[must_use]
     pub fn with_laws(&self, normal: NormalLaw, tangential: TangentialLaw) -> Self {
         Self { normal, tangential, ..self.clone() }.prepare()
+    }
+
+    /// Whether particles may be droplets.
+    fn has_droplets(&self) -> bool {
+        self.stickiness.as_ref().is_some_and(|criterion| criterion.has_droplets())
     }
 
     /// Prepares the walls that can be prepared.

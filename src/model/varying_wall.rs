@@ -122,8 +122,7 @@ impl VaryingWall {
             NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => return None,
         };
         let random = model.terms.iter().any(|term| term.kind().stream.is_some());
-        let droplets = model.stickiness.as_ref().is_some_and(|criterion| criterion.has_droplets());
-        if random || droplets || !model.extra_inputs.is_empty() {
+        if random || model.has_droplets() || !model.extra_inputs.is_empty() {
             return None;
         }
         let particle = &model.particle;

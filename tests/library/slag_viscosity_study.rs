@@ -41,6 +41,9 @@ static SILICA_CORRECTED: ViscosityLaw = ViscosityLaw {
         Ok([factor * 10_f64.powf(-correction), activation])
     },
     viscosity: |coefficients, temperature| (KALMANOVITCH_FRANK.viscosity)(coefficients, temperature),
+    viscosities: |level, coefficients, temperatures, out| {
+        (KALMANOVITCH_FRANK.viscosities)(level, coefficients, temperatures, out);
+    },
     range: measured_range::temperatures,
 };
 const SILICA_OFFSET: f64 = 0.062123384;
