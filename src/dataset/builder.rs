@@ -12,7 +12,7 @@ use super::measurements::{Measurement, Measurements, Unselected};
 use super::notes::{self, NoteCounts};
 use super::number::{NamedColumns, NumberStyle, is_blank};
 use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
-use super::selection::{MOST_ROWS, Selection, Ticket};
+use super::selection::{Selection, Ticket};
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
 
@@ -341,23 +341,9 @@ impl Measurements {
         Self::read_at_most(file, source, map, walls, usize::MAX, &mut |_| {})
     }
 
-    /// As [`Self::read`], in bounded memory: of a file with more than [`MOST_ROWS`] usable rows a selection. The other rows
-    /// go to `unselected` one by one, not in the order of the file.
-    ///
-    /// # Errors
-    /// As [`Self::read`].
-    pub fn read_selected(
-        file: &str,
-        source: impl Read,
-        map: Option<&ColumnMap>,
-        walls: &WallChoice<'_>,
-        unselected: &mut dyn FnMut(Measurement),
-    ) -> Result<Self, DatasetError> {
-        Self::read_at_most(file, source, map, walls, MOST_ROWS, unselected)
-    }
-
-    /// As [`Self::read_selected`], with at most so many rows and rejected rows.
-    pub(super) fn read_at_most(
+    /// As [`Self::read`], with at most so many rows and rejected rows. Of a file with more usable rows a selection is kept; the
+    /// others go to `unselected` one by one, not in the order of the file.
+    pub(crate) fn read_at_most(
         file: &str,
         source: impl Read,
         map: Option<&ColumnMap>,

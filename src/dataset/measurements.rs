@@ -13,7 +13,7 @@ pub struct Measurements {
     /// The name of the file.
     pub file: String,
     /// The usable rows, in the order of the file; possibly none. Of a large file a selection, if it was read by
-    /// [`Self::read_selected`].
+    /// [`crate::diagnose::read_measurements`].
     pub rows: Vec<Measurement>,
     /// The usable rows that were not selected.
     pub unselected: Unselected,
@@ -27,7 +27,7 @@ pub struct Measurements {
     pub given_extra: Vec<usize>,
     /// Number of usable and rejected rows.
     pub read: usize,
-    /// The rejected rows, with the reason; of a large file the first ones, if it was read by [`Self::read_selected`].
+    /// The rejected rows, with the reason; of a large file the first ones, if it was read so.
     pub rejected: Vec<BadRow>,
     /// Assumptions, and warnings about likely mistakes.
     pub notes: Vec<String>,

@@ -139,7 +139,7 @@ pub(crate) fn ours(root: &Path) {
 }
 
 /// The same case with a stock model: slagWall holds all, quenchWall nothing.
-fn stock(root: &Path) {
+pub(crate) fn stock(root: &Path) {
     skeleton(root, "localInteraction");
     let step = |time: f64, sticks: u32, mass: f64| {
         format!(
