@@ -122,10 +122,10 @@ pub fn diagnose_with_draws(
     let data = plausible(base, data);
     let (selected, read) = (data.rows.len(), data.read);
     let used = selected + data.unselected.rows;
-    if used < LEAST_ROWS {
+    if selected < LEAST_ROWS {
         let reason = |bad: &BadRow| format!("Line {}: {}.", bad.line, bad.reason);
         let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
-        return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons });
+        return Err(DiagnosisError::TooFewRows { used: selected, read, least: LEAST_ROWS, reasons });
     }
     let groups = GroupColumn::all(&data, options.group.as_deref());
     let task = Task { text, level: options.level, groups: &groups, progress };
