@@ -8,12 +8,16 @@ use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
 use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
-use super::measurements::{Measurement, Measurements};
+use super::measurements::{Measurement, Measurements, Unselected};
 use super::notes::{self, NoteCounts};
 use super::number::{NamedColumns, NumberStyle, is_blank};
 use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
+use super::selection::{Selection, Ticket};
 use super::{BadRow, DatasetError, WallChoice};
 use crate::impact::INPUTS;
+
+/// Largest number of labels in a note.
+const SHOWN_LABELS: usize = 5;
 
 /// The state of a file while it is read.
 struct Builder<'a> {
@@ -25,9 +29,18 @@ struct Builder<'a> {
     errors: InputErrorColumns,
     /// The possible causes, each with its index in a row.
     causes: Vec<(usize, Cells)>,
+    /// Columns that tell groups of rows apart, by index in a row.
+    groups: Vec<usize>,
+    selection: Selection,
     rows: Vec<Measurement>,
+    /// Number of records.
+    read: usize,
+    /// Number of usable rows, selected or not.
+    usable: usize,
     rejected: Vec<BadRow>,
     counts: NoteCounts,
+    /// Blank and unknown cells of each input that the model declares.
+    extra_counts: Vec<[usize; 2]>,
 }
 
 impl<'a> Builder<'a> {
@@ -39,6 +52,7 @@ impl<'a> Builder<'a> {
         table: &CsvTable<R>,
         map: &'a ColumnMap,
         walls: &'a WallChoice<'a>,
+        most: usize,
     ) -> Result<Self, DatasetError> {
         let headers = table.headers();
         let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem))?;
@@ -65,22 +79,86 @@ impl<'a> Builder<'a> {
         let is_series = |index: usize| named.name_of(index) == Some("series");
         causes.retain(|(index, _)| !inputs.is_extra(*index) || is_series(*index) || groups(*index));
         let errors = InputErrorColumns::new(&named);
-        let (rows, rejected, counts) = Default::default();
-        Ok(Self { map, walls, named, inputs, velocity, errors, causes, rows, rejected, counts })
+        let tells_groups = |index: &usize| is_series(*index) || groups(*index);
+        Ok(Self {
+            groups: causes.iter().map(|(index, _)| *index).filter(tells_groups).collect(),
+            extra_counts: vec![[0; 2]; inputs.extra().count()],
+            selection: Selection::new(most),
+            map,
+            walls,
+            named,
+            inputs,
+            velocity,
+            errors,
+            causes,
+            rows: Vec::new(),
+            read: 0,
+            usable: 0,
+            rejected: Vec::new(),
+            counts: NoteCounts::default(),
+        })
     }
 
-    /// Adds the next record: its line, or why it cannot be used.
-    fn take(&mut self, next: Result<u64, BadRow>, cells: &csv::StringRecord) {
+    /// Adds the next record: its line, or why it cannot be used. Rows that are not kept go to `unselected`.
+    fn take(
+        &mut self,
+        next: Result<u64, BadRow>,
+        cells: &csv::StringRecord,
+        unselected: &mut dyn FnMut(Measurement),
+    ) {
+        self.read += 1;
         let next = next.map_err(|bad| with_lines(bad, cells));
         let row = next.and_then(|line| self.read(line, cells).map_err(|reason| BadRow { line, reason }));
         match row {
-            Ok(row) => {
+            Ok(row) => self.add(row, cells, unselected),
+            Err(bad) if self.rejected.len() < self.selection.most() => self.rejected.push(bad),
+            Err(_) => {}
+        }
+    }
+
+    fn add(&mut self, row: Measurement, cells: &csv::StringRecord, unselected: &mut dyn FnMut(Measurement)) {
+        let cell = |index: usize| cells.get(index).unwrap_or("");
+        self.usable += 1;
+        self.count_extra(&row);
+        let groups =
+            self.groups.iter().map(|&index| cell(index)).map(|cell| if is_blank(cell) { "" } else { cell });
+        let kept = self.selection.keeps(Ticket::new(row.line, groups));
+        for (index, cause) in &mut self.causes {
+            cause.note(row.line, cell(*index), |cell| self.map.parse(cell));
+            if kept { cause.push(cell(*index)) } else { cause.leave_out(cell(*index)) }
+        }
+        if kept {
+            self.rows.push(row);
+        } else {
+            self.selection.count(&row);
+            unselected(row);
+        }
+        if let Some(kept) = self.selection.shrink() {
+            self.retain(&kept, unselected);
+        }
+    }
+
+    /// Removes the rows that are no longer kept.
+    fn retain(&mut self, kept: &[bool], unselected: &mut dyn FnMut(Measurement)) {
+        self.causes.iter_mut().for_each(|(_, cause)| cause.retain(kept));
+        let rows = std::mem::take(&mut self.rows);
+        for (row, kept) in rows.into_iter().zip(kept) {
+            if *kept {
                 self.rows.push(row);
-                for (index, cause) in &mut self.causes {
-                    cause.push(cells.get(*index).unwrap_or(""));
-                }
+            } else {
+                self.selection.count(&row);
+                unselected(row);
             }
-            Err(bad) => self.rejected.push(bad),
+        }
+    }
+
+    fn count_extra(&mut self, row: &Measurement) {
+        for ((place, (input, _)), [blank, unknown]) in
+            self.inputs.extra().enumerate().zip(&mut self.extra_counts)
+        {
+            let value = row.impact.extra[place];
+            *blank += usize::from(value.is_nan());
+            *unknown += usize::from(input.is_unknown(value));
         }
     }
 
@@ -120,23 +198,23 @@ impl<'a> Builder<'a> {
     /// # Errors
     /// [`DatasetError::Unreadable`] without rows.
     fn finish(self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
-        let read = self.rows.len() + self.rejected.len();
-        if read == 0 {
+        if self.read == 0 {
             let reason = "there is no row under the header; write one row per impact".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
         }
         let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
         let mut notes = self.header_notes(headers, &given);
-        notes.extend(self.counts.notes(&given, self.rows.len()));
+        notes.extend(self.counts.notes(&given, self.usable));
         notes.extend(self.extra_notes());
+        notes.extend(self.selection_notes(headers));
         let extra = self.inputs.extra().enumerate().filter(|(_, (_, given))| *given);
         let given_extra: Vec<usize> = extra.map(|(place, _)| place).collect();
         let mut columns = Vec::new();
         for (_, cells) in self.causes {
             let (column, invalid) = cells.finish(|cell| self.map.parse(cell));
-            if let Some((row, cell)) = invalid {
-                let (name, line) = (&column.name, self.rows[row].line);
+            if let Some((line, cell)) = invalid {
+                let name = &column.name;
                 notes.push(format!(
                     "column `{name}` is read as text because `{cell}` on line {line} is not a number"
                 ));
@@ -148,9 +226,18 @@ impl<'a> Builder<'a> {
                 columns.push(column);
             }
         }
-        let (file, detection) = (file.to_owned(), self.map.detection);
-        let (rows, rejected) = (self.rows, self.rejected);
-        Ok(Measurements { file, rows, columns, given, given_extra, detection, read, rejected, notes })
+        Ok(Measurements {
+            file: file.to_owned(),
+            rows: self.rows,
+            unselected: Unselected { rows: self.selection.others(), ..Unselected::default() },
+            columns,
+            given,
+            given_extra,
+            detection: self.map.detection,
+            read: self.read,
+            rejected: self.rejected,
+            notes,
+        })
     }
 
     /// The assumed values of the inputs that the model declares.
@@ -165,11 +252,8 @@ impl<'a> Builder<'a> {
             notes.push(format!("not in the file, assumed: {}", absent.join(", ")));
         }
         for (place, (input, _)) in self.inputs.extra().enumerate().filter(|(_, (_, given))| *given) {
-            let count = |test: &dyn Fn(f64) -> bool| {
-                self.rows.iter().filter(|row| test(row.impact.extra[place])).count()
-            };
-            let (blank, unknown) = (count(&f64::is_nan), count(&|value| input.is_unknown(value)));
-            let (name, rows) = (&input.name, self.rows.len());
+            let [blank, unknown] = self.extra_counts[place];
+            let (name, rows) = (&input.name, self.usable);
             if blank > 0 {
                 let taken =
                     if input.default.is_nan() { "without a correction" } else { "taken as the default" };
@@ -178,6 +262,29 @@ impl<'a> Builder<'a> {
             if unknown > 0 {
                 notes.push(format!(
                     "{name} is no label of the model in {unknown} of {rows} rows, without a correction"
+                ));
+            }
+        }
+        notes
+    }
+
+    /// What the selection of a large file leaves out.
+    fn selection_notes(&self, headers: &csv::StringRecord) -> Vec<String> {
+        if self.selection.others() == 0 {
+            return Vec::new();
+        }
+        let name = |index: &usize| headers.get(*index).unwrap_or("").to_owned();
+        let groups: Vec<String> = self.groups.iter().map(name).collect();
+        let mut notes = self.selection.notes(&self.rows, &groups);
+        for (index, cells) in self.causes.iter().filter(|(index, _)| !self.groups.contains(index)) {
+            let (lost, more) = cells.lost_labels();
+            if !lost.is_empty() {
+                let shown = lost.iter().take(SHOWN_LABELS).map(String::as_str).collect::<Vec<_>>().join(", ");
+                let (least, name) = (if more { "at least " } else { "" }, name(index));
+                notes.push(format!(
+                    "column `{name}`: {least}{} labels are rare and in no selected row: {shown}{}",
+                    lost.len(),
+                    if lost.len() > SHOWN_LABELS { ", ..." } else { "" }
                 ));
             }
         }
@@ -231,13 +338,26 @@ impl Measurements {
         map: Option<&ColumnMap>,
         walls: &WallChoice<'_>,
     ) -> Result<Self, DatasetError> {
+        Self::read_at_most(file, source, map, walls, usize::MAX, &mut |_| {})
+    }
+
+    /// As [`Self::read`], with at most so many rows and rejected rows. Of a file with more usable rows a selection is kept; the
+    /// others go to `unselected` one by one, not in the order of the file.
+    pub(crate) fn read_at_most(
+        file: &str,
+        source: impl Read,
+        map: Option<&ColumnMap>,
+        walls: &WallChoice<'_>,
+        most: usize,
+        unselected: &mut dyn FnMut(Measurement),
+    ) -> Result<Self, DatasetError> {
         let own = ColumnMap::default();
         let map = map.unwrap_or(&own);
         let mut table = CsvTable::open(file, source, map.layout, |name| map.ignores(name))?;
-        let mut builder = Builder::new(&table, map, walls)?;
+        let mut builder = Builder::new(&table, map, walls, most)?;
         let mut cells = csv::StringRecord::new();
         while let Some(next) = table.next_into(&mut cells)? {
-            builder.take(next, &cells);
+            builder.take(next, &cells, unselected);
         }
         builder.finish(file, table.headers())
     }

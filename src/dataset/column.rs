@@ -1,6 +1,6 @@
 //! Columns that are not inputs of the model: possible causes of its residuals.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 
 use super::number::is_blank;
 
@@ -41,12 +41,22 @@ pub fn names_groups(name: &str) -> bool {
     GROUPS.iter().any(|group| group.eq_ignore_ascii_case(name))
 }
 
+/// Largest number of labels of rows that are not kept.
+const MOST_LABELS: usize = 1000;
+
 /// The cells of a column while the file is read; whether all are numbers is known at the end.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {
     name: String,
     /// Whether its numbers are labels.
     as_labels: bool,
+    /// Number of cells that are not blank, and of numbers among them; of all rows, kept or not.
+    filled: usize,
+    numbers: usize,
+    /// Line and text of the first cell that is no number.
+    invalid: Option<(u64, String)>,
+    /// Labels of rows that are not kept, at most [`MOST_LABELS`].
+    others: BTreeSet<String>,
     /// All cells, one after the other: an allocation for each cell would be slower than reading it.
     text: String,
     /// Where each cell ends in `text`.
@@ -56,49 +66,77 @@ pub(super) struct Cells {
 impl Cells {
     /// An empty column.
     pub(super) fn new(name: &str, as_labels: bool) -> Self {
-        Self { name: name.to_owned(), as_labels, text: String::new(), ends: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            as_labels,
+            filled: 0,
+            numbers: 0,
+            invalid: None,
+            others: BTreeSet::new(),
+            text: String::new(),
+            ends: Vec::new(),
+        }
     }
 
-    /// Appends the cell of the next row.
+    /// Takes note of the cell of a usable row; `parse` reads one number.
+    pub(super) fn note(&mut self, line: u64, cell: &str, parse: impl Fn(&str) -> Option<f64>) {
+        if self.as_labels || is_blank(cell) {
+            return;
+        }
+        self.filled += 1;
+        match parse(cell) {
+            Some(_) => self.numbers += 1,
+            None if self.invalid.is_none() => self.invalid = Some((line, cell.to_owned())),
+            None => {}
+        }
+    }
+
+    /// Appends the cell of the next row that is kept.
     pub(super) fn push(&mut self, cell: &str) {
         self.text.push_str(if is_blank(cell) { "" } else { cell });
         self.ends.push(self.text.len());
     }
 
-    fn cells(&self) -> impl Iterator<Item = &str> {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(start, end)| self.text.get(start..*end).unwrap_or(""))
+    /// Takes note of the label of a row that is not kept.
+    pub(super) fn leave_out(&mut self, cell: &str) {
+        let is_label = (self.as_labels || self.invalid.is_some()) && !is_blank(cell);
+        if is_label && self.others.len() < MOST_LABELS && !self.others.contains(cell) {
+            self.others.insert(cell.to_owned());
+        }
     }
 
-    /// The column; and if most cells are numbers, the row and the text of the first one that is not. `parse` reads one
+    /// Removes the rows that are not kept.
+    pub(super) fn retain(&mut self, kept: &[bool]) {
+        let (text, ends) = (std::mem::take(&mut self.text), std::mem::take(&mut self.ends));
+        for (cell, kept) in cells(&text, &ends).zip(kept) {
+            if *kept { self.push(cell) } else { self.leave_out(cell) }
+        }
+    }
+
+    fn cells(&self) -> impl Iterator<Item = &str> {
+        cells(&self.text, &self.ends)
+    }
+
+    /// The column; and if most cells are numbers, the line and the text of the first one that is not. `parse` reads one
     /// number.
-    pub(super) fn finish(self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<(usize, String)>) {
-        let (values, invalid) = match (!self.as_labels).then(|| self.numbers(&parse)) {
-            Some(Ok(numbers)) => (Values::Numbers(numbers), None),
-            Some(Err(row)) => (self.labels(), self.invalid(row, &parse)),
-            None => (self.labels(), None),
-        };
+    pub(super) fn finish(mut self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<(u64, String)>) {
+        let invalid = self.invalid.take();
+        let values = if self.filled > 0 && invalid.is_none() { self.numbers(parse) } else { self.labels() };
+        let invalid = invalid.filter(|_| 2 * self.numbers > self.filled);
         (Column { name: self.name, values }, invalid)
     }
 
-    /// All cells as numbers, or the first row that is not a number; a column of blanks has no numbers.
-    fn numbers(&self, parse: &impl Fn(&str) -> Option<f64>) -> Result<Vec<f64>, usize> {
-        if self.text.is_empty() {
-            return Err(0);
-        }
-        let number = |(row, cell): (usize, &str)| match cell {
-            "" => Ok(f64::NAN),
-            cell => parse(cell).ok_or(row),
-        };
-        self.cells().enumerate().map(number).collect()
+    /// All cells as numbers.
+    fn numbers(&self, parse: impl Fn(&str) -> Option<f64>) -> Values {
+        Values::Numbers(self.cells().map(|cell| parse(cell).unwrap_or(f64::NAN)).collect())
     }
 
-    fn invalid(&self, row: usize, parse: &impl Fn(&str) -> Option<f64>) -> Option<(usize, String)> {
-        let filled = self.cells().filter(|cell| !cell.is_empty());
-        let (numbers, all) = filled
-            .fold((0, 0), |(numbers, all), cell| (numbers + usize::from(parse(cell).is_some()), all + 1));
-        let cell = self.cells().nth(row)?.to_owned();
-        (2 * numbers > all).then_some((row, cell))
+    /// Labels that only rows have that are not kept, and whether there may be more.
+    pub(super) fn lost_labels(&self) -> (Vec<String>, bool) {
+        let kept: BTreeSet<&str> = self.cells().collect();
+        let is_label = self.as_labels || self.invalid.is_some();
+        let lost = self.others.iter().filter(|label| is_label && !kept.contains(label.as_str()));
+        (lost.cloned().collect(), self.others.len() >= MOST_LABELS)
     }
 
     fn labels(&self) -> Values {
@@ -112,6 +150,12 @@ impl Cells {
         let of_row = self.cells().map(|cell| place.get(cell).copied()).collect();
         Values::Labels { levels: levels.into_iter().map(str::to_owned).collect(), of_row }
     }
+}
+
+/// The parts of a text that end at these places.
+fn cells<'a>(text: &'a str, ends: &'a [usize]) -> impl Iterator<Item = &'a str> {
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    starts.zip(ends).map(|(start, end)| text.get(start..*end).unwrap_or(""))
 }
 
 impl Values {
@@ -152,8 +196,12 @@ pub(super) mod tests {
     fn labels_are_sorted_and_kept_as_written() {
         let finish = |cells: &[&str], labels: bool| {
             let mut column = Cells::new("c", labels);
-            cells.iter().for_each(|cell| column.push(cell));
-            let (column, invalid) = column.finish(|cell| cell.parse().ok());
+            let parse = |cell: &str| cell.parse().ok();
+            for (line, cell) in (1..).zip(cells) {
+                column.note(line, cell, parse);
+                column.push(cell);
+            }
+            let (column, invalid) = column.finish(parse);
             assert_eq!(invalid, None);
             column.values
         };

@@ -143,7 +143,7 @@ impl<R: Read> CsvTable<R> {
         Ok(Some(match csv::StringRecord::from_byte_record(record) {
             Ok(read) => {
                 *cells = read;
-                cells.trim();
+                trim(cells);
                 self.check_width(cells, line)
             }
             Err(_) => Err(BadRow { line, reason: "the row is not UTF-8".to_owned() }),
@@ -160,6 +160,15 @@ impl<R: Read> CsvTable<R> {
 
     fn unreadable(&self, error: &csv::Error) -> DatasetError {
         DatasetError::Unreadable { file: self.file.clone(), reason: error.to_string() }
+    }
+}
+
+/// Trims the cells; most records need no copy.
+fn trim(cells: &mut csv::StringRecord) {
+    let is_space = |byte: Option<&u8>| byte.is_some_and(|byte| *byte <= b' ' || !byte.is_ascii());
+    let has_ends = |cell: &str| is_space(cell.as_bytes().first()) || is_space(cell.as_bytes().last());
+    if cells.iter().any(has_ends) {
+        cells.trim();
     }
 }
 

@@ -12,8 +12,11 @@ use crate::input::unknown;
 pub struct Measurements {
     /// The name of the file.
     pub file: String,
-    /// The usable rows, in the order of the file; possibly none.
+    /// The usable rows, in the order of the file; possibly none. Of a large file a selection, if it was read by
+    /// [`crate::diagnose::read_measurements`].
     pub rows: Vec<Measurement>,
+    /// The usable rows that were not selected.
+    pub unselected: Unselected,
     /// The columns that are not inputs, in the order of the file.
     pub columns: Vec<Column>,
     /// The inputs that a column states, or two columns together.
@@ -24,10 +27,19 @@ pub struct Measurements {
     pub given_extra: Vec<usize>,
     /// Number of usable and rejected rows.
     pub read: usize,
-    /// The rejected rows, with the reason.
+    /// The rejected rows, with the reason; of a large file the first ones, if it was read so.
     pub rejected: Vec<BadRow>,
     /// Assumptions, and warnings about likely mistakes.
     pub notes: Vec<String>,
+}
+
+/// Usable rows of a large file that were not selected, as sums.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Unselected {
+    /// Their number.
+    pub rows: usize,
+    /// Sum and number of the base model's squared errors of `e_n` and `e_t` and log losses of captures [nats].
+    pub misfits: [(f64, usize); 3],
 }
 
 /// One row: one impact, or an average over several.

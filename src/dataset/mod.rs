@@ -23,6 +23,7 @@ mod number;
 mod observed;
 mod rig_measurements;
 mod rig_observable;
+mod selection;
 mod unit;
 mod wall_choice;
 
@@ -31,10 +32,11 @@ pub use column_map::ColumnMap;
 pub use detection::Detection;
 pub use impact_reader::{ImpactReader, Row};
 pub use input_errors::InputErrors;
-pub use measurements::{Measurement, Measurements, Reading};
+pub use measurements::{Measurement, Measurements, Reading, Unselected};
 pub use notes::{assumed, unlikely};
 pub use rig_measurements::{Experiment, RigMeasurements, RigReading, settings_of};
 pub use rig_observable::{Restitution, RigQuantity};
+pub use selection::MOST_ROWS;
 pub use wall_choice::{WallChoice, WallError};
 
 /// Why a file cannot be read as impacts.

@@ -19,7 +19,7 @@ const FIT_ROWS: usize = 10_000;
 /// The same for a stochastic model.
 const STOCHASTIC_FIT_ROWS: usize = 1000;
 /// Random draws a row of a stochastic model, in the search and in the final fit.
-const COARSE_DRAWS: usize = 16;
+pub(super) const COARSE_DRAWS: usize = 16;
 const FINE_DRAWS: usize = 64;
 /// So many groups can be tested as units.
 const MANY_GROUPS: usize = 10;

@@ -10,7 +10,7 @@ use super::hypothesis::Hypothesis;
 use super::likelihood::{Mean, Offset, Scatter};
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
-use crate::dataset::{Measurement, Measurements, Values};
+use crate::dataset::{Measurement, Measurements, Unselected, Values};
 use crate::model::{ExtraInput, Model};
 
 /// Resamples of the bootstrap.
@@ -222,19 +222,39 @@ fn squared([measured, predicted]: [f64; 2]) -> f64 {
 }
 
 fn average(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let values: Vec<f64> = values.collect();
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
+    mean_of(total(values))
 }
 
-/// The errors of a hypothesis on these rows.
-pub(super) fn errors(rows: &Evaluation<'_>) -> Errors {
-    let rmse = |observable| average(rows.pairs(observable).flatten().map(squared)).map(f64::sqrt);
+/// The sum and the number of some values.
+fn total(values: impl Iterator<Item = f64>) -> (f64, usize) {
+    let values: Vec<f64> = values.collect();
+    (values.iter().sum(), values.len())
+}
+
+fn mean_of((sum, count): (f64, usize)) -> Option<f64> {
+    (count > 0).then(|| sum / count as f64)
+}
+
+/// Sum and number of the squared errors of `e_n` and `e_t` and of the log losses of captures [nats] on these rows.
+pub(super) fn misfits(rows: &Evaluation<'_>) -> [(f64, usize); 3] {
     let loss = |[share, p]: [f64; 2]| -(share * p.ln() + (1.0 - share) * (1.0 - p).ln());
-    Errors {
-        rmse_e_n: rmse(Observable::NormalRestitution),
-        rmse_e_t: rmse(Observable::TangentialRestitution),
-        log_loss_stick: average(rows.pairs(Observable::Capture).flatten().map(loss)),
+    Observable::ALL.map(|observable| {
+        let pairs = rows.pairs(observable).flatten();
+        match observable {
+            Observable::Capture => total(pairs.map(loss)),
+            _ => total(pairs.map(squared)),
+        }
+    })
+}
+
+/// The errors of the base model on these rows and on those that were not selected.
+pub(super) fn errors(rows: &Evaluation<'_>, unselected: &Unselected) -> Errors {
+    let mut misfits = misfits(rows);
+    for (own, more) in misfits.iter_mut().zip(unselected.misfits) {
+        *own = (own.0 + more.0, own.1 + more.1);
     }
+    let [e_n, e_t, loss] = misfits.map(mean_of);
+    Errors { rmse_e_n: e_n.map(f64::sqrt), rmse_e_t: e_t.map(f64::sqrt), log_loss_stick: loss }
 }
 
 /// Mean measured and predicted share of captures, without offsets.

@@ -43,6 +43,7 @@ mod shared_error;
 mod slip;
 mod smooth;
 mod study;
+mod unselected;
 mod verdict;
 
 pub use record::{
@@ -50,8 +51,9 @@ pub use record::{
     FittedSurface, Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows,
     Sample, SampleRow, ScatterFound, Unexplained,
 };
+pub use unselected::read_measurements;
 
-use crate::dataset::{BadRow, Measurements};
+use crate::dataset::{BadRow, Measurement, Measurements};
 use crate::impact::{INPUTS, Impact, Input};
 use crate::model::Model;
 use choice::Task;
@@ -118,11 +120,12 @@ pub fn diagnose_with_draws(
     progress: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     let data = plausible(base, data);
-    let (used, read) = (data.rows.len(), data.read);
-    if used < LEAST_ROWS {
+    let (selected, read) = (data.rows.len(), data.read);
+    let used = selected + data.unselected.rows;
+    if selected < LEAST_ROWS {
         let reason = |bad: &BadRow| format!("Line {}: {}.", bad.line, bad.reason);
         let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
-        return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons });
+        return Err(DiagnosisError::TooFewRows { used: selected, read, least: LEAST_ROWS, reasons });
     }
     let groups = GroupColumn::all(&data, options.group.as_deref());
     let task = Task { text, level: options.level, groups: &groups, progress };
@@ -148,14 +151,16 @@ pub fn diagnose_with_draws(
 
     let plain = Hypothesis::base(&fine);
     let held_out_lines = study.unseen_lines(&data);
-    diagnosis.rows = Rows { read, used, held_out: 0, held_out_lines, rejected: data.rejected.clone() };
+    let selected = (selected < used).then_some(selected);
+    let rejected = data.rejected.clone();
+    diagnosis.rows = Rows { read, used, selected, held_out: 0, held_out_lines, rejected };
     diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
     diagnosis.groups = study.choice.groups_found();
     if diagnosis.undecided.is_empty() {
         diagnosis.undecided = verdict::possible_causes(&diagnosis.fit, &study.choice);
     }
     diagnosis.misfit = verdict::misfit(&hypothesis, &study.choice.first_round, options.level);
-    diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()));
+    diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()), &data.unselected);
     diagnosis.sample = gain::sample(&plain, &hypothesis);
     diagnosis.sample.views = data_view::views([&plain, &hypothesis], &diagnosis.findings);
     diagnosis.sample.notes.clone_from(&data.notes);
@@ -193,10 +198,13 @@ fn rivals(study: &Study, text: &str, level: f64) -> Vec<Rival> {
 /// The data without rows that the base model refuses, as at a temperature outside a property's range, and without
 /// implausible rows.
 fn plausible(base: &Model, data: &Measurements) -> Measurements {
-    data.without(|row| {
-        let refused = base.check(row.wall, &row.impact).err().map(|error| error.to_string());
-        refused.or_else(|| implausible(&row.impact))
-    })
+    data.without(|row| fault(base, row))
+}
+
+/// Why a row cannot be used with this base model.
+fn fault(base: &Model, row: &Measurement) -> Option<String> {
+    let refused = base.check(row.wall, &row.impact).err().map(|error| error.to_string());
+    refused.or_else(|| implausible(&row.impact))
 }
 
 /// The input with an implausible value: its squares would overflow in a law and invalidate all sums over rows.

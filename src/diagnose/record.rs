@@ -76,12 +76,22 @@ pub struct Rows {
     pub read: usize,
     /// Rows that the diagnosis used.
     pub used: usize,
+    /// Number of rows that represent all used rows of a large file in choices, fits and gain; `None` for all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub selected: Option<usize>,
     /// Impacts and readings that no fit and no choice used; an average counts as the captures and rebounds it states.
     pub held_out: usize,
     /// Lines of the file that no fit and no choice used, at most 1000; none if the gain is cross-validated.
     pub held_out_lines: Vec<u64>,
-    /// Rows that were not used.
+    /// Rows that were not used; some of them where `read` less `used` is larger.
     pub rejected: Vec<BadRow>,
+}
+
+impl Rows {
+    /// Number of rows that were not used.
+    pub fn left_out(&self) -> usize {
+        self.read - self.used
+    }
 }
 
 /// Root mean square errors [1] and mean log loss [nats]; `None` where nothing was observed.

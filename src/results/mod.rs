@@ -120,6 +120,11 @@ impl<T> History<T> {
     }
 }
 
+/// The last time [s] that all runs have reached.
+pub fn common_time<'a>(runs: impl Iterator<Item = &'a RunResults>) -> f64 {
+    runs.map(RunResults::last_time).fold(f64::INFINITY, f64::min)
+}
+
 /// The history of a wall, made when it does not exist.
 pub(crate) fn history_of<'a, T>(histories: &'a mut Vec<History<T>>, wall: &str) -> &'a mut History<T> {
     let index = histories.iter().position(|history| history.wall == wall).unwrap_or_else(|| {
@@ -144,19 +149,22 @@ pub struct Capture {
     pub regime: Option<Regime>,
 }
 
-/// One arrival at a patch as OpenFOAM's own cloud function records it, before the wall model acts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RecordedArrival {
+/// Arrivals at a patch as OpenFOAM's own cloud function records them, before the wall model acts, up to the time at which
+/// the run is compared with others.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RecordedArrivals {
     /// Name of the patch.
     pub patch: String,
-    /// Time [s].
-    pub time: f64,
-    /// Mass of all particles of the parcel [kg].
-    pub mass: f64,
-    /// Speed [m/s].
-    pub speed: f64,
-    /// Carbon conversion [1], where the cloud has carbon.
-    pub conversion: Option<f64>,
+    /// Parcels, and the mass of all their particles.
+    pub hits: Amount,
+    /// Their speed [m/s].
+    pub speed: Moments,
+    /// Arriving mass by carbon conversion [kg].
+    pub conversions: ByConversion,
+    /// Arrivals of unknown conversion, as without carbon.
+    pub unknown_conversions: u64,
+    /// Arrivals during the whole run.
+    pub whole_run: Amount,
 }
 
 /// Captured mass on the unrolled surface of a wall.
@@ -231,8 +239,8 @@ pub struct RunResults {
     pub surfaces: Vec<WallSurface>,
     /// Gas and parcels in a plane, at the last written time with parcels.
     pub gas: Option<GasCut>,
-    /// Arrivals recorded by OpenFOAM's own cloud function, in the order of time.
-    pub arrivals: Vec<RecordedArrival>,
+    /// Arrivals recorded by OpenFOAM's own cloud function at each patch that any reached.
+    pub arrivals: Vec<RecordedArrivals>,
     /// Time [s] and injected mass [kg].
     pub injected: Vec<[f64; 2]>,
     /// Time [s] and mass [kg] that left through any patch, where a log states it.
@@ -297,17 +305,13 @@ impl RunResults {
         if let Some((totals, hits)) = totals.and_then(|totals| Some((totals, totals.hits?))) {
             return Some((hits, totals.speed));
         }
-        let (mut hits, mut speed) = (Amount::default(), Moments::default());
-        for arrival in self.recorded(time).filter(|arrival| arrival.patch == wall) {
-            hits.add(arrival.mass);
-            speed.add(arrival.speed);
-        }
-        (!self.arrivals.is_empty()).then_some((hits, speed))
+        let at_wall = self.recorded(wall).map_or_else(Default::default, |sums| (sums.hits, sums.speed));
+        (!self.arrivals.is_empty()).then_some(at_wall)
     }
 
-    /// Recorded arrivals up to a time [s].
-    pub fn recorded(&self, time: f64) -> impl Iterator<Item = &RecordedArrival> {
-        self.arrivals.iter().filter(move |arrival| arrival.time <= time)
+    /// Recorded arrivals at a wall.
+    pub fn recorded(&self, wall: &str) -> Option<&RecordedArrivals> {
+        self.arrivals.iter().find(|arrivals| arrivals.patch == wall)
     }
 
     /// Mass [kg] captured at all walls up to a time [s].
@@ -340,9 +344,11 @@ impl RunResults {
             }
         } else {
             for wall in walls.iter().filter(|wall| self.captures_all(wall, time)) {
-                for arrival in self.recorded(time).filter(|arrival| arrival.patch == **wall) {
-                    sums[bin(arrival.conversion?, 1.0, CONVERSION_BINS)] += arrival.mass;
+                let Some(arrivals) = self.recorded(wall) else { continue };
+                if arrivals.unknown_conversions > 0 {
+                    return None;
                 }
+                sums.iter_mut().zip(arrivals.conversions).for_each(|(sum, mass)| *sum += mass);
             }
         }
         (sums.iter().sum::<f64>() > 0.0).then_some(sums)

@@ -20,5 +20,6 @@ mod real_measurements;
 mod recorded;
 mod report;
 mod runner;
+mod scale;
 mod simulate;
 mod wall_maps;

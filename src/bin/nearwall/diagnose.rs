@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use nearwall::Model;
 use nearwall::atomic_file::{AtomicFile, refused};
-use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
-use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose_with_draws};
+use nearwall::dataset::{ColumnMap, WallChoice};
+use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose_with_draws, read_measurements};
 use nearwall::input::Document;
 use nearwall::report::diagnosis_page;
 
@@ -84,7 +84,9 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
     let walls = WallChoice::new(&model, arguments.wall.as_deref())?;
-    let data = Measurements::read(&file, source, Some(&map), &walls)?;
+    let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
+    let data = read_measurements(&file, bar.wrap_read(source), Some(&map), &walls, &model)?;
+    bar.finish_and_clear();
     if let Some(group) = &group {
         data.check_group(group)?;
     }
@@ -164,11 +166,12 @@ pub(crate) fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
             .collect();
         text += &format!("  {}: {}\n", finding.cause, parameters.join(", "));
     }
-    if !diagnosis.rows.rejected.is_empty() {
+    let rows = &diagnosis.rows;
+    if rows.left_out() > 0 {
         text += &format!(
             "{} of {} rows were left out; report.html lists them with the reasons\n",
-            diagnosis.rows.rejected.len(),
-            diagnosis.rows.read
+            rows.left_out(),
+            rows.read
         );
     }
     text + &format!("open {}\n", crate::report::whole(&folder.join("report.html")).display())

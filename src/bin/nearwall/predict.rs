@@ -1,15 +1,16 @@
 //! `nearwall predict`: the model's prediction of each impact in a CSV file.
 
 use std::fs::File;
-use std::io::{ErrorKind, Write};
+use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use nearwall::atomic_file::{AtomicFile, of_csv, refused};
-use nearwall::dataset::{ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
+use nearwall::dataset::{BadRow, DatasetError, ImpactReader, Row, WallChoice, WallError, assumed, unlikely};
 use nearwall::impact::INPUTS;
 use nearwall::model::ExtraInput;
 use nearwall::rig::{Band, DrawnModels};
 use nearwall::{ImpactRng, Model};
+use rayon::prelude::*;
 
 use crate::{CommandResult, progress};
 
@@ -89,10 +90,10 @@ struct Models<'a> {
 }
 
 /// Finds the wall of a row.
-type WallOf<'a> = dyn Fn(&Row) -> Result<usize, WallError> + 'a;
+type WallOf<'a> = dyn Fn(&Row) -> Result<usize, WallError> + Sync + 'a;
 
 /// Reports unused columns that resemble an input, and the assumed values of absent inputs.
-fn note_assumptions(file: &str, reader: &ImpactReader<impl std::io::Read>) {
+fn note_assumptions(file: &str, reader: &ImpactReader<impl Read>) {
     for (column, input) in reader.near_misses() {
         eprintln!(
             "nearwall: {file}: column `{column}` is not used; rename it if it is the input `{input}` in SI units"
@@ -117,10 +118,9 @@ fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Er
 fn predict(
     models: &Models<'_>,
     wall_of: &WallOf<'_>,
-    reader: &mut ImpactReader<impl std::io::Read>,
+    reader: &mut ImpactReader<impl Read + Send>,
     output: &mut impl Write,
 ) -> CommandResult {
-    let mut writer = csv::Writer::from_writer(output);
     let mut header = reader.headers().clone();
     let bands: &[&str] = if models.draws.is_empty() { &[] } else { &BANDS };
     for name in ADDED.iter().chain(bands) {
@@ -128,73 +128,177 @@ fn predict(
         let taken = reader.column(name).is_some();
         header.push_field(&if taken { format!("{name}_predicted") } else { (*name).to_owned() });
     }
-    writer.write_record(&header)?;
-    let (mut done, mut left_out, mut outside) = (0_u64, 0_u64, 0_u64);
-    let (mut warning, mut unknown) = (None, None);
-    while let Some(next) = reader.next_row()? {
-        let predicted = next.map_err(|bad| (bad.line, bad.reason)).and_then(|row| {
-            warning = warning.take().or_else(|| unlikely(row.line, &row.impact));
-            unknown = unknown.take().or_else(|| unknown_label(models.model, &row));
-            predict_row(models, wall_of, &row).map_err(|reason| (row.line, reason))
-        });
-        match predicted {
-            Ok((record, outside_range)) => {
-                writer.write_record(&record)?;
-                done += 1;
-                outside += u64::from(outside_range);
-            }
-            Err((line, reason)) => {
-                eprintln!("nearwall: line {line} left out: {reason}");
-                left_out += 1;
-            }
+    let mut first = csv::Writer::from_writer(&mut *output);
+    first.write_record(&header)?;
+    first.flush().map_err(csv::Error::from)?;
+    drop(first);
+    let mut all = Predicted::default();
+    let mut block = Block::read(reader);
+    while !block.rows.is_empty() {
+        // The next rows are read meanwhile.
+        let (parts, next) = rayon::join(|| block.predict(models, wall_of), || Block::read(reader));
+        for part in parts {
+            all.write(part?, output)?;
         }
+        if let Some(error) = block.fault {
+            return Err(error.into());
+        }
+        block = next;
     }
-    writer.flush().map_err(csv::Error::from)?;
-    for warning in warning.into_iter().chain(unknown) {
-        eprintln!("nearwall: {warning}");
+    if let Some(error) = block.fault {
+        return Err(error.into());
     }
-    if outside > 0 {
-        eprintln!(
-            "nearwall: {outside} of {done} rows lie outside the valid range of a property, a law or a fitted term \
-             (see --explain LINE, `nearwall materials NAME`)"
-        );
-    }
-    if left_out > 0 {
-        eprintln!("nearwall: {done} rows predicted, {left_out} left out");
-    }
-    if done == 0 {
-        return Err("no row could be used".into());
-    }
-    Ok(())
+    output.flush().map_err(csv::Error::from)?;
+    all.report()
 }
 
-fn predict_row(
-    models: &Models<'_>,
-    wall_of: &WallOf<'_>,
-    row: &Row,
-) -> Result<(csv::StringRecord, bool), String> {
-    let wall = wall_of(row).map_err(|error| error.to_string())?;
-    let expect = |model: &Model| {
-        let mean = model.expect(wall, &row.impact, DRAWS).map_err(|error| error.to_string())?;
-        let values = [mean.normal_restitution, mean.tangential_restitution, mean.sticking_probability];
-        Ok::<_, String>((values, mean))
-    };
-    let (values, mean) = expect(models.model)?;
-    let mut record = row.cells.clone();
-    for value in values {
-        record.push_field(&format!("{value:.16e}"));
+/// Rows that are predicted together, and rows of one task.
+const BLOCK: usize = 8192;
+const TASK: usize = 256;
+
+/// Consecutive rows of the file.
+struct Block {
+    rows: Vec<Result<Row, BadRow>>,
+    /// Why no more rows can be read.
+    fault: Option<DatasetError>,
+}
+
+impl Block {
+    fn read(reader: &mut ImpactReader<impl Read>) -> Self {
+        let (mut rows, mut fault) = (Vec::with_capacity(BLOCK), None);
+        while rows.len() < BLOCK && fault.is_none() {
+            match reader.next_row() {
+                Ok(Some(next)) => rows.push(next),
+                Ok(None) => break,
+                Err(error) => fault = Some(error),
+            }
+        }
+        Self { rows, fault }
     }
-    record.push_field(mean.regime.name());
-    if !models.draws.is_empty() {
+
+    /// Predicts the rows on all cores; the parts have their order.
+    fn predict(&self, models: &Models<'_>, wall_of: &WallOf<'_>) -> Vec<csv::Result<Predicted>> {
+        self.rows.par_chunks(TASK).map(|rows| Predicted::of(models, wall_of, rows)).collect()
+    }
+}
+
+/// Predicted rows as text, and what has to be said of them.
+#[derive(Default)]
+struct Predicted {
+    text: Vec<u8>,
+    done: u64,
+    /// Rows outside a valid range.
+    outside: u64,
+    /// Rows that cannot be used: line and reason.
+    left_out: Vec<(u64, String)>,
+    left_out_count: u64,
+    /// The first warning about a unit, and about a word that the model does not list.
+    warning: Option<String>,
+    unknown: Option<String>,
+}
+
+impl Predicted {
+    fn of(models: &Models<'_>, wall_of: &WallOf<'_>, rows: &[Result<Row, BadRow>]) -> csv::Result<Self> {
+        let mut part = Self::default();
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for next in rows {
+            let predicted = next.as_ref().map_err(|bad| (bad.line, bad.reason.clone())).and_then(|row| {
+                part.warning = part.warning.take().or_else(|| unlikely(row.line, &row.impact));
+                part.unknown = part.unknown.take().or_else(|| unknown_label(models.model, row));
+                let predicted = PredictedRow::of(models, wall_of, row);
+                Ok((row, predicted.map_err(|reason| (row.line, reason))?))
+            });
+            match predicted {
+                Ok((row, predicted)) => {
+                    predicted.write(row, &mut writer)?;
+                    part.done += 1;
+                    part.outside += u64::from(predicted.outside_range);
+                }
+                Err(bad) => part.left_out.push(bad),
+            }
+        }
+        part.text = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
+        Ok(part)
+    }
+
+    /// Writes later rows and adds their counts and warnings.
+    fn write(&mut self, part: Self, output: &mut impl Write) -> csv::Result<()> {
+        for (line, reason) in &part.left_out {
+            eprintln!("nearwall: line {line} left out: {reason}");
+        }
+        output.write_all(&part.text)?;
+        self.done += part.done;
+        self.outside += part.outside;
+        self.left_out_count += part.left_out.len() as u64;
+        self.warning = self.warning.take().or(part.warning);
+        self.unknown = self.unknown.take().or(part.unknown);
+        Ok(())
+    }
+
+    fn report(&self) -> CommandResult {
+        let Self { done, outside, left_out_count, .. } = self;
+        for warning in self.warning.iter().chain(&self.unknown) {
+            eprintln!("nearwall: {warning}");
+        }
+        if *outside > 0 {
+            eprintln!(
+                "nearwall: {outside} of {done} rows lie outside the valid range of a property, a law or a fitted term \
+                 (see --explain LINE, `nearwall materials NAME`)"
+            );
+        }
+        if *left_out_count > 0 {
+            eprintln!("nearwall: {done} rows predicted, {left_out_count} left out");
+        }
+        if *done == 0 {
+            return Err("no row could be used".into());
+        }
+        Ok(())
+    }
+}
+
+/// The predictions of one row.
+struct PredictedRow {
+    /// `e_n`, `e_t` and `p_stick`.
+    values: [f64; 3],
+    regime: &'static str,
+    /// The bands of the values, with `--draws`.
+    bands: Vec<[f64; 2]>,
+    outside_range: bool,
+}
+
+impl PredictedRow {
+    fn of(models: &Models<'_>, wall_of: &WallOf<'_>, row: &Row) -> Result<Self, String> {
+        let wall = wall_of(row).map_err(|error| error.to_string())?;
+        let expect = |model: &Model| {
+            let mean = model.expect(wall, &row.impact, DRAWS).map_err(|error| error.to_string())?;
+            let values = [mean.normal_restitution, mean.tangential_restitution, mean.sticking_probability];
+            Ok::<_, String>((values, mean))
+        };
+        let (values, mean) = expect(models.model)?;
         let drawn = models.draws.iter().map(|model| expect(model).map(|(values, _)| values));
         let drawn: Vec<[f64; 3]> = drawn.collect::<Result<_, _>>()?;
-        for which in 0..3 {
+        let band = |which: usize| {
             let Band { low, high, .. } = Band::of(drawn.iter().map(|values| values[which]).collect());
-            record.push_field(&format!("{low:.16e}"));
-            record.push_field(&format!("{high:.16e}"));
-        }
+            [low, high]
+        };
+        let bands = if drawn.is_empty() { Vec::new() } else { (0..3).map(band).collect() };
+        Ok(Self { values, regime: mean.regime.name(), bands, outside_range: mean.outside_range })
     }
-    Ok((record, mean.outside_range))
+
+    /// Writes the cells of the row and the predictions.
+    fn write(&self, row: &Row, writer: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
+        for cell in &row.cells {
+            writer.write_field(cell)?;
+        }
+        for value in self.values {
+            writer.write_field(format!("{value:.16e}"))?;
+        }
+        writer.write_field(self.regime)?;
+        for value in self.bands.as_flattened() {
+            writer.write_field(format!("{value:.16e}"))?;
+        }
+        writer.write_record(None::<&[u8]>)
+    }
 }
 
 /// A warning if a row has a word that the model file does not list.
@@ -209,7 +313,7 @@ fn unknown_label(model: &Model, row: &Row) -> Option<String> {
 fn explain(
     model: &Model,
     wall_of: &WallOf<'_>,
-    reader: &mut ImpactReader<impl std::io::Read>,
+    reader: &mut ImpactReader<impl Read>,
     line: u64,
 ) -> CommandResult {
     while let Some(next) = reader.next_row()? {

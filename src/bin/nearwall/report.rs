@@ -31,10 +31,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         let output = arguments.output.clone().unwrap_or_else(|| table.with_extension("html"));
         return write(&output, &[table], &sweep::page(table)?);
     }
-    let mut results = Vec::new();
-    for case in &arguments.cases {
-        results.extend(openfoam::read(case)?);
-    }
+    let folders: Vec<&Path> = arguments.cases.iter().map(PathBuf::as_path).collect();
+    let results = openfoam::read_all(&folders)?;
     let output = match (&arguments.output, arguments.cases.as_slice()) {
         (Some(output), _) => output.clone(),
         (None, [case]) => case.join("report.html"),

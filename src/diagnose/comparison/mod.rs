@@ -12,7 +12,7 @@ mod score;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::implausible;
+use super::fault;
 use crate::dataset::{Measurement, Measurements};
 use crate::model::Model;
 use bootstrap::Bootstrap;
@@ -86,7 +86,7 @@ pub fn compare(candidates: &[Candidate<'_>], seed: u64) -> Result<Comparison, Co
 fn common_lines(candidates: &[Candidate<'_>]) -> BTreeSet<u64> {
     let mut counts: BTreeMap<u64, usize> = BTreeMap::new();
     for candidate in candidates {
-        for row in candidate.data.rows.iter().filter(|row| refusal(candidate.model, row).is_none()) {
+        for row in candidate.data.rows.iter().filter(|row| fault(candidate.model, row).is_none()) {
             *counts.entry(row.line).or_default() += 1;
         }
     }
@@ -94,18 +94,12 @@ fn common_lines(candidates: &[Candidate<'_>]) -> BTreeSet<u64> {
     in_all.map(|(line, _)| line).collect()
 }
 
-/// Why a model cannot decide a row.
-fn refusal(model: &Model, row: &Measurement) -> Option<String> {
-    let refused = model.check(row.wall, &row.impact).err().map(|error| error.to_string());
-    refused.or_else(|| implausible(&row.impact))
-}
-
 /// What a model could not use, and what lies outside its range.
 fn model_rows(candidate: &Candidate<'_>) -> ModelRows {
     let Candidate { model, data, .. } = candidate;
     let mut refused: Vec<(u64, String)> =
         data.rejected.iter().map(|bad| (bad.line, bad.reason.clone())).collect();
-    refused.extend(data.rows.iter().filter_map(|row| Some((row.line, refusal(model, row)?))));
+    refused.extend(data.rows.iter().filter_map(|row| Some((row.line, fault(model, row)?))));
     refused.sort_unstable();
     let outside = |row: &&Measurement| {
         model.resolve_with(row.wall, &row.impact, |_| 0.5).is_ok_and(|outcome| outcome.outside_range)

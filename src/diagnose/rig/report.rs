@@ -202,6 +202,7 @@ impl Found<'_> {
                 used,
                 held_out: gain.as_ref().map_or(0, |gain| gain.held_out_rows),
                 held_out_lines: Vec::new(),
+                selected: None,
                 rejected: file.rejected.clone(),
             },
             fit,

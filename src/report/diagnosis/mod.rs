@@ -18,7 +18,7 @@ pub(super) mod usage;
 use super::format::{number, once_in, whole_percent};
 use super::page::{Page, Table};
 use crate::dataset::BadRow;
-use crate::diagnose::{Calibration, Diagnosis, Finding};
+use crate::diagnose::{Calibration, Diagnosis, Finding, Rows};
 
 /// Most rejected rows listed.
 const REJECTED: usize = 50;
@@ -49,7 +49,7 @@ pub fn page(diagnosis: &Diagnosis, names: &[String; 2], extended: &str) -> Resul
     gain::add(&mut page, diagnosis);
     usage::add_next(&mut page, diagnosis);
     usage::add_commands(&mut page, diagnosis, extended);
-    add_rejected(&mut page, &diagnosis.rows.rejected);
+    add_rejected(&mut page, &diagnosis.rows);
     add_method(&mut page, diagnosis, data, model);
     page.foot(&format!("Made from {data} and {model} with seed {}.", diagnosis.seed));
     page.html()
@@ -57,7 +57,7 @@ pub fn page(diagnosis: &Diagnosis, names: &[String; 2], extended: &str) -> Resul
 
 fn rows(diagnosis: &Diagnosis) -> String {
     let rows = &diagnosis.rows;
-    let left_out = match rows.rejected.len() {
+    let left_out = match rows.left_out() {
         0 => String::new(),
         1 => " 1 row was left out, see \"Rows left out\".".to_owned(),
         count => format!(" {count} rows were left out, see \"Rows left out\"."),
@@ -69,7 +69,10 @@ fn rows(diagnosis: &Diagnosis) -> String {
         _ if in_turn => String::new(),
         count => format!("; {count} observations were held out of every fit and choice"),
     };
-    format!("{} rows read, {} used{held_out}.{left_out}", rows.read, rows.used)
+    let selected = rows.selected.map_or(String::new(), |count| {
+        format!("; {count} of them, selected at random, stand for all in choices, fits and gain")
+    });
+    format!("{} rows read, {} used{selected}{held_out}.{left_out}", rows.read, rows.used)
 }
 
 /// A cause's name on the page; that of a surface is `unknown:a*b`, that of a constant shift `level:what`.
@@ -161,7 +164,8 @@ pub(super) fn add_calibration(page: &mut Page, calibration: &[Calibration]) {
     ));
 }
 
-pub(super) fn add_rejected(page: &mut Page, rejected: &[BadRow]) {
+pub(super) fn add_rejected(page: &mut Page, rows: &Rows) {
+    let (rejected, all) = (&rows.rejected, rows.left_out());
     if rejected.is_empty() {
         return;
     }
@@ -173,8 +177,10 @@ pub(super) fn add_rejected(page: &mut Page, rejected: &[BadRow]) {
         &["line", "reason"],
         rejected.iter().take(REJECTED).map(row).collect(),
     ));
-    if rejected.len() > REJECTED {
-        page.text(format!("… and {} more; diagnosis.json lists them all.", rejected.len() - REJECTED));
+    if all > REJECTED {
+        let listed =
+            if all > rejected.len() { format!("{} of them", rejected.len()) } else { "them all".to_owned() };
+        page.text(format!("… and {} more; diagnosis.json lists {listed}.", all - REJECTED));
     }
 }
 

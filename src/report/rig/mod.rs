@@ -55,7 +55,7 @@ pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::
     next::add(&mut page, found);
     usage::add_not_examined(&mut page, diagnosis);
     readings::add(&mut page, found);
-    add_rejected(&mut page, &diagnosis.rows.rejected);
+    add_rejected(&mut page, &diagnosis.rows);
     add_method(&mut page, diagnosis, from);
     usage::add_commands(&mut page, found, from);
     page.foot(&format!("Made from {} and {} with seed {}.", from.data, from.case, diagnosis.seed));

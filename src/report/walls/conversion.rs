@@ -2,7 +2,7 @@
 
 use super::Comparison;
 use crate::report::{Chart, Figure};
-use crate::results::{ByConversion, CONVERSION_BINS, bin, share};
+use crate::results::{ByConversion, CONVERSION_BINS, share};
 
 /// Captured mass by conversion at capture.
 pub(super) fn captured(comparison: &Comparison<'_>) -> Vec<Figure> {
@@ -24,12 +24,8 @@ pub(super) fn arriving(comparison: &Comparison<'_>) -> Vec<Figure> {
         ["arriving", "All recorded arrivals at walls; a parcel that rebounds may arrive many times."];
     comparison.histogram(caption, chart, &edges(), |series| {
         let mut masses = ByConversion::default();
-        for arrival in series.run.recorded(comparison.time) {
-            if series.walls.contains(&arrival.patch.as_str())
-                && let Some(conversion) = arrival.conversion
-            {
-                masses[bin(conversion, 1.0, CONVERSION_BINS)] += arrival.mass;
-            }
+        for arrivals in series.walls.iter().filter_map(|wall| series.run.recorded(wall)) {
+            masses.iter_mut().zip(arrivals.conversions).for_each(|(sum, mass)| *sum += mass);
         }
         let all = masses.iter().sum();
         Some(masses.map(|mass| 100.0 * share(mass, all)).to_vec())

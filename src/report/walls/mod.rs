@@ -19,7 +19,7 @@ mod verdict;
 
 use super::{Chart, Figure, Page, Table, number, percent};
 use crate::results::standalone::Run;
-use crate::results::{Moments, RunResults, WallModel, WallTotals};
+use crate::results::{Moments, RunResults, WallModel, WallTotals, common_time};
 use crate::rig::{Band, CaptureBand};
 use crate::simulate::Case;
 
@@ -165,7 +165,7 @@ struct Series<'a> {
 
 impl<'a> Comparison<'a> {
     fn new(runs: &'a [RunResults]) -> Self {
-        let time = runs.iter().map(RunResults::last_time).fold(f64::INFINITY, f64::min);
+        let time = common_time(runs.iter());
         let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), time };
         comparison.walls = comparison.find_walls();
         comparison

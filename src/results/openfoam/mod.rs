@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::surface::add_regimes;
-use super::{BalanceLine, RunResults, WallModel};
+use super::{BalanceLine, RunResults, WallModel, common_time};
 
 /// A folder that holds no case.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -53,6 +53,24 @@ pub enum CaseError {
 /// # Errors
 /// [`CaseError`] when the folder is no case or holds no results.
 pub fn read(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
+    read_all(&[folder])
+}
+
+/// Reads finished cases for a comparison: as [`read`], with the recorded arrivals up to the last time that all have reached.
+///
+/// # Errors
+/// [`CaseError`] of the first folder that is no case or holds no results.
+pub fn read_all(folders: &[&Path]) -> Result<Vec<RunResults>, CaseError> {
+    let mut runs: Vec<(&Path, RunResults)> = Vec::new();
+    for folder in folders {
+        runs.extend(read_tables(folder)?.into_iter().map(|results| (*folder, results)));
+    }
+    let until = common_time(runs.iter().map(|(_, results)| results));
+    Ok(runs.into_iter().map(|(folder, results)| complete(folder, results, until)).collect())
+}
+
+/// Reads the tables and logs of a case.
+fn read_tables(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
     let shown = folder.display().to_string();
     if !folder.is_dir() {
         return Err(CaseError::NoFolder(shown));
@@ -82,7 +100,7 @@ pub fn read(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
         return Err(CaseError::NoResults(shown, cases_below(folder)));
     }
     let names = |(cloud, results)| RunResults { case: case.clone(), cloud, ..results };
-    Ok(clouds.into_iter().map(names).map(|results| complete(folder, results)).collect())
+    Ok(clouds.into_iter().map(names).collect())
 }
 
 fn is_active(results: &RunResults) -> bool {
@@ -113,8 +131,8 @@ fn cases_below(folder: &Path) -> String {
     format!(". Cases below it: {}{more}", shown.join(" "))
 }
 
-/// Adds what other files of the case state about the cloud.
-fn complete(folder: &Path, mut results: RunResults) -> RunResults {
+/// Adds what other files of the case state about the cloud; `until` is the time of the comparison [s].
+fn complete(folder: &Path, mut results: RunResults, until: f64) -> RunResults {
     let cloud = results.cloud.clone();
     let properties = interaction_properties(folder, &cloud);
     results.wall_model = match properties.as_deref().and_then(|text| entry(text, "patchInteractionModel")) {
@@ -130,7 +148,7 @@ fn complete(folder: &Path, mut results: RunResults) -> RunResults {
     results.wall_patches = wall_patches(folder);
     let carbon = recorded::Carbon::of(folder, &cloud);
     results.has_carbon = carbon.is_some();
-    results.arrivals = recorded::read_all(folder, &cloud, carbon.as_ref());
+    results.arrivals = recorded::read_all(folder, &cloud, carbon.as_ref(), until);
     let counted =
         results.walls.iter().any(|wall| wall.rows.last().is_some_and(|(_, row)| row.hits.is_some()));
     if results.arrivals.is_empty() {
@@ -188,8 +206,8 @@ fn escaped_mass(results: &RunResults) -> Option<f64> {
     if let Some([_, mass]) = results.escaped.last() {
         return Some(*mass);
     }
-    let leaving = results.arrivals.iter().filter(|arrival| !results.wall_patches.contains(&arrival.patch));
-    let recorded: f64 = leaving.map(|arrival| arrival.mass).sum();
+    let leaving = results.arrivals.iter().filter(|arrivals| !results.wall_patches.contains(&arrivals.patch));
+    let recorded: f64 = leaving.map(|arrivals| arrivals.whole_run.mass()).sum();
     (!results.wall_patches.is_empty() && recorded > 0.0).then_some(recorded)
 }
 

@@ -6,8 +6,8 @@
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use super::super::RecordedArrival;
-use super::table::{TableRow, read};
+use super::super::{CONVERSION_BINS, RecordedArrivals, bin};
+use super::table::{TableRow, for_each};
 use super::{entries, file_name, time_folders};
 
 /// The carbon of fresh coal, from `constant/<cloud>Properties`.
@@ -55,28 +55,67 @@ impl Carbon {
     }
 }
 
-/// All recorded arrivals of a cloud. A patch that two functions record is taken from the first.
-pub(super) fn read_all(case: &Path, cloud: &str, carbon: Option<&Carbon>) -> Vec<RecordedArrival> {
+/// One arrival at a patch.
+#[derive(Debug, Clone, PartialEq)]
+struct Arrival {
+    /// Time [s].
+    time: f64,
+    /// Mass of all particles of the parcel [kg].
+    mass: f64,
+    /// Speed [m/s].
+    speed: f64,
+    /// Carbon conversion [1], where the cloud has carbon.
+    conversion: Option<f64>,
+}
+
+/// The recorded arrivals of a cloud at each patch, summed up to a time [s]. A patch that two functions record is taken from
+/// the first.
+pub(super) fn read_all(
+    case: &Path,
+    cloud: &str,
+    carbon: Option<&Carbon>,
+    until: f64,
+) -> Vec<RecordedArrivals> {
     let root = case.join("postProcessing/lagrangian").join(cloud);
-    let mut arrivals: Vec<RecordedArrival> = Vec::new();
+    let mut all: Vec<RecordedArrivals> = Vec::new();
     for function in entries(&root, Path::is_dir) {
-        let mut own = Vec::new();
+        let mut own: Vec<RecordedArrivals> = Vec::new();
         let files = |(_, folder): (f64, PathBuf)| entries(&folder, Path::is_file);
         for path in time_folders(&function).into_iter().flat_map(files) {
             let name = file_name(&path);
             let Some(patch) = name.strip_suffix(".post").or(name.strip_suffix(".dat")) else { continue };
-            if !arrivals.iter().any(|arrival| arrival.patch == patch) {
-                let text = std::fs::read_to_string(&path).unwrap_or_default();
-                own.extend(read(&text, |row| to_arrival(row, patch, carbon)));
+            if all.iter().any(|other| other.patch == patch) {
+                continue;
             }
+            let place = own.iter().position(|sums| sums.patch == patch).unwrap_or_else(|| {
+                own.push(RecordedArrivals { patch: patch.to_owned(), ..RecordedArrivals::default() });
+                own.len() - 1
+            });
+            for_each(&path, |row| {
+                if let Some(arrival) = to_arrival(row, carbon) {
+                    add(&mut own[place], &arrival, until);
+                }
+            });
         }
-        arrivals.extend(own);
+        all.extend(own.into_iter().filter(|sums| sums.whole_run.count > 0));
     }
-    arrivals.sort_by(|a, b| a.time.total_cmp(&b.time));
-    arrivals
+    all
 }
 
-fn to_arrival(row: &TableRow<'_>, patch: &str, carbon: Option<&Carbon>) -> Option<RecordedArrival> {
+fn add(sums: &mut RecordedArrivals, arrival: &Arrival, until: f64) {
+    sums.whole_run.add(arrival.mass);
+    if arrival.time > until {
+        return;
+    }
+    sums.hits.add(arrival.mass);
+    sums.speed.add(arrival.speed);
+    match arrival.conversion {
+        Some(conversion) => sums.conversions[bin(conversion, 1.0, CONVERSION_BINS)] += arrival.mass,
+        None => sums.unknown_conversions += 1,
+    }
+}
+
+fn to_arrival(row: &TableRow<'_>, carbon: Option<&Carbon>) -> Option<Arrival> {
     let own_mass = PI / 6.0 * row.number("d")?.powi(3) * row.number("rho")?;
     let conversion = carbon.and_then(|carbon| {
         let solid = *row.list("Y")?.get(2)?;
@@ -84,8 +123,7 @@ fn to_arrival(row: &TableRow<'_>, patch: &str, carbon: Option<&Carbon>) -> Optio
         Some(carbon.conversion(row.number("mass0")?, own_mass, solid, share))
     });
     let speed = |velocity: Vec<f64>| velocity.iter().map(|part| part * part).sum::<f64>().sqrt();
-    Some(RecordedArrival {
-        patch: patch.to_owned(),
+    Some(Arrival {
         time: row.number("Time")?,
         mass: own_mass * row.number("nParticle").unwrap_or(1.0),
         speed: row.list("U").map_or(f64::NAN, speed),
@@ -95,6 +133,7 @@ fn to_arrival(row: &TableRow<'_>, patch: &str, carbon: Option<&Carbon>) -> Optio
 
 #[cfg(test)]
 mod tests {
+    use super::super::table::read;
     use super::*;
 
     const COAL: &str = "singleMixtureFractionCoeffs { phases ( gas { CO 1; } liquid { H2O 1; } solid // comment\n\
@@ -112,7 +151,7 @@ mod tests {
     fn names_in_quotation_marks_are_read() {
         let text = "# Time                   currentProc \" (position0 position1 position2) d rho nParticle (U0 U1 U2)\"\n\
                     0.11\t0 (0.0785 0.031 0) 0.0001 1000 159 (-1 0 -2)\n";
-        let arrivals = read(text, |row| to_arrival(row, "floor", None));
+        let arrivals = read(text, |row| to_arrival(row, None));
         assert!((arrivals[0].mass - 159.0 * PI / 6.0 * 1e-9).abs() < 1e-20);
         assert!((arrivals[0].speed - 5.0_f64.sqrt()).abs() < 1e-12);
     }
@@ -123,7 +162,7 @@ mod tests {
                     N(YGas0 YGas1) N(YSolid0 YSolid1)\n\
                     0.201 0 (-0.19 0.03 -0.34) 1 10 1e-4 1000 1886.2 1e-9 3(0 0 1) 2{0} 2(0.5 0.5)\n";
         let carbon = Carbon::in_dictionary(COAL);
-        let arrivals = read(text, |row| to_arrival(row, "slagWall", carbon.as_ref()));
+        let arrivals = read(text, |row| to_arrival(row, carbon.as_ref()));
         let one = &arrivals[0];
         let mass = PI / 6.0 * 1e-9;
         let rest =

@@ -1,6 +1,8 @@
 //! The reader of all tables under `postProcessing`: a header line after `#` with the names of the columns, then one
 //! line a row. Columns are found by name, so that older and newer tables can be read; an incomplete line is skipped.
 
+use std::fs::File;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 
 use super::super::{History, history_of};
@@ -34,23 +36,45 @@ impl TableRow<'_> {
     }
 }
 
-/// Converts each complete row of a table.
-pub fn read<T>(text: &str, convert: impl Fn(&TableRow<'_>) -> Option<T>) -> Vec<T> {
-    let mut header: Vec<String> = Vec::new();
-    let mut values = Vec::new();
-    for line in text.lines() {
+/// The names of the columns, from the last header.
+#[derive(Default)]
+struct Header {
+    names: Vec<String>,
+}
+
+impl Header {
+    /// The row of a line; `None` for a header, which is kept, and for an incomplete line.
+    fn row<'a>(&'a mut self, line: &'a str) -> Option<TableRow<'a>> {
         if let Some(names) = line.strip_prefix('#') {
             // v2412 quotes the names of a parcel's properties
             let names = names.replace('"', " ");
-            header = pieces(&names).into_iter().map(base_name).collect();
-            continue;
+            self.names = pieces(&names).into_iter().map(base_name).collect();
+            return None;
         }
         let cells = pieces(line);
-        if cells.len() == header.len() && !cells.is_empty() {
-            values.extend(convert(&TableRow { header: &header, cells }));
-        }
+        let complete = cells.len() == self.names.len() && !cells.is_empty();
+        complete.then_some(TableRow { header: &self.names, cells })
     }
-    values
+}
+
+/// Converts each complete row of a table.
+pub fn read<T>(text: &str, convert: impl Fn(&TableRow<'_>) -> Option<T>) -> Vec<T> {
+    let mut header = Header::default();
+    text.lines().filter_map(|line| convert(&header.row(line)?)).collect()
+}
+
+/// Passes each complete row of a file of any size to `take`, up to a line that cannot be read.
+pub fn for_each(path: &Path, mut take: impl FnMut(&TableRow<'_>)) {
+    let Ok(file) = File::open(path) else { return };
+    let mut header = Header::default();
+    let mut source = BufReader::with_capacity(1 << 16, file);
+    let mut line = String::new();
+    while source.read_line(&mut line).is_ok_and(|size| size > 0) {
+        if let Some(row) = header.row(line.trim_end_matches(['\n', '\r'])) {
+            take(&row);
+        }
+        line.clear();
+    }
 }
 
 /// Reads `<folder>/<start time>/<wall><suffix>`, but no file that ends as one of `except`: the history of each wall over
