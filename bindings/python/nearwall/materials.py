@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from html import escape
-from typing import Dict, Optional, Tuple
+from typing import Dict, Optional, Sequence, Tuple
 
 from .wheel import compiled
 
@@ -48,6 +48,10 @@ class Material:
                 f"<table><tr><th>property</th><th>value</th><th>source</th></tr>{rows}</table>")
 
 
+def _pair(ends: Optional[Sequence[float]]) -> Optional[Tuple[float, float]]:
+    return None if ends is None else (ends[0], ends[1])
+
+
 def materials(name: Optional[str] = None, temperature: float = 293.15) -> Dict[str, Material]:
     """The built-in materials by name, or only the one named, with their properties at a `temperature` [K].
 
@@ -56,6 +60,6 @@ def materials(name: Optional[str] = None, temperature: float = 293.15) -> Dict[s
     found = compiled().materials(name, temperature)
     return {
         key: Material(key, about or "", temperature, {
-            kind: Property(unit, value, uncertainty, known, valid, origin)
+            kind: Property(unit, value, uncertainty, _pair(known), _pair(valid), origin)
             for kind, unit, value, uncertainty, known, valid, origin in properties}, dict(composition))
         for key, about, properties, composition in found}
