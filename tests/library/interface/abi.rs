@@ -167,7 +167,7 @@ fn the_page_for_other_codes_is_true() {
     let (page, fresh) = (read("docs/other-codes.md"), fresh());
     let soname = fresh.lines().next().unwrap().strip_prefix("soname ").unwrap();
     for path in
-        ["docs/other-codes.md", "build.rs", "bindings/python/nearwall.py", "bindings/rust/src/main.rs"]
+        ["docs/other-codes.md", "build.rs", "bindings/python/nearwall/library.py", "bindings/rust/src/main.rs"]
     {
         let text = read(path);
         let named: Vec<&str> = text.match_indices("libnearwall.so.").map(|(at, _)| &text[at..]).collect();
