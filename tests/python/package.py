@@ -48,6 +48,13 @@ def same(one, other, what):
     assert one.shape == other.shape and (one == other).all(), f"{what}: {one} and {other}"
 
 
+def in_polars(table):
+    """The same table as a polars frame, without pyarrow."""
+    import pandas
+    import polars
+    return polars.DataFrame({name: [None if value is pandas.NA else value for value in table[name].tolist()] for name in table})
+
+
 def arrays():
     """The golden table of 40 digits; arrays are read in place; many threads share a model."""
     compare = (root / "tests/bindings/compare.py").read_text()
@@ -115,7 +122,7 @@ def frames():
     done = run("predict", "--model", model_file, impacts)
     expected = list(csv.DictReader(done.stdout.splitlines()))
     table = pandas.read_csv(impacts)
-    tables = {"pandas": table, "polars": polars.from_pandas(table), "dict": {name: table[name].to_numpy() for name in table},
+    tables = {"pandas": table, "polars": in_polars(table), "dict": {name: table[name].to_numpy() for name in table},
               "file": impacts}
     for name, given in tables.items():
         found = nearwall.predict(given, model_file)
@@ -142,7 +149,7 @@ def frames():
     plain = nearwall.Model.from_toml((root / "tests/bindings/module.py").read_text().split('PLAIN = """')[1].split('"""')[0])
     kinds = pandas.DataFrame({"v_n": pandas.array([1, None, 3], "Int64"), "v_t": ["1", "1.0", "1e0"],
                               "plate": pandas.Categorical(["glass", "steel", "glass"]), "humidity": pandas.Series([0, 1, 1], dtype="int8")})
-    for given in (kinds, polars.from_pandas(kinds)):
+    for given in (kinds, in_polars(kinds)):
         found = nearwall.predict(given, plain)
         numbers = [numpy.asarray(found[name], float) for name in ("e_n", "e_t")]
         assert numpy.allclose(numbers[0], [0.5, numpy.nan, 0.7], atol=1e-15, equal_nan=True), numbers
@@ -190,7 +197,7 @@ def findings():
         lines = ("rows", "fit", "verdict")
         table = pandas.read_csv(folder / "data.csv", comment="#")
         record = {key: value for key, value in found.record.items() if key not in lines}
-        for given in (table, polars.from_pandas(table), {column: table[column].to_numpy() for column in table}):
+        for given in (table, in_polars(table), {column: table[column].to_numpy() for column in table}):
             again = nearwall.diagnose(given, nearwall.Model.from_file(folder / "base.toml"), columns=folder / "columns.toml", draws=3)
             assert {key: value for key, value in again.record.items() if key not in lines} == record, name
             assert (again.extended_toml, again.draws) == (found.extended_toml, found.draws), name
