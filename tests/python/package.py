@@ -5,6 +5,7 @@
 
 import csv
 import ctypes
+import importlib.metadata
 import json
 import pathlib
 import pickle
@@ -21,6 +22,7 @@ import numpy
 import nearwall
 
 part, root, command = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+assert nearwall.__version__ == importlib.metadata.version("nearwall") == nearwall.VERSION
 assert root not in pathlib.Path(nearwall.__file__).parents, f"{nearwall.__file__} is not the installed package"
 warnings.simplefilter("ignore")
 wax = root / "tutorials/waxImpactor/measured"
@@ -154,6 +156,12 @@ def frames():
         numbers = [numpy.asarray(found[name], float) for name in ("e_n", "e_t")]
         assert numpy.allclose(numbers[0], [0.5, numpy.nan, 0.7], atol=1e-15, equal_nan=True), numbers
         assert numpy.allclose(numbers[1], [0.66, numpy.nan, 0.66], atol=1e-15, equal_nan=True), numbers
+
+    # Blanks of every kind in a column of words.
+    blank = pandas.DataFrame({"v_n": 1.0, "v_t": 1.0, "plate": ["glass", None, float("nan"), pandas.NA, pandas.NaT, ""]})
+    for given in (blank, {name: blank[name].to_numpy() for name in blank}):
+        e_t = numpy.asarray(nearwall.predict(given, plain)["e_t"])
+        assert numpy.allclose(e_t, [0.66, 0.76, 0.76, 0.76, 0.76, 0.76], atol=1e-15), e_t
 
     # A whole case: the files of the command, and the same impacts as a frame.
     case = root / "tutorials/standalone/waxRig.toml"

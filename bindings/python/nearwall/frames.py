@@ -77,7 +77,8 @@ def _bytes(array: NDArray[Any]) -> bytes:
 
 
 def _text(value: Any) -> Optional[str]:
-    if value is None or value != value:  # NaN, NaT and pandas.NA differ from themselves or have no truth
+    # pandas.NA has no truth; NaN and NaT differ from themselves.
+    if value is None or type(value).__name__ == "NAType" or value != value:
         return None
     return str(value)
 
