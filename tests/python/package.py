@@ -287,17 +287,20 @@ def errors():
     odd = {"note": ["#1, \"a\"\nb", ""], "v_n": [1.0, 1e-300], "é": [None, "x"]}
     assert numpy.isfinite(nearwall.predict(odd, model_file)["e_n"]).all()
 
-    # Ctrl-C ends a call at once, and the package works afterwards.
-    table = {"v_n": numpy.linspace(0.1, 10, 3_000_000)}
+    # Ctrl-C ends a call long before its end, and the package works afterwards.
+    start = time.monotonic()
+    nearwall.predict({"v_n": numpy.linspace(0.1, 10, 500_000)}, model_file)
+    whole = 16 * (time.monotonic() - start)
+    table = {"v_n": numpy.linspace(0.1, 10, 8_000_000)}
     import _thread
     timer = threading.Timer(0.5, _thread.interrupt_main)
     timer.start()
     start = time.monotonic()
     refused(lambda: nearwall.predict(table, model_file), KeyboardInterrupt)
     taken = time.monotonic() - start
-    assert taken < 3, f"{taken:.1f} s"
+    assert taken < 0.5 + 0.6 * whole, f"{taken:.1f} s of {whole:.1f} s"
     assert nearwall.predict({"v_n": [1.0]}, model_file)["p_stick"][0] >= 0
-    print(f"{len(pairs)} errors with the command's words; Ctrl-C after {taken:.1f} s")
+    print(f"{len(pairs)} errors with the command's words; Ctrl-C after {taken:.1f} s of {whole:.1f} s")
 
 
 def alone():
