@@ -5,7 +5,7 @@
     compare.py same OUTPUT OUTPUT           two examples, bit for bit
     compare.py udf OUTPUT UDF IMPACTS...    velocities of the user-defined wall against e_n and e_t of an example
     compare.py deposit IMPACTS OUTPUT OUTPUT...   deposit.c and the same in other languages, bit for bit; mass is conserved
-    compare.py layout ABI MODULE            structs of nearwall.py, as ctypes lays them out, against abi.txt
+    compare.py layout ABI MODULE            structs of library.py, as ctypes lays them out, against abi.txt
 """
 
 import csv

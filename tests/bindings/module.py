@@ -1,4 +1,4 @@
-"""nearwall.py: its faults have the library's words, its arrays are the caller's own, its numbers agree with each other."""
+"""The Python module: its faults have the library's words, its arrays are the caller's own, its numbers agree with each other."""
 
 import sys
 

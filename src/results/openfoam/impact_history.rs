@@ -319,8 +319,11 @@ fn preface(source: impl BufRead) -> std::io::Result<(u64, u64)> {
     Ok((one_in, header))
 }
 
-/// The record that a place stands for.
-fn find(place: &Path, cloud: Option<&str>) -> Result<PathBuf, HistoryError> {
+/// The newest `impacts.csv` that a place stands for: the file itself, or a case, a cloud's tables or a folder around them.
+///
+/// # Errors
+/// [`HistoryError`] for a place without a record or with those of several clouds.
+pub fn find(place: &Path, cloud: Option<&str>) -> Result<PathBuf, HistoryError> {
     let no_record =
         |found| HistoryError::NoRecord { folder: place.to_owned(), cloud: cloud.map(str::to_owned), found };
     // Ends as `<cloud>/<start time>/impacts.csv` where the folders around it are known.

@@ -20,13 +20,73 @@ const FIELDS: [(&str, Quantity); 6] = [
     ("wallHeatFlux", Quantity::HeatFlux),
 ];
 
+/// All fields of a cloud on the walls: those that are always written, then those of a wall with memory.
+const ALL_FIELDS: [&str; 14] = [
+    "depositedMass",
+    "hitCount",
+    "meanImpactSpeed",
+    "erodedDepth",
+    "moltenMass",
+    "powderMass",
+    "layerThickness",
+    "coverArea",
+    "coverage",
+    "depositConversion",
+    "wallTemperature",
+    "closedVoids",
+    "wallHeatFlux",
+    "resuspendedShare",
+];
+
+/// The fields of a cloud on the faces of a wall, as they are written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WallFields {
+    /// Name of the patch.
+    pub wall: String,
+    /// Time [s], or number of iterations.
+    pub time: f64,
+    /// Its faces.
+    pub faces: Vec<WallFace>,
+    /// Names of the fields without that of the cloud, and their values on each face.
+    pub fields: Vec<(String, Vec<f64>)>,
+}
+
+/// Reads every field of a cloud on every patch of type `wall`, at a time [s] or at the last one with any.
+///
+/// # Errors
+/// File, fault and remedy; also when there are no such fields.
+pub fn read_fields(case: &Path, cloud: &str, time: Option<f64>) -> Result<Vec<WallFields>, String> {
+    let Some(source) = Source::of(case, cloud, time)? else {
+        let at = time.map_or(String::new(), |time| format!(" at time {time}"));
+        return Err(format!(
+            "{}: no fields {cloud}:* on the walls{at}; nearWallInteraction writes them with `writeFields yes`",
+            case.display()
+        ));
+    };
+    let mut walls: Vec<WallFields> = Vec::new();
+    for root in &source.roots {
+        for wall in source.read_all(root, cloud)? {
+            match walls.iter_mut().find(|other| other.wall == wall.wall) {
+                Some(other) => {
+                    other.faces.extend(wall.faces);
+                    for ((_, values), (_, new)) in other.fields.iter_mut().zip(wall.fields) {
+                        values.extend(new);
+                    }
+                }
+                None => walls.push(wall),
+            }
+        }
+    }
+    Ok(walls)
+}
+
 /// Reads the walls on which any of the fields is not zero; none when the case has no such fields.
 ///
 /// # Errors
 /// File, fault and remedy, for the page.
 pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<WallSurface>, String> {
     let unreadable = |reason: String| format!("{reason}. Until then there are no maps of the walls");
-    let Some(source) = Source::of(case, cloud)? else { return Ok(Vec::new()) };
+    let Some(source) = Source::of(case, cloud, None)? else { return Ok(Vec::new()) };
     let mut walls: Vec<WallSurface> = Vec::new();
     for root in &source.roots {
         for wall in source.read(root, cloud).map_err(unreadable)? {
@@ -65,11 +125,11 @@ struct Source {
 }
 
 impl Source {
-    /// `None` when there are no fields.
-    fn of(case: &Path, cloud: &str) -> Result<Option<Self>, String> {
+    /// The fields at a time or at the last one; `None` when there are none.
+    fn of(case: &Path, cloud: &str, time: Option<f64>) -> Result<Option<Self>, String> {
         let ranks = ranks(case);
-        let whole = last_time(case, cloud);
-        let split = ranks.first().and_then(|rank| last_time(rank, cloud));
+        let whole = last_time(case, cloud, time);
+        let split = ranks.first().and_then(|rank| last_time(rank, cloud, time));
         let newer = |(time, _): &(f64, String)| whole.as_ref().is_none_or(|(other, _)| time > other);
         if let Some((time, folder)) = split.filter(newer) {
             return Ok(Some(Self { roots: ranks, time, folder }));
@@ -109,6 +169,36 @@ impl Source {
         Ok(with_values.iter().map(wall).collect())
     }
 
+    /// All fields on the patches of type `wall` of the case or of one rank; where a patch has no values they are 0.
+    fn read_all(&self, root: &Path, cloud: &str) -> Result<Vec<WallFields>, String> {
+        let mesh = Mesh { root, time: self.time };
+        let mut patches = mesh.patches()?;
+        patches.retain(|patch| patch.kind == "wall");
+        let faces = patches.iter().map(|patch| (patch.name.clone(), patch.faces)).collect();
+        let mut fields = Vec::new();
+        for field in ALL_FIELDS {
+            let path = root.join(&self.folder).join(format!("{cloud}:{field}"));
+            if is_written(&path) {
+                fields.push((field.to_owned(), boundary_field::read(&path, &faces)?));
+            }
+        }
+        let mut outlines = mesh.outlines(&patches.iter().collect::<Vec<_>>())?;
+        let wall = |patch: &Patch| {
+            let of_patch = |(field, values): &(String, PatchValues)| {
+                let none = || vec![0.0; patch.faces];
+                (field.clone(), values.get(&patch.name).cloned().unwrap_or_else(none))
+            };
+            let faces = outlines.remove(&patch.name).unwrap_or_default();
+            WallFields {
+                wall: patch.name.clone(),
+                time: self.time,
+                faces: faces.into_iter().map(WallFace::new).collect(),
+                fields: fields.iter().map(of_patch).collect(),
+            }
+        };
+        Ok(patches.iter().map(wall).collect())
+    }
+
     /// The quantities that are written, by the name of the patch.
     fn fields(
         &self,
@@ -141,11 +231,14 @@ fn add(sums: &mut PatchValues, values: PatchValues) {
     }
 }
 
-/// The last time of a folder with any of the fields: time [s] and name.
-fn last_time(root: &Path, cloud: &str) -> Option<(f64, String)> {
+/// The last time of a folder with any of the fields, or `wanted` [s] if it has any: time [s] and name.
+fn last_time(root: &Path, cloud: &str, wanted: Option<f64>) -> Option<(f64, String)> {
     let has_fields =
         |folder: &Path| FIELDS.iter().any(|(field, _)| is_written(&folder.join(format!("{cloud}:{field}"))));
-    let (time, folder) = time_folders(root).into_iter().rev().find(|(_, folder)| has_fields(folder))?;
+    // Names of folders are rounded.
+    let is_wanted = |time: f64| wanted.is_none_or(|wanted| (time - wanted).abs() <= 1e-6 * wanted.abs());
+    let mut times = time_folders(root).into_iter().rev();
+    let (time, folder) = times.find(|(time, folder)| is_wanted(*time) && has_fields(folder))?;
     Some((time, file_name(&folder).to_owned()))
 }
 

@@ -15,6 +15,11 @@ pub struct TableRow<'a> {
 }
 
 impl TableRow<'_> {
+    /// The names of the columns with their texts.
+    pub fn cells(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.header.iter().map(String::as_str).zip(self.cells.iter().copied())
+    }
+
     /// The text of a column.
     pub fn text(&self, name: &str) -> Option<&str> {
         self.header.iter().position(|column| column == name).map(|index| self.cells[index])

@@ -166,9 +166,12 @@ fn the_page_for_other_codes_is_true() {
     let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
     let (page, fresh) = (read("docs/other-codes.md"), fresh());
     let soname = fresh.lines().next().unwrap().strip_prefix("soname ").unwrap();
-    for path in
-        ["docs/other-codes.md", "build.rs", "bindings/python/nearwall.py", "bindings/rust/src/main.rs"]
-    {
+    for path in [
+        "docs/other-codes.md",
+        "build.rs",
+        "bindings/python/nearwall/library.py",
+        "bindings/rust/src/main.rs",
+    ] {
         let text = read(path);
         let named: Vec<&str> = text.match_indices("libnearwall.so.").map(|(at, _)| &text[at..]).collect();
         assert!(!named.is_empty(), "{path} does not name the library");

@@ -33,7 +33,7 @@ fn generated_files_are_up_to_date() {
     let files = [
         ("cpp_shim/nearwall.h", header.text.clone()),
         block("bindings/fortran/nearwall.f90", write::fortran(&header)),
-        block("bindings/python/nearwall.py", write::python(&header)),
+        block("bindings/python/nearwall/library.py", write::python(&header)),
         block(rust, write::rust_example(&header, &read(rust))),
         ("tests/c_api/interface.rs", write::rust_tests(&header)),
         block("docs/data-file.md", write::inputs_table()),
@@ -70,7 +70,7 @@ const NOT_WRAPPED: [(&str, &[&str]); 2] = [
     // No C++ of their own.
     ("cpp_shim/nearwall.hpp", &["nw_regime_name"]),
     // `Model.resolve` hands arrays over, also for one impact; REGIMES has the names.
-    ("bindings/python/nearwall.py", &["nw_resolve", "nw_outcome_init", "nw_regime_name"]),
+    ("bindings/python/nearwall/library.py", &["nw_resolve", "nw_outcome_init", "nw_regime_name"]),
 ];
 
 /// The functions that a text calls outside its generated part.

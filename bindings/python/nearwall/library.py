@@ -1,22 +1,24 @@
-"""What happens when a particle hits a wall: libnearwall for Python, with NumPy arrays that are not copied.
+"""The C library for Python: a model, and the deposit on a wall, with NumPy arrays that are not copied.
 
-    import nearwall
-    model = nearwall.Model.from_file("nearWall.toml")
-    out = model.resolve(v_n=v_n, d=d, T_p=T_p)      # float64 arrays in SI units; a number applies to all impacts
-    out.e_n, out.e_t, out.p_stick, out.stuck        # arrays
-
-The module loads the library that NEARWALL_LIBRARY names, else the one installed beside this file, else libnearwall.so.1
-on the loader's path. A model never changes and many threads may use it; calls release the interpreter lock.
+The module loads the library that NEARWALL_LIBRARY names, else the compiled part of the package, else the library that
+`bindings/install` put beside it, else libnearwall.so.1 on the loader's path. A model never changes and many threads may use
+it; calls release the interpreter lock.
 Licence: MIT OR Apache-2.0.
 """
 
+from __future__ import annotations
+
 import ctypes
 import os
-from collections import namedtuple
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64,
                     c_void_p)
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy
+from numpy.typing import NDArray
+
+#: One number for all impacts, or an array with one entry for each.
+Input = Union[float, NDArray[numpy.float64]]
 
 # GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
 ABI_VERSION = 1
@@ -147,15 +149,43 @@ FUNCTIONS = {
 
 REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")  # names of the numbers in `Outcomes.regime`
 
-Outcomes = namedtuple("Outcomes", "e_n e_t p_stick omega regime stuck flags")
-Speeds = namedtuple("Speeds", "adhesive yielding sticking")
-TemperatureRanges = namedtuple("TemperatureRanges", "particle_low particle_high wall_low wall_high")
+
+class Outcomes(NamedTuple):
+    """The outcomes of N impacts, arrays of shape (N,). `e_n` and `e_t` [1] are those of a rebound, `p_stick` [1] is the
+    probability of capture, `omega` the spin afterwards [rad/s], `regime` a number of REGIMES, `stuck` 1 for a captured
+    particle, `flags` a sum of OUTSIDE_VALID_RANGE and others."""
+
+    e_n: NDArray[numpy.float64]
+    e_t: NDArray[numpy.float64]
+    p_stick: NDArray[numpy.float64]
+    omega: NDArray[numpy.float64]
+    regime: NDArray[numpy.uint32]
+    stuck: NDArray[numpy.uint32]
+    flags: NDArray[numpy.uint32]
+
+
+class Speeds(NamedTuple):
+    """Characteristic velocities [m/s] of an impact."""
+
+    adhesive: float
+    yielding: float
+    sticking: float
+
+
+class TemperatureRanges(NamedTuple):
+    """Limits of temperature [K] of the properties of particle and wall."""
+
+    particle_low: float
+    particle_high: float
+    wall_low: float
+    wall_high: float
 
 
 class Error(Exception):
-    """A call of the library failed: `status` is its number, `index` the invalid impact or None."""
+    """Something that the library refuses; the text names file, line or key and the remedy, as that of the command does.
+    `status` is the number of the C function, None from functions without one; `index` is the invalid impact or None."""
 
-    def __init__(self, status, text, index=None):
+    def __init__(self, status: Optional[int], text: str, index: Optional[int] = None) -> None:
         super().__init__(text if index is None else f"impact {index}: {text}")
         self.status, self.index = status, index
 
@@ -165,12 +195,12 @@ class Deposit(nw_deposit):
     [m3/m2] and projected area cover [1] of the powder's particles, carbon conversion [1], volume closed [m3/m2] of the
     voids that sintering has closed."""
 
-    def __init__(self, wall=0):
+    def __init__(self, wall: int = 0) -> None:
         super().__init__()
         _check(_library.nw_deposit_init(byref(self)))
         self.wall = _index("wall", wall, 32)
 
-    def add(self, source):
+    def add(self, source: DepositSource) -> None:
         """Adds the particles captured in a step. Powder that melt buries becomes part of the melt; mass is conserved."""
         _check(_library.nw_deposit_add(byref(source), byref(self)))
 
@@ -178,7 +208,7 @@ class Deposit(nw_deposit):
 class DepositSource(nw_deposit_source):
     """Sum of the particles captured in a step, per wall area, initially zero; `Model.add_captured` adds to it."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
         _check(_library.nw_deposit_source_init(byref(self)))
 
@@ -188,7 +218,7 @@ class WallCooling(nw_wall_cooling):
     and gas_coefficient [W/(m2 K)]; wall_resistance, thickness over conductivity [m2 K/W]; emissivity [1]; irradiation and
     further_flux [W/m2]; gas_conductivity in the voids of the powder, 0.026 W/(m K) unless given. The others are 0 unless given."""
 
-    def __init__(self, coolant_temperature, gas_temperature, **others):
+    def __init__(self, coolant_temperature: float, gas_temperature: float, **others: float) -> None:
         super().__init__()
         _check(_library.nw_wall_cooling_init(byref(self)))
         unknown = set(others) - {name for name, kind in nw_wall_cooling._fields_ if kind is c_double}
@@ -204,34 +234,35 @@ class WallHeat(nw_wall_heat):
     under the deposit; powder_temperature [K] at the outside of the powder, under the melt; heat_flux [W/m2] from the gas to
     the coolant; deposit_resistance [m2 K/W]."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
         _check(_library.nw_wall_heat_init(byref(self)))
 
 
-def _load():
+def _load() -> Any:
     here = os.path.dirname(os.path.abspath(__file__))
     name = f"libnearwall.so.{ABI_VERSION}"
-    beside = os.path.join(here, "..", "..", "..", "lib", name)
-    library = ctypes.CDLL(os.environ.get("NEARWALL_LIBRARY") or (beside if os.path.exists(beside) else name))
-    found = library.nw_abi_version()
-    if found != ABI_VERSION:
-        raise ImportError(f"libnearwall has interface version {found}, this module is for {ABI_VERSION}")
+    places = [os.path.join(here, "_compiled.abi3.so"), os.path.join(here, "..", "..", "..", "..", "lib", name)]
+    found = next((place for place in places if os.path.exists(place)), name)
+    library = ctypes.CDLL(os.environ.get("NEARWALL_LIBRARY") or found)
+    version = library.nw_abi_version()
+    if version != ABI_VERSION:
+        raise ImportError(f"libnearwall has interface version {version}, this module is for {ABI_VERSION}")
     for function, (result, arguments) in FUNCTIONS.items():
         getattr(library, function).restype, getattr(library, function).argtypes = result, arguments
     return library
 
 
 _library = _load()
-VERSION = _library.nw_version().decode()
+VERSION: str = _library.nw_version().decode()
 
 
-def _check(status, message="", index=None):
+def _check(status: int, message: str = "", index: Optional[int] = None) -> None:
     if status != OK:
         raise Error(status, message or _library.nw_status_text(status).decode(), index)
 
 
-def _column(name, value, count, kind):
+def _column(name: str, value: Any, count: int, kind: Any) -> NDArray[Any]:
     """The array itself, or an array that repeats a number."""
     if numpy.ndim(value) == 0:
         return numpy.full(count, value, kind)
@@ -242,14 +273,14 @@ def _column(name, value, count, kind):
     return value
 
 
-def _index(name, value, bits):
+def _index(name: str, value: int, bits: int) -> int:
     """An integer that fits into so many bits; C would truncate it."""
     if not 0 <= value < 2**bits:
         raise ValueError(f"{name} has to be between 0 and 2**{bits} - 1, not {value}")
     return value
 
 
-def _text(name, value):
+def _text(name: str, value: Union[str, bytes, os.PathLike[str]]) -> bytes:
     """Bytes without a zero, which would end the string in C."""
     data = os.fsencode(value)
     if b"\0" in data:
@@ -258,35 +289,58 @@ def _text(name, value):
 
 
 class Model:
-    """A loaded model."""
+    """A model file that was read: what happens when its particles hit its walls.
 
-    def __init__(self, handle):
-        self._handle = handle
-        #: Names of the inputs that the model file declares.
+    `Model.from_file("nearWall.toml")` reads a file; `name` and `text` are its path and its content. `extra_inputs` are the
+    names of the inputs that it declares.
+    """
+
+    name: str
+    text: str
+    extra_inputs: List[str]
+
+    def __init__(self, handle: c_void_p, name: str, text: str) -> None:
+        self._handle, self.name, self.text = handle, name, text
         self.extra_inputs = self._extra_inputs()
 
-    @classmethod
-    def from_file(cls, path):
-        return cls._read(_library.nw_model_load, _text("path", path))
+    def __repr__(self) -> str:
+        return f"<nearwall.Model {self.name}>"
 
     @classmethod
-    def from_toml(cls, text, name="model"):
+    def from_file(cls, path: Union[str, os.PathLike[str]]) -> Model:
+        """Reads a model file. Raises Error, which names file, line, column and key."""
+        name = _text("path", path)
+        try:
+            # Only once: the file may be replaced meanwhile.
+            with open(path, encoding="utf-8", newline="") as file:
+                text = file.read()
+        except (OSError, UnicodeDecodeError):
+            # The library says what is wrong.
+            return cls._read(_library.nw_model_load, os.fsdecode(path), "", name)
+        return cls.from_toml(text, os.fsdecode(path))
+
+    @classmethod
+    def from_toml(cls, text: str, name: str = "model") -> Model:
+        """Reads the text of a model file; `name` stands for it in messages."""
         toml = text.encode()
-        return cls._read(_library.nw_model_parse, toml, len(toml), name.encode())
+        return cls._read(_library.nw_model_parse, name, text, toml, len(toml), os.fsencode(name))
 
     @classmethod
-    def _read(cls, function, *arguments):
+    def _read(cls, function: Any, name: str, text: str, *arguments: Any) -> Model:
         handle, message = c_void_p(), ctypes.create_string_buffer(2048)
         status = function(*arguments, byref(handle), message, len(message))
         _check(status, message.value.decode(errors="replace"))
-        return cls(handle)
+        return cls(handle, name, text)
 
-    def __del__(self):
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return Model.from_toml, (self.text, self.name)
+
+    def __del__(self) -> None:
         if getattr(self, "_handle", None):
             _library.nw_model_free(self._handle)
-            self._handle = None
+            self._handle = c_void_p()
 
-    def _extra_inputs(self):
+    def _extra_inputs(self) -> List[str]:
         count, name = c_uint32(), ctypes.create_string_buffer(2048)
         _check(_library.nw_extra_input_count(self._handle, byref(count)))
         names = []
@@ -295,28 +349,29 @@ class Model:
             names.append(name.value.decode(errors="replace"))
         return names
 
-    def extra_input_default(self, name):
+    def extra_input_default(self, name: str) -> float:
         """Value of an input of the model file where an impact does not state it; NaN if the file has none."""
         value = c_double()
         _check(_library.nw_extra_input_default(self._handle, self.extra_inputs.index(name), byref(value)))
         return value.value
 
-    def extra_input_words(self, name):
+    def extra_input_words(self, name: str) -> List[str]:
         """Words of an input of words in the model file, the value of each being its place; empty for a number."""
-        index, words, word = self.extra_inputs.index(name), [], ctypes.create_string_buffer(2048)
+        words: List[str] = []
+        index, word = self.extra_inputs.index(name), ctypes.create_string_buffer(2048)
         while _library.nw_extra_input_word(self._handle, index, len(words), word, len(word)) == OK:
             words.append(word.value.decode(errors="replace"))
         return words
 
-    def extra_input_value(self, name, text):
+    def extra_input_value(self, name: str, text: str) -> float:
         """Value of a text, a number or one of the words of an input of the model file."""
         value, message = c_double(), ctypes.create_string_buffer(2048)
-        index, text = self.extra_inputs.index(name), _text(name, text)
-        status = _library.nw_extra_input_value(self._handle, index, text, byref(value), message, len(message))
+        index, data = self.extra_inputs.index(name), _text(name, text)
+        status = _library.nw_extra_input_value(self._handle, index, data, byref(value), message, len(message))
         _check(status, message.value.decode(errors="replace"))
         return value.value
 
-    def _numbers(self, inputs):
+    def _numbers(self, inputs: Dict[str, Any]) -> Dict[str, Any]:
         """The inputs with a number for each word."""
         unknown = set(inputs) - set(INPUTS) - set(self.extra_inputs)
         if unknown:
@@ -325,7 +380,7 @@ class Model:
                  if isinstance(value, str) and name not in INPUTS}
         return {**inputs, **words}
 
-    def _impact(self, wall, inputs):
+    def _impact(self, wall: int, inputs: Dict[str, Any]) -> nw_impact:
         """One impact from numbers and words."""
         impact = nw_impact()
         _check(_library.nw_impact_init(byref(impact)))
@@ -337,27 +392,39 @@ class Model:
                 impact.extra[self.extra_inputs.index(name)] = value
         return impact
 
-    def find_wall(self, name):
+    def find_wall(self, name: str) -> int:
         """Index of the wall of a patch."""
         wall = c_uint32()
         _check(_library.nw_model_find_wall(self._handle, _text("name", name), byref(wall)))
         return wall.value
 
-    def resolve(self, v_n, wall=0, seed=0, key=None, **inputs):
-        """Resolves len(v_n) impacts. `inputs` are those of INPUTS and of `extra_inputs`, arrays of float64 or numbers, for
-        an input of words also one word; `wall` is an index or an array of uint32; `key` is an array of uint64 with a unique
-        number for each impact, by default its index."""
-        inputs = self._numbers(inputs)
-        count = 1 if numpy.ndim(v_n) == 0 else len(v_n)
-        columns = {name: _column(name, value, count, numpy.float64) for name, value in inputs.items()}
+    def resolve(self, v_n: Input, wall: Union[int, NDArray[numpy.uint32]] = 0, seed: int = 0,
+                key: Optional[NDArray[numpy.uint64]] = None, **inputs: Union[Input, str]) -> Outcomes:
+        """Resolves N impacts, with one random draw for each.
+
+        v_n: normal speed [m/s], float64 of shape (N,) or a number. Arrays are read in place; one that would have to be copied
+            (of another type, or with gaps) raises TypeError.
+        wall: index of the wall (`find_wall`), or uint32 of shape (N,).
+        seed, key: the random draws depend only on them; `key` is uint64 of shape (N,), a unique number for each impact, by
+            default its index.
+        inputs: v_t [m/s], omega [rad/s], d [m], T_p and T_w [K], rho_p [kg/m3], conversion [1] and the others of INPUTS and
+            of `extra_inputs`, each float64 of shape (N,) or a number; for an input of words also one word.
+        Returns Outcomes, arrays of shape (N,). Raises Error with the `index` of the first impact that cannot be decided.
+        """
+        numbers = self._numbers(inputs)
+        count = 1 if numpy.ndim(v_n) == 0 else len(numpy.asarray(v_n))
+        columns = {name: _column(name, value, count, numpy.float64) for name, value in numbers.items()}
         columns["v_n"] = _column("v_n", v_n, count, numpy.float64)
         if key is not None:
             if numpy.ndim(key) == 0 and count > 1:
                 raise TypeError("key has to be an array: with one number every impact would have the same random draws")
             columns["key"] = _column("key", key, count, numpy.uint64)
-        if numpy.ndim(wall) > 0:
-            columns["walls"], wall = _column("wall", wall, count, numpy.uint32), 0
-        impacts = nw_impacts(struct_size=ctypes.sizeof(nw_impacts), wall=_index("wall", wall, 32), count=count,
+        index = 0
+        if isinstance(wall, numpy.ndarray) and wall.ndim > 0:
+            columns["walls"] = _column("wall", wall, count, numpy.uint32)
+        else:
+            index = _index("wall", int(wall), 32)
+        impacts = nw_impacts(struct_size=ctypes.sizeof(nw_impacts), wall=index, count=count,
                            seed=_index("seed", seed, 64))
         for name, column in columns.items():
             if name in self.extra_inputs:
@@ -372,57 +439,58 @@ class Model:
         _check(status, index=None if first_bad.value == none else first_bad.value)
         return found
 
-    def speeds(self, wall=0, **inputs):
+    def speeds(self, wall: int = 0, **inputs: Union[float, str]) -> Speeds:
         """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers, named as in `resolve`."""
         impact = self._impact(wall, inputs)
         found = [c_double() for _ in range(3)]
         _check(_library.nw_speeds(self._handle, byref(impact), *map(byref, found)))
         return Speeds(*(number.value for number in found))
 
-    def particle_density(self, **inputs):
+    def particle_density(self, **inputs: Union[float, str]) -> float:
         """Density [kg/m3] of the particle's material, which is taken where the input rho_p is 0."""
         impact, found = self._impact(0, inputs), c_double()
         _check(_library.nw_particle_density(self._handle, byref(impact), byref(found)))
         return found.value
 
-    def erosion(self, mass, wall=0, **inputs):
+    def erosion(self, mass: float, wall: int = 0, **inputs: Union[float, str]) -> float:
         """Volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one."""
         impact, found = self._impact(wall, inputs), c_double()
         _check(_library.nw_erosion(self._handle, byref(impact), mass, byref(found)))
         return found.value
 
-    def explain(self, v_n, wall=0, **inputs):
+    def explain(self, v_n: float, wall: int = 0, **inputs: Union[float, str]) -> str:
         """Why an impact cannot be decided: the input, or material, property and range; empty if it can be."""
         impact, text = self._impact(wall, {"v_n": v_n, **inputs}), ctypes.create_string_buffer(2048)
         status = _library.nw_explain(self._handle, byref(impact), text, len(text))
         return text.value.decode() if status else ""
 
-    def temperature_ranges(self, wall=0):
+    def temperature_ranges(self, wall: int = 0) -> TemperatureRanges:
         """Temperatures [K] for which the properties of particle and wall are defined."""
         found = [c_double() for _ in range(4)]
         _check(_library.nw_temperature_ranges(self._handle, _index("wall", wall, 32), *map(byref, found)))
         return TemperatureRanges(*(number.value for number in found))
 
-    def initial_deposit(self, wall, voidage):
+    def initial_deposit(self, wall: int, voidage: float) -> Deposit:
         """The initial deposit of a wall in the model file; `voidage` is the share of voids in the powder [1]."""
         deposit = Deposit(wall)
         _check(_library.nw_deposit_initial(self._handle, voidage, byref(deposit)))
         return deposit
 
-    def apply_deposit(self, deposit, voidage, T_w):
+    def apply_deposit(self, deposit: Deposit, voidage: float, T_w: float) -> Dict[str, Any]:
         """Arguments of `resolve` for impacts on a deposit, whose wall has T_w [K]: resolve(..., **apply_deposit(...))."""
         impact = self._impact(deposit.wall, {"T_w": T_w})
         _check(_library.nw_deposit_apply(self._handle, byref(deposit), voidage, byref(impact)))
         names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
         return {name: getattr(impact, name) for name in names}
 
-    def add_captured(self, source, mass, density, T_w, wall=0, **inputs):
+    def add_captured(self, source: DepositSource, mass: float, density: float, T_w: float, wall: int = 0,
+                     **inputs: Union[float, str]) -> None:
         """Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. The wall temperature T_w [K]
         decides whether it counts as molten; inputs are numbers, named as in `resolve`."""
         impact = self._impact(wall, {"T_w": T_w, **inputs})
         _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(source)))
 
-    def film_velocity(self, deposit, T_w, gravity_along, heat_flux=None):
+    def film_velocity(self, deposit: Deposit, T_w: float, gravity_along: float, heat_flux: Optional[float] = None) -> float:
         """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2. With a `heat_flux` to a
         cooled wall [W/m2], T_w is that of the surface, and the melt is colder below."""
         found = c_double()
@@ -433,19 +501,20 @@ class Model:
                 self._handle, byref(deposit), T_w, heat_flux, gravity_along, byref(found)))
         return found.value
 
-    def heat(self, deposit, voidage, cooling):
+    def heat(self, deposit: Deposit, voidage: float, cooling: WallCooling) -> WallHeat:
         """The steady temperatures of a wall under its deposit, a WallHeat; `voidage` is the share of voids in fresh powder [1],
         `cooling` a WallCooling."""
         found = WallHeat()
         _check(_library.nw_deposit_heat(self._handle, byref(deposit), voidage, byref(cooling), byref(found)))
         return found
 
-    def age_deposit(self, deposit, voidage, heat, duration):
+    def age_deposit(self, deposit: Deposit, voidage: float, heat: WallHeat, duration: float) -> None:
         """Lets a deposit age for a `duration` [s] at the temperatures of `heat`: powder that is hotter than it melts becomes
         melt, the rest sinters. Mass is conserved."""
         _check(_library.nw_deposit_age(self._handle, voidage, byref(heat), duration, byref(deposit)))
 
-    def shed_deposit(self, deposit, draw, gravity_outward=0.0, gravity_along=0.0, shear_down=0.0, shear_across=0.0):
+    def shed_deposit(self, deposit: Deposit, draw: float, gravity_outward: float = 0.0, gravity_along: float = 0.0,
+                     shear_down: float = 0.0, shear_across: float = 0.0) -> None:
         """Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Gravity away from the wall
         (negative where it presses the deposit on) and along it is in m/s2, the shear stress of the gas down the slope and
         across it in Pa. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the strongest; a place
@@ -453,7 +522,8 @@ class Model:
         _check(_library.nw_deposit_shed(self._handle, gravity_outward, gravity_along, shear_down, shear_across, draw,
                                         byref(deposit)))
 
-    def resuspend_deposit(self, deposit, voidage, density, kinematic_viscosity, friction_velocity, duration):
+    def resuspend_deposit(self, deposit: Deposit, voidage: float, density: float, kinematic_viscosity: float,
+                          friction_velocity: float, duration: float) -> None:
         """Lets the gas at the wall carry powder away for a `duration` [s]; `voidage` is the share of voids in fresh powder [1].
         The gas has a `density` [kg/m3], a `kinematic_viscosity` [m2/s] and a `friction_velocity` [m/s], the root of shear stress
         over density. Melt and bonded powder stay. A wall without a table `resuspension` in the model file loses nothing.

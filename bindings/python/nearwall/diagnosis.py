@@ -1,0 +1,182 @@
+"""The effects that a model lacks to explain measured impacts."""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+from .frames import Table, source
+from .library import Model
+from .wheel import AnyPath, compiled, model_of, warn
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A fitted number with its 95 % interval, in `unit` ("1" for none)."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+
+    def __str__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"{self.value:.4g} ({self.low:.4g} to {self.high:.4g}){unit}"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A cause of the misfit; `record` has everything that diagnosis.json says of it."""
+
+    #: Id of an effect, or `unknown:COLUMN`.
+    cause: str
+    #: "e_n", "e_t" or "capture".
+    observable: str
+    variables: List[str]
+    p_value: float
+    q_value: float
+    #: Share of the data splits that name this cause.
+    certainty: float
+    parameters: Dict[str, Parameter]
+    #: Causes that the data cannot tell from this one.
+    indistinguishable_from: List[str]
+    explanation: str
+    record: Dict[str, Any]
+
+    @classmethod
+    def of(cls, record: Dict[str, Any]) -> Finding:
+        """The finding of an entry of diagnosis.json."""
+        parameters = {name: Parameter(**estimate) for name, estimate in record["parameters"].items()}
+        keys = ("cause", "observable", "variables", "p_value", "q_value", "certainty", "indistinguishable_from", "explanation")
+        return cls(parameters=parameters, record=record, **{key: record[key] for key in keys})
+
+    def _cells(self) -> str:
+        numbers = "<br>".join(f"{escape(name)} = {escape(str(value))}" for name, value in self.parameters.items())
+        same = escape(", ".join(self.indistinguishable_from)) or "-"
+        return (f"<td>{escape(self.cause)}</td><td>{escape(self.observable)}</td><td>{numbers}</td><td>{self.q_value:.2g}</td>"
+                f"<td>{same}</td><td style='text-align:left'>{escape(self.explanation)}</td>")
+
+    def _repr_html_(self) -> str:
+        return _table([self])
+
+
+@dataclass(frozen=True)
+class Gain:
+    """The gain of the extended model on rows that no fit and no choice used."""
+
+    held_out_rows: int
+    observable: str
+    rmse_before: float
+    rmse_after: float
+    #: 95 % interval of rmse_after/rmse_before.
+    ci95: Tuple[float, float]
+    record: Dict[str, Any]
+
+    @classmethod
+    def of(cls, record: Dict[str, Any]) -> Gain:
+        """The gain of an entry of diagnosis.json."""
+        low, high = record["ci95"]
+        return cls(record["held_out_rows"], record["observable"], record["rmse_before"], record["rmse_after"], (low, high), record)
+
+    def __str__(self) -> str:
+        low, high = self.ci95
+        return (f"rms error of {self.observable} on {self.held_out_rows} held-out rows: {self.rmse_before:.3g} before, "
+                f"{self.rmse_after:.3g} after; ratio {low:.2f} to {high:.2f}")
+
+    def _repr_html_(self) -> str:
+        return f"<p>{escape(str(self))}</p>"
+
+
+def _table(findings: List[Finding]) -> str:
+    head = "".join(f"<th>{word}</th>" for word in
+                   ("cause", "acts on", "parameters (95 %)", "q", "indistinguishable from", "explanation"))
+    rows = "".join(f"<tr>{finding._cells()}</tr>" for finding in findings)
+    return f"<table><tr>{head}</tr>{rows}</table>"
+
+
+@dataclass(frozen=True, repr=False)
+class Diagnosis:
+    """The result of `diagnose`. `record` is diagnosis.json, `extended_toml` the text of the extended model, which OpenFOAM
+    reads unchanged, `html` the page, `draws` the texts of model files drawn from the fit."""
+
+    record: Dict[str, Any]
+    extended_toml: str
+    html: str
+    draws: List[str]
+    _json: str
+
+    @property
+    def verdict(self) -> str:
+        """The result in a few sentences."""
+        return str(self.record["verdict"])
+
+    @cached_property
+    def findings(self) -> List[Finding]:
+        """The causes in the order in which they were found; empty if there is nothing beyond noise."""
+        return [Finding.of(record) for record in self.record["findings"]]
+
+    @cached_property
+    def gain(self) -> Optional[Gain]:
+        """The gain in the observable of the first finding; None without a finding."""
+        return Gain.of(self.record["gain"]) if self.record["gain"] else None
+
+    @cached_property
+    def model(self) -> Model:
+        """The extended model."""
+        return Model.from_toml(self.extended_toml, "extended.toml")
+
+    @property
+    def rejected(self) -> List[Tuple[int, str]]:
+        """Rows that were left out: line (1 is the header) and reason."""
+        return [(row["line"], row["reason"]) for row in self.record["rows"]["rejected"]]
+
+    def save(self, folder: AnyPath) -> None:
+        """Writes report.html, diagnosis.json, extended.toml and the drawn models in draws/, as the command does."""
+        place = pathlib.Path(folder)
+        place.mkdir(parents=True, exist_ok=True)
+        texts = {"extended.toml": self.extended_toml, "diagnosis.json": self._json, "report.html": self.html}
+        texts.update({f"draws/{number:02}.toml": text for number, text in enumerate(self.draws, 1)})
+        if self.draws:
+            (place / "draws").mkdir(exist_ok=True)
+        for name, text in texts.items():
+            (place / name).write_text(text, encoding="utf-8")
+
+    def __repr__(self) -> str:
+        return f"<nearwall.Diagnosis: {self.verdict}>"
+
+    def _repr_html_(self) -> str:
+        table = _table(self.findings) if self.findings else ""
+        gain = self.gain._repr_html_() if self.gain else ""
+        rows = self.record["rows"]
+        return f"<p>{escape(self.verdict)}</p>{table}{gain}<p>{rows['used']} of {rows['read']} rows used.</p>"
+
+
+def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[AnyPath] = None, group: Optional[str] = None,
+             wall: Optional[str] = None, seed: int = 1, level: float = 0.05, draws: int = 0) -> Diagnosis:
+    """Finds the effects that a model lacks to explain measured impacts, as the command `nearwall diagnose` does.
+
+    table: a pandas or polars frame, a dict of arrays, or the path of a CSV file, three rows or more. One row is an impact or an
+        average: v_n [m/s] and other inputs in SI units, and at least one of e_n, e_t [1], outcome ("rebound" or "stick") and
+        capture_efficiency [1]; every other column is a possible cause (docs/data-file.md).
+    model: the base model or the path of its file.
+    columns: path of a column map for a laboratory's own columns and units.
+    group: column that tells groups of rows apart that may share an error.
+    wall: the wall that is hit; by default the column `wall`, then the wall `default`, then the only wall.
+    seed: of the split into fitted and held-out rows; the same seed gives the same result.
+    level: accepted share of false discoveries, between 0 and 0.5.
+    draws: number of model files to draw from the fit; the range over 39 is a 95 % band.
+
+    Raises Error, as the command; what the command notes on standard error is a warning. Lines count from the header, line 1.
+    Ctrl-C ends it.
+    """
+    if not 0 < level < 0.5:
+        raise ValueError(f"level {level}: must lie between 0 and 0.5")
+    text, extended, page, drawn, notes = compiled().diagnose(
+        model_of(model), source(table), None if columns is None else os.fspath(columns), group, wall, seed, level, draws)
+    warn(notes)
+    return Diagnosis(json.loads(text), extended, page, drawn, text)

@@ -1,0 +1,63 @@
+//! `simulate`: what the command `nearwall simulate` does with a standalone case.
+
+use std::path::Path;
+
+use nearwall::report::standalone_page;
+use nearwall::results::standalone::{ImpactRecorder, run as run_case, summary, write_deposits};
+use nearwall::rig::{DrawnModels, capture_bands};
+use nearwall::simulate::Case;
+use pyo3::prelude::*;
+
+use crate::table::{Cells, ForPython};
+use crate::work::{Failure, run};
+
+/// summary.json; impacts.csv and deposit.csv as texts and as columns; report.html; notes.
+type Simulated = (String, String, Vec<ForPython>, Option<(String, Vec<ForPython>)>, String, Vec<String>);
+
+/// Runs a case file.
+#[pyfunction]
+pub fn simulate(py: Python<'_>, case: String, draws: Option<String>) -> PyResult<Simulated> {
+    let (json, impacts, deposit, page, notes) = run(py, |tick| {
+        let mut case = Case::from_file(Path::new(&case))?;
+        let draws =
+            draws.map(|folder| DrawnModels::from_folder(Path::new(&folder), &case.model)).transpose()?;
+        let mut recorder = ImpactRecorder::new(Vec::new(), &case)?;
+        let mut runs = run_case(&mut case, |case, value, number, trajectory| {
+            tick();
+            recorder.record(case, value, number, trajectory).map_err(|error| error.to_string())
+        })?;
+        let mut notes = Vec::new();
+        for trouble in runs.iter().filter_map(|run| Some((run, run.totals.first_trouble.as_ref()?))) {
+            let (run, first) = trouble;
+            let count = run.totals.ends.unusable.count;
+            notes.push(format!("{count} particles could not be used; the first: {first}"));
+        }
+        if let Some(draws) = &draws {
+            if case.injections.iter().any(|injection| injection.model.is_some()) {
+                let note =
+                    "particles with a model file of their own keep it; draws change only the case's model";
+                notes.push(note.to_owned());
+            }
+            let key = case.sweep.as_ref().map(|sweep| sweep.key.clone());
+            for run in &mut runs {
+                if let Some((key, value)) = key.as_ref().zip(run.value) {
+                    case.set(key, value)?;
+                }
+                run.bands = capture_bands(&mut case, run, draws, tick)?;
+            }
+        }
+        let left_out = recorder.left_out;
+        let impacts = String::from_utf8(recorder.finish()?)?;
+        let json = serde_json::to_string_pretty(&summary(&case, &runs))? + "\n";
+        let page = standalone_page(&case, &runs, left_out)?;
+        let deposit = case.deposit.is_some().then(|| write_deposits(Vec::new(), &case, &runs)).transpose()?;
+        Ok::<_, Failure>((json, impacts, deposit.map(String::from_utf8).transpose()?, page, notes))
+    })?;
+    let columns = |text: &str| match Cells::read(text.as_bytes()) {
+        Ok(cells) => cells.for_python(py),
+        Err(error) => Err(crate::work::error(py, &error.to_string())),
+    };
+    let impact_columns = columns(&impacts)?;
+    let deposit = deposit.map(|text| columns(&text).map(|columns| (text, columns))).transpose()?;
+    Ok((json, impacts, impact_columns, deposit, page, notes))
+}
