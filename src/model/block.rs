@@ -90,7 +90,7 @@ impl Model {
             }
             Some(Prepared::Varying(prepared)) if prepared.decides_block(block) => {
                 let columns = workspace.get_or_insert_with(Columns::default);
-                prepared.resolve_block(self, of, block, seed, outcomes, columns, level);
+                prepared.resolve_block(of, block, seed, outcomes, columns, level);
                 return Ok(());
             }
             _ => {}

@@ -2,7 +2,6 @@
 
 use fearless_simd::{Level, dispatch};
 
-use super::Model;
 use super::block::{BLOCK, Block, Outcomes};
 use super::evaluation::{ImpactState, NormalRebound, StepSet, evaluate};
 use super::prepared_wall::{Tangential, within};
@@ -79,7 +78,6 @@ impl Default for Columns {
 
 /// What the loops over a block share.
 struct Loops<'a> {
-    model: &'a Model,
     wall: &'a Constants,
     block: &'a Block,
 }
@@ -100,7 +98,6 @@ impl VaryingWall {
     /// Decides a block of impacts that have been checked and that [`Self::decides_block`], with the instructions of `level`.
     pub fn resolve_block(
         &self,
-        model: &Model,
         wall: &Wall,
         block: &Block,
         seed: u64,
@@ -115,11 +112,11 @@ impl VaryingWall {
             slag.on_wall_each(level, block, &mut columns.slag);
         }
         cover(wall, block, &mut columns.coverage);
-        dispatch!(level, _simd => self.loops(model, block, seed, columns, outcomes));
+        dispatch!(level, _simd => self.loops(block, seed, columns, outcomes));
     }
 
     #[inline(always)]
-    fn loops(&self, model: &Model, block: &Block, seed: u64, columns: &mut Columns, outcomes: &mut Outcomes) {
+    fn loops(&self, block: &Block, seed: u64, columns: &mut Columns, outcomes: &mut Outcomes) {
         let length = block.length.min(BLOCK);
         let [particle, wall] = [Impact::PARTICLE_TEMPERATURE, Impact::WALL_TEMPERATURE]
             .map(|input| &block.inputs[input][..length]);
@@ -128,7 +125,7 @@ impl VaryingWall {
         {
             columns.fill(solid, temperatures);
         }
-        let loops = Loops { model, wall: &self.constants, block };
+        let loops = Loops { wall: &self.constants, block };
         loops.stickiness(self.in_flight.is_some(), columns);
         let drawn = self.patchwork && columns.coverage[..length].iter().any(|coverage| *coverage > 0.0);
         draw(block, seed, drawn, columns);
@@ -260,9 +257,9 @@ impl Loops<'_> {
         }
         for one in self.wall.transitions.each().into_iter().flatten() {
             let values = &self.block.inputs[one.input()];
-            for i in 0..length {
-                let stickiness = one.at_value(values[i]);
-                columns.particle[i] = if product { columns.particle[i] * stickiness } else { stickiness };
+            for (before, value) in columns.particle[..length].iter_mut().zip(values) {
+                let stickiness = one.at_value(*value);
+                *before = if product { *before * stickiness } else { stickiness };
             }
             product = true;
         }
@@ -448,7 +445,7 @@ impl Loops<'_> {
             density: columns.density[i],
         };
         let mut steps = VaryingImpact {
-            model: self.model,
+            terms: &[],
             wall,
             partner,
             met,

@@ -100,11 +100,12 @@ pub(super) struct Met {
 
 /// One impact at one place; `TERMS` where terms without a precomputed form act.
 pub(super) struct VaryingImpact<'a, const TERMS: bool> {
-    pub model: &'a Model,
     pub wall: &'a Constants,
+    /// The terms, where they have no precomputed form.
+    pub terms: &'a [Term],
     pub met: Met,
-    /// The impact on the wall as a whole.
-    pub reaching: Option<&'a Impact>,
+    /// For corrections: the model, and the impact on the wall as a whole.
+    pub reaching: Option<(&'a Model, &'a Impact)>,
     pub covered: bool,
     /// What it meets there.
     pub partner: Mechanical,
@@ -278,7 +279,17 @@ impl VaryingWall {
                 here.impact = Impact { coverage: 0.0, layer_thickness: 0.0, ..met.impact };
             }
         }
-        let mut steps = self.steps::<TERMS>(model, here, Some(&met.impact), covered);
+        let [bare, powder] = met.partners;
+        let mut steps = VaryingImpact::<TERMS> {
+            wall: &self.constants,
+            terms: &model.terms,
+            partner: if covered { powder } else { bare },
+            met: here,
+            reaching: Some((model, &met.impact)),
+            covered,
+            on_melt: f64::NAN,
+            left_range: false,
+        };
         let mut state = ImpactState { impact: here.impact, ..ImpactState::default() };
         let Ok(()) = evaluate(&mut steps, StepSet::ALL, &mut state);
         let outcome = state.outcome();
@@ -288,28 +299,6 @@ impl VaryingWall {
             self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(&met.impact), range))
         };
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
-    }
-
-    #[inline(always)]
-    fn steps<'a, const TERMS: bool>(
-        &'a self,
-        model: &'a Model,
-        met: Met,
-        reaching: Option<&'a Impact>,
-        covered: bool,
-    ) -> VaryingImpact<'a, TERMS> {
-        let [bare, powder] = met.partners;
-        let partner = if covered { powder } else { bare };
-        VaryingImpact {
-            model,
-            wall: &self.constants,
-            partner,
-            met,
-            reaching,
-            covered,
-            on_melt: f64::NAN,
-            left_range: false,
-        }
     }
 }
 
@@ -424,7 +413,7 @@ pub(super) fn mechanical(values: [f64; 6], fitted: bool) -> Mechanical {
 impl<const TERMS: bool> VaryingImpact<'_, TERMS> {
     #[inline(always)]
     fn terms(&self) -> &[Term] {
-        if TERMS { &self.model.terms } else { &[] }
+        if TERMS { self.terms } else { &[] }
     }
 
     /// What the melt on the wall does to a dry particle by the terms.
@@ -550,7 +539,7 @@ impl<const TERMS: bool> WallSteps for VaryingImpact<'_, TERMS> {
     #[inline(always)]
     fn correct(&mut self, plain: Corrected) -> Corrected {
         match self.reaching {
-            Some(reaching) if TERMS => self.model.corrected(reaching, plain, &mut |_, _, _| {}),
+            Some((model, reaching)) if TERMS => model.corrected(reaching, plain, &mut |_, _, _| {}),
             _ => plain,
         }
     }

@@ -153,7 +153,7 @@ impl NormalLaw {
             Self::Constant { restitution } => return (restitution, false),
             Self::PlasticJkr | Self::Listed { .. } => self.rebound(contact, impact).unwrap_or(0.0),
         };
-        (e_n, !(e_n > 0.0))
+        (e_n, e_n <= 0.0)
     }
 
     /// Whether the law describes the contact of two solids.

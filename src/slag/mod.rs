@@ -67,8 +67,6 @@ fn for_each_temperature(
     viscosity: impl Fn([f64; 2], f64) -> f64,
 ) {
     dispatch!(level, _simd => {
-        // Values, which cannot change while the viscosities are written.
-        let coefficients = coefficients;
         for (mu, temperature) in viscosities.iter_mut().zip(temperatures) {
             *mu = viscosity(coefficients, from_one_kelvin(*temperature));
         }
