@@ -80,7 +80,9 @@ mod tests {
 
     #[test]
     fn values_without_a_key() {
-        for values in [&[][..], &[f64::NAN], &[1.0, f64::INFINITY], &[0.0, 1.0, 2.0, f64::NAN], &[f64::NEG_INFINITY; 9]] {
+        for values in
+            [&[][..], &[f64::NAN], &[1.0, f64::INFINITY], &[0.0, 1.0, 2.0, f64::NAN], &[f64::NEG_INFINITY; 9]]
+        {
             assert_eq!(key(values), None, "{values:?}");
         }
         assert_eq!(key(&[-0.0, 1.0]), key(&[0.0, 1.0]));

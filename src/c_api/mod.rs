@@ -24,7 +24,9 @@ use crate::model::Model;
 use crate::rng::ImpactRng;
 
 pub use batch::*;
-use boundary::{Fault, check_size, guarded, guarded_status, initialise, put, put_text, reader, report, sized};
+use boundary::{
+    Fault, check_size, guarded, guarded_status, initialise, put, put_text, reader, report, sized,
+};
 pub use cooled_wall::*;
 pub use deposit::*;
 pub use extra::*;

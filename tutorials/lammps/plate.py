@@ -118,7 +118,7 @@ def meet_the_plate(step):
         arrays["i_hits"][hit] += 1
 
 
-# Neighbour lists and the exchange of particles between ranks every 20 steps, in which a particle moves less than the skin.
+# Particles change ranks every 20 steps; until then a rank keeps those that left its part of the box, which do not need each other.
 lmp.command("neigh_modify every 20 delay 0 check no")
 for step in range(1, STEPS + 1):
     lmp.command(f"run 1 pre {'yes' if step % 20 == 1 else 'no'} post no")
