@@ -125,7 +125,7 @@ fn unlikely_units_are_named() {
 #[test]
 fn keys_of_values() {
     let calls = Calls::load();
-    let values = [0.25, -0.5, 75e-6, 1300.0, 2.0];
+    let values = [0.25_f64, -0.5, 75e-6, 1300.0, 2.0];
     let mut bytes = vec![0_u8];
     bytes.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
     let mut key = 0;
