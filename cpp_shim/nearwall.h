@@ -402,6 +402,27 @@ nw_status nw_explain(const struct nw_model *model,
                      char *message,
                      size_t message_size);
 
+// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees Celsius?), a diameter above 5 cm.
+// `text` receives at most `text_size` bytes with the closing zero, an empty text if nothing is unlikely. Call it for the first
+// impacts of a run: a temperature in degrees Celsius above 150 cannot be told from one in kelvin.
+//
+// # Safety
+// `impact` begins with its `struct_size`, `text` has room for `text_size` bytes.
+nw_status nw_unlikely(const struct nw_impact *impact,
+                      char *text,
+                      size_t text_size);
+
+// Computes a key for an impact of a code that does not number its particles, from `count` values that tell this impact from all
+// others on any number of ranks, such as place and time of the particle's release, its diameter, and the number of its hits.
+// Equal values have equal keys, -0 equals 0. `NW_BAD_STATE` if `count` is 0 or a value is not finite. The key is XXH64 with seed 0
+// of the values' bytes, the lowest first.
+//
+// # Safety
+// `values` has `count` entries, `key` can be written.
+nw_status nw_key_of_values(const double *values,
+                           size_t count,
+                           uint64_t *key);
+
 // Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at
 // their median. They depend on the diameter, the temperatures, and the inputs of effects on the contact. Outputs may
 // be null.

@@ -173,6 +173,21 @@ inline nw_wall_heat make_wall_heat() {
     return heat;
 }
 
+// Which input of an impact is probably in another unit; empty if none is. A temperature in degrees Celsius above 150 is not seen.
+inline std::string unlikely(const nw_impact& impact) {
+    detail::message m;
+    detail::check(nw_unlikely(&impact, m.text, sizeof(m.text)), std::string("nw_unlikely"));
+    return m.text;
+}
+
+// A key from `count` values that tell an impact from all others on any number of ranks, for codes that do not number their
+// particles; throws if there are none or one is not finite.
+inline std::uint64_t key_of_values(const double* values, std::size_t count) {
+    std::uint64_t key = 0;
+    detail::check(nw_key_of_values(values, count, &key), std::string("nw_key_of_values"));
+    return key;
+}
+
 // Adds the captured particles of a step to a deposit, which is untouched on failure.
 inline nw_status add(const nw_deposit_source& source, nw_deposit& deposit) noexcept {
     return nw_deposit_add(&source, &deposit);

@@ -66,6 +66,7 @@ pub mod effect;
 pub mod erosion;
 pub mod impact;
 pub mod input;
+pub mod key;
 pub mod law;
 #[cfg(feature = "command")]
 pub mod map;

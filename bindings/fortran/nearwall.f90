@@ -244,6 +244,22 @@ module nearwall
       integer(c_int32_t) :: nw_explain
     end function nw_explain
 
+    function nw_unlikely(impact, text, text_size) bind(c)
+      import
+      type(nw_impact), intent(in) :: impact
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_size_t), value :: text_size
+      integer(c_int32_t) :: nw_unlikely
+    end function nw_unlikely
+
+    function nw_key_of_values(values, count, key) bind(c)
+      import
+      real(c_double), intent(in) :: values
+      integer(c_size_t), value :: count
+      integer(c_int64_t), intent(inout) :: key
+      integer(c_int32_t) :: nw_key_of_values
+    end function nw_key_of_values
+
     function nw_speeds(model, impact, adhesive, yielding, sticking) bind(c)
       import
       type(c_ptr), value :: model

@@ -19,11 +19,14 @@ use std::ffi::{CStr, c_char};
 use std::path::Path;
 
 use crate::impact::Regime;
+use crate::key::key_of_values;
 use crate::model::Model;
 use crate::rng::ImpactRng;
 
 pub use batch::*;
-use boundary::{Fault, check_size, guarded, guarded_status, initialise, put, reader, report, sized};
+use boundary::{
+    Fault, check_size, guarded, guarded_status, initialise, put, put_text, reader, report, sized,
+};
 pub use cooled_wall::*;
 pub use deposit::*;
 pub use extra::*;
@@ -245,6 +248,58 @@ pub unsafe extern "C" fn nw_explain(
     };
     // SAFETY: the caller's promise on `message`.
     unsafe { report(guarded(explain), message, message_size) }
+}
+
+/// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees Celsius?), a diameter above 5 cm.
+/// `text` receives at most `text_size` bytes with the closing zero, an empty text if nothing is unlikely. Call it for the first
+/// impacts of a run: a temperature in degrees Celsius above 150 cannot be told from one in kelvin.
+///
+/// # Safety
+/// `impact` begins with its `struct_size`, `text` has room for `text_size` bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_unlikely(
+    impact: *const nw_impact,
+    text: *mut c_char,
+    text_size: usize,
+) -> nw_status {
+    let found = || {
+        // SAFETY: the caller's promise.
+        let impact = unsafe { sized(impact)? };
+        if text.is_null() || text_size == 0 {
+            return Err(NW_NULL_POINTER);
+        }
+        let unlikely = impact.to_impact().unlikely().unwrap_or_default();
+        // SAFETY: not null, with room for `text_size` bytes by the caller's promise.
+        unsafe { put_text(&unlikely, text, text_size) };
+        Ok(())
+    };
+    guarded_status(found)
+}
+
+/// Computes a key for an impact of a code that does not number its particles, from `count` values that tell this impact from all
+/// others on any number of ranks, such as place and time of the particle's release, its diameter, and the number of its hits.
+/// Equal values have equal keys, -0 equals 0. `NW_BAD_STATE` if `count` is 0 or a value is not finite. The key is XXH64 with seed 0
+/// of the values' bytes, the lowest first.
+///
+/// # Safety
+/// `values` has `count` entries, `key` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_key_of_values(values: *const f64, count: usize, key: *mut u64) -> nw_status {
+    let found = || {
+        if values.is_null() || key.is_null() {
+            return Err(NW_NULL_POINTER);
+        }
+        if count > isize::MAX as usize / size_of::<f64>() {
+            return Err(NW_STRUCT_SIZE);
+        }
+        // SAFETY: not null, and `count` entries by the caller's promise; they need not be aligned.
+        let values = (0..count).map(|index| unsafe { values.add(index).read_unaligned() });
+        let found = key_of_values(values).ok_or(NW_BAD_STATE)?;
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { key.write_unaligned(found) };
+        Ok(())
+    };
+    guarded_status(found)
 }
 
 /// Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at

@@ -31,12 +31,7 @@ pub fn assumed(absent: &[&str]) -> Option<String> {
 
 /// A warning if an input is probably in another unit; `line` is the impact's line in the file.
 pub fn unlikely(line: u64, impact: &Impact) -> Option<String> {
-    let Impact { diameter, particle_temperature, wall_temperature, .. } = *impact;
-    if diameter > 0.05 {
-        return Some(format!("line {line}: d = {diameter} m is unusually large; check its unit"));
-    }
-    let coldest = particle_temperature.min(wall_temperature);
-    (coldest < 150.0).then(|| format!("line {line}: a temperature of {coldest} K; is that °C?"))
+    impact.unlikely().map(|text| format!("line {line}: {text}"))
 }
 
 /// Counts of rows with a warning.

@@ -65,6 +65,16 @@ impl Impact {
         Ok(())
     }
 
+    /// Which input is probably in another unit, if any: a temperature below 150 K, a diameter above 5 cm.
+    pub fn unlikely(&self) -> Option<String> {
+        if self.diameter > 0.05 {
+            return Some(format!("d = {} m is unusually large; check its unit", self.diameter));
+        }
+        let temperatures = [("T_p", self.particle_temperature), ("T_w", self.wall_temperature)];
+        let (name, cold) = temperatures.into_iter().find(|(_, temperature)| *temperature < 150.0)?;
+        Some(format!("{name} = {cold} K; is that °C?"))
+    }
+
     /// Impact speed `v` [m/s].
     pub fn speed(&self) -> f64 {
         self.normal_speed.hypot(self.tangential_speed)

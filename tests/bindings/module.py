@@ -48,6 +48,10 @@ bad = d.copy()
 bad[17] = 0.0
 fault = refused(nearwall.Error, lambda: model.resolve(v_n, d=bad), "impact 17: an input is not finite or outside its bounds")
 assert (fault.status, fault.index) == (7, 17)
+assert nearwall.unlikely(T_p=25.0) == "T_p = 25 K; is that °C?" and nearwall.unlikely(v_n=2.0, T_p=900.0) == ""
+assert nearwall.key_of_values(0.25, -0.5, 75e-6, 1300.0, 2.0) == 0x7304CDEACCF47FD1
+refused(nearwall.Error, lambda: nearwall.key_of_values(), "not finite")
+refused(nearwall.Error, lambda: nearwall.key_of_values(1.0, numpy.nan), "not finite")
 assert "v_n = -1" in model.explain(-1.0) and model.explain(2.0, T_p=900.0, T_w=900.0) == "", model.explain(-1.0)
 refused(nearwall.Error, lambda: model.find_wall("roof"), "the model has no such wall")
 refused(nearwall.Error, lambda: nearwall.Model.from_file("/nowhere/nearWall.toml"), "/nowhere/nearWall.toml")

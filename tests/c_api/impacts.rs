@@ -99,6 +99,50 @@ fn density_and_erosion_are_those_of_the_rust_library() {
     calls.free(plain);
 }
 
+/// A temperature in degrees Celsius and a diameter in micrometres are seen; ordinary impacts pass in silence.
+#[test]
+fn unlikely_units_are_named() {
+    let calls = Calls::load();
+    let said = |impact: Impact, room: usize| {
+        let (impact, mut text) = (c_case(&(0, impact, ImpactRng::default())), [1 as std::ffi::c_char; 200]);
+        let status = unsafe { (calls.nw_unlikely)(&raw const impact, text.as_mut_ptr(), room) };
+        let end = text.iter().position(|byte| *byte == 0).unwrap_or(0);
+        (status, text[..end].iter().map(|byte| char::from(*byte as u8)).collect::<String>())
+    };
+    let ordinary = Impact { normal_speed: 2.0, ..Impact::default() };
+    assert_eq!(said(ordinary, 200), (NW_OK, String::new()));
+    assert_eq!(said(Impact { wall_temperature: 25.0, ..ordinary }, 14), (NW_OK, "T_w = 25 K; i".to_owned()));
+    let large = said(Impact { diameter: 75.0, ..ordinary }, 200).1;
+    assert_eq!(large, "d = 75 m is unusually large; check its unit");
+    let impact = nw_impact::default();
+    assert_eq!(unsafe { (calls.nw_unlikely)(&raw const impact, null_mut(), 9) }, NW_NULL_POINTER);
+    let wrong = nw_impact { struct_size: 8, ..impact };
+    let mut text = [0 as std::ffi::c_char; 9];
+    assert_eq!(unsafe { (calls.nw_unlikely)(&raw const wrong, text.as_mut_ptr(), 9) }, NW_STRUCT_SIZE);
+}
+
+/// The key is that of the Rust library, from values at any address; a refusal leaves it untouched.
+#[test]
+fn keys_of_values() {
+    let calls = Calls::load();
+    let values = [0.25_f64, -0.5, 75e-6, 1300.0, 2.0];
+    let mut bytes = vec![0_u8];
+    bytes.extend(values.iter().flat_map(|value| value.to_ne_bytes()));
+    let mut key = 0;
+    let odd = bytes[1..].as_ptr().cast::<f64>();
+    assert_eq!(unsafe { (calls.nw_key_of_values)(odd, values.len(), &raw mut key) }, NW_OK);
+    assert_eq!((key, Some(key)), (0x7304_CDEA_CCF4_7FD1, nearwall::key::key_of_values(values.into_iter())));
+    let refusals = [
+        (unsafe { (calls.nw_key_of_values)(values.as_ptr(), 0, &raw mut key) }, NW_BAD_STATE),
+        (unsafe { (calls.nw_key_of_values)([1.0, f64::NAN].as_ptr(), 2, &raw mut key) }, NW_BAD_STATE),
+        (unsafe { (calls.nw_key_of_values)(values.as_ptr(), usize::MAX, &raw mut key) }, NW_STRUCT_SIZE),
+        (unsafe { (calls.nw_key_of_values)(null(), 1, &raw mut key) }, NW_NULL_POINTER),
+        (unsafe { (calls.nw_key_of_values)(values.as_ptr(), 1, null_mut()) }, NW_NULL_POINTER),
+    ];
+    assert!(refusals.iter().all(|(status, expected)| status == expected), "{refusals:?}");
+    assert_eq!(key, 0x7304_CDEA_CCF4_7FD1);
+}
+
 /// The reason of a refusal is that of the Rust library, cut to the caller's room.
 #[test]
 fn a_refusal_is_explained() {

@@ -120,6 +120,8 @@ FUNCTIONS = {
     "nw_outcome_init": (c_int32, [POINTER(nw_outcome)]),
     "nw_resolve": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(nw_outcome)]),
     "nw_explain": (c_int32, [c_void_p, POINTER(nw_impact), c_char_p, c_size_t]),
+    "nw_unlikely": (c_int32, [POINTER(nw_impact), c_char_p, c_size_t]),
+    "nw_key_of_values": (c_int32, [POINTER(c_double), c_size_t, POINTER(c_uint64)]),
     "nw_speeds": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
     "nw_particle_density": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double)]),
     "nw_erosion": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
@@ -286,6 +288,26 @@ def _text(name: str, value: Union[str, bytes, os.PathLike[str]]) -> bytes:
     if b"\0" in data:
         raise ValueError(f"{name} has a zero byte in it")
     return data
+
+
+def unlikely(**inputs):
+    """Which input of an impact is probably in another unit; empty if none is. A temperature in degrees Celsius above 150 is not
+    seen."""
+    impact, text = nw_impact(), ctypes.create_string_buffer(2048)
+    _check(_library.nw_impact_init(byref(impact)))
+    for name, value in inputs.items():
+        if name not in INPUTS:
+            raise TypeError(f"no such input: {name}")
+        setattr(impact, name, value)
+    _check(_library.nw_unlikely(byref(impact), text, len(text)))
+    return text.value.decode()
+
+
+def key_of_values(*values):
+    """A key from numbers that tell an impact from all others on any number of ranks, for codes that do not number their particles."""
+    key = c_uint64()
+    _check(_library.nw_key_of_values((c_double * len(values))(*values), len(values), byref(key)))
+    return key.value
 
 
 class Model:

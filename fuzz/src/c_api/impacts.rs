@@ -161,6 +161,48 @@ pub fn of_particles(bytes: &mut Bytes<'_>, model: *const nw_model) {
         }
     }
     explained(bytes, model, from);
+    unlikely(bytes, from);
+}
+
+/// Which input is probably in another unit.
+fn unlikely(bytes: &mut Bytes<'_>, impact: *const nw_impact) {
+    let size = [0, 1, 2, 3, 40, 400][bytes.below(6)];
+    let mut buffer = GuardedBuffer::new(bytes, size);
+    let text = buffer.start_or_null(bytes);
+    // SAFETY: each is null or what it should be.
+    let status = unsafe { nw_unlikely(impact, text, size) };
+    known(status);
+    buffer.assert_guard_intact();
+    if status == NW_OK {
+        let text = CStr::from_bytes_until_nul(buffer.inside()).expect("a closing zero");
+        text.to_str().expect("whole characters");
+    } else {
+        buffer.assert_untouched();
+    }
+}
+
+/// The key of some values, which begin at any address.
+pub fn key(bytes: &mut Bytes<'_>) {
+    let values: Vec<f64> = (0..bytes.below(12)).map(|_| bytes.number()).collect();
+    let mut given = GuardedBuffer::new(bytes, 8 * values.len());
+    let to = given.start_or_null::<f64>(bytes);
+    for (index, value) in values.iter().enumerate().filter(|_| !to.is_null()) {
+        // SAFETY: the buffer has room for the values.
+        unsafe { to.add(index).write_unaligned(*value) };
+    }
+    let count = if bytes.byte() == 0 { usize::MAX } else { values.len() };
+    let mut found = GuardedBuffer::new(bytes, 8);
+    let key = found.start_or_null::<u64>(bytes);
+    // SAFETY: null, or as many values as the count unless that is refused.
+    let status = unsafe { nw_key_of_values(to.cast_const(), count, key) };
+    known(status);
+    found.assert_guard_intact();
+    let good = !values.is_empty() && values.iter().all(|value| value.is_finite());
+    let accepted = good && !to.is_null() && !key.is_null() && count == values.len();
+    assert_eq!(status == NW_OK, accepted, "{values:?}");
+    if status != NW_OK {
+        found.assert_untouched();
+    }
 }
 
 pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {

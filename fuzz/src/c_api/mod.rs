@@ -42,9 +42,10 @@ pub fn c_api(bytes: &[u8]) {
             5 => impacts::ranges(&mut bytes, model),
             6 => impacts::batch(&mut bytes, model),
             7 => texts(&mut bytes),
+            11 => impacts::key(&mut bytes),
             9 => impacts::of_particles(&mut bytes, model),
             10 => impacts::extra(&mut bytes, model),
-            11.. => wall.call(&mut bytes, model),
+            12.. => wall.call(&mut bytes, model),
             _ => {
                 // SAFETY: our own model, freed once.
                 unsafe { nw_model_free(model) };
