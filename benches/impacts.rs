@@ -1,4 +1,4 @@
-//! Times, and their ratios within one run. `benches/run` runs it several times and prints the spread of the ratios.
+//! Times, and their ratios within one run. `benches/run` runs it several times and writes the medians and their spread.
 #![allow(unsafe_code, reason = "calls C")]
 #![allow(clippy::unwrap_used, reason = "a benchmark may fail")]
 #![allow(missing_docs, reason = "criterion's functions")]
@@ -10,9 +10,7 @@ use std::ptr::null_mut;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput};
-use nearwall::c_api::{
-    NW_OK, nw_impact, nw_model, nw_model_find_wall, nw_outcome, nw_resolve, nw_resolve_batch, nw_status,
-};
+use nearwall::c_api::{NW_OK, nw_impact, nw_model, nw_outcome, nw_resolve, nw_resolve_batch, nw_status};
 use nearwall::model::block::{BLOCK, Outcomes, Workspace};
 use nearwall::normal::Contact;
 use nearwall::{Impact, ImpactRng, Model};
@@ -20,16 +18,17 @@ use nearwall_benches::*;
 use validation::oracle::normal_contact;
 
 fn main() {
-    let quick = || Criterion::default().warm_up_time(Duration::from_millis(300));
+    let quick = || Criterion::default().warm_up_time(Duration::from_millis(200)).without_plots();
     let mut criterion =
-        quick().measurement_time(Duration::from_secs(1)).sample_size(50).configure_from_args();
+        quick().measurement_time(Duration::from_millis(500)).sample_size(30).configure_from_args();
     blocks(&mut criterion);
     calls(&mut criterion);
+    slag(&mut criterion);
     batches(&mut criterion);
     threads(&mut criterion);
     contact(&mut criterion);
     criterion.final_summary();
-    ratios();
+    rows();
 }
 
 /// A block in the first-level cache against the divisions and roots alone.
@@ -60,62 +59,100 @@ fn blocks(criterion: &mut Criterion) {
 
 type Resolve = unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> nw_status;
 
-/// One call through the C interface, its floating-point guard and its checks included, against C++ that has neither: with
-/// the C library's exponential and cube root, and with ours.
+/// Impacts of a batch that stays in the cache of a core.
+const CACHED: usize = 10_000;
+
+/// Names of the groups of criterion, in the order of [`sides`].
+const SIDES: [&str; 4] = ["wax", "wax, own exp", "bons", "fouling"];
+
+/// The models that are written by hand as well.
+fn sides() -> [Side; 4] {
+    [wax(false), wax(true), bons(), fouling()]
+}
+
+/// One call and a batch through the C interface, its floating-point guard and its checks included, against C++ that has neither.
 fn calls(criterion: &mut Criterion) {
-    let (constants, model) = (constants(), handle(MODEL));
-    let numbers = impact(1);
-    let mut theirs = HandImpact { numbers, key: 0 };
-    let ours = called(numbers);
-    let (mut hand, mut outcome) = (HandOutcome::default(), nw_outcome::default());
     // A pointer, as a solver has it: nothing is inlined.
     let resolve = black_box(nw_resolve as Resolve);
-    let mut group = criterion.benchmark_group("call");
-    for (name, options) in [("by hand", &[][..]), ("by hand, own exp", &["-DOWN_ELEMENTARY"])] {
-        let by_hand = by_hand(options);
-        // SAFETY: live structs of the right types, here and below.
+    for (group, side) in SIDES.into_iter().zip(sides()) {
+        let model = handle(side.toml);
+        let [mut near, mut hand] = [0; 2].map(|_| Columns::new(CACHED, side.impact));
+        let ((impacts, outcomes), by_hand) = (near.pointers(), hand.by_hand());
+        // SAFETY: a live model and columns of one length.
         unsafe {
-            by_hand(&constants, &theirs, &mut hand);
-            resolve(model, &ours, &mut outcome);
+            assert_eq!(nw_resolve_batch(model, &impacts, &outcomes, null_mut()), NW_OK);
+            (side.many)(&side.constants, &by_hand);
         }
-        let same = hand.numbers.iter().zip([outcome.e_n, outcome.e_t, outcome.p_stick, outcome.omega]);
-        for (hand, our) in same {
-            assert!((hand - our).abs() <= 1e-9 * our.abs(), "{hand:?}, {outcome:?}");
-        }
-        group.bench_function(name, |b| {
+        check_agreement(&side, &near, &hand);
+        let ((impacts, outcomes), by_hand) = (near.pointers(), hand.by_hand());
+
+        // Calls walk through a list of impacts, as those of a solver do.
+        let list: Vec<[f64; 5]> = (0..1024).map(side.impact).collect();
+        let ours: Vec<nw_impact> = list.iter().map(|numbers| called(*numbers)).collect();
+        let theirs: Vec<HandImpact> =
+            list.iter().map(|numbers| HandImpact { numbers: *numbers, key: 0 }).collect();
+        let mut group = criterion.benchmark_group(group);
+        group.throughput(Throughput::Elements(list.len() as u64));
+        group.bench_function("call", |b| b.iter(|| each_call(resolve, model, &ours)));
+        group.bench_function("call by hand", |b| {
             b.iter(|| {
-                theirs.key += 1;
-                unsafe { by_hand(black_box(&raw const constants), black_box(&raw const theirs), &mut hand) };
-                black_box(&mut hand);
+                for impact in &theirs {
+                    let mut outcome = HandOutcome::default();
+                    // SAFETY: live structs of the right types.
+                    unsafe { (side.one)(black_box(&raw const side.constants), impact, &mut outcome) };
+                    black_box(&mut outcome);
+                }
             });
         });
-    }
-    let slag = handle(GASIFIER);
-    let mut wall = 0;
-    // SAFETY: as above.
-    unsafe { nw_model_find_wall(slag, c"slagWall".as_ptr(), &raw mut wall) };
-    let on_slag = nw_impact { wall, T_p: 1600.0, T_w: 1600.0, conversion: 0.9, ..ours };
-    for (name, model, mut impact) in [("nw_resolve", model, ours), ("nw_resolve, slag", slag, on_slag)] {
-        group.bench_function(name, |b| {
-            b.iter(|| {
-                impact.key += 1;
-                // SAFETY: as above.
-                let status = unsafe { resolve(model, black_box(&raw const impact), &raw mut outcome) };
-                assert_eq!(status, NW_OK);
-                black_box(&mut outcome);
-            });
+        group.throughput(Throughput::Elements(CACHED as u64));
+        // SAFETY: as above.
+        group.bench_function("batch", |b| {
+            b.iter(|| unsafe { nw_resolve_batch(model, &impacts, &outcomes, null_mut()) })
         });
+        group.bench_function("batch by hand", |b| {
+            b.iter(|| unsafe { (side.many)(&side.constants, black_box(&by_hand)) })
+        });
+        group.finish();
     }
+}
+
+/// Each impact of a list by a call of its own.
+fn each_call(resolve: Resolve, model: *const nw_model, impacts: &[nw_impact]) {
+    for impact in impacts {
+        let mut outcome = nw_outcome::default();
+        // SAFETY: a live model and structs of the right types.
+        let status = unsafe { resolve(model, impact, &raw mut outcome) };
+        assert_eq!(status, NW_OK);
+        black_box(&mut outcome);
+    }
+}
+
+/// Coal char on slag: calls and a batch. Both shares of the wall are decided, with the properties at the temperatures of each impact.
+fn slag(criterion: &mut Criterion) {
+    let resolve = black_box(nw_resolve as Resolve);
+    let (model, wall) = gasifier();
+    let mut columns = Columns::on_slag(CACHED, wall);
+    let (impacts, outcomes) = columns.pointers();
+    let list: Vec<nw_impact> = (0..1024).map(|index| called_on_slag(index, wall)).collect();
+    let mut group = criterion.benchmark_group("slag");
+    group.bench_function("call", |b| b.iter(|| each_call(resolve, model, &list)));
+    group.bench_function("batch", |b| {
+        // SAFETY: every array has as many entries as `count` says.
+        b.iter(|| assert_eq!(unsafe { nw_resolve_batch(model, &impacts, &outcomes, null_mut()) }, NW_OK));
+    });
     group.finish();
 }
 
-/// Batches through the C interface, from the cache to far beyond it.
+/// Sizes of batches, from the cache to beyond it.
+const SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
+
+/// Batches through the C interface.
 fn batches(criterion: &mut Criterion) {
     let model = handle(MODEL);
     let mut group = criterion.benchmark_group("batch");
     group.sample_size(10);
-    for count in [1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000] {
-        let mut columns = Columns::new(count);
+    for count in SIZES {
+        let mut columns = Columns::new(count, impact);
         let (impacts, outcomes) = columns.pointers();
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
@@ -126,7 +163,7 @@ fn batches(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Every thread its own ten thousand impacts, which stay in its core's cache, three hundred times: the mean of the times that
+/// Every thread its own ten thousand impacts, which stay in its core's cache, thirty times: the mean of the times that
 /// they were on a core, so that whatever else the machine does is left out.
 fn threads(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("threads");
@@ -134,14 +171,14 @@ fn threads(criterion: &mut Criterion) {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let counts = (0..).map(|power| 1 << power).take_while(|count| *count <= cores);
     for count in counts {
-        let mut all: Vec<Columns> = (0..count).map(|_| Columns::new(10_000)).collect();
+        let mut all: Vec<Columns> = (0..count).map(|_| Columns::new(CACHED, impact)).collect();
         let model = handle(MODEL) as usize;
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter_custom(|rounds| {
                 let work = |columns: &mut Columns| {
                     let (impacts, outcomes) = columns.pointers();
                     let start = on_core();
-                    for _ in 0..300 * rounds {
+                    for _ in 0..30 * rounds {
                         // SAFETY: a live model, and every array has `count` entries.
                         let status =
                             unsafe { nw_resolve_batch(model as *const _, &impacts, &outcomes, null_mut()) };
@@ -203,52 +240,72 @@ fn followed() -> (normal_contact::Impact, [Model; 2], Impact) {
     (followed, [plain, &raised].map(|text| Model::from_toml("wax", text).unwrap()), impact)
 }
 
-/// Prints `ratio;<name>;<value>` from the medians that criterion has written.
-fn ratios() {
-    let median = |name: &str| {
-        let path = target().join("criterion").join(name).join("new/estimates.json");
-        let estimates: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).ok()?).ok()?;
-        estimates["median"]["point_estimate"].as_f64()
-    };
-    let say = |name: &str, value: Option<f64>| {
-        if let Some(value) = value {
-            println!("ratio;{name};{value:.4}");
-        }
-    };
+/// The median time [ns] that criterion has written for a benchmark, over `count`.
+fn median(name: &str, count: usize) -> Option<f64> {
+    let path = target().join("criterion").join(name).join("new/estimates.json");
+    let estimates: serde_json::Value = serde_json::from_str(&fs::read_to_string(path).ok()?).ok()?;
+    Some(estimates["median"]["point_estimate"].as_f64()? / count as f64)
+}
+
+/// Prints `row;<what>;<unit>;<nearwall>;<the other>;<its value>`, where both were measured.
+fn row(what: &str, unit: &str, ours: Option<f64>, other: &str, theirs: Option<f64>) {
+    if let (Some(ours), Some(theirs)) = (ours, theirs) {
+        println!("row;{what};{unit};{ours:.4};{other};{theirs:.4}");
+    }
+}
+
+/// As [`row`], without another to compare with.
+fn alone(what: &str, unit: &str, ours: Option<f64>) {
+    if let Some(ours) = ours {
+        println!("row;{what};{unit};{ours:.4};;");
+    }
+}
+
+/// The rows of the table, from the medians of criterion.
+fn rows() {
+    for (group, side) in SIDES.into_iter().zip(sides()) {
+        let model = group.split(',').next().unwrap_or_default();
+        let row = |what: &str, of: &str, count| {
+            let theirs = median(&format!("{group}/{of} by hand"), count);
+            row(
+                &format!("{model}: {what}"),
+                "ns",
+                median(&format!("{group}/{of}"), count),
+                side.name,
+                theirs,
+            );
+        };
+        row("one call", "call", 1024);
+        row("batch of 10,000, an impact", "batch", CACHED);
+    }
+    let one = "coal char on slag: one call";
+    row(one, "ns", median("slag/call", 1024), "nearwall, wax: one call", median("wax/call", 1024));
+    let (many, wax) = ("coal char on slag: batch of 10,000, an impact", "nearwall, wax: batch");
+    row(many, "ns", median("slag/batch", CACHED), wax, median("wax/batch", CACHED));
     for (level, _) in levels() {
-        let (floor, resolve) =
-            (median(&format!("block/floor/{level}")), median(&format!("block/resolve/{level}")));
-        say(
-            &format!("block, {level}: time over the divider's floor"),
-            resolve.zip(floor).map(|(r, f)| r / f),
-        );
-        say(&format!("block, {level}: million impacts a second"), resolve.map(|r| 1e3 * BLOCK as f64 / r));
+        let [ours, floor] = ["resolve", "floor"].map(|of| median(&format!("block/{of}/{level}"), BLOCK));
+        let what = format!("wax: block of 128 in the cache, {level}, an impact");
+        row(&what, "ns", ours, "its divisions and roots alone", floor);
     }
-    let call = median("call/nw_resolve");
-    for hand in ["by hand", "by hand, own exp"] {
-        let ratio = call.zip(median(&format!("call/{hand}"))).map(|(c, h)| c / h);
-        say(&format!("one call: time over C++ -O3 {hand}"), ratio);
+    for count in SIZES {
+        let time = median(&format!("batch/{count}"), count);
+        alone(&format!("wax: batch of {count}, an impact"), "ns", time);
     }
-    say("one call [ns]", call);
-    say("one call, coal char on slag [ns]", median("call/nw_resolve, slag"));
-    for count in [1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000_u32] {
-        let time = median(&format!("batch/{count}")).map(|time| time / f64::from(count));
-        say(&format!("batch of {count}: ns an impact"), time);
-    }
-    let alone = median("threads/1");
+    let single = median("threads/1", 1);
     for count in [2_u32, 4, 8, 16, 32, 64, 128] {
-        let together = median(&format!("threads/{count}"));
-        say(
-            &format!("{count} threads: times the impacts of one, by time on a core"),
-            alone.zip(together).map(|(a, t)| f64::from(count) * a / t),
-        );
+        let together = median(&format!("threads/{count}"), 1);
+        let times = single.zip(together).map(|(single, together)| f64::from(count) * single / together);
+        alone(&format!("wax: {count} threads, by time on a core, over one"), "times the impacts", times);
     }
-    let closed = median("contact/closed form");
+    let closed = median("contact/closed form", 1);
     for tolerance in ["1e-4", "1e-6", "1e-9"] {
-        let followed = median(&format!("contact/followed/{tolerance}"));
-        say(
-            &format!("contact followed to {tolerance}: time over the closed form"),
-            followed.zip(closed).map(|(f, c)| f / c),
+        let followed = median(&format!("contact/followed/{tolerance}"), 1);
+        row(
+            "wax: one impact, Rust",
+            "ns",
+            closed,
+            &format!("contact integrated in time to {tolerance}"),
+            followed,
         );
     }
     errors();
@@ -258,14 +315,13 @@ fn ratios() {
 fn errors() {
     let (contact, models, impact) = followed();
     let limit = normal_contact::follow(&contact, 1e-12).rebound_speed;
-    println!("ratio;contact followed: e_n;{limit:.5}");
     for tolerance in [1e-4, 1e-6, 1e-9] {
         let error = normal_contact::follow(&contact, tolerance).rebound_speed / limit - 1.0;
-        println!("ratio;contact followed to {tolerance:e}: relative error of e_n;{error:.1e}");
+        println!("note;integrated to {tolerance:e}: relative error of e_n {error:.1e}");
     }
     for model in models {
         let e_n = model.resolve(0, &impact, ImpactRng::new(1, 2)).unwrap().normal_restitution;
-        println!("ratio;{}: relative error of e_n;{:.4}", model.normal_law().name(), e_n / limit - 1.0);
+        println!("note;{}: relative error of e_n {:.4}", model.normal_law().name(), e_n / limit - 1.0);
     }
 }
 

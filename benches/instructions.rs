@@ -43,20 +43,20 @@ fn one_call((model, impact): (*const nw_model, nw_impact)) -> nw_outcome {
     outcome
 }
 
-fn by_hand_ready(options: &[&str]) -> (ByHand, Constants, HandImpact) {
-    let ready = (by_hand(options), constants(), HandImpact { numbers: impact(1), key: 0 });
+fn by_hand_ready(own_elementary: bool) -> (Side, HandImpact) {
+    let ready = (wax(own_elementary), HandImpact { numbers: impact(1), key: 0 });
     // Once, so that the loader has found `cbrt` and `exp`.
-    unsafe { ready.0(&ready.1, &ready.2, &mut HandOutcome::default()) };
+    unsafe { (ready.0.one)(&ready.0.constants, &ready.1, &mut HandOutcome::default()) };
     ready
 }
 
 #[library_benchmark]
-#[bench::c_library(args = (&[]), setup = by_hand_ready)]
-#[bench::own_elementary(args = (&["-DOWN_ELEMENTARY"]), setup = by_hand_ready)]
-fn one_call_by_hand((by_hand, constants, impact): (ByHand, Constants, HandImpact)) -> HandOutcome {
+#[bench::c_library(args = (false), setup = by_hand_ready)]
+#[bench::own_elementary(args = (true), setup = by_hand_ready)]
+fn one_call_by_hand((side, impact): (Side, HandImpact)) -> HandOutcome {
     let mut outcome = HandOutcome::default();
     // SAFETY: as above.
-    unsafe { by_hand(&constants, black_box(&impact), &mut outcome) };
+    unsafe { (side.one)(&side.constants, black_box(&impact), &mut outcome) };
     outcome
 }
 

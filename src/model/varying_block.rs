@@ -89,7 +89,7 @@ impl VaryingWall {
             let column = &block.inputs[input][..block.length.min(BLOCK)];
             column.iter().fold(true, |all, value| all & within(*value, range))
         };
-        !self.has_terms
+        !self.one_by_one
             && all_within(Impact::PARTICLE_TEMPERATURE, self.known.particle)
             && all_within(Impact::WALL_TEMPERATURE, self.known.wall)
             && all_within(Impact::MELT_THICKNESS, [0.0, 0.0])

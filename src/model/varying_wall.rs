@@ -37,8 +37,8 @@ pub(super) struct VaryingWall {
     pub(super) known: TemperatureRanges,
     /// Which of [`INPUTS`] has to lie in which range for the terms.
     pub(super) valid: Vec<(usize, [f64; 2])>,
-    /// Whether a term has no precomputed form.
-    pub(super) has_terms: bool,
+    /// Whether a term has no precomputed form, or a law is one by name.
+    pub(super) one_by_one: bool,
 }
 
 /// What the steps need of the wall.
@@ -98,13 +98,13 @@ pub(super) struct Met {
     pub density: f64,
 }
 
-/// One impact at one place; `TERMS` where terms without a precomputed form act.
+/// One impact at one place; `TERMS` where terms without a precomputed form or a law by name act.
 pub(super) struct VaryingImpact<'a, const TERMS: bool> {
     pub wall: &'a Constants,
     /// The terms, where they have no precomputed form.
     pub terms: &'a [Term],
     pub met: Met,
-    /// For corrections: the model, and the impact on the wall as a whole.
+    /// The model, for laws by name and corrections, and the impact on the wall as a whole.
     pub reaching: Option<(&'a Model, &'a Impact)>,
     pub covered: bool,
     /// What it meets there.
@@ -117,11 +117,13 @@ pub(super) struct VaryingImpact<'a, const TERMS: bool> {
 impl VaryingWall {
     /// Prepares a wall; `None` where its impacts need the general steps.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
-        let constant = match model.normal {
-            NormalLaw::ThorntonNing => None,
-            NormalLaw::Constant { restitution } => Some(restitution),
-            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => return None,
+        // A law by name is asked of the model, one impact at a time.
+        let (constant, named) = match model.normal {
+            NormalLaw::ThorntonNing => (None, false),
+            NormalLaw::Constant { restitution } => (Some(restitution), false),
+            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => (None, true),
         };
+        let tangential = Tangential::new(model.tangential);
         let random = model.terms.iter().any(|term| term.kind().stream.is_some());
         if random || model.has_droplets() || !model.extra_inputs.is_empty() {
             return None;
@@ -144,7 +146,7 @@ impl VaryingWall {
                 works: constant_works(materials, wall.adhesion.work),
                 adhesion: wall.adhesion,
                 constant,
-                tangential: Tangential::new(model.tangential)?,
+                tangential: tangential.unwrap_or(Tangential::Constant(0.0)),
                 surface_tension: wall.slag.as_ref().map_or(Some(f64::NAN), constant_surface_tension)?,
                 transitions: Transitions::None,
                 on_melt: None,
@@ -155,9 +157,9 @@ impl VaryingWall {
             known: model.ranges_of(wall),
             solids: [char, ash, bare, powder],
             valid: model.terms.iter().flat_map(Term::valid).copied().collect(),
-            has_terms: false,
+            one_by_one: false,
         };
-        prepared.has_terms = prepared.precompute(&model.terms).is_none();
+        prepared.one_by_one = prepared.precompute(&model.terms).is_none() || named || tangential.is_none();
         Some(prepared)
     }
 
@@ -188,7 +190,7 @@ impl VaryingWall {
 
     /// Decides one impact that has been checked and that [`Self::decides`].
     pub fn resolve(&self, model: &Model, wall: &Wall, impact: &Impact, rng: ImpactRng) -> Outcome {
-        if self.has_terms {
+        if self.one_by_one {
             self.resolve_with::<true>(model, wall, impact, rng)
         } else {
             self.resolve_with::<false>(model, wall, impact, rng)
@@ -294,7 +296,8 @@ impl VaryingWall {
         let Ok(()) = evaluate(&mut steps, StepSet::ALL, &mut state);
         let outcome = state.outcome();
         let holds = if TERMS {
-            model.terms.iter().all(|term| term.holds_for(&here.impact))
+            model.tangential.holds_for(&here.impact)
+                && model.terms.iter().all(|term| term.holds_for(&here.impact))
         } else {
             self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(&met.impact), range))
         };
@@ -416,6 +419,14 @@ impl<const TERMS: bool> VaryingImpact<'_, TERMS> {
         if TERMS { self.terms } else { &[] }
     }
 
+    #[inline(always)]
+    fn normal(&self) -> NormalLaw {
+        match self.reaching {
+            Some((model, _)) if TERMS => model.normal,
+            _ => self.wall.normal(),
+        }
+    }
+
     /// What the melt on the wall does to a dry particle by the terms.
     fn on_melt_by_terms(&self, impact: &Impact, contact: &Contact) -> f64 {
         let by = |term: &Term| term.effect().on_melt(impact, contact);
@@ -477,7 +488,7 @@ impl<const TERMS: bool> WallSteps for VaryingImpact<'_, TERMS> {
 
     #[inline(always)]
     fn normal_law(&mut self, impact: &Impact, contact: &Contact, _: f64) -> NormalRebound {
-        let law = self.wall.normal();
+        let law = self.normal();
         let rebounds = self.on_melt > 0.0;
         self.left_range = !rebounds & !law.holds_for(contact, impact);
         let (restitution, held) = law.restitution_or_held(contact, impact);
@@ -518,7 +529,10 @@ impl<const TERMS: bool> WallSteps for VaryingImpact<'_, TERMS> {
 
     #[inline(always)]
     fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
-        self.wall.tangential.rebound(kinematics)
+        match self.reaching {
+            Some((model, _)) if TERMS => model.tangential.rebound(kinematics),
+            _ => self.wall.tangential.rebound(kinematics),
+        }
     }
 
     #[inline(always)]
@@ -532,7 +546,7 @@ impl<const TERMS: bool> WallSteps for VaryingImpact<'_, TERMS> {
         let wall = if self.on_melt > 0.0 { 0.0 } else { stickiness.wall };
         let probability = self.wall.combination.probability(Stickiness { wall, ..stickiness });
         let dry_rebound = (probability < 1.0) & self.on_melt.is_nan() & stickiness.is_wall_sticky();
-        self.left_range = (self.left_range & (wall < 1.0)) | (dry_rebound & self.wall.constant.is_none());
+        self.left_range = (self.left_range & (wall < 1.0)) | (dry_rebound & self.normal().is_contact_law());
         probability
     }
 

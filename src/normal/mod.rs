@@ -151,7 +151,10 @@ impl NormalLaw {
                 Prepared::new(contact).restitution(contact.density, impact.diameter, impact.normal_speed)
             }
             Self::Constant { restitution } => return (restitution, false),
-            Self::PlasticJkr | Self::Listed { .. } => self.rebound(contact, impact).unwrap_or(0.0),
+            Self::PlasticJkr | Self::Listed { .. } => {
+                let e_n = self.rebound(contact, impact);
+                return (e_n.unwrap_or(0.0), e_n.is_none());
+            }
         };
         (e_n, e_n <= 0.0)
     }

@@ -74,7 +74,7 @@ fn the_physics_document_has_every_law_with_its_source() {
 fn a_model_file_reaches_every_law_and_refuses_what_does_not_fit() {
     for (table, name, parameters, origin) in laws() {
         let read = model(table, &lines(name, parameters, typical)).unwrap();
-        assert!(!read.is_prepared(0), "{name}");
+        assert!(read.is_prepared(0), "{name}");
         let found = if table == "normal" { read.normal_law().name() } else { read.tangential_law().name() };
         assert_eq!(found, name);
         let described = read.describe().into_iter().find(|(heading, _)| *heading == table).unwrap().1;

@@ -128,7 +128,7 @@ fn varying_models() -> impl Strategy<Value = Model> {
     let wetting =
         prop_oneof![Just(String::new()), (0.0..180.0).prop_map(|angle| table("dry-on-melt", &[angle]))];
     let others = prop_oneof![2 => Just(String::new()), 1 => effects_but(&["nano-roughness", "micro-roughness", "agglomerates"])];
-    let normal = prop_oneof![Just(THORNTON_NING.to_owned()), (0.0..=1.0).prop_map(constant_normal)];
+    let normal = prop_oneof![3 => Just(THORNTON_NING.to_owned()), 1 => (0.0..=1.0).prop_map(constant_normal), 1 => normal_laws()];
     (particle, wall, on_it, capture, normal, tangential_laws(), (precomputed_effects(), wetting, others)).prop_map(
         |(particle, wall, on_it, capture, normal, tangential, (effects, wetting, others))| {
             let text = format!(
@@ -293,7 +293,7 @@ fn walls_are_prepared_where_they_can_be() {
     let gasifier = include_str!("../../tutorials/slaggingGasifier/constant/nearWall.toml");
     let gasifier = Model::from_toml("gasifier", gasifier).unwrap();
     assert!((0..gasifier.walls().len()).all(|wall| gasifier.is_prepared(wall)));
-    assert!(!prepared(&THORNTON_NING.replace("thornton-ning", "thornton-ning-raised-pull-off"), ""));
-    assert!(!prepared("model = \"grant-tabakoff\"", ""));
-    assert!(!wax(THORNTON_NING, "model = \"maw-barber-fawcett\"\nfriction = 0.3", "").is_prepared(0));
+    assert!(prepared(&THORNTON_NING.replace("thornton-ning", "thornton-ning-raised-pull-off"), ""));
+    assert!(prepared("model = \"grant-tabakoff\"", ""));
+    assert!(wax(THORNTON_NING, "model = \"maw-barber-fawcett\"\nfriction = 0.3", "").is_prepared(0));
 }

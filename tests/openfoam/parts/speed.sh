@@ -2,6 +2,7 @@
 #
 #     tests/openfoam/run ratio     the slagging gasifier, runs of both models in turn (some 5 minutes)
 #     tests/openfoam/run growth    time and memory over a hundredfold of faces and of parcels
+#     tests/openfoam/run beside    a small cloud, three runs of both models in turn (a minute; part of benches/run)
 
 # file command...: writes "user-seconds largest-resident-MB" of the command into the file
 measured() {
@@ -74,4 +75,33 @@ case_growth() {
             ok "growth ($((side*side)) faces, $parcels parcels, $how: $(cat spent))"
         done
     done
+}
+
+# Whole runs of a kinematic cloud that bounces, once with localInteraction and once with nearWallInteraction, each reflecting with the same
+# two constants; user times in turn, REPEATS of them (3). benches/run reads the lines "run".
+case_beside() {
+    local how i hits times
+    for how in localInteraction nearWallInteraction; do
+        bouncing_box "$work/beside-$how" 10000 || return
+        sed -i '/^cloudFunctions/d' constant/kinematicCloudProperties
+        sed -i '/^\[\[effects/,$d' constant/nearWall.toml
+        printf 'model "<constant>/nearWall.toml";\npatches { ".*" { type interact; wall default; } }\n' > constant/interaction
+        # mu 0.03 takes 3 % of the speed along the wall, as e_t 0.97
+        [ "$how" != localInteraction ] || echo 'subModels { patchInteractionModel localInteraction; localInteractionCoeffs { patches
+            ( floor { type rebound; e 0.93; mu 0.03; } lid { type rebound; e 0.93; mu 0.03; }
+              sides { type rebound; e 0.93; mu 0.03; } outlet { type rebound; e 0.93; mu 0.03; } ); } }' >> constant/kinematicCloudProperties
+        settings 1 1
+    done
+    for i in $(seq "${REPEATS:-3}"); do
+        times=""
+        for how in localInteraction nearWallInteraction; do
+            cd "$work/beside-$how" || return
+            rm -rf 1 postProcessing
+            measured spent "$solver" || { bad "beside/$how" "the solver failed: $(tail -n 3 log.measured | tr '\n' ' ')"; return; }
+            times="$times $(cut -d' ' -f1 spent)"
+        done
+        echo "run$times"
+    done
+    hits="$(last "$(folder kinematicCloud)/floor.dat" hits)"
+    if [ "${hits:-0}" -gt 10000 ] 2>/dev/null; then ok "beside ($hits impacts on the floor)"; else bad beside "only ${hits:-no} impacts on the floor"; fi
 }
