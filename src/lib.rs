@@ -47,8 +47,9 @@
 //! [`input`] reads TOML files with errors that name line and key. [`law`] has what laws by name share: parameters, source and
 //! range. A [`deposit`] is what earlier particles left on a piece of wall; a code may keep one for each face and pass it to later
 //! impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface. With the feature `command`, `dataset`
-//! reads measurements, `diagnose` finds the effects that a model lacks, `simulate` follows particles in a prescribed gas flow,
-//! `rig` predicts what a whole rig measures, `map` shows a model over two inputs, and `report` draws the pages.
+//! reads measurements, `predict` adds predictions to a table of impacts, `diagnose` finds the effects that a model lacks,
+//! `simulate` follows particles in a prescribed gas flow, `rig` predicts what a whole rig measures, `map` shows a model over two
+//! inputs, and `report` draws the pages.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -73,6 +74,8 @@ pub mod map;
 pub mod material;
 pub mod model;
 pub mod normal;
+#[cfg(feature = "command")]
+pub mod predict;
 #[cfg(feature = "command")]
 pub mod report;
 #[cfg(feature = "command")]

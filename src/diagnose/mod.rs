@@ -3,7 +3,7 @@
 //! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, tested and fitted → forward selection →
 //! extended model → gain of its file on held-out rows → record. Effects are known only through their
 //! [`crate::effect::EffectInfo`], so every effect of the list is a candidate. Method and limits: `docs/diagnosis.md`.
-//! [`comparison`] ranks several models with the same likelihood.
+//! [`ImpactDiagnosis`] does all this for the files of a user; [`comparison`] ranks several models with the same likelihood.
 
 mod advice;
 mod artefact;
@@ -26,6 +26,7 @@ mod gain;
 mod goodness_of_fit;
 mod groups;
 mod hypothesis;
+mod impact_diagnosis;
 mod input_error;
 mod interval;
 mod likelihood;
@@ -46,6 +47,7 @@ mod study;
 mod unselected;
 mod verdict;
 
+pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
 pub use record::{
     Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, Fit, FitTest, FittedCurve,
     FittedSurface, Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows,

@@ -125,6 +125,26 @@ pub struct CaptureBand {
     pub mass_share: Band,
 }
 
+/// Adds the bands of what the walls capture to the runs of a case. `progress` is called after each draw.
+///
+/// # Errors
+/// Why a drawn model cannot decide the case.
+pub fn add_capture_bands(
+    case: &mut Case,
+    runs: &mut [Run],
+    draws: &DrawnModels,
+    progress: &(dyn Fn() + Sync),
+) -> Result<(), String> {
+    let key = case.sweep.as_ref().map(|sweep| sweep.key.clone());
+    for run in runs {
+        if let Some((key, value)) = key.as_ref().zip(run.value) {
+            case.set(key, value)?;
+        }
+        run.bands = capture_bands(case, run, draws, progress)?;
+    }
+    Ok(())
+}
+
 /// The bands of the walls of a case, which gave `run` with its own model. `progress` is called after each draw.
 ///
 /// Without a deposit they are expected captures of at most a thousand particles, scaled to what was injected; with one the case is
@@ -132,7 +152,7 @@ pub struct CaptureBand {
 ///
 /// # Errors
 /// Why a drawn model cannot decide the case.
-pub fn capture_bands(
+fn capture_bands(
     case: &mut Case,
     run: &Run,
     draws: &DrawnModels,

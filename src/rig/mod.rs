@@ -4,7 +4,7 @@
 //! particles as `nearwall simulate` does; [`Replayed`] decides again the impacts that OpenFOAM recorded. Both hand their hits to a
 //! [`tally`], which sums them up to the observables. `diagnose::rig` compares the predictions with the measurements.
 //!
-//! For forecasts, [`capture_bands`] gives what models drawn from a fit capture, and [`sensitivity`] the numbers on which captures
+//! For forecasts, [`add_capture_bands`] gives what models drawn from a fit capture, and [`sensitivity`] the numbers on which captures
 //! depend.
 
 mod captures;
@@ -18,7 +18,7 @@ pub mod tally;
 
 pub use captures::{Captures, Flights, run_captures};
 pub use case_text::{CaseText, SettingError};
-pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, capture_bands};
+pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};
 pub use replayed::{ReplayAccount, ReplayError, Replayed};
 pub use simulated::{RigCase, Simulated, particles_for};
 pub use tally::Predicted;

@@ -288,7 +288,7 @@ impl SensitivityCase {
                 }
             }
         }
-        if base.injections.iter().any(|injection| injection.model.is_some()) {
+        if base.has_own_models() {
             notes.push("numbers in the model files of single [[particles]] were not moved".to_owned());
         }
         let numbers = numbers(&document);

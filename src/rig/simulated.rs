@@ -70,7 +70,7 @@ impl RigCase {
             let reason = format!("the case has no wall `{}`; it has {}", reading.wall, walls.join(", "));
             return Err(SettingError::Setting { experiment: place, key: reading.column.clone(), reason });
         }
-        if case.injections.iter().any(|injection| injection.model.is_some()) {
+        if case.has_own_models() {
             let reason = "particles with a model file of their own cannot be diagnosed; \
                           give them the model of the case"
                 .to_owned();

@@ -119,6 +119,11 @@ impl Case {
         Document::new(name, text).read(|top| Self::read(top, folder))
     }
 
+    /// Whether some particles have a model file of their own.
+    pub fn has_own_models(&self) -> bool {
+        self.injections.iter().any(|injection| injection.model.is_some())
+    }
+
     fn read(top: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let title = top.text("title")?.unwrap_or_else(|| "Standalone case".to_owned());
         let about = top.text("about")?;

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use nearwall::Model;
-use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
-use nearwall::diagnose::{DiagnosisError, Options, diagnose_with_draws};
+use nearwall::diagnose::{ImpactDiagnosis, Options};
+use nearwall::input::Document;
 use nearwall::report::diagnosis_page;
 use pyo3::prelude::*;
 
@@ -31,24 +30,13 @@ pub fn diagnose(
 ) -> PyResult<Found> {
     let (name, text) = model;
     run(py, move |tick| {
-        let base = Model::from_toml(&name, &text)?;
-        let map = columns.map(|path| ColumnMap::from_file(Path::new(&path))).transpose()?;
-        let mut map = map.unwrap_or_default();
-        let group = group.map(|column| map.label(&column));
-        let file = data.name();
-        let source = data.open()?;
-        let walls = WallChoice::new(&base, wall.as_deref())?;
-        let measured = Measurements::read(file, source, Some(&map), &walls)?;
-        if let Some(group) = &group {
-            measured.check_group(group)?;
-        }
+        let columns = columns.as_deref().map(Path::new);
         let options = Options { seed, level, group };
-        let found = diagnose_with_draws(&base, &text, &measured, &options, draws, tick);
-        let (diagnosis, extended, drawn) = found.map_err(|error| match error {
-            DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
-            DiagnosisError::Unextendable(_) => format!("{name}: {error}"),
-        })?;
-        let page = diagnosis_page(&diagnosis, &[file.to_owned(), name.clone()], &extended)?;
+        let document = Document::new(name.as_str(), text);
+        let diagnosis = ImpactDiagnosis::new(document, columns, wall.as_deref(), options)?;
+        let measured = diagnosis.read(data.name(), data.open()?)?;
+        let (diagnosis, extended, drawn) = diagnosis.run(&measured, draws, tick)?;
+        let page = diagnosis_page(&diagnosis, &[measured.file, name], &extended)?;
         let json = serde_json::to_string_pretty(&diagnosis)? + "\n";
         Ok((json, extended, page, drawn, measured.notes))
     })

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use nearwall::report::standalone_page;
 use nearwall::results::standalone::{ImpactRecorder, run as run_case, summary, write_deposits};
-use nearwall::rig::{DrawnModels, capture_bands};
+use nearwall::rig::{DrawnModels, add_capture_bands};
 use nearwall::simulate::Case;
 use pyo3::prelude::*;
 
@@ -26,25 +26,14 @@ pub fn simulate(py: Python<'_>, case: String, draws: Option<String>) -> PyResult
             tick();
             recorder.record(case, value, number, trajectory).map_err(|error| error.to_string())
         })?;
-        let mut notes = Vec::new();
-        for trouble in runs.iter().filter_map(|run| Some((run, run.totals.first_trouble.as_ref()?))) {
-            let (run, first) = trouble;
-            let count = run.totals.ends.unusable.count;
-            notes.push(format!("{count} particles could not be used; the first: {first}"));
-        }
+        let mut notes: Vec<String> = runs.iter().filter_map(|run| run.totals.trouble_note()).collect();
         if let Some(draws) = &draws {
-            if case.injections.iter().any(|injection| injection.model.is_some()) {
+            if case.has_own_models() {
                 let note =
                     "particles with a model file of their own keep it; draws change only the case's model";
                 notes.push(note.to_owned());
             }
-            let key = case.sweep.as_ref().map(|sweep| sweep.key.clone());
-            for run in &mut runs {
-                if let Some((key, value)) = key.as_ref().zip(run.value) {
-                    case.set(key, value)?;
-                }
-                run.bands = capture_bands(&mut case, run, draws, tick)?;
-            }
+            add_capture_bands(&mut case, &mut runs, draws, tick)?;
         }
         let left_out = recorder.left_out;
         let impacts = String::from_utf8(recorder.finish()?)?;

@@ -3,10 +3,8 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use nearwall::Model;
 use nearwall::atomic_file::{AtomicFile, refused};
-use nearwall::dataset::{ColumnMap, WallChoice};
-use nearwall::diagnose::{Diagnosis, DiagnosisError, Options, diagnose_with_draws, read_measurements};
+use nearwall::diagnose::{Diagnosis, ImpactDiagnosis, Options};
 use nearwall::input::Document;
 use nearwall::report::diagnosis_page;
 
@@ -77,30 +75,19 @@ pub fn run(arguments: &Arguments) -> CommandResult {
 fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     // Read only once: the file may be replaced while this runs.
     let document = Document::from_file(file_of_model)?;
-    let model = Model::from_toml(document.name(), document.text())?;
-    let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
-    let mut map = map.unwrap_or_default();
-    let group = arguments.group.as_deref().map(|column| map.label(column));
+    let (columns, wall) = (arguments.columns.as_deref(), arguments.wall.as_deref());
+    let options = Options { seed: arguments.seed, level: arguments.level, group: arguments.group.clone() };
+    let diagnosis = ImpactDiagnosis::new(document, columns, wall, options)?;
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
-    let walls = WallChoice::new(&model, arguments.wall.as_deref())?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
-    let data = read_measurements(&file, bar.wrap_read(source), Some(&map), &walls, &model)?;
+    let data = diagnosis.read(&file, bar.wrap_read(source))?;
     bar.finish_and_clear();
-    if let Some(group) = &group {
-        data.check_group(group)?;
-    }
     for note in &data.notes {
         eprintln!("nearwall: {note}");
     }
     let bar = progress::spinner("candidates tested");
-    let options = Options { seed: arguments.seed, level: arguments.level, group };
-    let found =
-        diagnose_with_draws(&model, document.text(), &data, &options, arguments.draws, &|| bar.inc(1));
-    let (diagnosis, extended, draws) = found.map_err(|error| match error {
-        DiagnosisError::TooFewRows { .. } => format!("{file}: {error}"),
-        DiagnosisError::Unextendable(_) => format!("{}: {error}", file_of_model.display()),
-    })?;
+    let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|| bar.inc(1))?;
     bar.finish_and_clear();
     if arguments.draws > 0 && draws.is_empty() {
         eprintln!("nearwall: no parameter was fitted, so no model files were drawn");

@@ -6,7 +6,7 @@ use nearwall::atomic_file::{AtomicFile, of_csv, refused};
 use nearwall::report::{number, percent, standalone_page};
 use nearwall::results::share;
 use nearwall::results::standalone::{ImpactRecorder, Run, run as run_case, summary, write_deposits};
-use nearwall::rig::{CaptureBand, DrawnModels, capture_bands};
+use nearwall::rig::{CaptureBand, DrawnModels, add_capture_bands};
 use nearwall::simulate::Case;
 
 use crate::{CommandResult, progress};
@@ -64,11 +64,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
                 captured_particles.high.round(),
             );
         }
-        if let Some(trouble) = &totals.first_trouble {
-            eprintln!(
-                "nearwall: {} particles could not be used; the first: {trouble}",
-                totals.ends.unusable.count
-            );
+        if let Some(note) = totals.trouble_note() {
+            eprintln!("nearwall: {note}");
         }
     }
     let page = crate::report::whole(&folder.join("report.html"));
@@ -111,19 +108,13 @@ fn write(
 
 /// Adds the bands of the captures to each run.
 fn add_bands(case: &mut Case, runs: &mut [Run], draws: &DrawnModels) -> Result<(), String> {
-    if case.injections.iter().any(|injection| injection.model.is_some()) {
+    if case.has_own_models() {
         eprintln!(
             "nearwall: particles with a model file of their own keep it; --draws changes only the case's model"
         );
     }
     let bar = progress::count((runs.len() * draws.models.len()) as u64, "draws");
-    let key = case.sweep.as_ref().map(|sweep| sweep.key.clone());
-    for run in runs {
-        if let Some((key, value)) = key.as_ref().zip(run.value) {
-            case.set(key, value)?;
-        }
-        run.bands = capture_bands(case, run, draws, &|| bar.inc(1))?;
-    }
+    add_capture_bands(case, runs, draws, &|| bar.inc(1))?;
     bar.finish_and_clear();
     Ok(())
 }

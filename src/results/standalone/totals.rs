@@ -200,6 +200,12 @@ impl RunTotals {
         }
     }
 
+    /// How many particles could not be used, and why the first; `None` if all could.
+    pub fn trouble_note(&self) -> Option<String> {
+        let (first, count) = (self.first_trouble.as_ref()?, self.ends.unusable.count);
+        Some(format!("{count} particles could not be used; the first: {first}"))
+    }
+
     /// First hits on any wall, and how many of them were captured.
     pub fn first_hits(&self) -> [u64; 2] {
         self.walls
