@@ -50,7 +50,7 @@ pub struct ViscosityLaw {
     pub coefficients: fn(&Composition) -> Result<[f64; 2], &'static str>,
     /// Viscosity [Pa s] from the coefficients, at a temperature [K] of 1 or more.
     pub viscosity: fn([f64; 2], f64) -> f64,
-    /// The same for many temperatures: [`for_each_temperature`] of that function.
+    /// The same for many temperatures, with the vectors of a level: `for_each_temperature` of that function.
     pub viscosities: fn(Level, [f64; 2], &[f64], &mut [f64]),
     /// Temperatures [K] for which the law is stated with a composition; `None` for a composition outside its range.
     pub range: fn(&Composition) -> Option<[f64; 2]>,
