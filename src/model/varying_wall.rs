@@ -2,7 +2,7 @@
 //!
 //! Everything that model and wall decide is looked up when the model is read. A single impact ([`VaryingWall::resolve`]) and a block of
 //! impacts ([`VaryingWall::resolve_block`]) run the same steps; in a block each set of steps is a loop without branches over columns. A
-//! model with a term that has no precomputed form ([`Precomputed`]) runs its impacts one by one.
+//! model with a law by name, or with a term that has no precomputed form ([`Precomputed`]), runs its impacts one by one.
 //!
 //! An impact of a patchwork meets its covered or its bare share (`general_wall.rs`): the share that it meets is evaluated whole, of the
 //! other one only what the probability of capture and the range need.
