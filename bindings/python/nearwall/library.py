@@ -290,7 +290,7 @@ def _text(name: str, value: Union[str, bytes, os.PathLike[str]]) -> bytes:
     return data
 
 
-def unlikely(**inputs):
+def unlikely(**inputs: float) -> str:
     """Which input of an impact is probably in another unit; empty if none is. A temperature in degrees Celsius above 150 is not
     seen."""
     impact, text = nw_impact(), ctypes.create_string_buffer(2048)
@@ -303,7 +303,7 @@ def unlikely(**inputs):
     return text.value.decode()
 
 
-def key_of_values(*values):
+def key_of_values(*values: float) -> int:
     """A key from numbers that tell an impact from all others on any number of ranks, for codes that do not number their particles."""
     key = c_uint64()
     _check(_library.nw_key_of_values((c_double * len(values))(*values), len(values), byref(key)))
