@@ -107,12 +107,6 @@ pub fn holding_force(diameter: f64, surface_tension: f64, contact_angle: f64) ->
     PI / 2.0 * diameter * surface_tension * (1.0 - contact_angle.cos())
 }
 
-/// Work [J] to pull a resting sphere out of the surface, `pi R² sigma (1 + cos theta)²`, from its diameter [m], the surface tension
-/// [N/m] and the contact angle [rad].
-pub fn detaching_work(diameter: f64, surface_tension: f64, contact_angle: f64) -> f64 {
-    PI / 4.0 * diameter * diameter * surface_tension * (1.0 + contact_angle.cos()).powi(2)
-}
-
 /// [`CharOnSlag::restitution`], 0 for char that stays: from the char's diameter [m], density [kg/m³] and speed towards the slag [m/s], the
 /// slag's viscosity [Pa s] and surface tension [N/m], and the cosine of the contact angle [1]. Without branches, for vectors.
 #[inline(always)]

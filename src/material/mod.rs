@@ -240,11 +240,7 @@ impl Material {
     /// melt of its own.
     pub(crate) fn stated_range(&self) -> Option<[f64; 2]> {
         let ranges: Option<Vec<_>> = self.mechanical_properties().map(Property::stated_range).collect();
-        Some(
-            ranges?
-                .into_iter()
-                .fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], [l, h]| [low.max(l), high.min(h)]),
-        )
+        Some(overlap(ranges?.into_iter()))
     }
 
     /// The properties of its melt at a temperature [K].

@@ -149,7 +149,7 @@ impl Property {
 
     /// Temperatures [K] at which the source states the value, where they are one range: `None` for a property with a melt.
     pub(crate) fn stated_range(&self) -> Option<[f64; 2]> {
-        self.melt.is_none().then(|| self.valid.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]))
+        self.melt.is_none().then(|| self.valid.unwrap_or([0.0, f64::INFINITY]))
     }
 
     /// Whether the source states the value for this temperature [K].

@@ -10,7 +10,7 @@
 //! over the block: short loops keep a processor's divider busy, while in one long loop each impact waits for its own chain of
 //! results. The functions are the same, so both give the same bits.
 
-use crate::capture::Stickiness;
+use crate::capture::{Combination, Stickiness};
 use crate::impact::{Impact, Outcome, Regime};
 use crate::tangential::{ImpactKinematics, Rebound};
 
@@ -190,6 +190,42 @@ pub(super) trait WallSteps {
     /// Records the value of a quantity after a term.
     #[inline(always)]
     fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
+}
+
+/// Probability of capture [1] where the place that is not met has the share `share` [1].
+#[inline(always)]
+pub(super) fn both_shares(share: f64, met: f64, other: f64) -> f64 {
+    (1.0 - share) * met + share * other
+}
+
+/// What decides the capture of a particle that is no droplet, by a sticky particle or wall.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct OnBareWall {
+    /// Whether the particle rebounds from the melt on the wall.
+    pub rebounds_from_melt: bool,
+    /// Whether no melt acts on it.
+    pub dry: bool,
+    /// Whether the normal law describes the contact of two solids.
+    pub contact_law: bool,
+}
+
+impl OnBareWall {
+    /// Probability of capture [1], and whether the normal law was used outside its range; `left_range` says so of the law alone. A dry
+    /// particle leaves a melt that it rebounds from. A particle that rebounds from a sticky wall by the law of a dry contact is outside that
+    /// law's range.
+    #[inline(always)]
+    pub fn capture_probability(
+        self,
+        combination: Combination,
+        stickiness: Stickiness,
+        left_range: bool,
+    ) -> (f64, bool) {
+        let wall = if self.rebounds_from_melt { 0.0 } else { stickiness.wall };
+        let probability = combination.probability(Stickiness { wall, ..stickiness });
+        let dry_rebound = (probability < 1.0) & self.dry & stickiness.is_wall_sticky();
+        // Slag that holds every particle does so whatever the law of a dry contact says.
+        (probability, (left_range & (wall < 1.0)) | (dry_rebound & self.contact_law))
+    }
 }
 
 /// Runs the steps of `selected` on an impact, in the order of physics.

@@ -3,7 +3,9 @@
 //! A wall with slag or powder is a patchwork: an impact meets its covered or its bare share. A draw decides which; the outcome is
 //! that of the share met, and its probability of capture is that of both, `c P_covered + (1 - c) P_bare`.
 
-use super::evaluation::{Corrected, ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
+use super::evaluation::{
+    Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
+};
 use super::tilted_frame::TiltedFrame;
 use super::wall::Place;
 use super::{Model, Wall};
@@ -57,7 +59,7 @@ impl Model {
         }
         let elsewhere = self.evaluate_place(wall, &arriving, other, &uniform, &mut |_, _, _| {})?;
         let sticking_probability =
-            (1.0 - share) * outcome.sticking_probability + share * elsewhere.sticking_probability;
+            both_shares(share, outcome.sticking_probability, elsewhere.sticking_probability);
         trace("cover", "p_stick", sticking_probability);
         let outside_range = outcome.outside_range | elsewhere.outside_range;
         Ok(Outcome { sticking_probability, outside_range, ..outcome })
@@ -396,25 +398,21 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         (e_n, Rebound { restitution: e_t, spin: self.frame.spin_back(self.arriving, rebound.spin) })
     }
 
-    /// A droplet's capture does not depend on the wall, and a dry particle leaves a melt that it rebounds from. A particle that
-    /// rebounds from a sticky wall by the law of a dry contact is outside that law's range.
+    /// A droplet's capture does not depend on the wall.
     fn capture_probability(&mut self, impact: &Impact, stickiness: Stickiness) -> f64 {
         let model = self.model;
         let droplet = |t| model.stickiness.as_ref().is_some_and(|criterion| criterion.is_droplet(t));
         if droplet(impact.particle_temperature) {
             return stickiness.particle;
         }
-        let wall = match self.on_melt {
-            Some(OnMelt::Rebounds(_)) => 0.0,
-            Some(OnMelt::Held) | None => stickiness.wall,
+        let place = OnBareWall {
+            rebounds_from_melt: matches!(self.on_melt, Some(OnMelt::Rebounds(_))),
+            dry: self.on_melt.is_none(),
+            contact_law: model.normal.is_contact_law(),
         };
-        let probability = model.capture.combination.probability(Stickiness { wall, ..stickiness });
-        if wall >= 1.0 {
-            // The slag holds the particle, whatever the law of a dry contact says.
-            self.left_range = false;
-        }
-        let dry_rebound = probability < 1.0 && self.on_melt.is_none() && stickiness.is_wall_sticky();
-        self.left_range |= dry_rebound && model.normal.is_contact_law();
+        let probability;
+        (probability, self.left_range) =
+            place.capture_probability(model.capture.combination, stickiness, self.left_range);
         probability
     }
 

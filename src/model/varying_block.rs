@@ -3,9 +3,9 @@
 use fearless_simd::{Level, dispatch};
 
 use super::block::{BLOCK, Block, Outcomes};
-use super::evaluation::{ImpactState, NormalRebound, StepSet, evaluate};
+use super::evaluation::{ImpactState, NormalRebound, StepSet, both_shares, evaluate};
 use super::prepared_wall::{Tangential, within};
-use super::varying_wall::{Constants, Met, Solid, VaryingImpact, VaryingWall, both_shares, mechanical};
+use super::varying_wall::{Constants, Met, Solid, VaryingImpact, VaryingWall, mechanical};
 use super::wall::Wall;
 use crate::capture::{MeltStates, Stickiness, WallState};
 use crate::effect::stream;

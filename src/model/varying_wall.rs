@@ -9,7 +9,9 @@
 
 use std::sync::Arc;
 
-use super::evaluation::{Corrected, ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
+use super::evaluation::{
+    Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
+};
 use super::particle::{contact_of, density_of};
 use super::prepared_wall::{Tangential, Transitions, within};
 use super::wall::{Adhesion, Wall};
@@ -324,12 +326,6 @@ impl Model {
 /// A wall without slag.
 const DRY: WallState = WallState { stickiness: 0.0, viscosity: f64::INFINITY, holds: true };
 
-/// Probability of capture [1] where the place that is not met has the share `share` [1].
-#[inline(always)]
-pub(super) fn both_shares(share: f64, met: f64, other: f64) -> f64 {
-    (1.0 - share) * met + share * other
-}
-
 /// Works of adhesion [J/m²] of char and ash with bare wall and powder, in this order, where no temperature changes them.
 fn constant_works([char, ash, bare, powder]: [&Material; 4], given: Option<f64>) -> Option<[[f64; 2]; 2]> {
     let constant = |material: &Material, key| material.property(key).is_none_or(Property::is_constant);
@@ -540,13 +536,16 @@ impl<const TERMS: bool> WallSteps for VaryingImpact<'_, TERMS> {
         self.terms().iter().fold(rebound, |rebound, term| term.effect().tangential(kinematics, rebound))
     }
 
-    /// As on any wall; see `general_wall.rs`.
     #[inline(always)]
     fn capture_probability(&mut self, _: &Impact, stickiness: Stickiness) -> f64 {
-        let wall = if self.on_melt > 0.0 { 0.0 } else { stickiness.wall };
-        let probability = self.wall.combination.probability(Stickiness { wall, ..stickiness });
-        let dry_rebound = (probability < 1.0) & self.on_melt.is_nan() & stickiness.is_wall_sticky();
-        self.left_range = (self.left_range & (wall < 1.0)) | (dry_rebound & self.normal().is_contact_law());
+        let place = OnBareWall {
+            rebounds_from_melt: self.on_melt > 0.0,
+            dry: self.on_melt.is_nan(),
+            contact_law: self.normal().is_contact_law(),
+        };
+        let probability;
+        (probability, self.left_range) =
+            place.capture_probability(self.wall.combination, stickiness, self.left_range);
         probability
     }
 
