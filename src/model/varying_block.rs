@@ -1,5 +1,7 @@
 //! Blocks of impacts on a [`VaryingWall`]: each set of steps is a loop without branches over columns.
 
+use std::sync::Arc;
+
 use fearless_simd::{Level, dispatch};
 
 use super::block::{BLOCK, Block, Outcomes};
@@ -26,8 +28,8 @@ struct SolidColumns([[f64; BLOCK]; 6]);
 pub(super) struct Columns {
     /// Char, ash, bare wall, powder.
     solids: [SolidColumns; 4],
-    /// What the impact meets: wall or powder.
-    partner: SolidColumns,
+    /// Whose constant properties `solids` holds.
+    constants_of: Option<Arc<[Solid; 4]>>,
     flight: MeltStates,
     slag: MeltStates,
     coverage: [f64; BLOCK],
@@ -56,7 +58,7 @@ impl Default for Columns {
         let solid = || SolidColumns([[0.0; BLOCK]; 6]);
         Self {
             solids: std::array::from_fn(|_| solid()),
-            partner: solid(),
+            constants_of: None,
             flight: MeltStates::default(),
             slag: MeltStates::default(),
             coverage: [0.0; BLOCK],
@@ -120,6 +122,7 @@ impl VaryingWall {
         let length = block.length.min(BLOCK);
         let [particle, wall] = [Impact::PARTICLE_TEMPERATURE, Impact::WALL_TEMPERATURE]
             .map(|input| &block.inputs[input][..length]);
+        columns.keep_constants(&self.solids);
         for ((solid, temperatures), columns) in
             self.solids.iter().zip([particle, particle, wall, wall]).zip(&mut columns.solids)
         {
@@ -131,15 +134,13 @@ impl VaryingWall {
         draw(block, seed, drawn, columns);
         loops.density(columns);
         loops.on_melt(columns);
-        columns.meet(length);
         loops.contact::<true>(columns);
-        loops.normal(columns);
+        loops.normal::<true>(columns);
         loops.rebound(columns, outcomes);
         if drawn {
             (0..length).for_each(|i| columns.covered[i] ^= 1);
-            columns.meet(length);
             loops.contact::<false>(columns);
-            loops.normal(columns);
+            loops.normal::<false>(columns);
             loops.other(columns);
             combine(length, columns, outcomes);
         }
@@ -204,36 +205,40 @@ fn combine(length: usize, columns: &Columns, outcomes: &mut Outcomes) {
 }
 
 impl Columns {
-    /// Sets the partner by the place that each impact meets.
-    #[inline(always)]
-    fn meet(&mut self, length: usize) {
-        let [_, _, bare, powder] = &self.solids;
-        // Both are read: a choice of addresses would be no vector.
-        let pick = |out: &mut [f64; BLOCK], bare: &[f64; BLOCK], powder: &[f64; BLOCK]| {
-            for i in 0..length {
-                let mask = self.covered[i].wrapping_neg();
-                out[i] = f64::from_bits(bare[i].to_bits() & !mask | powder[i].to_bits() & mask);
-            }
-        };
-        // No contact depends on the density and the fitted work of adhesion of what is hit.
-        let fields = self.partner.0.iter_mut().zip(&bare.0).zip(&powder.0).skip(1).take(4);
-        fields.for_each(|((out, bare), powder)| pick(out, bare, powder));
+    /// Fills the columns of the constant properties, unless the last block had the same.
+    fn keep_constants(&mut self, solids: &Arc<[Solid; 4]>) {
+        if self.constants_of.as_ref().is_some_and(|of| Arc::ptr_eq(of, solids)) {
+            return;
+        }
+        for (columns, solid) in self.solids.iter_mut().zip(solids.iter()) {
+            columns.0.iter_mut().zip(solid.constant).for_each(|(column, value)| column.fill(value));
+        }
+        self.constants_of = Some(Arc::clone(solids));
     }
 }
 
 impl SolidColumns {
+    /// These properties of an impact, or where `covered` is 1 those of `powder`. Both are read: a choice of addresses would be no vector.
+    #[inline(always)]
+    fn or(&self, powder: &Self, index: usize, covered: u64) -> Mechanical {
+        let mask = covered.wrapping_neg();
+        let pick = |bare: f64, powder: f64| f64::from_bits(bare.to_bits() & !mask | powder.to_bits() & mask);
+        let place = |place: usize| pick(self.0[place][index], powder.0[place][index]);
+        // No contact depends on the density and the fitted work of adhesion of what is hit.
+        mechanical([0.0, place(1), place(2), place(3), place(4), 0.0], false)
+    }
+
     #[inline(always)]
     fn at(&self, index: usize, fitted: bool) -> Mechanical {
         mechanical(self.0.each_ref().map(|column| column[index]), fitted)
     }
 
+    /// Sets the properties that depend on temperature.
     #[inline(always)]
     fn fill(&mut self, solid: &Solid, temperatures: &[f64]) {
-        let length = temperatures.len();
-        for ((column, value), varying) in self.0.iter_mut().zip(solid.constant).zip(&solid.varying) {
-            match varying {
-                Some(property) => property.within_range_each(temperatures, &mut column[..length]),
-                None => column[..length].fill(value),
+        for (column, varying) in self.0.iter_mut().zip(&solid.varying) {
+            if let Some(property) = varying {
+                property.within_range_each(temperatures, &mut column[..temperatures.len()]);
             }
         }
     }
@@ -339,19 +344,25 @@ impl Loops<'_> {
         }
     }
 
+    /// The normal rebound; its restitution only where it is asked for.
     #[inline(always)]
-    fn normal(&self, columns: &mut Columns) {
+    fn normal<const RESTITUTION: bool>(&self, columns: &mut Columns) {
         match self.wall.constant {
-            None => self.normal_with(&Constants { constant: None, ..*self.wall }, columns),
-            Some(e_n) => self.normal_with(&Constants { constant: Some(e_n), ..*self.wall }, columns),
+            None => self.normal_with::<RESTITUTION>(&Constants { constant: None, ..*self.wall }, columns),
+            Some(e_n) => {
+                let wall = Constants { constant: Some(e_n), ..*self.wall };
+                self.normal_with::<RESTITUTION>(&wall, columns);
+            }
         }
     }
 
     #[inline(always)]
-    fn normal_with(&self, wall: &Constants, columns: &mut Columns) {
+    fn normal_with<const RESTITUTION: bool>(&self, wall: &Constants, columns: &mut Columns) {
         for i in 0..self.length() {
             let (steps, state) = self.run(i, StepSet::NORMAL, wall, columns);
-            columns.restitution[i] = state.normal.restitution;
+            if RESTITUTION {
+                columns.restitution[i] = state.normal.restitution;
+            }
             columns.held[i] = u64::from(state.normal.held);
             columns.left_range[i] = u64::from(steps.left_range);
         }
@@ -423,7 +434,8 @@ impl Loops<'_> {
             spin: input(Impact::SPIN),
             ..Impact::default()
         };
-        let partner = columns.partner.at(i, false);
+        let [_, _, bare, powder] = &columns.solids;
+        let partner = bare.or(powder, i, columns.covered[i]);
         let met = Met {
             impact,
             particle_solids: [

@@ -29,7 +29,7 @@ use crate::tangential::{ImpactKinematics, Rebound};
 #[derive(Debug, Clone)]
 pub(super) struct VaryingWall {
     /// Char, ash, the bare wall and the powder on it; ash and powder are as char and wall where there are none.
-    pub(super) solids: [Solid; 4],
+    pub(super) solids: Arc<[Solid; 4]>,
     has_powder: bool,
     /// Whether covered and bare share differ.
     pub(super) patchwork: bool,
@@ -157,7 +157,7 @@ impl VaryingWall {
                 stated: [of_char?, of_ash?, of_wall?],
             },
             known: model.ranges_of(wall),
-            solids: [char, ash, bare, powder],
+            solids: Arc::new([char, ash, bare, powder]),
             valid: model.terms.iter().flat_map(Term::valid).copied().collect(),
             one_by_one: false,
         };
@@ -234,7 +234,7 @@ impl VaryingWall {
         let mut impact = *impact;
         wall.apply_deposit(&mut impact);
         let [particle, partner] = [impact.particle_temperature, impact.wall_temperature];
-        let [char, ash, bare, powder] = &self.solids;
+        let [char, ash, bare, powder] = &*self.solids;
         let [char, bare] = [char.at(particle), bare.at(partner)];
         let ash = if self.constants.has_ash { ash.at(particle) } else { char };
         let powder = if self.has_powder { powder.at(partner) } else { bare };

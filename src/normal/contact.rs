@@ -71,24 +71,25 @@ pub fn work_of_adhesion(particle: &Mechanical, wall: &Mechanical, given: Option<
     given.or(particle.work_of_adhesion).unwrap_or_else(geometric)
 }
 
-/// Reduced modulus `E*` [Pa]: `1/E* = (1-nu1²)/E1 + (1-nu2²)/E2` (Hertz).
+/// Reduced modulus `E*` [Pa]: `1/E* = (1-nu1²)/E1 + (1-nu2²)/E2` (Hertz), here with one division.
 #[inline(always)]
 pub fn reduced_modulus(particle: &Mechanical, wall: &Mechanical) -> f64 {
-    let compliance = |m: &Mechanical| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
-    1.0 / (compliance(particle) + compliance(wall))
+    let normal = |m: &Mechanical| 1.0 - m.poisson_ratio * m.poisson_ratio;
+    let (a, b) = (normal(particle), normal(wall));
+    particle.youngs_modulus * wall.youngs_modulus / (a * wall.youngs_modulus + b * particle.youngs_modulus)
 }
 
 /// Mindlin's ratio of tangential to normal stiffness [1]:
-/// `k = [(1-nu1)/G1 + (1-nu2)/G2] / [(1-nu1/2)/G1 + (1-nu2/2)/G2]`, `G = E / 2(1+nu)`.
+/// `k = [(1-nu1)/G1 + (1-nu2)/G2] / [(1-nu1/2)/G1 + (1-nu2/2)/G2]`, `G = E / 2(1+nu)`, here multiplied by `E1 E2 / 2`.
 ///
 /// Troiano et al. print Eq. 12 with equal numerator and denominator; the halves in the denominator are
 /// Mindlin's. Wax on Pyrex gives 0.675 to 0.678.
 #[inline(always)]
 pub fn stiffness_ratio(particle: &Mechanical, wall: &Mechanical) -> f64 {
-    let shear_compliance = |m: &Mechanical| 2.0 * (1.0 + m.poisson_ratio) / m.youngs_modulus;
-    let normal = |m: &Mechanical| (1.0 - m.poisson_ratio) * shear_compliance(m);
-    let tangential = |m: &Mechanical| (1.0 - 0.5 * m.poisson_ratio) * shear_compliance(m);
-    (normal(particle) + normal(wall)) / (tangential(particle) + tangential(wall))
+    let normal = |m: &Mechanical| 1.0 - m.poisson_ratio * m.poisson_ratio;
+    let tangential = |m: &Mechanical| (1.0 - 0.5 * m.poisson_ratio) * (1.0 + m.poisson_ratio);
+    let sum = |a: f64, b: f64| a * wall.youngs_modulus + b * particle.youngs_modulus;
+    sum(normal(particle), normal(wall)) / sum(tangential(particle), tangential(wall))
 }
 
 #[cfg(test)]

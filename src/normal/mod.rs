@@ -89,6 +89,12 @@ pub enum NormalLaw {
     },
 }
 
+/// `e_n²` [1] of an impact by Thornton–Ning.
+#[inline(always)]
+fn thornton_ning_energy(contact: &Contact, impact: &Impact) -> f64 {
+    Prepared::new(contact).energy(contact.density, impact.diameter, impact.normal_speed)
+}
+
 impl NormalLaw {
     /// Reads the `model` of a `[normal]` table and the law's own keys.
     ///
@@ -129,9 +135,7 @@ impl NormalLaw {
     #[inline(always)]
     pub fn rebound(self, contact: &Contact, impact: &Impact) -> Option<f64> {
         let e_n = match self {
-            Self::ThorntonNing => {
-                Prepared::new(contact).restitution(contact.density, impact.diameter, impact.normal_speed)
-            }
+            Self::ThorntonNing => thornton_ning_energy(contact, impact).sqrt(),
             Self::PlasticJkr => plastic_jkr::restitution(
                 impact.normal_speed,
                 adhesive_velocity(contact, impact.diameter),
@@ -146,17 +150,18 @@ impl NormalLaw {
     /// [`Self::rebound`] as a number, and whether adhesion holds the particle.
     #[inline(always)]
     pub(crate) fn restitution_or_held(self, contact: &Contact, impact: &Impact) -> (f64, bool) {
-        let e_n = match self {
+        match self {
             Self::ThorntonNing => {
-                Prepared::new(contact).restitution(contact.density, impact.diameter, impact.normal_speed)
+                // Who asks only whether it is held needs no root.
+                let energy = thornton_ning_energy(contact, impact);
+                (energy.sqrt(), energy <= 0.0)
             }
-            Self::Constant { restitution } => return (restitution, false),
+            Self::Constant { restitution } => (restitution, false),
             Self::PlasticJkr | Self::Listed { .. } => {
                 let e_n = self.rebound(contact, impact);
-                return (e_n.unwrap_or(0.0), e_n.is_none());
+                (e_n.unwrap_or(0.0), e_n.is_none())
             }
-        };
-        (e_n, e_n <= 0.0)
+        }
     }
 
     /// Whether the law describes the contact of two solids.

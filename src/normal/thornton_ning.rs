@@ -62,17 +62,17 @@ impl Prepared {
         self.adhesion_scale * (square * square * root)
     }
 
-    /// Normal restitution `e_n` [1] of a particle of `density` [kg/m³] and `diameter` [m] at `normal_speed` [m/s]; 0 when adhesion
-    /// holds it.
+    /// Share of the kinetic energy `e_n²` [1] that a particle of `density` [kg/m³] and `diameter` [m] keeps at `normal_speed` [m/s]; 0
+    /// when adhesion holds it.
     #[inline(always)]
-    pub fn restitution(&self, density: f64, diameter: f64, normal_speed: f64) -> f64 {
-        self.rebound(density, normal_speed, self.adhesive_pressure(diameter))
+    pub fn energy(&self, density: f64, diameter: f64, normal_speed: f64) -> f64 {
+        energy(density.sqrt() * normal_speed, self.adhesive_pressure(diameter), self.yielding)
     }
 
-    /// As [`Self::restitution`], from `rho v_adh²` [Pa].
+    /// Normal restitution `e_n` [1], from `rho v_adh²` [Pa]; otherwise as [`Self::energy`].
     #[inline(always)]
     pub fn rebound(&self, density: f64, normal_speed: f64, adhesive_pressure: f64) -> f64 {
-        rebound(density.sqrt() * normal_speed, adhesive_pressure, self.yielding)
+        energy(density.sqrt() * normal_speed, adhesive_pressure, self.yielding).sqrt()
     }
 }
 
@@ -113,12 +113,12 @@ pub fn plastic_term(w: f64) -> f64 {
 
 /// Normal restitution `e_n` [1] at the normal speed `v`, with `v_adh` and `v_y` in the same unit.
 pub fn restitution(speed: f64, adhesive: f64, yielding: f64) -> f64 {
-    rebound(speed, adhesive * adhesive, yielding)
+    energy(speed, adhesive * adhesive, yielding).sqrt()
 }
 
-/// As [`restitution`], from `v_adh²`. Without branches, for vectors: both sides of a choice are computed.
+/// `e_n²` [1], from `v_adh²`; otherwise as [`restitution`]. Without branches, for vectors: both sides of a choice are computed.
 #[inline(always)]
-fn rebound(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
+fn energy(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
     let inverse_speed = 1.0 / speed;
     let adhesion = (adhesive_squared * inverse_speed) * inverse_speed;
     let w = yielding * inverse_speed;
@@ -126,8 +126,7 @@ fn rebound(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
     let elastic = if w < 1.0 { plastic } else { 1.0 };
     // Negative exactly where speed < v_s: the sticking velocity is the root of this expression.
     let square = elastic - adhesion;
-    let square = if (adhesion < 1.0) & (square > 0.0) { square } else { 0.0 };
-    square.sqrt()
+    if (adhesion < 1.0) & (square > 0.0) { square } else { 0.0 }
 }
 
 /// Sticking velocity `v_s` [m/s], from `v_adh` and `v_y` [m/s].
