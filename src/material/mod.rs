@@ -1,6 +1,7 @@
 //! Materials of particles and walls: properties over temperature, built in or given by the user.
 
 mod property;
+mod table;
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;

@@ -1,5 +1,6 @@
 //! A material property and its dependence on temperature.
 
+use super::table::Table;
 use crate::input::{InputError, Limits, Section};
 
 /// Number of steps at which the limits of a formula are checked within its `valid` range.
@@ -11,7 +12,7 @@ enum Form {
     /// The same number at every temperature.
     Constant(f64),
     /// Linear between the points of a table, unknown beyond its ends.
-    Table { temperatures: Vec<f64>, values: Vec<f64> },
+    Table(Table),
     /// `sum c_i (T - T0)^i`.
     Polynomial { coefficients: Vec<f64>, origin: f64 },
     /// `A exp(B / T)`.
@@ -109,7 +110,7 @@ impl Property {
         }
         match &self.form {
             Form::Constant(value) => *value,
-            Form::Table { temperatures, values } => interpolate(temperatures, values, temperature),
+            Form::Table(table) => table.at(temperature),
             Form::Polynomial { coefficients, origin } => {
                 let shifted = temperature - origin;
                 coefficients.iter().rev().fold(0.0, |sum, c| sum * shifted + c)
@@ -128,12 +129,7 @@ impl Property {
                 out.iter_mut().zip(pairs()).for_each(|(value, t)| *value = self.within_range(t));
             }
             Form::Constant(value) => out.fill(*value),
-            Form::Table { temperatures: xs, values: ys } => {
-                segment(xs, ys, 1, pairs(), out, |_| true);
-                for (upper, &edge) in xs.iter().enumerate().skip(1).take(xs.len() - 2) {
-                    segment(xs, ys, upper + 1, pairs(), out, |t| edge < t);
-                }
-            }
+            Form::Table(table) => table.each(temperatures, out),
             Form::Polynomial { coefficients, origin } => {
                 out.fill(0.0);
                 for c in coefficients.iter().rev() {
@@ -206,7 +202,7 @@ impl Property {
     fn solid_range(&self) -> Option<[f64; 2]> {
         match &self.form {
             Form::Constant(_) => None,
-            Form::Table { temperatures, .. } => Some([*temperatures.first()?, *temperatures.last()?]),
+            Form::Table(table) => Some(table.range()),
             Form::Polynomial { .. } | Form::Arrhenius { .. } => self.valid,
         }
     }
@@ -216,9 +212,7 @@ impl Property {
         let at = |temperature: f64| self.at(temperature).ok().map(|value| (Some(temperature), value));
         let values: Vec<_> = match (&self.form, self.valid) {
             (Form::Constant(value), _) => vec![(None, *value)],
-            (Form::Table { temperatures, values }, _) => {
-                temperatures.iter().map(|t| Some(*t)).zip(values.iter().copied()).collect()
-            }
+            (Form::Table(table), _) => table.points().map(|[t, value]| (Some(t), value)).collect(),
             (Form::Polynomial { .. } | Form::Arrhenius { .. }, Some([low, high])) => {
                 let along = (0..STEPS).map(|step| low + (high - low) * (f64::from(step) / f64::from(STEPS)));
                 along.chain([high]).filter_map(at).collect()
@@ -234,13 +228,14 @@ impl Form {
     fn read(table: &Section<'_>) -> Result<Self, InputError> {
         if let Some(temperatures) = table.numbers("T")? {
             let values = table.numbers("value")?.ok_or_else(|| table.missing("value", "a list"))?;
-            if values.len() != temperatures.len() || temperatures.len() < 2 {
-                return Err(table.fault("value", "T and value need the same number of entries, two or more"));
+            let number = || table.fault("value", "T and value need the same number of entries, two or more");
+            if values.len() != temperatures.len() {
+                return Err(number());
             }
             if temperatures.windows(2).any(|pair| pair[0] >= pair[1]) || temperatures[0] <= 0.0 {
                 return Err(table.fault("T", "temperatures [K] must be positive and rise"));
             }
-            return Ok(Self::Table { temperatures, values });
+            return Ok(Self::Table(Table::new(&temperatures, &values).ok_or_else(number)?));
         }
         if let Some(coefficients) = table.numbers("polynomial")? {
             return Ok(Self::Polynomial { coefficients, origin: table.number("T0")?.unwrap_or(0.0) });
@@ -251,40 +246,6 @@ impl Form {
             None => {}
         }
         Ok(Self::Constant(table.required_number("value")?))
-    }
-}
-
-/// Linear interpolation; `x` lies within the (rising) points `xs`.
-fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> f64 {
-    let upper = xs.partition_point(|point| *point < x).clamp(1, xs.len() - 1);
-    on_line(xs[upper - 1], ys[upper - 1], slope(xs, ys, upper), x)
-}
-
-/// Slope of a table up to the point `upper`.
-#[inline(always)]
-fn slope(xs: &[f64], ys: &[f64], upper: usize) -> f64 {
-    (ys[upper] - ys[upper - 1]) / (xs[upper] - xs[upper - 1])
-}
-
-#[inline(always)]
-fn on_line(x0: f64, y0: f64, slope: f64, x: f64) -> f64 {
-    y0 + slope * (x - x0)
-}
-
-/// Interpolates up to the point `upper` of a table those of `xs` that are `beyond` the point before.
-#[inline(always)]
-fn segment(
-    points: &[f64],
-    values: &[f64],
-    upper: usize,
-    xs: impl Iterator<Item = f64>,
-    out: &mut [f64],
-    beyond: impl Fn(f64) -> bool,
-) {
-    let (x0, y0, slope) = (points[upper - 1], values[upper - 1], slope(points, values, upper));
-    for (value, x) in out.iter_mut().zip(xs) {
-        let here = on_line(x0, y0, slope, x);
-        *value = if beyond(x) { here } else { *value };
     }
 }
 
