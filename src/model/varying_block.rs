@@ -331,7 +331,7 @@ impl Loops<'_> {
     #[inline(always)]
     fn contact_with<const STIFFNESS: bool>(&self, wall: &Constants, columns: &mut Columns) {
         for i in 0..self.length() {
-            let (steps, state) = self.run(i, StepSet::CONTACT, wall, columns);
+            let (state, on_melt, _) = self.run(i, StepSet::CONTACT, wall, columns);
             let Contact { density, reduced_modulus, work_of_adhesion, yield_strength, yield_ratio, .. } =
                 state.contact;
             let [a, b, c, d, e, k] = &mut columns.contact;
@@ -340,7 +340,7 @@ impl Loops<'_> {
             if STIFFNESS {
                 k[i] = state.contact.stiffness_ratio;
             }
-            columns.on_melt[i] = steps.on_melt;
+            columns.on_melt[i] = on_melt;
         }
     }
 
@@ -359,12 +359,12 @@ impl Loops<'_> {
     #[inline(always)]
     fn normal_with<const RESTITUTION: bool>(&self, wall: &Constants, columns: &mut Columns) {
         for i in 0..self.length() {
-            let (steps, state) = self.run(i, StepSet::NORMAL, wall, columns);
+            let (state, _, left_range) = self.run(i, StepSet::NORMAL, wall, columns);
             if RESTITUTION {
                 columns.restitution[i] = state.normal.restitution;
             }
             columns.held[i] = u64::from(state.normal.held);
-            columns.left_range[i] = u64::from(steps.left_range);
+            columns.left_range[i] = u64::from(left_range);
         }
     }
 
@@ -390,7 +390,7 @@ impl Loops<'_> {
     #[inline(always)]
     fn rebound_with(&self, wall: &Constants, columns: &Columns, outcomes: &mut Outcomes) {
         for i in 0..self.length() {
-            let (_, state) = self.run(i, LAST, wall, columns);
+            let (state, ..) = self.run(i, LAST, wall, columns);
             outcomes.normal_restitution[i] = state.normal_restitution;
             outcomes.tangential_restitution[i] = state.rebound.restitution;
             outcomes.sticking_probability[i] = state.probability;
@@ -408,21 +408,22 @@ impl Loops<'_> {
         // No rebound is asked for.
         let wall = Constants { tangential: Tangential::Constant(0.0), ..*self.wall };
         for i in 0..self.length() {
-            let (_, state) = self.run(i, LAST, &wall, columns);
+            let (state, ..) = self.run(i, LAST, &wall, columns);
             columns.other[i] = state.probability;
             columns.other_outside[i] = u32::from(state.outside_range);
         }
     }
 
-    /// Runs the steps of `selected` on the impact `i`, from what the columns hold.
+    /// Runs the steps of `selected` on the impact `i`, from what the columns hold. With the state, what the melt leaves a dry particle and
+    /// whether the normal law was left.
     #[inline(always)]
-    fn run<'b>(
-        &'b self,
+    fn run(
+        &self,
         i: usize,
         selected: StepSet,
-        wall: &'b Constants,
+        wall: &Constants,
         columns: &Columns,
-    ) -> (VaryingImpact<'b, false>, ImpactState<Contact>) {
+    ) -> (ImpactState<Contact>, f64, bool) {
         let input = |input: usize| self.block.inputs[input][i];
         let impact = Impact {
             normal_speed: input(Impact::NORMAL_SPEED),
@@ -437,13 +438,10 @@ impl Loops<'_> {
         let [_, _, bare, powder] = &columns.solids;
         let partner = bare.or(powder, i, columns.covered[i]);
         let met = Met {
-            impact,
             particle_solids: [
                 columns.solids[0].at(i, wall.fitted[0]),
                 columns.solids[1].at(i, wall.fitted[1]),
             ],
-            partners: [partner; 2],
-            patchwork: true,
             particle: columns.particle[i],
             flight_holds: columns.flight.holds[i] == 1,
             slag: WallState {
@@ -456,11 +454,11 @@ impl Loops<'_> {
             chance: columns.chance[i],
             density: columns.density[i],
         };
-        let mut steps = VaryingImpact {
+        let mut steps = VaryingImpact::<false> {
             terms: &[],
             wall,
             partner,
-            met,
+            met: &met,
             reaching: None,
             covered: columns.covered[i] == 1,
             on_melt: columns.on_melt[i],
@@ -484,6 +482,6 @@ impl Loops<'_> {
             ..ImpactState::default()
         };
         let Ok(()) = evaluate(&mut steps, selected, &mut state);
-        (steps, state)
+        (state, steps.on_melt, steps.left_range)
     }
 }

@@ -76,16 +76,10 @@ pub(super) struct Solid {
     pub fitted: bool,
 }
 
-/// What an impact meets, with the state of particle and wall.
-#[derive(Clone, Copy)]
+/// The state of particle and wall in an impact, whatever place it meets.
 pub(super) struct Met {
-    pub impact: Impact,
     /// Char and ash.
     pub particle_solids: [Mechanical; 2],
-    /// Bare wall and powder.
-    pub partners: [Mechanical; 2],
-    /// Whether its covered and bare share differ.
-    pub patchwork: bool,
     /// Stickiness of the particle [1].
     pub particle: f64,
     pub flight_holds: bool,
@@ -105,7 +99,7 @@ pub(super) struct VaryingImpact<'a, const TERMS: bool> {
     pub wall: &'a Constants,
     /// The terms, where they have no precomputed form.
     pub terms: &'a [Term],
-    pub met: Met,
+    pub met: &'a Met,
     /// The model, for laws by name and corrections, and the impact on the wall as a whole.
     pub reaching: Option<(&'a Model, &'a Impact)>,
     pub covered: bool,
@@ -207,16 +201,18 @@ impl VaryingWall {
         impact: &Impact,
         rng: ImpactRng,
     ) -> Outcome {
-        let met = self.meet::<TERMS>(model, wall, impact, rng);
-        let coverage = met.impact.coverage;
-        let drawn = met.patchwork && coverage > 0.0;
+        let mut impact = *impact;
+        wall.apply_deposit(&mut impact);
+        let met = self.meet::<TERMS>(model, wall, &impact, rng);
+        let coverage = impact.coverage;
+        let drawn = coverage > 0.0 && (self.patchwork || impact.melt_thickness > 0.0);
         let covered = drawn && rng.uniform(stream::COVER) >= 1.0 - coverage;
-        let outcome = self.at_place::<TERMS>(model, &met, covered);
+        let outcome = self.at_place::<TERMS>(model, &impact, &met, drawn.then_some(covered));
         let share = if covered { 1.0 - coverage } else { coverage };
         if !drawn || share == 0.0 {
             return outcome;
         }
-        let other = self.at_place::<TERMS>(model, &met, !covered);
+        let other = self.at_place::<TERMS>(model, &impact, &met, Some(!covered));
         Outcome {
             sticking_probability: both_shares(
                 share,
@@ -228,80 +224,76 @@ impl VaryingWall {
         }
     }
 
-    /// What an impact meets.
+    /// The state of particle and wall.
     #[inline(always)]
     fn meet<const TERMS: bool>(&self, model: &Model, wall: &Wall, impact: &Impact, rng: ImpactRng) -> Met {
-        let mut impact = *impact;
-        wall.apply_deposit(&mut impact);
-        let [particle, partner] = [impact.particle_temperature, impact.wall_temperature];
-        let [char, ash, bare, powder] = &*self.solids;
-        let [char, bare] = [char.at(particle), bare.at(partner)];
-        let ash = if self.constants.has_ash { ash.at(particle) } else { char };
-        let powder = if self.has_powder { powder.at(partner) } else { bare };
-        let molten = impact.melt_thickness > 0.0;
-        let mut slag = self.slag.as_deref().map_or(DRY, |slag| slag.wall_state(&impact));
+        let temperature = impact.particle_temperature;
+        let [char, ash, ..] = &*self.solids;
+        let char = char.at(temperature);
+        let ash = if self.constants.has_ash { ash.at(temperature) } else { char };
+        let mut slag = self.slag.as_deref().map_or(DRY, |slag| slag.wall_state(impact));
         let mut surface_tension = self.constants.surface_tension;
-        if molten {
-            (slag, surface_tension) = model.with_melt(wall, &impact, slag);
+        if impact.melt_thickness > 0.0 {
+            (slag, surface_tension) = model.with_melt(wall, impact, slag);
         }
-        let density = density_of(&impact, &char, self.constants.has_ash.then_some(&ash));
+        let density = density_of(impact, &char, self.constants.has_ash.then_some(&ash));
         let criterion = self.in_flight.as_deref();
         Met {
             particle_solids: [char, ash],
-            partners: [bare, powder],
-            patchwork: self.patchwork | molten,
             // In the known range there is no error.
             particle: if TERMS {
-                model.particle_stickiness(&impact, &mut |_, _, _| {}).unwrap_or(f64::NAN)
+                model.particle_stickiness(impact, &mut |_, _, _| {}).unwrap_or(f64::NAN)
             } else {
-                let product = criterion.map(|criterion| criterion.in_flight(&impact).unwrap_or(f64::NAN));
-                self.constants.transitions.after(product, particle, impact.conversion)
+                let product = criterion.map(|criterion| criterion.in_flight(impact).unwrap_or(f64::NAN));
+                self.constants.transitions.after(product, temperature, impact.conversion)
             },
-            flight_holds: criterion.is_none_or(|criterion| criterion.holds_in_flight(particle)),
+            flight_holds: criterion.is_none_or(|criterion| criterion.holds_in_flight(temperature)),
             on_melt: if TERMS {
                 f64::NAN
             } else {
-                self.constants.rebound_on_melt(&impact, density, [slag.viscosity, surface_tension])
+                self.constants.rebound_on_melt(impact, density, [slag.viscosity, surface_tension])
             },
             slag,
-            melt: if TERMS && model.uses_melt { model.melt_met(wall, &impact).unwrap_or(None) } else { None },
+            melt: if TERMS && model.uses_melt { model.melt_met(wall, impact).unwrap_or(None) } else { None },
             chance: rng.uniform(stream::CAPTURE),
             density,
-            impact,
         }
     }
 
-    /// Decides an impact at one place.
+    /// Decides an impact at one place: where the wall has two, whether it is the covered one.
     #[inline(always)]
-    fn at_place<const TERMS: bool>(&self, model: &Model, met: &Met, covered: bool) -> Outcome {
-        let mut here = *met;
-        if TERMS {
-            if covered {
-                here.impact =
-                    Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..met.impact };
-            } else if met.patchwork && met.impact.coverage > 0.0 {
-                here.impact = Impact { coverage: 0.0, layer_thickness: 0.0, ..met.impact };
-            }
-        }
-        let [bare, powder] = met.partners;
+    fn at_place<const TERMS: bool>(
+        &self,
+        model: &Model,
+        impact: &Impact,
+        met: &Met,
+        place: Option<bool>,
+    ) -> Outcome {
+        let covered = place == Some(true);
+        let here = match place {
+            Some(true) if TERMS => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*impact },
+            Some(false) if TERMS => Impact { coverage: 0.0, layer_thickness: 0.0, ..*impact },
+            _ => *impact,
+        };
+        let [.., bare, powder] = &*self.solids;
+        let partner = if covered && self.has_powder { powder } else { bare };
         let mut steps = VaryingImpact::<TERMS> {
             wall: &self.constants,
             terms: &model.terms,
-            partner: if covered { powder } else { bare },
-            met: here,
-            reaching: Some((model, &met.impact)),
+            partner: partner.at(impact.wall_temperature),
+            met,
+            reaching: Some((model, impact)),
             covered,
             on_melt: f64::NAN,
             left_range: false,
         };
-        let mut state = ImpactState { impact: here.impact, ..ImpactState::default() };
+        let mut state = ImpactState { impact: here, ..ImpactState::default() };
         let Ok(()) = evaluate(&mut steps, StepSet::ALL, &mut state);
         let outcome = state.outcome();
         let holds = if TERMS {
-            model.tangential.holds_for(&here.impact)
-                && model.terms.iter().all(|term| term.holds_for(&here.impact))
+            model.tangential.holds_for(&here) && model.terms.iter().all(|term| term.holds_for(&here))
         } else {
-            self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(&met.impact), range))
+            self.valid.iter().all(|&(input, range)| within((INPUTS[input].value)(impact), range))
         };
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
     }
