@@ -28,11 +28,9 @@ impl Default for Block {
 
 impl Block {
     /// One of the impacts.
+    #[inline]
     pub(crate) fn impact(&self, index: usize) -> Impact {
-        let mut impact = Impact::default();
-        for (input, column) in INPUTS.iter().zip(&self.inputs) {
-            (input.set)(&mut impact, column[index]);
-        }
+        let mut impact = Impact::from_inputs(|input| self.inputs[input][index]);
         for (value, column) in impact.extra.iter_mut().zip(&self.extra) {
             *value = column[index];
         }

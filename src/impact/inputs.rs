@@ -137,6 +137,12 @@ macro_rules! define_impact {
         }
 
         impl Impact {
+            /// An impact from a function that gives each of [`INPUTS`] by its place.
+            #[inline(always)]
+            pub(super) fn from_inputs(value: impl Fn(usize) -> f64) -> Self {
+                Self { $($field: value(Self::$place),)* extra: ExtraInputs::default() }
+            }
+
             /// Whether every input is within its bounds, without branches: every impact is checked.
             #[inline(always)]
             pub(super) fn is_allowed(&self) -> bool {

@@ -5,7 +5,7 @@ pub use fearless_simd::Level;
 use super::varying_block::Columns;
 use super::{Model, Prepared, TemperatureRanges};
 pub use crate::impact::{BLOCK, Block};
-use crate::impact::{Impact, ImpactError};
+use crate::impact::ImpactError;
 use crate::rng::ImpactRng;
 
 /// The outcomes of a [`Block`], as columns: the fields of [`Outcome`](crate::Outcome).
@@ -80,13 +80,9 @@ impl Model {
     ) -> Result<(), ImpactError> {
         let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         match self.prepared.get(wall) {
-            Some(Prepared::Constant(prepared)) => {
-                // Prepared walls do not support a melt layer.
-                let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
-                if melt.iter().all(|thickness| *thickness == 0.0) {
-                    prepared.resolve_block(block, seed, outcomes, level);
-                    return Ok(());
-                }
+            Some(Prepared::Constant(prepared)) if prepared.decides_block(block) => {
+                prepared.resolve_block(block, seed, outcomes, level);
+                return Ok(());
             }
             Some(Prepared::Varying(prepared)) if prepared.decides_block(block) => {
                 let columns = workspace.get_or_insert_with(Columns::default);
@@ -119,7 +115,7 @@ impl Model {
     /// impact has to be asked ([`Model::check`]).
     pub(crate) fn decided_temperatures(&self, wall: usize) -> Option<TemperatureRanges> {
         match self.prepared.get(wall)? {
-            Prepared::Constant(_) => Some(TemperatureRanges::ALL),
+            Prepared::Constant(_) | Prepared::Called(_) => Some(TemperatureRanges::ALL),
             Prepared::Varying(prepared) => Some(prepared.known),
             Prepared::No(decided) => *decided,
         }

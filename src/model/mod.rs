@@ -39,7 +39,7 @@ pub use expectation::Expectation;
 pub(crate) use expectation::{DrawLattice, RotatedLattice};
 pub use extra_input::ExtraInput;
 pub use particle::Particle;
-use prepared_wall::PreparedWall;
+use prepared_wall::{CalledWall, PreparedWall};
 use varying_wall::VaryingWall;
 use wall::Place;
 pub use wall::Wall;
@@ -71,6 +71,8 @@ pub struct Model {
 enum Prepared {
     /// Constant properties, no melt: all numbers are known.
     Constant(PreparedWall),
+    /// The same, with laws that are called for each impact.
+    Called(Box<CalledWall>),
     /// Properties that differ between impacts.
     Varying(Box<VaryingWall>),
     /// Every impact needs the general steps. With the temperatures within which only [`Impact::check`] can refuse it, where there are such.
@@ -79,8 +81,10 @@ enum Prepared {
 
 impl Prepared {
     fn new(model: &Model, wall: &Wall) -> Self {
-        if let Some(wall) = PreparedWall::new(model, wall) {
-            return Self::Constant(wall);
+        match PreparedWall::new(model, wall) {
+            Some((prepared, None)) => return Self::Constant(prepared),
+            Some((prepared, Some(laws))) => return Self::Called(Box::new(CalledWall { prepared, laws })),
+            None => {}
         }
         let decided = !model.has_droplets() && model.extra_inputs.is_empty();
         VaryingWall::new(model, wall).map_or_else(
@@ -257,6 +261,10 @@ impl Model {
     /// Not inlined, so that the numbers of a prepared wall stay in registers.
     #[inline(never)]
     fn resolve_varying(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
+        if let (Some(Prepared::Called(called)), 0.0) = (self.prepared.get(wall), impact.melt_thickness) {
+            impact.check()?;
+            return Ok(called.resolve(impact, rng));
+        }
         if let (Some(Prepared::Varying(prepared)), Some(of)) = (self.prepared.get(wall), self.walls.get(wall))
             && prepared.decides(impact)
         {

@@ -1,9 +1,8 @@
 //! The steps of an impact on a prepared wall: what depends on materials and model alone is computed when the model is read.
 //!
-//! A wall is prepared when constant properties, a Thornton–Ning or constant normal law, a tangential law with a variant
-//! of its own and effects with a
-//! precomputed form ([`Precomputed`]) decide its impacts. The steps have no branches, so the compiler turns a loop over a block
-//! into vector instructions.
+//! A wall is prepared when constant properties, the two laws and effects with a precomputed form ([`Precomputed`]) decide its impacts.
+//! The steps have no branches, so the compiler turns a loop over a block into vector instructions. Where one of the laws has no prepared
+//! form, both are called for each impact ([`CalledWall`]), and a block runs one by one.
 
 use std::convert::Infallible;
 
@@ -26,6 +25,22 @@ pub(super) struct PreparedWall {
     constants: Constants,
     /// Which of [`INPUTS`] has to lie in which range for the outcome to be inside its range.
     valid: Vec<(usize, [f64; 2])>,
+}
+
+/// A prepared wall of which a law has no prepared form.
+#[derive(Debug, Clone)]
+pub(super) struct CalledWall {
+    /// The wall, whose own laws have no meaning.
+    pub prepared: PreparedWall,
+    pub laws: Laws,
+}
+
+/// Laws that are called for each impact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Laws {
+    normal: NormalLaw,
+    contact: Contact,
+    tangential: TangentialLaw,
 }
 
 /// What the steps need of a wall.
@@ -73,12 +88,14 @@ pub(super) enum Transitions {
 /// One impact on a prepared wall.
 struct PreparedImpact<'a> {
     wall: &'a Constants,
+    /// `None` where the laws of `wall` decide: the compiler then leaves the calls out.
+    laws: Option<&'a Laws>,
     rng: ImpactRng,
 }
 
 impl PreparedWall {
-    /// Prepares a wall; `None` where its impacts need the general steps.
-    pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
+    /// Prepares a wall, with its laws where they have to be called ([`CalledWall`]); `None` where its impacts need the general steps.
+    pub fn new(model: &Model, wall: &Wall) -> Option<(Self, Option<Laws>)> {
         let plain = model.capture.combination == Combination::default();
         if model.stickiness.is_some()
             || wall.melt.is_some()
@@ -102,10 +119,13 @@ impl PreparedWall {
             }
         }
         let normal = match model.normal {
-            NormalLaw::ThorntonNing => Normal::ThorntonNing(normal::Prepared::new(&contact)),
-            NormalLaw::Constant { restitution } => Normal::Constant(restitution),
-            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => return None,
+            NormalLaw::ThorntonNing => Some(Normal::ThorntonNing(normal::Prepared::new(&contact))),
+            NormalLaw::Constant { restitution } => Some(Normal::Constant(restitution)),
+            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => None,
         };
+        let tangential = Tangential::new(model.tangential);
+        let laws = Laws { normal: model.normal, contact, tangential: model.tangential };
+        let called = normal.is_none() || tangential.is_none();
         // The powder of the model file changes these two inputs before a range is checked.
         let changed = |name| name == "layer_thickness" || name == "coverage";
         let valid: Vec<_> = model.terms.iter().flat_map(Term::valid).copied().collect();
@@ -113,8 +133,9 @@ impl PreparedWall {
             return None;
         }
         let constants = Constants {
-            normal,
-            tangential: Tangential::new(model.tangential)?,
+            // Without meaning where the laws are called.
+            normal: normal.unwrap_or(Normal::Constant(f64::NAN)),
+            tangential: tangential.unwrap_or(Tangential::Constant(f64::NAN)),
             stiffness_ratio: contact.stiffness_ratio,
             transitions,
             draws: !matches!(transitions, Transitions::None),
@@ -127,7 +148,14 @@ impl PreparedWall {
                 f64::INFINITY
             },
         };
-        Some(Self { constants, valid })
+        Some((Self { constants, valid }, called.then_some(laws)))
+    }
+
+    /// Whether [`Self::resolve_block`] decides a block.
+    pub fn decides_block(&self, block: &Block) -> bool {
+        // A prepared wall does not support a melt layer.
+        let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
+        melt.iter().all(|thickness| *thickness == 0.0)
     }
 
     /// Decides one impact that has been checked.
@@ -135,13 +163,19 @@ impl PreparedWall {
     pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
         // First: no number has to be kept over the call.
         let holds = self.valid.is_empty() || self.terms_hold_for(impact);
+        self.steps(None, holds, impact, rng)
+    }
+
+    #[inline(always)]
+    fn steps(&self, laws: Option<&Laws>, holds: bool, impact: &Impact, rng: ImpactRng) -> Outcome {
         let mut state = ImpactState { impact: *impact, ..ImpactState::default() };
-        let Ok(()) = evaluate(&mut PreparedImpact { wall: &self.constants, rng }, StepSet::ALL, &mut state);
+        let mut steps = PreparedImpact { wall: &self.constants, laws, rng };
+        let Ok(()) = evaluate(&mut steps, StepSet::ALL, &mut state);
         let outcome = state.outcome();
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
     }
 
-    /// Decides a block of impacts that have been checked, with the instructions of `level`.
+    /// Decides a block of impacts that have been checked and that [`Self::decides_block`], with the instructions of `level`.
     pub fn resolve_block(&self, block: &Block, seed: u64, outcomes: &mut Outcomes, level: Level) {
         dispatch!(level, _simd => self.resolve_loops(block, seed, outcomes));
     }
@@ -205,6 +239,17 @@ impl PreparedWall {
     }
 }
 
+impl CalledWall {
+    /// Decides one impact that has been checked.
+    pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
+        let Self { prepared, laws } = self;
+        let holds = prepared.terms_hold_for(impact)
+            && laws.normal.holds_for(&prepared.constants.with_density(laws.contact, impact), impact)
+            && laws.tangential.holds_for(impact);
+        prepared.steps(Some(laws), holds, impact, rng)
+    }
+}
+
 /// Runs the normal law, with the draw where there is one.
 #[inline(always)]
 fn normal_and_draw(wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
@@ -228,7 +273,7 @@ fn run(selected: StepSet, wall: &Constants, block: &Block, seed: u64, outcomes: 
     for i in 0..block.length.min(BLOCK) {
         let rng = ImpactRng::new(seed, block.keys[i]);
         let mut state = load(i, wall, block, outcomes);
-        let Ok(()) = evaluate(&mut PreparedImpact { wall, rng }, selected, &mut state);
+        let Ok(()) = evaluate(&mut PreparedImpact { wall, laws: None, rng }, selected, &mut state);
         store(i, selected, &state, outcomes);
     }
 }
@@ -295,6 +340,11 @@ impl Constants {
     }
 
     #[inline(always)]
+    fn with_density(&self, contact: Contact, impact: &Impact) -> Contact {
+        Contact { density: self.density(impact), ..contact }
+    }
+
+    #[inline(always)]
     fn normal_rebound(&self, restitution: f64) -> NormalRebound {
         let held = matches!(self.normal, Normal::ThorntonNing(_)) & (restitution <= 0.0);
         NormalRebound { restitution, held }
@@ -341,6 +391,10 @@ impl WallSteps for PreparedImpact<'_> {
 
     #[inline(always)]
     fn normal_law(&mut self, impact: &Impact, (): &(), adhesive_pressure: f64) -> NormalRebound {
+        if let Some(laws) = self.laws {
+            let contact = self.wall.with_density(laws.contact, impact);
+            return NormalRebound::of(laws.normal.rebound(&contact, impact));
+        }
         self.wall.normal_rebound(match self.wall.normal {
             Normal::ThorntonNing(law) => {
                 law.rebound(self.wall.density(impact), impact.normal_speed, adhesive_pressure)
@@ -366,7 +420,10 @@ impl WallSteps for PreparedImpact<'_> {
 
     #[inline(always)]
     fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
-        self.wall.tangential.rebound(kinematics)
+        match self.laws {
+            Some(laws) => laws.tangential.rebound(kinematics),
+            None => self.wall.tangential.rebound(kinematics),
+        }
     }
 }
 

@@ -164,6 +164,14 @@ impl NormalLaw {
         }
     }
 
+    /// The case to which a listed law was fitted.
+    pub fn origin(self) -> Option<&'static Origin> {
+        match self {
+            Self::Listed { law, .. } => Some(law.origin),
+            _ => None,
+        }
+    }
+
     /// Whether the law describes the contact of two solids.
     #[inline(always)]
     pub fn is_contact_law(self) -> bool {

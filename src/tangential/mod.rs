@@ -159,9 +159,14 @@ impl TangentialLaw {
 
     /// Whether the law is stated for an impact; a law without a case to which it was fitted holds for all.
     pub fn holds_for(self, impact: &Impact) -> bool {
+        self.origin().is_none_or(|origin| origin.holds_for(impact))
+    }
+
+    /// The case to which a listed law was fitted.
+    pub fn origin(self) -> Option<&'static Origin> {
         match self {
-            Self::Listed { law, .. } => law.origin.holds_for(impact),
-            _ => true,
+            Self::Listed { law, .. } => Some(law.origin),
+            _ => None,
         }
     }
 
