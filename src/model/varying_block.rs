@@ -42,8 +42,8 @@ pub(super) struct Columns {
     density: [f64; BLOCK],
     /// [`Met::on_melt`].
     slag_rebound: [f64; BLOCK],
-    /// Density, reduced modulus, work of adhesion, yield strength, yield ratio, stiffness ratio.
-    contact: [[f64; BLOCK]; 6],
+    /// Reduced modulus, work of adhesion, yield strength, stiffness ratio.
+    contact: [[f64; BLOCK]; 4],
     on_melt: [f64; BLOCK],
     restitution: [f64; BLOCK],
     held: [u64; BLOCK],
@@ -67,7 +67,7 @@ impl Default for Columns {
             chance: [0.0; BLOCK],
             density: [0.0; BLOCK],
             slag_rebound: [0.0; BLOCK],
-            contact: [[0.0; BLOCK]; 6],
+            contact: [[0.0; BLOCK]; 4],
             on_melt: [0.0; BLOCK],
             restitution: [0.0; BLOCK],
             held: [0; BLOCK],
@@ -332,13 +332,12 @@ impl Loops<'_> {
     fn contact_with<const STIFFNESS: bool>(&self, wall: &Constants, columns: &mut Columns) {
         for i in 0..self.length() {
             let (state, on_melt, _) = self.run(i, StepSet::CONTACT, wall, columns);
-            let Contact { density, reduced_modulus, work_of_adhesion, yield_strength, yield_ratio, .. } =
+            let Contact { reduced_modulus, work_of_adhesion, yield_strength, stiffness_ratio, .. } =
                 state.contact;
-            let [a, b, c, d, e, k] = &mut columns.contact;
-            (a[i], b[i], c[i], d[i], e[i]) =
-                (density, reduced_modulus, work_of_adhesion, yield_strength, yield_ratio);
+            let [a, b, c, d] = &mut columns.contact;
+            (a[i], b[i], c[i]) = (reduced_modulus, work_of_adhesion, yield_strength);
             if STIFFNESS {
-                k[i] = state.contact.stiffness_ratio;
+                d[i] = stiffness_ratio;
             }
             columns.on_melt[i] = on_melt;
         }
@@ -464,16 +463,16 @@ impl Loops<'_> {
             on_melt: columns.on_melt[i],
             left_range: columns.left_range[i] == 1,
         };
-        let [density, reduced_modulus, work_of_adhesion, yield_strength, yield_ratio, stiffness_ratio] =
+        let [reduced_modulus, work_of_adhesion, yield_strength, stiffness_ratio] =
             columns.contact.each_ref().map(|column| column[i]);
         let mut state = ImpactState {
             impact,
             contact: Contact {
-                density,
+                density: columns.density[i],
                 reduced_modulus,
                 work_of_adhesion,
                 yield_strength,
-                yield_ratio,
+                yield_ratio: wall.adhesion.yield_ratio,
                 stiffness_ratio,
                 melt: None,
             },
