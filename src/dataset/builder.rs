@@ -14,7 +14,7 @@ use super::number::{NamedColumns, NumberStyle, is_blank};
 use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
 use super::selection::{Selection, Ticket};
 use super::{BadRow, DatasetError, WallChoice};
-use crate::impact::INPUTS;
+use crate::impact::{INPUTS, Impact};
 
 /// Largest number of labels in a note.
 const SHOWN_LABELS: usize = 5;
@@ -164,7 +164,8 @@ impl<'a> Builder<'a> {
 
     fn read(&mut self, line: u64, cells: &csv::StringRecord) -> Result<Measurement, String> {
         self.check_quotes(cells)?;
-        let (mut impact, mut stated) = self.inputs.read(cells)?;
+        let mut impact = Impact::default();
+        let mut stated = self.inputs.read(cells, &mut impact)?;
         self.velocity.complete(cells, &mut impact, &mut stated)?;
         impact.check().map_err(|error| error.to_string())?;
         let input_errors = self.errors.read(cells, &impact, &self.velocity)?;

@@ -32,6 +32,8 @@ pub(super) struct CsvTable<R> {
     headers: csv::StringRecord,
     /// Number of lines before the header.
     skipped: u64,
+    /// Stands in for a record while its bytes are read, so that no memory is allocated.
+    spare: Option<csv::StringRecord>,
 }
 
 impl<R: Read> CsvTable<R> {
@@ -53,7 +55,7 @@ impl<R: Read> CsvTable<R> {
             .flexible(true)
             .from_reader(Lines::new(source, skipped));
         let headers = csv::StringRecord::new();
-        let mut table = Self { reader, file: file.to_owned(), headers, skipped };
+        let mut table = Self { reader, file: file.to_owned(), headers, skipped, spare: None };
         table.headers = table.read_headers()?;
         if table.headers.iter().all(str::is_empty) {
             let problem = "there is no header; the first line that is no comment must name the columns";
@@ -129,7 +131,9 @@ impl<R: Read> CsvTable<R> {
         cells: &mut csv::StringRecord,
     ) -> Result<Option<Result<u64, BadRow>>, DatasetError> {
         // As bytes, so that the lines of a row that is not UTF-8 are counted.
-        let mut record = std::mem::take(cells).into_byte_record();
+        let spare = self.spare.take().unwrap_or_default();
+        let mut record = std::mem::replace(cells, spare).into_byte_record();
+        let start = self.reader.position().line();
         if !self.reader.read_byte_record(&mut record).map_err(|error| self.unreadable(&error))? {
             return Ok(None);
         }
@@ -138,11 +142,14 @@ impl<R: Read> CsvTable<R> {
         let open = self.reader.get_ref().ends_at(end.byte());
         let last = self.skipped + end.line() - u64::from(!open);
         // The CSV reader reports the line of a preceding comment as the start of a record, but its end is correct.
-        let inside = record.as_slice().iter().filter(|byte| **byte == b'\n').count();
+        let inside = match end.line() - start {
+            0 | 1 => 0,
+            _ => record.as_slice().iter().filter(|byte| **byte == b'\n').count(),
+        };
         let line = last.saturating_sub(inside as u64);
         Ok(Some(match csv::StringRecord::from_byte_record(record) {
             Ok(read) => {
-                *cells = read;
+                self.spare = Some(std::mem::replace(cells, read));
                 trim(cells);
                 self.check_width(cells, line)
             }

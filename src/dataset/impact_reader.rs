@@ -12,11 +12,8 @@ use super::{BadRow, DatasetError};
 use crate::impact::{INPUTS, Impact};
 use crate::model::ExtraInput;
 
-/// Room in a record beyond the length of the last one [bytes].
-const SPARE: usize = 16;
-
 /// One row of the file.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Row {
     /// Line in the file, counted from 1.
     pub line: u64,
@@ -30,8 +27,6 @@ pub struct Row {
 pub struct ImpactReader<R> {
     table: CsvTable<R>,
     inputs: InputColumns,
-    /// Length of the last record [bytes].
-    length: usize,
 }
 
 impl<R: Read> ImpactReader<R> {
@@ -48,15 +43,15 @@ impl<R: Read> ImpactReader<R> {
         if !inputs.gives("v_n") {
             return Err(table.column_fault(NO_NORMAL_SPEED, false));
         }
-        Ok(Self { table, inputs, length: 0 })
+        Ok(Self { table, inputs })
     }
 
     /// The same with the inputs that a model declares.
     #[must_use]
     pub fn with_extra_inputs(self, inputs: &[ExtraInput]) -> Self {
-        let Self { table, inputs: known, length } = self;
+        let Self { table, inputs: known } = self;
         let inputs = known.with_extra(inputs, NumberStyle::default(), |name| table.column(name));
-        Self { table, inputs, length }
+        Self { table, inputs }
     }
 
     /// The column names.
@@ -90,18 +85,24 @@ impl<R: Read> ImpactReader<R> {
     /// # Errors
     /// [`DatasetError::Unreadable`] when the source fails.
     pub fn next_row(&mut self) -> Result<Option<Result<Row, BadRow>>, DatasetError> {
-        // Records are alike: room for one like the last, and some more, saves most allocations.
-        let mut cells = csv::StringRecord::with_capacity(self.length + SPARE, self.headers().len());
-        let next = self.table.next_into(&mut cells)?;
-        self.length = cells.as_slice().len();
-        Ok(next.map(|line| self.read_row(line?, cells)))
+        let mut row = Row::default();
+        Ok(self.next_into(&mut row)?.map(|read| read.map(|()| row)))
     }
 
-    fn read_row(&self, line: u64, cells: csv::StringRecord) -> Result<Row, BadRow> {
+    /// As [`Self::next_row`], into a row whose memory is used again. A bad row leaves it in any state.
+    ///
+    /// # Errors
+    /// As [`Self::next_row`].
+    pub fn next_into(&mut self, row: &mut Row) -> Result<Option<Result<(), BadRow>>, DatasetError> {
+        let next = self.table.next_into(&mut row.cells)?;
+        Ok(next.map(|line| self.read_row(line?, row)))
+    }
+
+    fn read_row(&self, line: u64, row: &mut Row) -> Result<(), BadRow> {
         let bad = |reason: String| BadRow { line, reason };
-        let (impact, _) = self.inputs.read(&cells).map_err(bad)?;
-        impact.check().map_err(|error| bad(error.to_string()))?;
-        Ok(Row { line, cells, impact })
+        row.line = line;
+        self.inputs.read(&row.cells, &mut row.impact).map_err(bad)?;
+        row.impact.check().map_err(|error| bad(error.to_string()))
     }
 }
 

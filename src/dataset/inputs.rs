@@ -65,18 +65,18 @@ impl InputColumns {
         self.columns.get(position(name)).is_some_and(Option::is_some)
     }
 
-    /// Reads a row's inputs; blank ones keep their default, those that the model declares NaN. The impact is not checked yet.
+    /// Reads a row's inputs into `impact`; blank ones have their default, those that the model declares NaN. The impact is not checked yet.
     ///
     /// # Errors
     /// The reason, for a cell that is not a number or a blank `v_n`.
-    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<(Impact, Stated), String> {
-        let mut impact = Impact::default();
+    pub(super) fn read(&self, cells: &csv::StringRecord, impact: &mut Impact) -> Result<Stated, String> {
+        *impact = Impact::default();
         let mut stated = Stated::default();
         for (place, (input, column)) in INPUTS.iter().zip(&self.columns).enumerate() {
             let Some(column) = column else { continue };
             match column.read(cells)? {
                 Some(value) => {
-                    (input.set)(&mut impact, value);
+                    (input.set)(impact, value);
                     stated[place] = true;
                 }
                 None if input.name == "v_n" => return Err("v_n is blank".to_owned()),
@@ -88,7 +88,7 @@ impl InputColumns {
                 impact.extra[column.place] = value;
             }
         }
-        Ok((impact, stated))
+        Ok(stated)
     }
 }
 

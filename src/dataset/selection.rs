@@ -142,9 +142,8 @@ impl Selection {
             return Vec::new();
         }
         let (kept, all) = (rows.len(), rows.len() + self.others);
-        let mut notes = vec![format!(
-            "{kept} of {all} usable rows were selected at random; causes, fits and gain rest on these"
-        )];
+        let mut notes =
+            vec![format!("{kept} of {all} usable rows were selected at random and stand for all")];
         if self.groups < 1.0 {
             let (every, names) = (1.0 / self.groups, groups.join(", "));
             notes.push(format!("the selected rows belong to one in {every:.1} of the groups of {names}"));
@@ -154,8 +153,8 @@ impl Selection {
             let all = selected + self.observed[place];
             if selected < FEW && selected < all {
                 notes.push(format!(
-                    "only {selected} of {all} rows with {name} were selected; for their causes diagnose a file of the \
-                     conditions under which they occur"
+                    "only {selected} of {all} rows with {name} were selected; for more use a file of the conditions \
+                     under which they occur"
                 ));
             }
         }

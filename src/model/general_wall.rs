@@ -90,10 +90,12 @@ impl Model {
 
     /// The covered share of the wall [1] where a draw decides if the impact meets it or the bare share.
     pub(super) fn drawn_cover(&self, wall: usize, impact: &Impact) -> Option<f64> {
+        if !self.walls.get(wall)?.is_patchwork(impact) {
+            return None;
+        }
         let mut arriving = *impact;
-        let wall = self.at_wall(wall, &mut arriving).ok()?;
-        let drawn = wall.is_patchwork(&arriving) && arriving.coverage > 0.0 && arriving.coverage < 1.0;
-        drawn.then_some(arriving.coverage)
+        self.at_wall(wall, &mut arriving).ok()?;
+        (arriving.coverage > 0.0 && arriving.coverage < 1.0).then_some(arriving.coverage)
     }
 
     /// Decides an impact at one place of a wall.

@@ -152,7 +152,7 @@ mod tests {
         let predictor = Predictor::new(&model, None, &reader).unwrap();
         let (mut notes, mut found) = (RowNotes::default(), Vec::new());
         while let Some(next) = reader.next_row().unwrap() {
-            found.push(notes.predict(&predictor, &next).map(|(_, predicted)| predicted));
+            found.push(notes.predict(&predictor, next.as_ref()).map(|(_, predicted)| predicted));
         }
         for (row, wall) in [(0, 0), (3, 1)] {
             let impact = crate::Impact { normal_speed: 1.0, ..crate::Impact::default() };

@@ -40,9 +40,9 @@ impl RowNotes {
     pub fn predict<'r>(
         &mut self,
         predictor: &Predictor<'_>,
-        next: &'r Result<Row, BadRow>,
+        next: Result<&'r Row, &BadRow>,
     ) -> Result<(&'r Row, PredictedRow), BadRow> {
-        let predicted = next.as_ref().map_err(Clone::clone).and_then(|row| {
+        let predicted = next.map_err(Clone::clone).and_then(|row| {
             self.warn(predictor.model(), row);
             Ok((row, predictor.row(row)?))
         });

@@ -57,6 +57,17 @@ fn the_memory_of_a_diagnosis_does_not_grow_beyond_the_selected_rows() {
     assert!(many < few + 20.0, "{few} MB, then {many} MB");
 }
 
+/// No row has a plausible size, so the comparison ends when all are read for both models.
+#[test]
+fn the_memory_of_a_comparison_does_not_grow_beyond_the_selected_rows() {
+    let folder = folder(&[("wax.toml", WAX), ("same.toml", WAX)]);
+    let [few, many] = [150_000, 450_000].map(|rows| {
+        std::fs::write(folder.path().join("impacts.csv"), impacts(rows, "1e-16")).unwrap();
+        peak_memory(folder.path(), &["compare", "impacts.csv", "--models", "wax.toml", "same.toml"])
+    });
+    assert!(many < few + 20.0, "{few} MB, then {many} MB");
+}
+
 #[test]
 fn the_memory_of_a_report_does_not_grow_with_the_recorded_arrivals() {
     let folder = tempfile::tempdir().unwrap();

@@ -62,9 +62,10 @@ fn predict_rows(
     let cells = matches!(data, Source::File(_)).then(|| Cells::new(header));
     let mut found = Predictions::new(cells, predictor.has_bands(), file_notes(file, &reader));
     let mut notes = RowNotes::default();
-    while let Some(next) = reader.next_row()? {
+    let mut row = Row::default();
+    while let Some(next) = reader.next_into(&mut row)? {
         tick();
-        match notes.predict(&predictor, &next) {
+        match notes.predict(&predictor, next.as_ref().map(|()| &row)) {
             Ok((row, predicted)) => found.add(row, &predicted),
             Err(bad) => found.leave_out(bad),
         }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 
 use nearwall::Model;
 use nearwall::atomic_file::{AtomicFile, refused};
-use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
+use nearwall::dataset::{ColumnMap, WallChoice};
 use nearwall::diagnose::comparison::{Candidate, Comparison, compare};
 use nearwall::report::{comparison_page, comparison_text};
 
-use crate::CommandResult;
+use crate::{CommandResult, progress};
 
 /// Ranks models on measured impacts by held-out error with intervals
 #[derive(clap::Args)]
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let candidate = |(path, model): (&PathBuf, _)| read(arguments, map.as_ref(), path, model);
     let candidates: Vec<Candidate<'_>> =
         arguments.models.iter().zip(&models).map(candidate).collect::<Result<_, _>>()?;
-    let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.data.notes.clone());
+    let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
     for note in &notes {
         eprintln!("nearwall: {note}");
     }
@@ -78,11 +78,13 @@ fn read<'a>(
     let name = path.display().to_string();
     let of_model = |error| format!("{name}: {error}");
     let walls = WallChoice::new(model, arguments.wall.as_deref()).map_err(of_model)?;
-    let data = Measurements::read(&file, source, map, &walls).map_err(|error| match error {
+    let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
+    let source = bar.wrap_read(source);
+    let read = Candidate::read(name.clone(), model, &file, source, map, &walls);
+    Ok(read.map_err(|error| match error {
         nearwall::dataset::DatasetError::Wall(error) => of_model(error),
         other => other.to_string(),
-    })?;
-    Ok(Candidate { name, model, data })
+    })?)
 }
 
 /// Writes both files, or none.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
-use nearwall::atomic_file::{AtomicFile, of_csv, refused};
+use nearwall::atomic_file::{AtomicFile, refused};
 use nearwall::dataset::{BadRow, DatasetError, ImpactReader, Row};
 use nearwall::impact::INPUTS;
 use nearwall::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
@@ -76,8 +76,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
 
 /// Adds the file to a write error, except for a closed pipe.
 fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Error> {
-    match error.downcast::<csv::Error>().map(|error| of_csv(*error)) {
-        Ok(error) if error.kind() == ErrorKind::BrokenPipe => error.into(),
+    match error.downcast::<std::io::Error>() {
+        Ok(error) if error.kind() == ErrorKind::BrokenPipe => error,
         Ok(error) => refused(place, &error).into(),
         Err(other) => other,
     }
@@ -88,64 +88,95 @@ fn predict(
     reader: &mut ImpactReader<impl Read + Send>,
     output: &mut impl Write,
 ) -> CommandResult {
-    let mut header = reader.headers().clone();
-    let bands: &[&str] = if predictor.has_bands() { &BANDS } else { &[] };
-    for name in VALUES.iter().chain(&["regime"]).chain(bands) {
-        // A column of the file keeps its name.
-        let taken = reader.column(name).is_some();
-        header.push_field(&if taken { format!("{name}_predicted") } else { (*name).to_owned() });
-    }
-    let mut first = csv::Writer::from_writer(&mut *output);
-    first.write_record(&header)?;
-    first.flush().map_err(csv::Error::from)?;
-    drop(first);
+    output.write_all(&header(predictor, reader))?;
     let mut notes = RowNotes::default();
-    let mut block = Block::read(reader);
-    while !block.rows.is_empty() {
+    let (mut block, mut next) = (Block::default(), Block::default());
+    block.read(reader);
+    while block.count > 0 {
         // The next rows are read meanwhile.
-        let (parts, next) = rayon::join(|| block.predict(predictor), || Block::read(reader));
-        for part in parts {
-            notes.add(part?.write(output)?);
-        }
+        rayon::join(|| block.predict(predictor), || next.read(reader));
+        block.write(output, &mut notes)?;
         if let Some(error) = block.fault {
             return Err(error.into());
         }
-        block = next;
+        std::mem::swap(&mut block, &mut next);
     }
     if let Some(error) = block.fault {
         return Err(error.into());
     }
-    output.flush().map_err(csv::Error::from)?;
+    output.flush()?;
     report(&notes)
+}
+
+/// The names of the columns of the file and of those that are added.
+fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> Vec<u8> {
+    let mut text = Vec::new();
+    write_cells(reader.headers(), &mut text);
+    let bands: &[&str] = if predictor.has_bands() { &BANDS } else { &[] };
+    for name in VALUES.iter().chain(&["regime"]).chain(bands) {
+        // A column of the file keeps its name.
+        let more = if reader.column(name).is_some() { "_predicted" } else { "" };
+        text.extend([",", name, more].into_iter().flat_map(str::bytes));
+    }
+    text.push(b'\n');
+    text
 }
 
 /// Rows that are predicted together, and rows of one task.
 const BLOCK: usize = 8192;
 const TASK: usize = 256;
 
-/// Consecutive rows of the file.
+/// Consecutive rows of the file. The memory of a block is used again by a later one.
+#[derive(Default)]
 struct Block {
-    rows: Vec<Result<Row, BadRow>>,
+    /// Rows, and why those that cannot be used are bad.
+    rows: Vec<(Row, Option<BadRow>)>,
+    /// Number of rows that were read.
+    count: usize,
     /// Why no more rows can be read.
     fault: Option<DatasetError>,
+    /// What was predicted for each task.
+    parts: Vec<Predicted>,
 }
 
 impl Block {
-    fn read(reader: &mut ImpactReader<impl Read>) -> Self {
-        let (mut rows, mut fault) = (Vec::with_capacity(BLOCK), None);
-        while rows.len() < BLOCK && fault.is_none() {
-            match reader.next_row() {
-                Ok(Some(next)) => rows.push(next),
-                Ok(None) => break,
-                Err(error) => fault = Some(error),
+    /// Reads the next rows in place of these.
+    fn read(&mut self, reader: &mut ImpactReader<impl Read>) {
+        (self.count, self.fault) = (0, None);
+        while self.count < BLOCK {
+            if self.count == self.rows.len() {
+                self.rows.push(Default::default());
             }
+            let (row, bad) = &mut self.rows[self.count];
+            match reader.next_into(row) {
+                Ok(Some(next)) => *bad = next.err(),
+                Ok(None) => return,
+                Err(error) => {
+                    self.fault = Some(error);
+                    return;
+                }
+            }
+            self.count += 1;
         }
-        Self { rows, fault }
     }
 
     /// Predicts the rows on all cores; the parts have their order.
-    fn predict(&self, predictor: &Predictor<'_>) -> Vec<csv::Result<Predicted>> {
-        self.rows.par_chunks(TASK).map(|rows| Predicted::of(predictor, rows)).collect()
+    fn predict(&mut self, predictor: &Predictor<'_>) {
+        let tasks = self.rows[..self.count].par_chunks(TASK);
+        self.parts.resize_with(tasks.len(), Predicted::default);
+        tasks.zip(&mut self.parts).for_each(|(rows, part)| part.predict(predictor, rows));
+    }
+
+    /// Writes the rows and adds their notes.
+    fn write(&mut self, output: &mut impl Write, notes: &mut RowNotes) -> std::io::Result<()> {
+        for part in &mut self.parts {
+            for BadRow { line, reason } in part.left_out.drain(..) {
+                eprintln!("nearwall: line {line} left out: {reason}");
+            }
+            output.write_all(&part.text)?;
+            notes.add(std::mem::take(&mut part.notes));
+        }
+        Ok(())
     }
 }
 
@@ -158,42 +189,53 @@ struct Predicted {
 }
 
 impl Predicted {
-    fn of(predictor: &Predictor<'_>, rows: &[Result<Row, BadRow>]) -> csv::Result<Self> {
-        let mut part = Self::default();
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        for next in rows {
-            match part.notes.predict(predictor, next) {
-                Ok((row, predicted)) => write_row(row, &predicted, &mut writer)?,
-                Err(bad) => part.left_out.push(bad),
+    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(Row, Option<BadRow>)]) {
+        self.text.clear();
+        for (row, bad) in rows {
+            match self.notes.predict(predictor, bad.as_ref().map_or(Ok(row), Err)) {
+                Ok((row, predicted)) => write_row(row, &predicted, &mut self.text),
+                Err(bad) => self.left_out.push(bad),
             }
         }
-        part.text = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-        Ok(part)
-    }
-
-    /// Writes the rows and returns their notes.
-    fn write(self, output: &mut impl Write) -> csv::Result<RowNotes> {
-        for BadRow { line, reason } in &self.left_out {
-            eprintln!("nearwall: line {line} left out: {reason}");
-        }
-        output.write_all(&self.text)?;
-        Ok(self.notes)
     }
 }
 
-/// Writes the cells of a row and its prediction.
-fn write_row(row: &Row, predicted: &PredictedRow, writer: &mut csv::Writer<Vec<u8>>) -> csv::Result<()> {
-    for cell in &row.cells {
-        writer.write_field(cell)?;
-    }
+/// Writes the cells of a row and its prediction, each number with as few digits as give the same bits when they are read.
+fn write_row(row: &Row, predicted: &PredictedRow, text: &mut Vec<u8>) {
+    let mut digits = zmij::Buffer::new();
+    let mut write_number = |value: f64, text: &mut Vec<u8>| {
+        text.push(b',');
+        text.extend_from_slice(digits.format(value).as_bytes());
+    };
+    write_cells(&row.cells, text);
     for value in predicted.values {
-        writer.write_field(format!("{value:.16e}"))?;
+        write_number(value, text);
     }
-    writer.write_field(predicted.regime)?;
+    text.push(b',');
+    text.extend_from_slice(predicted.regime.as_bytes());
     for value in predicted.bands.as_flattened() {
-        writer.write_field(format!("{value:.16e}"))?;
+        write_number(*value, text);
     }
-    writer.write_record(None::<&[u8]>)
+    text.push(b'\n');
+}
+
+/// Writes cells, in quotation marks where they have to be.
+fn write_cells(cells: &csv::StringRecord, text: &mut Vec<u8>) {
+    let is_special = |byte: u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
+    // Most rows need no quotation marks. All bytes are compared, which is faster than to stop at the first.
+    let any_special = cells.as_slice().bytes().fold(false, |found, byte| found | is_special(byte));
+    for (index, cell) in cells.iter().enumerate() {
+        if index > 0 {
+            text.push(b',');
+        }
+        if any_special && cell.bytes().any(is_special) {
+            text.push(b'"');
+            text.extend(cell.replace('"', "\"\"").bytes());
+            text.push(b'"');
+        } else {
+            text.extend_from_slice(cell.as_bytes());
+        }
+    }
 }
 
 /// Prints the notes about all rows.

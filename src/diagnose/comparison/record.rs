@@ -28,6 +28,9 @@ pub struct Comparison {
 pub struct GroupedRows {
     /// Rows in the file.
     pub read: usize,
+    /// Usable rows of a large file that were selected at random for every model; `None` if all were.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub selected: Option<usize>,
     /// Rows that every model decides: they rank the models.
     pub used: usize,
     /// Groups that the bootstrap draws.

@@ -84,7 +84,11 @@ fn rows(comparison: &Comparison) -> String {
         "series" => format!("in {} series", rows.groups),
         _ => "each a group of its own".to_owned(),
     };
-    format!("{} rows read; {} can be decided by every model and rank them, {groups}.", rows.read, rows.used)
+    let selected = rows
+        .selected
+        .map_or(String::new(), |count| format!(" {count} of them, selected at random, stand for all;"));
+    let (read, used) = (rows.read, rows.used);
+    format!("{read} rows read;{selected} {used} can be decided by every model and rank them, {groups}.")
 }
 
 /// One table a measure, and one of the rows.

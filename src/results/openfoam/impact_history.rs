@@ -272,9 +272,10 @@ pub fn read(
     let columns = Columns::of(&reader, &file, header_line)?;
     let mut names = Names::default();
     let mut parcels: BTreeMap<ParcelId, Vec<RecordedImpact>> = BTreeMap::new();
-    while let Some(next) = reader.next_row()? {
-        let row = next.map_err(|bad| (bad.line, bad.reason));
-        let read = row.and_then(|row| columns.read(&row, &mut names).map_err(|reason| (row.line, reason)));
+    let mut row = Row::default();
+    while let Some(next) = reader.next_into(&mut row)? {
+        let next = next.map_err(|bad| (bad.line, bad.reason));
+        let read = next.and_then(|()| columns.read(&row, &mut names).map_err(|reason| (row.line, reason)));
         let (id, impact) =
             read.map_err(|(line, reason)| HistoryError::Row { file: file.clone(), line, reason })?;
         parcels.entry(id).or_default().push(impact);
