@@ -4,8 +4,8 @@ pub use fearless_simd::Level;
 
 use super::varying_block::Columns;
 use super::{Model, Prepared, TemperatureRanges};
-pub use crate::impact::{BLOCK, Block};
 use crate::impact::ImpactError;
+pub use crate::impact::{BLOCK, Block};
 use crate::rng::ImpactRng;
 
 /// The outcomes of a [`Block`], as columns: the fields of [`Outcome`](crate::Outcome).

@@ -48,9 +48,6 @@ pub(super) struct Columns {
     restitution: [f64; BLOCK],
     held: [u64; BLOCK],
     left_range: [u64; BLOCK],
-    /// Of the share that is not met: probability of capture, and 1 outside the range.
-    other: [f64; BLOCK],
-    other_outside: [u32; BLOCK],
 }
 
 impl Default for Columns {
@@ -72,8 +69,6 @@ impl Default for Columns {
             restitution: [0.0; BLOCK],
             held: [0; BLOCK],
             left_range: [0; BLOCK],
-            other: [0.0; BLOCK],
-            other_outside: [0; BLOCK],
         }
     }
 }
@@ -135,14 +130,12 @@ impl VaryingWall {
         loops.density(columns);
         loops.on_melt(columns);
         loops.contact::<true>(columns);
-        loops.normal::<true>(columns);
+        loops.normal(columns);
         loops.rebound(columns, outcomes);
         if drawn {
             (0..length).for_each(|i| columns.covered[i] ^= 1);
             loops.contact::<false>(columns);
-            loops.normal::<false>(columns);
-            loops.other(columns);
-            combine(length, columns, outcomes);
+            loops.other(columns, outcomes);
         }
         for &(input, range) in &self.valid {
             for i in 0..length {
@@ -187,20 +180,6 @@ fn draw(block: &Block, seed: u64, drawn: bool, columns: &mut Columns) {
             let uniform = ImpactRng::new(seed, block.keys[i]).uniform(stream::COVER);
             columns.covered[i] = u64::from(uniform >= 1.0 - columns.coverage[i]);
         }
-    }
-}
-
-/// The probability of capture of both shares.
-#[inline(always)]
-fn combine(length: usize, columns: &Columns, outcomes: &mut Outcomes) {
-    for i in 0..length {
-        // The place is now the one that was not met.
-        let coverage = columns.coverage[i];
-        let share = if columns.covered[i] == 1 { coverage } else { 1.0 - coverage };
-        let met = outcomes.sticking_probability[i];
-        let both = both_shares(share, met, columns.other[i]);
-        outcomes.sticking_probability[i] = if share == 0.0 { met } else { both };
-        outcomes.outside_range[i] |= columns.other_outside[i] & u32::from(share != 0.0);
     }
 }
 
@@ -343,25 +322,19 @@ impl Loops<'_> {
         }
     }
 
-    /// The normal rebound; its restitution only where it is asked for.
     #[inline(always)]
-    fn normal<const RESTITUTION: bool>(&self, columns: &mut Columns) {
+    fn normal(&self, columns: &mut Columns) {
         match self.wall.constant {
-            None => self.normal_with::<RESTITUTION>(&Constants { constant: None, ..*self.wall }, columns),
-            Some(e_n) => {
-                let wall = Constants { constant: Some(e_n), ..*self.wall };
-                self.normal_with::<RESTITUTION>(&wall, columns);
-            }
+            None => self.normal_with(&Constants { constant: None, ..*self.wall }, columns),
+            Some(e_n) => self.normal_with(&Constants { constant: Some(e_n), ..*self.wall }, columns),
         }
     }
 
     #[inline(always)]
-    fn normal_with<const RESTITUTION: bool>(&self, wall: &Constants, columns: &mut Columns) {
+    fn normal_with(&self, wall: &Constants, columns: &mut Columns) {
         for i in 0..self.length() {
             let (state, _, left_range) = self.run(i, StepSet::NORMAL, wall, columns);
-            if RESTITUTION {
-                columns.restitution[i] = state.normal.restitution;
-            }
+            columns.restitution[i] = state.normal.restitution;
             columns.held[i] = u64::from(state.normal.held);
             columns.left_range[i] = u64::from(left_range);
         }
@@ -401,15 +374,33 @@ impl Loops<'_> {
         }
     }
 
-    /// Probability of capture and range at the place that the impact does not meet.
+    /// Probability of capture and range of both shares, with those of the place that the impact does not meet.
     #[inline(always)]
-    fn other(&self, columns: &mut Columns) {
+    fn other(&self, columns: &Columns, outcomes: &mut Outcomes) {
         // No rebound is asked for.
-        let wall = Constants { tangential: Tangential::Constant(0.0), ..*self.wall };
+        let tangential = Tangential::Constant(0.0);
+        match self.wall.constant {
+            None => {
+                let wall = Constants { constant: None, tangential, ..*self.wall };
+                self.other_with(&wall, columns, outcomes);
+            }
+            Some(e_n) => {
+                let wall = Constants { constant: Some(e_n), tangential, ..*self.wall };
+                self.other_with(&wall, columns, outcomes);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn other_with(&self, wall: &Constants, columns: &Columns, outcomes: &mut Outcomes) {
         for i in 0..self.length() {
-            let (state, ..) = self.run(i, LAST, &wall, columns);
-            columns.other[i] = state.probability;
-            columns.other_outside[i] = u32::from(state.outside_range);
+            let (state, ..) = self.run(i, StepSet::NORMAL.union(LAST), wall, columns);
+            let coverage = columns.coverage[i];
+            let share = if columns.covered[i] == 1 { coverage } else { 1.0 - coverage };
+            let met = outcomes.sticking_probability[i];
+            let both = both_shares(share, met, state.probability);
+            outcomes.sticking_probability[i] = if share == 0.0 { met } else { both };
+            outcomes.outside_range[i] |= u32::from(state.outside_range) & u32::from(share != 0.0);
         }
     }
 

@@ -271,7 +271,9 @@ impl VaryingWall {
     ) -> Outcome {
         let covered = place == Some(true);
         let here = match place {
-            Some(true) if TERMS => Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*impact },
+            Some(true) if TERMS => {
+                Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*impact }
+            }
             Some(false) if TERMS => Impact { coverage: 0.0, layer_thickness: 0.0, ..*impact },
             _ => *impact,
         };
