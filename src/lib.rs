@@ -46,45 +46,27 @@
 //! # Around an impact
 //! [`input`] reads TOML files with errors that name line and key. [`law`] has what laws by name share: parameters, source and
 //! range. A [`deposit`] is what earlier particles left on a piece of wall; a code may keep one for each face and pass it to later
-//! impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface. With the feature `command`, `dataset`
-//! reads measurements, `predict` adds predictions to a table of impacts, `diagnose` finds the effects that a model lacks,
-//! `simulate` follows particles in a prescribed gas flow, `rig` predicts what a whole rig measures, `map` shows a model over two
-//! inputs, and `report` draws the pages.
+//! impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface.
+//!
+//! The crate `nearwall-lab` (folder `lab`) has everything around the library: measurements, standalone cases, diagnosis, pages
+//! and the command `nearwall`.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]
 
-#[cfg(feature = "command")]
-pub mod atomic_file;
 pub mod c_api;
 pub mod capture;
-#[cfg(feature = "command")]
-pub mod dataset;
 pub mod deposit;
-#[cfg(feature = "command")]
-pub mod diagnose;
 pub mod effect;
 pub mod erosion;
 pub mod impact;
 pub mod input;
 pub mod key;
 pub mod law;
-#[cfg(feature = "command")]
-pub mod map;
 pub mod material;
 pub mod model;
 pub mod normal;
-#[cfg(feature = "command")]
-pub mod predict;
-#[cfg(feature = "command")]
-pub mod report;
-#[cfg(feature = "command")]
-pub mod results;
-#[cfg(feature = "command")]
-pub mod rig;
 pub mod rng;
-#[cfg(feature = "command")]
-pub mod simulate;
 pub mod slag;
 pub mod tangential;
 mod vector_math;

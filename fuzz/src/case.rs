@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use nearwall::report::standalone_page;
-use nearwall::results::standalone::{Run, run, summary};
-use nearwall::simulate::Case;
+use nearwall_lab::report::standalone_page;
+use nearwall_lab::results::standalone::{Run, run, summary};
+use nearwall_lab::simulate::Case;
 
 use super::bytes::file;
 use super::{place, whole};

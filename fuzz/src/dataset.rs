@@ -1,7 +1,7 @@
 //! A data file with its column map: the map, a zero, the file.
 
-use nearwall::dataset::{ColumnMap, ImpactReader, Measurements, WallChoice};
 use nearwall::{ImpactRng, Model};
+use nearwall_lab::dataset::{ColumnMap, ImpactReader, Measurements, WallChoice};
 
 use super::place;
 

@@ -6,9 +6,9 @@
 use std::fmt::Write as _;
 
 use nearwall::Model;
-use nearwall::dataset::{Measurements, WallChoice};
-use nearwall::diagnose::{Diagnosis, Options, diagnose as judge};
-use nearwall::report::diagnosis_page;
+use nearwall_lab::dataset::{Measurements, WallChoice};
+use nearwall_lab::diagnose::{Diagnosis, Options, diagnose as judge};
+use nearwall_lab::report::diagnosis_page;
 
 use super::bytes::{Bytes, WRITTEN};
 use super::whole;

@@ -5,9 +5,9 @@
 
 use std::path::Path;
 
-use nearwall::report::{openfoam_page, sweep};
-use nearwall::results::openfoam::read;
-use nearwall::results::{RunResults, WallModel};
+use nearwall_lab::report::{openfoam_page, sweep};
+use nearwall_lab::results::openfoam::read;
+use nearwall_lab::results::{RunResults, WallModel};
 
 use super::whole;
 

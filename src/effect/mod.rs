@@ -68,7 +68,7 @@ pub const EFFECTS: [&EffectInfo; 19] = [
 pub const CURVES: [&EffectInfo; 2] = [&fitted_curve::FITTED_CURVE, &fitted_curve::LEVEL_SHIFT];
 
 /// Streams of [`ImpactRng`](crate::ImpactRng). Each random effect has its own, so that no two draw the same number.
-pub(crate) mod stream {
+pub mod stream {
     /// Whether a particle is captured (no effect).
     pub const CAPTURE: u64 = 0;
     /// How much of the work of adhesion is left.

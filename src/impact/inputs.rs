@@ -130,10 +130,9 @@ macro_rules! define_impact {
             $($field,)*
         }
 
-        /// Places in [`INPUTS`].
-        #[allow(dead_code, reason = "the laws need some of them")]
         impl Impact {
-            $(pub(crate) const $place: usize = Place::$field as usize;)*
+            $(#[doc = concat!("Place of `", stringify!($field), "` in [`INPUTS`].")]
+            pub const $place: usize = Place::$field as usize;)*
         }
 
         impl Impact {

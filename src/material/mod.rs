@@ -384,7 +384,7 @@ fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
 }
 
 /// The file of the built-in materials.
-pub(crate) const BUILT_IN_TEXT: &str = include_str!("materials.toml");
+pub const BUILT_IN_TEXT: &str = include_str!("materials.toml");
 
 static BUILT_IN: LazyLock<Result<Library, InputError>> = LazyLock::new(|| {
     let document = Document::new("built-in materials", BUILT_IN_TEXT);

@@ -31,13 +31,13 @@ const STEPS: [usize; 5] = [1, 3, 5, 7, 9];
 
 /// The random draws over which a model is averaged.
 #[derive(Debug, Clone)]
-pub(crate) struct DrawLattice {
+pub struct DrawLattice {
     streams: Vec<u64>,
     count: usize,
 }
 
 /// A [`DrawLattice`] with a rotation of its own: even by itself and together with others.
-pub(crate) struct RotatedLattice<'a> {
+pub struct RotatedLattice<'a> {
     lattice: &'a DrawLattice,
     /// Rotation of each stream, by its number.
     rotations: [f64; STEPS.len()],

@@ -70,7 +70,7 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::resolve`].
-    pub(crate) fn resolve_place_with(
+    pub fn resolve_place_with(
         &self,
         wall: usize,
         impact: &Impact,
@@ -83,8 +83,7 @@ impl Model {
     }
 
     /// Whether a draw decides if the impact meets the covered or the bare share of the wall.
-    #[cfg(feature = "command")]
-    pub(crate) fn draws_place(&self, wall: usize, impact: &Impact) -> bool {
+    pub fn draws_place(&self, wall: usize, impact: &Impact) -> bool {
         self.drawn_cover(wall, impact).is_some()
     }
 
@@ -151,8 +150,7 @@ impl Model {
     ///
     /// # Errors
     /// [`ImpactError`] for an impact that cannot be, or a wall that the model does not have.
-    #[cfg(feature = "command")]
-    pub(crate) fn met(&self, wall: usize, impact: &Impact) -> Result<Impact, ImpactError> {
+    pub fn met(&self, wall: usize, impact: &Impact) -> Result<Impact, ImpactError> {
         let mut met = *impact;
         self.at_wall(wall, &mut met)?;
         Ok(met)

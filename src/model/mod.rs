@@ -35,8 +35,7 @@ use crate::tangential::TangentialLaw;
 
 pub use crate::deposit::WallMelt;
 pub use expectation::Expectation;
-#[cfg(feature = "command")]
-pub(crate) use expectation::{DrawLattice, RotatedLattice};
+pub use expectation::{DrawLattice, RotatedLattice};
 pub use extra_input::ExtraInput;
 pub use particle::Particle;
 use prepared_wall::{CalledWall, PreparedWall};

@@ -88,7 +88,7 @@ fn predict_says_what_it_assumed_and_what_looks_wrong() {
 
 #[test]
 fn check_says_all_that_the_model_contains() {
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/tutorials/slaggingGasifier/constant/nearWall.toml");
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/../tutorials/slaggingGasifier/constant/nearWall.toml");
     let said = text(&nearwall(Path::new("."), &["check", model]).stdout);
     for part in [
         "coal-slag",

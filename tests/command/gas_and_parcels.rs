@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use crate::report::{ours, write};
-use nearwall::report::openfoam_page;
-use nearwall::results::gas::{CutCell, GasCut, GasQuantity, ParcelQuantity};
-use nearwall::results::openfoam::{self, gas::read_last};
+use nearwall_lab::report::openfoam_page;
+use nearwall_lab::results::gas::{CutCell, GasCut, GasQuantity, ParcelQuantity};
+use nearwall_lab::results::openfoam::{self, gas::read_last};
 
 const CLOUD: &str = "kinematicCloud";
 /// The places of the injection [m].
@@ -24,7 +24,7 @@ const CAPTURED: [([f64; 4], f64); 6] = [
 ];
 
 fn written(format: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/gas_with_parcels").join(format)
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tests/data/gas_with_parcels").join(format)
 }
 
 fn copy(from: &Path, to: &Path) {

@@ -7,6 +7,7 @@ mod common;
 
 mod arguments;
 mod compare;
+mod corpus;
 mod diagnose;
 mod extra_inputs;
 #[cfg(unix)]
@@ -22,4 +23,5 @@ mod report;
 mod runner;
 mod scale;
 mod simulate;
+mod slag_viscosity_study;
 mod wall_maps;

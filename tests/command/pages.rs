@@ -27,7 +27,7 @@ fn looks_right(page: &Path, figures: usize) {
 /// An example with fewer particles, in a folder of its own.
 fn simulated(name: &str, count: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials/standalone");
+    let examples = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tutorials/standalone");
     let case = std::fs::read_to_string(examples.join(format!("{name}.toml"))).unwrap();
     let line = case.lines().find(|line| line.starts_with("count = ")).unwrap();
     std::fs::write(folder.path().join("case.toml"), case.replace(line, &format!("count = {count}"))).unwrap();

@@ -6,7 +6,8 @@ use std::process::Command;
 use nearwall::{Impact, Model};
 
 fn model(file: &str) -> Model {
-    Model::from_file(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials").join(file)).unwrap()
+    Model::from_file(&Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tutorials").join(file))
+        .unwrap()
 }
 
 /// An even walk from one end to the other, both included.
@@ -67,7 +68,7 @@ fn tungsten_at_normal_incidence_does_what_the_plain_model_does_not_say() {
 #[test]
 fn the_published_wax_numbers_name_the_melting() {
     let folder = tempfile::tempdir().unwrap();
-    let wax = Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials/waxImpactor");
+    let wax = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tutorials/waxImpactor");
     let found = Command::new(env!("CARGO_BIN_EXE_nearwall"))
         .args(["diagnose", "measured/troiano.csv", "--model", "measured/base.toml", "--out"])
         .arg(folder.path())

@@ -13,7 +13,7 @@ use nearwall::effect::EFFECTS;
 use serde_json::Value;
 
 fn folder(set: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/real_measurements").join(set)
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tests/real_measurements").join(set)
 }
 
 fn json(file: &Path) -> Value {
@@ -153,7 +153,7 @@ fn the_page_has_the_verdicts() {
         };
         writeln!(table, "| `{name}` | {verdict} | {judged} |").unwrap();
     }
-    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/real-measurements.md");
+    let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/real-measurements.md");
     let text = std::fs::read_to_string(&page).unwrap();
     let (head, rest) = text.split_once(BEGIN).unwrap();
     let (old, tail) = rest.split_once(END).unwrap();

@@ -5,10 +5,10 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 use crate::common::browser::{Seen, browse};
-use nearwall::report::openfoam_page;
-use nearwall::results::classes::{Quantity, together};
-use nearwall::results::openfoam::{self, deposit};
-use nearwall::results::{Amount, History, WallModel, WallTotals};
+use nearwall_lab::report::openfoam_page;
+use nearwall_lab::results::classes::{Quantity, together};
+use nearwall_lab::results::openfoam::{self, deposit};
+use nearwall_lab::results::{Amount, History, WallModel, WallTotals};
 
 const PATCHES: [&str; 2] = ["slagWall", "quenchWall"];
 
@@ -187,7 +187,7 @@ fn times<T>(history: &History<T>) -> Vec<f64> {
 }
 
 /// The line "escaped" of the mass balance [kg].
-fn escaped_mass(results: &nearwall::results::RunResults) -> Option<f64> {
+fn escaped_mass(results: &nearwall_lab::results::RunResults) -> Option<f64> {
     results.balance.iter().find(|line| line.what == "escaped").unwrap().mass
 }
 

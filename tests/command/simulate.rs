@@ -7,8 +7,8 @@ use std::process::Command;
 
 use nalgebra::{Complex, Vector3};
 use nearwall::deposit::resuspension::{Adhesion, Conditions, jkr_force};
-use nearwall::results::standalone::{ImpactRecorder, Run, run};
-use nearwall::simulate::{
+use nearwall_lab::results::standalone::{ImpactRecorder, Run, run};
+use nearwall_lab::simulate::{
     Body, Burning, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly, position, state,
     velocity,
 };
@@ -441,7 +441,7 @@ fn the_record_is_bounded_and_can_be_read_back() {
     let mut small = case(&(rig(60, 355.0, 5)));
     small.recorded = 25;
     let text = recorded(&mut small);
-    let mut reader = nearwall::dataset::ImpactReader::new("impacts.csv", text.as_slice()).unwrap();
+    let mut reader = nearwall_lab::dataset::ImpactReader::new("impacts.csv", text.as_slice()).unwrap();
     let mut rows = 0;
     while let Some(row) = reader.next_row().unwrap() {
         assert!(row.unwrap().impact.normal_speed > 0.0);
@@ -812,7 +812,7 @@ fn an_even_stream_is_as_dense_at_the_wall_as_elsewhere() {
 // --- the examples ----------------------------------------------------------------------------------------------------
 
 fn example(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tutorials/standalone").join(name)
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("tutorials/standalone").join(name)
 }
 
 /// The wax rig against the paper's capture efficiencies and restitution (Figs 10, 12, 13), within sampling error.

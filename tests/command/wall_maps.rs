@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::report::{ours, write};
-use nearwall::report::openfoam_page;
-use nearwall::results::openfoam::{self, surfaces::read_last};
-use nearwall::results::surface::{
+use nearwall_lab::report::openfoam_page;
+use nearwall_lab::results::openfoam::{self, surfaces::read_last};
+use nearwall_lab::results::surface::{
     GRID, PlaneAxis, Quantity, Unrolled, Unrolling, WallFace, WallSurface, shapes, unroll,
 };
 

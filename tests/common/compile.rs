@@ -119,9 +119,18 @@ pub fn next_version() -> PathBuf {
     };
     let version = format!("version = \"{}\"\nedition", env!("CARGO_PKG_VERSION"));
     let manifest = std::fs::read_to_string(root().join("Cargo.toml")).unwrap();
-    let members = manifest.lines().find(|line| line.starts_with("members = ")).unwrap();
+    let line = |start: &str| manifest.lines().find(|line| line.starts_with(start)).unwrap();
+    let tests = &manifest[manifest.find("[[test]]").unwrap()..manifest.find("[dependencies]").unwrap()];
     let abi = nearwall::c_api::NW_ABI_VERSION;
-    edited("Cargo.toml", &[(&version, "version = \"99.0.0\"\nedition"), (members, "members = []")]);
+    edited(
+        "Cargo.toml",
+        &[
+            (&version, "version = \"99.0.0\"\nedition"),
+            (line("members = "), "members = []"),
+            (line("default-members = "), ""),
+            (tests, ""),
+        ],
+    );
     edited("build.rs", &[(&format!("libnearwall.so.{abi}"), "libnearwall.so.99")]);
     edited("src/c_api/mod.rs", &[(&format!("NW_ABI_VERSION: u32 = {abi};"), "NW_ABI_VERSION: u32 = 99;")]);
     write_if_other(&folder.join("Cargo.lock"), &std::fs::read(root().join("Cargo.lock")).unwrap());

@@ -1,7 +1,6 @@
 //! Fitted curves, level shifts and the inputs that a model file declares, against numbers by hand; the mean over draws against
 //! plain random draws.
 
-use nearwall::dataset::{ColumnMap, Measurements, WallChoice};
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
 use nearwall::impact::{EXTRA_INPUTS, INPUTS};
 use nearwall::model::ExtraInput;
@@ -244,44 +243,6 @@ fn blocks_have_declared_inputs_and_laws_alone_stay_prepared() {
     for (e_t, expected) in outcomes.tangential_restitution.into_iter().zip([0.76, 0.7, 0.76]) {
         close(e_t, expected);
     }
-}
-
-#[test]
-fn measured_data_state_declared_inputs() {
-    let model = model(DECLARED);
-    let walls = WallChoice::new(&model, None).unwrap();
-    let read = |text: &str, map: &str| {
-        let map = ColumnMap::from_toml("map.toml", map).unwrap();
-        Measurements::read("t.csv", text.as_bytes(), Some(&map), &walls).unwrap()
-    };
-    let data = read(
-        "v_n;e_t;humidity;operator;plate\n1;0,5;12,5;Bob;3\n1;0,5;NA;;3\n1;0,5;20;Eve;3\n1;0,5;wet;Ann;3\n",
-        "separator = \";\"\ndecimal = \",\"\n",
-    );
-    assert_eq!((data.given, data.given_extra), (vec!["v_n"], vec![0, 1]));
-    let extra: Vec<_> = data.rows.iter().map(|row| [row.impact.extra[0], row.impact.extra[1]]).collect();
-    assert_eq!(extra[0], [12.5, 1.0]);
-    assert!(extra[1].iter().all(|value| value.is_nan()));
-    assert!(extra[2][0] == 20.0 && model.extra_inputs()[1].is_unknown(extra[2][1]));
-    assert_eq!(data.rejected[0].reason, "humidity `wet` is not a number");
-    assert_eq!(data.columns.iter().map(|column| column.name.as_str()).collect::<Vec<_>>(), ["plate"]);
-    for note in [
-        "humidity is blank in 1 of 3 rows, taken as the default",
-        "operator is blank in 1 of 3 rows, without a correction",
-        "operator is no label of the model in 1 of 3 rows, without a correction",
-    ] {
-        assert!(data.notes.iter().any(|own| own == note), "{note} is not in {:?}", data.notes);
-    }
-    let data = read("v_n,e_t\n1,0.5\n", "");
-    assert_eq!(
-        (data.given_extra.len(), data.rows[0].impact),
-        (0, Impact { normal_speed: 1.0, ..Impact::default() })
-    );
-    assert!(
-        data.notes.iter().any(|note| note == "not in the file, assumed: humidity = 40"),
-        "{:?}",
-        data.notes
-    );
 }
 
 #[test]

@@ -9,7 +9,6 @@ mod common;
 
 mod capture;
 mod contact_integration;
-mod corpus;
 mod docs;
 mod droplet;
 mod effects;
@@ -21,4 +20,3 @@ mod oblique_impact;
 mod published_sticking;
 mod resuspension;
 mod slag_viscosity;
-mod slag_viscosity_study;

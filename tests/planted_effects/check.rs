@@ -18,7 +18,7 @@ fn close(ours: f64, other: f64, relative: f64, absolute: f64) {
 
 #[test]
 fn thornton_ning_agrees_with_forty_digits() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/thornton_ning.csv");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/thornton_ning.csv");
     let mut table = csv::Reader::from_path(path).unwrap();
     for row in table.deserialize::<[f64; 14]>() {
         let [e1, nu1, e2, nu2, density, d, adhesion, pressure, v, e_star, v_adh, v_y, v_s, e_n] =

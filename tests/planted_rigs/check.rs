@@ -1,8 +1,8 @@
 //! The generator against `nearwall simulate` and `predict`, with nothing planted.
 
 use nearwall::Model;
-use nearwall::dataset::RigMeasurements;
-use nearwall::rig::{CaseText, Forward, RigCase, Simulated, particles_for};
+use nearwall_lab::dataset::RigMeasurements;
+use nearwall_lab::rig::{CaseText, Forward, RigCase, Simulated, particles_for};
 use serde_json::{Value, json};
 
 use crate::effects::{CAUSES, null, plan};

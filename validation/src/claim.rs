@@ -1,6 +1,6 @@
 //! Claims: a statement of a source, the library's number, and the verdict.
 
-use nearwall::report::number;
+use nearwall_lab::report::number;
 
 /// A published quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]

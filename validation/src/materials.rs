@@ -2,7 +2,7 @@
 
 use crate::Result;
 use nearwall::material::{Library, Material, Property};
-use nearwall::report::{BarChart, Figure, Table, number};
+use nearwall_lab::report::{BarChart, Figure, Table, number};
 
 use crate::claim::Claim;
 use crate::study::{self, Extent, Part, Study};

@@ -1,6 +1,6 @@
 //! The page: what agrees, what differs and why, what cannot be checked and why.
 
-use nearwall::report::{Figure, Page, RowStatus, Table};
+use nearwall_lab::report::{Figure, Page, RowStatus, Table};
 
 use crate::claim::{Claim, Verdict};
 use crate::study::{Part, Study, table};

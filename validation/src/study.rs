@@ -1,6 +1,6 @@
 //! Studies: a source, its parts, and their claims.
 
-use nearwall::report::{Figure, Table};
+use nearwall_lab::report::{Figure, Table};
 
 use crate::claim::{Claim, Verdict};
 

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use nearwall::diagnose::{ImpactDiagnosis, Options};
 use nearwall::input::Document;
-use nearwall::report::diagnosis_page;
+use nearwall_lab::diagnose::{ImpactDiagnosis, Options};
+use nearwall_lab::report::diagnosis_page;
 use pyo3::prelude::*;
 
 use crate::table::Source;

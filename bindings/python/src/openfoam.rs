@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall::results::openfoam::{impact_history, surfaces, table};
+use nearwall_lab::results::openfoam::{impact_history, surfaces, table};
 use pyo3::prelude::*;
 
 use crate::table::{Cells, ForPython, floats};

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use nearwall::Model;
-use nearwall::dataset::{BadRow, ImpactReader, Row};
-use nearwall::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
+use nearwall_lab::dataset::{BadRow, ImpactReader, Row};
+use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use pyo3::prelude::*;
 
 use crate::table::{Cells, ForPython, Source, floats};

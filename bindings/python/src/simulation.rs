@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use nearwall::report::standalone_page;
-use nearwall::results::standalone::{ImpactRecorder, run as run_case, summary, write_deposits};
-use nearwall::rig::{DrawnModels, add_capture_bands};
-use nearwall::simulate::Case;
+use nearwall_lab::report::standalone_page;
+use nearwall_lab::results::standalone::{ImpactRecorder, run as run_case, summary, write_deposits};
+use nearwall_lab::rig::{DrawnModels, add_capture_bands};
+use nearwall_lab::simulate::Case;
 use pyo3::prelude::*;
 
 use crate::table::{Cells, ForPython};

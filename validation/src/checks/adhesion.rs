@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use nearwall::normal::{Contact, adhesive_velocity, restitution};
-use nearwall::report::{Chart, Figure, Table, number};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 
 use super::{DIAMETER, Result, wax_on_pyrex};
 use crate::claim::{Claim, Published};

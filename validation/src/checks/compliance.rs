@@ -4,8 +4,8 @@
 use std::f64::consts::PI;
 
 use nearwall::normal::Contact;
-use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{ImpactKinematics, LISTED_LAWS, Rebound, TangentialLaw, critical_angle};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 
 use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
 use crate::claim::{Claim, Published};

@@ -1,7 +1,7 @@
 //! Both normal laws beside an impact that is followed through time.
 
 use nearwall::normal::{Contact, NormalLaw};
-use nearwall::report::{Chart, Figure, number};
+use nearwall_lab::report::{Chart, Figure, number};
 
 use super::{DIAMETER as WAX, Result, wax_on};
 use crate::claim::{Claim, Published};

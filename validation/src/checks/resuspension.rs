@@ -1,6 +1,6 @@
 //! Resuspension of dry spheres by turbulent gas beside measured fractions.
 
-use nearwall::report::{Chart, Figure};
+use nearwall_lab::report::{Chart, Figure};
 
 use crate::claim::{Claim, Published};
 use crate::steps::even_in_logarithm;

@@ -1,7 +1,7 @@
 //! Sliding and rolling beside a rigid sphere with spin, integrated over the impulse.
 
-use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::{ImpactKinematics, Rebound, TangentialLaw, critical_angle};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 
 use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
 use crate::claim::{Claim, Published};

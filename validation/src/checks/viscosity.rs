@@ -1,10 +1,10 @@
 //! The viscosity laws of slags beside measured melts.
 
 use crate::Result;
-use nearwall::report::{Chart, Figure, number};
 use nearwall::slag::urbain::{KALMANOVITCH_FRANK, URBAIN};
 use nearwall::slag::watt_fereday::WATT_FEREDAY;
 use nearwall::slag::{SlagViscosity, ViscosityLaw};
+use nearwall_lab::report::{Chart, Figure, number};
 
 use crate::claim::{Claim, Published};
 use crate::study::{Part, table};

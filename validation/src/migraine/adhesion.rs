@@ -2,7 +2,7 @@
 
 use nearwall::ImpactRng;
 use nearwall::normal::{Contact, NormalLaw};
-use nearwall::report::{Chart, Figure, Table, number};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 
 use super::curves::contact;
 use super::published::{RATIO, SETS, Set};

@@ -1,8 +1,8 @@
 //! Laws of `e_t` (Fig 2, Eq. 4): constant, sliding, sliding or rolling, compliance, over the angles of each set.
 
-use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::tangential::TangentialLaw;
 use nearwall::{Impact, ImpactRng, Model};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 
 use super::curves::contact;
 use super::published::{E_T, RATIO, SETS, Set};

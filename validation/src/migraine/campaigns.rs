@@ -1,8 +1,8 @@
 //! The sets of tungsten as simulated campaigns, under the old defaults and under a model set to sets 1 and 4.
 
-use nearwall::report::{Chart, Figure, Table};
 use nearwall::tangential::TangentialLaw;
 use nearwall::{ImpactRng, Model};
+use nearwall_lab::report::{Chart, Figure, Table};
 
 use super::published::{PARTING, RATIO, SETS, Set};
 use super::sample::{Sampler, Spread};

@@ -2,7 +2,7 @@
 
 use nearwall::Model;
 use nearwall::normal::{Contact, NormalLaw, plastic_term, restitution, yield_velocity};
-use nearwall::report::{Chart, Figure, number};
+use nearwall_lab::report::{Chart, Figure, number};
 
 use super::published::{
     ALL_IMPACTS, DURATION, MOLTEN, PARTING, RATIO, RATIOS, SETS, STRONG_PERCENT, Set, TEMPERATURES,
@@ -191,7 +191,7 @@ fn window(plain: &Model) -> Result<[f64; 3]> {
     ])
 }
 
-fn window_table(plain: &Model) -> Result<nearwall::report::Table> {
+fn window_table(plain: &Model) -> Result<nearwall_lab::report::Table> {
     let (bare, clean) = (contact(plain, 1.0, Some(0.0))?, contact(plain, 1.0, None)?);
     let giga = |pressure: f64| number(pressure / 1e9);
     let row = |set: &Set| {
@@ -220,7 +220,7 @@ fn window_table(plain: &Model) -> Result<nearwall::report::Table> {
     ))
 }
 
-fn strength_table(plain: &Model) -> Result<nearwall::report::Table> {
+fn strength_table(plain: &Model) -> Result<nearwall_lab::report::Table> {
     let [slowest, fastest] = SETS[0].normal;
     let mut rows = Vec::new();
     for strength in [1.0 / STRENGTH_FACTOR, 1.0, STRENGTH_FACTOR] {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nearwall::ImpactRng;
 use nearwall::normal::{Contact, NormalLaw, restitution};
-use nearwall::report::{Chart, Figure, Table, number, round_edges};
+use nearwall_lab::report::{Chart, Figure, Table, number, round_edges};
 
 use super::curves::contact;
 use super::published::{PARTING, RATIO, near_normal};

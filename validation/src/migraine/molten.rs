@@ -2,8 +2,8 @@
 
 use nearwall::capture::{DropletNumbers, SPLASH_K};
 use nearwall::normal::NormalLaw;
-use nearwall::report::number;
 use nearwall::{Impact, ImpactRng, Model};
+use nearwall_lab::report::number;
 
 use super::published::{MOLTEN, MOLTEN_SIZE, MOLTEN_TEMPERATURES, RATIO, SETS};
 use super::sample::{Sampler, Spread};

@@ -1,7 +1,7 @@
 //! Set 4: impacts at 43 to 77 degrees from the normal, and what the paper's words fix of `oblique-angle`.
 
-use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::{ImpactRng, Model};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 use statrs::distribution::{Discrete, Hypergeometric};
 
 use super::published::{PARTING, RATIO, SETS, Set, near_normal};

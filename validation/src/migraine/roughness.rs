@@ -1,8 +1,8 @@
 //! MIGRAINE's two probabilistic models: adhesion at random (nanometres), geometry at random (micrometres).
 
 use nearwall::normal::{NormalLaw, restitution};
-use nearwall::report::{Chart, Figure, Table, number};
 use nearwall::{ImpactRng, Model};
+use nearwall_lab::report::{Chart, Figure, Table, number};
 
 use super::curves::contact;
 use super::published::{PARTING, RATIO, SETS};

@@ -1,8 +1,8 @@
 //! Figs 6 and 7: restitution against the impact angle.
 
 use nearwall::normal::Contact;
-use nearwall::report::{Chart, Figure};
 use nearwall::{Impact, Model, Outcome};
+use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
     DIAMETER, E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_LEAST, E_T_STEEP, FRICTION, GLANCING,

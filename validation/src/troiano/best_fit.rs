@@ -1,7 +1,7 @@
 //! Fig 6: Eq. 9 with constant e_n and e_t, fitted to what the stated values make of e_g.
 
 use nearwall::global_restitution;
-use nearwall::report::{Chart, Figure};
+use nearwall_lab::report::{Chart, Figure};
 
 use super::angle::{sliding, stated_e_n};
 use super::published::{

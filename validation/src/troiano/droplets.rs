@@ -2,8 +2,8 @@
 
 use nearwall::capture::{DropletNumbers, SPLASH_K};
 use nearwall::material::Molten;
-use nearwall::report::{Chart, Figure, number};
 use nearwall::{Impact, Model};
+use nearwall_lab::report::{Chart, Figure, number};
 
 use super::published::CAPTURE_120;
 use super::{Result, decide, model};

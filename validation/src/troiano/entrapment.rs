@@ -2,7 +2,7 @@
 
 use nearwall::capture::{CharFate, CharOnSlag, Judgement};
 use nearwall::material::Molten;
-use nearwall::report::{Table, number};
+use nearwall_lab::report::{Table, number};
 
 use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, Melt, TUBE_SPEED};
 use crate::steps::{even, range};

@@ -6,7 +6,7 @@ use nearwall::Model;
 use nearwall::normal::{
     Contact, NormalLaw, adhesive_velocity, plastic_term, reduced_modulus, restitution, yield_velocity,
 };
-use nearwall::report::number;
+use nearwall_lab::report::number;
 
 use super::published::{DIAMETER, PYREX, SOLIDS, TARGETS, YIELD_RATIO};
 use super::{Result, contact, model};

@@ -1,7 +1,7 @@
 //! Figs 10 and 11: powder on the target, dry and on syrup.
 
-use nearwall::report::{Chart, Figure, Table};
 use nearwall::{Impact, Model, Outcome, global_restitution};
+use nearwall_lab::report::{Chart, Figure, Table};
 
 use super::published::{
     CAMERA, DENSITY, DIAMETER, E_N_MEAN, E_N_SYRUP, E_N_THICK, E_N_THIN, SPEEDS, STEEP, Stated, YIELD_RATIO,

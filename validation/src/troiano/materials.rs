@@ -1,7 +1,7 @@
 //! Tables 1 and 2, and the melts of section 3.1.
 
 use nearwall::material::Library;
-use nearwall::report::{Table, number};
+use nearwall_lab::report::{Table, number};
 
 use super::published::{
     CAMERA, COAL_SLAG, DENSITY, MELTING, MOLTEN_WAX, Melt, SLAG, SOLIDS, Solid, TARGETS, TUBE_SPEED,

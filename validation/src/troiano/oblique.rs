@@ -1,8 +1,8 @@
 //! Equations 7 to 14: the oblique impact, as printed and as it has to be.
 
-use nearwall::report::number;
 use nearwall::tangential::critical_angle;
 use nearwall::{Impact, ImpactRng, global_restitution};
+use nearwall_lab::report::number;
 
 use super::angle::{sliding, stated_e_n};
 use super::published::{

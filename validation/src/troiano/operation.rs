@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use nearwall::report::{Table, number};
+use nearwall_lab::report::{Table, number};
 
 use super::passes;
 use super::published::{FEED, LEAST_ANGLE, OPERATIONS, Operation, SHALLOW, TUBE};

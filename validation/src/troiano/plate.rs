@@ -1,8 +1,8 @@
 //! Fig. 3: the plate below the tube, and what the camera sees there.
 
 use nearwall::normal::Contact;
-use nearwall::report::{Chart, Figure, Table};
-use nearwall::simulate::Hit;
+use nearwall_lab::report::{Chart, Figure, Table};
+use nearwall_lab::simulate::Hit;
 
 use super::published::{CAMERA, DIAMETER, E_N_MEAN, TUBE_SPEED, YIELD_RATIO};
 use super::tube::{AIR_SPEED, ROOM, hits, read, wax};

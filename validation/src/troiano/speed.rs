@@ -2,7 +2,7 @@
 
 use nearwall::Model;
 use nearwall::normal::{Contact, NormalLaw, restitution, yield_velocity};
-use nearwall::report::{Chart, Figure};
+use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
     DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, HARD_SPHERE, MODULUS_SPREAD, PYREX, SOLIDS, SPEEDS,

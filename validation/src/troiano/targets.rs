@@ -1,8 +1,8 @@
 //! Fig 9: four targets.
 
 use nearwall::normal::{Contact, restitution, yield_velocity};
-use nearwall::report::{BarChart, Figure, Table};
 use nearwall::{Model, global_restitution};
+use nearwall_lab::report::{BarChart, Figure, Table};
 
 use super::published::{DIAMETER, E_N_MEAN, E_N_MEAN_WAX, STEEP, TARGETS, Target, YIELD_RATIO};
 use super::{Result, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};

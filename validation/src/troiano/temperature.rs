@@ -1,7 +1,7 @@
 //! Figs 12 and 13: capture and restitution as the wax melts, and as coal burns off.
 
-use nearwall::report::{Chart, Figure};
 use nearwall::{Impact, Model, Outcome};
+use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
     CAPTURE_70, CAPTURE_105, CONVERSION, E_N_MEAN, FLOW_TEST, IMPACTS, MELTING, STEEP, TUBE_SPEED,

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use nearwall::report::{Chart, Figure, Table, number};
-use nearwall::simulate::{self, Case, Hit, Shape};
+use nearwall_lab::report::{Chart, Figure, Table, number};
+use nearwall_lab::simulate::{self, Case, Hit, Shape};
 
 use super::published::{DENSITY, FUSION_TIME, RESIDENCE, TUBE, TUBE_LENGTH, TUBE_SPEED};
 use super::{Result, passes};

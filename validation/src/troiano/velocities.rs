@@ -2,7 +2,7 @@
 
 use nearwall::Model;
 use nearwall::normal::{Contact, NormalLaw, Speeds, yield_velocity};
-use nearwall::report::Table;
+use nearwall_lab::report::Table;
 
 use super::equations::{AS_PRINTED, equation_1};
 use super::published::{DIAMETER, TARGETS, Target, YIELD_RATIO};

@@ -1,0 +1,105 @@
+//! `nearwall compare`: models ranked on one file of measured impacts.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use nearwall::Model;
+use nearwall_lab::atomic_file::{AtomicFile, refused};
+use nearwall_lab::dataset::{ColumnMap, WallChoice};
+use nearwall_lab::diagnose::comparison::{Candidate, Comparison, compare};
+use nearwall_lab::report::{comparison_page, comparison_text};
+
+use crate::{CommandResult, progress};
+
+/// Ranks models on measured impacts by held-out error with intervals
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  nearwall compare impacts.csv --models wax.toml softer.toml\n  \
+    nearwall compare lab.csv --columns lab.map.toml --models wax.toml softer.toml --out compared\n\n\
+    Prints the ranking, and with --out writes compare.json and compare.html into the folder. The data file is that of\n\
+    `nearwall diagnose` (docs/data-file.md); rows of one `series` are drawn together. docs/compare.md describes the method.")]
+pub struct Arguments {
+    /// The measured impacts
+    data: PathBuf,
+    /// The model files, two or more
+    #[arg(long, required = true, num_args = 2.., value_name = "M.toml")]
+    models: Vec<PathBuf>,
+    /// Column map that renames and converts the columns of a laboratory's own file
+    #[arg(long, value_name = "MAP.toml")]
+    columns: Option<PathBuf>,
+    /// Seed of the resamples; the same seed gives the same bytes
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Output folder; without it nothing is written
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
+    #[arg(long)]
+    wall: Option<String>,
+    /// Rig whose data are compared; not supported yet
+    #[arg(long, value_name = "CASE.toml")]
+    case: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    if let Some(case) = &arguments.case {
+        let problem =
+            "data of rigs are not supported yet; leave out --case to compare models on single impacts";
+        return Err(format!("--case {}: {problem}", case.display()).into());
+    }
+    let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
+    let models: Vec<Model> =
+        arguments.models.iter().map(|path| Model::from_file(path)).collect::<Result<_, _>>()?;
+    let candidate = |(path, model): (&PathBuf, _)| read(arguments, map.as_ref(), path, model);
+    let candidates: Vec<Candidate<'_>> =
+        arguments.models.iter().zip(&models).map(candidate).collect::<Result<_, _>>()?;
+    let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
+    for note in &notes {
+        eprintln!("nearwall: {note}");
+    }
+    let file = arguments.data.display().to_string();
+    let comparison = compare(&candidates, arguments.seed).map_err(|error| format!("{file}: {error}"))?;
+    let mut text = comparison_text(&comparison);
+    if let Some(folder) = &arguments.out {
+        write(arguments, folder, &comparison, &notes)?;
+        text += &format!("\nopen {}\n", crate::report::whole(&folder.join("compare.html")).display());
+    }
+    crate::print(&text)
+}
+
+/// The data as the walls of a model read them.
+fn read<'a>(
+    arguments: &Arguments,
+    map: Option<&ColumnMap>,
+    path: &Path,
+    model: &'a Model,
+) -> Result<Candidate<'a>, Box<dyn std::error::Error>> {
+    let file = arguments.data.display().to_string();
+    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
+    let name = path.display().to_string();
+    let of_model = |error| format!("{name}: {error}");
+    let walls = WallChoice::new(model, arguments.wall.as_deref()).map_err(of_model)?;
+    let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
+    let source = bar.wrap_read(source);
+    let read = Candidate::read(name.clone(), model, &file, source, map, &walls);
+    Ok(read.map_err(|error| match error {
+        nearwall_lab::dataset::DatasetError::Wall(error) => of_model(error),
+        other => other.to_string(),
+    })?)
+}
+
+/// Writes both files, or none.
+fn write(arguments: &Arguments, folder: &Path, comparison: &Comparison, notes: &[String]) -> CommandResult {
+    let page = comparison_page(comparison, &arguments.data.display().to_string(), notes)?;
+    let json = serde_json::to_string_pretty(comparison)? + "\n";
+    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    let mut inputs: Vec<&Path> =
+        arguments.models.iter().chain(&arguments.columns).map(PathBuf::as_path).collect();
+    inputs.push(&arguments.data);
+    let write = |(name, text): (&str, &str)| {
+        let mut file = AtomicFile::new(&folder.join(name), &inputs)?;
+        file.put(text)?;
+        Ok::<_, String>(file)
+    };
+    let files = [("compare.json", json.as_str()), ("compare.html", &page)];
+    Ok(AtomicFile::commit(files.into_iter().map(write).collect::<Result<Vec<_>, _>>()?)?)
+}

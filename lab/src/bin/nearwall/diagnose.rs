@@ -1,0 +1,165 @@
+//! `nearwall diagnose`: the effects that a model lacks to explain measured impacts, and the extended model.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use nearwall::input::Document;
+use nearwall_lab::atomic_file::{AtomicFile, refused};
+use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options};
+use nearwall_lab::report::diagnosis_page;
+
+use crate::{CommandResult, diagnose_rig, progress};
+
+/// Finds the effects that a model lacks to explain measured impacts, and extends the model
+#[derive(clap::Args)]
+#[command(group(clap::ArgGroup::new("rig").args(["case", "impacts"])))]
+#[command(after_help = "Example:\n  nearwall diagnose impacts.csv --model wax.toml --out diagnosis\n  \
+    nearwall diagnose lab.csv --columns lab.map.toml --group batch --model wax.toml --out diagnosis\n  \
+    nearwall diagnose rig.csv --case case.toml --draws 39 --out diagnosis\n  \
+    nearwall diagnose impacts.csv --model wax.toml --draws 39 --out diagnosis\n  \
+    nearwall diagnose deposits.csv --impacts runs --model wax.toml --out diagnosis --draws 39\n\n\
+    Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
+    e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
+    file and --columns, docs/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
+    settings of the case, and observables as captured@WALL (docs/rig-diagnosis.md).")]
+pub struct Arguments {
+    /// The measured impacts
+    pub(crate) data: PathBuf,
+    /// The base model
+    #[arg(long, required_unless_present = "case")]
+    model: Option<PathBuf>,
+    /// A case of `nearwall simulate`: the rows are experiments on a rig, which it simulates
+    #[arg(long, value_name = "CASE.toml", conflicts_with_all = ["model", "columns", "group", "wall"])]
+    pub(crate) case: Option<PathBuf>,
+    /// OpenFOAM cases with recorded impacts: the rows are experiments on a rig; their column `experiment` names the
+    /// sub-folder of the case. --model is the model file of these runs
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["case", "columns", "group", "wall"])]
+    impacts: Option<PathBuf>,
+    /// Model files to draw from the fit, written to draws/ in the output folder; the range over 39 is a 95 % band
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) draws: usize,
+    /// Output folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Seed of the split into fitted and held-out rows; the same seed gives the same bytes
+    #[arg(long, default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Accepted share of false discoveries
+    #[arg(long, default_value_t = 0.05)]
+    pub(crate) level: f64,
+    /// Column map that renames and converts the columns of a laboratory's own file
+    #[arg(long, value_name = "MAP.toml")]
+    columns: Option<PathBuf>,
+    /// Column that tells groups of rows apart that may share an error; its numbers are labels. By default columns such as
+    /// series, day, batch or lab (docs/data-file.md lists them)
+    #[arg(long, value_name = "COLUMN")]
+    group: Option<String>,
+    /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
+    #[arg(long)]
+    wall: Option<String>,
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    if !(arguments.level > 0.0 && arguments.level < 0.5) {
+        return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
+    }
+    match (&arguments.case, &arguments.impacts, &arguments.model) {
+        (Some(case), ..) => diagnose_rig::run(arguments, case),
+        (None, Some(folder), Some(model)) => diagnose_rig::run_recorded(arguments, folder, model),
+        (None, None, Some(model)) => run_impacts(arguments, model),
+        (None, _, None) => Err("give --model M.toml, or --case CASE.toml for experiments on a rig".into()),
+    }
+}
+
+/// Diagnoses measured impacts.
+fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
+    // Read only once: the file may be replaced while this runs.
+    let document = Document::from_file(file_of_model)?;
+    let (columns, wall) = (arguments.columns.as_deref(), arguments.wall.as_deref());
+    let options = Options { seed: arguments.seed, level: arguments.level, group: arguments.group.clone() };
+    let diagnosis = ImpactDiagnosis::new(document, columns, wall, options)?;
+    let file = arguments.data.display().to_string();
+    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
+    let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
+    let data = diagnosis.read(&file, bar.wrap_read(source))?;
+    bar.finish_and_clear();
+    for note in &data.notes {
+        eprintln!("nearwall: {note}");
+    }
+    let bar = progress::spinner("candidates tested");
+    let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    if arguments.draws > 0 && draws.is_empty() {
+        eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
+    }
+    write(arguments, file_of_model, &diagnosis, &extended, &draws)?;
+    crate::print(&summary(&diagnosis, &arguments.out))
+}
+
+/// Writes all output files, or none.
+fn write(
+    arguments: &Arguments,
+    model: &Path,
+    diagnosis: &Diagnosis,
+    extended: &str,
+    draws: &[String],
+) -> CommandResult {
+    let Arguments { data, out, columns, .. } = arguments;
+    let names = [data.as_path(), model].map(|path| path.display().to_string());
+    let page = diagnosis_page(diagnosis, &names, extended)?;
+    let json = serde_json::to_string_pretty(diagnosis)? + "\n";
+    std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
+    let inputs: Vec<&Path> = [data.as_path(), model].into_iter().chain(columns.as_deref()).collect();
+    let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
+    let named = results.into_iter().map(|(name, text)| (name.to_owned(), text));
+    commit(out, &inputs, named.chain(drawn_files(out, draws)?))
+}
+
+/// Writes all of these names and texts into a folder, or none; no file may be one of `inputs`.
+pub(crate) fn commit<'a>(
+    out: &Path,
+    inputs: &[&Path],
+    results: impl Iterator<Item = (String, &'a str)>,
+) -> CommandResult {
+    let write = |(name, text): (String, &str)| {
+        let mut file = AtomicFile::new(&out.join(name), inputs)?;
+        file.put(text)?;
+        Ok::<_, String>(file)
+    };
+    let files = results.map(write).collect::<Result<Vec<_>, _>>()?;
+    Ok(AtomicFile::commit(files)?)
+}
+
+/// Names and texts of drawn model files in the folder `draws`, which is created if there are any.
+pub(crate) fn drawn_files<'a>(
+    out: &Path,
+    draws: &'a [String],
+) -> Result<impl Iterator<Item = (String, &'a str)>, String> {
+    if !draws.is_empty() {
+        let folder = out.join("draws");
+        std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;
+    }
+    let name = |number: usize| format!("draws/{:02}.toml", number + 1);
+    Ok(draws.iter().enumerate().map(move |(number, text)| (name(number), text.as_str())))
+}
+
+pub(crate) fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
+    let mut text = format!("{}\n", diagnosis.verdict);
+    for finding in &diagnosis.findings {
+        let parameters: Vec<String> = finding
+            .parameters
+            .iter()
+            .map(|(name, p)| format!("{name} = {} ({} to {}) {}", p.value, p.low, p.high, p.unit))
+            .collect();
+        text += &format!("  {}: {}\n", finding.cause, parameters.join(", "));
+    }
+    let rows = &diagnosis.rows;
+    if rows.left_out() > 0 {
+        text += &format!(
+            "{} of {} rows were left out; report.html lists them with the reasons\n",
+            rows.left_out(),
+            rows.read
+        );
+    }
+    text + &format!("open {}\n", crate::report::whole(&folder.join("report.html")).display())
+}

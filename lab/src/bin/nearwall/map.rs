@@ -1,0 +1,146 @@
+//! `nearwall map`: what a model decides over any two inputs of an impact.
+
+use std::path::{Path, PathBuf};
+
+use nearwall::Model;
+use nearwall::impact::{INPUTS, Impact};
+use nearwall_lab::atomic_file::{AtomicFile, of_csv, refused};
+use nearwall_lab::dataset::WallChoice;
+use nearwall_lab::map::{Axis, Cell, DEFAULT_POINTS, Map, Setting, default_axes};
+use nearwall_lab::report::map_page;
+
+use crate::CommandResult;
+
+/// Draws e_n, e_t, sticking probability and regime over any two inputs
+#[derive(clap::Args)]
+#[command(after_help = after_help())]
+pub struct Arguments {
+    /// The model file
+    model: PathBuf,
+    /// The input along the x axis, its range and its number of points; by default v_n
+    #[arg(long, value_name = "INPUT=LOW:HIGH[:N]")]
+    x: Option<Axis>,
+    /// The input along the y axis; by default the first of T_w, d, T_p, conversion, v_t that changes the outcome
+    #[arg(long, value_name = "INPUT=LOW:HIGH[:N]")]
+    y: Option<Axis>,
+    /// Value of another input; may be given several times
+    #[arg(long, value_name = "INPUT=VALUE")]
+    set: Vec<Setting>,
+    /// The wall that is hit; by default the wall `default`, then the only wall
+    #[arg(long)]
+    wall: Option<String>,
+    /// Output folder
+    #[arg(short, value_name = "DIR", default_value = "map")]
+    output: PathBuf,
+}
+
+fn after_help() -> String {
+    let inputs: Vec<String> = INPUTS.iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
+    format!(
+        "Example:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700 --set v_n=5 -o map\n\n\
+         Writes map.html and map.csv into the folder. The inputs are\n{}.\n\
+         An axis has {DEFAULT_POINTS} points, evenly spaced in the logarithm from a ratio of 30 of both ends on. docs/map.md \n\
+         describes the numbers.",
+        inputs.join(", ")
+    )
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    let model = Model::from_file(&arguments.model)?;
+    let walls = WallChoice::new(&model, arguments.wall.as_deref())?;
+    walls.check(false)?;
+    let wall = walls.of(None)?;
+    let fixed = fixed_inputs(arguments)?;
+    let axes = default_axes(&model, wall, &fixed, [arguments.x, arguments.y], DEFAULT_POINTS);
+    let axes = axes.ok_or("no default range for the axes; give --x and --y")?;
+    let map = Map::new(&model, wall, axes, fixed);
+    if let Some(reason) = map.first_refusal.as_ref().filter(|_| map.undecided() == map.cells.len()) {
+        return Err(
+            format!("{}: no impact of this map can be decided: {reason}", arguments.model.display()).into()
+        );
+    }
+    write(arguments, &map)?;
+    crate::print(&summary(&map, &arguments.output))
+}
+
+/// The inputs that are the same in all impacts.
+fn fixed_inputs(arguments: &Arguments) -> Result<Impact, String> {
+    let mut fixed = Impact { normal_speed: 1.0, ..Impact::default() };
+    let axes: Vec<&str> = [arguments.x, arguments.y].iter().flatten().map(|axis| axis.input().name).collect();
+    if let [x, y] = axes[..]
+        && x == y
+    {
+        return Err(format!("--y {y}: the input is already along x"));
+    }
+    for (place, setting) in arguments.set.iter().enumerate() {
+        let name = setting.input().name;
+        if axes.contains(&name) {
+            return Err(format!("--set {name}: the input is along an axis"));
+        }
+        if arguments.set[..place].iter().any(|other| other.input().name == name) {
+            return Err(format!("--set {name}: given twice"));
+        }
+        setting.apply(&mut fixed);
+    }
+    Ok(fixed)
+}
+
+/// Writes both files, or none.
+fn write(arguments: &Arguments, map: &Map) -> CommandResult {
+    let Arguments { model, output, .. } = arguments;
+    let page = map_page(map, &model.display().to_string())?;
+    std::fs::create_dir_all(output).map_err(|error| refused(output, &error))?;
+    let place = output.join("map.csv");
+    let mut table = AtomicFile::new(&place, &[model])?;
+    write_table(map, &mut table).map_err(|error| refused(&place, &of_csv(error)))?;
+    let mut html = AtomicFile::new(&output.join("map.html"), &[model])?;
+    html.put(&page)?;
+    Ok(AtomicFile::commit(vec![table, html])?)
+}
+
+/// One row for each impact; blank where nothing is decided, and `e_n`, `e_t` where no particle rebounds.
+fn write_table(map: &Map, file: &mut AtomicFile) -> Result<(), csv::Error> {
+    let mut writer = csv::Writer::from_writer(file);
+    let [x, y] = [map.x.input().name, map.y.input().name];
+    writer.write_record([x, y, "e_n", "e_t", "p_stick", "regime", "outside_range"])?;
+    for ([x, y], cell) in map.places().zip(&map.cells) {
+        let decided = cell.map_or_else(Default::default, |cell| texts(&cell));
+        writer.write_record([x.to_string(), y.to_string()].iter().chain(&decided))?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// The cells of a decided impact.
+fn texts(cell: &Cell) -> [String; 5] {
+    let restitution =
+        |which: usize| cell.restitution.map_or(String::new(), |pair| format!("{:.16e}", pair[which]));
+    [
+        restitution(0),
+        restitution(1),
+        format!("{:.16e}", cell.sticking_probability),
+        cell.regime.name().to_owned(),
+        cell.outside_range.to_string(),
+    ]
+}
+
+fn summary(map: &Map, folder: &Path) -> String {
+    let all = map.cells.len();
+    let mut text = format!(
+        "{} impacts on the wall {}: {} x {}\n",
+        all,
+        map.wall,
+        map.x.input().name,
+        map.y.input().name
+    );
+    if let Some(reason) = &map.first_refusal {
+        text += &format!(
+            "{} of {all} could not be decided and are blank; the first: {reason}\n",
+            map.undecided()
+        );
+    }
+    if map.outside_range() > 0 {
+        text += &format!("{} of {all} lie outside the range that a law is stated for\n", map.outside_range());
+    }
+    text + &format!("open {}\n", crate::report::whole(&folder.join("map.html")).display())
+}

@@ -1,0 +1,289 @@
+//! `nearwall predict`: the model's prediction of each impact in a CSV file.
+
+use std::fs::File;
+use std::io::{ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+use nearwall::impact::INPUTS;
+use nearwall::{ImpactRng, Model};
+use nearwall_lab::atomic_file::{AtomicFile, refused};
+use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, Row};
+use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
+use rayon::prelude::*;
+
+use crate::{CommandResult, progress};
+
+/// Adds the model's e_n, e_t, p_stick and regime to each impact
+#[derive(clap::Args)]
+#[command(after_help = after_help())]
+pub struct Arguments {
+    /// The impacts, one per row
+    impacts: PathBuf,
+    /// The model file
+    #[arg(long)]
+    model: PathBuf,
+    /// Output file; standard output by default
+    #[arg(short)]
+    output: Option<PathBuf>,
+    /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
+    #[arg(long)]
+    wall: Option<String>,
+    /// Folder of model files that `nearwall diagnose --draws` wrote: adds the 95 % bands of e_n, e_t and p_stick
+    #[arg(long, value_name = "FOLDER", conflicts_with = "explain")]
+    draws: Option<PathBuf>,
+    /// Print the effect of each term on the impact on this line of the file, instead of the table
+    #[arg(long, value_name = "LINE")]
+    explain: Option<u64>,
+}
+
+fn after_help() -> String {
+    let inputs: Vec<String> =
+        INPUTS[1..].iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
+    format!(
+        "Examples:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n  \
+         nearwall predict --model diagnosis/extended.toml --draws diagnosis/draws impacts.csv -o predicted.csv\n\n\
+         impacts.csv needs a column v_n [m/s]. Optional columns are wall and the other inputs:\n{}.\n\
+         Every other column is kept. A row that cannot be used is reported on standard error and left out. The command\n\
+         fails only if no row can be used.",
+        inputs.join(", ")
+    )
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    let model = Model::from_file(&arguments.model)?;
+    let file = arguments.impacts.display().to_string();
+    let source = File::open(&arguments.impacts).map_err(|error| format!("{file}: {error}"))?;
+    let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "predicting");
+    let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?.with_extra_inputs(model.extra_inputs());
+    let mut predictor = Predictor::new(&model, arguments.wall.as_deref(), &reader)?;
+    if let Some(line) = arguments.explain {
+        return explain(&predictor, &mut reader, line);
+    }
+    for note in file_notes(&file, &reader) {
+        eprintln!("nearwall: {note}");
+    }
+    if let Some(folder) = &arguments.draws {
+        predictor.read_draws(folder)?;
+    }
+    let Some(path) = &arguments.output else {
+        let done = predict(&predictor, &mut reader, &mut std::io::stdout().lock());
+        return done.map_err(|error| at(Path::new("standard output"), error));
+    };
+    let mut output = AtomicFile::new(path, &[&arguments.impacts, &arguments.model])?;
+    predict(&predictor, &mut reader, &mut output).map_err(|error| at(path, error))?;
+    Ok(AtomicFile::commit(vec![output])?)
+}
+
+/// Adds the file to a write error, except for a closed pipe.
+fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Error> {
+    match error.downcast::<std::io::Error>() {
+        Ok(error) if error.kind() == ErrorKind::BrokenPipe => error,
+        Ok(error) => refused(place, &error).into(),
+        Err(other) => other,
+    }
+}
+
+fn predict(
+    predictor: &Predictor<'_>,
+    reader: &mut ImpactReader<impl Read + Send>,
+    output: &mut impl Write,
+) -> CommandResult {
+    output.write_all(&header(predictor, reader))?;
+    let mut notes = RowNotes::default();
+    let (mut block, mut next) = (Block::default(), Block::default());
+    block.read(reader);
+    while block.count > 0 {
+        // The next rows are read meanwhile.
+        rayon::join(|| block.predict(predictor), || next.read(reader));
+        block.write(output, &mut notes)?;
+        if let Some(error) = block.fault {
+            return Err(error.into());
+        }
+        std::mem::swap(&mut block, &mut next);
+    }
+    if let Some(error) = block.fault {
+        return Err(error.into());
+    }
+    output.flush()?;
+    report(&notes)
+}
+
+/// The names of the columns of the file and of those that are added.
+fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> Vec<u8> {
+    let mut text = Vec::new();
+    write_cells(reader.headers(), &mut text);
+    let bands: &[&str] = if predictor.has_bands() { &BANDS } else { &[] };
+    for name in VALUES.iter().chain(&["regime"]).chain(bands) {
+        // A column of the file keeps its name.
+        let more = if reader.column(name).is_some() { "_predicted" } else { "" };
+        text.extend([",", name, more].into_iter().flat_map(str::bytes));
+    }
+    text.push(b'\n');
+    text
+}
+
+/// Rows that are predicted together, and rows of one task.
+const BLOCK: usize = 8192;
+const TASK: usize = 256;
+
+/// Consecutive rows of the file. The memory of a block is used again by a later one.
+#[derive(Default)]
+struct Block {
+    /// Rows, and why those that cannot be used are bad.
+    rows: Vec<(Row, Option<BadRow>)>,
+    /// Number of rows that were read.
+    count: usize,
+    /// Why no more rows can be read.
+    fault: Option<DatasetError>,
+    /// What was predicted for each task.
+    parts: Vec<Predicted>,
+}
+
+impl Block {
+    /// Reads the next rows in place of these.
+    fn read(&mut self, reader: &mut ImpactReader<impl Read>) {
+        (self.count, self.fault) = (0, None);
+        while self.count < BLOCK {
+            if self.count == self.rows.len() {
+                self.rows.push(Default::default());
+            }
+            let (row, bad) = &mut self.rows[self.count];
+            match reader.next_into(row) {
+                Ok(Some(next)) => *bad = next.err(),
+                Ok(None) => return,
+                Err(error) => {
+                    self.fault = Some(error);
+                    return;
+                }
+            }
+            self.count += 1;
+        }
+    }
+
+    /// Predicts the rows on all cores; the parts have their order.
+    fn predict(&mut self, predictor: &Predictor<'_>) {
+        let tasks = self.rows[..self.count].par_chunks(TASK);
+        self.parts.resize_with(tasks.len(), Predicted::default);
+        tasks.zip(&mut self.parts).for_each(|(rows, part)| part.predict(predictor, rows));
+    }
+
+    /// Writes the rows and adds their notes.
+    fn write(&mut self, output: &mut impl Write, notes: &mut RowNotes) -> std::io::Result<()> {
+        for part in &mut self.parts {
+            for BadRow { line, reason } in part.left_out.drain(..) {
+                eprintln!("nearwall: line {line} left out: {reason}");
+            }
+            output.write_all(&part.text)?;
+            notes.add(std::mem::take(&mut part.notes));
+        }
+        Ok(())
+    }
+}
+
+/// Predicted rows as text, and the notes about them.
+#[derive(Default)]
+struct Predicted {
+    text: Vec<u8>,
+    left_out: Vec<BadRow>,
+    notes: RowNotes,
+}
+
+impl Predicted {
+    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(Row, Option<BadRow>)]) {
+        self.text.clear();
+        for (row, bad) in rows {
+            match self.notes.predict(predictor, bad.as_ref().map_or(Ok(row), Err)) {
+                Ok((row, predicted)) => write_row(row, &predicted, &mut self.text),
+                Err(bad) => self.left_out.push(bad),
+            }
+        }
+    }
+}
+
+/// Writes the cells of a row and its prediction, each number with as few digits as give the same bits when they are read.
+fn write_row(row: &Row, predicted: &PredictedRow, text: &mut Vec<u8>) {
+    let mut digits = zmij::Buffer::new();
+    let mut write_number = |value: f64, text: &mut Vec<u8>| {
+        text.push(b',');
+        text.extend_from_slice(digits.format(value).as_bytes());
+    };
+    write_cells(&row.cells, text);
+    for value in predicted.values {
+        write_number(value, text);
+    }
+    text.push(b',');
+    text.extend_from_slice(predicted.regime.as_bytes());
+    for value in predicted.bands.as_flattened() {
+        write_number(*value, text);
+    }
+    text.push(b'\n');
+}
+
+/// Writes cells, in quotation marks where they have to be.
+fn write_cells(cells: &csv::StringRecord, text: &mut Vec<u8>) {
+    let is_special = |byte: u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
+    // Most rows need no quotation marks. All bytes are compared, which is faster than to stop at the first.
+    let any_special = cells.as_slice().bytes().fold(false, |found, byte| found | is_special(byte));
+    for (index, cell) in cells.iter().enumerate() {
+        if index > 0 {
+            text.push(b',');
+        }
+        if any_special && cell.bytes().any(is_special) {
+            text.push(b'"');
+            text.extend(cell.replace('"', "\"\"").bytes());
+            text.push(b'"');
+        } else {
+            text.extend_from_slice(cell.as_bytes());
+        }
+    }
+}
+
+/// Prints the notes about all rows.
+fn report(notes: &RowNotes) -> CommandResult {
+    for warning in notes.warnings() {
+        eprintln!("nearwall: {warning}");
+    }
+    if let Some(outside) = notes.outside_range() {
+        eprintln!("nearwall: {outside} (see --explain LINE, `nearwall materials NAME`)");
+    }
+    let (predicted, left_out) = (notes.predicted(), notes.left_out());
+    if left_out > 0 {
+        eprintln!("nearwall: {predicted} rows predicted, {left_out} left out");
+    }
+    if predicted == 0 {
+        return Err("no row could be used".into());
+    }
+    Ok(())
+}
+
+/// Prints the evaluation of one impact, one line per term.
+fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line: u64) -> CommandResult {
+    let model = predictor.model();
+    while let Some(next) = reader.next_row()? {
+        match next {
+            Err(bad) if bad.line == line => return Err(format!("line {line}: {}", bad.reason).into()),
+            Ok(row) if row.line == line => {
+                let wall = predictor.wall(&row)?;
+                let (outcome, entries) = model.explain(wall, &row.impact, ImpactRng::default())?;
+                let speeds = model.speeds(wall, &row.impact)?;
+                let mut text = format!(
+                    "wall {}, regime {}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",
+                    model.walls()[wall].name(),
+                    outcome.regime.name(),
+                    speeds.adhesive,
+                    speeds.yielding,
+                    speeds.sticking
+                );
+                if outcome.outside_range {
+                    text += "outside the valid range of a property, a law or a fitted term\n";
+                }
+                for entry in entries {
+                    text += &format!("{:<24} {:<22} {:.6}\n", entry.term, entry.quantity, entry.value);
+                }
+                return crate::print(&text);
+            }
+            _ => {}
+        }
+    }
+    Err(format!("--explain {line}: there is no row on this line (the header is line 1)").into())
+}

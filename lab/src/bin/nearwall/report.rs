@@ -1,0 +1,54 @@
+//! `nearwall report`: the page of finished OpenFOAM cases.
+
+use std::path::{Path, PathBuf};
+
+use nearwall_lab::atomic_file::AtomicFile;
+use nearwall_lab::report::{openfoam_page, sweep};
+use nearwall_lab::results::openfoam;
+
+use crate::CommandResult;
+
+/// Plots finished OpenFOAM cases, one or several side by side
+#[derive(clap::Args)]
+#[command(
+    after_help = "Example:\n  nearwall report run/nearWall run/localInteraction run/standardWall -o report.html\n\n\
+    Reads postProcessing/nearWallInteraction, log.* (the stock models' parcel fates), postProcessing/lagrangian\n\
+    (patchPostProcessing) and the parcels of the last time, as far as they exist; the page lists what is missing."
+)]
+pub struct Arguments {
+    /// Folders of finished cases, or one table of runs (.csv) with simulated and published numbers
+    #[arg(required = true)]
+    cases: Vec<PathBuf>,
+    /// Output file; by default report.html in the folder of a single case, else in the current folder
+    #[arg(short, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+pub fn run(arguments: &Arguments) -> CommandResult {
+    if let [table] = arguments.cases.as_slice()
+        && table.extension().is_some_and(|ending| ending == "csv")
+    {
+        let output = arguments.output.clone().unwrap_or_else(|| table.with_extension("html"));
+        return write(&output, &[table], &sweep::page(table)?);
+    }
+    let folders: Vec<&Path> = arguments.cases.iter().map(PathBuf::as_path).collect();
+    let results = openfoam::read_all(&folders)?;
+    let output = match (&arguments.output, arguments.cases.as_slice()) {
+        (Some(output), _) => output.clone(),
+        (None, [case]) => case.join("report.html"),
+        (None, _) => PathBuf::from("report.html"),
+    };
+    write(&output, &[], &openfoam_page(&results)?)
+}
+
+/// The absolute path, for a browser.
+pub fn whole(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+fn write(output: &Path, inputs: &[&Path], page: &str) -> CommandResult {
+    let mut aside = AtomicFile::new(output, inputs)?;
+    aside.put(page)?;
+    AtomicFile::commit(vec![aside])?;
+    crate::print(&format!("open {}\n", whole(output).display()))
+}

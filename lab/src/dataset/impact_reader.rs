@@ -1,0 +1,170 @@
+//! Reads impacts one at a time.
+
+use std::io::Read;
+
+use super::csv_table::{CsvTable, Layout};
+use super::impact_velocity::NO_NORMAL_SPEED;
+use super::inputs::InputColumns;
+use super::notes;
+use super::number::{NumberColumn, NumberStyle};
+use super::unit::Unit;
+use super::{BadRow, DatasetError};
+use nearwall::impact::{INPUTS, Impact};
+use nearwall::model::ExtraInput;
+
+/// One row of the file.
+#[derive(Debug, Clone, Default)]
+pub struct Row {
+    /// Line in the file, counted from 1.
+    pub line: u64,
+    /// Every cell as written.
+    pub cells: csv::StringRecord,
+    /// The impact that the cells describe.
+    pub impact: Impact,
+}
+
+/// Reads impacts from CSV text.
+pub struct ImpactReader<R> {
+    table: CsvTable<R>,
+    inputs: InputColumns,
+}
+
+impl<R: Read> ImpactReader<R> {
+    /// Reads the header; `file` names the source in messages. Lines that begin with `#` are comments.
+    ///
+    /// # Errors
+    /// [`DatasetError`] for a source that cannot be read, a missing `v_n` or a repeated column.
+    pub fn new(file: &str, source: R) -> Result<Self, DatasetError> {
+        let table = CsvTable::open(file, source, Layout::default(), |_| false)?;
+        let inputs = InputColumns::new(|name| {
+            let index = table.column(name)?;
+            Some(NumberColumn { name, index, unit: Unit::SI, style: NumberStyle::default() })
+        });
+        if !inputs.gives("v_n") {
+            return Err(table.column_fault(NO_NORMAL_SPEED, false));
+        }
+        Ok(Self { table, inputs })
+    }
+
+    /// The same with the inputs that a model declares.
+    #[must_use]
+    pub fn with_extra_inputs(self, inputs: &[ExtraInput]) -> Self {
+        let Self { table, inputs: known } = self;
+        let inputs = known.with_extra(inputs, NumberStyle::default(), |name| table.column(name));
+        Self { table, inputs }
+    }
+
+    /// The column names.
+    pub fn headers(&self) -> &csv::StringRecord {
+        self.table.headers()
+    }
+
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<usize> {
+        self.table.column(name)
+    }
+
+    /// The inputs without a column.
+    pub fn absent(&self) -> Vec<&'static str> {
+        INPUTS.iter().map(|input| input.name).filter(|name| !self.inputs.gives(name)).collect()
+    }
+
+    /// The inputs that the model declares without a column.
+    pub fn absent_extra(&self) -> impl Iterator<Item = &ExtraInput> {
+        self.inputs.extra().filter(|(_, given)| !given).map(|(input, _)| input)
+    }
+
+    /// Unused columns whose name resembles an absent input, each with that input's name.
+    pub fn near_misses(&self) -> Vec<(&str, &'static str)> {
+        let unused = self.headers().iter().enumerate().filter(|(index, _)| !self.inputs.is_extra(*index));
+        notes::near_misses(unused.map(|(_, name)| name), &self.absent())
+    }
+
+    /// The next row, or `None` at the end.
+    ///
+    /// # Errors
+    /// [`DatasetError::Unreadable`] when the source fails.
+    pub fn next_row(&mut self) -> Result<Option<Result<Row, BadRow>>, DatasetError> {
+        let mut row = Row::default();
+        Ok(self.next_into(&mut row)?.map(|read| read.map(|()| row)))
+    }
+
+    /// As [`Self::next_row`], into a row whose memory is used again. A bad row leaves it in any state.
+    ///
+    /// # Errors
+    /// As [`Self::next_row`].
+    pub fn next_into(&mut self, row: &mut Row) -> Result<Option<Result<(), BadRow>>, DatasetError> {
+        let next = self.table.next_into(&mut row.cells)?;
+        Ok(next.map(|line| self.read_row(line?, row)))
+    }
+
+    fn read_row(&self, line: u64, row: &mut Row) -> Result<(), BadRow> {
+        let bad = |reason: String| BadRow { line, reason };
+        row.line = line;
+        self.inputs.read(&row.cells, &mut row.impact).map_err(bad)?;
+        row.impact.check().map_err(|error| bad(error.to_string()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (Vec<Row>, Vec<BadRow>) {
+        let mut reader = ImpactReader::new("t.csv", text.as_bytes()).unwrap();
+        let (mut rows, mut bad) = (Vec::new(), Vec::new());
+        while let Some(next) = reader.next_row().unwrap() {
+            match next {
+                Ok(row) => rows.push(row),
+                Err(row) => bad.push(row),
+            }
+        }
+        (rows, bad)
+    }
+
+    #[test]
+    fn blanks_take_defaults_and_other_columns_are_kept() {
+        let (rows, bad) = read("\u{feff}operator, v_n ,T_p\nAnn, 2.5 ,\nBob,1,350\n");
+        assert!(bad.is_empty());
+        assert_eq!(rows[0].impact, Impact { normal_speed: 2.5, ..Impact::default() });
+        assert_eq!(rows[1].impact.particle_temperature, 350.0);
+        assert_eq!(&rows[1].cells[0], "Bob");
+    }
+
+    #[test]
+    fn bad_rows_have_line_and_reason() {
+        let text = "# a comment\nv_n,d\n1,1e-4\nfast,1e-4\n1,-2\n1\n,1e-4\nnan,1e-4\n";
+        let (rows, bad) = read(text);
+        assert_eq!(rows.len(), 1);
+        let reasons: Vec<String> = bad.iter().map(|b| format!("{}: {}", b.line, b.reason)).collect();
+        assert_eq!(
+            reasons,
+            [
+                "4: v_n `fast` is not a number",
+                "5: d = -2: must be positive and finite",
+                "6: the row has 1 cells, the header 2",
+                "7: v_n is blank",
+                "8: v_n = NaN: must be finite and not negative",
+            ]
+        );
+    }
+
+    #[test]
+    fn columns_that_resemble_inputs_are_named() {
+        let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t [m/s],operator\n".as_bytes()).unwrap();
+        assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t [m/s]", "v_t")]);
+    }
+
+    #[test]
+    fn standard_errors_resemble_no_input() {
+        let reader = ImpactReader::new("t.csv", "v_n,v_n_err,T_p_err,d_err\n".as_bytes()).unwrap();
+        assert!(reader.near_misses().is_empty(), "{:?}", reader.near_misses());
+    }
+
+    #[test]
+    fn header_faults_are_named() {
+        let message = ImpactReader::new("t.csv", "speed,d\n".as_bytes()).err().unwrap().to_string();
+        assert!(message.contains("no column `v_n`") && message.contains("speed, d"), "{message}");
+        assert!(ImpactReader::new("t.csv", "v_n,d,d\n".as_bytes()).is_err());
+    }
+}

@@ -1,0 +1,198 @@
+//! The observations of a row: of one impact, or an average over several.
+
+use super::measurements::{Measurement, Reading};
+use super::number::{NamedColumns, is_blank};
+use nearwall::input::{InputError, Section};
+
+/// The columns of observations; a row has at least one of them.
+pub(super) const OBSERVATIONS: [&str; 5] = ["e_n", "e_t", "outcome", "capture_efficiency", "captured"];
+
+/// The columns that qualify an observation.
+pub(super) const DETAILS: [&str; 3] = ["e_n_err", "e_t_err", "n_impacts"];
+
+/// Largest plausible restitution [1]. Rough walls and spin give more than 1; a larger value is in another unit.
+const HIGHEST: f64 = 3.0;
+
+/// Largest difference [1] between a counted and a stated share of captures, due to rounding.
+const ROUNDING: f64 = 0.01;
+
+/// What is unusual about the observations of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Remarks {
+    /// Whether the captured share is that of an unknown number of impacts.
+    pub(super) uncounted: bool,
+    /// Whether a standard error is 0, which is treated as unknown.
+    pub(super) no_error: bool,
+}
+
+/// The words of the column `outcome`, in lower case.
+#[derive(Debug, Clone, Default)]
+pub(super) struct OutcomeWords {
+    rebound: Vec<String>,
+    stick: Vec<String>,
+}
+
+impl OutcomeWords {
+    const REBOUND: [&str; 2] = ["rebound", "bounce"];
+    const STICK: [&str; 2] = ["stick", "stuck"];
+
+    /// Reads the words that a column map adds.
+    pub(super) fn read(details: &Section<'_>) -> Result<Self, InputError> {
+        let words = |key: &str| -> Result<Vec<String>, InputError> {
+            let list = details.texts(key)?.unwrap_or_default();
+            Ok(list.iter().map(|word| word.trim().to_lowercase()).collect())
+        };
+        let all = Self { rebound: words("rebound")?, stick: words("stick")? };
+        if let Some(word) = all.rebound.iter().find(|word| all.stick.contains(word)) {
+            return Err(details
+                .fault("stick", format!("`{word}` is also listed under rebound; remove one of the two")));
+        }
+        Ok(all)
+    }
+
+    /// Whether the word means capture; the words of the map take precedence over nearwall's own.
+    fn captured(&self, cell: &str) -> Option<bool> {
+        let word = cell.to_lowercase();
+        let own = |list: &[String]| list.contains(&word);
+        match (own(&self.stick), own(&self.rebound)) {
+            (true, _) => Some(true),
+            (_, true) => Some(false),
+            _ if Self::STICK.contains(&word.as_str()) => Some(true),
+            _ if Self::REBOUND.contains(&word.as_str()) => Some(false),
+            _ => None,
+        }
+    }
+
+    fn unknown(&self, cell: &str) -> String {
+        let own = self.rebound.iter().chain(&self.stick).map(String::as_str);
+        let known: Vec<&str> = Self::REBOUND.into_iter().chain(Self::STICK).chain(own).collect();
+        format!("outcome `{cell}` is unknown; use one of {}", known.join(", "))
+    }
+}
+
+/// The cells of a row with an observation.
+pub(super) struct ObservedCells<'a> {
+    pub(super) columns: &'a NamedColumns,
+    pub(super) words: &'a OutcomeWords,
+    pub(super) cells: &'a csv::StringRecord,
+}
+
+impl ObservedCells<'_> {
+    /// Reads the observations into their row.
+    ///
+    /// # Errors
+    /// The reason why the row cannot be used.
+    pub(super) fn read_into(&self, row: &mut Measurement) -> Result<Remarks, String> {
+        let counted = self.number("n_impacts")?;
+        row.impacts = counted.unwrap_or(1.0);
+        if row.impacts < 1.0 || row.impacts.fract() != 0.0 {
+            return Err(format!("n_impacts is {}; it must be a whole number from 1", row.impacts));
+        }
+        row.captured = self.share_captured(counted)?;
+        let uncounted = counted.is_none() && row.captured.is_some_and(|share| share.fract() != 0.0);
+        let mut no_error = false;
+        // Without rebounds there is no e_n and e_t.
+        if row.captured != Some(1.0) {
+            row.e_n = self.reading(["e_n", "e_n_err"], 0.0, &mut no_error)?;
+            row.e_t = self.reading(["e_t", "e_t_err"], -HIGHEST, &mut no_error)?;
+        }
+        let no_rebound = row.e_n.is_some_and(|e| e.value == 0.0) && row.e_t.is_none_or(|e| e.value == 0.0);
+        if row.captured.is_none() && no_rebound {
+            // A particle that does not rebound is captured (Troiano et al., Eq. 14).
+            (row.captured, row.e_n, row.e_t, no_error) = (Some(1.0), None, None, false);
+        }
+        // At least one of the rebounds, although the captured share may be rounded.
+        row.rebounds = match row.captured {
+            None => row.impacts,
+            Some(1.0) => 0.0,
+            Some(share) => (row.impacts * (1.0 - share)).max(1.0),
+        };
+        if row.captured.is_none() && row.e_n.is_none() && row.e_t.is_none() {
+            return Err("the row has no observation: all columns of observations are blank".to_owned());
+        }
+        Ok(Remarks { uncounted, no_error })
+    }
+
+    /// The captured share of the impacts [1], if recorded.
+    fn share_captured(&self, counted: Option<f64>) -> Result<Option<f64>, String> {
+        let impacts = counted.unwrap_or(1.0);
+        let count = self.count_captured(counted)?.map(|count| count / impacts);
+        let stated = self.number("capture_efficiency")?;
+        if let Some(share) = stated.filter(|share| !(0.0..=1.0).contains(share)) {
+            return Err(format!("capture_efficiency is {share}; it must be between 0 and 1"));
+        }
+        if let (Some(share), Some(1.0)) = (stated.filter(|share| share.fract() != 0.0), counted) {
+            return Err(format!("capture_efficiency is {share}, but n_impacts is 1"));
+        }
+        if let (Some(count), Some(stated)) = (count, stated)
+            && (count - stated).abs() > ROUNDING
+        {
+            return Err(format!("captured / n_impacts is {count:.4}, but capture_efficiency is {stated}"));
+        }
+        let share = count.or(stated);
+        match (self.outcome()?, share) {
+            (None, share) => Ok(share),
+            (Some(_), None) if impacts > 1.0 => Err(format!(
+                "one outcome cannot describe {impacts} impacts; give captured or capture_efficiency"
+            )),
+            (Some(stuck), None) => Ok(Some(f64::from(stuck))),
+            (Some(stuck), Some(share)) if f64::from(stuck) == share => Ok(Some(share)),
+            (Some(stuck), Some(share)) => {
+                let word = if stuck { "stick" } else { "rebound" };
+                Err(format!("outcome is {word}, but the captured share is {share}"))
+            }
+        }
+    }
+
+    fn count_captured(&self, counted: Option<f64>) -> Result<Option<f64>, String> {
+        let Some(count) = self.number("captured")? else { return Ok(None) };
+        if count < 0.0 || count.fract() != 0.0 {
+            return Err(format!("captured is {count}; it must be a whole number from 0"));
+        }
+        match counted {
+            Some(impacts) if count > impacts => {
+                Err(format!("captured is {count}, more than n_impacts = {impacts}"))
+            }
+            None if count > 1.0 => Err(format!("captured is {count}, but n_impacts is blank")),
+            _ => Ok(Some(count)),
+        }
+    }
+
+    fn outcome(&self) -> Result<Option<bool>, String> {
+        let cell = self.columns.index("outcome").and_then(|index| self.cells.get(index)).unwrap_or("");
+        match self.words.captured(cell) {
+            None if is_blank(cell) => Ok(None),
+            None => Err(self.words.unknown(cell)),
+            known => Ok(known),
+        }
+    }
+
+    /// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
+    fn reading(
+        &self,
+        [name, error]: [&str; 2],
+        lowest: f64,
+        no_error: &mut bool,
+    ) -> Result<Option<Reading>, String> {
+        let Some(value) = self.number(name)? else { return Ok(None) };
+        if value < lowest {
+            return Err(match lowest {
+                0.0 => format!("{name} is negative"),
+                _ => format!("{name} is {value}, below {lowest}"),
+            });
+        }
+        if value > HIGHEST {
+            return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
+        }
+        let error = self.number(error)?;
+        if error.is_some_and(|error| error < 0.0) {
+            return Err(format!("{name}_err is negative"));
+        }
+        *no_error |= error == Some(0.0);
+        Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
+    }
+
+    fn number(&self, name: &str) -> Result<Option<f64>, String> {
+        self.columns.column(name).map_or(Ok(None), |column| column.read_finite(self.cells))
+    }
+}

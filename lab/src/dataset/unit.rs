@@ -1,0 +1,201 @@
+//! The units of a column map.
+
+use super::input_errors::INPUT_ERRORS;
+use nearwall::impact::INPUTS;
+use nearwall::input::{InputError, Section, unknown};
+
+/// A unit and its conversion to SI: `(value + offset) factor / divisor`.
+///
+/// Small units have a divisor because 75 / 1e6 equals 75e-6 exactly and 75 * 1e-6 does not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unit {
+    /// Its name in a column map.
+    pub(super) name: &'static str,
+    offset: f64,
+    factor: f64,
+    divisor: f64,
+}
+
+impl Unit {
+    /// The SI unit of any dimension.
+    pub(super) const SI: Self = part("SI", 1.0);
+
+    /// The unit of a difference, as a standard error: 1 °C is 1 K.
+    pub(super) fn of_difference(self) -> Self {
+        Self { offset: 0.0, ..self }
+    }
+
+    /// A value in SI units (an angle in degrees).
+    pub(super) fn to_si(self, value: f64) -> f64 {
+        (value + self.offset) * self.factor / self.divisor
+    }
+}
+
+const fn scaled(name: &'static str, factor: f64, divisor: f64) -> Unit {
+    Unit { name, offset: 0.0, factor, divisor }
+}
+
+/// A unit of which `divisor` make one SI unit.
+const fn part(name: &'static str, divisor: f64) -> Unit {
+    scaled(name, 1.0, divisor)
+}
+
+const LENGTHS: [Unit; 5] =
+    [part("m", 1.0), part("mm", 1e3), part("um", 1e6), part("µm", 1e6), part("nm", 1e9)];
+const SPEEDS: [Unit; 4] = [part("m/s", 1.0), part("cm/s", 1e2), part("mm/s", 1e3), part("km/h", 3.6)];
+const TEMPERATURES: [Unit; 4] = [
+    part("K", 1.0),
+    Unit { name: "C", offset: 273.15, factor: 1.0, divisor: 1.0 },
+    Unit { name: "°C", offset: 273.15, factor: 1.0, divisor: 1.0 },
+    Unit { name: "F", offset: 459.67, factor: 5.0, divisor: 9.0 },
+];
+const SPINS: [Unit; 4] =
+    [part("rad/s", 1.0), part("s^-1", 1.0), part("1/s", 1.0), scaled("rpm", std::f64::consts::TAU, 60.0)];
+const DENSITIES: [Unit; 2] = [part("kg/m3", 1.0), scaled("g/cm3", 1e3, 1.0)];
+const SHARES: [Unit; 2] = [part("1", 1.0), part("%", 100.0)];
+/// Angles are converted to degrees, not radians: 90 is a right angle exactly.
+const ANGLES: [Unit; 2] = [part("deg", 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
+
+/// The dimension of a column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Dimension {
+    Length,
+    Speed,
+    Temperature,
+    Spin,
+    Density,
+    /// A dimensionless number: a share or a restitution.
+    Share,
+    Angle,
+    /// A whole number, which has no unit.
+    Count,
+    /// Text, which has no unit.
+    Text,
+}
+
+impl Dimension {
+    /// Its units; empty if it has none.
+    pub(super) fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => &LENGTHS,
+            Self::Speed => &SPEEDS,
+            Self::Temperature => &TEMPERATURES,
+            Self::Spin => &SPINS,
+            Self::Density => &DENSITIES,
+            Self::Share => &SHARES,
+            Self::Angle => &ANGLES,
+            Self::Count | Self::Text => &[],
+        }
+    }
+
+    /// The unit of this name. The Greek letter mu is accepted for the micro sign, which looks the same.
+    pub(super) fn unit(self, name: &str) -> Option<Unit> {
+        let name = name.replace('μ', "µ");
+        self.units().iter().find(|unit| unit.name == name).copied()
+    }
+}
+
+/// The names that a column map accepts beyond the inputs of an impact.
+const MORE_NAMES: [(&str, Dimension); 14] = [
+    ("speed", Dimension::Speed),
+    ("speed_err", Dimension::Speed),
+    ("angle", Dimension::Angle),
+    ("angle_err", Dimension::Angle),
+    ("e_n", Dimension::Share),
+    ("e_n_err", Dimension::Share),
+    ("e_t", Dimension::Share),
+    ("e_t_err", Dimension::Share),
+    ("outcome", Dimension::Text),
+    ("capture_efficiency", Dimension::Share),
+    ("captured", Dimension::Count),
+    ("n_impacts", Dimension::Count),
+    ("wall", Dimension::Text),
+    ("series", Dimension::Text),
+];
+
+/// Every name that a column map accepts, with its dimension.
+pub(super) fn names() -> impl Iterator<Item = (&'static str, Dimension)> {
+    let of_unit = |unit: &str| match unit {
+        "m" => Dimension::Length,
+        "m/s" => Dimension::Speed,
+        "K" => Dimension::Temperature,
+        "rad/s" => Dimension::Spin,
+        "kg/m3" => Dimension::Density,
+        _ => Dimension::Share,
+    };
+    let errors = INPUT_ERRORS.into_iter().map(move |(name, place)| (name, of_unit(INPUTS[place].unit)));
+    INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(errors).chain(MORE_NAMES)
+}
+
+/// Whether the column of this name holds standard errors, which are differences.
+pub(super) fn is_error(name: &str) -> bool {
+    name.ends_with("_err")
+}
+
+/// Reads the key `unit`, SI by default; an angle has no default.
+pub(super) fn read_unit(details: &Section<'_>, dimension: Dimension) -> Result<Unit, InputError> {
+    let units = dimension.units();
+    if units.is_empty() {
+        return Ok(Unit::SI);
+    }
+    match details.text("unit")? {
+        Some(word) => dimension.unit(&word).ok_or_else(|| {
+            let known: Vec<&str> = units.iter().map(|unit| unit.name).collect();
+            details.fault("unit", unknown(&word, "unit", &known))
+        }),
+        None if dimension == Dimension::Angle => Err(details.missing("unit", "\"deg\" or \"rad\"")),
+        None => Ok(Unit::SI),
+    }
+}
+
+/// Reads a number in SI units, or a table of `value` and `unit`; the result is in SI units.
+pub(super) fn read_quantity(
+    section: &Section<'_>,
+    key: &str,
+    dimension: Dimension,
+) -> Result<Option<f64>, InputError> {
+    if !section.is_section(key) {
+        return section.number(key);
+    }
+    let details = section.required_section(key)?;
+    let value = details.required_number("value")?;
+    let unit = read_unit(&details, dimension)?;
+    details.finish()?;
+    Ok(Some(unit.to_si(value)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn si(dimension: Dimension, unit: &str, value: f64) -> f64 {
+        dimension.unit(unit).unwrap().to_si(value)
+    }
+
+    #[test]
+    fn units_are_converted_exactly() {
+        assert_eq!(si(Dimension::Length, "um", 75.0), 75e-6);
+        assert_eq!(Dimension::Length.unit("μm"), Dimension::Length.unit("µm"));
+        assert_eq!(si(Dimension::Length, "nm", 3.0), 3e-9);
+        assert_eq!(si(Dimension::Speed, "km/h", 36.0), 10.0);
+        assert_eq!(si(Dimension::Temperature, "C", 20.0), 293.15);
+        assert!((si(Dimension::Temperature, "F", 212.0) - 373.15).abs() < 1e-12);
+        assert!((si(Dimension::Spin, "rpm", 60.0) - std::f64::consts::TAU).abs() < 1e-12);
+        assert_eq!(si(Dimension::Density, "g/cm3", 2.3), 2300.0);
+        assert_eq!(Dimension::Temperature.unit("C").unwrap().of_difference().to_si(5.0), 5.0);
+        assert!((Dimension::Temperature.unit("F").unwrap().of_difference().to_si(9.0) - 5.0).abs() < 1e-12);
+        assert_eq!(si(Dimension::Share, "%", 35.0), 0.35);
+        assert_eq!(si(Dimension::Angle, "rad", std::f64::consts::FRAC_PI_2), 90.0);
+    }
+
+    #[test]
+    fn every_input_can_be_mapped_once() {
+        let all: Vec<&str> = names().map(|(name, _)| name).collect();
+        assert!(INPUTS.iter().all(|input| all.contains(&input.name)));
+        assert!(all.iter().enumerate().all(|(index, name)| !all[..index].contains(name)));
+        for input in &INPUTS {
+            let dimension = names().find(|(name, _)| *name == input.name).unwrap().1;
+            assert_eq!(dimension.units()[0].name, input.unit, "{}", input.name);
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Writes the extended model: the base file with the fitted effects added and the recalibrated parameters changed.
+
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
+
+use super::curve::{ColumnCurve, CurveForm};
+use super::data_split::DataSplit;
+use super::hypothesis::Hypothesis;
+use super::observable::Observable;
+use super::part::{FittedPart, Part, rounded};
+use super::record::Estimate;
+use super::smooth::Basis;
+use crate::dataset::Values;
+use nearwall::effect::EffectInfo;
+use nearwall::impact::INPUTS;
+use nearwall::model::Model;
+
+/// The text of the extended model.
+///
+/// # Errors
+/// When the base text cannot be edited.
+pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String, toml_edit::TomlError> {
+    let mut document: DocumentMut = base.parse()?;
+    let mut added = ArrayOfTables::new();
+    for fitted in &hypothesis.parts {
+        match (fitted.part, fitted.values().first()) {
+            (Part::LawParameter(parameter), Some(number)) => {
+                let [table, key] = parameter.key();
+                document[table][key] = value(rounded(*number));
+            }
+            (Part::LawParameter(_), None) => {}
+            (Part::Effect(info), _) => added.push(effect(fitted, info, valid(hypothesis.data))),
+        }
+    }
+    for curve in &hypothesis.curves {
+        let before = document.clone();
+        declare_inputs(&mut document, hypothesis.data, curve);
+        let table = fitted_curve(hypothesis.data, curve);
+        if is_readable(&document, &table) {
+            added.push(table);
+        } else {
+            document = before;
+        }
+    }
+    if hypothesis.background_capture != 0.0 {
+        let form = CurveForm::level(Observable::Capture, false);
+        let heights = vec![hypothesis.background_capture];
+        added.push(fitted_curve(hypothesis.data, &ColumnCurve { form, heights, freedom: 1.0 }));
+    }
+    append(&mut document, added);
+    let mut text = document.to_string();
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    Ok(text)
+}
+
+/// Whether a model file with this curve can be read; not if the name of a column cannot be that of an input.
+fn is_readable(document: &DocumentMut, curve: &Table) -> bool {
+    let mut document = document.clone();
+    append(&mut document, std::iter::once(curve.clone()).collect());
+    Model::from_toml("extended.toml", &document.to_string()).is_ok()
+}
+
+/// Whether a model file contains a curve.
+pub(super) fn contains(text: &str, curve: &ColumnCurve, data: &DataSplit) -> bool {
+    let columns = curve.form.columns(data);
+    columns.iter().all(|name| {
+        INPUTS.iter().any(|input| input.name == name)
+            || text.parse::<DocumentMut>().is_ok_and(|document| {
+                document.get("inputs").is_some_and(|inputs| inputs.get(name.as_str()).is_some())
+            })
+    })
+}
+
+/// A curve, a surface or a level shift as an effect.
+fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
+    let mut table = Table::new();
+    let on = match curve.form.observable {
+        Observable::Capture => "capture",
+        observable => observable.name(),
+    };
+    let form = if curve.form.multiplicative { "factor" } else { "add" };
+    let list = |values: &[f64]| Value::Array(values.iter().map(|number| rounded(*number)).collect());
+    let sides = &curve.form.sides;
+    let names: Vec<String> = curve.form.columns(data);
+    table.insert("kind", value(if sides.is_empty() { "level-shift" } else { "fitted-curve" }));
+    match names.as_slice() {
+        [] => {}
+        [one] => {
+            table.insert("input", value(one));
+        }
+        several => {
+            table.insert("input", value(several.iter().collect::<Array>()));
+        }
+    }
+    table.insert("on", value(on));
+    table.insert("form", value(form));
+    let knots: Vec<Value> = sides.iter().map(|(column, basis)| knots(data, *column, basis)).collect();
+    match (sides.as_slice(), knots.as_slice()) {
+        ([(_, _), (_, second)], [one, two]) => {
+            let wide = second.len().max(1);
+            table.insert("knots", value([one.clone(), two.clone()].into_iter().collect::<Array>()));
+            table.insert("values", value(curve.heights.chunks(wide).map(list).collect::<Array>()));
+        }
+        ([_], [one]) => {
+            table.insert("knots", value(one.clone()));
+            table.insert("values", value(list(&curve.heights)));
+        }
+        _ => {
+            table.insert("value", value(rounded(curve.heights.first().copied().unwrap_or(0.0))));
+        }
+    }
+    table.insert("valid", value(valid(data)));
+    table.insert("source", value("fitted by nearwall diagnose"));
+    table
+}
+
+/// The knots of a column of numbers, or its labels.
+fn knots(data: &DataSplit, column: usize, basis: &Basis) -> Value {
+    match (basis, data.values(column)) {
+        (Basis::Hats(knots), _) => Value::Array(knots.iter().copied().collect()),
+        (Basis::Labels(_), Values::Labels { levels, .. }) => Value::Array(levels.iter().collect()),
+        _ => Value::Array(Array::new()),
+    }
+}
+
+/// Declares the columns of a curve that the library does not know as inputs of the model.
+fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCurve) {
+    for (column, _) in &curve.form.sides {
+        let covariate = &data.covariates[*column];
+        if covariate.input {
+            continue;
+        }
+        let inputs = document.entry("inputs").or_insert_with(|| {
+            let mut inputs = Table::new();
+            inputs.set_implicit(true);
+            Item::Table(inputs)
+        });
+        let mut input = Table::new();
+        match &covariate.values {
+            Values::Numbers(_) => input.insert("default", value(covariate.median())),
+            Values::Labels { levels, .. } => input.insert("labels", value(levels.iter().collect::<Array>())),
+        };
+        if let Some(inputs) = inputs.as_table_like_mut()
+            && !inputs.contains_key(&covariate.name)
+        {
+            inputs.insert(&covariate.name, Item::Table(input));
+        }
+    }
+}
+
+/// Adds the effects after those of the base, in the notation of the base.
+pub(super) fn append(document: &mut DocumentMut, added: ArrayOfTables) {
+    if added.is_empty() {
+        return;
+    }
+    match document.get_mut("effects") {
+        Some(Item::ArrayOfTables(tables)) => tables.extend(added),
+        Some(Item::Value(Value::Array(array))) => {
+            array.extend(added.into_iter().map(Table::into_inline_table));
+        }
+        _ => {
+            document.insert("effects", Item::ArrayOfTables(added));
+        }
+    }
+}
+
+/// An effect with its fitted parameters and the ranges of the inputs of the fit.
+pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable) -> Table {
+    let mut table = Table::new();
+    table.insert("kind", value(info.id));
+    for (parameter, number) in info.parameters.iter().zip(fitted.values()) {
+        table.insert(parameter.name, value(rounded(number)));
+    }
+    for (name, Estimate { value: number, low, high, unit }) in fitted.estimates() {
+        let mut fit = InlineTable::from_iter([("value", number), ("low", low), ("high", high)]);
+        fit.insert("unit", unit.into());
+        table.insert(name, value(fit));
+    }
+    table.insert("valid", value(valid));
+    table.insert("source", value("fitted by nearwall diagnose"));
+    table
+}
+
+/// The range of every input that varies in the fitted rows.
+fn valid(data: &DataSplit) -> InlineTable {
+    let inputs = data.covariates.iter().filter(|c| c.input && matches!(c.values, Values::Numbers(_)));
+    ranges(inputs.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))))
+}
+
+/// The ranges of inputs as a table.
+pub(super) fn ranges<'a>(inputs: impl Iterator<Item = (&'a str, [f64; 2])>) -> InlineTable {
+    let mut ranges = InlineTable::new();
+    for (name, [low, high]) in inputs {
+        // Rounded outwards, so that the rows at the ends stay within the range.
+        let ends = [low - 1e-5 * low.abs(), high + 1e-5 * high.abs()].map(rounded);
+        ranges.insert(name, Value::Array(ends.into_iter().collect()));
+    }
+    ranges
+}

@@ -1,0 +1,99 @@
+//! A model's predictions of measured rows, with several random draws a row for a stochastic model.
+
+use rayon::prelude::*;
+
+use crate::dataset::Measurement;
+use nearwall::model::{DrawLattice, Model, RotatedLattice};
+
+/// The prediction of one row under one draw.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Prediction {
+    /// `e_n` and `e_t` of a rebound [1].
+    pub restitution: [f64; 2],
+    /// Probability of capture [1].
+    pub capture: f64,
+    /// Share of the row's draws that this draw represents [1].
+    pub weight: f64,
+    /// Half the distance to the neighbouring draws in `e_n` and `e_t` [1]: values between two draws are as likely as
+    /// the draws.
+    pub reach: [f64; 2],
+}
+
+/// The predictions of several rows.
+#[derive(Debug, Clone)]
+pub(super) struct Forecast {
+    /// Predictions a row.
+    draws: usize,
+    predictions: Vec<Prediction>,
+}
+
+/// Largest reach of a draw [1].
+const LARGEST_REACH: f64 = 0.1;
+/// Number of predictions from which threads pay off.
+const PARALLEL: usize = 20_000;
+
+impl Forecast {
+    /// Predicts the rows with these indices, `draws` times each if the model is stochastic.
+    pub fn new(model: &Model, all: &[Measurement], rows: &[usize], draws: usize) -> Self {
+        let place = rows.iter().any(|&row| model.draws_place(all[row].wall, &all[row].impact));
+        let lattice = DrawLattice::new(model, place, draws);
+        let draws = lattice.count();
+        let predict = |&index: &usize| {
+            let rotated = lattice.rotated(index as u64);
+            let predict = |draw| predict(model, &all[index], &rotated, draw);
+            let mut predictions: Vec<Prediction> = (0..draws).map(predict).collect();
+            set_reach(&mut predictions);
+            predictions
+        };
+        let predictions = if rows.len() * draws > PARALLEL {
+            rows.par_iter().flat_map_iter(predict).collect()
+        } else {
+            rows.iter().flat_map(predict).collect()
+        };
+        Self { draws, predictions }
+    }
+
+    /// The predictions of the rows at these places.
+    pub fn select(&self, places: &[usize]) -> Self {
+        let predictions = places.iter().flat_map(|&place| self.of(place)).copied().collect();
+        Self { draws: self.draws, predictions }
+    }
+
+    /// The predictions of the row at this place in the list of rows.
+    pub fn of(&self, place: usize) -> &[Prediction] {
+        &self.predictions[place * self.draws..(place + 1) * self.draws]
+    }
+}
+
+/// Half the mean distance to both neighbours: the geometric mean, so that equal draws have no reach.
+fn set_reach(predictions: &mut [Prediction]) {
+    if predictions.len() < 2 {
+        return;
+    }
+    let mut order: Vec<usize> = (0..predictions.len()).collect();
+    for which in 0..2 {
+        let value = |index: usize| predictions[index].restitution[which];
+        order.sort_unstable_by(|&a, &b| value(a).total_cmp(&value(b)));
+        let gaps: Vec<f64> = order.windows(2).map(|pair| value(pair[1]) - value(pair[0])).collect();
+        for (rank, &index) in order.iter().enumerate() {
+            let before = rank.checked_sub(1).map(|rank| gaps[rank]);
+            let gap = match (before, gaps.get(rank).copied()) {
+                (Some(before), Some(after)) => f64::sqrt(before * after),
+                (one, other) => one.or(other).unwrap_or(0.0),
+            };
+            predictions[index].reach[which] = (0.5 * gap).min(LARGEST_REACH);
+        }
+    }
+}
+
+fn predict(model: &Model, row: &Measurement, lattice: &RotatedLattice<'_>, draw: usize) -> Prediction {
+    let uniform = |stream| lattice.uniform(draw, stream);
+    let (restitution, capture) = match model.resolve_place_with(row.wall, &row.impact, uniform) {
+        Ok(outcome) => {
+            ([outcome.normal_restitution, outcome.tangential_restitution], outcome.sticking_probability)
+        }
+        // Unreachable: rows that the base model refuses were removed, and no effect narrows a property's range.
+        Err(_) => ([0.0; 2], 0.5),
+    };
+    Prediction { restitution, capture, weight: lattice.weight(draw), reach: [0.0; 2] }
+}

@@ -1,0 +1,100 @@
+//! Rows that share an error: bursts, days, series, laboratories.
+//!
+//! *Units* are what tests and bootstraps draw: rows of one averaged row, or with equal cells, count once; so do the rows of a group
+//! that shares an error. A *shared error* is a random offset of `e_n` and `e_t` of each group, normal with a standard deviation that is estimated; it enters
+//! the likelihood where the residuals of the model show it (random intercept; Laird and Ware 1982).
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::dataset::{Column, Measurement, Measurements, Values, names_groups};
+
+/// So many batches are few.
+const FEW_BATCHES: usize = 8;
+
+/// The column that groups rows.
+#[derive(Debug, Clone)]
+pub(super) struct GroupColumn {
+    /// Its name.
+    pub name: String,
+    /// Whether the user named it.
+    pub declared: bool,
+    /// Index of the group of each row; a row with a blank cell is a group of its own.
+    pub of_row: Arc<[usize]>,
+    /// Number of groups.
+    pub count: usize,
+}
+
+impl GroupColumn {
+    /// The column that the user names, else every one whose name says that it groups rows; none with fewer than two groups.
+    pub fn all(data: &Measurements, declared: Option<&str>) -> Vec<Self> {
+        let named = |column: &&Column| match declared {
+            Some(name) => column.name == name,
+            None => groups_by_default(column),
+        };
+        data.columns.iter().filter(named).filter_map(|column| Self::of(column, declared.is_some())).collect()
+    }
+
+    fn of(column: &Column, declared: bool) -> Option<Self> {
+        let labels: Vec<Option<u64>> = match &column.values {
+            Values::Labels { of_row, .. } => of_row.iter().map(|label| label.map(|l| l as u64)).collect(),
+            Values::Numbers(numbers) => {
+                numbers.iter().map(|number| number.is_finite().then(|| number.to_bits())).collect()
+            }
+        };
+        let (of_row, count) = numbered(labels.into_iter());
+        (count > 1).then(|| Self {
+            name: column.name.clone(),
+            declared: declared || column.name == "series",
+            of_row: of_row.into(),
+            count,
+        })
+    }
+}
+
+/// Whether a column groups rows unless the user says otherwise. Few batches with many rows each are a material that may differ, so a
+/// possible cause; many are a random choice.
+fn groups_by_default(column: &Column) -> bool {
+    let few = matches!(&column.values, Values::Labels { levels, .. } if levels.len() <= FEW_BATCHES);
+    names_groups(&column.name) && !(column.name.eq_ignore_ascii_case("batch") && few)
+}
+
+/// The unit of each row, and their number: rows of one line of the file, or with equal cells, count once.
+pub(super) fn units(data: &Measurements) -> (Arc<[usize]>, usize) {
+    let (of_row, count) =
+        numbered(data.rows.iter().enumerate().map(|(row, one)| Some(content(data, row, one))));
+    (of_row.into(), count)
+}
+
+/// What tells a row from its copies: all its numbers. Rows of one averaged row share the line.
+fn content(data: &Measurements, row: usize, one: &Measurement) -> Vec<u64> {
+    if data.rows.len() > 1 && one.impacts > 1.0 {
+        return vec![one.line];
+    }
+    let neighbour = |other: Option<&Measurement>| other.is_some_and(|other| other.line == one.line);
+    let before = row.checked_sub(1).and_then(|before| data.rows.get(before));
+    if neighbour(before) || neighbour(data.rows.get(row + 1)) {
+        return vec![one.line];
+    }
+    let inputs = nearwall::impact::INPUTS.iter().map(|input| (input.value)(&one.impact).to_bits());
+    let readings = [one.e_n, one.e_t].into_iter().map(|r| r.map_or(u64::MAX, |r| r.value.to_bits()));
+    let captured = one.captured.map_or(u64::MAX, f64::to_bits);
+    let exact = inputs.chain(readings).chain([captured]).collect::<Vec<u64>>();
+    // A capture has no reading: equal inputs alone do not make a copy.
+    if one.e_n.is_none() && one.e_t.is_none() { vec![one.line] } else { exact }
+}
+
+/// Numbers from 0 for equal keys, in the order of their first appearance; `None` is equal to nothing.
+fn numbered<K: Ord>(keys: impl Iterator<Item = Option<K>>) -> (Vec<usize>, usize) {
+    let mut known: BTreeMap<K, usize> = BTreeMap::new();
+    let mut count = 0;
+    let of_row = keys
+        .map(|key| {
+            let fresh = count;
+            let number = key.map_or(fresh, |key| *known.entry(key).or_insert(fresh));
+            count += usize::from(number == fresh);
+            number
+        })
+        .collect();
+    (of_row, count)
+}

@@ -1,0 +1,220 @@
+//! Diagnosis: the effects that a model lacks to explain measured impacts, the extended model and its gain.
+//!
+//! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, tested and fitted → forward selection →
+//! extended model → gain of its file on held-out rows → record. Effects are known only through their
+//! [`nearwall::effect::EffectInfo`], so every effect of the list is a candidate. Method and limits: `docs/diagnosis.md`.
+//! [`ImpactDiagnosis`] does all this for the files of a user; [`comparison`] ranks several models with the same likelihood.
+
+mod advice;
+mod artefact;
+mod candidate;
+mod candidate_list;
+mod choice;
+pub mod comparison;
+mod covariance;
+mod curve;
+mod data_split;
+mod data_view;
+mod draws;
+mod evaluation;
+mod extend;
+mod few_rows;
+mod finding;
+mod fitting;
+mod forecast;
+mod gain;
+mod goodness_of_fit;
+mod groups;
+mod hypothesis;
+mod impact_diagnosis;
+mod input_error;
+mod interval;
+mod likelihood;
+mod model_selection;
+mod observable;
+mod part;
+mod profile;
+mod record;
+pub mod rig;
+mod rival;
+mod score_test;
+mod search;
+mod shapes;
+mod shared_error;
+mod slip;
+mod smooth;
+mod study;
+mod unselected;
+mod verdict;
+
+pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
+pub use record::{
+    Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, Fit, FitTest, FittedCurve,
+    FittedSurface, Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows,
+    Sample, SampleRow, ScatterFound, Unexplained,
+};
+pub use unselected::read_measurements;
+
+use crate::dataset::{BadRow, Measurement, Measurements};
+use choice::Task;
+use data_split::DataSplit;
+use groups::GroupColumn;
+use hypothesis::Hypothesis;
+use nearwall::impact::{INPUTS, Impact, Input};
+use nearwall::model::Model;
+use observable::Observable;
+use study::Study;
+
+/// Why there is no diagnosis.
+#[derive(Debug, thiserror::Error)]
+pub enum DiagnosisError {
+    /// Too few usable rows.
+    #[error("{used} of {read} rows can be used; a diagnosis needs at least {least}. {reasons}")]
+    TooFewRows {
+        /// Usable rows.
+        used: usize,
+        /// Rows in the file.
+        read: usize,
+        /// Rows needed.
+        least: usize,
+        /// Why the first rows were rejected.
+        reasons: String,
+    },
+    /// The text of the base model cannot be edited.
+    #[error("the model file cannot be extended: {0}")]
+    Unextendable(String),
+}
+
+/// Least number of rows.
+const LEAST_ROWS: usize = 3;
+/// Bounds of a plausible input [SI units], far beyond any laboratory; the lower one for inputs that laws divide by.
+const LARGEST_INPUT: f64 = 1e12;
+const SMALLEST_DIVISOR: f64 = 1e-15;
+/// Inputs that laws divide by.
+const DIVISORS: [&str; 5] = ["v_n", "v_t", "d", "T_p", "T_w"];
+
+/// Diagnoses `data` against the model `base` whose file has the text `text`. `progress` is called after each candidate.
+/// Returns the diagnosis and the text of the extended model.
+///
+/// # Errors
+/// [`DiagnosisError`].
+pub fn diagnose(
+    base: &Model,
+    text: &str,
+    data: &Measurements,
+    options: &Options,
+    progress: &(dyn Fn() + Sync),
+) -> Result<(Diagnosis, String), DiagnosisError> {
+    let (diagnosis, extended, _) = diagnose_with_draws(base, text, data, options, 0, progress)?;
+    Ok((diagnosis, extended))
+}
+
+/// As [`diagnose`], with the texts of `draws` model files whose parameters are drawn from the fit; none where nothing is fitted.
+///
+/// # Errors
+/// [`DiagnosisError`].
+pub fn diagnose_with_draws(
+    base: &Model,
+    text: &str,
+    data: &Measurements,
+    options: &Options,
+    draws: usize,
+    progress: &(dyn Fn() + Sync),
+) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
+    let data = plausible(base, data);
+    let (selected, read) = (data.rows.len(), data.read);
+    let used = selected + data.unselected.rows;
+    if selected < LEAST_ROWS {
+        let reason = |bad: &BadRow| format!("Line {}: {}.", bad.line, bad.reason);
+        let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
+        return Err(DiagnosisError::TooFewRows { used: selected, read, least: LEAST_ROWS, reasons });
+    }
+    let groups = GroupColumn::all(&data, options.group.as_deref());
+    let task = Task { text, level: options.level, groups: &groups, progress };
+    let whole = DataSplit::new(base, &data, &groups);
+    let study = Study::new(&whole, task, options.seed);
+    let rivals = rivals(&study, text, options.level);
+
+    let fine = study.file.fine();
+    let mut hypothesis = study.file.fitted(&fine);
+    let mut diagnosis = verdict::record(&hypothesis, &study.choice, options);
+    let undecided = verdict::undecided(&diagnosis.findings, &study.choice);
+    let named = rival::decisive(&rivals, diagnosis.findings.len()).is_none() && undecided.is_empty();
+    let study = if named { study } else { study.without_causes() };
+    if !named {
+        hypothesis = study.file.fitted(&fine);
+        diagnosis = verdict::record(&hypothesis, &study.choice, options);
+    }
+    if let Some(first) = diagnosis.findings.first_mut() {
+        first.indistinguishable_from.extend(rivals.iter().map(|rival| rival.id.clone()));
+    }
+    diagnosis.rivals = rivals;
+    diagnosis.undecided = undecided;
+
+    let plain = Hypothesis::base(&fine);
+    let held_out_lines = study.unseen_lines(&data);
+    let selected = (selected < used).then_some(selected);
+    let rejected = data.rejected.clone();
+    diagnosis.rows = Rows { read, used, selected, held_out: 0, held_out_lines, rejected };
+    diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
+    diagnosis.groups = study.choice.groups_found();
+    if diagnosis.undecided.is_empty() {
+        diagnosis.undecided = verdict::possible_causes(&diagnosis.fit, &study.choice);
+    }
+    diagnosis.misfit = verdict::misfit(&hypothesis, &study.choice.first_round, options.level);
+    diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()), &data.unselected);
+    diagnosis.sample = gain::sample(&plain, &hypothesis);
+    diagnosis.sample.views = data_view::views([&plain, &hypothesis], &diagnosis.findings);
+    diagnosis.sample.notes.clone_from(&data.notes);
+    let unextendable = |error: &dyn std::fmt::Display| DiagnosisError::Unextendable(error.to_string());
+    let extended = extend::extended(text, &hypothesis).map_err(|error| unextendable(&error))?;
+    if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
+        let measured = study
+            .held_out(&data, &whole, task, [&plain, &hypothesis], &extended)
+            .map_err(|error| unextendable(&error))?;
+        let noise = |observable| gain::noise_floor(&data, hypothesis.scatter, observable);
+        let of = |observable| measured.gain(observable, noise(observable), options.seed);
+        diagnosis.gains = Observable::ALL.into_iter().filter_map(of).collect();
+        let first = diagnosis.findings.first().map_or("", |finding| finding.observable);
+        diagnosis.gain = diagnosis.gains.iter().find(|gain| gain.observable == first).cloned();
+        diagnosis.rows.held_out = diagnosis.gains.iter().map(|gain| gain.held_out_rows).max().unwrap_or(0);
+    }
+    diagnosis.verdict = verdict::sentences(&diagnosis);
+    if hypothesis.curves.iter().any(|curve| !extend::contains(&extended, curve, &fine)) {
+        diagnosis.verdict +=
+            " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
+    }
+    let draws = draws::draws(text, &hypothesis, draws, options.seed).map_err(|error| unextendable(&error))?;
+    Ok((diagnosis, extended, draws))
+}
+
+/// What beside physics may explain the data; nothing if nothing has to be explained.
+fn rivals(study: &Study, text: &str, level: f64) -> Vec<Rival> {
+    if study.choice.structure[0] > level {
+        return Vec::new();
+    }
+    let searched = &study.choice.data;
+    rival::rivals(&Hypothesis::base(searched), &study.choice.hypothesis(searched), text)
+}
+
+/// The data without rows that the base model refuses, as at a temperature outside a property's range, and without
+/// implausible rows.
+fn plausible(base: &Model, data: &Measurements) -> Measurements {
+    data.without(|row| fault(base, row))
+}
+
+/// Why a row cannot be used with this base model.
+fn fault(base: &Model, row: &Measurement) -> Option<String> {
+    let refused = base.check(row.wall, &row.impact).err().map(|error| error.to_string());
+    refused.or_else(|| implausible(&row.impact))
+}
+
+/// The input with an implausible value: its squares would overflow in a law and invalidate all sums over rows.
+fn implausible(impact: &Impact) -> Option<String> {
+    INPUTS.iter().find_map(|Input { name, unit, value, .. }| {
+        let value = value(impact);
+        let tiny = DIVISORS.contains(name) && value != 0.0 && value.abs() < SMALLEST_DIVISOR;
+        (tiny || value.abs() > LARGEST_INPUT)
+            .then(|| format!("{name} = {value:e} {unit} is not plausible; check the unit"))
+    })
+}

@@ -1,0 +1,177 @@
+//! What a fit can add to a base model: an effect, or another value of a parameter of its laws.
+
+use super::data_split::DataSplit;
+use super::record::Estimate;
+use super::search::SearchAxis;
+use nearwall::effect::EffectInfo;
+use nearwall::model::Model;
+use nearwall::normal::NormalLaw;
+use nearwall::tangential::TangentialLaw;
+
+/// A parameter of the base model's own laws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LawParameter {
+    /// `normal.e_n` of constant restitution.
+    NormalRestitution,
+    /// `tangential.e_t` of constant restitution.
+    TangentialRestitution,
+    /// `tangential.friction`.
+    Friction,
+}
+
+impl LawParameter {
+    pub const ALL: [Self; 3] = [Self::NormalRestitution, Self::TangentialRestitution, Self::Friction];
+
+    /// Table and key in the model file.
+    pub fn key(self) -> [&'static str; 2] {
+        match self {
+            Self::NormalRestitution => ["normal", "e_n"],
+            Self::TangentialRestitution => ["tangential", "e_t"],
+            Self::Friction => ["tangential", "friction"],
+        }
+    }
+
+    /// Its value in a model, if the model has it.
+    pub fn of(self, model: &Model) -> Option<f64> {
+        self.find(&mut model.normal_law(), &mut model.tangential_law()).copied()
+    }
+
+    /// The model with another value.
+    pub fn set(self, model: &Model, value: f64) -> Model {
+        let (mut normal, mut tangential) = (model.normal_law(), model.tangential_law());
+        if let Some(parameter) = self.find(&mut normal, &mut tangential) {
+            *parameter = value;
+        }
+        model.with_laws(normal, tangential)
+    }
+
+    fn find<'a>(self, normal: &'a mut NormalLaw, tangential: &'a mut TangentialLaw) -> Option<&'a mut f64> {
+        match (self, normal, tangential) {
+            (Self::NormalRestitution, NormalLaw::Constant { restitution }, _)
+            | (Self::TangentialRestitution, _, TangentialLaw::Constant { restitution }) => Some(restitution),
+            (
+                Self::Friction,
+                _,
+                TangentialLaw::Sliding { friction } | TangentialLaw::SlidingRolling { friction },
+            ) => Some(friction),
+            (Self::Friction, _, TangentialLaw::Listed { law, values }) => {
+                let place = law.parameters.iter().position(|parameter| parameter.name == "friction")?;
+                values.get_mut(place)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// An addition to the base model that has parameters.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Part {
+    Effect(&'static EffectInfo),
+    LawParameter(LawParameter),
+}
+
+impl Part {
+    /// An effect's id, or the key of a law's parameter.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Effect(effect) => effect.id.to_owned(),
+            Self::LawParameter(parameter) => parameter.key().join("."),
+        }
+    }
+
+    /// Whether its outcome is drawn at random.
+    pub fn is_stochastic(&self) -> bool {
+        matches!(self, Self::Effect(effect) if effect.stream.is_some())
+    }
+
+    /// The inputs that it depends on.
+    pub fn inputs(&self) -> &'static [&'static str] {
+        match self {
+            Self::Effect(effect) => effect.inputs,
+            Self::LawParameter(_) => &[],
+        }
+    }
+
+    /// The search ranges of its parameters, with `refined` also of those with a default, which come last; `range` gives the least and
+    /// largest value of an input in the data. `None` if the data do not vary in what it depends on.
+    pub fn axes(&self, range: impl Fn(&str) -> Option<[f64; 2]>, refined: bool) -> Option<Vec<SearchAxis>> {
+        let Self::Effect(effect) = self else { return Some(vec![SearchAxis::linear(0.02, 1.1)]) };
+        // Beside another input, speed and diameter need not vary: the plain laws depend on them too.
+        let (plain, others): (Vec<&str>, Vec<&str>) =
+            effect.inputs.iter().partition(|input| ["v_n", "d"].contains(*input));
+        let needed = if others.is_empty() { plain } else { others };
+        needed.iter().map(|input| range(input)).collect::<Option<Vec<_>>>()?;
+        let free = effect.parameters.iter().filter(|p| refined || p.default.is_none());
+        free.map(|p| SearchAxis::of(p, &range)).collect()
+    }
+}
+
+/// A part with the values of its parameters.
+#[derive(Debug, Clone)]
+pub(super) struct FittedPart {
+    pub part: Part,
+    pub axes: Vec<SearchAxis>,
+    /// Coordinates on the axes.
+    pub at: Vec<f64>,
+    /// 95 % intervals of the parameters that have an axis, in SI units; empty before the final fit.
+    pub intervals: Vec<[f64; 2]>,
+    /// Pairs of parameters, by place, of which the data determine only a combination, with their correlation [1].
+    pub inseparable: Vec<([usize; 2], f64)>,
+}
+
+impl FittedPart {
+    /// The part at the middle of its search ranges.
+    pub fn middle(part: Part, axes: Vec<SearchAxis>) -> Self {
+        Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new(), inseparable: Vec::new() }
+    }
+
+    /// Makes the parameters that are left at their defaults free.
+    pub fn free_defaults(&mut self, data: &DataSplit) {
+        let (values, own) = (self.values(), self.axes.len());
+        let Some(axes) = self.part.axes(|input| data.range(input), true) else { return };
+        for (axis, value) in axes.into_iter().zip(values).skip(own) {
+            self.axes.push(axis);
+            self.at.push(axis.coordinate(value));
+        }
+    }
+
+    /// The parameters in SI units; those without an axis have their defaults.
+    pub fn values(&self) -> Vec<f64> {
+        let mut values: Vec<f64> = self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect();
+        if let Part::Effect(effect) = self.part {
+            let further = effect.parameters.iter().skip(values.len());
+            values.extend(further.filter_map(|parameter| parameter.default));
+        }
+        values
+    }
+
+    /// What the data cannot separate, in sentences.
+    pub fn not_separable(&self) -> Vec<String> {
+        let Part::Effect(effect) = self.part else { return Vec::new() };
+        let name = |place: usize| effect.parameters.get(place).map_or("", |parameter| parameter.name);
+        let sentence = |([one, two], correlation): &([usize; 2], f64)| {
+            let (one, two) = (name(*one), name(*two));
+            let together = if *correlation > 0.0 { "in the same direction" } else { "against each other" };
+            format!(
+                "These data determine only a combination of {one} and {two}: both can change {together} at almost no cost \
+                 (correlation {correlation:.3})."
+            )
+        };
+        self.inseparable.iter().map(sentence).collect()
+    }
+
+    /// The fitted parameters of an effect by name, with six digits; none before the final fit.
+    pub fn estimates(&self) -> impl Iterator<Item = (&'static str, Estimate)> {
+        let Self { part, intervals, .. } = self;
+        let parameters = if let Part::Effect(effect) = part { effect.parameters } else { &[] };
+        parameters.iter().zip(self.values()).zip(intervals).map(|((parameter, value), interval)| {
+            let [low, high] = interval.map(rounded);
+            (parameter.name, Estimate { value: rounded(value), low, high, unit: parameter.unit })
+        })
+    }
+}
+
+/// The number with six digits, which is more than the accuracy of a fit.
+pub(super) fn rounded(number: f64) -> f64 {
+    format!("{number:.5e}").parse().unwrap_or(number)
+}

@@ -1,0 +1,675 @@
+//! The choice of causes: round after round the candidate that explains most beside what was found.
+
+use std::cell::LazyCell;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::{Rng, SeedableRng};
+
+use super::super::part::{LawParameter, Part};
+use super::super::search::descend;
+use super::addition::RigAddition;
+use super::gain::HeldOut;
+use super::noise::{Data, Prepared, Values};
+use super::shelf::{Candidate, Shelf, predict};
+use super::significance::NullGains;
+use crate::rig::{Forward, Predicted};
+use nearwall::effect::{CurveTarget, EFFECTS};
+use nearwall::impact::{INPUTS, Impact};
+
+/// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
+const SHORTLIST: f64 = 4.0;
+/// Most laws, and most curves that are fitted.
+const MOST_FITTED: [(bool, usize); 2] = [(false, 7), (true, 2)];
+/// And those that gain this share of the best are fitted.
+const PROMISING: f64 = 0.4;
+/// Gain below which no candidate of a usual list is significant [nats].
+const LEAST_THRESHOLD: f64 = 2.0;
+/// Gain by which a cause must lead another one to be told from it [nats]: a ratio of likelihoods of 7.
+pub(super) const DISTINGUISHABLE: f64 = 2.0;
+/// What a curve must gain beyond a law to be named before it [nats].
+const BEYOND_LAWS: f64 = 3.0;
+/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
+/// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
+const CARRIES: f64 = 0.5;
+/// Most that any cause may lose there [nats].
+const MOST_LOST: f64 = 4.0;
+/// What is left to gain from which on causes are exchanged [nats].
+const ROOM_TO_EXCHANGE: f64 = 6.0;
+/// Most other beginnings of a choice that are tried, besides that with numbers that are usually fitted.
+const OTHER_STARTS: usize = 3;
+/// Gain for which a cause is exchanged [nats].
+const EXCHANGED: f64 = 1.5;
+/// Difference in gain below which the candidate with fewer parameters is taken, and of these a number of the base's own laws [nats].
+const EQUAL: f64 = 0.5;
+/// What a law that is not in the model yet must gain beyond one of its numbers to be named first, and what it must gain beyond that if no
+/// experiment changes one of its inputs on purpose [nats]: odds of 3 to 1 each. Over such an input a law is hardly more than a level.
+const NEW_LAW: f64 = 1.1;
+const UNCHANGED: f64 = 1.1;
+/// One cause, and one more for so many readings; and most causes.
+const READINGS_A_CAUSE: usize = 3;
+const MOST_CAUSES: usize = 5;
+/// How far beyond the range of an input a law's place is searched, as a share of the range.
+const BEYOND: f64 = 0.5;
+/// Least standard deviation of an input's mean over the experiments, as a share of its range, from which on it is changed on purpose: for a curve
+/// over it.
+const CHANGES: f64 = 0.05;
+/// Correlation from which two inputs change together.
+const TOGETHER: f64 = 0.98;
+/// Most candidates kept of a round that finds none significant.
+const HINTS: usize = 4;
+/// First size of the simplex, and iterations a parameter: for a law that is to be compared with others first, and for one that is promising.
+const SIMPLEX: f64 = 0.08;
+const FIRST_ITERATIONS: u64 = 8;
+const ITERATIONS: u64 = 25;
+/// Resamples for the certainty of a cause; it is named with this share of the gain of the best candidate.
+const RESAMPLES: u64 = 200;
+const NEARLY: f64 = 0.75;
+
+/// A fitted candidate.
+#[derive(Debug, Clone)]
+pub(super) struct Scored {
+    /// Fitted together with what was found before.
+    pub addition: RigAddition,
+    /// What was found before, with the numbers of that fit; empty before it.
+    beside: Vec<RigAddition>,
+    /// Gain in log likelihood less the number of parameters [nats].
+    pub gain: f64,
+    /// Corrected for all candidates.
+    pub p_value: f64,
+    /// Its predictions.
+    prepared: Option<Arc<Prepared>>,
+}
+
+/// A round that found a cause.
+#[derive(Debug, Clone)]
+pub(super) struct Round {
+    pub winner: Scored,
+    /// The other fitted candidates, the best first.
+    pub others: Vec<Scored>,
+    /// Share of resampled experiments that name the winner.
+    pub certainty: f64,
+}
+
+impl Round {
+    /// All fitted candidates.
+    fn all(&self) -> Vec<Scored> {
+        std::iter::once(&self.winner).chain(&self.others).cloned().collect()
+    }
+}
+
+/// What was chosen.
+#[derive(Debug, Clone)]
+pub(super) struct Choice {
+    /// Fitted together.
+    pub additions: Vec<RigAddition>,
+    pub rounds: Vec<Round>,
+    /// Smallest corrected p-value of a candidate beside the base model, and beside the additions.
+    pub structure: [f64; 2],
+    /// The best candidates of the last round, which found none significant; the best first.
+    pub hints: Vec<Scored>,
+}
+
+/// What all choices share.
+pub(super) struct RigStudy<'a> {
+    pub forward: &'a dyn Forward,
+    pub data: Data,
+    /// Accepted share of false discoveries [1].
+    pub level: f64,
+    pub seed: u64,
+    pub progress: &'a (dyn Fn() + Sync),
+    /// Inputs that vary over the impacts of an experiment, but not from one experiment to the other.
+    unchanged: Vec<&'static str>,
+    /// Predictions of the candidates beside causes, by the names of these.
+    shelves: Mutex<Vec<(Vec<String>, Arc<Shelf>)>>,
+}
+
+impl<'a> RigStudy<'a> {
+    pub fn new(forward: &'a dyn Forward, level: f64, seed: u64, progress: &'a (dyn Fn() + Sync)) -> Self {
+        let data = Data::new(forward.experiments());
+        let unchanged = INPUTS
+            .iter()
+            .enumerate()
+            .filter(|(place, input)| {
+                range(forward, input.name).is_some_and(|range| !changes(&means(forward, *place), range))
+            })
+            .map(|(_, input)| input.name)
+            .collect();
+        Self { forward, data, level, seed, progress, unchanged, shelves: Mutex::default() }
+    }
+
+    /// The predictions of all candidates beside these additions. A later call with the same causes gets the same predictions, whatever
+    /// the values of their parameters: where they were computed matters little to a choice.
+    pub fn shelf(&self, additions: &[RigAddition]) -> Result<Arc<Shelf>, String> {
+        let names: Vec<String> = additions.iter().map(RigAddition::key).collect();
+        let mut shelves = self.shelves.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, shelf)) = shelves.iter().find(|(known, _)| *known == names) {
+            return Ok(Arc::clone(shelf));
+        }
+        let candidates = candidates(self.forward, &self.data, &names);
+        let shelf = Arc::new(Shelf::new(self.forward, &self.data, additions, candidates, self.progress)?);
+        shelves.push((names, Arc::clone(&shelf)));
+        Ok(shelf)
+    }
+
+    /// Log likelihood of the measured values with these additions [nats]; minus infinity where the model refuses an impact.
+    pub fn score(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
+        let Ok(predicted) = predict(self.forward, additions) else { return f64::NEG_INFINITY };
+        self.score_of(&predicted, weights)
+    }
+
+    pub fn score_of(&self, predicted: &[Predicted], weights: &[f64]) -> f64 {
+        self.data.score(&self.data.prepare(predicted), &self.data.values(), weights)
+    }
+
+    /// Chooses causes on experiments with these weights, 0 or 1.
+    ///
+    /// # Errors
+    /// Why the base model cannot decide an impact.
+    pub fn choose(&self, weights: &[f64]) -> Result<Choice, String> {
+        let nothing =
+            Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
+        let first = self.grown(nothing.clone(), weights, &|_| true)?;
+        if first.rounds.len() < 2 {
+            return Ok(self.without_redundant(first, weights));
+        }
+        let numbers = LazyCell::new(|| self.grown(nothing.clone(), weights, &RigAddition::is_usual_number));
+        let mut best = first;
+        if best.additions.iter().any(RigAddition::is_curve) {
+            // A curve over an input takes what several laws explain together.
+            for start in [nothing.clone(), LazyCell::force(&numbers).clone()?] {
+                let laws = self.grown(start, weights, &|one| !one.is_curve())?;
+                let grown = self.grown(laws, weights, &|_| true)?;
+                if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) - EXCHANGED {
+                    best = grown;
+                }
+            }
+        }
+        if self.room(&best.additions, weights)? > ROOM_TO_EXCHANGE {
+            let exchanged = self.exchanged(best.clone(), weights)?;
+            let others = other_starts(&best);
+            best = self.grown(exchanged, weights, &|_| true)?;
+            let numbers_first = std::iter::once_with(|| LazyCell::force(&numbers).clone());
+            let mut starts = numbers_first.chain(others.into_iter().take(OTHER_STARTS).map(Ok));
+            while self.room(&best.additions, weights)? >= ROOM_TO_EXCHANGE
+                && let Some(start) = starts.next()
+            {
+                let start = start?;
+                let start = Choice { additions: self.fit(&start.additions, weights), ..start };
+                let grown = self.grown(start, weights, &|_| true)?;
+                if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) + EXCHANGED {
+                    best = grown;
+                }
+            }
+        }
+        Ok(self.without_redundant(best, weights))
+    }
+
+    /// Log likelihood less the number of parameters and what each addition must gain to be believed [nats].
+    fn worth(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
+        let cost = |one: &RigAddition| one.axes.len() as f64 + self.surprise(one);
+        self.score(additions, weights) - additions.iter().map(cost).sum::<f64>()
+    }
+
+    /// What an addition must gain beyond a number of the model's own laws to be named before it [nats].
+    fn surprise(&self, addition: &RigAddition) -> f64 {
+        let over = addition.variables();
+        let idle = over.iter().filter(|input| self.unchanged.contains(&input.as_str())).count();
+        let new = if addition.is_number() { 0.0 } else { NEW_LAW };
+        new + UNCHANGED * idle as f64 + if addition.is_curve() { BEYOND_LAWS } else { 0.0 }
+    }
+
+    /// The choice with further causes of those `allowed`, one a round, until none is significant.
+    fn grown(
+        &self,
+        mut choice: Choice,
+        weights: &[f64],
+        allowed: &dyn Fn(&RigAddition) -> bool,
+    ) -> Result<Choice, String> {
+        let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
+        let most = most.min(self.forward.most_causes());
+        // What the largest gain without an effect has to be exceeded by; known after the first round.
+        let mut threshold = LEAST_THRESHOLD;
+        loop {
+            if self.room(&choice.additions, weights)? < threshold {
+                choice.structure[1] = 1.0;
+                return Ok(choice);
+            }
+            let shelf = self.shelf(&choice.additions)?;
+            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            threshold = null.quantile(1.0 - self.level);
+            let mut scored = self.first_look(&shelf, &null, weights, &[]);
+            scored.retain(|one| allowed(&one.addition));
+            let least = scored.iter().map(|one| one.p_value).fold(1.0, f64::min);
+            choice.structure[1] = least;
+            if choice.rounds.is_empty() {
+                choice.structure[0] = least;
+            }
+            if least > self.level || choice.rounds.len() >= most {
+                choice.hints = scored.into_iter().filter(|one| one.gain > 0.0).take(HINTS).collect();
+                return Ok(choice);
+            }
+            let fitted = self.fit_all(&choice.additions, &scored, weights);
+            let Some(round) = self.decide(&shelf, fitted, weights) else { return Ok(choice) };
+            choice.additions = round.winner.beside.clone();
+            choice.additions.push(round.winner.addition.clone());
+            choice.rounds.push(round);
+        }
+    }
+
+    /// The choice without the causes, from the last one on, that do not help to predict experiments that they have not seen, and the names of
+    /// those left out.
+    ///
+    /// # Errors
+    /// Why a model cannot decide an impact.
+    pub fn carried(
+        &self,
+        mut choice: Choice,
+        write: &dyn Fn(&[RigAddition]) -> Option<String>,
+        weights: &[f64],
+    ) -> Result<(Choice, Vec<String>), String> {
+        let mut dropped = Vec::new();
+        let held_out = |choice: &Choice, causes: usize| HeldOut::new(self, choice, causes, None, write);
+        while !choice.rounds.is_empty() {
+            let causes = choice.rounds.len();
+            let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?)
+            else {
+                break;
+            };
+            // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
+            let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
+            let seen = if causes > 1 { parameters as f64 } else { 0.0 };
+            let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
+            let beyond = (self.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
+            if with.gain_over(&without, self) > seen - (CARRIES * beyond).min(MOST_LOST) {
+                break;
+            }
+            choice.rounds.pop();
+            if let Some(last) = choice.additions.pop() {
+                dropped.push(last.name());
+            }
+            choice.additions = self.fit(&choice.additions, weights);
+        }
+        Ok((choice, dropped))
+    }
+
+    /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
+    fn exchanged(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
+        let mut place = 0;
+        while choice.additions.len() > 1 && place < choice.additions.len() {
+            let mut rest = choice.additions.clone();
+            let removed = rest.remove(place);
+            let shelf = self.shelf(&rest)?;
+            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            let scored = self.first_look(&shelf, &null, weights, &[]);
+            let fitted = self.fit_all(&rest, &scored, weights);
+            let now = self.worth(&choice.additions, weights);
+            let better = fitted.iter().find(|one| one.addition.key() != removed.key()).and_then(|one| {
+                let joint =
+                    self.fit(&[rest.as_slice(), std::slice::from_ref(&one.addition)].concat(), weights);
+                (self.worth(&joint, weights) > now + EXCHANGED).then_some(joint)
+            });
+            match better.and_then(|joint| Some((joint, self.decide(&shelf, fitted, weights)?))) {
+                Some((joint, round))
+                    if joint.last().map(RigAddition::key) == Some(round.winner.addition.key()) =>
+                {
+                    choice.rounds.remove(place);
+                    choice.additions = joint;
+                    choice.rounds.push(round);
+                    place = 0;
+                }
+                _ => place += 1,
+            }
+        }
+        Ok(choice)
+    }
+
+    /// What any candidate can still gain: up to predictions that equal the measured values [nats]. Without bound where a scatter is
+    /// fitted.
+    fn room(&self, additions: &[RigAddition], weights: &[f64]) -> Result<f64, String> {
+        let predicted = predict(self.forward, additions)?;
+        Ok(self.data.room(&predicted, weights))
+    }
+
+    /// The causes that experiments with these weights name, one after the other as in the choice on all experiments: with the predictions that
+    /// were computed for it, each cause at its best place, at most `most`. After a cause that the whole choice does not have there is no further one.
+    ///
+    /// # Errors
+    /// Why the base model cannot decide an impact.
+    pub fn choose_again(
+        &self,
+        whole: &Choice,
+        most: usize,
+        weights: &[f64],
+    ) -> Result<Vec<RigAddition>, String> {
+        let mut additions: Vec<RigAddition> = Vec::new();
+        for round in 0..most.min(whole.rounds.len()) {
+            let shelf = self.shelf(&additions)?;
+            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            let known = whole.rounds.get(round).map_or(Vec::new(), Round::all);
+            let scored = self.first_look(&shelf, &null, weights, &known);
+            if scored.first().is_none_or(|best| best.p_value > self.level) {
+                break;
+            }
+            let promising: Vec<Scored> = scored.into_iter().filter(|one| one.gain > 0.0).collect();
+            let Some(winner) = self.winner(&promising) else { break };
+            match whole.additions.iter().find(|known| known.key() == winner.addition.key()) {
+                Some(known) => additions.push(known.clone()),
+                None => {
+                    additions.push(winner.addition);
+                    break;
+                }
+            }
+        }
+        Ok(additions)
+    }
+
+    /// The candidates at their best places, of the table and of earlier fits.
+    fn first_look(&self, shelf: &Shelf, null: &NullGains, weights: &[f64], known: &[Scored]) -> Vec<Scored> {
+        let values = self.data.values();
+        let base = self.data.score(&shelf.base_prepared, &values, weights);
+        let one = |candidate: &Candidate| {
+            let (score, at) = self.best(candidate, &values, weights, known);
+            let gain = score - base - candidate.cost();
+            let addition = candidate.blank.moved(at);
+            Scored { addition, beside: Vec::new(), gain, p_value: null.p_value(gain), prepared: None }
+        };
+        let mut all: Vec<Scored> = shelf.candidates.iter().map(one).collect();
+        all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        all
+    }
+
+    /// The best of the places of a candidate and of its earlier fit, with its log likelihood [nats].
+    fn best<'b>(
+        &self,
+        candidate: &'b Candidate,
+        values: &Values,
+        weights: &[f64],
+        known: &'b [Scored],
+    ) -> (f64, &'b [f64]) {
+        let (score, place) = candidate.best(&self.data, values, weights);
+        let key = candidate.blank.key();
+        let fitted = known.iter().find(|one| one.addition.key() == key);
+        let fitted = fitted.and_then(|one| {
+            let prepared = one.prepared.as_ref()?;
+            Some((self.data.score(prepared, values, weights), one.addition.at.as_slice()))
+        });
+        match fitted {
+            Some((own, at)) if own > score => (own, at),
+            _ => (score, &place.at),
+        }
+    }
+
+    /// The promising candidates, each fitted together with the additions.
+    fn fit_all(&self, additions: &[RigAddition], scored: &[Scored], weights: &[f64]) -> Vec<Scored> {
+        let base = self.score(additions, weights);
+        let improved = |one: &Scored, iterations: u64| {
+            let joint = |at: &[f64]| {
+                let mut all = additions.to_vec();
+                all.push(one.addition.moved(at));
+                -self.score(&all, weights)
+            };
+            let start = one.addition.at.clone();
+            let (at, cost) = descend(joint, &start, SIMPLEX, iterations * start.len() as u64);
+            (self.progress)();
+            let gain = -cost - base - start.len() as f64;
+            Scored { addition: one.addition.moved(&at), gain, ..one.clone() }
+        };
+        // The places are coarse: where an effect is strong, the best law may lie between them and seem worse than none.
+        let mut scored: Vec<Scored> = scored
+            .iter()
+            .map(|one| if one.addition.is_curve() { one.clone() } else { improved(one, FIRST_ITERATIONS) })
+            .collect();
+        scored.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        let promising = MOST_FITTED.map(|(curve, most)| {
+            let mut own =
+                scored.iter().filter(move |one| one.addition.is_curve() == curve).cloned().peekable();
+            let best = own.peek().map_or(0.0, |one| one.gain);
+            let least = (best - SHORTLIST).min(PROMISING * best);
+            own.filter(move |one| one.gain > least).take(most).collect::<Vec<Scored>>()
+        });
+        // A number of the base's own laws is the simplest explanation, and cheap to fit.
+        let mut promising: Vec<Scored> = promising.into_iter().flatten().collect();
+        let numbers = scored.iter().filter(|one| one.addition.is_number() && one.gain > 0.0);
+        let left_out: Vec<Scored> = numbers
+            .filter(|one| promising.iter().all(|p| p.addition.key() != one.addition.key()))
+            .cloned()
+            .collect();
+        promising.extend(left_out);
+        // What was found before took part of this candidate's effect: the numbers are only right together.
+        let fit = |one: Scored| {
+            let alone = improved(&one, ITERATIONS);
+            let mut all = [additions, std::slice::from_ref(&alone.addition)].concat();
+            if !additions.is_empty() {
+                all = self.fit(&all, weights);
+            }
+            let predicted = predict(self.forward, &all).ok();
+            let prepared = predicted.map(|predicted| Arc::new(self.data.prepare(&predicted)));
+            let gain = self.score(&all, weights) - base - alone.addition.axes.len() as f64;
+            let Some(addition) = all.pop() else { return alone };
+            Scored { addition, beside: all, gain, prepared, ..alone }
+        };
+        let mut fitted: Vec<Scored> = promising.into_iter().map(fit).collect();
+        fitted.retain(|one| one.gain > 0.0);
+        fitted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+        fitted
+    }
+
+    /// The round with its winner and all others.
+    fn decide(&self, shelf: &Shelf, fitted: Vec<Scored>, weights: &[f64]) -> Option<Round> {
+        let winner = self.winner(&fitted)?;
+        let name = winner.addition.key();
+        let certainty = self.certainty(shelf, &name, weights, &fitted);
+        let others = fitted.into_iter().filter(|one| one.addition.key() != name).collect();
+        Some(Round { winner, others, certainty })
+    }
+
+    /// The winner of a round; of equal ones that with fewest parameters.
+    fn winner(&self, fitted: &[Scored]) -> Option<Scored> {
+        let worth = |one: &Scored| one.gain - self.surprise(&one.addition);
+        let best = fitted.iter().map(worth).fold(f64::NEG_INFINITY, f64::max);
+        let equal = fitted.iter().filter(|one| worth(one) > best - EQUAL);
+        equal.min_by_key(|one| (one.addition.axes.len(), !one.addition.is_number())).cloned()
+    }
+
+    /// Share of resampled experiments in which the candidate gains nearly as much as the best one.
+    fn certainty(&self, shelf: &Shelf, name: &str, weights: &[f64], fitted: &[Scored]) -> f64 {
+        let values = self.data.values();
+        let inside: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] > 0.0).collect();
+        let mut named = 0;
+        for number in 0..RESAMPLES {
+            let mut random = ChaCha8Rng::seed_from_u64(self.seed ^ 0x7265_7361);
+            random.set_stream(number);
+            let mut drawn = vec![0.0; weights.len()];
+            for _ in 0..inside.len() {
+                drawn[inside[(random.next_u64() % inside.len() as u64) as usize]] += 1.0;
+            }
+            let base = self.data.score(&shelf.base_prepared, &values, &drawn);
+            let gain = |candidate: &Candidate| {
+                self.best(candidate, &values, &drawn, fitted).0 - base - candidate.cost()
+            };
+            // A free curve contains every law over its input, so it is no rival of them.
+            let rivals = shelf.candidates.iter().filter(|c| !c.blank.is_curve() || c.blank.key() == name);
+            let best = rivals.map(gain).fold(f64::NEG_INFINITY, f64::max);
+            let own = shelf.candidates.iter().filter(|c| c.blank.key() == name).map(gain);
+            let own = own.fold(f64::NEG_INFINITY, f64::max);
+            named += u64::from(own > 0.0 && own >= NEARLY * best);
+        }
+        named as f64 / RESAMPLES as f64
+    }
+
+    /// Fits all parameters together, from their present values.
+    pub fn fit(&self, additions: &[RigAddition], weights: &[f64]) -> Vec<RigAddition> {
+        let start: Vec<f64> = additions.iter().flat_map(|addition| addition.at.clone()).collect();
+        if start.is_empty() {
+            return additions.to_vec();
+        }
+        let cost = |at: &[f64]| -self.score(&moved(additions, at), weights);
+        let (at, _) = descend(cost, &start, 0.5 * SIMPLEX, ITERATIONS * start.len() as u64);
+        moved(additions, &at)
+    }
+
+    /// The choice without causes that later ones made superfluous.
+    fn without_redundant(&self, mut choice: Choice, weights: &[f64]) -> Choice {
+        for place in (0..choice.additions.len().saturating_sub(1)).rev() {
+            let mut rest = choice.additions.clone();
+            let removed = rest.remove(place);
+            let rest = self.fit(&rest, weights);
+            let loss = self.score(&choice.additions, weights) - self.score(&rest, weights);
+            if loss < 1.0 + removed.axes.len() as f64 {
+                choice.additions = rest;
+                choice.rounds.remove(place);
+            }
+        }
+        choice
+    }
+}
+
+/// The beginnings of a choice with the next best law in place of the winner of a round.
+fn other_starts(choice: &Choice) -> Vec<Choice> {
+    let mut starts = Vec::new();
+    for (place, round) in choice.rounds.iter().enumerate() {
+        let laws = round.others.iter().filter(|other| !other.addition.is_curve() && other.gain > 0.0);
+        if let Some(other) = laws.clone().next() {
+            let mut rounds = choice.rounds[..place].to_vec();
+            let mut additions: Vec<RigAddition> =
+                rounds.iter().map(|round| round.winner.addition.clone()).collect();
+            additions.push(other.addition.clone());
+            let others = round.all().into_iter().filter(|one| one.addition.key() != other.addition.key());
+            rounds.push(Round {
+                winner: other.clone(),
+                others: others.collect(),
+                certainty: round.certainty,
+            });
+            starts.push(Choice { additions, rounds, ..choice.clone() });
+        }
+    }
+    starts
+}
+
+/// Additions with all parameters at these coordinates, one addition after the other.
+pub(super) fn moved(additions: &[RigAddition], at: &[f64]) -> Vec<RigAddition> {
+    let mut rest = at;
+    let one = |addition: &RigAddition| {
+        let (own, others) = rest.split_at(addition.axes.len().min(rest.len()));
+        rest = others;
+        addition.moved(own)
+    };
+    additions.iter().map(one).collect()
+}
+
+/// The range of an input over the first impacts of all experiments, without the outermost hundredths; `None` if it does not vary.
+pub(super) fn range(forward: &dyn Forward, input: &str) -> Option<[f64; 2]> {
+    let sorted = sorted_values(forward, input)?;
+    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share).round() as usize];
+    let [low, high] = [at(0.005), at(0.995)];
+    (high - low > 1e-6 * high.abs()).then_some([low, high])
+}
+
+/// The value of an input that does not vary and that an impact does not have by itself, as the thickness of a layer.
+fn present(forward: &dyn Forward, input: &str) -> Option<f64> {
+    let absent = INPUTS.iter().find(|one| one.name == input).map(|one| (one.value)(&Impact::default()))?;
+    let value = *sorted_values(forward, input)?.first()?;
+    (absent == 0.0 && value > 0.0).then_some(value)
+}
+
+fn sorted_values(forward: &dyn Forward, input: &str) -> Option<Vec<f64>> {
+    let place = INPUTS.iter().position(|one| one.name == input)?;
+    let all = (0..forward.experiments().len()).flat_map(|one| forward.input_values(one, place));
+    let mut sorted: Vec<f64> = all.map(|(value, _)| value).filter(|value| value.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    (!sorted.is_empty()).then_some(sorted)
+}
+
+/// The inputs over which a curve could be seen, with its knots: those whose mean changes from experiment to experiment. Of inputs that
+/// change together the first one.
+fn curve_inputs(forward: &dyn Forward) -> Vec<(usize, Vec<f64>)> {
+    let mut means_of_earlier: Vec<Vec<f64>> = Vec::new();
+    let mut curves = Vec::new();
+    for (place, input) in INPUTS.iter().enumerate() {
+        let Some([low, high]) = range(forward, input.name) else { continue };
+        let mut means = means(forward, place);
+        if !changes(&means, [low, high]) || means_of_earlier.iter().any(|one| together(one, &means)) {
+            continue;
+        }
+        means_of_earlier.push(means.clone());
+        means.retain(|mean| mean.is_finite());
+        means.sort_by(f64::total_cmp);
+        let middle = means[means.len() / 2];
+        let inside = middle > low + 0.1 * (high - low) && middle < high - 0.1 * (high - low);
+        curves.push((place, vec![low, if inside { middle } else { 0.5 * (low + high) }, high]));
+    }
+    curves
+}
+
+/// The mean of an input, by place, over the first impacts of each experiment.
+fn means(forward: &dyn Forward, place: usize) -> Vec<f64> {
+    let mean = |experiment: usize| {
+        let values = forward.input_values(experiment, place);
+        let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
+        values.iter().map(|(value, weight)| value * weight).sum::<f64>() / weight
+    };
+    (0..forward.experiments().len()).map(mean).collect()
+}
+
+/// Whether an input with these means and this range changes from experiment to experiment.
+fn changes(means: &[f64], [low, high]: [f64; 2]) -> bool {
+    deviation(means) >= CHANGES * (high - low)
+}
+
+fn deviation(values: &[f64]) -> f64 {
+    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
+    let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
+    (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / finite.len().max(1) as f64).sqrt()
+}
+
+/// Whether two inputs are correlated so well over the experiments that a curve over one is a curve over the other.
+fn together(one: &[f64], other: &[f64]) -> bool {
+    let centred = |values: &[f64]| {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        values.iter().map(|value| value - mean).collect::<Vec<f64>>()
+    };
+    let (a, b) = (centred(one), centred(other));
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    product(&a, &b).abs() > TOGETHER * (product(&a, &a) * product(&b, &b)).sqrt()
+}
+
+/// Everything that could be added beside the causes with these names.
+fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAddition> {
+    let ranges: Vec<(&str, Option<[f64; 2]>)> =
+        INPUTS.iter().map(|input| (input.name, range(forward, input.name))).collect();
+    let range_of = |input: &str| ranges.iter().find(|(name, _)| *name == input).and_then(|(_, range)| *range);
+    let base = forward.base(0);
+    let has = |id: &str| base.terms().iter().any(|term| term.kind().id == id);
+    let effects = EFFECTS.into_iter().filter(|effect| !has(effect.id)).map(Part::Effect);
+    let numbers = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(base).is_some());
+    let parts = effects.chain(numbers.map(Part::LawParameter));
+    // A transition may begin within the range of the data and have its middle beyond.
+    let wider = |input: &str| {
+        let [low, high] = range_of(input)?;
+        let beyond = BEYOND * (high - low);
+        Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
+    };
+    // A layer or a film that is the same in all experiments acts nevertheless.
+    let wider = |input: &str| {
+        wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]))
+    };
+    let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
+    let curves = curve_inputs(forward);
+    let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));
+    let targets = [
+        (CurveTarget::Capture, "capture", false),
+        (CurveTarget::NormalRestitution, "e_n", LawParameter::NormalRestitution.of(base).is_some()),
+        (CurveTarget::TangentialRestitution, "e_t", LawParameter::TangentialRestitution.of(base).is_some()),
+    ];
+    for (on, _, has_level) in targets.into_iter().filter(|(_, part, _)| measured(part)) {
+        if !has_level {
+            all.push(RigAddition::curve(on, None));
+        }
+        for (place, knots) in &curves {
+            all.push(RigAddition::curve(on, Some((*place, knots.clone()))));
+        }
+    }
+    all.retain(|one| !found.contains(&one.key()));
+    all
+}

@@ -1,0 +1,167 @@
+//! The gain on experiments that no choice and no fit has seen.
+//!
+//! Experiments are held out as a whole. For each part of them, causes are chosen and fitted on the others, the model file is written and
+//! read again, and predicts the part. The candidates of a round were computed once for all parts; they do not depend on the data.
+
+use super::super::data_split::shuffled;
+use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
+use super::super::part::{LawParameter, Part};
+use super::super::record::Gain;
+use super::addition::{Kind, RigAddition};
+use super::choice::{Choice, RigStudy, moved};
+use super::noise::Prepared;
+use super::posterior::Posterior;
+use super::shelf::predict;
+use crate::rig::Predicted;
+use nearwall::model::Model;
+
+/// Parts of the cross-validation; with as many experiments or fewer each is left out in turn.
+const PARTS: usize = 6;
+/// Least number of experiments for a gain.
+const LEAST: usize = 4;
+/// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
+const MOST_OF_ONE: f64 = 2.3;
+
+/// Predictions of experiments by models that have not seen them.
+pub(super) struct HeldOut {
+    /// By reading: the base model and the extended one.
+    pub predicted: Vec<[Predicted; 2]>,
+}
+
+impl HeldOut {
+    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole choice, serves as places of a fit; without it
+    /// a cause keeps the numbers of the whole choice. `write` gives the text of a model file with additions. `None` with too few experiments.
+    ///
+    /// # Errors
+    /// Why a model cannot decide an impact.
+    pub fn new(
+        study: &RigStudy<'_>,
+        whole: &Choice,
+        causes: usize,
+        posterior: Option<&Posterior>,
+        write: &dyn Fn(&[RigAddition]) -> Option<String>,
+    ) -> Result<Option<Self>, String> {
+        let count = study.data.experiments;
+        if count < LEAST {
+            return Ok(None);
+        }
+        let order = shuffled(count, study.seed);
+        let parts = PARTS.min(count);
+        let base = predict(study.forward, &[])?;
+        let mut predicted: Vec<[Predicted; 2]> = base.iter().map(|one| [*one, *one]).collect();
+        let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
+        for part in 0..parts {
+            let mut weights = vec![1.0; count];
+            order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
+            let mut additions = study.choose_again(whole, causes, &weights)?;
+            let same = keys(&additions) == keys(&whole.additions);
+            if let Some(posterior) = posterior {
+                additions = match posterior.best(study, &weights).filter(|_| same) {
+                    Some(at) => moved(&additions, &at),
+                    None => study.fit(&additions, &weights),
+                };
+            }
+            let text = write(&additions);
+            let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };
+            let model = Model::from_toml("extended.toml", &text).map_err(|error| error.to_string())?;
+            let after = predict_file(study, &model, &additions)?;
+            for (index, datum) in study.data.readings.iter().enumerate() {
+                if weights[datum.experiment] == 0.0 {
+                    predicted[index][1] = after[index];
+                }
+            }
+            (study.progress)();
+        }
+        Ok(Some(Self { predicted }))
+    }
+
+    /// What is gained over `other` on experiments that neither has seen [nats]. One experiment can lose [`MOST_OF_ONE`]: a part that names
+    /// another cause may predict no rebound at all where it is extrapolated.
+    pub fn gain_over(&self, other: &Self, study: &RigStudy<'_>) -> f64 {
+        let experiments = study.data.experiments;
+        let values = study.data.values();
+        let score = |all: &Prepared, of: &dyn Fn(usize) -> bool| {
+            let weights: Vec<f64> = (0..experiments).map(|one| f64::from(u8::from(of(one)))).collect();
+            study.data.score(all, &values, &weights)
+        };
+        let [own, others] = [self, other]
+            .map(|one| study.data.prepare(&one.predicted.iter().map(|pair| pair[1]).collect::<Vec<_>>()));
+        let fails: Vec<bool> = (0..experiments)
+            .map(|one| score(&own, &|i| i == one) < score(&others, &|i| i == one) - MOST_OF_ONE)
+            .collect();
+        let failed = fails.iter().filter(|fails| **fails).count() as f64;
+        score(&own, &|one| !fails[one]) - score(&others, &|one| !fails[one]) - MOST_OF_ONE * failed
+    }
+
+    /// The gain in one kind of readings; `None` where too few experiments have it.
+    pub fn gain(&self, study: &RigStudy<'_>, kind: usize) -> Option<Gain> {
+        let data = &study.data;
+        let of_kind = |(index, datum): (usize, &super::noise::Datum)| {
+            let [before, after] = self.predicted[index].map(|one| (datum.value - one.value).powi(2));
+            let usable = datum.kind == kind && before.is_finite() && after.is_finite();
+            usable.then_some((datum.experiment, [before, after]))
+        };
+        let rows: Vec<(usize, [f64; 2])> = data.readings.iter().enumerate().filter_map(of_kind).collect();
+        let units = sums_by_unit(&rows);
+        if units.len() < LEAST {
+            return None;
+        }
+        let rmse = |which: usize| {
+            (rows.iter().map(|(_, squares)| squares[which]).sum::<f64>() / rows.len() as f64).sqrt()
+        };
+        let [one, other] = [bootstrap(&units, study.seed), student_interval(&units, SHARED_FITS)];
+        let weights = vec![1.0; data.experiments];
+        let mean_score = |which: usize| {
+            let all: Vec<Predicted> = self.predicted.iter().map(|pair| pair[which]).collect();
+            study.score_of(&all, &weights) / data.readings.len() as f64
+        };
+        Some(Gain {
+            held_out_rows: units.len(),
+            measured: CROSS_VALIDATED,
+            observable: data.kinds[kind],
+            rmse_before: rmse(0),
+            rmse_after: rmse(1),
+            ci95: [one[0].min(other[0]), one[1].max(other[1])],
+            noise_floor: self.noise(study, kind),
+            log_score_before: mean_score(0),
+            log_score_after: mean_score(1),
+        })
+    }
+
+    /// Root mean square of the known errors of a kind of readings [1].
+    fn noise(&self, study: &RigStudy<'_>, kind: usize) -> Option<f64> {
+        let data = &study.data;
+        let of = |(index, datum): (usize, &super::noise::Datum)| {
+            let known = !matches!(datum.noise, super::noise::Noise::Shared { .. });
+            let variance = data.variance(index, &self.predicted[index][1], &vec![0.0; data.kinds.len()]);
+            (datum.kind == kind && known).then_some(variance)
+        };
+        let known: Vec<f64> = data.readings.iter().enumerate().filter_map(of).collect();
+        (!known.is_empty()).then(|| (known.iter().sum::<f64>() / known.len() as f64).sqrt())
+    }
+}
+
+/// Predictions of all readings by a model file: its terms and changed numbers on the model of each experiment, whose settings may
+/// change other keys of the model.
+pub(super) fn predict_file(
+    study: &RigStudy<'_>,
+    file: &Model,
+    additions: &[RigAddition],
+) -> Result<Vec<Predicted>, String> {
+    let numbers: Vec<(LawParameter, f64)> = additions
+        .iter()
+        .filter_map(|addition| match addition.kind {
+            Kind::Part(Part::LawParameter(parameter)) => Some((parameter, parameter.of(file)?)),
+            _ => None,
+        })
+        .collect();
+    let change = |model: &Model| {
+        let with_terms = model.with_terms(file.terms().to_vec());
+        numbers.iter().fold(with_terms, |model, (parameter, value)| parameter.set(&model, *value))
+    };
+    let mut all = Vec::new();
+    for experiment in 0..study.data.experiments {
+        all.extend(study.forward.predict(experiment, &change)?);
+    }
+    Ok(all)
+}

@@ -1,0 +1,137 @@
+//! Diagnosis of a simulation from what the whole rig measures.
+//!
+//! Data flow: readings → predictions of every candidate at places of its range (`shelf`) → test against data sets without an effect
+//! (`significance`) → fits and choice (`choice`) → draws of the parameters (`posterior`) → gain on held-out experiments
+//! (`gain`) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
+//! decided again. Candidates are those of the diagnosis of impacts. Method and limits: `docs/rig-diagnosis.md`.
+
+mod addition;
+mod choice;
+mod gain;
+mod next;
+mod noise;
+mod places;
+mod posterior;
+mod proposals;
+mod report;
+mod shelf;
+mod significance;
+
+pub use next::NextExperiment;
+pub use report::{KindErrors, RigDiagnosis, RigRow};
+
+use toml_edit::InlineTable;
+
+use super::extend::ranges;
+use super::record::Options;
+use crate::dataset::RigMeasurements;
+use crate::rig::{CaseText, Forward};
+use addition::{RigAddition, extended_text};
+use choice::RigStudy;
+use gain::HeldOut;
+use nearwall::impact::INPUTS;
+use posterior::Posterior;
+
+/// Why there is no diagnosis.
+#[derive(Debug, thiserror::Error)]
+pub enum RigError {
+    /// Too few readings.
+    #[error(
+        "{usable} of {read} rows can be used; a diagnosis of a rig needs at least {LEAST_READINGS} readings. {reasons}"
+    )]
+    TooFew {
+        /// Usable rows.
+        usable: usize,
+        /// Rows in the file.
+        read: usize,
+        /// Why the first rows were rejected.
+        reasons: String,
+    },
+    /// The model cannot decide an impact of an experiment.
+    #[error("{0}")]
+    Undecided(String),
+    /// The text of the base model cannot be edited.
+    #[error("the model file cannot be extended: {0}")]
+    Unextendable(String),
+}
+
+/// Least number of readings.
+const LEAST_READINGS: usize = 3;
+/// Misfit per degree of freedom beyond which the parameters' intervals are widened by it, at this p-value.
+const MISFIT: f64 = 0.05;
+
+/// Diagnoses the readings of `forward` against the model file with the text `model`. `draws` model files are drawn from the fit;
+/// `case` simulates experiments that nobody has made yet, where there is one; `progress` is called after each candidate.
+///
+/// # Errors
+/// [`RigError`].
+pub fn diagnose_rig(
+    forward: &dyn Forward,
+    data: &RigMeasurements,
+    model: &str,
+    options: &Options,
+    draws: usize,
+    case: Option<&CaseText>,
+    progress: &(dyn Fn() + Sync),
+) -> Result<RigDiagnosis, RigError> {
+    if data.count() < LEAST_READINGS {
+        let reason = |bad: &crate::dataset::BadRow| {
+            format!("Line {}: {}.", bad.line, bad.reason.trim_end_matches('.'))
+        };
+        let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
+        let usable = data.read - data.rejected.len();
+        return Err(RigError::TooFew { usable, read: data.read, reasons });
+    }
+    let study = RigStudy::new(forward, options.level, options.seed, progress);
+    let all = vec![1.0; study.data.experiments];
+    let valid = valid(forward);
+    let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
+    let choice = study.choose(&all).map_err(RigError::Undecided)?;
+    let whole = choice.clone();
+    let (mut choice, not_carried) = study.carried(choice, &write, &all).map_err(RigError::Undecided)?;
+    let undecided = report::undecided(&choice);
+    if !undecided.is_empty() {
+        choice.additions.clear();
+    }
+
+    let widened = report::widened(&study, &choice.additions, &all).map_err(RigError::Undecided)?;
+    let posterior = Posterior::new(&study, &choice.additions, &all, widened);
+    set_intervals(&mut choice.additions, &posterior);
+    let text = extended_text(model, &choice.additions, &valid);
+    let text = text.map_err(|error| RigError::Unextendable(error.to_string()))?;
+    let held_out = match choice.additions.is_empty() {
+        true => None,
+        false => {
+            let causes = choice.rounds.len();
+            HeldOut::new(&study, &choice, causes, Some(&posterior), &write).map_err(RigError::Undecided)?
+        }
+    };
+    let next = match case {
+        Some(case) => next::next_experiments(&study, &choice, &whole, &posterior, data, case),
+        None => Ok(Vec::new()),
+    };
+    let next = next.map_err(RigError::Undecided)?;
+    let drawn = posterior.draws(draws, options.seed);
+    let draws = drawn.iter().filter_map(|at| write(&choice::moved(&choice.additions, at))).collect();
+    let found = report::Found { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
+    found.record(data, options).map_err(RigError::Undecided)
+}
+
+/// The ranges of the inputs over the first impacts.
+fn valid(forward: &dyn Forward) -> InlineTable {
+    ranges(INPUTS.iter().filter_map(|input| Some((input.name, choice::range(forward, input.name)?))))
+}
+
+/// Sets the parameters' intervals to those of the draws.
+fn set_intervals(additions: &mut [RigAddition], posterior: &Posterior) {
+    let mut place = 0;
+    for addition in additions {
+        let mut intervals = Vec::new();
+        for (axis, at) in addition.axes.iter().zip(&addition.at) {
+            let [low, high] = posterior.interval(place).unwrap_or([*at, *at]);
+            intervals.push([axis.value(low.min(*at)), axis.value(high.max(*at))]);
+            place += 1;
+        }
+        addition.intervals = intervals;
+    }
+}

@@ -1,0 +1,515 @@
+//! The record of a diagnosis of a rig, and its verdict.
+
+use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
+
+use super::super::finding::sigma;
+use super::super::part::{Part, rounded};
+use super::super::record::{
+    Alternative, Calibration, Diagnosis, Finding, Fit, FitTest, FittedCurve, LargeMisfit, NotExamined,
+    Options, Rows,
+};
+use super::super::verdict::{fit_sentence, is_refuted};
+use super::MISFIT;
+use super::addition::{Kind, RigAddition};
+use super::choice::{Choice, DISTINGUISHABLE, RigStudy, Round, Scored, range};
+use super::gain::{HeldOut, predict_file};
+use super::next::{NextExperiment, table};
+use super::noise::Noise;
+use super::shelf::predict;
+use crate::dataset::RigMeasurements;
+use crate::rig::Predicted;
+use nearwall::effect::EFFECTS;
+use nearwall::model::Model;
+
+/// Readings with the largest misfit that are listed.
+const LARGEST: usize = 5;
+/// Least share of resamples that name a cause which is told from others by little.
+const LEAST_CERTAINTY: f64 = 0.5;
+/// With fewer experiments than these, causes that cannot be told apart are undecided.
+const FEW_EXPERIMENTS: usize = 6;
+
+/// A diagnosis of a rig: `diagnosis.json`.
+#[derive(Debug, Clone, Serialize)]
+pub struct RigDiagnosis {
+    /// As for impacts; rows are those of the file, held-out ones are experiments.
+    #[serde(flatten)]
+    pub diagnosis: Diagnosis,
+    /// Causes that would explain these experiments, but that do not help to predict experiments that they have not seen.
+    pub not_carried: Vec<String>,
+    /// Every reading beside both models.
+    pub readings: Vec<RigRow>,
+    /// Errors by kind of observable, on the readings that were fitted.
+    pub errors: Vec<KindErrors>,
+    /// Experiments worth making, the most telling first.
+    pub next: Vec<NextExperiment>,
+    /// The same as a table to be filled in.
+    #[serde(skip)]
+    pub next_table: String,
+    /// What was assumed about the data.
+    pub notes: Vec<String>,
+    /// Text of the extended model.
+    #[serde(skip)]
+    pub extended: String,
+    /// Texts of model files with parameters drawn from the fit.
+    #[serde(skip)]
+    pub draws: Vec<String>,
+}
+
+/// A reading beside both models.
+#[derive(Debug, Clone, Serialize)]
+pub struct RigRow {
+    /// The experiment.
+    pub experiment: String,
+    /// Line in the file.
+    pub line: u64,
+    /// The column, as in `captured@target`.
+    pub observable: String,
+    /// Settings of the experiment.
+    pub settings: Vec<(String, String)>,
+    /// Measured value [1].
+    pub measured: f64,
+    /// Its standard error under the extended model [1], a fitted one where none is stated.
+    pub error: f64,
+    /// Predicted by the base model [1]; `None` where nothing of the kind happens.
+    pub base: Option<f64>,
+    /// Predicted by the extended model [1].
+    pub extended: Option<f64>,
+    /// Predicted by a model that has not seen the experiment [1].
+    pub held_out: Option<f64>,
+}
+
+/// Root mean square errors of a kind of readings [1].
+#[derive(Debug, Clone, Serialize)]
+pub struct KindErrors {
+    /// The kind.
+    pub observable: &'static str,
+    /// Number of readings.
+    pub readings: usize,
+    /// Of the base model.
+    pub rmse_base: f64,
+    /// Of the extended model.
+    pub rmse_extended: f64,
+}
+
+/// What a diagnosis found.
+pub(super) struct Found<'a> {
+    pub study: &'a RigStudy<'a>,
+    pub choice: Choice,
+    /// Causes of which one is significant, if the data cannot tell which.
+    pub undecided: Vec<String>,
+    /// Causes that explain these experiments but do not help to predict others.
+    pub not_carried: Vec<String>,
+    pub held_out: Option<HeldOut>,
+    pub text: String,
+    pub draws: Vec<String>,
+    pub next: Vec<NextExperiment>,
+}
+
+/// With few experiments, causes that cannot be told apart.
+pub(super) fn undecided(choice: &Choice) -> Vec<String> {
+    let Some(first) = choice.rounds.first() else { return Vec::new() };
+    let others = rivals(first);
+    let few = first.certainty < LEAST_CERTAINTY && choice.rounds.len() == 1;
+    let experiments_few = few && !others.is_empty();
+    if experiments_few && first.others.iter().any(|other| other.gain > first.winner.gain - 1.0) {
+        return std::iter::once(first.winner.addition.name()).chain(others).collect();
+    }
+    Vec::new()
+}
+
+/// Causes that the readings cannot tell from the winner of a round.
+fn rivals(round: &Round) -> Vec<String> {
+    let close = round.others.iter().filter(|other| other.gain > round.winner.gain - DISTINGUISHABLE);
+    let mut names: Vec<String> =
+        close.filter(|other| is_rival(round, other)).map(|other| other.addition.name()).collect();
+    names.dedup();
+    names
+}
+
+/// Whether a candidate can be another cause than the winner of a round, and not only a freer form of it.
+pub(super) fn is_rival(round: &Round, other: &Scored) -> bool {
+    // A free curve over an input contains the laws over it.
+    let own = round.winner.addition.variables();
+    let inputs = other.addition.variables();
+    let freer = inputs.is_empty() || inputs.iter().any(|input| own.contains(input));
+    !(other.addition.is_curve() && freer)
+}
+
+/// Factor on the variance of the likelihood by a misfit that the additions leave.
+///
+/// # Errors
+/// Why an impact cannot be decided.
+pub(super) fn widened(
+    study: &RigStudy<'_>,
+    additions: &[RigAddition],
+    weights: &[f64],
+) -> Result<f64, String> {
+    let predicted = predict(study.forward, additions)?;
+    let parameters: usize = additions.iter().map(|addition| addition.axes.len()).sum();
+    let (chi_square, readings) = study.data.chi_square(&predicted, weights);
+    let freedom = readings.saturating_sub(parameters).max(1) as f64;
+    let p = p_of(chi_square, freedom);
+    Ok(if readings > 0 && p < MISFIT { (chi_square / freedom).max(1.0) } else { 1.0 })
+}
+
+fn p_of(chi_square: f64, freedom: f64) -> f64 {
+    ChiSquared::new(freedom).map_or(1.0, |law| law.sf(chi_square))
+}
+
+impl Found<'_> {
+    /// The record.
+    ///
+    /// # Errors
+    /// Why an impact cannot be decided.
+    pub fn record(self, file: &RigMeasurements, options: &Options) -> Result<RigDiagnosis, String> {
+        let Self { study, choice, held_out, .. } = &self;
+        let all = vec![1.0; study.data.experiments];
+        let base = predict(study.forward, &[])?;
+        let model = Model::from_toml("extended.toml", &self.text).map_err(|error| error.to_string())?;
+        let extended = predict_file(study, &model, &choice.additions)?;
+        let fit = Fit {
+            base: self.fit_test(&base, 0, choice.structure[0]),
+            extended: self.fit_test(
+                &extended,
+                choice.additions.iter().map(|a| a.axes.len()).sum(),
+                choice.structure[1],
+            ),
+            largest: self.largest(&base),
+        };
+        let named = if self.undecided.is_empty() { choice.rounds.as_slice() } else { &[] };
+        let mut findings: Vec<Finding> = Vec::new();
+        let mut calibration = Vec::new();
+        for (round, addition) in named.iter().zip(&choice.additions) {
+            match self.calibration(round, addition) {
+                Some(one) => calibration.push(one),
+                None => findings.push(self.finding(round, addition)?),
+            }
+        }
+        let gains = held_out.iter().flat_map(|held_out| {
+            (0..study.data.kinds.len()).filter_map(|kind| held_out.gain(study, kind)).collect::<Vec<_>>()
+        });
+        let gains: Vec<_> = gains.collect();
+        let first = findings.first().map_or("", |finding| finding.observable);
+        let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
+        let used = file.read - file.rejected.len();
+        let mut diagnosis = Diagnosis {
+            schema: "nearwall.diagnosis/2",
+            seed: options.seed,
+            level: options.level,
+            rows: Rows {
+                read: file.read,
+                used,
+                held_out: gain.as_ref().map_or(0, |gain| gain.held_out_rows),
+                held_out_lines: Vec::new(),
+                selected: None,
+                rejected: file.rejected.clone(),
+            },
+            fit,
+            findings,
+            undecided: self.undecided.clone(),
+            calibration,
+            not_examined: self.not_examined(),
+            gain,
+            gains,
+            extended_model: "extended.toml",
+            ..Diagnosis::default()
+        };
+        diagnosis.verdict =
+            sentences(&diagnosis, &self.not_carried, [study.data.experiments, study.data.readings.len()]);
+        if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
+            diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
+        }
+        let scatter = study.data.scatter(&extended, &all);
+        let readings = self.rows(&base, &extended, &scatter);
+        let errors = self.errors(&base, &extended);
+        let notes = file.notes.clone();
+        let next_table = table(&self.next);
+        let Self { text: extended, draws, next, not_carried, .. } = self;
+        Ok(RigDiagnosis {
+            diagnosis,
+            not_carried,
+            readings,
+            errors,
+            next,
+            next_table,
+            notes,
+            extended,
+            draws,
+        })
+    }
+
+    fn fit_test(&self, predicted: &[Predicted], parameters: usize, structure: f64) -> FitTest {
+        let data = &self.study.data;
+        let (chi_square, readings) = data.chi_square(predicted, &vec![1.0; data.experiments]);
+        if readings < data.readings.len() || readings <= parameters {
+            return FitTest { against: "structure", p_value: Some(structure), ..FitTest::default() };
+        }
+        let freedom = readings - parameters;
+        FitTest {
+            against: "stated errors",
+            chi_square: Some(chi_square),
+            degrees_of_freedom: Some(freedom),
+            p_value: Some(p_of(chi_square, freedom as f64)),
+        }
+    }
+
+    /// The readings farthest from the base model, of those with a known error.
+    fn largest(&self, base: &[Predicted]) -> Vec<LargeMisfit> {
+        let data = &self.study.data;
+        let mut all: Vec<LargeMisfit> = Vec::new();
+        for (index, datum) in data.readings.iter().enumerate() {
+            if matches!(datum.noise, Noise::Shared { .. }) || !base[index].value.is_finite() {
+                continue;
+            }
+            let reading = &self.study.forward.experiments()[datum.experiment].readings[datum.place];
+            let error = data.variance(index, &base[index], &[]).sqrt();
+            all.push(LargeMisfit {
+                line: reading.line,
+                observable: data.kinds[datum.kind],
+                measured: datum.value,
+                predicted: base[index].value,
+                standard_errors: (datum.value - base[index].value) / error,
+            });
+        }
+        all.sort_by(|a, b| b.standard_errors.abs().total_cmp(&a.standard_errors.abs()));
+        all.truncate(LARGEST);
+        all
+    }
+
+    fn calibration(&self, round: &Round, addition: &RigAddition) -> Option<Calibration> {
+        let Kind::Part(Part::LawParameter(parameter)) = addition.kind else { return None };
+        let [low, high] = addition.intervals.first()?.map(rounded);
+        Some(Calibration {
+            key: addition.name(),
+            from: parameter.of(self.study.forward.base(0))?,
+            value: rounded(*addition.values().first()?),
+            low,
+            high,
+            p_value: round.winner.p_value,
+            q_value: round.winner.p_value,
+        })
+    }
+
+    fn finding(&self, round: &Round, addition: &RigAddition) -> Result<Finding, String> {
+        let Scored { gain, p_value, .. } = round.winner;
+        let others = rivals(round);
+        let curve = addition.fitted_curve().map(|curve| FittedCurve {
+            factor: curve.on != nearwall::effect::CurveTarget::Capture,
+            at: curve
+                .axes
+                .iter()
+                .flat_map(|axis| axis.knots.iter().map(|k| rounded(*k).to_string()))
+                .collect(),
+            adds: curve.values.iter().map(|value| rounded(*value)).collect(),
+        });
+        let alternatives = round
+            .others
+            .iter()
+            .map(|other| Alternative { cause: other.addition.name(), score_difference: gain - other.gain });
+        let observable = self.observable(addition)?;
+        let mut finding = Finding {
+            cause: addition.name(),
+            observable,
+            variables: addition.variables(),
+            gain,
+            chi_square: 2.0 * (gain + addition.axes.len() as f64),
+            sigma: sigma(p_value),
+            certainty: round.certainty,
+            lack_of_fit: None,
+            not_separable: Vec::new(),
+            p_value,
+            q_value: p_value,
+            parameters: addition.estimates().into_iter().collect(),
+            alternatives: alternatives.collect(),
+            indistinguishable_from: others,
+            measure_next: Vec::new(),
+            curve,
+            surface: None,
+            explanation: String::new(),
+        };
+        finding.explanation = explain(&finding);
+        Ok(finding)
+    }
+
+    /// The kind of observable that an addition changes most, in standard errors.
+    fn observable(&self, addition: &RigAddition) -> Result<&'static str, String> {
+        let (study, data) = (self.study, &self.study.data);
+        let all = &self.choice.additions;
+        let rest: Vec<RigAddition> = all.iter().filter(|one| one.key() != addition.key()).cloned().collect();
+        let [with, without] = [predict(study.forward, all)?, predict(study.forward, &rest)?];
+        let scatter = data.scatter(&with, &vec![1.0; data.experiments]);
+        let mut changes = vec![0.0; data.kinds.len()];
+        for (index, datum) in data.readings.iter().enumerate() {
+            let change = (with[index].value - without[index].value).powi(2);
+            if change.is_finite() {
+                changes[datum.kind] += change / data.variance(index, &with[index], &scatter);
+            }
+        }
+        let most = (0..changes.len()).max_by(|&a, &b| changes[a].total_cmp(&changes[b]));
+        Ok(most.map_or("captured", |kind| data.kinds[kind]))
+    }
+
+    fn not_examined(&self) -> Vec<NotExamined> {
+        let forward = self.study.forward;
+        let base = forward.base(0);
+        let reason = |effect: &&'static nearwall::effect::EffectInfo| {
+            if base.terms().iter().any(|term| term.kind().id == effect.id) {
+                return Some("the base model contains it".to_owned());
+            }
+            let constant: Vec<&str> =
+                effect.inputs.iter().copied().filter(|input| range(forward, input).is_none()).collect();
+            let part = Part::Effect(effect);
+            let open = RigAddition::part(part, |input| range(forward, input)).is_some();
+            (!open).then(|| format!("{} does not vary over the impacts", constant.join(", ")))
+        };
+        EFFECTS
+            .iter()
+            .filter_map(|effect| Some(NotExamined { cause: effect.id, reason: reason(effect)? }))
+            .collect()
+    }
+
+    fn rows(&self, base: &[Predicted], extended: &[Predicted], scatter: &[f64]) -> Vec<RigRow> {
+        let finite = |one: &Predicted| one.value.is_finite().then_some(one.value);
+        let row = |(index, datum): (usize, &super::noise::Datum)| {
+            let experiment = &self.study.forward.experiments()[datum.experiment];
+            let reading = &experiment.readings[datum.place];
+            RigRow {
+                experiment: experiment.name.clone(),
+                line: reading.line,
+                observable: reading.column.clone(),
+                settings: experiment.settings.clone(),
+                measured: datum.value,
+                error: self.study.data.variance(index, &extended[index], scatter).sqrt(),
+                base: finite(&base[index]),
+                extended: finite(&extended[index]),
+                held_out: self.held_out.as_ref().and_then(|held_out| finite(&held_out.predicted[index][1])),
+            }
+        };
+        self.study.data.readings.iter().enumerate().map(row).collect()
+    }
+
+    fn errors(&self, base: &[Predicted], extended: &[Predicted]) -> Vec<KindErrors> {
+        let data = &self.study.data;
+        let of = |(kind, name): (usize, &&'static str)| {
+            let own = data.readings.iter().enumerate().filter(|(_, datum)| datum.kind == kind);
+            let squares = |predicted: &[Predicted]| {
+                let all: Vec<f64> =
+                    own.clone().map(|(i, datum)| (datum.value - predicted[i].value).powi(2)).collect();
+                let finite: Vec<f64> = all.into_iter().filter(|square| square.is_finite()).collect();
+                (finite.iter().sum::<f64>() / finite.len().max(1) as f64).sqrt()
+            };
+            KindErrors {
+                observable: name,
+                readings: own.clone().count(),
+                rmse_base: squares(base),
+                rmse_extended: squares(extended),
+            }
+        };
+        data.kinds.iter().enumerate().map(of).collect()
+    }
+}
+
+/// A finding in a few sentences.
+fn explain(finding: &Finding) -> String {
+    let known = EFFECTS.iter().find(|effect| effect.id == finding.cause);
+    let what = match (known, finding.cause.split_once(':')) {
+        (Some(effect), _) => format!("{}: {}.", effect.id, effect.about),
+        (None, Some(("unknown", input))) => {
+            format!("What the rig shows depends on {input} in a way that no effect of the library explains.")
+        }
+        (None, Some(("level", what))) => format!(
+            "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a constant."
+        ),
+        _ => finding.cause.clone(),
+    };
+    let others = match finding.indistinguishable_from.as_slice() {
+        [] => String::new(),
+        others => format!(" These experiments cannot tell it from {}.", others.join(" or ")),
+    };
+    format!(
+        "{what} It acts most on {}; chi-square falls by {:.1}. By chance any of the candidates gains as much at most once in {:.0}.{others}",
+        finding.observable,
+        finding.chi_square,
+        1.0 / finding.q_value.max(1e-9)
+    )
+}
+
+/// The verdict: the result in a few sentences.
+fn sentences(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings]: [usize; 2]) -> String {
+    let mut text = fit_sentence(&diagnosis.fit);
+    let cause = |finding: &Finding| {
+        let name = match finding.cause.split_once(':') {
+            Some(("unknown", input)) => format!("a dependence on {input}"),
+            Some(("level", what)) => format!("a shift of {what}"),
+            _ => finding.cause.clone(),
+        };
+        match finding.indistinguishable_from.as_slice() {
+            [] => name,
+            others => format!("{name} (or, as these experiments cannot tell, {})", others.join(" or ")),
+        }
+    };
+    let causes: Vec<String> = diagnosis.findings.iter().map(cause).collect();
+    let value = |c: &Calibration| format!("{} = {} instead of {}", c.key, c.value, c.from);
+    let values = diagnosis.calibration.iter().map(value).collect::<Vec<_>>().join(", ");
+    text += &match (causes.as_slice(), values.is_empty()) {
+        ([], true) if !diagnosis.undecided.is_empty() => {
+            format!(
+                "These experiments speak against the simulation, but cannot tell which of {}.",
+                diagnosis.undecided.join(", ")
+            )
+        }
+        ([], true) if is_refuted(&diagnosis.fit) => {
+            "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not at the wall; \
+             check the gas, the particles' size and speed, and what counts as captured."
+                .to_owned()
+        }
+        ([], true) => format!(
+            "In {experiments} experiments with {readings} readings no deviation from the simulation is significant."
+        ),
+        ([], false) => format!("The data support {values}; no further effect is significant."),
+        ([one], _) => format!("The wall law lacks {one}."),
+        (several, _) => format!("The wall law lacks {} effects: {}.", several.len(), several.join(", ")),
+    };
+    if !causes.is_empty() && !values.is_empty() {
+        text += &format!(" The data also support {values}.");
+    }
+    if !not_carried.is_empty() {
+        text += &format!(
+            " {} would explain more of these experiments, but not those that it has not seen: no cause is named for that.",
+            not_carried.join(" or ")
+        );
+    }
+    if let Some(finding) = diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
+        text += &format!(
+            " {} is named in only {:.0} % of resampled sets of experiments: take it as a hint.",
+            finding.cause,
+            100.0 * finding.certainty
+        );
+    }
+    let left = &diagnosis.fit.extended;
+    if !(causes.is_empty() && values.is_empty())
+        && let (Some(chi_square), Some(freedom), Some(p)) =
+            (left.chi_square, left.degrees_of_freedom, left.p_value)
+        && p < 0.01
+    {
+        text += &format!(
+            " A misfit is left (chi-square {chi_square:.1} for {freedom}): errors larger than stated, or a cause that is not \
+             among the candidates."
+        );
+    }
+    if let Some(gain) = &diagnosis.gain {
+        text += &format!(
+            " On held-out experiments ({}, cross-validated) the root mean square error in {} {} from {:.3} to {:.3}.",
+            gain.held_out_rows,
+            gain.observable,
+            if gain.ci95[1] < 1.0 { "falls" } else { "goes, not significantly," },
+            gain.rmse_before,
+            gain.rmse_after
+        );
+    }
+    if experiments < FEW_EXPERIMENTS {
+        text += &format!(" With only {experiments} experiments, an effect of usual size may go undetected.");
+    }
+    text
+}

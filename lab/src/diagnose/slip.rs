@@ -1,0 +1,149 @@
+//! Slips of a user: units, radius for diameter, the angle from the other side, Celsius, energy for speed.
+
+use toml_edit::{DocumentMut, Item, Value};
+
+use super::rival::scale;
+use crate::dataset::Measurement;
+use nearwall::impact::{INPUTS, Input};
+use nearwall::model::Model;
+
+/// Another reading of the numbers.
+pub(super) struct Slip {
+    pub id: String,
+    /// The question to the user.
+    pub explanation: String,
+    /// What it makes of a row.
+    pub change: Box<dyn Fn(&mut Measurement) + Send + Sync>,
+    /// The model with other numbers, if the slip is in the model file.
+    pub model: Option<Model>,
+    /// Whether the readings are ratios of energies.
+    pub energy: bool,
+}
+
+/// Factors on the diameter: what is given, and the factor to the true one.
+const SIZES: [(&str, f64, &str); 5] = [
+    ("diameter-is-radius", 2.0, "twice as large: is the column d the radius?"),
+    ("diameter-doubled", 0.5, "half as large: is the column d twice the diameter?"),
+    ("diameter-in-micrometres", 1e-6, "a millionth of what is given: is it in micrometres?"),
+    ("diameter-in-millimetres", 1e-3, "a thousandth of what is given: is it in millimetres?"),
+    ("diameter-factor-1000", 1e3, "a thousand times as large: which unit has the column d?"),
+];
+/// The same for speeds.
+const SPEEDS: [(&str, f64, &str); 4] = [
+    ("speed-in-millimetres", 1e-3, "a thousandth of what is given: are they in mm/s?"),
+    ("speed-in-centimetres", 1e-2, "a hundredth of what is given: are they in cm/s?"),
+    ("speed-in-kilometres-per-hour", 1.0 / 3.6, "divided by 3.6: are they in km/h?"),
+    ("speed-factor-1000", 1e3, "a thousand times as large: which unit do they have?"),
+];
+/// Numbers of a material, and factors that a unit or a misplaced digit makes.
+const NUMBERS: [(&str, &[f64]); 3] = [
+    ("density", &[1e3, 1e-3]),
+    ("youngs_modulus", &[0.1, 10.0, 1e-3, 1e3]),
+    ("yield_strength", &[0.1, 10.0, 1e-3, 1e3]),
+];
+/// From degrees Celsius to kelvin.
+const CELSIUS: f64 = 273.15;
+
+/// All slips that a model and its file allow.
+pub(super) fn slips(base: &Model, text: &str) -> Vec<Slip> {
+    let mut all = Vec::new();
+    for (id, factor, words) in SIZES {
+        all.push(of_rows(id, format!("These numbers fit if d were {words}"), move |row| {
+            for_input("d", |input| scale(input, row, factor));
+        }));
+    }
+    for (id, factor, words) in SPEEDS {
+        all.push(of_rows(id, format!("These numbers fit if the speeds were {words}"), move |row| {
+            for name in ["v_n", "v_t", "v_gas"] {
+                for_input(name, |input| scale(input, row, factor));
+            }
+        }));
+    }
+    let angle = "These numbers fit if v_n and v_t were exchanged: is the angle measured from the other side?";
+    all.push(of_rows("angle-from-other-side", angle.to_owned(), |row| {
+        std::mem::swap(&mut row.impact.normal_speed, &mut row.impact.tangential_speed);
+    }));
+    let celsius = "These numbers fit if the temperatures were 273.15 K higher: are they in degrees Celsius?";
+    all.push(of_rows("temperature-in-celsius", celsius.to_owned(), |row| {
+        row.impact.particle_temperature += CELSIUS;
+        row.impact.wall_temperature += CELSIUS;
+    }));
+    let words =
+        "These numbers fit if the particle temperature were 273.15 K higher: is it in degrees Celsius?";
+    all.push(of_rows("particle-temperature-in-celsius", words.to_owned(), |row| {
+        row.impact.particle_temperature += CELSIUS;
+    }));
+    let energy =
+        "These numbers fit if the readings were ratios of energies: are e_n and e_t squared speed ratios?";
+    all.push(Slip { energy: true, ..of_rows("energy-for-speed", energy.to_owned(), |_| {}) });
+    all.extend(of_materials(base, text));
+    all
+}
+
+fn of_rows(id: &str, explanation: String, change: impl Fn(&mut Measurement) + Send + Sync + 'static) -> Slip {
+    Slip { id: id.to_owned(), explanation, change: Box::new(change), model: None, energy: false }
+}
+
+fn for_input(name: &str, change: impl FnOnce(&Input)) {
+    if let Some(input) = INPUTS.iter().find(|input| input.name == name) {
+        change(input);
+    }
+}
+
+/// Slips in the numbers of the materials that the model file defines: in all of them together, and in each.
+fn of_materials(base: &Model, text: &str) -> Vec<Slip> {
+    let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
+    let Some(materials) = document.get("materials").and_then(Item::as_table_like) else { return Vec::new() };
+    let names: Vec<String> = materials.iter().map(|(name, _)| name.to_owned()).collect();
+    let mut groups: Vec<Vec<String>> = names.iter().map(|name| vec![name.clone()]).collect();
+    if names.len() > 1 {
+        groups.insert(0, names);
+    }
+    let mut all = Vec::new();
+    for (key, factors) in NUMBERS {
+        for &factor in factors {
+            for group in &groups {
+                let Some(model) = scaled(&document, group, key, factor) else { continue };
+                if model.walls().len() != base.walls().len() {
+                    continue;
+                }
+                let of = group.join(" and ");
+                let times = if factor >= 1.0 { format!("{factor}") } else { format!("1/{}", 1.0 / factor) };
+                let explanation = format!(
+                    "These numbers fit if {key} of {of} were {times} times what is given: check its unit and digits."
+                );
+                let id = format!("{key}-of-{}-times-{times}", group.join("-"));
+                all.push(Slip { model: Some(model), ..of_rows(&id, explanation, |_| {}) });
+            }
+        }
+    }
+    all
+}
+
+/// The model with one number of some materials multiplied; `None` where none of them states it.
+fn scaled(document: &DocumentMut, group: &[String], key: &str, factor: f64) -> Option<Model> {
+    let mut changed = document.clone();
+    let mut any = false;
+    for name in group {
+        let item = changed.get_mut("materials").and_then(|materials| materials.get_mut(name));
+        if let Some(item) = item.and_then(|material| material.get_mut(key)) {
+            any |= multiply(item, factor);
+        }
+    }
+    any.then(|| Model::from_toml("slip.toml", &changed.to_string()).ok()).flatten()
+}
+
+/// Multiplies a number, or the values of a table over temperature.
+fn multiply(item: &mut Item, factor: f64) -> bool {
+    let product =
+        |value: &Value| value.as_float().or_else(|| value.as_integer().map(|i| i as f64)).map(|n| n * factor);
+    if let Some(number) = item.as_value().and_then(product) {
+        *item = toml_edit::value(number);
+        return true;
+    }
+    let Some(values) = item.get_mut("value").and_then(Item::as_array_mut) else { return false };
+    let numbers: Option<Vec<f64>> = values.iter().map(product).collect();
+    let Some(numbers) = numbers else { return false };
+    *values = numbers.into_iter().collect();
+    true
+}

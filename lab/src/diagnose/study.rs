@@ -1,0 +1,180 @@
+//! Which rows choose causes, which fit the extended model, and which measure its gain.
+//!
+//! The gain needs rows that neither a choice nor a fit has seen. With many units, three quarters of them choose; only if they name
+//! nothing, all do. With fewer units all rows choose the causes, and if three quarters alone name the same, the extended model is
+//! fitted to those; its file is then run on the rest. In all other cases the gain is cross-validated: a choice, a fit and a model file
+//! for each part of the units without that part. Where groups share an error, whole groups are held out: other rows of the same group
+//! would tell its error.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::choice::{Choice, Task};
+use super::data_split::{DataSplit, shuffled};
+use super::gain::{CROSS_VALIDATED, HELD_OUT, HeldOut, ModelFile};
+use super::hypothesis::Hypothesis;
+use super::observable::Observable;
+use super::record::Gain;
+use crate::dataset::Measurements;
+use nearwall::input::InputError;
+use nearwall::model::Model;
+
+/// With so many units a quarter is held out from the start.
+const MANY_UNITS: usize = 200;
+/// Shares of the accepted level of the first choice, on three quarters, and of the second, on all units.
+const FIRST_SHARE: f64 = 0.7;
+const SECOND_SHARE: f64 = 0.5;
+/// With fewer units the gain is cross-validated.
+const LEAST_UNITS: usize = 40;
+/// With fewer groups their rows are held out one by one: so few groups say nothing of others.
+const LEAST_GROUPS: usize = 5;
+/// Parts of the cross-validation with many units, and with few.
+const PARTS: usize = 5;
+const MANY_PARTS: usize = 10;
+/// Largest number of unseen lines that are listed.
+const LISTED_LINES: usize = 1000;
+/// Largest number of rows on which the gain is measured.
+const GAIN_ROWS: usize = 20_000;
+
+/// The rows that measure the gain.
+pub(super) struct Measured {
+    /// [`HELD_OUT`] or [`CROSS_VALIDATED`].
+    pub how: &'static str,
+    pub rows: HeldOut,
+    /// After a cross-validation, all rows under the file that is written, which has seen them.
+    pub seen: Option<HeldOut>,
+}
+
+impl Measured {
+    /// The gain in an observable; `noise` is the scatter that no model removes [1].
+    pub fn gain(&self, observable: Observable, noise: Option<f64>, seed: u64) -> Option<Gain> {
+        self.rows.gain(observable, self.how, noise, seed, self.seen.as_ref())
+    }
+}
+
+/// The choice of causes, and the choice whose fit is written.
+pub(super) struct Study {
+    /// On all rows; on three quarters of a large file.
+    pub choice: Choice,
+    /// The same, or the choice on three quarters.
+    pub file: Choice,
+    /// Rows that the file has not seen; empty for a cross-validation.
+    unseen: Vec<usize>,
+    /// What is held out as a whole.
+    units: Units,
+    seed: u64,
+}
+
+impl Study {
+    pub fn new(whole: &DataSplit, mut task: Task<'_>, seed: u64) -> Self {
+        let units = Units { of_row: whole.units.clone(), count: whole.unit_count };
+        if units.count >= MANY_UNITS {
+            let (fitted, unseen) = units.quarter(seed);
+            let share = if whole.is_large() { 1.0 } else { FIRST_SHARE };
+            let choice = Choice::new(&whole.fitting(&fitted), Task { level: share * task.level, ..task });
+            let grouped = units.of_groups(&choice);
+            if grouped.is_none() && (whole.is_large() || !choice.names().is_empty()) {
+                return Self { file: choice.clone(), choice, unseen, units, seed };
+            }
+            task.level *= SECOND_SHARE;
+        }
+        let choice = Choice::new(whole, task);
+        let units = units.of_groups(&choice).unwrap_or(units);
+        if !choice.names().is_empty() && (LEAST_UNITS..MANY_UNITS).contains(&units.count) {
+            let (fitted, unseen) = units.quarter(seed);
+            let file = Choice::new(&whole.fitting(&fitted), task);
+            if file.names() == choice.names() {
+                return Self { choice, file, unseen, units, seed };
+            }
+        }
+        Self { file: choice.clone(), choice, unseen: Vec::new(), units, seed }
+    }
+
+    /// The same without causes, because something else explains more.
+    pub fn without_causes(self) -> Self {
+        let choice = self.choice.without_causes();
+        Self { file: choice.clone(), choice, unseen: Vec::new(), ..self }
+    }
+
+    /// Lines of the rows that the file has not seen.
+    pub fn unseen_lines(&self, data: &Measurements) -> Vec<u64> {
+        let mut lines: Vec<u64> = self.unseen.iter().map(|&row| data.rows[row].line).collect();
+        lines.sort_unstable();
+        lines.dedup();
+        lines.truncate(LISTED_LINES);
+        lines
+    }
+
+    /// The rows that measure the gain, and how; `models` are the base and the extended hypothesis, `text` is the extended model.
+    pub fn held_out(
+        &self,
+        rows: &Measurements,
+        whole: &DataSplit,
+        task: Task<'_>,
+        models: [&Hypothesis<'_>; 2],
+        text: &str,
+    ) -> Result<Measured, InputError> {
+        let mut held_out = HeldOut::default();
+        let base = ModelFile { model: &whole.base, scatter: models[0].scatter };
+        if !self.unseen.is_empty() {
+            let model = Model::from_toml("extended.toml", text)?;
+            let extended = ModelFile { model: &model, scatter: models[1].scatter };
+            let unseen = &self.unseen[..self.unseen.len().min(GAIN_ROWS)];
+            held_out.add(rows, &self.units.of_row, unseen, [&base, &extended]);
+            return Ok(Measured { how: HELD_OUT, rows: held_out, seen: None });
+        }
+        let parts = self.units.parts(self.seed);
+        let file = |part: &Vec<usize>| {
+            let mut inside = vec![false; whole.rows.len()];
+            part.iter().for_each(|&row| inside[row] = true);
+            let others: Vec<usize> = (0..whole.rows.len()).filter(|&row| !inside[row]).collect();
+            let choice = Choice::new(&whole.fitting(&others), task);
+            let text = choice.model_text(task).unwrap_or_else(|_| task.text.to_owned());
+            Ok((Model::from_toml("extended.toml", &text)?, choice.scatter()))
+        };
+        let files: Vec<(Model, _)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
+        for (part, (model, scatter)) in parts.iter().zip(&files) {
+            held_out.add(rows, &self.units.of_row, part, [&base, &ModelFile { model, scatter: *scatter }]);
+        }
+        let model = Model::from_toml("extended.toml", text)?;
+        let mut seen = HeldOut::default();
+        let extended = ModelFile { model: &model, scatter: models[1].scatter };
+        seen.add(rows, &self.units.of_row, &whole.all(), [&base, &extended]);
+        Ok(Measured { how: CROSS_VALIDATED, rows: held_out, seen: Some(seen) })
+    }
+}
+
+/// Rows that are held out together.
+struct Units {
+    /// The unit of each row.
+    of_row: Arc<[usize]>,
+    count: usize,
+}
+
+impl Units {
+    /// The groups that share an error in a choice, if there are enough of them and they are not the units already.
+    fn of_groups(&self, choice: &Choice) -> Option<Self> {
+        let groups = choice.data.shared.as_ref()?;
+        let fewer = (LEAST_GROUPS..self.count).contains(&groups.count);
+        fewer.then(|| Self { of_row: groups.of_row.clone(), count: groups.count })
+    }
+
+    /// The rows of three quarters of the units, and the others.
+    fn quarter(&self, seed: u64) -> (Vec<usize>, Vec<usize>) {
+        let mut held = vec![false; self.count];
+        shuffled(self.count, seed).iter().take(self.count / 4).for_each(|&unit| held[unit] = true);
+        (0..self.of_row.len()).partition(|&row| !held[self.of_row[row]])
+    }
+
+    /// The rows in parts.
+    fn parts(&self, seed: u64) -> Vec<Vec<usize>> {
+        let count = if self.count < LEAST_UNITS { MANY_PARTS } else { PARTS }.min(self.count);
+        let mut part_of = vec![0; self.count];
+        let order = shuffled(self.count, seed);
+        order.iter().enumerate().for_each(|(place, &unit)| part_of[unit] = place % count);
+        let mut parts = vec![Vec::new(); count];
+        (0..self.of_row.len()).for_each(|row| parts[part_of[self.of_row[row]]].push(row));
+        parts
+    }
+}

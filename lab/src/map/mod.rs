@@ -1,0 +1,128 @@
+//! Maps of a model: what it decides over two inputs of an impact while the other inputs are fixed.
+//!
+//! A [`Map`] has a [`Cell`] for each pair of values of two [`Axis`]. Random draws are averaged. Format for users:
+//! `docs/map.md`.
+
+mod axis;
+mod cell;
+
+use rayon::prelude::*;
+
+use nearwall::impact::{INPUTS, Impact, Input};
+use nearwall::model::Model;
+
+pub use axis::{Axis, DEFAULT_POINTS, Setting};
+pub use cell::Cell;
+use cell::Draws;
+
+/// What a model decides over two inputs.
+#[derive(Debug, Clone)]
+pub struct Map {
+    /// Name of the wall.
+    pub wall: String,
+    /// The input along the x axis.
+    pub x: Axis,
+    /// The input along the y axis.
+    pub y: Axis,
+    /// The other inputs.
+    pub fixed: Impact,
+    /// Random draws behind each cell; 1 for a model without random effects.
+    pub draws: usize,
+    /// One cell for each pair of values, `x` running fastest; `None` where the impact cannot be decided.
+    pub cells: Vec<Option<Cell>>,
+    /// Why the first undecided cell could not be decided.
+    pub first_refusal: Option<String>,
+}
+
+impl Map {
+    /// Decides the impacts `fixed` on the wall with index `wall` over both axes.
+    pub fn new(model: &Model, wall: usize, [x, y]: [Axis; 2], fixed: Impact) -> Self {
+        let draws = Draws::of(model);
+        let columns = x.values();
+        let row = |value: &f64| -> Vec<_> {
+            let decide = |column: &f64| {
+                let mut impact = fixed;
+                (y.input().set)(&mut impact, *value);
+                (x.input().set)(&mut impact, *column);
+                draws.decide(model, wall, &impact)
+            };
+            columns.iter().map(decide).collect()
+        };
+        let decided: Vec<_> = y.values().par_iter().flat_map_iter(row).collect();
+        let refusal = |cell: &Result<Cell, _>| cell.as_ref().err().map(ToString::to_string);
+        let first_refusal = decided.iter().find_map(refusal);
+        let cells = decided.into_iter().map(Result::ok).collect();
+        let wall = model.walls().get(wall).map_or("", |wall| wall.name()).to_owned();
+        Self { wall, x, y, fixed, draws: draws.count(), cells, first_refusal }
+    }
+
+    /// Number of cells that could not be decided.
+    pub fn undecided(&self) -> usize {
+        self.cells.iter().filter(|cell| cell.is_none()).count()
+    }
+
+    /// Number of cells outside the range that a law or a term is stated for.
+    pub fn outside_range(&self) -> usize {
+        self.cells.iter().flatten().filter(|cell| cell.outside_range).count()
+    }
+
+    /// Both values of each cell, in the order of the cells.
+    pub fn places(&self) -> impl Iterator<Item = [f64; 2]> {
+        let columns = self.x.values();
+        let pair = move |row: f64| columns.clone().into_iter().map(move |column| [column, row]);
+        self.y.values().into_iter().flat_map(pair)
+    }
+
+    /// The inputs that are not along an axis, with their values.
+    pub fn fixed_inputs(&self) -> impl Iterator<Item = (&'static Input, f64)> {
+        let axes = [self.x.input().name, self.y.input().name];
+        let fixed = INPUTS.iter().filter(move |input| !axes.contains(&input.name));
+        fixed.map(|input| (input, (input.value)(&self.fixed)))
+    }
+}
+
+/// Speeds [m/s] at which the dependence on an input is tried.
+const TRIED_SPEEDS: [f64; 3] = [0.3, 3.0, 30.0];
+
+/// The axes of a map where the user gives one or none: `v_n`, and the first of `T_w`, `d`, `T_p`, `conversion` and `v_t` that
+/// changes an outcome.
+pub fn default_axes(
+    model: &Model,
+    wall: usize,
+    fixed: &Impact,
+    [x, y]: [Option<Axis>; 2],
+    points: usize,
+) -> Option<[Axis; 2]> {
+    let mut candidates = Vec::new();
+    for name in ["v_n", "T_w", "d", "T_p", "conversion", "v_t"] {
+        let Some(axis) = Axis::over_default_range(name, model, wall, points) else { continue };
+        let taken = [&x, &y].into_iter().flatten().any(|given| given.input().name == name);
+        if !taken && (name == "v_n" || depends_on(model, wall, fixed, &axis)) {
+            candidates.push(axis);
+        }
+    }
+    // A model that depends on nothing else still has a map.
+    for name in ["d", "T_w"] {
+        candidates.extend(Axis::over_default_range(name, model, wall, points));
+    }
+    let mut next = candidates.into_iter();
+    let x = x.or_else(|| next.next())?;
+    let y = y.or_else(|| next.find(|axis| axis.input().name != x.input().name))?;
+    Some([x, y])
+}
+
+/// Whether an input changes what the model decides, at some speeds.
+fn depends_on(model: &Model, wall: usize, fixed: &Impact, axis: &Axis) -> bool {
+    let draws = Draws::of(model);
+    let varies = |speed: f64| {
+        let decide = |value: f64| {
+            let mut impact = Impact { normal_speed: speed, ..*fixed };
+            (axis.input().set)(&mut impact, value);
+            // The range that a law is stated for is no outcome.
+            draws.decide(model, wall, &impact).ok().map(|cell| Cell { outside_range: false, ..cell })
+        };
+        let mut outcomes = axis.with_points(16).values().into_iter().filter_map(decide);
+        outcomes.next().is_some_and(|first| outcomes.any(|other| other != first))
+    };
+    TRIED_SPEEDS.into_iter().any(varies)
+}

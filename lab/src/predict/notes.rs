@@ -1,0 +1,109 @@
+//! Notes about the predicted rows of a file: assumptions, likely mistakes and numbers of rows.
+
+use std::io::Read;
+
+use super::{PredictedRow, Predictor};
+use crate::dataset::{BadRow, ImpactReader, Row, assumed, unlikely};
+use nearwall::model::{ExtraInput, Model};
+
+/// Notes about the columns of a file: unused ones that resemble an input, and the assumed values of absent inputs.
+pub fn file_notes(file: &str, reader: &ImpactReader<impl Read>) -> Vec<String> {
+    let near_miss = |(column, input): (&str, &str)| {
+        format!("{file}: column `{column}` is not used; rename it if it is the input `{input}` in SI units")
+    };
+    let mut notes: Vec<String> = reader.near_misses().into_iter().map(near_miss).collect();
+    let own = reader.absent_extra().filter_map(ExtraInput::describe_default);
+    let assumed: Vec<String> = assumed(&reader.absent()).into_iter().chain(own).collect();
+    if !assumed.is_empty() {
+        notes.push(format!("not in {file}, assumed: {}", assumed.join(", ")));
+    }
+    notes
+}
+
+/// Numbers of rows, and the first warning of each kind.
+#[derive(Debug, Clone, Default)]
+pub struct RowNotes {
+    predicted: u64,
+    left_out: u64,
+    outside_range: u64,
+    /// About an input that is probably in another unit.
+    unit: Option<String>,
+    /// About a word that the model file does not list.
+    label: Option<String>,
+}
+
+impl RowNotes {
+    /// Predicts the next row of a file and counts it.
+    ///
+    /// # Errors
+    /// Why the row cannot be read or predicted.
+    pub fn predict<'r>(
+        &mut self,
+        predictor: &Predictor<'_>,
+        next: Result<&'r Row, &BadRow>,
+    ) -> Result<(&'r Row, PredictedRow), BadRow> {
+        let predicted = next.map_err(Clone::clone).and_then(|row| {
+            self.warn(predictor.model(), row);
+            Ok((row, predictor.row(row)?))
+        });
+        match &predicted {
+            Ok((_, row)) => {
+                self.predicted += 1;
+                self.outside_range += u64::from(row.outside_range);
+            }
+            Err(_) => self.left_out += 1,
+        }
+        predicted
+    }
+
+    fn warn(&mut self, model: &Model, row: &Row) {
+        if self.unit.is_none() {
+            self.unit = unlikely(row.line, &row.impact);
+        }
+        if self.label.is_none() {
+            self.label = unknown_label(model, row);
+        }
+    }
+
+    /// Adds the notes about later rows.
+    pub fn add(&mut self, later: Self) {
+        self.predicted += later.predicted;
+        self.left_out += later.left_out;
+        self.outside_range += later.outside_range;
+        self.unit = self.unit.take().or(later.unit);
+        self.label = self.label.take().or(later.label);
+    }
+
+    /// Number of predicted rows.
+    pub fn predicted(&self) -> u64 {
+        self.predicted
+    }
+
+    /// Number of rows that cannot be used.
+    pub fn left_out(&self) -> u64 {
+        self.left_out
+    }
+
+    /// The first warning of each kind.
+    pub fn warnings(&self) -> impl Iterator<Item = &str> {
+        self.unit.iter().chain(&self.label).map(String::as_str)
+    }
+
+    /// How many rows lie outside a valid range; `None` if there are none.
+    pub fn outside_range(&self) -> Option<String> {
+        let Self { outside_range, predicted, .. } = self;
+        (*outside_range > 0).then(|| {
+            format!(
+                "{outside_range} of {predicted} rows lie outside the valid range of a property, a law or a fitted term"
+            )
+        })
+    }
+}
+
+/// A warning if a row has a word that the model file does not list.
+fn unknown_label(model: &Model, row: &Row) -> Option<String> {
+    let mut extra = model.extra_inputs().iter().zip(row.impact.extra.iter());
+    let (input, _) = extra.find(|(input, value)| input.is_unknown(**value))?;
+    let (line, name, known) = (row.line, &input.name, input.labels.join(", "));
+    Some(format!("line {line}: {name} is none of {known}; such rows are predicted without it"))
+}

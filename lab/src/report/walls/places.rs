@@ -1,0 +1,216 @@
+//! Where captured particles lie: along the main axis, on unrolled walls, and seen from the side.
+
+use super::captured::heights;
+use super::{Comparison, identifier, range};
+use crate::report::{Chart, Figure, FigureMap, round_edges};
+use crate::results::{Capture, RunResults, share};
+use nearwall::impact::Regime;
+
+/// Bins along the axis.
+const BINS: usize = 40;
+/// From this number of captures on a map shows cells instead of points.
+const POINTS: usize = 300;
+const NAMES: [&str; 3] = ["x", "y", "z"];
+
+/// Captured mass along the main axis: by regime along the pipes of a standalone case, else one series for each run.
+pub(super) fn along(comparison: &Comparison<'_>) -> Vec<Figure> {
+    match comparison.runs {
+        [run] if run.pipe.is_some() => along_pipe(comparison, run),
+        runs if runs.iter().all(|run| run.maps.is_empty()) => along_axis(comparison),
+        _ => Vec::new(),
+    }
+}
+
+fn along_pipe(comparison: &Comparison<'_>, run: &RunResults) -> Vec<Figure> {
+    let Some(pipe) = &run.pipe else { return Vec::new() };
+    let edges = round_edges(pipe.range[0], pipe.range[1], BINS);
+    let title = "Captured mass along the pipe";
+    let mut chart = Chart::new(title, "along the pipe, z [m]", "captured mass [% of injected]");
+    let on_pipe = |capture: &&Capture| capture.wall.is_some_and(|wall| pipe.walls.contains(&wall));
+    let sums = Regime::ALL.map(|regime| {
+        let own = run.captures.iter().filter(on_pipe).filter(|capture| capture.regime == Some(regime));
+        heights(&edges, own.map(|capture| (capture.position[2], capture.mass)), comparison.injected(run))
+    });
+    // The largest is drawn as area, the others as lines over it.
+    let mut order = Regime::ALL;
+    let total = |regime: &Regime| sums[*regime as usize].iter().sum::<f64>();
+    order.sort_by(|a, b| total(b).total_cmp(&total(a)));
+    if total(&order[0]) <= 0.0 {
+        return Vec::new();
+    }
+    for regime in order.iter().filter(|regime| total(regime) > 0.0) {
+        chart = chart.histogram(regime.name(), &edges, &sums[*regime as usize]);
+    }
+    let chart = pipe.marks.iter().fold(chart, |chart, (begin, name)| chart.mark_x(*begin, name));
+    let caption = "By regime: sticky particle or not (SP, NSP), sticky wall or not (SW, NSW).";
+    vec![chart.figure("along", caption)]
+}
+
+fn along_axis(comparison: &Comparison<'_>) -> Vec<Figure> {
+    let axis = main_axis(comparison.runs);
+    let place = |capture: &Capture| capture.position[axis];
+    let [low, high] = range(comparison.runs.iter().flat_map(|run| &run.captures).map(place));
+    if low >= high {
+        return Vec::new();
+    }
+    let edges = round_edges(low, high, BINS);
+    let name = NAMES[axis];
+    let title = format!("Captured mass along {name}, at the last written time");
+    let mut chart = Chart::new(&title, &format!("{name} [m]"), "mass [% of injected]");
+    for (label, run) in comparison.each() {
+        let injected = run.injected.last().map_or(f64::NAN, |[_, mass]| *mass);
+        let heights =
+            heights(&edges, run.captures.iter().map(|capture| (place(capture), capture.mass)), injected);
+        if heights.iter().any(|height| *height > 0.0) {
+            chart = chart.histogram(label, &edges, &heights);
+        }
+    }
+    let fates: Vec<String> = comparison.each().filter_map(|(label, run)| fate(label, run)).collect();
+    let caption = format!("Parcels that lie still at the last written time. {}", fates.join(" "));
+    vec![chart.figure("along", caption.trim_end())]
+}
+
+/// What becomes of captured parcels, and so what their mass means.
+fn fate(label: &str, run: &RunResults) -> Option<String> {
+    let text = match run.stuck.as_deref() {
+        Some("keep") => "captured parcels are inert and keep their mass at capture (stuck keep)",
+        Some("react") => {
+            "captured parcels go on reacting (stuck react), so that their mass may be less than at capture"
+        }
+        Some("remove") => "captured parcels are removed and not shown (stuck remove)",
+        Some("slide") => {
+            "molten parcels join the film and are not shown, others keep their mass at capture (stuck slide)"
+        }
+        Some(_) => return None,
+        None => {
+            "captured parcels stay in the cloud and go on reacting, so that their mass may be less than at capture"
+        }
+    };
+    Some(format!("{label}: {text}."))
+}
+
+/// Captures on each wall that can be unrolled.
+pub(super) fn maps(comparison: &Comparison<'_>) -> Vec<Figure> {
+    comparison.runs.iter().flat_map(map_figures).collect()
+}
+
+pub(super) fn map_figures(run: &RunResults) -> Vec<Figure> {
+    let figure = |map: &crate::results::WallMap| {
+        let title = format!("Capture on {}", map.wall);
+        let id = format!("map-{}", identifier(&map.wall));
+        if map.places.len() < POINTS {
+            let points: Vec<[f64; 2]> = map.places.iter().map(|(place, _)| *place).collect();
+            let chart = Chart::new(&title, map.axes[0], map.axes[1]).points("", &points);
+            return chart.figure(&id, "One point for each captured particle.");
+        }
+        let cells = FigureMap::of_points(&title, map.axes, map.ranges, [48, 32], map.places.iter().copied());
+        cells.per_area().figure(
+            &id,
+            "captured mass [kg/m²]",
+            "Mass captured per area of wall during the run.",
+        )
+    };
+    run.maps.iter().map(figure).collect()
+}
+
+/// Captured parcels along the main axis and around it or, where the wall is not round, from the side. All cases have
+/// the same axes.
+pub(super) fn scatter(comparison: &Comparison<'_>) -> Vec<Figure> {
+    let all: Vec<[f64; 3]> =
+        comparison.runs.iter().flat_map(|run| &run.captures).map(|capture| capture.position).collect();
+    if all.is_empty() || comparison.runs.iter().any(|run| !run.maps.is_empty()) {
+        return Vec::new();
+    }
+    let axis = main_axis(comparison.runs);
+    let [first, second] = around(axis);
+    let extent = |axis: usize| range(all.iter().map(|place| place[axis]));
+    let width = |axis: usize| extent(axis)[1] - extent(axis)[0];
+    let across = if width(second) > width(first) { second } else { first };
+    let round = is_round(&all, axis);
+    let name = NAMES[axis];
+    let (y_label, view) = if round {
+        (format!("angle about {name} [°]"), "the wall unrolled")
+    } else {
+        (format!("{} [m]", NAMES[across]), "seen from the side")
+    };
+    let mut figures = Vec::new();
+    for (number, (label, run)) in
+        comparison.each().enumerate().filter(|(_, (_, run))| !run.captures.is_empty())
+    {
+        let points: Vec<[f64; 2]> = run
+            .captures
+            .iter()
+            .map(|Capture { position: p, .. }| {
+                [p[axis], if round { p[second].atan2(p[first]).to_degrees() } else { p[across] }]
+            })
+            .collect();
+        let title = format!("Captured parcels, {label}");
+        let [low, high] = extent(axis);
+        let chart =
+            Chart::new(&title, &format!("{name} [m]"), &y_label).points("", &points).x_range(low, high);
+        let [bottom, top] = extent(across);
+        let chart = if round {
+            chart.y_range(-180.0, 180.0).y_step(90.0)
+        } else if bottom < top {
+            let edges = round_edges(bottom, top, 5);
+            chart.y_range(edges[0], edges[edges.len() - 1]).y_step(edges[1] - edges[0])
+        } else {
+            chart
+        };
+        let caption = format!("{} parcels, one point each; {view}.", points.len());
+        figures.push(chart.figure(&format!("places-{number}"), &caption));
+    }
+    figures
+}
+
+/// The direction in which captured parcels spread most: 0, 1, 2 for x, y, z.
+fn main_axis(runs: &[RunResults]) -> usize {
+    let extent = |axis: usize| {
+        let [low, high] =
+            range(runs.iter().flat_map(|run| &run.captures).map(|capture| capture.position[axis]));
+        high - low
+    };
+    (0..3).max_by(|a, b| extent(*a).total_cmp(&extent(*b))).unwrap_or(2)
+}
+
+/// The two axes across this one.
+fn around(axis: usize) -> [usize; 2] {
+    [[1, 2], [2, 0], [0, 1]][axis]
+}
+
+/// Whether places lie roughly on round walls about an axis through the origin: all around it, and at each place along it
+/// most at one radius.
+fn is_round(places: &[[f64; 3]], axis: usize) -> bool {
+    let [first, second] = around(axis);
+    let [low, high] = range(places.iter().map(|place| place[axis]));
+    let mut sectors = [false; 12];
+    let mut slices: Vec<Vec<f64>> = vec![Vec::new(); BINS];
+    for place in places {
+        let turn = place[second].atan2(place[first]) / std::f64::consts::TAU + 0.5;
+        sectors[((12.0 * turn) as usize).min(11)] = true;
+        let slice = (share(place[axis] - low, high - low) * BINS as f64).max(0.0) as usize;
+        slices[slice.min(BINS - 1)].push(place[first].hypot(place[second]));
+    }
+    let at_one_radius = |radii: &mut Vec<f64>| {
+        radii.sort_by(f64::total_cmp);
+        let middle = radii.get(radii.len() / 2).copied().unwrap_or(0.0);
+        radii.iter().filter(|radius| (**radius - middle).abs() <= 0.1 * middle).count()
+    };
+    let regular: usize = slices.iter_mut().map(at_one_radius).sum();
+    sectors.iter().filter(|hit| **hit).count() >= 8 && regular * 10 >= places.len() * 8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pipe_is_round_and_a_plate_is_not() {
+        let turn = |i: usize| i as f64 * 0.7;
+        let pipe: Vec<[f64; 3]> =
+            (0..200).map(|i| [0.2 * turn(i).cos(), 0.2 * turn(i).sin(), 0.01 * i as f64]).collect();
+        let plate: Vec<[f64; 3]> =
+            (0..200).map(|i| [turn(i).sin(), 0.0, 0.01 * ((7 * i) % 200) as f64]).collect();
+        assert!(is_round(&pipe, 2) && !is_round(&plate, 2) && !is_round(&[], 2));
+    }
+}

@@ -1,0 +1,161 @@
+//! The title and the sentences at the top of the page.
+
+use super::{Comparison, RunResults, WallModel, number, percent};
+use crate::results::{ByConversion, share};
+use nearwall::impact::Regime;
+
+/// Conversion below which carbon still covers the ash of captured char (Troiano et al.: threshold 0.88 to 0.90).
+const RAW: f64 = 0.8;
+
+pub(super) fn title(comparison: &Comparison<'_>) -> String {
+    match comparison.labels.as_slice() {
+        [one] => format!("Wall hits in {one}"),
+        several => format!("Wall hits: {}", several.join(", ")),
+    }
+}
+
+pub(super) fn lead(comparison: &Comparison<'_>) -> String {
+    let models = comparison.each().map(|(label, run)| {
+        let model = match &run.wall_model {
+            WallModel::Nearwall => "the impact model of nearwall (nearWallInteraction)",
+            WallModel::Other(name) => name,
+            WallModel::Unknown => "a wall model that the case does not name",
+        };
+        format!("{label} uses {model}")
+    });
+    let models = models.collect::<Vec<_>>().join("; ");
+    let at = if comparison.is_single() { "Results are those" } else { "All cases are compared" };
+    format!("{models}. {at} at {}.", comparison.when())
+}
+
+/// At most four sentences, however many runs there are.
+pub(super) fn lines(comparison: &Comparison<'_>) -> Vec<String> {
+    let own = || comparison.each().filter(|(_, run)| run.is_ours());
+    let mut lines = Vec::new();
+    if let [run] = comparison.runs {
+        lines.push(single(comparison, run));
+        lines.extend(busiest(comparison, run));
+    } else {
+        let share = |run: &RunResults| share(run.captured_mass(comparison.time), comparison.injected(run));
+        let totals = comparison.each().map(|(label, run)| format!("{label} {}", percent(share(run))));
+        lines.push(format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", ")));
+        let regimes: Vec<String> = own()
+            .filter_map(|(label, run)| {
+                let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
+                Some(format!(
+                    "{} of the captured mass of {label} is caught as {}",
+                    percent(share),
+                    regime.name()
+                ))
+            })
+            .collect();
+        // A stock model is compared with the first run of the same cloud with our model.
+        let first = |label: &str, run: &RunResults| {
+            own().find(|(_, o)| o.cloud == run.cloud).is_some_and(|(l, _)| l == label)
+        };
+        let beside: Vec<String> = own()
+            .filter(|(label, run)| first(label, run))
+            .filter_map(|(label, run)| beside_stock(comparison, label, run))
+            .collect();
+        lines.extend(
+            [regimes, beside].iter().filter(|list| !list.is_empty()).map(|list| list.join("; ") + "."),
+        );
+    }
+    let walls: Vec<&str> = comparison.walls.iter().map(String::as_str).collect();
+    let raw: Vec<String> = comparison
+        .each()
+        .filter_map(|(label, run)| {
+            let share = percent(raw_share(&run.captured_by_conversion(&walls, comparison.time)?));
+            Some(if comparison.is_single() { share } else { format!("{share} of {label}") })
+        })
+        .collect();
+    if !raw.is_empty() {
+        lines.push(format!("Captured mass with a conversion below {RAW} at capture: {}.", raw.join(", ")));
+    }
+    lines
+}
+
+fn single(comparison: &Comparison<'_>, run: &RunResults) -> String {
+    let injected = comparison.injected(run);
+    let part = |starts: &str| {
+        let lines = run.balance.iter().filter(|line| line.what.starts_with(starts));
+        let masses: Vec<f64> = lines.filter_map(|line| line.mass).collect();
+        (!masses.is_empty()).then(|| percent(share(masses.iter().sum(), injected)))
+    };
+    let captured = percent(share(run.captured_mass(comparison.time), injected));
+    let mut parts = vec![format!("{captured} of the injected mass is captured")];
+    parts.extend(part("escaped").or_else(|| part("left through")).map(|share| format!("{share} leaves")));
+    parts.extend(part("airborne").map(|share| format!("{share} is airborne at the end")));
+    parts.join(", ") + "."
+}
+
+/// The wall that captures most.
+fn busiest(comparison: &Comparison<'_>, run: &RunResults) -> Option<String> {
+    let mass = |wall: &String| run.captured(wall, comparison.time).map_or(0.0, |amount| amount.mass());
+    let wall = comparison.walls.iter().max_by(|a, b| mass(a).total_cmp(&mass(b)))?;
+    let totals = comparison.totals(run, wall)?;
+    let hits = run.arrived(wall, comparison.time).map(|(hits, _)| hits.count);
+    let share = hits.map(|hits| (percent(share(totals.captured.count as f64, hits as f64)), hits));
+    let mut text = match share {
+        _ if totals.captured.count == 0 => return None,
+        Some((share, hits)) => format!("Most is captured by {wall}: {share} of its {hits} hits"),
+        None => format!("Most is captured by {wall}"),
+    };
+    if let Some((regime, _)) = main_regime(comparison, run, std::slice::from_ref(wall)) {
+        text += &format!(", mainly in the regime {}", regime.name());
+    }
+    if run.has_carbon && totals.captured_conversion.count > 0 {
+        text += &format!(", at a mean conversion of {}", number(totals.captured_conversion.mean));
+    }
+    Some(text + ".")
+}
+
+/// The regime with most captured mass at some walls, and its share [1].
+fn main_regime(comparison: &Comparison<'_>, run: &RunResults, walls: &[String]) -> Option<(Regime, f64)> {
+    let mut masses = [0.0; 4];
+    for regimes in walls.iter().filter_map(|wall| comparison.totals(run, wall)?.regimes) {
+        masses.iter_mut().zip(regimes).for_each(|(sum, amount)| *sum += amount.mass());
+    }
+    let all: f64 = masses.iter().sum();
+    let regime =
+        Regime::ALL.into_iter().max_by(|a, b| masses[*a as usize].total_cmp(&masses[*b as usize]))?;
+    (all > 0.0).then(|| (regime, masses[regime as usize] / all))
+}
+
+/// What stock models do with the same cloud at walls where our model captures a part of what arrives.
+fn beside_stock(comparison: &Comparison<'_>, own_label: &str, ours: &RunResults) -> Option<String> {
+    let time = comparison.time;
+    let part = |wall: &String| {
+        let arriving = ours.arrived(wall, time).filter(|(hits, _)| hits.mass() > 0.0)?.0.mass();
+        Some(format!("{} at {wall}", percent(ours.captured(wall, time)?.mass() / arriving)))
+    };
+    let held: Vec<String> = comparison.walls.iter().filter_map(part).collect();
+    let stock = comparison.each().filter(|(_, other)| !other.is_ours() && other.cloud == ours.cloud);
+    let constants: Vec<String> = stock
+        .filter_map(|(label, stock)| {
+            let walls = |wanted: &dyn Fn(&str) -> bool| {
+                let names = comparison.walls.iter().map(String::as_str).filter(|wall| wanted(wall));
+                names.collect::<Vec<_>>().join(", ")
+            };
+            let all = walls(&|wall| stock.captures_all(wall, time));
+            let nothing =
+                walls(&|wall| stock.captured(wall, time).is_some_and(|amount| amount.mass() == 0.0));
+            let parts =
+                [("all", all), ("nothing", nothing)].into_iter().filter(|(_, walls)| !walls.is_empty());
+            let parts: Vec<String> = parts.map(|(what, walls)| format!("{what} at {walls}")).collect();
+            (!parts.is_empty()).then(|| format!("{label} holds {}", parts.join(" and ")))
+        })
+        .collect();
+    (!held.is_empty() && !constants.is_empty()).then(|| {
+        format!(
+            "Of the arriving mass {own_label} holds {}, where {}",
+            held.join(", "),
+            constants.join(", and ")
+        )
+    })
+}
+
+/// Share of the captured mass below the conversion [`RAW`] [1].
+fn raw_share(masses: &ByConversion) -> f64 {
+    share(masses[..(10.0 * RAW) as usize].iter().sum(), masses.iter().sum())
+}

@@ -1,0 +1,202 @@
+//! A case file as text, in which an experiment changes settings.
+//!
+//! A setting is a dotted key: `gas.temperature`, `particles.speed.mean`, `walls.NAME.temperature` (`[[walls]]` by name),
+//! `particles.NAME.key` (several `[[particles]]` by name), `model.walls.NAME.coverage` (a key of the model file). A number replaces the whole
+//! value: `particles.speed = 2` makes the speed of all particles 2 m/s, `particles.speed.mean = 2` moves the mean of a distribution.
+
+use std::path::Path;
+
+use toml_edit::{ArrayOfTables, DocumentMut, Item, TableLike, Value};
+
+use crate::simulate::Case;
+use nearwall::input::{Document, InputError};
+
+/// Why a setting cannot be made.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SettingError {
+    /// A case or model file cannot be read.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The text of a file is not TOML.
+    #[error("{file}: not valid TOML: {reason}")]
+    Text {
+        /// The file.
+        file: String,
+        /// The reason.
+        reason: String,
+    },
+    /// The case has no place for a setting, or not with this value.
+    #[error("{experiment}: `{key}`: {reason}")]
+    Setting {
+        /// File, line and name of the experiment.
+        experiment: String,
+        /// The dotted key.
+        key: String,
+        /// The reason, with the remedy.
+        reason: String,
+    },
+    /// The case with the settings of an experiment cannot be read.
+    #[error("{experiment}: with its settings the case is at fault: {reason}")]
+    Experiment {
+        /// File, line and name of the experiment.
+        experiment: String,
+        /// The error of the case.
+        reason: String,
+    },
+}
+
+/// The text of a case, with its model as a table in it.
+#[derive(Debug, Clone)]
+pub struct CaseText {
+    name: String,
+    folder: std::path::PathBuf,
+    document: DocumentMut,
+    /// Name and text of the model file, or of the model's own tables.
+    pub model: Document,
+}
+
+impl CaseText {
+    /// Reads a case file and its model file.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a file that cannot be read.
+    pub fn from_file(path: &Path) -> Result<Self, SettingError> {
+        let case = Document::from_file(path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        // All errors with file, line and key, before anything is changed.
+        Case::from_file(path)?;
+        let mut document = parse(&case)?;
+        document.remove("sweep");
+        let model = match document.get("model") {
+            Some(Item::Value(Value::String(name))) => Document::from_file(&folder.join(name.value()))?,
+            Some(Item::Table(table)) => {
+                Document::new(case.name(), DocumentMut::from(table.clone()).to_string())
+            }
+            Some(Item::Value(Value::InlineTable(table))) => {
+                Document::new(case.name(), DocumentMut::from(table.clone().into_table()).to_string())
+            }
+            _ => Document::new(case.name(), ""),
+        };
+        let mut table = parse(&model)?.as_table().clone();
+        table.set_implicit(true);
+        document.insert("model", Item::Table(table));
+        Ok(Self { name: case.name().to_owned(), folder, document, model })
+    }
+
+    /// The case with the settings of an experiment, which messages call `experiment`.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a setting that the case does not have, or with an impossible value.
+    pub fn with(&self, experiment: &str, settings: &[(String, String)]) -> Result<Case, SettingError> {
+        let mut changed = self.clone();
+        changed.change(experiment, settings)?;
+        let read = self.read(&changed.document);
+        read.map_err(|reason| SettingError::Experiment { experiment: experiment.to_owned(), reason })
+    }
+
+    /// Changes settings, which messages say come from `experiment`.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a setting that the case does not have.
+    pub fn change(&mut self, experiment: &str, settings: &[(String, String)]) -> Result<(), SettingError> {
+        for (key, cell) in settings {
+            set(&mut self.document, key, cell).map_err(|reason| SettingError::Setting {
+                experiment: experiment.to_owned(),
+                key: key.clone(),
+                reason,
+            })?;
+        }
+        Ok(())
+    }
+
+    /// The case of a changed text.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(super) fn read(&self, document: &DocumentMut) -> Result<Case, String> {
+        let read = Case::from_toml(&self.name, &document.to_string(), &self.folder);
+        // Lines of the changed text mean nothing to the reader.
+        read.map_err(|error| match error {
+            InputError::Fault { problem, .. } => problem,
+            other => other.to_string(),
+        })
+    }
+
+    /// The text, with the model as a table in it.
+    pub(super) fn document(&self) -> &DocumentMut {
+        &self.document
+    }
+
+    /// The number that a setting has in the case, if it is one.
+    pub fn number(&self, key: &str) -> Option<f64> {
+        let (last, item) = find(&self.document, key)?;
+        let value = item.get(&last)?.as_value()?;
+        value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+    }
+}
+
+fn parse(document: &Document) -> Result<DocumentMut, SettingError> {
+    document.text().parse().map_err(|error: toml_edit::TomlError| SettingError::Text {
+        file: document.name().to_owned(),
+        reason: error.to_string(),
+    })
+}
+
+/// The table of a key and the key's last part.
+fn find<'a>(document: &'a DocumentMut, key: &str) -> Option<(String, &'a dyn TableLike)> {
+    let mut parts: Vec<&str> = key.split('.').collect();
+    let last = parts.pop()?.to_owned();
+    let mut table: &dyn TableLike = document.as_table();
+    let mut parts = parts.into_iter();
+    while let Some(part) = parts.next() {
+        table = match table.get(part)? {
+            Item::ArrayOfTables(tables) => {
+                let wanted = parts.next()?;
+                tables.iter().find(|t| name_of(*t) == Some(wanted))?
+            }
+            item => item.as_table_like()?,
+        };
+    }
+    Some((last, table))
+}
+
+fn name_of(table: &dyn TableLike) -> Option<&str> {
+    table.get("name")?.as_str()
+}
+
+/// Sets a dotted key to a cell: a value of TOML, or a text.
+fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), String> {
+    let mut parts: Vec<&str> = key.split('.').collect();
+    let last = parts.pop().unwrap_or_default();
+    let value = cell.parse::<Value>().unwrap_or_else(|_| Value::from(cell));
+    let mut table: &mut dyn TableLike = document.as_table_mut();
+    let mut parts = parts.into_iter();
+    while let Some(part) = parts.next() {
+        let keys = table.iter().map(|(key, _)| key.to_owned()).collect::<Vec<_>>().join(", ");
+        let Some(item) = table.get_mut(part) else {
+            return Err(format!("the case has no `{part}` there, only {keys}"));
+        };
+        table = match item {
+            Item::ArrayOfTables(tables) => named(tables, part, parts.next())?,
+            item => item.as_table_like_mut().ok_or_else(|| {
+                format!(
+                    "`{part}` is a value in the case; make it a distribution there, or set `{part}` itself"
+                )
+            })?,
+        };
+    }
+    table.insert(last, Item::Value(value));
+    Ok(())
+}
+
+/// The table of a list with a name.
+fn named<'a>(
+    tables: &'a mut ArrayOfTables,
+    list: &str,
+    wanted: Option<&str>,
+) -> Result<&'a mut dyn TableLike, String> {
+    let names: Vec<String> = tables.iter().filter_map(|t| name_of(t).map(str::to_owned)).collect();
+    let found = tables.iter_mut().find(|table| name_of(*table) == wanted);
+    let found = found.map(|table| table as &mut dyn TableLike);
+    found.ok_or_else(|| format!("`{list}` is a list; name one of {} after it", names.join(", ")))
+}

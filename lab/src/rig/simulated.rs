@@ -1,0 +1,263 @@
+//! `nearwall simulate` as the forward model of a rig.
+//!
+//! The base law is followed once, with many particles on their exact paths ([`crate::simulate::follow_exactly`]). For a changed law the difference
+//! from the base is computed with fewer particles, whose flights all laws share ([`crate::simulate::PathTree`]): up to the first contact their paths
+//! do not depend on the wall law, and after it they have the share of their weight that is not caught and the same random numbers, so that
+//! predictions change smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are independent.
+//! Walls with a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random captures.
+
+use rayon::prelude::*;
+
+use super::case_text::{CaseText, SettingError};
+use super::tally::{Blocks, Predicted, TalliedHit, Tally};
+use super::{Forward, ModelChange};
+use crate::dataset::{Experiment, RigMeasurements};
+use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
+use nearwall::impact::INPUTS;
+use nearwall::model::Model;
+
+/// An experiment with its case.
+#[derive(Debug)]
+pub struct RigCase {
+    experiment: Experiment,
+    case: Case,
+    text: CaseText,
+    /// File, line and name of the experiment.
+    place: String,
+}
+
+impl RigCase {
+    /// The cases of all experiments.
+    ///
+    /// # Errors
+    /// [`SettingError`] of the first experiment that has one.
+    pub fn all(text: &CaseText, data: &RigMeasurements) -> Result<Vec<Self>, SettingError> {
+        let one = |(number, experiment): (usize, &Experiment)| {
+            let place = format!("{}:{}: experiment `{}`", data.file, experiment.line, experiment.name);
+            Self::new(text, experiment, place, number as u64)
+        };
+        data.experiments.iter().enumerate().map(one).collect()
+    }
+
+    /// The case of an experiment that nobody has made yet.
+    ///
+    /// # Errors
+    /// [`SettingError`] for settings that the case refuses.
+    pub fn proposed(text: &CaseText, experiment: &Experiment) -> Result<Self, SettingError> {
+        Self::new(text, experiment, experiment.name.clone(), 0)
+    }
+
+    /// The settings of its experiment.
+    pub fn settings(&self) -> &[(String, String)] {
+        &self.experiment.settings
+    }
+
+    /// The case of an experiment; `place` names it in messages.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a setting that the case does not have, or an observable of a wall that it does not have.
+    fn new(
+        text: &CaseText,
+        experiment: &Experiment,
+        place: String,
+        number: u64,
+    ) -> Result<Self, SettingError> {
+        let mut case = text.with(&place, &experiment.settings)?;
+        case.seed = case.seed.wrapping_add(number);
+        case.tolerance = case.tolerance.max(TOLERANCE);
+        let walls: Vec<&str> = case.surfaces.iter().map(|surface| surface.name.as_str()).collect();
+        if let Some(reading) = experiment.readings.iter().find(|r| !walls.contains(&r.wall.as_str())) {
+            let reason = format!("the case has no wall `{}`; it has {}", reading.wall, walls.join(", "));
+            return Err(SettingError::Setting { experiment: place, key: reading.column.clone(), reason });
+        }
+        if case.has_own_models() {
+            let reason = "particles with a model file of their own cannot be diagnosed; \
+                          give them the model of the case"
+                .to_owned();
+            return Err(SettingError::Setting {
+                experiment: place,
+                key: "particles.model".to_owned(),
+                reason,
+            });
+        }
+        Ok(Self { experiment: experiment.clone(), case, text: text.clone(), place })
+    }
+}
+
+/// The paths of one experiment.
+#[derive(Debug)]
+struct Paths<'a> {
+    rig: &'a RigCase,
+    walls: Vec<String>,
+    /// In independent blocks.
+    blocks: Vec<Vec<PathTree<'a>>>,
+    /// What the base law gives with many particles, and in these blocks.
+    base: Vec<(Predicted, Blocks)>,
+}
+
+/// All experiments with the paths of their particles up to the first contact.
+#[derive(Debug)]
+pub struct Simulated<'a> {
+    runs: Vec<Paths<'a>>,
+    experiments: Vec<Experiment>,
+}
+
+/// Relative error of a step of a path: far below the Monte Carlo error [1].
+const TOLERANCE: f64 = 1e-4;
+/// Fewest and most particles of an experiment.
+const PARTICLES: [f64; 2] = [256.0, 512.0];
+/// Times as many follow the base law.
+const BASE_PARTICLES: u64 = 8;
+
+/// Number of particles with which the Monte Carlo error is well below that of the readings.
+pub fn particles_for(data: &RigMeasurements) -> u64 {
+    let counts = data.experiments.iter().flat_map(|one| &one.readings).filter_map(|reading| reading.count);
+    (2.0 * counts.fold(0.0, f64::max)).clamp(PARTICLES[0], PARTICLES[1]) as u64
+}
+
+impl<'a> Simulated<'a> {
+    /// Flies about `particles` particles of each case to their first contact.
+    ///
+    /// # Errors
+    /// Why no particle of an experiment can be followed.
+    pub fn new(rigs: &'a [RigCase], particles: u64) -> Result<Self, String> {
+        let runs = rigs.par_iter().map(|rig| Paths::new(rig, particles)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { runs, experiments: rigs.iter().map(|rig| rig.experiment.clone()).collect() })
+    }
+}
+
+impl<'a> Paths<'a> {
+    fn new(rig: &'a RigCase, particles: u64) -> Result<Self, String> {
+        let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
+        let starts = even_starts(&rig.case, particles);
+        let fly = |block: &Vec<Start>| -> Vec<Result<PathTree<'a>, String>> {
+            block.par_iter().map(|start| PathTree::new(&rig.case, *start)).collect()
+        };
+        let flown: Vec<Vec<Result<PathTree<'a>, String>>> = starts.iter().map(fly).collect();
+        let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());
+        let usable = |block: Vec<_>| block.into_iter().filter_map(Result::ok).collect();
+        let blocks: Vec<Vec<PathTree<'a>>> = flown.into_iter().map(usable).collect();
+        if let Some(trouble) = first_trouble
+            && blocks.iter().all(Vec::is_empty)
+        {
+            return Err(format!("{}: {trouble}", rig.place));
+        }
+        let mut paths = Self { rig, walls, blocks, base: Vec::new() };
+        if rig.case.deposit.is_none() {
+            let known = paths.exactly(BASE_PARTICLES * particles);
+            paths.base = known.into_iter().zip(paths.blocks(&rig.case.model)?).collect();
+        }
+        Ok(paths)
+    }
+
+    fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+        let RigCase { case, experiment, .. } = self.rig;
+        let model = change(&case.model);
+        if case.deposit.is_some() {
+            let mut tally = Tally::new(&experiment.readings, &self.walls);
+            self.run_with_memory(model, &mut tally)?;
+            return Ok(tally.predicted());
+        }
+        let blocks = self.blocks(&model)?;
+        Ok(blocks.iter().zip(&self.base).map(|(one, (known, base))| one.moved(known, base)).collect())
+    }
+
+    /// What the base law gives with this number of particles on exact paths.
+    fn exactly(&self, particles: u64) -> Vec<Predicted> {
+        let RigCase { case, experiment, .. } = self.rig;
+        let mut tally = Tally::new(&experiment.readings, &self.walls);
+        for block in even_starts(case, particles) {
+            let of = |start: &Start| {
+                let mut own = Tally::new(&experiment.readings, &self.walls);
+                let followed = follow_exactly(case, *start, &case.model, |hit| own.hit(&tallied(case, hit)));
+                followed.map(|mass| own.end_particle_of_block(mass)).map(|()| own)
+            };
+            // A particle that cannot be followed is left out, as `simulate` does.
+            block
+                .par_iter()
+                .filter_map(|start| of(start).ok())
+                .collect::<Vec<_>>()
+                .into_iter()
+                .for_each(|own| tally.add(own));
+            tally.end_block();
+        }
+        tally.predicted()
+    }
+
+    /// What a model gives in each block.
+    fn blocks(&self, model: &Model) -> Result<Vec<Blocks>, String> {
+        let RigCase { case, experiment, place, .. } = self.rig;
+        let mut tally = Tally::new(&experiment.readings, &self.walls);
+        for block in &self.blocks {
+            for particle in block {
+                let followed = particle.follow(model, |hit| tally.hit(&tallied(case, hit)));
+                followed.map_err(|error| format!("{place}: {error}"))?;
+                tally.end_particle_of_block(particle.mass);
+            }
+            tally.end_block();
+        }
+        Ok(tally.blocks())
+    }
+
+    /// Runs the whole case, whose walls change with what they caught.
+    fn run_with_memory(&self, model: Model, tally: &mut Tally) -> Result<(), String> {
+        let RigCase { experiment, text, place, case: base } = self.rig;
+        let mut case = text.with(place, &experiment.settings).map_err(|error| error.to_string())?;
+        case.model = model;
+        case.seed = base.seed;
+        let ran = run_once::<String>(&case, None, &mut |case, _, _, trajectory| {
+            for hit in &trajectory.hits {
+                tally.hit(&TalliedHit {
+                    wall: hit.surface,
+                    coordinate: case.surfaces[hit.surface].shape.coordinate(&hit.position),
+                    impact: &hit.impact,
+                    outcome: &hit.outcome,
+                    share: 1.0,
+                    caught: f64::from(u8::from(hit.outcome.stuck)),
+                    weight: trajectory.weight,
+                    mass: hit.mass,
+                });
+            }
+            tally.end_particle(trajectory.mass[0]);
+            Ok(())
+        });
+        ran.map(drop).map_err(|error| format!("{place}: {error}"))
+    }
+}
+
+fn tallied<'h>(case: &Case, hit: &ExpectedHit<'h>) -> TalliedHit<'h> {
+    TalliedHit {
+        wall: hit.surface,
+        coordinate: case.surfaces[hit.surface].shape.coordinate(&hit.position),
+        impact: hit.impact,
+        outcome: hit.outcome,
+        share: hit.share,
+        caught: hit.outcome.sticking_probability,
+        weight: hit.weight,
+        mass: hit.mass,
+    }
+}
+
+impl Forward for Simulated<'_> {
+    fn experiments(&self) -> &[Experiment] {
+        &self.experiments
+    }
+
+    fn base(&self, experiment: usize) -> &Model {
+        &self.runs[experiment].rig.case.model
+    }
+
+    fn predict(&self, experiment: usize, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+        self.runs[experiment].predict(change)
+    }
+
+    fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
+        let Paths { rig, blocks, .. } = &self.runs[experiment];
+        let of = |particle: &PathTree<'_>| {
+            let impact = particle.impact(&rig.case.model)?;
+            let value = INPUTS.get(input).map(|input| (input.value)(&impact))?;
+            Some((value, particle.weight))
+        };
+        blocks.iter().flatten().filter_map(of).collect()
+    }
+}

@@ -1,0 +1,146 @@
+//! The gas that carries the particles: a prescribed velocity field, one kind a file, and the gas's properties.
+//!
+//! Particles do not act on the gas, and these fields have no turbulence: inertia, weight and the mean flow carry a
+//! particle to a wall. Properties are taken at the gas's own local temperature.
+
+mod stagnation_jet;
+mod swirling_pipe;
+mod uniform;
+
+pub use stagnation_jet::StagnationJet;
+pub use swirling_pipe::SwirlingPipe;
+pub use uniform::Uniform;
+
+use nalgebra::Vector3;
+
+use super::profile::Profile;
+use nearwall::input::{InputError, Limits, Section};
+use nearwall::material::Property;
+
+/// A steady velocity field.
+pub trait VelocityField: Send + Sync + std::fmt::Debug {
+    /// Gas velocity [m/s] at a position [m]. It has to be finite everywhere, also behind a wall.
+    fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64>;
+}
+
+/// A gas: its velocity field, temperature and properties.
+#[derive(Debug)]
+pub struct Gas {
+    field: Box<dyn VelocityField>,
+    temperature: Profile,
+    /// In the order of [`PROPERTIES`].
+    properties: [Property; 4],
+    mean_free_path: f64,
+    accommodation: f64,
+}
+
+/// Keys and units of the properties that depend on the temperature.
+const PROPERTIES: [(&str, &str); 4] =
+    [("density", "kg/m3"), ("viscosity", "Pa s"), ("conductivity", "W/(m K)"), ("heat_capacity", "J/(kg K)")];
+
+/// The gas at one place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GasState {
+    /// Velocity [m/s].
+    pub velocity: Vector3<f64>,
+    /// Temperature [K].
+    pub temperature: f64,
+    /// Density [kg/m³].
+    pub density: f64,
+    /// Dynamic viscosity [Pa s].
+    pub viscosity: f64,
+    /// Thermal conductivity [W/(m K)].
+    pub conductivity: f64,
+    /// Heat capacity [J/(kg K)].
+    pub heat_capacity: f64,
+    /// Mean free path of the molecules [m]; 0 for a dense gas.
+    pub mean_free_path: f64,
+    /// Share of the exchanged heat that molecules take over on hitting a particle [1]; acts in a thin gas.
+    pub accommodation: f64,
+}
+
+impl Gas {
+    /// Reads a `[gas]` table.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for an unknown field, a missing property, or one that is not known at the gas's
+    /// temperatures.
+    pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
+        let name = section.choice("field", &["uniform", "stagnation-jet", "swirling-pipe"])?;
+        let field: Box<dyn VelocityField> = match name.as_deref() {
+            Some("uniform") => Box::new(Uniform::read(section)?),
+            Some("stagnation-jet") => Box::new(StagnationJet::read(section)?),
+            Some(_) => Box::new(SwirlingPipe::read(section)?),
+            None => {
+                let what = "\"uniform\", \"stagnation-jet\" or \"swirling-pipe\"";
+                return Err(section.missing("field", what));
+            }
+        };
+        let temperature = Profile::read(section, "temperature", 1.0, 1e5)?
+            .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
+        let [density, viscosity, conductivity, heat_capacity] = PROPERTIES.map(|(key, unit)| {
+            let read = Property::read(section, key, &Limits::positive(unit))?;
+            read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
+        });
+        let gas = Self {
+            field,
+            temperature,
+            properties: [density?, viscosity?, conductivity?, heat_capacity?],
+            mean_free_path: section.number_within("mean_free_path", 0.0, f64::INFINITY)?.unwrap_or(0.0),
+            accommodation: section.number_within("accommodation", 1e-3, 1.0)?.unwrap_or(1.0),
+        };
+        gas.check(section)?;
+        Ok(gas)
+    }
+
+    /// The gas at a position [m].
+    pub fn at(&self, position: &Vector3<f64>) -> GasState {
+        let temperature = self.temperature.at(position);
+        // `check` made sure that every property is known at every temperature of the gas.
+        let [density, viscosity, conductivity, heat_capacity] =
+            self.properties.each_ref().map(|property| property.at(temperature).unwrap_or(f64::NAN));
+        let velocity = self.field.velocity(position);
+        let Self { mean_free_path, accommodation, .. } = *self;
+        GasState {
+            velocity,
+            temperature,
+            density,
+            viscosity,
+            conductivity,
+            heat_capacity,
+            mean_free_path,
+            accommodation,
+        }
+    }
+
+    /// The same gas at one temperature [K] everywhere.
+    ///
+    /// # Errors
+    /// A message that names the property that is not known there.
+    pub fn set_temperature(&mut self, temperature: f64) -> Result<(), String> {
+        self.known_at(temperature)?;
+        self.temperature = Profile::constant(temperature);
+        Ok(())
+    }
+
+    /// Whether every property is known at a temperature [K].
+    ///
+    /// # Errors
+    /// A message that names the first property that is not.
+    pub fn known_at(&self, temperature: f64) -> Result<(), String> {
+        for ((key, _), property) in PROPERTIES.iter().zip(&self.properties) {
+            if let Err(range) = property.at(temperature) {
+                return Err(format!(
+                    "gas.{key} is given for {} to {} K, but the gas has {temperature} K in this case; widen the table",
+                    range.low, range.high
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
+        let known = |temperature| self.known_at(temperature).map_err(|p| section.fault("temperature", p));
+        self.temperature.extremes().into_iter().try_for_each(known)
+    }
+}

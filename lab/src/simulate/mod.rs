@@ -1,0 +1,109 @@
+//! Standalone cases: particles in a prescribed gas hit walls until they are captured or gone.
+//!
+//! A [`Case`] is read from a TOML file. [`run`] draws its particles and follows each through the gas ([`gas`]) with drag
+//! ([`drag`]), weight and heat ([`heating`]); [`nearwall::Model::resolve`] decides every hit. [`crate::results::standalone`]
+//! sums up the [`Trajectory`]s. Particles do not interact with each other and do not act on the gas. A `[deposit]` gives the walls
+//! a memory: the particles are released over a duration, and at the end of each of its steps the captured ones are added to the walls
+//! ([`DepositSettings`]). Each particle has its own random draws, so that results are the same bits on any number of threads.
+
+mod burning;
+mod case;
+mod cooling;
+mod distribution;
+pub mod drag;
+mod even_starts;
+mod flight;
+mod fusion;
+pub mod gas;
+mod geometry;
+pub mod heating;
+mod injection;
+mod losses;
+mod near_wall;
+mod profile;
+mod shrinkage;
+mod surface;
+mod trajectory;
+mod wall_deposits;
+mod weighted;
+
+pub use burning::{Burning, GAS_CONSTANT};
+pub use case::{Case, Reference, SWEEP_KEYS, Sweep, sweep_unit};
+pub use distribution::Distribution;
+pub use even_starts::even_starts;
+pub use flight::{Body, FlightEnd, FlightError, ParticleMotion, State, fly, position, state, velocity};
+pub use fusion::Fusion;
+pub use injection::{Injection, ParticleWeight};
+pub use near_wall::StayTime;
+pub use profile::Profile;
+pub use shrinkage::Shrinkage;
+pub use surface::{Shape, Surface, SurfaceKind};
+pub use trajectory::{Fate, Hit, Start, Trajectory};
+pub use wall_deposits::{BinHistory, DepositHistory, DepositSettings, WallHistory};
+pub use weighted::{ExpectedHit, PathTree, follow_exactly};
+
+use rayon::prelude::*;
+
+use wall_deposits::WallDeposits;
+
+/// Particles that are followed in parallel before their trajectories are handed over in order.
+const BATCH: usize = 4096;
+
+/// Runs a case once, or once for each value of its sweep. `observer` receives each trajectory in order with the swept
+/// value and the number of the particle.
+///
+/// # Errors
+/// Those of `observer`, and a swept value that cannot be set.
+pub fn run<E: From<String>>(
+    case: &mut Case,
+    mut observer: impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
+) -> Result<(), E> {
+    let Some(sweep) = case.sweep.clone() else { return run_once(case, None, &mut observer).map(drop) };
+    for value in sweep.values {
+        case.set(&sweep.key, value).map_err(E::from)?;
+        run_once(case, Some(value), &mut observer)?;
+    }
+    Ok(())
+}
+
+/// Runs a case as it is; `value` is passed on to the observer. Returns what lies on the walls over time, where they keep it.
+///
+/// # Errors
+/// Those of `observer`, and a deposit that cannot be formed.
+pub fn run_once<E: From<String>>(
+    case: &Case,
+    value: Option<f64>,
+    observer: &mut impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
+) -> Result<Option<DepositHistory>, E> {
+    let walls = case.deposit.map(|settings| WallDeposits::new(case, settings)).transpose();
+    let mut walls = walls.map_err(E::from)?;
+    for step in 0..case.deposit.map_or(1, |deposit| deposit.steps) {
+        for numbers in released(case, step).chunks(BATCH) {
+            let frozen = walls.as_ref();
+            let follow = |number: &u64| trajectory::follow(case, frozen, *number);
+            let trajectories: Vec<Trajectory> = numbers.par_iter().map(follow).collect();
+            for (number, trajectory) in numbers.iter().zip(&trajectories) {
+                if let Some(walls) = &mut walls {
+                    walls.collect(case, trajectory).map_err(E::from)?;
+                }
+                observer(case, value, *number, trajectory)?;
+            }
+        }
+        if let Some(walls) = &mut walls {
+            walls.end_step(case).map_err(E::from)?;
+        }
+    }
+    Ok(walls.map(WallDeposits::into_history))
+}
+
+/// Numbers of the particles that are released in a step of the feed; all of them in a case without deposit.
+fn released(case: &Case, step: u64) -> Vec<u64> {
+    let mut numbers = Vec::new();
+    let mut first = 0;
+    for injection in &case.injections {
+        let own = case.deposit.map_or(0..injection.count, |deposit| deposit.released(step, injection.count));
+        numbers.extend(own.map(|own| first + own));
+        first += injection.count;
+    }
+    numbers
+}
