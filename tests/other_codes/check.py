@@ -44,6 +44,15 @@ def same_impacts(serial, parallel):
     say("impacts on 2 ranks", shared, f"{len(serial['v_n'])} in serial, {len(parallel['v_n'])} on 2 ranks, equal bits: {shared}")
 
 
+def both_ranks_are_hit(folder):
+    """A rank without impacts would leave the exchange between ranks untested."""
+    rows = []
+    for path in sorted(glob.glob(f"{folder}/impacts.*.csv")):
+        with open(path) as file:
+            rows.append(len(file.readlines()) - 1)
+    say("impacts of each rank", len(rows) == 2 and min(rows) >= 100, " + ".join(map(str, rows)))
+
+
 def predicted(name, model, pattern):
     """`nearwall predict` on the recorded impacts; the draws of the same keys through the Python module; and the mean of the draws."""
     impacts = read(pattern)
@@ -83,6 +92,7 @@ def lammps():
     model = f"{tutorial}/nearWall.toml"
     serial = read(f"{runs}/plate-1/impacts.*.csv")
     same_impacts(serial, read(f"{runs}/plate-2/impacts.*.csv"))
+    both_ranks_are_hit(f"{runs}/plate-2")
     for ranks in (1, 2):
         totals = total(f"{runs}/plate-{ranks}/totals.csv")
         impacts, final = read(f"{runs}/plate-{ranks}/impacts.*.csv"), read(f"{runs}/plate-{ranks}/final.*.csv")
@@ -127,6 +137,7 @@ def watt_fereday(T):
 def code_saturne():
     serial = read(f"{runs}/nearWall-1/impacts.*.csv")
     same_impacts(serial, read(f"{runs}/nearWall-2/impacts.*.csv"))
+    both_ranks_are_hit(f"{runs}/nearWall-2")
     parts = ["mass_walls", "mass_left", "mass_airborne"]
     for name in ("nearWall-1", "nearWall-2", "elastic-1", "fouling-1"):
         totals = total(f"{runs}/{name}/totals.csv")

@@ -35,6 +35,7 @@ for line in f"""
     boundary p p f
     atom_modify map array
     newton off
+    processors * * 1
     region box block 0 {BOX} 0 {BOX} -0.02 0.6
     create_box 2 box
     fix hits all property/atom i_hits
@@ -139,4 +140,4 @@ if rank == 0:
         print("ranks,released,hits,captured,flying,mass_released,mass_captured,mass_flying", file=file)
         print(ranks, counts["released"], counts["hits"], captured, counts["flying"], counts["released"] * mass, captured * mass,
               counts["flying"] * mass, sep=",", file=file)
-lmp.close()
+lmp.finalize()                  # MPI too: else mpirun takes a rank that ends for one that died
