@@ -363,7 +363,7 @@ fn no_text_in_a_model_writes_or_runs_anything() {
     assert!(tree(at) == before, "something was written");
 }
 
-/// The one file that writes is `lab/src/atomic_file.rs`; folders are made where a result asks for one; nothing runs other programs.
+/// The one file that writes and makes folders is `lab/src/atomic_file.rs`; nothing runs other programs.
 #[test]
 fn the_source_writes_in_one_place() {
     const WRITES: [&str; 10] = [
@@ -378,15 +378,8 @@ fn the_source_writes_in_one_place() {
         "create_dir",
         "NamedTempFile",
     ];
-    let leave = |file: &str, word: &str| match word {
-        // Commands that write into a folder that the user names.
-        "create_dir" => {
-            ["diagnose.rs", "diagnose_rig.rs", "simulate.rs", "sensitivity.rs", "compare.rs", "map.rs"]
-                .iter()
-                .any(|command| file.ends_with(&format!("bin/nearwall/{command}")))
-        }
-        "File::options" | "NamedTempFile" => file == "atomic_file.rs",
-        _ => false,
+    let leave = |file: &str, word: &str| {
+        file == "atomic_file.rs" && ["create_dir", "File::options", "NamedTempFile"].contains(&word)
     };
     let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
     let [library, lab] = ["src", "lab/src"].map(|folder| tree(&root.join(folder)));

@@ -9,8 +9,8 @@ use nalgebra::{Complex, Vector3};
 use nearwall::deposit::resuspension::{Adhesion, Conditions, jkr_force};
 use nearwall_lab::results::standalone::{ImpactRecorder, Run, run};
 use nearwall_lab::simulate::{
-    Body, Burning, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly, position, state,
-    velocity,
+    Body, CarbonConversion, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly, position,
+    state, velocity,
 };
 
 /// A model with constant restitution, whose stickiness is a known number at each temperature.
@@ -71,7 +71,7 @@ fn body(diameter: f64, density: f64) -> Body {
         heat_capacity: None,
         fusion: None,
         radiation: None,
-        burning: Burning::NONE,
+        burning: CarbonConversion::NONE,
     }
 }
 

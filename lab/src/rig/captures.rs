@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::simulate::{Case, Fate, PathTree, SurfaceKind, run_once};
+use crate::simulate::{Case, Fate, PathTree, SimulationError, SurfaceKind, run_once};
 use nearwall::model::Model;
 
 /// What each wall captures of each particle. Particles in the same order can be compared one by one.
@@ -57,7 +57,7 @@ pub fn walls(case: &Case) -> impl Iterator<Item = (usize, &str)> {
 #[derive(Debug)]
 pub struct Flights<'a> {
     case: &'a Case,
-    particles: Vec<Result<PathTree<'a>, String>>,
+    particles: Vec<Result<PathTree<'a>, SimulationError>>,
 }
 
 impl<'a> Flights<'a> {
@@ -73,9 +73,9 @@ impl<'a> Flights<'a> {
     pub fn captures(&self, model: &Model) -> Result<Captures, String> {
         let surfaces: Vec<usize> = walls(self.case).map(|(index, _)| index).collect();
         let mut captures = Captures::new(self.case, self.particles.len());
-        let follow = |path: &Result<PathTree<'a>, String>| {
+        let follow = |path: &Result<PathTree<'a>, SimulationError>| {
             let mut caught = vec![[0.0; 2]; surfaces.len()];
-            let path = path.as_ref().map_err(Clone::clone)?;
+            let path = path.as_ref().map_err(ToString::to_string)?;
             let followed = path.follow(path.own_model().unwrap_or(model), |hit| {
                 let share = hit.share * hit.outcome.sticking_probability;
                 if let Some(wall) = surfaces.iter().position(|surface| *surface == hit.surface) {
@@ -121,7 +121,7 @@ pub fn run_captures(case: &Case) -> Result<Captures, String> {
         let particle = usize::try_from(number).unwrap_or(usize::MAX);
         match &trajectory.fate {
             Fate::Unusable(reason) => {
-                captures.trouble = captures.trouble.take().or_else(|| Some(reason.clone()))
+                captures.trouble = captures.trouble.take().or_else(|| Some(reason.to_string()))
             }
             fate => {
                 captures.injected[particle] = trajectory.mass[0];

@@ -12,7 +12,9 @@ use super::case_text::{CaseText, SettingError};
 use super::tally::{Blocks, Predicted, TalliedHit, Tally};
 use super::{Forward, ModelChange};
 use crate::dataset::{Experiment, RigMeasurements};
-use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
+use crate::simulate::{
+    Case, ExpectedHit, PathTree, SimulationError, Start, even_starts, follow_exactly, run_once,
+};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
@@ -130,10 +132,10 @@ impl<'a> Paths<'a> {
     fn new(rig: &'a RigCase, particles: u64) -> Result<Self, String> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
         let starts = even_starts(&rig.case, particles);
-        let fly = |block: &Vec<Start>| -> Vec<Result<PathTree<'a>, String>> {
+        let fly = |block: &Vec<Start>| -> Vec<Result<PathTree<'a>, SimulationError>> {
             block.par_iter().map(|start| PathTree::new(&rig.case, *start)).collect()
         };
-        let flown: Vec<Vec<Result<PathTree<'a>, String>>> = starts.iter().map(fly).collect();
+        let flown: Vec<Vec<Result<PathTree<'a>, SimulationError>>> = starts.iter().map(fly).collect();
         let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());
         let usable = |block: Vec<_>| block.into_iter().filter_map(Result::ok).collect();
         let blocks: Vec<Vec<PathTree<'a>>> = flown.into_iter().map(usable).collect();

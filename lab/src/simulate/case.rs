@@ -4,13 +4,14 @@ use std::path::Path;
 
 use nalgebra::Vector3;
 
-use super::burning::Burning;
+use super::conversion::CarbonConversion;
+use super::deposit_settings::DepositSettings;
+use super::error::SimulationError;
 use super::gas::Gas;
-use super::geometry::vector;
+use super::geometry::{vector, whole};
 use super::injection::{Injection, SWEEPABLE, model_file};
-use super::profile::Profile;
-use super::surface::{Shape, Surface, SurfaceKind};
-use super::wall_deposits::DepositSettings;
+use super::linear_profile::LinearProfile;
+use super::surface::{Surface, SurfaceKind, SurfaceShape};
 use nearwall::impact::ImpactError;
 use nearwall::input::{Document, InputError, Section};
 use nearwall::model::Model;
@@ -63,12 +64,12 @@ pub struct Sweep {
     /// The values, SI or degrees.
     pub values: Vec<f64>,
     /// Measured or computed points to show beside the result.
-    pub references: Vec<Reference>,
+    pub references: Vec<SweepReference>,
 }
 
 /// Points to show beside a sweep's result.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
+pub struct SweepReference {
     /// `capture` (share of hits) or `e_n`.
     pub quantity: String,
     /// Values of the swept quantity.
@@ -128,7 +129,8 @@ impl Case {
         let title = top.text("title")?.unwrap_or_else(|| "Standalone case".to_owned());
         let about = top.text("about")?;
         let model = read_model(top, folder)?;
-        let burning = top.section("conversion")?.map_or(Ok(Burning::NONE), |s| Burning::read(&s))?;
+        let burning =
+            top.section("conversion")?.map_or(Ok(CarbonConversion::NONE), |s| CarbonConversion::read(&s))?;
         let gas_section = top.required_section("gas")?;
         let gas = Gas::read(&gas_section)?;
         gas_section.finish()?;
@@ -184,7 +186,7 @@ impl Case {
     fn pipe_that_sheds_sideways(&self) -> Option<&str> {
         let sheds = |surface: &&Surface| {
             let SurfaceKind::Wall { model, .. } = &surface.kind else { return false };
-            matches!(surface.shape, Shape::Pipe { .. }) && self.model.walls()[*model].sheds()
+            matches!(surface.shape, SurfaceShape::Pipe { .. }) && self.model.walls()[*model].sheds()
         };
         let sideways = self.deposit.is_some() && self.gravity.xy().norm() > 0.0;
         self.surfaces.iter().find(sheds).filter(|_| sideways).map(|surface| surface.name.as_str())
@@ -224,8 +226,8 @@ impl Case {
     /// Sets the swept quantity.
     ///
     /// # Errors
-    /// A message about the value.
-    pub fn set(&mut self, key: &str, value: f64) -> Result<(), String> {
+    /// [`SimulationError`] for a temperature that the gas or a cooled wall cannot have.
+    pub fn set(&mut self, key: &str, value: f64) -> Result<(), SimulationError> {
         let everything = key == "temperature";
         if everything || key == "gas_temperature" {
             self.gas.set_temperature(value)?;
@@ -234,12 +236,9 @@ impl Case {
             for surface in &mut self.surfaces {
                 if let SurfaceKind::Wall { temperature, cooling, .. } = &mut surface.kind {
                     if cooling.is_some() {
-                        return Err(format!(
-                            "the wall `{}` is cooled, so its temperature cannot be set",
-                            surface.name
-                        ));
+                        return Err(SimulationError::CooledWall(surface.name.clone()));
                     }
-                    *temperature = Profile::constant(value);
+                    *temperature = LinearProfile::constant(value);
                 }
             }
         }
@@ -277,7 +276,7 @@ fn read_model(top: &Section<'_>, folder: &Path) -> Result<Model, InputError> {
 /// One `[particles]`, or several `[[particles]]` with names.
 fn read_injections(
     top: &Section<'_>,
-    burning: Burning,
+    burning: CarbonConversion,
     model: &Model,
     folder: &Path,
 ) -> Result<Vec<Injection>, InputError> {
@@ -341,10 +340,10 @@ fn read_sweep(section: &Section<'_>) -> Result<Sweep, InputError> {
     Ok(Sweep { key, values, references })
 }
 
-fn read_reference(section: &Section<'_>) -> Result<Reference, InputError> {
+fn read_reference(section: &Section<'_>) -> Result<SweepReference, InputError> {
     let quantity = section.choice("quantity", &["capture", "e_n"])?;
     let list = |key: &str| section.numbers(key)?.ok_or_else(|| section.missing(key, "a list of numbers"));
-    let reference = Reference {
+    let reference = SweepReference {
         quantity: quantity.ok_or_else(|| section.missing("quantity", "\"capture\" or \"e_n\""))?,
         at: list("at")?,
         value: list("value")?,
@@ -355,12 +354,4 @@ fn read_reference(section: &Section<'_>) -> Result<Reference, InputError> {
         return Err(section.fault("value", "`at` and `value` need the same number of entries"));
     }
     Ok(reference)
-}
-
-/// A whole number that is not negative; `None` when the key is absent.
-pub(super) fn whole(section: &Section<'_>, key: &str, high: f64) -> Result<Option<u64>, InputError> {
-    match section.number_within(key, 0.0, high)? {
-        Some(value) if value.fract() != 0.0 => Err(section.fault(key, "a whole number")),
-        value => Ok(value.map(|value| value as u64)),
-    }
 }

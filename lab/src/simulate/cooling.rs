@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-use super::case::Case;
+use super::gas::Gas;
 use super::geometry::required_within;
 use nearwall::deposit::conduction::{Coolant, HotSide, STEFAN_BOLTZMANN};
 use nearwall::input::{InputError, Section};
@@ -69,8 +69,8 @@ impl Cooling {
     }
 
     /// As the model takes it, at a place of the wall.
-    pub(super) fn at(&self, case: &Case, place: &Vector3<f64>) -> WallCooling {
-        let gas = case.gas.at(place);
+    pub(super) fn at(&self, gas: &Gas, place: &Vector3<f64>) -> WallCooling {
+        let gas = gas.at(place);
         let [emissivity, irradiation] = self.radiation.unwrap_or_default();
         let hot = HotSide {
             gas_temperature: self.gas_temperature.unwrap_or(gas.temperature),

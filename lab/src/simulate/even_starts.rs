@@ -8,19 +8,19 @@
 use super::case::Case;
 use super::distribution::Distribution;
 use super::injection::StartNumbers;
-use super::trajectory::Start;
+use super::tracker::Start;
 
 /// Number of blocks.
 const BLOCKS: u64 = 16;
 
 /// A point of the sequence, of which each use takes the next coordinate.
-struct Point {
+struct SobolPoint {
     index: u32,
     scramble: u32,
     used: u32,
 }
 
-impl StartNumbers for Point {
+impl StartNumbers for SobolPoint {
     fn share(&mut self) -> f64 {
         let coordinate = sobol_burley::sample(self.index, self.used, self.scramble);
         self.used += 1;
@@ -47,7 +47,7 @@ pub fn even_starts(case: &Case, particles: u64) -> Vec<Vec<Start>> {
                     .wrapping_mul(0x9E37_79B9)
                     .wrapping_add((block as u32) << 8)
                     .wrapping_add(place as u32);
-                let (diameter, state) = injection.start(&mut Point { index, scramble, used: 0 });
+                let (diameter, state) = injection.start(&mut SobolPoint { index, scramble, used: 0 });
                 let number = numbers.next().unwrap_or_default();
                 starts.push(Start { number, injection: place, diameter, state });
             }

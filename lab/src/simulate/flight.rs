@@ -1,148 +1,25 @@
 //! The path of one particle from one contact to the next.
 //!
-//! State: position [m], velocity [m/s], temperature without the heat of fusion [K] ([`super::fusion`]), carbon conversion [1].
-//! `dx/dt = v`, `dv/dt = (u - v)/tau + g (1 - rho_g/rho_p)`, `m c_p dT/dt = heat`, `dX/dt` from [`super::burning`].
-//! Diameter and density follow the conversion ([`super::shrinkage`]), also where a contact is looked for.
-//! Dormand–Prince 5(4) with its own step control; contacts are found on its dense output.
-
-use std::f64::consts::PI;
+//! Dormand–Prince 5(4) with its own step control integrates [`super::motion`]; contacts are found on its
+//! dense output.
 
 use differential_equations::error::Error;
 use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::ExplicitRungeKutta;
-use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
+use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
-use nalgebra::{SVector, Vector3};
 
-use super::burning::Burning;
-use super::drag;
-use super::fusion::Fusion;
-use super::gas::{Gas, GasState};
-use super::heating;
+use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, position, reach};
 use super::near_wall::StayTimes;
-use super::shrinkage::Shrinkage;
 use super::surface::Surface;
-
-/// Position, velocity, temperature, conversion.
-pub type State = SVector<f64, 8>;
-
-/// Index of the temperature in a [`State`].
-pub const TEMPERATURE: usize = 6;
-/// Index of the conversion in a [`State`].
-pub const CONVERSION: usize = 7;
-
-/// Position of a state [m].
-pub fn position(state: &State) -> Vector3<f64> {
-    state.fixed_rows::<3>(0).into()
-}
-
-/// Velocity of a state [m/s].
-pub fn velocity(state: &State) -> Vector3<f64> {
-    state.fixed_rows::<3>(3).into()
-}
-
-/// Assembles a state from position [m], velocity [m/s], temperature [K] and conversion [1].
-pub fn state(position: &Vector3<f64>, velocity: &Vector3<f64>, temperature: f64, conversion: f64) -> State {
-    let mut state = State::zeros();
-    state.fixed_rows_mut::<3>(0).copy_from(position);
-    state.fixed_rows_mut::<3>(3).copy_from(velocity);
-    state[TEMPERATURE] = temperature;
-    state[CONVERSION] = conversion;
-    state
-}
-
-/// What a particle consists of.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Body {
-    /// Diameter before any carbon is gone [m].
-    pub diameter: f64,
-    /// Density before any carbon is gone [kg/m³].
-    pub density: f64,
-    /// How size and density follow the conversion.
-    pub shrinkage: Shrinkage,
-    /// Heat capacity [J/(kg K)]; without it the temperature stays.
-    pub heat_capacity: Option<f64>,
-    /// Melting, where the case gives a heat of fusion.
-    pub fusion: Option<Fusion>,
-    /// Emissivity [1] and temperature of the surroundings [K].
-    pub radiation: Option<(f64, f64)>,
-    /// Law of carbon conversion.
-    pub burning: Burning,
-}
-
-impl Body {
-    /// Diameter [m] at a conversion [1].
-    pub fn diameter_at(&self, conversion: f64) -> f64 {
-        let left = self.shrinkage.volume_left(conversion);
-        if left == 1.0 { self.diameter } else { self.diameter * left.cbrt() }
-    }
-
-    /// Density [kg/m³] at a conversion [1].
-    pub fn density_at(&self, conversion: f64) -> f64 {
-        self.density * self.shrinkage.mass_left(conversion) / self.shrinkage.volume_left(conversion)
-    }
-
-    /// Mass [kg] at a conversion [1].
-    pub fn mass_at(&self, conversion: f64) -> f64 {
-        PI / 6.0 * self.diameter.powi(3) * self.density * self.shrinkage.mass_left(conversion)
-    }
-
-    /// Temperature [K] of a state.
-    pub fn temperature(&self, state: &State) -> f64 {
-        let sensible = state[TEMPERATURE];
-        self.fusion.map_or(sensible, |fusion| fusion.temperature(sensible))
-    }
-}
-
-/// A particle in a gas: the equations of its path.
-#[derive(Debug, Clone, Copy)]
-pub struct ParticleMotion<'a> {
-    /// The gas it moves in.
-    pub gas: &'a Gas,
-    /// Gravity [m/s²].
-    pub gravity: Vector3<f64>,
-    /// The particle.
-    pub body: Body,
-}
-
-impl ODE<f64, State> for ParticleMotion<'_> {
-    fn diff(&self, _time: f64, y: &State, rate: &mut State) {
-        let body = &self.body;
-        let (temperature, conversion) = (body.temperature(y), y[CONVERSION]);
-        let diameter = body.diameter_at(conversion);
-        let gas = self.gas.at(&position(y));
-        let slip = gas.velocity - velocity(y);
-        let reynolds = gas.density * slip.norm() * diameter / gas.viscosity;
-        let density = body.density_at(conversion);
-        let response = drag::response_rate(reynolds, gas.viscosity, density, diameter)
-            / drag::slip_factor(gas.mean_free_path, diameter);
-        let acceleration = slip * response + self.gravity * (1.0 - gas.density / density);
-        let heating = body.heat_capacity.map_or(0.0, |capacity| {
-            let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;
-            let dense = heating::nusselt(reynolds, prandtl);
-            let GasState { mean_free_path, accommodation, .. } = gas;
-            let nusselt = heating::thin_gas_nusselt(dense, mean_free_path, diameter, prandtl, accommodation);
-            let difference = gas.temperature - temperature;
-            let mut heat = heating::convection(nusselt, gas.conductivity, diameter, difference);
-            if let Some((emissivity, surroundings)) = body.radiation {
-                heat += heating::radiation(emissivity, diameter, surroundings, temperature);
-            }
-            heat / (body.mass_at(conversion) * capacity)
-        });
-        rate.fixed_rows_mut::<3>(0).copy_from(&velocity(y));
-        rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
-        rate[TEMPERATURE] = heating;
-        rate[CONVERSION] = body.burning.rate(temperature, conversion);
-    }
-}
 
 /// End of a flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlightEnd {
     /// Time [s].
     pub time: f64,
-    /// State there.
-    pub state: State,
+    /// ParticleState there.
+    pub state: ParticleState,
     /// Index of the surface that was reached; `None` when the time was up.
     pub surface: Option<usize>,
 }
@@ -160,10 +37,8 @@ pub enum FlightError {
 
 /// Integration steps of one flight before it is given up.
 const STEP_LIMIT: usize = 200_000;
-/// Points on a step's dense output at which contact is checked.
-pub(super) const PLACES: u32 = 8;
 /// Most iterations until a contact is found.
-const ITERATIONS: u32 = 80;
+const CONTACT_ITERATIONS: u32 = 80;
 /// Gap at a contact, in diameters.
 const NEAR: f64 = 1e-10;
 
@@ -179,7 +54,7 @@ pub fn fly(
     surfaces: &[Surface],
     time: f64,
     until: f64,
-    start: &State,
+    start: &ParticleState,
     tolerance: f64,
 ) -> Result<FlightEnd, FlightError> {
     fly_timed(motion, surfaces, [time, until], start, tolerance, &mut StayTimes::default())
@@ -190,13 +65,13 @@ pub(super) fn fly_timed(
     motion: &ParticleMotion<'_>,
     surfaces: &[Surface],
     [time, until]: [f64; 2],
-    start: &State,
+    start: &ParticleState,
     tolerance: f64,
     stays: &mut StayTimes,
 ) -> Result<FlightEnd, FlightError> {
     let (mut now, mut here) = (time, *start);
     let mut steps = 0;
-    let finish = |time: f64, state: State| Ok(FlightEnd { time, state, surface: None });
+    let finish = |time: f64, state: ParticleState| Ok(FlightEnd { time, state, surface: None });
     'restart: loop {
         if now >= until {
             return finish(now, here);
@@ -254,22 +129,17 @@ fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
     [length, length, length, 100.0, 100.0, 100.0, 1e4, 10.0].map(|scale| tolerance * scale).to_vec()
 }
 
-/// How far [m] from its start a particle can have come in a step, with a margin for a curved path.
-pub(super) fn reach(duration: f64, before: &State, after: &State) -> f64 {
-    2.0 * duration * velocity(before).norm().max(velocity(after).norm())
-}
-
 /// The first contact in the step that the solver has just taken.
 fn contact<S>(solver: &mut S, surfaces: &[Surface], body: &Body) -> Option<FlightEnd>
 where
-    S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+    S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
 {
     let (from, to) = (solver.t_prev(), solver.t());
     let (before, after) = (*solver.y_prev(), *solver.y());
     let reach = reach(to - from, &before, &after);
     let mut first: Option<FlightEnd> = None;
     for (index, surface) in surfaces.iter().enumerate() {
-        let gap = |state: &State| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
+        let gap = |state: &ParticleState| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
         let at_start = gap(&before);
         // Rounding may leave a particle that has just rebounded a hair behind the wall.
         if at_start > reach || at_start < -1e-6 * body.diameter {
@@ -288,19 +158,22 @@ where
 /// The last time and state in front of the surface, when the step leads behind it: at most `near` [m] away.
 fn crossing<S>(
     solver: &mut S,
-    gap: &impl Fn(&State) -> f64,
+    gap: &impl Fn(&ParticleState) -> f64,
     near: f64,
     [from, to]: [f64; 2],
-    [before, after]: [&State; 2],
-) -> Option<(f64, State)>
+    [before, after]: [&ParticleState; 2],
+) -> Option<(f64, ParticleState)>
 where
-    S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+    S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
 {
     let (mut low, mut in_front) = (from, gap(before));
-    for place in 1..=PLACES {
-        let high =
-            if place == PLACES { to } else { from + (to - from) * f64::from(place) / f64::from(PLACES) };
-        let there = if place == PLACES { *after } else { solver.interpolate(high).ok()? };
+    for place in 1..=PATH_POINTS {
+        let high = if place == PATH_POINTS {
+            to
+        } else {
+            from + (to - from) * f64::from(place) / f64::from(PATH_POINTS)
+        };
+        let there = if place == PATH_POINTS { *after } else { solver.interpolate(high).ok()? };
         let behind = gap(&there);
         if behind >= 0.0 {
             (low, in_front) = (high, behind);
@@ -328,7 +201,7 @@ fn arrival(
     let aim = 0.5 * near;
     let (mut at_low, mut at_high) = (in_front - aim, behind - aim);
     let mut last_moved = 0.0;
-    for _ in 0..ITERATIONS {
+    for _ in 0..CONTACT_ITERATIONS {
         let secant = high - at_high * (high - low) / (at_high - at_low);
         // A particle that starts at the wall has to leave it first.
         let leaves = at_low > aim && secant > low && secant < high;

@@ -1,4 +1,4 @@
-//! Reading vectors and directions from a case file.
+//! Reads numbers, vectors and directions from a case file.
 
 use nalgebra::Vector3;
 
@@ -32,6 +32,14 @@ pub(super) fn required_within(
     high: f64,
 ) -> Result<f64, InputError> {
     section.number_within(key, low, high)?.ok_or_else(|| section.missing(key, "a number"))
+}
+
+/// A whole number that is not negative; `None` when the key is absent.
+pub(super) fn whole(section: &Section<'_>, key: &str, high: f64) -> Result<Option<u64>, InputError> {
+    match section.number_within(key, 0.0, high)? {
+        Some(value) if value.fract() != 0.0 => Err(section.fault(key, "a whole number")),
+        value => Ok(value.map(|value| value as u64)),
+    }
 }
 
 /// Two directions across `along`, each of length 1 and at right angles to it and to each other.

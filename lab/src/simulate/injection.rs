@@ -12,11 +12,12 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::Distribution as _;
 use rand_distr::StandardUniform;
 
-use super::burning::Burning;
+use super::conversion::CarbonConversion;
 use super::distribution::Distribution;
-use super::flight::{Body, State, state};
+use super::error::SimulationError;
 use super::fusion::Fusion;
 use super::geometry::{across, direction, required_vector, required_within, vector};
+use super::motion::{Body, ParticleState, state};
 use super::shrinkage::{ASH_DENSITY, Shrinkage};
 use nearwall::input::{InputError, Section};
 use nearwall::model::Model;
@@ -32,7 +33,7 @@ pub struct Injection {
     walls: Vec<usize>,
     /// How many particles are followed.
     pub count: u64,
-    place: Place,
+    place: ReleaseShape,
     /// Mean direction of flight, length 1.
     along: Vector3<f64>,
     diameter: Distribution,
@@ -53,7 +54,7 @@ pub struct Injection {
     /// Real particles that each followed particle represents.
     pub weight: ParticleWeight,
     /// Law of carbon conversion, with the combustible share of these particles.
-    pub burning: Burning,
+    pub burning: CarbonConversion,
 }
 
 /// Keys of the heat of fusion.
@@ -77,7 +78,7 @@ pub enum ParticleWeight {
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Place {
+enum ReleaseShape {
     Point(Vector3<f64>),
     Disc { centre: Vector3<f64>, normal: Vector3<f64>, radii: [f64; 2] },
 }
@@ -111,7 +112,7 @@ impl Injection {
     /// [`InputError::Fault`] for a missing or impossible state.
     pub fn read(
         section: &Section<'_>,
-        burning: Burning,
+        burning: CarbonConversion,
         case_model: &Model,
         folder: &Path,
     ) -> Result<Self, InputError> {
@@ -135,7 +136,7 @@ impl Injection {
             walls: same_walls(section, case_model, model.as_ref())?,
             model,
             count: count as u64,
-            place: Place::read(&place)?,
+            place: ReleaseShape::read(&place)?,
             along: direction(section, "direction")?,
             diameter: needed("diameter", "a diameter [m]", positive, 1.0)?,
             speed: needed("speed", "a speed [m/s]", 0.0, 1e5)?,
@@ -168,14 +169,14 @@ impl Injection {
     /// of its start.
     ///
     /// # Errors
-    /// A message when its ash does not fit into it, or when no melting point is known.
+    /// [`SimulationError`] when its ash does not fit into it, or when no melting point is known.
     pub(super) fn body(
         &self,
         diameter: f64,
         density: f64,
         temperature: f64,
         model: &Model,
-    ) -> Result<Body, String> {
+    ) -> Result<Body, SimulationError> {
         let Self { heat_capacity, radiation, burning, .. } = *self;
         let mut ash_density = self.ash_density(model, temperature);
         if burning.ash_density.is_none() {
@@ -198,14 +199,14 @@ impl Injection {
 
     /// Draws the diameter [m] and the first state of the particle with this number. Its velocity is on top of the gas's
     /// where the case says so.
-    pub fn draw(&self, seed: u64, number: u64) -> (f64, State) {
+    pub fn draw(&self, seed: u64, number: u64) -> (f64, ParticleState) {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         random.set_stream(number);
         self.start(&mut random)
     }
 
     /// The diameter [m] and the first state that these numbers give.
-    pub(super) fn start(&self, numbers: &mut impl StartNumbers) -> (f64, State) {
+    pub(super) fn start(&self, numbers: &mut impl StartNumbers) -> (f64, ParticleState) {
         let position = self.place.start(numbers);
         let diameter = numbers.of(&self.diameter);
         let speed = numbers.of(&self.speed);
@@ -231,7 +232,7 @@ impl Injection {
     }
 }
 
-impl Place {
+impl ReleaseShape {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let place = match section.choice("shape", &["point", "disc"])?.as_deref() {
             Some("point") => Self::Point(required_vector(section, "at")?),
@@ -277,12 +278,10 @@ pub(super) fn model_file(section: &Section<'_>, name: &str, folder: &Path) -> Re
 }
 
 /// Melting point [K] of the model's ash, or of its particle where it has none.
-fn melting_point(model: &Model, temperature: f64) -> Result<f64, String> {
+fn melting_point(model: &Model, temperature: f64) -> Result<f64, SimulationError> {
     let material = model.ash().unwrap_or_else(|| model.particle());
     let known = material.property("melting_point").and_then(|property| property.at(temperature).ok());
-    known.ok_or_else(|| {
-        format!("the material `{}` has no melting_point; add melting_point to the particles", material.name())
-    })
+    known.ok_or_else(|| SimulationError::NoMeltingPoint(material.name().to_owned()))
 }
 
 /// For each wall of the case's model the one of the same name in `own`, else its `default`.

@@ -6,11 +6,13 @@
 //! a memory: the particles are released over a duration, and at the end of each of its steps the captured ones are added to the walls
 //! ([`DepositSettings`]). Each particle has its own random draws, so that results are the same bits on any number of threads.
 
-mod burning;
 mod case;
+mod conversion;
 mod cooling;
+mod deposit_settings;
 mod distribution;
 pub mod drag;
+mod error;
 mod even_starts;
 mod flight;
 mod fusion;
@@ -18,28 +20,34 @@ pub mod gas;
 mod geometry;
 pub mod heating;
 mod injection;
+mod linear_profile;
 mod losses;
+mod motion;
 mod near_wall;
-mod profile;
 mod shrinkage;
 mod surface;
+mod tracker;
 mod trajectory;
 mod wall_deposits;
 mod weighted;
 
-pub use burning::{Burning, GAS_CONSTANT};
-pub use case::{Case, Reference, SWEEP_KEYS, Sweep, sweep_unit};
+pub use case::{Case, SWEEP_KEYS, Sweep, SweepReference, sweep_unit};
+pub use conversion::{CarbonConversion, GAS_CONSTANT};
+pub use deposit_settings::DepositSettings;
 pub use distribution::Distribution;
+pub use error::SimulationError;
 pub use even_starts::even_starts;
-pub use flight::{Body, FlightEnd, FlightError, ParticleMotion, State, fly, position, state, velocity};
+pub use flight::{FlightEnd, FlightError, fly};
 pub use fusion::Fusion;
 pub use injection::{Injection, ParticleWeight};
+pub use linear_profile::LinearProfile;
+pub use motion::{Body, ParticleMotion, ParticleState, position, state, velocity};
 pub use near_wall::StayTime;
-pub use profile::Profile;
 pub use shrinkage::Shrinkage;
-pub use surface::{Shape, Surface, SurfaceKind};
-pub use trajectory::{Fate, Hit, Start, Trajectory};
-pub use wall_deposits::{BinHistory, DepositHistory, DepositSettings, WallHistory};
+pub use surface::{Surface, SurfaceKind, SurfaceShape};
+pub use tracker::Start;
+pub use trajectory::{Fate, Hit, Trajectory};
+pub use wall_deposits::{BinHistory, DepositHistory, WallHistory};
 pub use weighted::{ExpectedHit, PathTree, follow_exactly};
 
 use rayon::prelude::*;
@@ -54,7 +62,7 @@ const BATCH: usize = 4096;
 ///
 /// # Errors
 /// Those of `observer`, and a swept value that cannot be set.
-pub fn run<E: From<String>>(
+pub fn run<E: From<SimulationError>>(
     case: &mut Case,
     mut observer: impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
 ) -> Result<(), E> {
@@ -70,7 +78,7 @@ pub fn run<E: From<String>>(
 ///
 /// # Errors
 /// Those of `observer`, and a deposit that cannot be formed.
-pub fn run_once<E: From<String>>(
+pub fn run_once<E: From<SimulationError>>(
     case: &Case,
     value: Option<f64>,
     observer: &mut impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
@@ -80,7 +88,7 @@ pub fn run_once<E: From<String>>(
     for step in 0..case.deposit.map_or(1, |deposit| deposit.steps) {
         for numbers in released(case, step).chunks(BATCH) {
             let frozen = walls.as_ref();
-            let follow = |number: &u64| trajectory::follow(case, frozen, *number);
+            let follow = |number: &u64| tracker::follow(case, frozen, *number);
             let trajectories: Vec<Trajectory> = numbers.par_iter().map(follow).collect();
             for (number, trajectory) in numbers.iter().zip(&trajectories) {
                 if let Some(walls) = &mut walls {

@@ -8,11 +8,11 @@
 use differential_equations::interpolate::Interpolation;
 use differential_equations::ode::OrdinaryNumericalMethod;
 
-use super::flight::{Body, CONVERSION, PLACES, State, position, reach};
-use super::surface::{Shape, Surface, SurfaceKind};
+use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleState, position, reach};
+use super::surface::{Surface, SurfaceKind, SurfaceShape};
 
 /// Halvings of the piece of a path on which the particle comes near a wall or leaves it.
-const HALVINGS: u32 = 30;
+const NEAR_WALL_HALVINGS: u32 = 30;
 
 /// Times at one surface [s].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -44,9 +44,9 @@ impl StayTimes {
         solver: &mut S,
         surfaces: &[Surface],
         body: &Body,
-        (to, after): (f64, State),
+        (to, after): (f64, ParticleState),
     ) where
-        S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+        S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
     {
         let (from, before) = (solver.t_prev(), *solver.y_prev());
         let mut path = Path { solver, from, to, before, after, places: Vec::new() };
@@ -55,18 +55,20 @@ impl StayTimes {
             if !matches!(surface.kind, SurfaceKind::Wall { .. }) {
                 continue;
             }
-            let gap = |state: &State| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
+            let gap =
+                |state: &ParticleState| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
             let [begin, end] = bounds(&surface.shape);
-            let coordinate = |state: &State| surface.shape.coordinate(&position(state));
-            let inside =
-                |one: &State, other: &State| between([begin, end], coordinate(one), coordinate(other));
+            let coordinate = |state: &ParticleState| surface.shape.coordinate(&position(state));
+            let inside = |one: &ParticleState, other: &ParticleState| {
+                between([begin, end], coordinate(one), coordinate(other))
+            };
             if gap(&before) <= self.distance + reach {
                 path.each(|duration, one, other, at| {
                     let near = below(self.distance, &gap, [one, other], at);
                     time.near += duration * overlap(near, inside(one, other));
                 });
             }
-            if let Shape::Pipe { .. } = surface.shape {
+            if let SurfaceShape::Pipe { .. } = surface.shape {
                 let [one, other] = [&before, &after].map(coordinate);
                 if [one, other].iter().all(|z| (begin..=end).contains(z)) {
                     time.section += to - from;
@@ -81,10 +83,10 @@ impl StayTimes {
 }
 
 /// The coordinates between which a surface lies [m].
-fn bounds(shape: &Shape) -> [f64; 2] {
+fn bounds(shape: &SurfaceShape) -> [f64; 2] {
     match *shape {
-        Shape::Plane { radius, .. } => [f64::NEG_INFINITY, radius.unwrap_or(f64::INFINITY)],
-        Shape::Pipe { zone, .. } => zone,
+        SurfaceShape::Plane { radius, .. } => [f64::NEG_INFINITY, radius.unwrap_or(f64::INFINITY)],
+        SurfaceShape::Pipe { zone, .. } => zone,
     }
 }
 
@@ -100,16 +102,16 @@ fn between([low, high]: [f64; 2], one: f64, other: f64) -> [f64; 2] {
 /// The part of a piece, from 0 to 1, on which the gap is at most `limit`; `at` gives the state on the piece.
 fn below(
     limit: f64,
-    gap: &impl Fn(&State) -> f64,
-    [one, other]: [&State; 2],
-    at: &mut dyn FnMut(f64) -> State,
+    gap: &impl Fn(&ParticleState) -> f64,
+    [one, other]: [&ParticleState; 2],
+    at: &mut dyn FnMut(f64) -> ParticleState,
 ) -> [f64; 2] {
     match [one, other].map(|state| gap(state) <= limit) {
         [true, true] => [0.0, 1.0],
         [false, false] => [0.0, 0.0],
         [first, _] => {
             let [mut from, mut to] = [0.0, 1.0];
-            for _ in 0..HALVINGS {
+            for _ in 0..NEAR_WALL_HALVINGS {
                 let middle = 0.5 * (from + to);
                 if (gap(&at(middle)) <= limit) == first { from = middle } else { to = middle }
             }
@@ -128,22 +130,25 @@ struct Path<'a, S> {
     solver: &'a mut S,
     from: f64,
     to: f64,
-    before: State,
-    after: State,
+    before: ParticleState,
+    after: ParticleState,
     /// Filled at the first use.
-    places: Vec<State>,
+    places: Vec<ParticleState>,
 }
 
 impl<S> Path<'_, S>
 where
-    S: OrdinaryNumericalMethod<f64, State> + Interpolation<f64, State>,
+    S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
 {
     /// Calls with the duration and both ends of each piece, and with its states from 0 to 1.
-    fn each(&mut self, mut piece: impl FnMut(f64, &State, &State, &mut dyn FnMut(f64) -> State)) {
-        let duration = (self.to - self.from) / f64::from(PLACES);
+    fn each(
+        &mut self,
+        mut piece: impl FnMut(f64, &ParticleState, &ParticleState, &mut dyn FnMut(f64) -> ParticleState),
+    ) {
+        let duration = (self.to - self.from) / f64::from(PATH_POINTS);
         if self.places.is_empty() {
             self.places.push(self.before);
-            for place in 1..PLACES {
+            for place in 1..PATH_POINTS {
                 let time = self.from + duration * f64::from(place);
                 self.places.push(self.solver.interpolate(time).unwrap_or(self.after));
             }

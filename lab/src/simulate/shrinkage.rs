@@ -20,10 +20,12 @@
 //! surface together): the Carbon Burnout Kinetics code (Hurt, Sun and Lunden 1998; inputs of public copies, the paper not re-read)
 //! uses `b` = 0.2, so `a` = 0.27, for combustion and `b` = 0.95, so `a` = 0.02, for slow gasification inside the pores.
 
+use super::error::SimulationError;
+
 /// Exponent `a` where a case gives none [1].
 pub const DIAMETER_EXPONENT: f64 = 0.25;
 /// Largest exponent [1]: a core of constant density.
-pub const LARGEST_EXPONENT: f64 = 1.0 / 3.0;
+pub const LARGEST_DIAMETER_EXPONENT: f64 = 1.0 / 3.0;
 /// Density of ash [kg/m³] where neither the case nor the model gives it: *assumed*, that of the built-in `fly-ash`.
 pub const ASH_DENSITY: f64 = 2300.0;
 
@@ -46,17 +48,20 @@ impl Shrinkage {
     /// the density of its ash [kg/m³].
     ///
     /// # Errors
-    /// A message when the ash is larger than the particle.
-    pub fn new(density: f64, combustible: f64, exponent: f64, ash_density: f64) -> Result<Self, String> {
+    /// [`SimulationError::AshTooLarge`] when the ash is larger than the particle.
+    pub fn new(
+        density: f64,
+        combustible: f64,
+        exponent: f64,
+        ash_density: f64,
+    ) -> Result<Self, SimulationError> {
         if combustible == 0.0 {
             return Ok(Self::NONE);
         }
         let ash_volume = (1.0 - combustible) * density / ash_density;
         if ash_volume > 1.0 {
-            return Err(format!(
-                "ash of {ash_density} kg/m3 does not fit into a particle of {density} kg/m3 with {} % ash; raise ash_density",
-                100.0 * (1.0 - combustible)
-            ));
+            let ash_percent = 100.0 * (1.0 - combustible);
+            return Err(SimulationError::AshTooLarge { ash_density, density, ash_percent });
         }
         Ok(Self { combustible, exponent, ash_volume })
     }
@@ -86,7 +91,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const EXPONENTS: [f64; 5] = [0.0, 0.02, 0.25, 0.3, LARGEST_EXPONENT];
+    const EXPONENTS: [f64; 5] = [0.0, 0.02, 0.25, 0.3, LARGEST_DIAMETER_EXPONENT];
 
     fn law(exponent: f64) -> Shrinkage {
         Shrinkage::new(1200.0, 0.9, exponent, 2400.0).unwrap()
@@ -119,7 +124,7 @@ mod tests {
             assert!(volumes.iter().all(|volume| *volume >= 0.05 - 1e-15), "{exponent}");
         }
         // No jump at burn-out: 10^-15 before it the combustible volume is (10^-15)^(3a) of what it was.
-        assert!(law(LARGEST_EXPONENT).volume_left(1.0 - 1e-15) - 0.05 < 2e-15);
+        assert!(law(LARGEST_DIAMETER_EXPONENT).volume_left(1.0 - 1e-15) - 0.05 < 2e-15);
         assert_relative_eq!(law(0.25).volume_left(1.0 - 1e-12) - 0.05, 0.95e-9, max_relative = 1e-3);
     }
 
@@ -140,7 +145,7 @@ mod tests {
 
     #[test]
     fn ash_has_to_fit_and_stone_does_not_shrink() {
-        assert!(Shrinkage::new(2000.0, 0.1, 0.25, 1000.0).unwrap_err().contains("does not fit"));
+        assert!(Shrinkage::new(2000.0, 0.1, 0.25, 1000.0).unwrap_err().to_string().contains("does not fit"));
         let stone = Shrinkage::new(2600.0, 0.0, 0.25, 1000.0).unwrap();
         assert_eq!((stone.mass_left(0.7), stone.volume_left(0.7)), (1.0, 1.0));
     }

@@ -10,13 +10,13 @@ use nalgebra::Vector3;
 
 use super::cooling::Cooling;
 use super::geometry::{across, direction, required_vector, required_within};
-use super::profile::Profile;
+use super::linear_profile::LinearProfile;
 use nearwall::input::{InputError, Section, unknown};
 use nearwall::model::Model;
 
 /// The form of a wall or an exit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Shape {
+pub enum SurfaceShape {
     /// A plane, or a disc of it; particles come from the side that the normal points to.
     Plane {
         /// A point on it, the centre of a disc [m].
@@ -35,7 +35,7 @@ pub enum Shape {
     },
 }
 
-impl Shape {
+impl SurfaceShape {
     fn read(section: &Section<'_>) -> Result<Self, InputError> {
         match section.choice("shape", &["plane", "pipe"])?.as_deref() {
             Some("plane") => Ok(Self::Plane {
@@ -89,7 +89,7 @@ impl Shape {
         }
     }
 
-    /// The coordinate of [`Shape::extent`] at a point near the surface [m].
+    /// The coordinate of [`SurfaceShape::extent`] at a point near the surface [m].
     pub fn coordinate(&self, position: &Vector3<f64>) -> f64 {
         match self {
             Self::Plane { point, normal, .. } => {
@@ -100,7 +100,7 @@ impl Shape {
         }
     }
 
-    /// A point of the surface [m] with a coordinate of [`Shape::extent`]; all of them lie on one line.
+    /// A point of the surface [m] with a coordinate of [`SurfaceShape::extent`]; all of them lie on one line.
     pub fn point_at(&self, coordinate: f64) -> Vector3<f64> {
         match self {
             Self::Plane { point, normal, .. } => point + coordinate * across(normal)[0],
@@ -108,7 +108,7 @@ impl Shape {
         }
     }
 
-    /// Area [m²] between two coordinates of [`Shape::extent`].
+    /// Area [m²] between two coordinates of [`SurfaceShape::extent`].
     pub fn area_between(&self, [from, to]: [f64; 2]) -> f64 {
         match self {
             Self::Plane { .. } => PI * (to * to - from * from),
@@ -127,7 +127,7 @@ impl Shape {
         }
     }
 
-    /// The two axes of [`Shape::unrolled`], for a figure.
+    /// The two axes of [`SurfaceShape::unrolled`], for a figure.
     pub fn axes(&self) -> [&'static str; 2] {
         match self {
             Self::Plane { .. } => ["across the wall, first axis [m]", "across the wall, second axis [m]"],
@@ -142,7 +142,7 @@ pub struct Surface {
     /// Its name in the case file.
     pub name: String,
     /// Its form.
-    pub shape: Shape,
+    pub shape: SurfaceShape,
     /// Wall or exit.
     pub kind: SurfaceKind,
 }
@@ -155,7 +155,7 @@ pub enum SurfaceKind {
         /// Index of the model's wall.
         model: usize,
         /// Wall temperature [K]; of a cooled wall that of its coolant.
-        temperature: Profile,
+        temperature: LinearProfile,
         /// What makes the temperature follow from the deposit.
         cooling: Option<Cooling>,
         /// Friction velocity of the gas at it [m/s].
@@ -185,7 +185,7 @@ impl Surface {
         for section in top.sections("exits")? {
             let exit = Self {
                 name: section.required_text("name")?,
-                shape: Shape::read(&section)?,
+                shape: SurfaceShape::read(&section)?,
                 kind: SurfaceKind::Exit,
             };
             section.finish()?;
@@ -213,17 +213,17 @@ impl Surface {
             return Err(section.fault(key, unknown(word, "wall of the model", &known)));
         };
         let cooling = section.section("cooling")?.map(|s| Cooling::read(&s, model, index)).transpose()?;
-        let given = Profile::read(section, "temperature", 1.0, 1e5)?;
+        let given = LinearProfile::read(section, "temperature", 1.0, 1e5)?;
         let temperature = match (given, &cooling) {
             (Some(temperature), None) => temperature,
-            (None, Some(cooling)) => Profile::constant(cooling.coolant.temperature),
+            (None, Some(cooling)) => LinearProfile::constant(cooling.coolant.temperature),
             (Some(_), Some(_)) => {
                 return Err(section.fault("temperature", "follows from `cooling`; remove one of them"));
             }
             (None, None) => return Err(section.missing("temperature", "the wall's temperature [K]")),
         };
         let friction_velocity = section.number_within("friction_velocity", 0.0, 1e3)?.unwrap_or(0.0);
-        let shape = Shape::read(section)?;
+        let shape = SurfaceShape::read(section)?;
         section.finish()?;
         let kind = SurfaceKind::Wall { model: index, temperature, cooling, friction_velocity };
         Ok(Self { name, shape, kind })
@@ -237,10 +237,10 @@ mod tests {
     #[test]
     fn distances_and_normals() {
         let normal = Vector3::new(0.0, 0.6, 0.8);
-        let plane = Shape::Plane { point: Vector3::zeros(), normal, radius: Some(1.0) };
+        let plane = SurfaceShape::Plane { point: Vector3::zeros(), normal, radius: Some(1.0) };
         assert!((plane.distance(&(2.0 * normal)) - 2.0).abs() < 1e-15);
         assert!(plane.covers(&(2.0 * normal)) && !plane.covers(&Vector3::new(1.1, 0.0, 0.0)));
-        let pipe = Shape::Pipe { radius: 0.2, zone: [0.0, 1.0] };
+        let pipe = SurfaceShape::Pipe { radius: 0.2, zone: [0.0, 1.0] };
         let point = Vector3::new(0.0, 0.15, 0.4);
         assert!((pipe.distance(&point) - 0.05).abs() < 1e-15);
         assert_eq!(pipe.normal(&point), Vector3::new(0.0, -1.0, 0.0));

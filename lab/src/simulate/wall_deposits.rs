@@ -9,81 +9,23 @@
 //! particles, so that they do not depend on the number of threads. A wall has equal bins along a pipe, or rings of equal
 //! width on a disc; each is one [`Deposit`].
 
-use std::ops::Range;
-
 use nalgebra::Vector3;
 
-use super::case::{Case, whole};
-use super::geometry::required_within;
+use super::case::Case;
+use super::deposit_settings::DepositSettings;
+use super::error::SimulationError;
 use super::losses;
 use super::shrinkage::ASH_DENSITY;
-use super::surface::{Shape, Surface, SurfaceKind};
+use super::surface::{Surface, SurfaceKind, SurfaceShape};
 use super::trajectory::{Fate, Trajectory};
 use nearwall::deposit::{Deposit, DepositSource, burn_off};
 use nearwall::impact::{Impact, ImpactError};
-use nearwall::input::{InputError, Section};
 use nearwall::model::{Model, WallHeat};
-
-/// Largest number of states that are kept of one wall.
-const MOST_STATES: u64 = 1_000_000;
 
 /// Sub-steps for each time in which the powder burns down by a factor e.
 const PARTS_PER_TIME: f64 = 4.0;
 /// Largest number of sub-steps; powder that burns faster covers nothing.
 const MOST_PARTS: f64 = 64.0;
-
-/// A `[deposit]` table.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DepositSettings {
-    /// Duration of the feed [s].
-    pub duration: f64,
-    /// Number of its steps.
-    pub steps: u64,
-    /// Share of voids in the powder [1].
-    pub voidage: f64,
-    /// Number of bins of each wall.
-    pub bins: usize,
-}
-
-impl DepositSettings {
-    pub(super) fn read(section: &Section<'_>, surfaces: &[Surface]) -> Result<Self, InputError> {
-        let endless = |s: &&Surface| matches!(s.kind, SurfaceKind::Wall { .. }) && s.shape.extent().is_none();
-        if let Some(wall) = surfaces.iter().find(endless) {
-            let problem = format!("the wall `{}` has no end, so no area; give it a radius", wall.name);
-            return Err(section.fault("duration", problem));
-        }
-        let settings = Self {
-            duration: required_within(section, "duration", f64::MIN_POSITIVE, f64::INFINITY)?,
-            steps: whole(section, "steps", 1e6)?.unwrap_or(100).max(1),
-            voidage: section.number_within("voidage", 0.0, 0.99)?.unwrap_or(0.5),
-            bins: whole(section, "bins", 1e4)?.unwrap_or(10).max(1) as usize,
-        };
-        section.finish()?;
-        if settings.steps.saturating_mul(settings.bins as u64) > MOST_STATES {
-            let problem = format!("`steps` times `bins` is more than {MOST_STATES}, which no table can show");
-            return Err(section.fault("steps", problem));
-        }
-        Ok(settings)
-    }
-
-    /// Time [s] at which particle number `own` of `count` is released.
-    pub(super) fn release(&self, own: u64, count: u64) -> f64 {
-        self.duration * (own as f64 + 0.5) / count as f64
-    }
-
-    /// The particles of `count` that are released in a step.
-    pub(super) fn released(&self, step: u64, count: u64) -> Range<u64> {
-        // Those released before the time of the step: own + 1/2 <= count step/steps.
-        let [count, steps] = [count, self.steps].map(u128::from);
-        let before = |step: u64| ((2 * count * u128::from(step) + steps) / (2 * steps)) as u64;
-        before(step)..before(step + 1)
-    }
-
-    /// Length of a step [s].
-    fn step(&self) -> f64 {
-        self.duration / self.steps as f64
-    }
-}
 
 /// What lies on the walls over time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -161,16 +103,16 @@ struct PowderCarbon {
 }
 
 impl WallDeposits {
-    pub(super) fn new(case: &Case, settings: DepositSettings) -> Result<Self, String> {
+    pub(super) fn new(case: &Case, settings: DepositSettings) -> Result<Self, SimulationError> {
         let wall = |surface: &Surface| {
             let SurfaceKind::Wall { model, .. } = &surface.kind else { return Ok(None) };
             let initial = case.model.initial_deposit(*model, settings.voidage);
-            let initial = initial.map_err(|error| format!("{}: {error}", surface.name))?;
+            let initial = initial.map_err(SimulationError::at_wall(&surface.name))?;
             let mut bins = bins(&surface.shape, settings.bins, initial);
             bins.iter_mut().try_for_each(|bin| bin.record_heat(case, surface, settings.voidage))?;
             Ok(Some(bins))
         };
-        Ok(Self { settings, walls: case.surfaces.iter().map(wall).collect::<Result<_, String>>()? })
+        Ok(Self { settings, walls: case.surfaces.iter().map(wall).collect::<Result<_, SimulationError>>()? })
     }
 
     /// What an impact on a surface meets, at a point near it; as it is at an exit.
@@ -192,7 +134,7 @@ impl WallDeposits {
     }
 
     /// Adds a particle that was captured in this step.
-    pub(super) fn collect(&mut self, case: &Case, trajectory: &Trajectory) -> Result<(), String> {
+    pub(super) fn collect(&mut self, case: &Case, trajectory: &Trajectory) -> Result<(), SimulationError> {
         let (Fate::Stuck(surface), Some(hit)) = (&trajectory.fate, trajectory.hits.last()) else {
             return Ok(());
         };
@@ -204,9 +146,7 @@ impl WallDeposits {
         let (model, wall) = (case.model_of(injection), injection.wall(*wall));
         let mass = hit.mass / bin.history.area;
         let powder = bin.source.powder;
-        bin.source = model
-            .add_captured(wall, &hit.impact, mass, hit.density, bin.source)
-            .map_err(|error| error.to_string())?;
+        bin.source = model.add_captured(wall, &hit.impact, mass, hit.density, bin.source)?;
         bin.step.caught += mass;
         if bin.source.powder > powder {
             let share = injection.burning.carbon;
@@ -218,7 +158,7 @@ impl WallDeposits {
     }
 
     /// Adds what was captured in this step, and lets the powder burn.
-    pub(super) fn end_step(&mut self, case: &Case) -> Result<(), String> {
+    pub(super) fn end_step(&mut self, case: &Case) -> Result<(), SimulationError> {
         let (duration, voidage) = (self.settings.step(), self.settings.voidage);
         for (surface, bins) in case.surfaces.iter().zip(&mut self.walls) {
             let (SurfaceKind::Wall { model, temperature, .. }, Some(bins)) = (&surface.kind, bins) else {
@@ -230,7 +170,7 @@ impl WallDeposits {
                 bin.step.burnt = bin.end_step(case, *model, met, duration)?;
                 bin.densify(case, voidage, duration);
                 bin.lose(case, surface, number, voidage, duration)
-                    .map_err(|error| format!("{}: {error}", surface.name))?;
+                    .map_err(SimulationError::at_wall(&surface.name))?;
                 bin.history.record(bin.deposit, &std::mem::take(&mut bin.step));
                 bin.record_heat(case, surface, voidage)?;
             }
@@ -250,7 +190,13 @@ impl WallDeposits {
 impl Bin {
     /// What was captured arrives evenly over the step while the powder burns: sub-steps of half the burning, a part of the
     /// captured particles, and the other half. Returns the mass that burns [kg/m²].
-    fn end_step(&mut self, case: &Case, wall: usize, temperature: f64, duration: f64) -> Result<f64, String> {
+    fn end_step(
+        &mut self,
+        case: &Case,
+        wall: usize,
+        temperature: f64,
+        duration: f64,
+    ) -> Result<f64, SimulationError> {
         let rate = case.injections.first().map_or(0.0, |injection| injection.burning.rate(temperature, 0.0));
         let has_carbon = self.powder.left + self.powder_source.left > 0.0;
         let parts =
@@ -283,12 +229,12 @@ impl Bin {
     }
 
     /// Records the temperatures of a cooled wall under its deposit.
-    fn record_heat(&mut self, case: &Case, surface: &Surface, voidage: f64) -> Result<(), String> {
+    fn record_heat(&mut self, case: &Case, surface: &Surface, voidage: f64) -> Result<(), SimulationError> {
         let SurfaceKind::Wall { model, cooling: Some(cooling), .. } = &surface.kind else { return Ok(()) };
         let place = surface.shape.point_at(self.middle());
-        let cooling = cooling.at(case, &place);
+        let cooling = cooling.at(&case.gas, &place);
         let heat = case.model.wall_heat(*model, &self.deposit, voidage, &cooling);
-        let heat = heat.map_err(|error| format!("{}: {error}", surface.name))?;
+        let heat = heat.map_err(SimulationError::at_wall(&surface.name))?;
         self.history.heat.push(heat);
         Ok(())
     }
@@ -324,7 +270,13 @@ impl Bin {
     }
 
     /// Lets the powder burn; returns the mass that is gone [kg/m²].
-    fn burn(&mut self, case: &Case, wall: usize, temperature: f64, duration: f64) -> Result<f64, String> {
+    fn burn(
+        &mut self,
+        case: &Case,
+        wall: usize,
+        temperature: f64,
+        duration: f64,
+    ) -> Result<f64, SimulationError> {
         // The law is that of the case, the same for all injections.
         let Some(injection) = case.injections.first() else { return Ok(0.0) };
         let (law, carbon) = (injection.burning, self.powder);
@@ -358,7 +310,7 @@ fn part_of(source: &DepositSource, parts: f64) -> DepositSource {
 }
 
 /// Whether ash without carbon is molten on a wall of the case's model at a temperature [K].
-fn ash_melts(case: &Case, wall: usize, temperature: f64) -> Result<bool, String> {
+fn ash_melts(case: &Case, wall: usize, temperature: f64) -> Result<bool, ImpactError> {
     let ash = Impact {
         particle_temperature: temperature,
         wall_temperature: temperature,
@@ -366,7 +318,7 @@ fn ash_melts(case: &Case, wall: usize, temperature: f64) -> Result<bool, String>
         ..Impact::default()
     };
     let arrived = case.model.add_captured(wall, &ash, 1.0, ASH_DENSITY, DepositSource::default());
-    Ok(arrived.map_err(|error| error.to_string())?.molten > 0.0)
+    Ok(arrived?.molten > 0.0)
 }
 
 impl PowderCarbon {
@@ -397,7 +349,7 @@ impl BinHistory {
 }
 
 /// The bins of a wall of this shape with its initial deposit.
-fn bins(shape: &Shape, count: usize, deposit: Deposit) -> Vec<Bin> {
+fn bins(shape: &SurfaceShape, count: usize, deposit: Deposit) -> Vec<Bin> {
     let [from, to] = shape.extent().unwrap_or_default();
     let edge = |number: usize| from + (to - from) * number as f64 / count as f64;
     let bin = |number: usize| {
@@ -432,29 +384,4 @@ fn bin_at(bins: &[Bin], coordinate: f64) -> usize {
     let [_, to] = bins[bins.len() - 1].history.range;
     let share = (coordinate - from) / (to - from);
     ((share * bins.len() as f64).max(0.0) as usize).min(bins.len() - 1)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_particle_is_released_once_and_in_the_step_of_its_time() {
-        for (count, steps) in [(1, 1), (7, 3), (3, 7), (100, 10), (1001, 17)] {
-            let settings = DepositSettings { duration: 5.0, steps, voidage: 0.5, bins: 1 };
-            let mut next = 0;
-            for step in 0..steps {
-                for own in settings.released(step, count) {
-                    assert_eq!(own, next);
-                    next += 1;
-                    let time = settings.release(own, count) / settings.step();
-                    assert!(
-                        (step as f64 - 1e-9..=step as f64 + 1.0 + 1e-9).contains(&time),
-                        "{count} {steps} {own}"
-                    );
-                }
-            }
-            assert_eq!(next, count);
-        }
-    }
 }

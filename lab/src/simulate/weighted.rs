@@ -16,24 +16,26 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use super::case::Case;
+use super::error::SimulationError;
 use super::near_wall::StayTimes;
-use super::trajectory::{Fate, Start, Tracker, WallContact, impact_random};
+use super::tracker::{Start, Tracker, WallContact, impact_random};
+use super::trajectory::Fate;
 use nearwall::impact::{Impact, ImpactError, Outcome};
 use nearwall::model::Model;
 use nearwall::rng::ImpactRng;
 
 /// A share of a particle below this is not followed further [1].
-const LEAST_SHARE: f64 = 1e-3;
+const LEAST_FOLLOWED_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `ln e_n`, of `e_t` and of the spin over that of rolling with the arriving speed [1].
-const CELLS: [f64; 3] = [0.05, 0.05, 0.2];
+const CELL_WIDTHS: [f64; 3] = [0.05, 0.05, 0.2];
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
-const MOST_HITS: u64 = 40;
+const MOST_FOLLOWED_HITS: u64 = 40;
 /// Most flights of a particle that are kept.
 const KEPT: usize = 100;
 
 /// A cell of the grid of outcomes.
-type Cell = [i32; 3];
+type OutcomeCell = [i32; 3];
 
 /// A particle at a contact with a wall.
 #[derive(Debug)]
@@ -43,7 +45,7 @@ struct Node<'a> {
     surface: usize,
     contact: WallContact,
     /// The next contact after a rebound, by the cell; `None` where there is none.
-    next: HashMap<Cell, Option<Box<Node<'a>>>>,
+    next: HashMap<OutcomeCell, Option<Box<Node<'a>>>>,
 }
 
 /// The flights of one particle, which all compared models share.
@@ -90,13 +92,13 @@ pub fn follow_exactly(
     start: Start,
     model: &Model,
     mut observer: impl FnMut(&ExpectedHit<'_>),
-) -> Result<f64, String> {
+) -> Result<f64, SimulationError> {
     let ([mass, _], mut node) = Node::first(case, start)?;
     let mut share = 1.0;
-    for before in 0..case.hit_limit.min(MOST_HITS) {
+    for before in 0..case.hit_limit.min(MOST_FOLLOWED_HITS) {
         let Some(at) = node else { break };
         let random = impact_random(case, start.number, before);
-        let outcome = at.decide(model, random, &mut share, &mut observer).map_err(|e| e.to_string())?;
+        let outcome = at.decide(model, random, &mut share, &mut observer)?;
         node = outcome.and_then(|outcome| at.after_rebound(&outcome));
     }
     Ok(mass)
@@ -105,7 +107,7 @@ pub fn follow_exactly(
 impl<'a> PathTree<'a> {
     /// At most `particles` particles of a case at their first contacts, evenly over all injections, which are numbered one after the
     /// other; or why one cannot be followed.
-    pub fn sample(case: &'a Case, particles: u64) -> Vec<Result<Self, String>> {
+    pub fn sample(case: &'a Case, particles: u64) -> Vec<Result<Self, SimulationError>> {
         let count = case.count();
         let wanted = particles.min(count).max(1);
         let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
@@ -116,7 +118,7 @@ impl<'a> PathTree<'a> {
     ///
     /// # Errors
     /// Why it cannot be followed.
-    pub fn new(case: &'a Case, start: Start) -> Result<Self, String> {
+    pub fn new(case: &'a Case, start: Start) -> Result<Self, SimulationError> {
         let ([mass, weight], first) = Node::first(case, start)?;
         let random = impact_random(case, start.number, 0);
         // Streams that no effect draws from.
@@ -139,7 +141,7 @@ impl<'a> PathTree<'a> {
         let Some(mut node) = first.as_deref_mut() else { return Ok(()) };
         let mut passing;
         let mut share = 1.0;
-        for before in 0..self.case.hit_limit.min(MOST_HITS) {
+        for before in 0..self.case.hit_limit.min(MOST_FOLLOWED_HITS) {
             let random = impact_random(self.case, self.number, before);
             let Some(outcome) = node.decide(model, random, &mut share, &mut observer)? else { return Ok(()) };
             let (cell, middle) = self.cell(&node.contact.impact, &outcome);
@@ -163,14 +165,16 @@ impl<'a> PathTree<'a> {
     }
 
     /// The cell of an outcome, and the outcome in its middle.
-    fn cell(&self, impact: &Impact, outcome: &Outcome) -> (Cell, Outcome) {
+    fn cell(&self, impact: &Impact, outcome: &Outcome) -> (OutcomeCell, Outcome) {
         let rolling = 2.0 * impact.tangential_speed / impact.diameter;
         let spin = if rolling > 0.0 { outcome.spin / rolling } else { 0.0 };
         let values = [outcome.normal_restitution.ln(), outcome.tangential_restitution, spin];
-        let cell: Cell =
-            std::array::from_fn(|which| (values[which] / CELLS[which] + self.shift[which]).floor() as i32);
-        let [normal_restitution, tangential_restitution, spin] =
-            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * CELLS[which]);
+        let cell: OutcomeCell = std::array::from_fn(|which| {
+            (values[which] / CELL_WIDTHS[which] + self.shift[which]).floor() as i32
+        });
+        let [normal_restitution, tangential_restitution, spin] = std::array::from_fn(|which| {
+            (f64::from(cell[which]) + 0.5 - self.shift[which]) * CELL_WIDTHS[which]
+        });
         let middle = Outcome {
             normal_restitution: normal_restitution.exp(),
             tangential_restitution: tangential_restitution.max(0.0),
@@ -199,7 +203,7 @@ impl<'a> Node<'a> {
     ///
     /// # Errors
     /// Why it cannot be followed.
-    fn first(case: &'a Case, start: Start) -> Result<([f64; 2], Option<Self>), String> {
+    fn first(case: &'a Case, start: Start) -> Result<([f64; 2], Option<Self>), SimulationError> {
         let (tracker, trouble) = Tracker::start(case, None, start, StayTimes::default());
         let amount = [tracker.mass(), tracker.weight];
         match trouble {
@@ -228,7 +232,7 @@ impl<'a> Node<'a> {
             mass: self.tracker.mass(),
         });
         *share *= 1.0 - outcome.sticking_probability;
-        let flies = *share >= LEAST_SHARE && outcome.normal_restitution > 0.0;
+        let flies = *share >= LEAST_FOLLOWED_SHARE && outcome.normal_restitution > 0.0;
         Ok(flies.then_some(outcome))
     }
 
@@ -236,7 +240,7 @@ impl<'a> Node<'a> {
     ///
     /// # Errors
     /// Why it cannot be followed.
-    fn after_flight(mut tracker: Tracker<'a>) -> Result<Option<Self>, String> {
+    fn after_flight(mut tracker: Tracker<'a>) -> Result<Option<Self>, SimulationError> {
         match tracker.fly() {
             Ok(surface) => Ok(tracker.bare_contact(surface).map(|contact| {
                 let next = HashMap::new();

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use nearwall::Model;
-use nearwall_lab::atomic_file::{AtomicFile, refused};
+use nearwall_lab::atomic_file::write_texts;
 use nearwall_lab::dataset::{ColumnMap, WallChoice};
 use nearwall_lab::diagnose::comparison::{Candidate, Comparison, compare};
 use nearwall_lab::report::{comparison_page, comparison_text};
@@ -53,17 +53,13 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let candidates: Vec<Candidate<'_>> =
         arguments.models.iter().zip(&models).map(candidate).collect::<Result<_, _>>()?;
     let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
-    for note in &notes {
-        eprintln!("nearwall: {note}");
-    }
+    crate::note(&notes);
     let file = arguments.data.display().to_string();
     let comparison = compare(&candidates, arguments.seed).map_err(|error| format!("{file}: {error}"))?;
-    let mut text = comparison_text(&comparison);
-    if let Some(folder) = &arguments.out {
-        write(arguments, folder, &comparison, &notes)?;
-        text += &format!("\nopen {}\n", crate::report::whole(&folder.join("compare.html")).display());
-    }
-    crate::print(&text)
+    let text = comparison_text(&comparison);
+    let Some(folder) = &arguments.out else { return crate::print(&text) };
+    write(arguments, folder, &comparison, &notes)?;
+    crate::print_page(&(text + "\n"), &folder.join("compare.html"))
 }
 
 /// The data as the walls of a model read them.
@@ -91,15 +87,8 @@ fn read<'a>(
 fn write(arguments: &Arguments, folder: &Path, comparison: &Comparison, notes: &[String]) -> CommandResult {
     let page = comparison_page(comparison, &arguments.data.display().to_string(), notes)?;
     let json = serde_json::to_string_pretty(comparison)? + "\n";
-    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
     let mut inputs: Vec<&Path> =
         arguments.models.iter().chain(&arguments.columns).map(PathBuf::as_path).collect();
     inputs.push(&arguments.data);
-    let write = |(name, text): (&str, &str)| {
-        let mut file = AtomicFile::new(&folder.join(name), &inputs)?;
-        file.put(text)?;
-        Ok::<_, String>(file)
-    };
-    let files = [("compare.json", json.as_str()), ("compare.html", &page)];
-    Ok(AtomicFile::commit(files.into_iter().map(write).collect::<Result<Vec<_>, _>>()?)?)
+    Ok(write_texts(folder, &inputs, [("compare.json", json), ("compare.html", page)])?)
 }

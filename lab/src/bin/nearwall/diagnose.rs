@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use nearwall::input::Document;
-use nearwall_lab::atomic_file::{AtomicFile, refused};
+use nearwall_lab::atomic_file::{WriteError, make_folder, write_texts};
 use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options};
 use nearwall_lab::report::diagnosis_page;
 
@@ -83,9 +83,7 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
     let data = diagnosis.read(&file, bar.wrap_read(source))?;
     bar.finish_and_clear();
-    for note in &data.notes {
-        eprintln!("nearwall: {note}");
-    }
+    crate::note(&data.notes);
     let bar = progress::spinner("candidates tested");
     let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|| bar.inc(1))?;
     bar.finish_and_clear();
@@ -93,7 +91,7 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
         eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
     }
     write(arguments, file_of_model, &diagnosis, &extended, &draws)?;
-    crate::print(&summary(&diagnosis, &arguments.out))
+    crate::print_page(&summary(&diagnosis), &arguments.out.join("report.html"))
 }
 
 /// Writes all output files, or none.
@@ -108,42 +106,25 @@ fn write(
     let names = [data.as_path(), model].map(|path| path.display().to_string());
     let page = diagnosis_page(diagnosis, &names, extended)?;
     let json = serde_json::to_string_pretty(diagnosis)? + "\n";
-    std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
     let inputs: Vec<&Path> = [data.as_path(), model].into_iter().chain(columns.as_deref()).collect();
     let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
     let named = results.into_iter().map(|(name, text)| (name.to_owned(), text));
-    commit(out, &inputs, named.chain(drawn_files(out, draws)?))
-}
-
-/// Writes all of these names and texts into a folder, or none; no file may be one of `inputs`.
-pub(crate) fn commit<'a>(
-    out: &Path,
-    inputs: &[&Path],
-    results: impl Iterator<Item = (String, &'a str)>,
-) -> CommandResult {
-    let write = |(name, text): (String, &str)| {
-        let mut file = AtomicFile::new(&out.join(name), inputs)?;
-        file.put(text)?;
-        Ok::<_, String>(file)
-    };
-    let files = results.map(write).collect::<Result<Vec<_>, _>>()?;
-    Ok(AtomicFile::commit(files)?)
+    Ok(write_texts(out, &inputs, named.chain(drawn_files(out, draws)?))?)
 }
 
 /// Names and texts of drawn model files in the folder `draws`, which is created if there are any.
 pub(crate) fn drawn_files<'a>(
     out: &Path,
     draws: &'a [String],
-) -> Result<impl Iterator<Item = (String, &'a str)>, String> {
+) -> Result<impl Iterator<Item = (String, &'a str)>, WriteError> {
     if !draws.is_empty() {
-        let folder = out.join("draws");
-        std::fs::create_dir_all(&folder).map_err(|error| refused(&folder, &error))?;
+        make_folder(&out.join("draws"))?;
     }
     let name = |number: usize| format!("draws/{:02}.toml", number + 1);
     Ok(draws.iter().enumerate().map(move |(number, text)| (name(number), text.as_str())))
 }
 
-pub(crate) fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
+pub(crate) fn summary(diagnosis: &Diagnosis) -> String {
     let mut text = format!("{}\n", diagnosis.verdict);
     for finding in &diagnosis.findings {
         let parameters: Vec<String> = finding
@@ -161,5 +142,5 @@ pub(crate) fn summary(diagnosis: &Diagnosis, folder: &Path) -> String {
             rows.read
         );
     }
-    text + &format!("open {}\n", crate::report::whole(&folder.join("report.html")).display())
+    text
 }

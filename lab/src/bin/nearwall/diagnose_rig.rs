@@ -5,14 +5,14 @@ use std::path::Path;
 
 use nearwall::Model;
 use nearwall::input::Document;
-use nearwall_lab::atomic_file::refused;
+use nearwall_lab::atomic_file::write_texts;
 use nearwall_lab::dataset::RigMeasurements;
 use nearwall_lab::diagnose::Options;
 use nearwall_lab::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
 use nearwall_lab::report::{RigPage, rig_page};
 use nearwall_lab::rig::{CaseText, Forward, Replayed, RigCase, Simulated, particles_for};
 
-use crate::diagnose::{Arguments, commit, drawn_files, summary};
+use crate::diagnose::{Arguments, drawn_files, summary};
 use crate::{CommandResult, progress};
 
 pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
@@ -22,7 +22,7 @@ pub fn run(arguments: &Arguments, case: &Path) -> CommandResult {
     let forward = Simulated::new(&rigs, particles_for(&data))?;
     let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
     write(arguments, case, &|key| text.number(key), &found)?;
-    crate::print(&summary(&found.diagnosis, &arguments.out))
+    crate::print_page(&summary(&found.diagnosis), &arguments.out.join("report.html"))
 }
 
 /// Diagnoses with the impacts that OpenFOAM recorded below `folder`, in runs with the model file `model`.
@@ -31,16 +31,14 @@ pub fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> Comma
     let document = Document::from_file(model)?;
     let base = Model::from_toml(document.name(), document.text())?;
     let forward = Replayed::new(folder, &data, &base)?;
-    for note in forward.notes() {
-        eprintln!("nearwall: {note}");
-    }
+    crate::note(forward.notes());
     data.notes.extend_from_slice(forward.notes());
     let mut found = diagnosed(arguments, &forward, &data, document.text(), None)?;
     let limits = forward.account_notes(&Model::from_toml("extended.toml", &found.extended)?)?;
     found.notes.extend_from_slice(&limits);
     write(arguments, model, &|_| None, &found)?;
     let limits: String = limits.iter().map(|note| format!("{note}\n")).collect();
-    crate::print(&(limits + &summary(&found.diagnosis, &arguments.out)))
+    crate::print_page(&(limits + &summary(&found.diagnosis)), &arguments.out.join("report.html"))
 }
 
 /// Reads the readings of the rig.
@@ -48,9 +46,7 @@ fn read(arguments: &Arguments) -> Result<RigMeasurements, Box<dyn std::error::Er
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
     let data = RigMeasurements::read(&file, source)?;
-    for note in &data.notes {
-        eprintln!("nearwall: {note}");
-    }
+    crate::note(&data.notes);
     Ok(data)
 }
 
@@ -79,7 +75,6 @@ fn write(
     let names = [data.as_path(), source].map(|path| path.display().to_string());
     let page = rig_page(found, &RigPage { data: &names[0], case: &names[1], in_case })?;
     let json = serde_json::to_string_pretty(found)? + "\n";
-    std::fs::create_dir_all(out).map_err(|error| refused(out, &error))?;
     let inputs: [&Path; 2] = [data, source];
     let texts = [
         ("report.html", page.as_str()),
@@ -92,5 +87,5 @@ fn write(
         results.push(("next_experiments.csv".to_owned(), &found.next_table));
     }
     results.extend(drawn_files(out, &found.draws)?);
-    commit(out, &inputs, results.into_iter())
+    Ok(write_texts(out, &inputs, results)?)
 }

@@ -13,41 +13,44 @@ mod sensitivity;
 mod simulate;
 
 use std::io::Write;
+use std::path::Path;
 
 use clap::Parser;
 
 /// Result of a subcommand; the error's text names file, line or key and the remedy.
 type CommandResult = Result<(), Box<dyn std::error::Error>>;
 
-/// What happens when a particle hits a wall
-#[derive(Parser)]
-#[command(version, about, arg_required_else_help = true)]
-enum Command {
-    Predict(predict::Arguments),
-    Diagnose(diagnose::Arguments),
-    Compare(compare::Arguments),
-    Simulate(simulate::Arguments),
-    Sensitivity(sensitivity::Arguments),
-    Map(map::Arguments),
-    Report(report::Arguments),
-    Materials(materials::Arguments),
-    Check(check::Arguments),
+/// Defines [`Command`]; a subcommand has a line, with its name and its module, and there `Arguments` and `run`.
+macro_rules! subcommands {
+    ($($name:ident: $module:ident),* $(,)?) => {
+        /// What happens when a particle hits a wall
+        #[derive(Parser)]
+        #[command(version, about, arg_required_else_help = true)]
+        enum Command { $($name($module::Arguments),)* }
+
+        impl Command {
+            fn run(&self) -> CommandResult {
+                match self { $(Self::$name(arguments) => $module::run(arguments),)* }
+            }
+        }
+    };
+}
+
+subcommands! {
+    Predict: predict,
+    Diagnose: diagnose,
+    Compare: compare,
+    Simulate: simulate,
+    Sensitivity: sensitivity,
+    Map: map,
+    Report: report,
+    Materials: materials,
+    Check: check,
 }
 
 /// Exit status 0: done, 1: the input is at fault, 2: wrong usage (from clap).
 fn main() -> std::process::ExitCode {
-    let done = match Command::parse() {
-        Command::Predict(arguments) => predict::run(&arguments),
-        Command::Diagnose(arguments) => diagnose::run(&arguments),
-        Command::Compare(arguments) => compare::run(&arguments),
-        Command::Simulate(arguments) => simulate::run(&arguments),
-        Command::Sensitivity(arguments) => sensitivity::run(&arguments),
-        Command::Map(arguments) => map::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
-        Command::Materials(arguments) => materials::run(&arguments),
-        Command::Check(arguments) => check::run(&arguments),
-    };
-    match done {
+    match Command::parse().run() {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) if is_broken_pipe(error.as_ref()) => std::process::ExitCode::SUCCESS,
         Err(error) => {
@@ -60,6 +63,19 @@ fn main() -> std::process::ExitCode {
 /// Prints a text; a closed pipe is an error, not a panic.
 fn print(text: &str) -> CommandResult {
     Ok(std::io::stdout().write_all(text.as_bytes())?)
+}
+
+/// Prints a text and where a page is, as an absolute path for a browser.
+fn print_page(text: &str, page: &Path) -> CommandResult {
+    let page = std::path::absolute(page).unwrap_or_else(|_| page.to_owned());
+    print(&format!("{text}open {}\n", page.display()))
+}
+
+/// Prints notes on standard error.
+fn note<N: std::fmt::Display>(notes: impl IntoIterator<Item = N>) {
+    for note in notes {
+        eprintln!("nearwall: {note}");
+    }
 }
 
 /// Whether the reader of the output closed the pipe (`nearwall ... | head`), which is no fault of the input.

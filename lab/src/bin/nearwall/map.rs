@@ -1,10 +1,10 @@
 //! `nearwall map`: what a model decides over any two inputs of an impact.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use nearwall::Model;
 use nearwall::impact::{INPUTS, Impact};
-use nearwall_lab::atomic_file::{AtomicFile, of_csv, refused};
+use nearwall_lab::atomic_file::write_texts;
 use nearwall_lab::dataset::WallChoice;
 use nearwall_lab::map::{Axis, Cell, DEFAULT_POINTS, Map, Setting, default_axes};
 use nearwall_lab::report::map_page;
@@ -60,25 +60,25 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         );
     }
     write(arguments, &map)?;
-    crate::print(&summary(&map, &arguments.output))
+    crate::print_page(&summary(&map), &arguments.output.join("map.html"))
 }
 
 /// The inputs that are the same in all impacts.
-fn fixed_inputs(arguments: &Arguments) -> Result<Impact, String> {
+fn fixed_inputs(arguments: &Arguments) -> Result<Impact, Box<dyn std::error::Error>> {
     let mut fixed = Impact { normal_speed: 1.0, ..Impact::default() };
     let axes: Vec<&str> = [arguments.x, arguments.y].iter().flatten().map(|axis| axis.input().name).collect();
     if let [x, y] = axes[..]
         && x == y
     {
-        return Err(format!("--y {y}: the input is already along x"));
+        return Err(format!("--y {y}: the input is already along x").into());
     }
     for (place, setting) in arguments.set.iter().enumerate() {
         let name = setting.input().name;
         if axes.contains(&name) {
-            return Err(format!("--set {name}: the input is along an axis"));
+            return Err(format!("--set {name}: the input is along an axis").into());
         }
         if arguments.set[..place].iter().any(|other| other.input().name == name) {
-            return Err(format!("--set {name}: given twice"));
+            return Err(format!("--set {name}: given twice").into());
         }
         setting.apply(&mut fixed);
     }
@@ -89,26 +89,19 @@ fn fixed_inputs(arguments: &Arguments) -> Result<Impact, String> {
 fn write(arguments: &Arguments, map: &Map) -> CommandResult {
     let Arguments { model, output, .. } = arguments;
     let page = map_page(map, &model.display().to_string())?;
-    std::fs::create_dir_all(output).map_err(|error| refused(output, &error))?;
-    let place = output.join("map.csv");
-    let mut table = AtomicFile::new(&place, &[model])?;
-    write_table(map, &mut table).map_err(|error| refused(&place, &of_csv(error)))?;
-    let mut html = AtomicFile::new(&output.join("map.html"), &[model])?;
-    html.put(&page)?;
-    Ok(AtomicFile::commit(vec![table, html])?)
+    Ok(write_texts(output, &[model], [("map.csv", table(map)?), ("map.html", page)])?)
 }
 
 /// One row for each impact; blank where nothing is decided, and `e_n`, `e_t` where no particle rebounds.
-fn write_table(map: &Map, file: &mut AtomicFile) -> Result<(), csv::Error> {
-    let mut writer = csv::Writer::from_writer(file);
+fn table(map: &Map) -> Result<String, Box<dyn std::error::Error>> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
     let [x, y] = [map.x.input().name, map.y.input().name];
     writer.write_record([x, y, "e_n", "e_t", "p_stick", "regime", "outside_range"])?;
     for ([x, y], cell) in map.places().zip(&map.cells) {
         let decided = cell.map_or_else(Default::default, |cell| texts(&cell));
         writer.write_record([x.to_string(), y.to_string()].iter().chain(&decided))?;
     }
-    writer.flush()?;
-    Ok(())
+    Ok(String::from_utf8(writer.into_inner()?)?)
 }
 
 /// The cells of a decided impact.
@@ -124,7 +117,7 @@ fn texts(cell: &Cell) -> [String; 5] {
     ]
 }
 
-fn summary(map: &Map, folder: &Path) -> String {
+fn summary(map: &Map) -> String {
     let all = map.cells.len();
     let mut text = format!(
         "{} impacts on the wall {}: {} x {}\n",
@@ -142,5 +135,5 @@ fn summary(map: &Map, folder: &Path) -> String {
     if map.outside_range() > 0 {
         text += &format!("{} of {all} lie outside the range that a law is stated for\n", map.outside_range());
     }
-    text + &format!("open {}\n", crate::report::whole(&folder.join("map.html")).display())
+    text
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
-use nearwall_lab::atomic_file::{AtomicFile, refused};
+use nearwall_lab::atomic_file::{AtomicFile, WriteError};
 use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, Row};
 use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use rayon::prelude::*;
@@ -59,9 +59,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if let Some(line) = arguments.explain {
         return explain(&predictor, &mut reader, line);
     }
-    for note in file_notes(&file, &reader) {
-        eprintln!("nearwall: {note}");
-    }
+    crate::note(file_notes(&file, &reader));
     if let Some(folder) = &arguments.draws {
         predictor.read_draws(folder)?;
     }
@@ -71,14 +69,14 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     };
     let mut output = AtomicFile::new(path, &[&arguments.impacts, &arguments.model])?;
     predict(&predictor, &mut reader, &mut output).map_err(|error| at(path, error))?;
-    Ok(AtomicFile::commit(vec![output])?)
+    Ok(AtomicFile::commit([output])?)
 }
 
 /// Adds the file to a write error, except for a closed pipe.
 fn at(place: &Path, error: Box<dyn std::error::Error>) -> Box<dyn std::error::Error> {
     match error.downcast::<std::io::Error>() {
         Ok(error) if error.kind() == ErrorKind::BrokenPipe => error,
-        Ok(error) => refused(place, &error).into(),
+        Ok(error) => WriteError::new(place, *error).into(),
         Err(other) => other,
     }
 }
@@ -90,7 +88,7 @@ fn predict(
 ) -> CommandResult {
     output.write_all(&header(predictor, reader))?;
     let mut notes = RowNotes::default();
-    let (mut block, mut next) = (Block::default(), Block::default());
+    let (mut block, mut next) = (RowBlock::default(), RowBlock::default());
     block.read(reader);
     while block.count > 0 {
         // The next rows are read meanwhile.
@@ -123,12 +121,12 @@ fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> Vec<u8
 }
 
 /// Rows that are predicted together, and rows of one task.
-const BLOCK: usize = 8192;
-const TASK: usize = 256;
+const ROWS_A_BLOCK: usize = 8192;
+const ROWS_A_TASK: usize = 256;
 
 /// Consecutive rows of the file. The memory of a block is used again by a later one.
 #[derive(Default)]
-struct Block {
+struct RowBlock {
     /// Rows, and why those that cannot be used are bad.
     rows: Vec<(Row, Option<BadRow>)>,
     /// Number of rows that were read.
@@ -136,14 +134,14 @@ struct Block {
     /// Why no more rows can be read.
     fault: Option<DatasetError>,
     /// What was predicted for each task.
-    parts: Vec<Predicted>,
+    parts: Vec<PredictedText>,
 }
 
-impl Block {
+impl RowBlock {
     /// Reads the next rows in place of these.
     fn read(&mut self, reader: &mut ImpactReader<impl Read>) {
         (self.count, self.fault) = (0, None);
-        while self.count < BLOCK {
+        while self.count < ROWS_A_BLOCK {
             if self.count == self.rows.len() {
                 self.rows.push(Default::default());
             }
@@ -162,8 +160,8 @@ impl Block {
 
     /// Predicts the rows on all cores; the parts have their order.
     fn predict(&mut self, predictor: &Predictor<'_>) {
-        let tasks = self.rows[..self.count].par_chunks(TASK);
-        self.parts.resize_with(tasks.len(), Predicted::default);
+        let tasks = self.rows[..self.count].par_chunks(ROWS_A_TASK);
+        self.parts.resize_with(tasks.len(), PredictedText::default);
         tasks.zip(&mut self.parts).for_each(|(rows, part)| part.predict(predictor, rows));
     }
 
@@ -180,15 +178,15 @@ impl Block {
     }
 }
 
-/// Predicted rows as text, and the notes about them.
+/// PredictedText rows as text, and the notes about them.
 #[derive(Default)]
-struct Predicted {
+struct PredictedText {
     text: Vec<u8>,
     left_out: Vec<BadRow>,
     notes: RowNotes,
 }
 
-impl Predicted {
+impl PredictedText {
     fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(Row, Option<BadRow>)]) {
         self.text.clear();
         for (row, bad) in rows {
@@ -240,9 +238,7 @@ fn write_cells(cells: &csv::StringRecord, text: &mut Vec<u8>) {
 
 /// Prints the notes about all rows.
 fn report(notes: &RowNotes) -> CommandResult {
-    for warning in notes.warnings() {
-        eprintln!("nearwall: {warning}");
-    }
+    crate::note(notes.warnings());
     if let Some(outside) = notes.outside_range() {
         eprintln!("nearwall: {outside} (see --explain LINE, `nearwall materials NAME`)");
     }

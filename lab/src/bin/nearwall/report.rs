@@ -41,14 +41,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     write(&output, &[], &openfoam_page(&results)?)
 }
 
-/// The absolute path, for a browser.
-pub fn whole(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
-}
-
 fn write(output: &Path, inputs: &[&Path], page: &str) -> CommandResult {
-    let mut aside = AtomicFile::new(output, inputs)?;
-    aside.put(page)?;
-    AtomicFile::commit(vec![aside])?;
-    crate::print(&format!("open {}\n", whole(output).display()))
+    let mut file = AtomicFile::new(output, inputs)?;
+    file.put(page)?;
+    AtomicFile::commit([file])?;
+    crate::print_page("", output)
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall_lab::atomic_file::{AtomicFile, of_csv, refused};
+use nearwall_lab::atomic_file::{AtomicFile, WriteError, make_folder};
 use nearwall_lab::report::{number, percent, sensitivity_page};
 use nearwall_lab::rig::CaseText;
 use nearwall_lab::rig::sensitivity::{Quality, Sensitivity, SensitivityCase};
@@ -40,12 +40,12 @@ const PRINTED: usize = 20;
 
 pub fn run(arguments: &Arguments) -> CommandResult {
     let mut text = CaseText::from_file(&arguments.case)?;
-    let settings = arguments.set.iter().map(|setting| {
-        let (key, value) =
-            setting.split_once('=').ok_or_else(|| format!("--set {setting}: give KEY=VALUE"))?;
-        Ok((key.trim().to_owned(), value.trim().to_owned()))
-    });
-    text.change("--set", &settings.collect::<Result<Vec<_>, String>>()?)?;
+    let mut settings = Vec::new();
+    for setting in &arguments.set {
+        let parts = setting.split_once('=').ok_or_else(|| format!("--set {setting}: give KEY=VALUE"))?;
+        settings.push((parts.0.trim().to_owned(), parts.1.trim().to_owned()));
+    }
+    text.change("--set", &settings)?;
     let case = SensitivityCase::new(text, arguments.particles.max(1), arguments.clean_walls);
     let at_case = |error: String| format!("{}: {error}", arguments.case.display());
     let case = case.map_err(at_case)?;
@@ -58,11 +58,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     };
     let folder = arguments.output.clone().unwrap_or_else(beside);
     write(&found, &folder, &arguments.case)?;
-    for note in &found.notes {
-        eprintln!("nearwall: {note}");
-    }
-    let page = crate::report::whole(&folder.join("report.html"));
-    crate::print(&format!("{}open {}\n", table(&found), page.display()))
+    crate::note(&found.notes);
+    crate::print_page(&table(&found), &folder.join("report.html"))
 }
 
 fn table(found: &Sensitivity) -> String {
@@ -92,12 +89,12 @@ fn table(found: &Sensitivity) -> String {
 
 /// Writes all output files, or none.
 fn write(found: &Sensitivity, folder: &Path, case: &Path) -> CommandResult {
-    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    make_folder(folder)?;
     let open = |name: &str| AtomicFile::new(&folder.join(name), &[case]);
     let (mut json, mut html) = (open("sensitivity.json")?, open("report.html")?);
-    let at_csv = |error: csv::Error| refused(&folder.join("sensitivity.csv"), &of_csv(error));
+    let at_csv = |error: csv::Error| WriteError::new(&folder.join("sensitivity.csv"), error);
     let csv = found.write_csv(open("sensitivity.csv")?).map_err(at_csv)?;
     json.put(&(serde_json::to_string_pretty(found)? + "\n"))?;
     html.put(&sensitivity_page(found)?)?;
-    Ok(AtomicFile::commit(vec![csv, json, html])?)
+    Ok(AtomicFile::commit([csv, json, html])?)
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall_lab::atomic_file::{AtomicFile, of_csv, refused};
+use nearwall_lab::atomic_file::{AtomicFile, WriteError, make_folder};
 use nearwall_lab::report::{number, percent, standalone_page};
 use nearwall_lab::results::share;
 use nearwall_lab::results::standalone::{ImpactRecorder, Run, run as run_case, summary, write_deposits};
@@ -68,8 +68,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
             eprintln!("nearwall: {note}");
         }
     }
-    let page = crate::report::whole(&folder.join("report.html"));
-    crate::print(&format!("{text}open {}\n", page.display()))
+    crate::print_page(&text, &folder.join("report.html"))
 }
 
 /// Runs a case and writes its files into a folder, which is created if it does not exist.
@@ -78,16 +77,18 @@ fn write(
     folder: &Path,
     draws: Option<&DrawnModels>,
 ) -> Result<Vec<Run>, Box<dyn std::error::Error>> {
-    std::fs::create_dir_all(folder).map_err(|error| refused(folder, &error))?;
+    make_folder(folder)?;
     let open = |name: &str| AtomicFile::new(&folder.join(name), &[]);
     let (impacts, mut json, mut html) = (open("impacts.csv")?, open("summary.json")?, open("report.html")?);
-    let at_impacts = |error: csv::Error| refused(&folder.join("impacts.csv"), &of_csv(error));
+    let at_impacts = |error: csv::Error| WriteError::new(&folder.join("impacts.csv"), error);
     let mut recorder = ImpactRecorder::new(impacts, case).map_err(at_impacts)?;
     let runs = case.sweep.as_ref().map_or(1, |sweep| sweep.values.len() as u64);
     let bar = progress::count(runs * case.count(), "particles");
     let mut runs = run_case(case, |case, value, number, trajectory| {
         bar.inc(1);
-        recorder.record(case, value, number, trajectory).map_err(at_impacts)
+        Ok::<_, Box<dyn std::error::Error>>(
+            recorder.record(case, value, number, trajectory).map_err(at_impacts)?,
+        )
     })?;
     bar.finish_and_clear();
     if let Some(draws) = draws {
@@ -99,7 +100,7 @@ fn write(
     html.put(&standalone_page(case, &runs, left_out)?)?;
     let mut files = vec![impacts, json, html];
     if case.deposit.is_some() {
-        let at_deposit = |error: csv::Error| refused(&folder.join("deposit.csv"), &of_csv(error));
+        let at_deposit = |error: csv::Error| WriteError::new(&folder.join("deposit.csv"), error);
         files.push(write_deposits(open("deposit.csv")?, case, &runs).map_err(at_deposit)?);
     }
     AtomicFile::commit(files)?;

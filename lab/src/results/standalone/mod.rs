@@ -13,7 +13,7 @@ pub use totals::{Ends, RESTITUTION_STEP, RunTotals};
 
 use crate::results::RunResults;
 use crate::rig::CaptureBand;
-use crate::simulate::{self, Case, DepositHistory, Trajectory};
+use crate::simulate::{self, Case, DepositHistory, SimulationError, Trajectory};
 
 /// Results of a case at one value of its sweep.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +40,7 @@ impl Run {
 ///
 /// # Errors
 /// Those of `observer`, and a swept value that cannot be set.
-pub fn run<E: From<String>>(
+pub fn run<E: From<SimulationError>>(
     case: &mut Case,
     mut observer: impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
 ) -> Result<Vec<Run>, E> {
@@ -53,7 +53,7 @@ pub fn run<E: From<String>>(
     Ok(runs)
 }
 
-fn run_once<E: From<String>>(
+fn run_once<E: From<SimulationError>>(
     case: &Case,
     value: Option<f64>,
     observer: &mut impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,

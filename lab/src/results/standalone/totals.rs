@@ -5,7 +5,7 @@ use crate::results::{
     Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, NearWall, PipeZones, RunResults, WallMap,
     WallModel, WallTotals, bin,
 };
-use crate::simulate::{Case, Fate, Hit, Shape, StayTime, SurfaceKind, Trajectory};
+use crate::simulate::{Case, Fate, Hit, StayTime, SurfaceKind, SurfaceShape, Trajectory};
 
 /// Bins of the restitution histograms.
 const RESTITUTION_BINS: usize = 60;
@@ -62,13 +62,13 @@ impl WallTotals {
 }
 
 impl NearWall {
-    fn new(distance: f64, shape: &Shape) -> Self {
+    fn new(distance: f64, shape: &SurfaceShape) -> Self {
         let volumes = match shape {
-            Shape::Pipe { radius, .. } => {
+            SurfaceShape::Pipe { radius, .. } => {
                 let inner = (radius - distance).max(0.0);
                 Some(1.0 - (inner / radius).powi(2))
             }
-            Shape::Plane { .. } => None,
+            SurfaceShape::Plane { .. } => None,
         };
         Self { distance, volumes, ..Self::default() }
     }
@@ -194,7 +194,7 @@ impl RunTotals {
                 }
             }
             Fate::Unusable(reason) => {
-                self.first_trouble.get_or_insert_with(|| reason.clone());
+                self.first_trouble.get_or_insert_with(|| reason.to_string());
             }
             Fate::Airborne | Fate::GivenUp => {}
         }
@@ -290,7 +290,7 @@ impl RunTotals {
     fn pipe(&self, case: &Case) -> Option<PipeZones> {
         let mut pipe = PipeZones { range: [f64::INFINITY, f64::NEG_INFINITY], ..PipeZones::default() };
         for (number, (index, _)) in self.walls.iter().enumerate() {
-            if let Shape::Pipe { zone, .. } = case.surfaces[*index].shape {
+            if let SurfaceShape::Pipe { zone, .. } = case.surfaces[*index].shape {
                 pipe.walls.push(number);
                 pipe.range = [pipe.range[0].min(zone[0]), pipe.range[1].max(zone[1])];
                 pipe.marks.push((zone[0], case.surfaces[*index].name.clone()));
@@ -303,8 +303,8 @@ impl RunTotals {
 }
 
 /// The part of a wall that its map shows: all of a pipe, the hit part of a plane [m].
-fn map_ranges(shape: &Shape, places: &[([f64; 2], f64)]) -> [[f64; 2]; 2] {
-    if let Shape::Pipe { radius, zone } = shape {
+fn map_ranges(shape: &SurfaceShape, places: &[([f64; 2], f64)]) -> [[f64; 2]; 2] {
+    if let SurfaceShape::Pipe { radius, zone } = shape {
         let half = std::f64::consts::PI * radius;
         return [*zone, [-half, half]];
     }

@@ -13,7 +13,8 @@ pub use uniform::Uniform;
 
 use nalgebra::Vector3;
 
-use super::profile::Profile;
+use super::error::SimulationError;
+use super::linear_profile::LinearProfile;
 use nearwall::input::{InputError, Limits, Section};
 use nearwall::material::Property;
 
@@ -27,15 +28,15 @@ pub trait VelocityField: Send + Sync + std::fmt::Debug {
 #[derive(Debug)]
 pub struct Gas {
     field: Box<dyn VelocityField>,
-    temperature: Profile,
-    /// In the order of [`PROPERTIES`].
+    temperature: LinearProfile,
+    /// In the order of [`GAS_PROPERTIES`].
     properties: [Property; 4],
     mean_free_path: f64,
     accommodation: f64,
 }
 
 /// Keys and units of the properties that depend on the temperature.
-const PROPERTIES: [(&str, &str); 4] =
+const GAS_PROPERTIES: [(&str, &str); 4] =
     [("density", "kg/m3"), ("viscosity", "Pa s"), ("conductivity", "W/(m K)"), ("heat_capacity", "J/(kg K)")];
 
 /// The gas at one place.
@@ -76,9 +77,9 @@ impl Gas {
                 return Err(section.missing("field", what));
             }
         };
-        let temperature = Profile::read(section, "temperature", 1.0, 1e5)?
+        let temperature = LinearProfile::read(section, "temperature", 1.0, 1e5)?
             .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
-        let [density, viscosity, conductivity, heat_capacity] = PROPERTIES.map(|(key, unit)| {
+        let [density, viscosity, conductivity, heat_capacity] = GAS_PROPERTIES.map(|(key, unit)| {
             let read = Property::read(section, key, &Limits::positive(unit))?;
             read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
         });
@@ -116,25 +117,24 @@ impl Gas {
     /// The same gas at one temperature [K] everywhere.
     ///
     /// # Errors
-    /// A message that names the property that is not known there.
-    pub fn set_temperature(&mut self, temperature: f64) -> Result<(), String> {
+    /// [`SimulationError::GasProperty`] for a property that is not known there.
+    pub fn set_temperature(&mut self, temperature: f64) -> Result<(), SimulationError> {
         self.known_at(temperature)?;
-        self.temperature = Profile::constant(temperature);
+        self.temperature = LinearProfile::constant(temperature);
         Ok(())
     }
 
     /// Whether every property is known at a temperature [K].
     ///
     /// # Errors
-    /// A message that names the first property that is not.
-    pub fn known_at(&self, temperature: f64) -> Result<(), String> {
-        for ((key, _), property) in PROPERTIES.iter().zip(&self.properties) {
-            if let Err(range) = property.at(temperature) {
-                return Err(format!(
-                    "gas.{key} is given for {} to {} K, but the gas has {temperature} K in this case; widen the table",
-                    range.low, range.high
-                ));
-            }
+    /// [`SimulationError::GasProperty`] for the first property that is not.
+    pub fn known_at(&self, temperature: f64) -> Result<(), SimulationError> {
+        for ((key, _), property) in GAS_PROPERTIES.iter().zip(&self.properties) {
+            property.at(temperature).map_err(|known| SimulationError::GasProperty {
+                key,
+                temperature,
+                known,
+            })?;
         }
         Ok(())
     }

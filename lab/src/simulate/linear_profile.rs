@@ -7,13 +7,13 @@ use nearwall::input::{InputError, Section};
 /// `key = 1700`, or `key = { axis = "z", at = [0, 0.8, 1.0], value = [1800, 1700, 1100] }`: linear between the places
 /// [m], the end values beyond them.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Profile {
+pub struct LinearProfile {
     axis: usize,
     places: Vec<f64>,
     values: Vec<f64>,
 }
 
-impl Profile {
+impl LinearProfile {
     /// The same number everywhere.
     pub fn constant(value: f64) -> Self {
         Self { axis: 2, places: vec![0.0], values: vec![value] }
@@ -72,10 +72,10 @@ mod tests {
 
     #[test]
     fn linear_between_the_places_and_flat_beyond() {
-        let profile = Profile { axis: 2, places: vec![0.0, 1.0], values: vec![10.0, 30.0] };
+        let profile = LinearProfile { axis: 2, places: vec![0.0, 1.0], values: vec![10.0, 30.0] };
         let at = |z: f64| profile.at(&Vector3::new(5.0, 5.0, z));
         assert_eq!([at(-1.0), at(0.25), at(1.0), at(9.0)], [10.0, 15.0, 30.0, 30.0]);
         assert_eq!(profile.extremes(), [10.0, 30.0]);
-        assert_eq!(Profile::constant(7.0).at(&Vector3::zeros()), 7.0);
+        assert_eq!(LinearProfile::constant(7.0).at(&Vector3::zeros()), 7.0);
     }
 }

@@ -6,7 +6,7 @@
 //! size and density.
 
 use super::geometry::required_within;
-use super::shrinkage::{DIAMETER_EXPONENT, LARGEST_EXPONENT};
+use super::shrinkage::{DIAMETER_EXPONENT, LARGEST_DIAMETER_EXPONENT};
 use nearwall::input::{InputError, Section};
 
 /// Gas constant [J/(mol K)] (CODATA 2018, exact).
@@ -14,7 +14,7 @@ pub const GAS_CONSTANT: f64 = 8.314_462_618;
 
 /// A `[conversion]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Burning {
+pub struct CarbonConversion {
     law: ConversionLaw,
     /// Combustible share of the unburnt particle's mass, `c` [1].
     pub carbon: f64,
@@ -38,7 +38,7 @@ enum ConversionLaw {
     FixedRate(f64),
 }
 
-impl Burning {
+impl CarbonConversion {
     /// No conversion; the mass does not depend on it.
     pub const NONE: Self = Self {
         law: ConversionLaw::None,
@@ -62,7 +62,7 @@ impl Burning {
             None => return Err(section.missing("law", "\"first-order\" or \"fixed-rate\"")),
         };
         let carbon = section.number_within("carbon", 0.0, 0.999)?.unwrap_or(0.0);
-        let exponent = section.number_within("diameter_exponent", 0.0, LARGEST_EXPONENT)?;
+        let exponent = section.number_within("diameter_exponent", 0.0, LARGEST_DIAMETER_EXPONENT)?;
         let ash_density = section.number_within("ash_density", f64::MIN_POSITIVE, 1e6)?;
         section.text("source")?;
         section.finish()?;
@@ -88,7 +88,7 @@ impl Burning {
         }
     }
 
-    /// Conversion [1] after a `duration` [s] at one temperature [K]: the integral of [`Burning::rate`].
+    /// Conversion [1] after a `duration` [s] at one temperature [K]: the integral of [`CarbonConversion::rate`].
     pub fn after(&self, temperature: f64, conversion: f64, duration: f64) -> f64 {
         let left = 1.0 - conversion;
         match self.law {
@@ -114,7 +114,7 @@ mod tests {
         for law in
             [first_order, ConversionLaw::FixedRate(0.8), ConversionLaw::FixedRate(0.0), ConversionLaw::None]
         {
-            let burning = Burning { law, ..Burning::NONE };
+            let burning = CarbonConversion { law, ..CarbonConversion::NONE };
             for (start, duration) in [(0.0, 1.0), (0.0, 1.2499), (0.0, 1.2505), (0.9995, 0.001), (1.0, 3.0)] {
                 let steps = 100_000;
                 let h = duration / f64::from(steps);

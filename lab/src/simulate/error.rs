@@ -1,0 +1,73 @@
+//! Why a case cannot be run or a particle cannot be followed.
+
+use nearwall::impact::ImpactError;
+use nearwall::material::OutOfRange;
+
+use super::flight::FlightError;
+
+/// Why a case cannot be run or a particle cannot be followed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    /// A model cannot decide an impact, or lacks a property.
+    #[error(transparent)]
+    Impact(#[from] ImpactError),
+    /// The deposit of a wall cannot be formed.
+    #[error("{wall}: {reason}")]
+    Wall {
+        /// Name of the wall.
+        wall: String,
+        /// The reason.
+        reason: String,
+    },
+    /// A path cannot be integrated.
+    #[error(transparent)]
+    Flight(#[from] FlightError),
+    /// A sweep cannot set the temperature of a cooled wall.
+    #[error("the wall `{0}` is cooled, so its temperature cannot be set")]
+    CooledWall(String),
+    /// A property of the gas is not known at its temperature.
+    #[error(
+        "gas.{key} is given for {} to {} K, but the gas has {temperature} K in this case; widen the table",
+        .known.low, .known.high
+    )]
+    GasProperty {
+        /// Key of the property.
+        key: &'static str,
+        /// Temperature of the gas [K].
+        temperature: f64,
+        /// Where the property is known [K].
+        known: OutOfRange,
+    },
+    /// The ash of a particle is larger than the particle.
+    #[error(
+        "ash of {ash_density} kg/m3 does not fit into a particle of {density} kg/m3 with {ash_percent} % ash; \
+         raise ash_density"
+    )]
+    AshTooLarge {
+        /// Density of the ash [kg/m³].
+        ash_density: f64,
+        /// Density of the unburnt particle [kg/m³].
+        density: f64,
+        /// Share of the ash in its mass [%].
+        ash_percent: f64,
+    },
+    /// A particle melts and no melting point is known.
+    #[error("the material `{0}` has no melting_point; add melting_point to the particles")]
+    NoMeltingPoint(String),
+    /// A particle starts in or behind a surface.
+    #[error("starts in or behind `{0}`; move the start or turn the normal")]
+    Misplaced(String),
+}
+
+impl SimulationError {
+    /// Adds the name of the wall to a reason.
+    pub(super) fn at_wall<E: ToString>(wall: &str) -> impl Fn(E) -> Self {
+        move |error| Self::Wall { wall: wall.to_owned(), reason: error.to_string() }
+    }
+}
+
+impl From<SimulationError> for String {
+    fn from(error: SimulationError) -> Self {
+        error.to_string()
+    }
+}

@@ -1,0 +1,143 @@
+//! The state of a particle on its way and the equations of its motion.
+//!
+//! ParticleState: position [m], velocity [m/s], temperature without the heat of fusion [K] ([`super::fusion`]),
+//! carbon conversion [1].
+//! `dx/dt = v`, `dv/dt = (u - v)/tau + g (1 - rho_g/rho_p)`, `m c_p dT/dt = heat`, `dX/dt` from
+//! [`super::conversion`]. Diameter and density follow the conversion ([`super::shrinkage`]).
+
+use std::f64::consts::PI;
+
+use differential_equations::ode::ODE;
+use nalgebra::{SVector, Vector3};
+
+use super::conversion::CarbonConversion;
+use super::drag;
+use super::fusion::Fusion;
+use super::gas::{Gas, GasState};
+use super::heating;
+use super::shrinkage::Shrinkage;
+
+/// Position, velocity, temperature, conversion.
+pub type ParticleState = SVector<f64, 8>;
+
+/// Points on the dense output of a step at which a path is looked at.
+pub(super) const PATH_POINTS: u32 = 8;
+/// Index of the temperature in a [`ParticleState`].
+pub const TEMPERATURE: usize = 6;
+/// Index of the conversion in a [`ParticleState`].
+pub const CONVERSION: usize = 7;
+
+/// Position of a state [m].
+pub fn position(state: &ParticleState) -> Vector3<f64> {
+    state.fixed_rows::<3>(0).into()
+}
+
+/// Velocity of a state [m/s].
+pub fn velocity(state: &ParticleState) -> Vector3<f64> {
+    state.fixed_rows::<3>(3).into()
+}
+
+/// Assembles a state from position [m], velocity [m/s], temperature [K] and conversion [1].
+pub fn state(
+    position: &Vector3<f64>,
+    velocity: &Vector3<f64>,
+    temperature: f64,
+    conversion: f64,
+) -> ParticleState {
+    let mut state = ParticleState::zeros();
+    state.fixed_rows_mut::<3>(0).copy_from(position);
+    state.fixed_rows_mut::<3>(3).copy_from(velocity);
+    state[TEMPERATURE] = temperature;
+    state[CONVERSION] = conversion;
+    state
+}
+
+/// What a particle consists of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Body {
+    /// Diameter before any carbon is gone [m].
+    pub diameter: f64,
+    /// Density before any carbon is gone [kg/m³].
+    pub density: f64,
+    /// How size and density follow the conversion.
+    pub shrinkage: Shrinkage,
+    /// Heat capacity [J/(kg K)]; without it the temperature stays.
+    pub heat_capacity: Option<f64>,
+    /// Melting, where the case gives a heat of fusion.
+    pub fusion: Option<Fusion>,
+    /// Emissivity [1] and temperature of the surroundings [K].
+    pub radiation: Option<(f64, f64)>,
+    /// Law of carbon conversion.
+    pub burning: CarbonConversion,
+}
+
+impl Body {
+    /// Diameter [m] at a conversion [1].
+    pub fn diameter_at(&self, conversion: f64) -> f64 {
+        let left = self.shrinkage.volume_left(conversion);
+        if left == 1.0 { self.diameter } else { self.diameter * left.cbrt() }
+    }
+
+    /// Density [kg/m³] at a conversion [1].
+    pub fn density_at(&self, conversion: f64) -> f64 {
+        self.density * self.shrinkage.mass_left(conversion) / self.shrinkage.volume_left(conversion)
+    }
+
+    /// Mass [kg] at a conversion [1].
+    pub fn mass_at(&self, conversion: f64) -> f64 {
+        PI / 6.0 * self.diameter.powi(3) * self.density * self.shrinkage.mass_left(conversion)
+    }
+
+    /// Temperature [K] of a state.
+    pub fn temperature(&self, state: &ParticleState) -> f64 {
+        let sensible = state[TEMPERATURE];
+        self.fusion.map_or(sensible, |fusion| fusion.temperature(sensible))
+    }
+}
+
+/// A particle in a gas: the equations of its path.
+#[derive(Debug, Clone, Copy)]
+pub struct ParticleMotion<'a> {
+    /// The gas it moves in.
+    pub gas: &'a Gas,
+    /// Gravity [m/s²].
+    pub gravity: Vector3<f64>,
+    /// The particle.
+    pub body: Body,
+}
+
+impl ODE<f64, ParticleState> for ParticleMotion<'_> {
+    fn diff(&self, _time: f64, y: &ParticleState, rate: &mut ParticleState) {
+        let body = &self.body;
+        let (temperature, conversion) = (body.temperature(y), y[CONVERSION]);
+        let diameter = body.diameter_at(conversion);
+        let gas = self.gas.at(&position(y));
+        let slip = gas.velocity - velocity(y);
+        let reynolds = gas.density * slip.norm() * diameter / gas.viscosity;
+        let density = body.density_at(conversion);
+        let response = drag::response_rate(reynolds, gas.viscosity, density, diameter)
+            / drag::slip_factor(gas.mean_free_path, diameter);
+        let acceleration = slip * response + self.gravity * (1.0 - gas.density / density);
+        let heating = body.heat_capacity.map_or(0.0, |capacity| {
+            let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;
+            let dense = heating::nusselt(reynolds, prandtl);
+            let GasState { mean_free_path, accommodation, .. } = gas;
+            let nusselt = heating::thin_gas_nusselt(dense, mean_free_path, diameter, prandtl, accommodation);
+            let difference = gas.temperature - temperature;
+            let mut heat = heating::convection(nusselt, gas.conductivity, diameter, difference);
+            if let Some((emissivity, surroundings)) = body.radiation {
+                heat += heating::radiation(emissivity, diameter, surroundings, temperature);
+            }
+            heat / (body.mass_at(conversion) * capacity)
+        });
+        rate.fixed_rows_mut::<3>(0).copy_from(&velocity(y));
+        rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
+        rate[TEMPERATURE] = heating;
+        rate[CONVERSION] = body.burning.rate(temperature, conversion);
+    }
+}
+
+/// How far [m] from its start a particle can have come in a step, with a margin for a curved path.
+pub(super) fn reach(duration: f64, before: &ParticleState, after: &ParticleState) -> f64 {
+    2.0 * duration * velocity(before).norm().max(velocity(after).norm())
+}
