@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use nearwall::impact::{INPUTS, Impact, Input};
+use nearwall::impact::{INPUTS, Impact, ImpactError, Input};
 use nearwall::input::unknown;
 use nearwall::model::Model;
 
@@ -11,13 +11,59 @@ pub const DEFAULT_POINTS: usize = 61;
 /// Largest number of points of an axis.
 const MOST_POINTS: usize = 1001;
 /// From this ratio of both ends on, positive values are evenly spaced in their logarithm.
-const LOG_SPAN: f64 = 30.0;
+const LOGARITHMIC_RATIO: f64 = 30.0;
 /// Temperatures of a default axis [K].
-const TEMPERATURES: [f64; 2] = [273.15, 2000.0];
+const DEFAULT_TEMPERATURES: [f64; 2] = [273.15, 2000.0];
+
+/// Why a text or a range gives no axis or setting.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AxisError {
+    /// The text lacks the equals sign; with the form that it should have.
+    #[error("write {0}")]
+    Form(&'static str),
+    /// The range is not of two or three parts.
+    #[error("`{range}`: write LOW:HIGH or LOW:HIGH:POINTS, such as {name}=0.1:30")]
+    Range {
+        /// Name of the input.
+        name: String,
+        /// The text.
+        range: String,
+    },
+    /// No input has this name; with the nearest known one.
+    #[error("{0}")]
+    Unknown(String),
+    /// The text is not a number.
+    #[error("`{0}` is not a number")]
+    Number(String),
+    /// The text is not a whole number of points.
+    #[error("`{0}` is not a whole number of points")]
+    PointsText(String),
+    /// The input cannot have the value.
+    #[error(transparent)]
+    Value(#[from] ImpactError),
+    /// The range is empty.
+    #[error("{name}: the low end {low} is not below the high end {high}")]
+    Empty {
+        /// Name of the input.
+        name: String,
+        /// Its lowest value.
+        low: f64,
+        /// Its highest value.
+        high: f64,
+    },
+    /// The number of points is out of bounds.
+    #[error("{name}: {points} points; give 2 to {MOST_POINTS}")]
+    Points {
+        /// Name of the input.
+        name: String,
+        /// Number of points.
+        points: usize,
+    },
+}
 
 /// An input of an impact over a range. As text: `INPUT=LOW:HIGH` or `INPUT=LOW:HIGH:POINTS`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Axis {
+pub struct InputAxis {
     /// Place in [`INPUTS`].
     input: usize,
     low: f64,
@@ -25,20 +71,20 @@ pub struct Axis {
     points: usize,
 }
 
-impl Axis {
+impl InputAxis {
     /// An axis over the input of this name.
     ///
     /// # Errors
-    /// A message for an unknown input, a range that it cannot have, or a number of points outside 2 to 1001.
-    pub fn new(name: &str, low: f64, high: f64, points: usize) -> Result<Self, String> {
+    /// [`AxisError`] for an unknown input, a range that it cannot have, or a number of points outside 2 to 1001.
+    pub fn new(name: &str, low: f64, high: f64, points: usize) -> Result<Self, AxisError> {
         let input = place(name)?;
         check(input, low)?;
         check(input, high)?;
         if low >= high {
-            return Err(format!("{name}: the low end {low} is not below the high end {high}"));
+            return Err(AxisError::Empty { name: name.to_owned(), low, high });
         }
         if !(2..=MOST_POINTS).contains(&points) {
-            return Err(format!("{name}: {points} points; give 2 to {MOST_POINTS}"));
+            return Err(AxisError::Points { name: name.to_owned(), points });
         }
         Ok(Self { input, low, high, points })
     }
@@ -51,8 +97,8 @@ impl Axis {
             "v_t" => [0.0, 50.0],
             "d" => [1e-6, 1e-3],
             "conversion" => [0.0, 1.0],
-            "T_p" => overlap(TEMPERATURES, known.map(|ranges| ranges.particle)),
-            "T_w" => overlap(TEMPERATURES, known.map(|ranges| ranges.wall)),
+            "T_p" => overlap(DEFAULT_TEMPERATURES, known.map(|ranges| ranges.particle)),
+            "T_w" => overlap(DEFAULT_TEMPERATURES, known.map(|ranges| ranges.wall)),
             _ => return None,
         };
         let input = place(name).ok()?;
@@ -84,7 +130,7 @@ impl Axis {
 
     /// Whether the values are evenly spaced in their logarithm.
     pub fn is_logarithmic(&self) -> bool {
-        self.low > 0.0 && self.high >= LOG_SPAN * self.low
+        self.low > 0.0 && self.high >= LOGARITHMIC_RATIO * self.low
     }
 
     /// The values, from the lowest to the highest.
@@ -102,21 +148,19 @@ impl Axis {
     }
 }
 
-impl FromStr for Axis {
-    type Err = String;
+impl FromStr for InputAxis {
+    type Err = AxisError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, AxisError> {
         let (name, range) = parts(text, "INPUT=LOW:HIGH or INPUT=LOW:HIGH:POINTS, such as v_n=0.1:30")?;
         let parts: Vec<&str> = range.split(':').collect();
         let (low, high, points) = match parts[..] {
             [low, high] => (low, high, None),
             [low, high, points] => (low, high, Some(points)),
-            _ => return Err(format!("`{range}`: write LOW:HIGH or LOW:HIGH:POINTS, such as {name}=0.1:30")),
+            _ => return Err(AxisError::Range { name: name.to_owned(), range: range.to_owned() }),
         };
         let points = match points {
-            Some(text) => {
-                text.trim().parse().map_err(|_| format!("`{text}` is not a whole number of points"))?
-            }
+            Some(text) => text.trim().parse().map_err(|_| AxisError::PointsText(text.to_owned()))?,
             None => DEFAULT_POINTS,
         };
         Self::new(name, number(low)?, number(high)?, points)
@@ -144,9 +188,9 @@ impl Setting {
 }
 
 impl FromStr for Setting {
-    type Err = String;
+    type Err = AxisError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, AxisError> {
         let (name, value) = parts(text, "INPUT=VALUE, such as T_p=1500")?;
         let (input, value) = (place(name)?, number(value)?);
         check(input, value)?;
@@ -155,26 +199,29 @@ impl FromStr for Setting {
 }
 
 /// The name and the rest around the equals sign.
-fn parts<'a>(text: &'a str, form: &str) -> Result<(&'a str, &'a str), String> {
-    let (name, rest) = text.split_once('=').ok_or_else(|| format!("write {form}"))?;
+fn parts<'a>(text: &'a str, form: &'static str) -> Result<(&'a str, &'a str), AxisError> {
+    let (name, rest) = text.split_once('=').ok_or(AxisError::Form(form))?;
     Ok((name.trim(), rest))
 }
 
 /// The place of an input in [`INPUTS`].
-fn place(name: &str) -> Result<usize, String> {
+fn place(name: &str) -> Result<usize, AxisError> {
     let names: Vec<&str> = INPUTS.iter().map(|input| input.name).collect();
-    names.iter().position(|known| *known == name).ok_or_else(|| unknown(name, "input", &names))
+    names
+        .iter()
+        .position(|known| *known == name)
+        .ok_or_else(|| AxisError::Unknown(unknown(name, "input", &names)))
 }
 
-fn number(text: &str) -> Result<f64, String> {
-    text.trim().parse().map_err(|_| format!("`{text}` is not a number"))
+fn number(text: &str) -> Result<f64, AxisError> {
+    text.trim().parse().map_err(|_| AxisError::Number(text.to_owned()))
 }
 
 /// Checks that an input may have a value.
-fn check(input: usize, value: f64) -> Result<(), String> {
+fn check(input: usize, value: f64) -> Result<(), ImpactError> {
     let mut impact = Impact { normal_speed: 1.0, ..Impact::default() };
     (INPUTS[input].set)(&mut impact, value);
-    impact.check().map_err(|error| error.to_string())
+    impact.check()
 }
 
 /// The part that two ranges have in common; the first one where there is none.
@@ -190,20 +237,20 @@ mod tests {
 
     #[test]
     fn values_are_evenly_spaced_or_in_decades() {
-        let axis: Axis = "T_w=300:1500:4".parse().unwrap();
+        let axis: InputAxis = "T_w=300:1500:4".parse().unwrap();
         assert_eq!((axis.values(), axis.is_logarithmic()), (vec![300.0, 700.0, 1100.0, 1500.0], false));
-        let axis: Axis = "v_n=0.1:100:4".parse().unwrap();
+        let axis: InputAxis = "v_n=0.1:100:4".parse().unwrap();
         assert!(axis.is_logarithmic());
         for (value, expected) in axis.values().into_iter().zip([0.1, 1.0, 10.0, 100.0]) {
             assert!((value / expected - 1.0).abs() < 1e-14, "{value}");
         }
-        assert_eq!("v_t=0:100".parse::<Axis>().unwrap().points(), DEFAULT_POINTS);
-        assert!(!"v_n=0:100".parse::<Axis>().unwrap().is_logarithmic());
+        assert_eq!("v_t=0:100".parse::<InputAxis>().unwrap().points(), DEFAULT_POINTS);
+        assert!(!"v_n=0:100".parse::<InputAxis>().unwrap().is_logarithmic());
     }
 
     #[test]
     fn faults_name_the_remedy() {
-        let fault = |text: &str| text.parse::<Axis>().unwrap_err();
+        let fault = |text: &str| text.parse::<InputAxis>().unwrap_err().to_string();
         for (text, part) in [
             ("v_n", "INPUT=LOW:HIGH"),
             ("v_n=1", "LOW:HIGH:POINTS"),
@@ -219,8 +266,8 @@ mod tests {
         ] {
             assert!(fault(text).contains(part), "{text}: {}", fault(text));
         }
-        assert!("T_p=-5".parse::<Setting>().unwrap_err().contains("must be positive"));
-        assert!("T_p".parse::<Setting>().unwrap_err().contains("INPUT=VALUE"));
+        assert!("T_p=-5".parse::<Setting>().unwrap_err().to_string().contains("must be positive"));
+        assert!("T_p".parse::<Setting>().unwrap_err().to_string().contains("INPUT=VALUE"));
         let mut impact = Impact::default();
         "T_p=1500".parse::<Setting>().unwrap().apply(&mut impact);
         assert_eq!(impact.particle_temperature, 1500.0);

@@ -5,9 +5,9 @@ use nearwall::impact::{Impact, ImpactError, Outcome, Regime};
 use nearwall::model::Model;
 
 /// Draws a cell of a model with random effects.
-const DRAWS: usize = 64;
+const DRAWS_A_CELL: usize = 64;
 /// Steps of the lattice of draws, one a stream. They are odd, so each stream visits all places.
-const STEPS: [usize; 3] = [1, 19, 27];
+const LATTICE_STEPS: [usize; 3] = [1, 19, 27];
 /// A random number that selects the more probable one of bare and covered share.
 const MEDIAN: f64 = 0.5;
 /// The smallest and the largest random number.
@@ -42,7 +42,7 @@ impl Draws {
 
     /// Number of draws.
     pub fn count(&self) -> usize {
-        if self.streams.is_empty() { 1 } else { DRAWS }
+        if self.streams.is_empty() { 1 } else { DRAWS_A_CELL }
     }
 
     /// The mean over all draws. Restitution and regime are those of the share of the wall that an impact more probably meets,
@@ -86,8 +86,8 @@ impl Draws {
                 stream::COVER => cover,
                 stream::CAPTURE => EXTREMES[1],
                 _ => self.streams.iter().position(|own| *own == wanted).map_or(MEDIAN, |place| {
-                    let step = STEPS[place % STEPS.len()];
-                    (((draw * step) % DRAWS) as f64 + 0.5) / DRAWS as f64
+                    let step = LATTICE_STEPS[place % LATTICE_STEPS.len()];
+                    (((draw * step) % DRAWS_A_CELL) as f64 + 0.5) / DRAWS_A_CELL as f64
                 }),
             };
             model.resolve_with(wall, impact, uniform)

@@ -1,6 +1,6 @@
 //! Maps of a model: what it decides over two inputs of an impact while the other inputs are fixed.
 //!
-//! A [`Map`] has a [`Cell`] for each pair of values of two [`Axis`]. Random draws are averaged. Format for users:
+//! A [`Map`] has a [`Cell`] for each pair of values of two [`InputAxis`]. Random draws are averaged. Format for users:
 //! `docs/map.md`.
 
 mod axis;
@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use nearwall::impact::{INPUTS, Impact, Input};
 use nearwall::model::Model;
 
-pub use axis::{Axis, DEFAULT_POINTS, Setting};
+pub use axis::{AxisError, DEFAULT_POINTS, InputAxis, Setting};
 pub use cell::Cell;
 use cell::Draws;
 
@@ -21,9 +21,9 @@ pub struct Map {
     /// Name of the wall.
     pub wall: String,
     /// The input along the x axis.
-    pub x: Axis,
+    pub x: InputAxis,
     /// The input along the y axis.
-    pub y: Axis,
+    pub y: InputAxis,
     /// The other inputs.
     pub fixed: Impact,
     /// Random draws behind each cell; 1 for a model without random effects.
@@ -36,7 +36,7 @@ pub struct Map {
 
 impl Map {
     /// Decides the impacts `fixed` on the wall with index `wall` over both axes.
-    pub fn new(model: &Model, wall: usize, [x, y]: [Axis; 2], fixed: Impact) -> Self {
+    pub fn new(model: &Model, wall: usize, [x, y]: [InputAxis; 2], fixed: Impact) -> Self {
         let draws = Draws::of(model);
         let columns = x.values();
         let row = |value: &f64| -> Vec<_> {
@@ -90,12 +90,12 @@ pub fn default_axes(
     model: &Model,
     wall: usize,
     fixed: &Impact,
-    [x, y]: [Option<Axis>; 2],
+    [x, y]: [Option<InputAxis>; 2],
     points: usize,
-) -> Option<[Axis; 2]> {
+) -> Option<[InputAxis; 2]> {
     let mut candidates = Vec::new();
     for name in ["v_n", "T_w", "d", "T_p", "conversion", "v_t"] {
-        let Some(axis) = Axis::over_default_range(name, model, wall, points) else { continue };
+        let Some(axis) = InputAxis::over_default_range(name, model, wall, points) else { continue };
         let taken = [&x, &y].into_iter().flatten().any(|given| given.input().name == name);
         if !taken && (name == "v_n" || depends_on(model, wall, fixed, &axis)) {
             candidates.push(axis);
@@ -103,7 +103,7 @@ pub fn default_axes(
     }
     // A model that depends on nothing else still has a map.
     for name in ["d", "T_w"] {
-        candidates.extend(Axis::over_default_range(name, model, wall, points));
+        candidates.extend(InputAxis::over_default_range(name, model, wall, points));
     }
     let mut next = candidates.into_iter();
     let x = x.or_else(|| next.next())?;
@@ -112,7 +112,7 @@ pub fn default_axes(
 }
 
 /// Whether an input changes what the model decides, at some speeds.
-fn depends_on(model: &Model, wall: usize, fixed: &Impact, axis: &Axis) -> bool {
+fn depends_on(model: &Model, wall: usize, fixed: &Impact, axis: &InputAxis) -> bool {
     let draws = Draws::of(model);
     let varies = |speed: f64| {
         let decide = |value: f64| {

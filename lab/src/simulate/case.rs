@@ -137,16 +137,6 @@ impl Case {
         let injections = read_injections(top, burning, &model, folder)?;
         let surfaces = Surface::read_all(top, &model)?;
         let deposit = top.section("deposit")?.map(|s| DepositSettings::read(&s, &surfaces)).transpose()?;
-        let cooled = |surface: &&Surface| {
-            matches!(&surface.kind, SurfaceKind::Wall { cooling: Some(_), .. }) && deposit.is_none()
-        };
-        if let Some(wall) = surfaces.iter().find(cooled) {
-            let problem = format!(
-                "the temperature of the cooled wall `{}` follows from its deposit; add a table [deposit]",
-                wall.name
-            );
-            return Err(top.fault("walls", problem));
-        }
         let run = top.required_section("run")?;
         let hit_limit = whole(&run, "hit_limit", (1u64 << HIT_BITS) as f64)?.unwrap_or(1000);
         let time_limit = run.number_within("time_limit", f64::MIN_POSITIVE, f64::INFINITY)?;
@@ -170,26 +160,33 @@ impl Case {
             sweep: top.section("sweep")?.map(|s| read_sweep(&s)).transpose()?,
             model,
         };
-        if let Some(pipe) = case.pipe_that_sheds_sideways() {
-            let problem = format!(
-                "pulls across the pipe `{pipe}`, whose bins go all around it and cannot tell above from below; a wall with \
-                 `shedding` needs a pipe along gravity, or the shape \"plane\""
-            );
-            return Err(run.fault("gravity", problem));
-        }
+        case.check_walls(top, &run)?;
         run.finish()?;
         case.try_sweep(top)?;
         Ok(case)
     }
 
-    /// The first pipe that sheds its deposit although gravity points across it.
-    fn pipe_that_sheds_sideways(&self) -> Option<&str> {
-        let sheds = |surface: &&Surface| {
-            let SurfaceKind::Wall { model, .. } = &surface.kind else { return false };
-            matches!(surface.shape, SurfaceShape::Pipe { .. }) && self.model.walls()[*model].sheds()
-        };
-        let sideways = self.deposit.is_some() && self.gravity.xy().norm() > 0.0;
-        self.surfaces.iter().find(sheds).filter(|_| sideways).map(|surface| surface.name.as_str())
+    /// Checks that a cooled wall has a deposit, and that gravity does not point across a pipe that sheds its deposit.
+    fn check_walls(&self, top: &Section<'_>, run: &Section<'_>) -> Result<(), InputError> {
+        let sideways = self.gravity.xy().norm() > 0.0;
+        for Surface { name, shape, kind } in &self.surfaces {
+            let SurfaceKind::Wall { model, cooling, .. } = kind else { continue };
+            if cooling.is_some() && self.deposit.is_none() {
+                let problem = format!(
+                    "the temperature of the cooled wall `{name}` follows from its deposit; add a table [deposit]"
+                );
+                return Err(top.fault("walls", problem));
+            }
+            let is_pipe = matches!(shape, SurfaceShape::Pipe { .. });
+            if is_pipe && sideways && self.deposit.is_some() && self.model.walls()[*model].sheds() {
+                let problem = format!(
+                    "pulls across the pipe `{name}`, whose bins go all around it and cannot tell above from below; \
+                     a wall with `shedding` needs a pipe along gravity, or the shape \"plane\""
+                );
+                return Err(run.fault("gravity", problem));
+            }
+        }
+        Ok(())
     }
 
     /// Number of all particles.

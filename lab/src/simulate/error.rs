@@ -3,8 +3,6 @@
 use nearwall::impact::ImpactError;
 use nearwall::material::OutOfRange;
 
-use super::flight::FlightError;
-
 /// Why a case cannot be run or a particle cannot be followed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
@@ -19,9 +17,12 @@ pub enum SimulationError {
         /// The reason.
         reason: String,
     },
-    /// A path cannot be integrated.
-    #[error(transparent)]
-    Flight(#[from] FlightError),
+    /// A path needs more steps of integration than allowed.
+    #[error("the path takes more than {0} integration steps")]
+    TooManySteps(usize),
+    /// The equations of motion give no finite number.
+    #[error("the state of the particle is no longer finite")]
+    NotFinite,
     /// A sweep cannot set the temperature of a cooled wall.
     #[error("the wall `{0}` is cooled, so its temperature cannot be set")]
     CooledWall(String),

@@ -9,6 +9,7 @@ use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
 
+use super::error::SimulationError;
 use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, position, reach};
 use super::near_wall::StayTimes;
 use super::surface::Surface;
@@ -24,17 +25,6 @@ pub struct FlightEnd {
     pub surface: Option<usize>,
 }
 
-/// Why a flight cannot be integrated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FlightError {
-    /// The path needs more steps than allowed.
-    #[error("the path takes more than {STEP_LIMIT} integration steps")]
-    TooManySteps,
-    /// The equations give no finite number.
-    #[error("the state of the particle is no longer finite")]
-    NotFinite,
-}
-
 /// Integration steps of one flight before it is given up.
 const STEP_LIMIT: usize = 200_000;
 /// Most iterations until a contact is found.
@@ -48,7 +38,7 @@ const NEAR: f64 = 1e-10;
 /// starts behind a surface does not touch it.
 ///
 /// # Errors
-/// [`FlightError`] when the path cannot be followed.
+/// [`SimulationError`] when the path cannot be followed.
 pub fn fly(
     motion: &ParticleMotion<'_>,
     surfaces: &[Surface],
@@ -56,7 +46,7 @@ pub fn fly(
     until: f64,
     start: &ParticleState,
     tolerance: f64,
-) -> Result<FlightEnd, FlightError> {
+) -> Result<FlightEnd, SimulationError> {
     fly_timed(motion, surfaces, [time, until], start, tolerance, &mut StayTimes::default())
 }
 
@@ -68,49 +58,34 @@ pub(super) fn fly_timed(
     start: &ParticleState,
     tolerance: f64,
     stays: &mut StayTimes,
-) -> Result<FlightEnd, FlightError> {
+) -> Result<FlightEnd, SimulationError> {
     let (mut now, mut here) = (time, *start);
     let mut steps = 0;
-    let finish = |time: f64, state: ParticleState| Ok(FlightEnd { time, state, surface: None });
-    'restart: loop {
-        if now >= until {
-            return finish(now, here);
-        }
+    while now < until {
         let mut solver = ExplicitRungeKutta::dopri5()
             .rtol(tolerance)
             .atol(absolute_tolerances(tolerance, &motion.body))
             .max_steps(STEP_LIMIT);
-        solver.init(motion, now, until, &here).map_err(|_| FlightError::NotFinite)?;
+        solver.init(motion, now, until, &here).map_err(|_| SimulationError::NotFinite)?;
         loop {
             let left = until - solver.t();
             if left <= 1e-14 * until.abs() {
-                return finish(until, *solver.y());
+                return Ok(FlightEnd { time: until, state: *solver.y(), surface: None });
             }
             if solver.h() > left {
                 solver.set_h(left);
             }
             steps += 1;
             if steps > STEP_LIMIT {
-                return Err(FlightError::TooManySteps);
+                return Err(SimulationError::TooManySteps(STEP_LIMIT));
             }
-            match solver.step(motion) {
-                Ok(_) if matches!(solver.status(), Status::RejectedStep) => {
-                    if !solver.h().is_normal() {
-                        return Err(FlightError::NotFinite);
-                    }
-                    continue;
-                }
-                Ok(_) => {}
-                // Small particles in a strong drag: steps are short, not wrong. The step that raised it was not taken.
-                Err(Error::Stiffness { .. }) => {
+            match try_step(&mut solver, motion)? {
+                Tried::Taken => {}
+                Tried::Rejected => continue,
+                Tried::Stiff => {
                     (now, here) = (solver.t(), *solver.y());
-                    continue 'restart;
+                    break;
                 }
-                Err(Error::MaxSteps { .. }) => return Err(FlightError::TooManySteps),
-                Err(_) => return Err(FlightError::NotFinite),
-            }
-            if !solver.y().iter().all(|value| value.is_finite()) {
-                return Err(FlightError::NotFinite);
             }
             let arrival = contact(&mut solver, surfaces, &motion.body);
             let end = arrival.map_or_else(|| (solver.t(), *solver.y()), |end| (end.time, end.state));
@@ -119,6 +94,32 @@ pub(super) fn fly_timed(
                 return Ok(arrival);
             }
         }
+    }
+    Ok(FlightEnd { time: now, state: here, surface: None })
+}
+
+/// What became of a step of the integration.
+enum Tried {
+    Taken,
+    /// Too long; the solver tries a shorter one.
+    Rejected,
+    /// Not taken, because of a strong drag on a small particle: steps are short, not wrong.
+    Stiff,
+}
+
+fn try_step<S>(solver: &mut S, motion: &ParticleMotion<'_>) -> Result<Tried, SimulationError>
+where
+    S: OrdinaryNumericalMethod<f64, ParticleState>,
+{
+    match solver.step(motion) {
+        Ok(_) if matches!(solver.status(), Status::RejectedStep) && solver.h().is_normal() => {
+            Ok(Tried::Rejected)
+        }
+        Ok(_) if matches!(solver.status(), Status::RejectedStep) => Err(SimulationError::NotFinite),
+        Ok(_) if solver.y().iter().all(|value| value.is_finite()) => Ok(Tried::Taken),
+        Err(Error::Stiffness { .. }) => Ok(Tried::Stiff),
+        Err(Error::MaxSteps { .. }) => Err(SimulationError::TooManySteps(STEP_LIMIT)),
+        _ => Err(SimulationError::NotFinite),
     }
 }
 

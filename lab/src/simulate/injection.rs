@@ -123,10 +123,9 @@ impl Injection {
         if count.fract() != 0.0 {
             return Err(section.fault("count", "a whole number of particles"));
         }
-        let place = section.required_section("position")?;
-        let angle = Distribution::read(section, "angle_deg", -90.0, 90.0)?;
-        let azimuth = Distribution::read(section, "azimuth_deg", -360.0, 360.0)?;
-        let conversion = Distribution::read(section, "conversion", 0.0, 1.0)?;
+        let or = |key: &str, low: f64, high: f64, default: Distribution| {
+            Distribution::read(section, key, low, high).map(|given| given.unwrap_or(default))
+        };
         let positive = f64::MIN_POSITIVE;
         let carbon = section.number_within("carbon", 0.0, 0.999)?.unwrap_or(burning.carbon);
         let heat_capacity = section.number_within("heat_capacity", positive, 1e6)?;
@@ -136,15 +135,15 @@ impl Injection {
             walls: same_walls(section, case_model, model.as_ref())?,
             model,
             count: count as u64,
-            place: ReleaseShape::read(&place)?,
+            place: ReleaseShape::read(&section.required_section("position")?)?,
             along: direction(section, "direction")?,
             diameter: needed("diameter", "a diameter [m]", positive, 1.0)?,
             speed: needed("speed", "a speed [m/s]", 0.0, 1e5)?,
             relative_to_gas: section.boolean("relative_to_gas")?.unwrap_or(false),
-            angle: angle.unwrap_or_else(|| Distribution::fixed(90.0)),
-            azimuth: azimuth.unwrap_or_else(|| Distribution::uniform(0.0, 360.0)),
+            angle: or("angle_deg", -90.0, 90.0, Distribution::fixed(90.0))?,
+            azimuth: or("azimuth_deg", -360.0, 360.0, Distribution::uniform(0.0, 360.0))?,
             temperature: needed("temperature", "a temperature [K]", 1.0, 1e5)?,
-            conversion: conversion.unwrap_or_else(|| Distribution::fixed(1.0)),
+            conversion: or("conversion", 0.0, 1.0, Distribution::fixed(1.0))?,
             density: section.number_within("density", positive, 1e6)?,
             fusion: read_fusion(section, heat_capacity)?,
             heat_capacity,

@@ -37,7 +37,7 @@ pub use deposit_settings::DepositSettings;
 pub use distribution::Distribution;
 pub use error::SimulationError;
 pub use even_starts::even_starts;
-pub use flight::{FlightEnd, FlightError, fly};
+pub use flight::{FlightEnd, fly};
 pub use fusion::Fusion;
 pub use injection::{Injection, ParticleWeight};
 pub use linear_profile::LinearProfile;

@@ -202,7 +202,7 @@ impl<'a> Tracker<'a> {
         let (from, until) = (self.time, case.time_limit);
         let (start, stays) = (&self.state, &mut self.stays);
         let end = fly_timed(&self.motion, &case.surfaces, [from, until], start, case.tolerance, stays);
-        let FlightEnd { time, state, surface } = end.map_err(|lost| Fate::Unusable(lost.into()))?;
+        let FlightEnd { time, state, surface } = end.map_err(Fate::Unusable)?;
         self.let_spin_decay(time - self.time, &state);
         (self.time, self.state) = (time, state);
         surface.ok_or(Fate::Airborne)

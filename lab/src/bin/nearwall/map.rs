@@ -6,7 +6,7 @@ use nearwall::Model;
 use nearwall::impact::{INPUTS, Impact};
 use nearwall_lab::atomic_file::write_texts;
 use nearwall_lab::dataset::WallChoice;
-use nearwall_lab::map::{Axis, Cell, DEFAULT_POINTS, Map, Setting, default_axes};
+use nearwall_lab::map::{Cell, DEFAULT_POINTS, InputAxis, Map, Setting, default_axes};
 use nearwall_lab::report::map_page;
 
 use crate::CommandResult;
@@ -19,10 +19,10 @@ pub struct Arguments {
     model: PathBuf,
     /// The input along the x axis, its range and its number of points; by default v_n
     #[arg(long, value_name = "INPUT=LOW:HIGH[:N]")]
-    x: Option<Axis>,
+    x: Option<InputAxis>,
     /// The input along the y axis; by default the first of T_w, d, T_p, conversion, v_t that changes the outcome
     #[arg(long, value_name = "INPUT=LOW:HIGH[:N]")]
-    y: Option<Axis>,
+    y: Option<InputAxis>,
     /// Value of another input; may be given several times
     #[arg(long, value_name = "INPUT=VALUE")]
     set: Vec<Setting>,

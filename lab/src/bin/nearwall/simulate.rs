@@ -35,40 +35,42 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let draws =
         arguments.draws.as_deref().map(|draws| DrawnModels::from_folder(draws, &case.model)).transpose()?;
     let runs = write(&mut case, &folder, draws.as_ref())?;
-    let mut text = String::new();
-    for run in &runs {
-        let totals = &run.totals;
-        let swept = case.sweep.as_ref().zip(run.value);
-        text += &swept.map_or(String::new(), |(sweep, value)| format!("{} {value}: ", sweep.key));
-        let [hits, captured] = totals.first_hits();
-        text += &format!(
-            "{} injected = {} stuck + {} escaped + {} airborne + {} given up + {} unusable; first hits captured {}; balance of mass {:.1e}\n",
-            totals.ends.injected.count,
-            totals.ends.captured.count,
-            totals.ends.escaped.count,
-            totals.ends.airborne.count,
-            totals.ends.given_up.count,
-            totals.ends.unusable.count,
-            percent(share(captured as f64, hits as f64)),
-            totals.ends.balance_error()
-        );
-        for CaptureBand { wall, draws, captured_mass, captured_particles, mass_share } in &run.bands {
-            text += &format!(
-                "  {wall}: captured {} to {} of the mass (median {}, {draws} draws), {} to {} kg, {} to {} particles\n",
-                percent(mass_share.low),
-                percent(mass_share.high),
-                percent(mass_share.median),
-                number(captured_mass.low),
-                number(captured_mass.high),
-                captured_particles.low.round(),
-                captured_particles.high.round(),
-            );
-        }
-        if let Some(note) = totals.trouble_note() {
-            eprintln!("nearwall: {note}");
-        }
-    }
+    crate::note(runs.iter().filter_map(|run| run.totals.trouble_note()));
+    let text: String = runs.iter().map(|run| summary_of_run(&case, run)).collect();
     crate::print_page(&text, &folder.join("report.html"))
+}
+
+/// The particles of a run and, with drawn models, the bands of what its walls capture.
+fn summary_of_run(case: &Case, run: &Run) -> String {
+    let Run { totals, .. } = run;
+    let swept = case.sweep.as_ref().zip(run.value);
+    let mut text = swept.map_or(String::new(), |(sweep, value)| format!("{} {value}: ", sweep.key));
+    let [hits, captured] = totals.first_hits();
+    text += &format!(
+        "{} injected = {} stuck + {} escaped + {} airborne + {} given up + {} unusable; \
+         first hits captured {}; balance of mass {:.1e}\n",
+        totals.ends.injected.count,
+        totals.ends.captured.count,
+        totals.ends.escaped.count,
+        totals.ends.airborne.count,
+        totals.ends.given_up.count,
+        totals.ends.unusable.count,
+        percent(share(captured as f64, hits as f64)),
+        totals.ends.balance_error()
+    );
+    for CaptureBand { wall, draws, captured_mass, captured_particles, mass_share } in &run.bands {
+        text += &format!(
+            "  {wall}: captured {} to {} of the mass (median {}, {draws} draws), {} to {} kg, {} to {} particles\n",
+            percent(mass_share.low),
+            percent(mass_share.high),
+            percent(mass_share.median),
+            number(captured_mass.low),
+            number(captured_mass.high),
+            captured_particles.low.round(),
+            captured_particles.high.round(),
+        );
+    }
+    text
 }
 
 /// Runs a case and writes its files into a folder, which is created if it does not exist.

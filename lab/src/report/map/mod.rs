@@ -5,7 +5,7 @@ mod panel;
 use super::chart::{ColourScale, Figure, regime_colour, round_edges};
 use super::format::{number, percent, with_unit};
 use super::page::{Page, Table};
-use crate::map::{Axis, Cell, Map};
+use crate::map::{Cell, InputAxis, Map};
 use nearwall::impact::Regime;
 use panel::{Fill, Panel};
 
@@ -48,7 +48,7 @@ pub fn page(map: &Map, file: &str) -> Result<String, askama::Error> {
 }
 
 /// An axis in words: name and range.
-fn range(axis: &Axis) -> String {
+fn range(axis: &InputAxis) -> String {
     let [low, high] = axis.ends();
     let spacing = if axis.is_logarithmic() { ", evenly spaced in the logarithm" } else { "" };
     format!("{} ({} to {}{spacing})", axis.input().name, number(low), with_unit(high, axis.input().unit))

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::map::{Axis, Map};
+use crate::map::{InputAxis, Map};
 use crate::report::chart::{ColourScale, Figure, round_edges};
 use crate::report::format::number;
 use nearwall::impact::Regime;
@@ -236,7 +236,7 @@ fn legend(marks: &[(String, &str)], y: f64) -> String {
 }
 
 /// The name of an axis for a reader, with its unit.
-fn label(axis: &Axis) -> String {
+fn label(axis: &InputAxis) -> String {
     let input = axis.input();
     let about = input.about.split(" [").next().unwrap_or_default();
     let spacing = if axis.is_logarithmic() { ", logarithmic" } else { "" };
@@ -249,7 +249,7 @@ fn short(value: f64) -> String {
 }
 
 /// Ticks of an axis: the share of its length, and the number; no number at minor ticks.
-fn ticks(axis: &Axis) -> Vec<(f64, String)> {
+fn ticks(axis: &InputAxis) -> Vec<(f64, String)> {
     let [low, high] = axis.ends();
     let tolerance = 1e-9 * (high - low);
     if !axis.is_logarithmic() {
@@ -319,7 +319,7 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_at_their_places() {
         let named = |text: &str| {
-            let axis: Axis = text.parse().unwrap();
+            let axis: InputAxis = text.parse().unwrap();
             let ticks = ticks(&axis).into_iter().filter(|(_, text)| !text.is_empty());
             ticks.map(|(share, text)| (format!("{share:.3}"), text)).collect::<Vec<_>>()
         };
