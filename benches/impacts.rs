@@ -221,11 +221,11 @@ fn contact(criterion: &mut Criterion) {
 
 /// Wax of 75 µm on Pyrex at 1 m/s with little adhesion (0.01 J/m², so that both rebound): for the integration, and for models
 /// with the plain law and with the one whose pull-off yielding raises.
-fn followed() -> (normal_contact::Impact, [Model; 2], Impact) {
+fn followed() -> (normal_contact::ContactImpact, [Model; 2], Impact) {
     let library = nearwall::material::Library::built_in().unwrap();
     let solid = |name: &str| library.get(name).unwrap().mechanical(293.15).unwrap();
     let contact = Contact::new(&solid("montan-wax"), &solid("pyrex"), 0.7, Some(0.01));
-    let followed = normal_contact::Impact {
+    let followed = normal_contact::ContactImpact {
         radius: 37.5e-6,
         density: contact.density,
         reduced_modulus: contact.reduced_modulus,

@@ -9,7 +9,7 @@ mod normal_contact;
 use crate::common::golden::golden_cases;
 use nearwall::material::{Library, Mechanical};
 use nearwall::normal::{Contact, NormalLaw, Speeds, plastic_term};
-use normal_contact::{Bounce, Impact, follow};
+use normal_contact::{Bounce, ContactImpact, follow};
 
 /// Error of a step of the oracle. What it makes of the result is measured by `the_integration_converges`.
 const TOLERANCE: f64 = 1e-10;
@@ -20,7 +20,7 @@ const ALLOWED: f64 = 1e-8;
 /// What the two laws say of an impact that the oracle takes.
 #[derive(Clone, Copy)]
 struct Case {
-    impact: Impact,
+    impact: ContactImpact,
 }
 
 impl Case {
@@ -37,7 +37,7 @@ impl Case {
     }
 
     fn at(&self, speed: f64) -> Self {
-        Self { impact: Impact { speed, ..self.impact } }
+        Self { impact: ContactImpact { speed, ..self.impact } }
     }
 
     fn bounce(&self) -> Bounce {
@@ -65,7 +65,7 @@ impl Case {
 
 fn golden() -> Vec<Case> {
     let case = |golden: &crate::common::golden::Golden| Case {
-        impact: Impact {
+        impact: ContactImpact {
             radius: 0.5 * golden.d,
             density: golden.rho,
             reduced_modulus: golden.reduced_modulus,
@@ -81,7 +81,7 @@ fn golden() -> Vec<Case> {
 fn fluorescein() -> Case {
     let compliance = (1.0 - 0.3 * 0.3) * (1.0 / 1.2e9 + 1.0 / 182e9);
     Case {
-        impact: Impact {
+        impact: ContactImpact {
             radius: 2.45e-6,
             density: 1350.0,
             reduced_modulus: 1.0 / compliance,
@@ -98,7 +98,7 @@ fn wax_on(wall: &str) -> Case {
     let solid = |name: &str| -> Mechanical { library.get(name).unwrap().mechanical(293.15).unwrap() };
     let contact = Contact::new(&solid("montan-wax"), &solid(wall), 0.7, None);
     Case {
-        impact: Impact {
+        impact: ContactImpact {
             radius: 37.5e-6,
             density: contact.density,
             reduced_modulus: contact.reduced_modulus,
@@ -130,7 +130,7 @@ fn the_integration_converges() {
 fn a_hertz_contact_has_hertz_duration_and_force() {
     let base = fluorescein().impact;
     let Bounce { duration, largest_force, rebound_speed, .. } =
-        follow(&Impact { work_of_adhesion: 0.0, limiting_pressure: 1e15, ..base }, TOLERANCE);
+        follow(&ContactImpact { work_of_adhesion: 0.0, limiting_pressure: 1e15, ..base }, TOLERANCE);
     let mass = 4.0 / 3.0 * std::f64::consts::PI * base.density * base.radius.powi(3);
     let energy = mass * base.speed * base.speed;
     let depth = (15.0 / 16.0 * energy / (base.reduced_modulus * base.radius.sqrt())).powf(0.4);
@@ -162,7 +162,7 @@ fn elastic_impacts_agree() {
 #[test]
 fn impacts_without_adhesion_agree() {
     for case in golden() {
-        let dry = Case { impact: Impact { work_of_adhesion: 0.0, ..case.impact } };
+        let dry = Case { impact: ContactImpact { work_of_adhesion: 0.0, ..case.impact } };
         let yielding = dry.speeds(NormalLaw::ThorntonNing).yielding;
         for times in [1.5, 3.0, 30.0, 3e3] {
             let fast = dry.at(times * yielding);
@@ -243,7 +243,7 @@ fn print_plane() {
         let base = fluorescein();
         let factor = f64::powf(adhesiveness / base.adhesiveness(), 6.0 / 5.0);
         let work_of_adhesion = base.impact.work_of_adhesion * factor;
-        let case = Case { impact: Impact { work_of_adhesion, ..base.impact } };
+        let case = Case { impact: ContactImpact { work_of_adhesion, ..base.impact } };
         let [plain, raised] = [NormalLaw::ThorntonNing, NormalLaw::PlasticJkr].map(|law| case.speeds(law));
         print!("v_adh/v_y {adhesiveness:6} v_s raised/plain {:6.3} ", raised.sticking / plain.sticking);
         for times in times {

@@ -61,7 +61,7 @@ fn short(value: f64) -> String {
 
 /// Origin of the computed number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Basis {
+pub enum ClaimBasis {
     /// Computed from the model and the source's inputs; the published number was not used.
     Predicted,
     /// A parameter of the model was fitted to the published number, so agreement proves little.
@@ -70,7 +70,7 @@ pub enum Basis {
     Derived,
 }
 
-impl Basis {
+impl ClaimBasis {
     /// One word for a table.
     pub fn name(self) -> &'static str {
         match self {
@@ -133,7 +133,7 @@ pub struct Claim {
     /// The library's value.
     pub ours: String,
     /// Origin of the library's value.
-    pub basis: Basis,
+    pub basis: ClaimBasis,
     /// Result of the comparison.
     pub verdict: Verdict,
     /// Reason for a difference, or a remark. May be empty only if the claim agrees.
@@ -143,32 +143,32 @@ pub struct Claim {
 impl Claim {
     /// A comparison of numbers. The published number was not used.
     pub fn predicted(place: &str, what: &str, published: Published, ours: f64) -> Self {
-        Basis::Predicted.number(place, what, published, ours)
+        ClaimBasis::Predicted.number(place, what, published, ours)
     }
 
     /// A statement in words. The published number was not used.
     pub fn predicted_statement(place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Self {
-        Basis::Predicted.statement(place, what, published, ours, holds)
+        ClaimBasis::Predicted.statement(place, what, published, ours, holds)
     }
 
     /// A comparison of numbers. A parameter was fitted to the number.
     pub fn fitted(place: &str, what: &str, published: Published, ours: f64) -> Self {
-        Basis::Fitted.number(place, what, published, ours)
+        ClaimBasis::Fitted.number(place, what, published, ours)
     }
 
     /// A statement in words. A parameter was fitted to the number.
     pub fn fitted_statement(place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Self {
-        Basis::Fitted.statement(place, what, published, ours, holds)
+        ClaimBasis::Fitted.statement(place, what, published, ours, holds)
     }
 
     /// A comparison of numbers. It follows from equations alone.
     pub fn derived(place: &str, what: &str, published: Published, ours: f64) -> Self {
-        Basis::Derived.number(place, what, published, ours)
+        ClaimBasis::Derived.number(place, what, published, ours)
     }
 
     /// A statement in words. It follows from equations alone.
     pub fn derived_statement(place: &str, what: &str, published: &str, ours: &str, holds: bool) -> Self {
-        Basis::Derived.statement(place, what, published, ours, holds)
+        ClaimBasis::Derived.statement(place, what, published, ours, holds)
     }
 
     /// A claim that cannot be checked; `why` says what is missing.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
-use validation::{Claim, Extent, STUDIES, Study, Verdict, page, summary};
+use validation::{Claim, Extent, STUDIES, SourceStudy, Verdict, page, summary};
 
 /// Both source papers and independent checks, reproduced on one page.
 #[derive(Debug, Parser)]
@@ -51,7 +51,7 @@ fn run(arguments: &Arguments) -> Result<bool, Box<dyn Error>> {
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     written(folder.join("report.html"), page::page(&studies).html()?)?;
     println!("{}", folder.join("report.html").display());
-    let unexplained: Vec<&Claim> = studies.iter().flat_map(Study::unexplained).collect();
+    let unexplained: Vec<&Claim> = studies.iter().flat_map(SourceStudy::unexplained).collect();
     for claim in &unexplained {
         eprintln!(
             "no reason given: {} {}: {} here, {} there",

@@ -5,18 +5,18 @@ use nearwall::material::{Library, Material, Property};
 use nearwall_lab::report::{BarChart, Figure, Table, number};
 
 use crate::claim::Claim;
-use crate::study::{self, Extent, Part, Study};
+use crate::study::{self, Extent, SourceStudy, StudyPart};
 
 /// Where a number comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Origin {
+enum NumberOrigin {
     Published,
     PartlyAssumed,
     NotReRead,
     Assumed,
 }
 
-impl Origin {
+impl NumberOrigin {
     const ALL: [Self; 4] = [Self::Published, Self::PartlyAssumed, Self::NotReRead, Self::Assumed];
 
     /// As the source's own words tell it.
@@ -46,17 +46,17 @@ impl Origin {
 ///
 /// # Errors
 /// When the built-in library cannot be read.
-pub fn study(_: Extent) -> Result<Study> {
+pub fn study(_: Extent) -> Result<SourceStudy> {
     let library = Library::built_in()?;
     let materials: Vec<&Material> = library.names().iter().filter_map(|name| library.get(name)).collect();
-    let part = Part {
+    let part = StudyPart {
         text: vec!["`nearwall materials NAME` prints the same values.".to_owned()],
         figures: vec![origins(&materials)],
         claims: vec![named(&materials)],
         tables: vec![table(&materials)],
-        ..Part::default()
+        ..StudyPart::default()
     };
-    Ok(Study {
+    Ok(SourceStudy {
         title: "Materials".to_owned(),
         source: "src/material/materials.toml".to_owned(),
         lead: lead(&materials),
@@ -65,15 +65,15 @@ pub fn study(_: Extent) -> Result<Study> {
 }
 
 /// How many values of a material come from there.
-fn count(material: &Material, origin: Origin) -> usize {
-    let of = |property: &Property| Origin::of(property.source().unwrap_or(""));
+fn count(material: &Material, origin: NumberOrigin) -> usize {
+    let of = |property: &Property| NumberOrigin::of(property.source().unwrap_or(""));
     material.properties().filter(|(_, _, property)| of(property) == origin).count()
 }
 
 fn lead(materials: &[&Material]) -> String {
     let total = |origin| materials.iter().map(|material| count(material, origin)).sum::<usize>();
-    let all: usize = Origin::ALL.map(total).iter().sum();
-    let assumed = total(Origin::Assumed);
+    let all: usize = NumberOrigin::ALL.map(total).iter().sum();
+    let assumed = total(NumberOrigin::Assumed);
     format!(
         "Of {all} property values {} are published, in part or from sources that were not re-read, and \
          {assumed} are assumed. The most important assumed values are the yield strength of hot tungsten \
@@ -84,8 +84,8 @@ fn lead(materials: &[&Material]) -> String {
 
 fn origins(materials: &[&Material]) -> Figure {
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
-    let mut bars = BarChart::new("Origin of the values", "property values", &names).stacked();
-    for origin in Origin::ALL {
+    let mut bars = BarChart::new("NumberOrigin of the values", "property values", &names).stacked();
+    for origin in NumberOrigin::ALL {
         let counts: Vec<f64> = materials.iter().map(|material| count(material, origin) as f64).collect();
         bars = bars.series(origin.name(), &counts);
     }
@@ -123,7 +123,7 @@ fn table(materials: &[&Material]) -> Table {
             key,
             format!("{value}{uncertainty} {unit}").trim_end_matches(" 1"),
             &format!("{} to {}", number(low), number(high)),
-            Origin::of(source).name(),
+            NumberOrigin::of(source).name(),
         ]
         .map(str::to_owned)
         .to_vec()

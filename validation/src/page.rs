@@ -3,7 +3,7 @@
 use nearwall_lab::report::{Figure, Page, RowStatus, Table};
 
 use crate::claim::{Claim, Verdict};
-use crate::study::{Part, Study, table};
+use crate::study::{SourceStudy, StudyPart, table};
 
 /// Every verdict in the order of the page, with its colour.
 const VERDICTS: [(Verdict, RowStatus); 3] = [
@@ -30,7 +30,7 @@ const DOUBT: &str = "Not predicted: which particles stick in Pilot-PSI (no work 
 pub const ADVICE: [&str; 3] = [TRUST, CALIBRATE, DOUBT];
 
 /// The page of all studies.
-pub fn page(studies: &[Study]) -> Page {
+pub fn page(studies: &[SourceStudy]) -> Page {
     let mut page = Page::new("nearwall: comparison with its sources");
     summary(&mut page, studies);
     for study in studies {
@@ -43,7 +43,7 @@ pub fn page(studies: &[Study]) -> Page {
     page
 }
 
-fn summary(page: &mut Page, studies: &[Study]) {
+fn summary(page: &mut Page, studies: &[SourceStudy]) {
     let total = |verdict| studies.iter().map(|study| study.count(verdict)).sum::<usize>();
     let all: usize = studies.iter().map(|study| study.claims().count()).sum();
     page.verdict(vec![
@@ -68,10 +68,10 @@ fn summary(page: &mut Page, studies: &[Study]) {
 }
 
 /// The studies with their verdicts.
-pub fn overview(studies: &[Study]) -> Table {
+pub fn overview(studies: &[SourceStudy]) -> Table {
     let [agree, differ, open] = VERDICTS.map(|(verdict, _)| verdict.name());
     let header = format!("study | {agree} | {differ} | {open} | summary");
-    let row = |study: &Study| {
+    let row = |study: &SourceStudy| {
         let mut row = vec![study.title.clone()];
         row.extend(VERDICTS.map(|(verdict, _)| study.count(verdict).to_string()));
         row.push(study.lead.clone());
@@ -80,7 +80,7 @@ pub fn overview(studies: &[Study]) -> Table {
     table("", 0, &header, studies.iter().map(row).collect())
 }
 
-fn add_part(page: &mut Page, part: &Part) {
+fn add_part(page: &mut Page, part: &StudyPart) {
     if !part.heading.is_empty() {
         page.subheading(part.heading.clone());
     }

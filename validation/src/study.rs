@@ -25,7 +25,7 @@ impl Extent {
 
 /// One subject of a study: text, inputs, figures and claims.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Part {
+pub struct StudyPart {
     /// Its heading.
     pub heading: String,
     /// Paragraphs: the comparison and its result.
@@ -40,7 +40,7 @@ pub struct Part {
 
 /// A source and the comparisons with it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Study {
+pub struct SourceStudy {
     /// Short name, for the overview.
     pub title: String,
     /// The source in full.
@@ -48,10 +48,10 @@ pub struct Study {
     /// The result in two short sentences.
     pub lead: String,
     /// Its parts.
-    pub parts: Vec<Part>,
+    pub parts: Vec<StudyPart>,
 }
 
-impl Study {
+impl SourceStudy {
     /// All its claims.
     pub fn claims(&self) -> impl Iterator<Item = &Claim> {
         self.parts.iter().flat_map(|part| &part.claims)

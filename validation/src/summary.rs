@@ -2,10 +2,10 @@
 
 use crate::claim::Verdict;
 use crate::page::{self, ADVICE};
-use crate::study::Study;
+use crate::study::SourceStudy;
 
 /// Every statement of every study, without pictures.
-pub fn summary(studies: &[Study]) -> String {
+pub fn summary(studies: &[SourceStudy]) -> String {
     let all: usize = studies.iter().map(|study| study.claims().count()).sum();
     let total = |verdict| studies.iter().map(|study| study.count(verdict)).sum::<usize>();
     let mut text = format!(

@@ -7,11 +7,11 @@ use nearwall_lab::diagnose::{ImpactDiagnosis, Options};
 use nearwall_lab::report::diagnosis_page;
 use pyo3::prelude::*;
 
-use crate::table::Source;
+use crate::table::TableSource;
 use crate::work::run;
 
 /// diagnosis.json, extended.toml, report.html, drawn model files, notes.
-type Found = (String, String, String, Vec<String>, Vec<String>);
+type DiagnosisOutput = (String, String, String, Vec<String>, Vec<String>);
 
 /// Diagnoses measured impacts against a model, given by name and text.
 #[pyfunction]
@@ -20,14 +20,14 @@ type Found = (String, String, String, Vec<String>, Vec<String>);
 pub fn diagnose(
     py: Python<'_>,
     model: (String, String),
-    data: Source,
+    data: TableSource,
     columns: Option<String>,
     group: Option<String>,
     wall: Option<String>,
     seed: u64,
     level: f64,
     draws: usize,
-) -> PyResult<Found> {
+) -> PyResult<DiagnosisOutput> {
     let (name, text) = model;
     run(py, move |tick| {
         let columns = columns.as_deref().map(Path::new);

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use nearwall_lab::results::openfoam::{impact_history, surfaces, table};
 use pyo3::prelude::*;
 
-use crate::table::{Cells, ForPython, floats};
+use crate::table::{ForPython, TableCells, floats};
 use crate::work::{Failure, run};
 
 /// Folder of the tables in a case.
-const TABLES: &str = "postProcessing/nearWallInteraction";
+const TABLE_FOLDER: &str = "postProcessing/nearWallInteraction";
 
 /// The clouds of a case that have tables.
 #[pyfunction]
@@ -19,7 +19,7 @@ pub fn clouds(py: Python<'_>, case: PathBuf) -> PyResult<Vec<String>> {
             let problem = "there is no such folder; give the folder of a finished OpenFOAM case";
             return Err(format!("{}: {problem}", case.display()).into());
         }
-        let folders = std::fs::read_dir(case.join(TABLES)).into_iter().flatten().flatten();
+        let folders = std::fs::read_dir(case.join(TABLE_FOLDER)).into_iter().flatten().flatten();
         let folders = folders.filter(|entry| entry.path().is_dir());
         let mut names: Vec<String> =
             folders.filter_map(|entry| entry.file_name().into_string().ok()).collect();
@@ -37,7 +37,7 @@ pub fn tables(
     ending: &str,
     unlike: Vec<String>,
 ) -> PyResult<Vec<(String, Vec<ForPython>)>> {
-    let folder = case.join(TABLES).join(cloud);
+    let folder = case.join(TABLE_FOLDER).join(cloud);
     let unlike: Vec<&str> = unlike.iter().map(String::as_str).collect();
     let found = run(py, |_| {
         let rows = table::histories(&folder, ending, &unlike, |row| {
@@ -57,7 +57,7 @@ pub fn tables(
                     header.push(column.clone());
                 }
             }
-            let mut cells = Cells::new(header.iter().cloned());
+            let mut cells = TableCells::new(header.iter().cloned());
             for (_, row) in &history.rows {
                 let cell = |name: &String| row.iter().find(|(column, _)| column == name);
                 cells.push(header.iter().map(|name| cell(name).map_or("", |(_, cell)| cell.as_str())));

@@ -7,7 +7,7 @@ use nearwall_lab::dataset::{BadRow, ImpactReader, Row};
 use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use pyo3::prelude::*;
 
-use crate::table::{Cells, ForPython, Source, floats};
+use crate::table::{ForPython, TableCells, TableSource, floats};
 use crate::work::{Failure, run};
 
 /// Columns of the file, if it was one; added columns of numbers; regimes; rows left out, with their lines; notes.
@@ -17,7 +17,7 @@ type ForCaller =
 /// The same before it becomes Python's.
 struct Predictions {
     /// The rows of a file; none of a frame, which the caller has.
-    cells: Option<Cells>,
+    cells: Option<TableCells>,
     /// Columns of [`VALUES`], then of [`BANDS`] if there are drawn models.
     numbers: Vec<Vec<f64>>,
     regimes: Vec<Option<&'static str>>,
@@ -30,7 +30,7 @@ struct Predictions {
 pub fn predict(
     py: Python<'_>,
     model: (String, String),
-    data: Source,
+    data: TableSource,
     wall: Option<String>,
     draws: Option<String>,
 ) -> PyResult<ForCaller> {
@@ -46,7 +46,7 @@ pub fn predict(
 
 fn predict_rows(
     (name, text): &(String, String),
-    data: &Source,
+    data: &TableSource,
     wall: Option<&str>,
     draws: Option<&str>,
     tick: &(dyn Fn() + Sync),
@@ -59,7 +59,7 @@ fn predict_rows(
         predictor.read_draws(Path::new(folder))?;
     }
     let header = reader.headers().iter().map(str::to_owned);
-    let cells = matches!(data, Source::File(_)).then(|| Cells::new(header));
+    let cells = matches!(data, TableSource::File(_)).then(|| TableCells::new(header));
     let mut found = Predictions::new(cells, predictor.has_bands(), file_notes(file, &reader));
     let mut notes = RowNotes::default();
     let mut row = Row::default();
@@ -75,7 +75,7 @@ fn predict_rows(
 }
 
 impl Predictions {
-    fn new(cells: Option<Cells>, bands: bool, notes: Vec<String>) -> Self {
+    fn new(cells: Option<TableCells>, bands: bool, notes: Vec<String>) -> Self {
         let columns = VALUES.len() + if bands { BANDS.len() } else { 0 };
         Self { cells, numbers: vec![Vec::new(); columns], regimes: Vec::new(), left_out: Vec::new(), notes }
     }

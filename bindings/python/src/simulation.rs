@@ -8,15 +8,16 @@ use nearwall_lab::rig::{DrawnModels, add_capture_bands};
 use nearwall_lab::simulate::Case;
 use pyo3::prelude::*;
 
-use crate::table::{Cells, ForPython};
+use crate::table::{ForPython, TableCells};
 use crate::work::{Failure, run};
 
 /// summary.json; impacts.csv and deposit.csv as texts and as columns; report.html; notes.
-type Simulated = (String, String, Vec<ForPython>, Option<(String, Vec<ForPython>)>, String, Vec<String>);
+type SimulationOutput =
+    (String, String, Vec<ForPython>, Option<(String, Vec<ForPython>)>, String, Vec<String>);
 
 /// Runs a case file.
 #[pyfunction]
-pub fn simulate(py: Python<'_>, case: String, draws: Option<String>) -> PyResult<Simulated> {
+pub fn simulate(py: Python<'_>, case: String, draws: Option<String>) -> PyResult<SimulationOutput> {
     let (json, impacts, deposit, page, notes) = run(py, |tick| {
         let mut case = Case::from_file(Path::new(&case))?;
         let draws =
@@ -42,7 +43,7 @@ pub fn simulate(py: Python<'_>, case: String, draws: Option<String>) -> PyResult
         let deposit = case.deposit.is_some().then(|| write_deposits(Vec::new(), &case, &runs)).transpose()?;
         Ok::<_, Failure>((json, impacts, deposit.map(String::from_utf8).transpose()?, page, notes))
     })?;
-    let columns = |text: &str| match Cells::read(text.as_bytes()) {
+    let columns = |text: &str| match TableCells::read(text.as_bytes()) {
         Ok(cells) => cells.for_python(py),
         Err(error) => Err(crate::work::error(py, &error.to_string())),
     };

@@ -10,18 +10,18 @@ use crate::work::{Failure, run};
 
 /// The rows of a table as Python hands them over.
 #[derive(FromPyObject)]
-pub enum Source {
+pub enum TableSource {
     /// Path of a CSV file.
     #[pyo3(transparent)]
     File(String),
     /// Names and columns.
     #[pyo3(transparent)]
-    Columns(Vec<(String, Column)>),
+    Columns(Vec<(String, InputColumn)>),
 }
 
 /// A column.
 #[derive(FromPyObject)]
-pub enum Column {
+pub enum InputColumn {
     /// 64-bit floats in the order of this machine; NaN is a blank.
     #[pyo3(transparent)]
     Numbers(Vec<u8>),
@@ -36,7 +36,7 @@ pub type ForPython = (String, Py<PyAny>);
 /// Name of a table without a file in messages.
 const FRAME: &str = "frame";
 
-impl Source {
+impl TableSource {
     /// Its name in messages.
     pub fn name(&self) -> &str {
         match self {
@@ -60,7 +60,7 @@ impl Source {
     }
 }
 
-impl Column {
+impl InputColumn {
     fn len(&self) -> usize {
         match self {
             Self::Numbers(bytes) => bytes.len() / size_of::<f64>(),
@@ -84,7 +84,7 @@ impl Column {
     }
 }
 
-fn csv_text(columns: &[(String, Column)]) -> Result<Vec<u8>, Failure> {
+fn csv_text(columns: &[(String, InputColumn)]) -> Result<Vec<u8>, Failure> {
     // A row that begins with # would be a comment, and a row of one blank cell no row.
     let mut writer = csv::WriterBuilder::new().comment(Some(b'#')).from_writer(Vec::new());
     writer.write_record(columns.iter().map(|(name, _)| name))?;
@@ -102,12 +102,12 @@ fn csv_text(columns: &[(String, Column)]) -> Result<Vec<u8>, Failure> {
 }
 
 /// The columns of a table whose cells are texts.
-pub struct Cells {
+pub struct TableCells {
     header: Vec<String>,
     columns: Vec<Vec<String>>,
 }
 
-impl Cells {
+impl TableCells {
     /// An empty table.
     pub fn new(header: impl IntoIterator<Item = String>) -> Self {
         let header: Vec<String> = header.into_iter().collect();
@@ -169,7 +169,7 @@ pub fn floats(py: Python<'_>, values: &[f64]) -> Py<PyAny> {
 pub fn read_csv(py: Python<'_>, path: String) -> PyResult<Vec<ForPython>> {
     let cells = run(py, |_| {
         let source = std::fs::File::open(&path).map_err(|error| format!("{path}: {error}"))?;
-        Cells::read(source).map_err(|error| format!("{path}: {error}").into())
+        TableCells::read(source).map_err(|error| format!("{path}: {error}").into())
     })?;
     cells.for_python(py)
 }

@@ -80,9 +80,9 @@ pub(super) fn fly_timed(
                 return Err(SimulationError::TooManySteps(STEP_LIMIT));
             }
             match try_step(&mut solver, motion)? {
-                Tried::Taken => {}
-                Tried::Rejected => continue,
-                Tried::Stiff => {
+                StepAttempt::Taken => {}
+                StepAttempt::Rejected => continue,
+                StepAttempt::Stiff => {
                     (now, here) = (solver.t(), *solver.y());
                     break;
                 }
@@ -99,7 +99,7 @@ pub(super) fn fly_timed(
 }
 
 /// What became of a step of the integration.
-enum Tried {
+enum StepAttempt {
     Taken,
     /// Too long; the solver tries a shorter one.
     Rejected,
@@ -107,17 +107,17 @@ enum Tried {
     Stiff,
 }
 
-fn try_step<S>(solver: &mut S, motion: &ParticleMotion<'_>) -> Result<Tried, SimulationError>
+fn try_step<S>(solver: &mut S, motion: &ParticleMotion<'_>) -> Result<StepAttempt, SimulationError>
 where
     S: OrdinaryNumericalMethod<f64, ParticleState>,
 {
     match solver.step(motion) {
         Ok(_) if matches!(solver.status(), Status::RejectedStep) && solver.h().is_normal() => {
-            Ok(Tried::Rejected)
+            Ok(StepAttempt::Rejected)
         }
         Ok(_) if matches!(solver.status(), Status::RejectedStep) => Err(SimulationError::NotFinite),
-        Ok(_) if solver.y().iter().all(|value| value.is_finite()) => Ok(Tried::Taken),
-        Err(Error::Stiffness { .. }) => Ok(Tried::Stiff),
+        Ok(_) if solver.y().iter().all(|value| value.is_finite()) => Ok(StepAttempt::Taken),
+        Err(Error::Stiffness { .. }) => Ok(StepAttempt::Stiff),
         Err(Error::MaxSteps { .. }) => Err(SimulationError::TooManySteps(STEP_LIMIT)),
         _ => Err(SimulationError::NotFinite),
     }

@@ -5,19 +5,19 @@ use std::f64::consts::PI;
 use nearwall::normal::{Contact, adhesive_velocity, restitution};
 use nearwall_lab::report::{Chart, Figure, Table, number};
 
-use super::{DIAMETER, Result, wax_on_pyrex};
+use super::{Result, WAX_PARTICLE_DIAMETER, wax_on_pyrex};
 use crate::claim::{Claim, Published};
 use crate::oracle::jkr::{Cycle, Jkr};
 use crate::steps::{even, even_in_logarithm};
-use crate::study::{Part, table};
+use crate::study::{StudyPart, table};
 
 const PLACE: &str = "Thornton & Ning 1998";
 
 /// Quadrature in double precision: what is left of sixteen digits after some thousand operations.
 const QUADRATURE: f64 = 1e-10;
 
-pub fn part() -> Result<Part> {
-    Ok(Part {
+pub fn part() -> Result<StudyPart> {
+    Ok(StudyPart {
         heading: "Adhesion: energy of the JKR cycle".to_owned(),
         text: text(),
         tables: vec![conventions()],
@@ -99,7 +99,7 @@ fn worst_adhesive_velocity() -> Result<f64> {
             work_of_adhesion: wax.work_of_adhesion * factor(2),
             ..wax
         };
-        let diameter = DIAMETER * factor(3);
+        let diameter = WAX_PARTICLE_DIAMETER * factor(3);
         let sphere = Jkr {
             radius: 0.5 * diameter,
             density: contact.density,

@@ -7,11 +7,11 @@ use nearwall::normal::Contact;
 use nearwall::tangential::{ImpactKinematics, LISTED_LAWS, Rebound, TangentialLaw, critical_angle};
 use nearwall_lab::report::{Chart, Figure, Table, number};
 
-use super::{DIAMETER, FRICTION, Result, wax_on_pyrex};
+use super::{Result, WAX_ON_PYREX_FRICTION, WAX_PARTICLE_DIAMETER, wax_on_pyrex};
 use crate::claim::{Claim, Published};
-use crate::oracle::compliant_sphere::{CompliantSphere, Left};
+use crate::oracle::compliant_sphere::{CompliantRebound, CompliantSphere};
 use crate::steps::{even, even_in_logarithm};
-use crate::study::{self, Extent, Part};
+use crate::study::{self, Extent, StudyPart};
 use crate::terms::term;
 
 pub const HEADING: &str = "Tangential compliance: elastic theory and an assumed power law";
@@ -28,7 +28,7 @@ const MEETING_TROIANO: [f64; 2] = [1.0, 2.2];
 const HEAD_ON: f64 = 89.99;
 
 /// Rolling [1].
-const ROLLING: f64 = 5.0 / 7.0;
+const ROLLING_SHARE: f64 = 5.0 / 7.0;
 
 /// Up to here [1] a law of `e_t` counts as meeting the theory: assumed, about what a measured `e_t` is good for.
 const GOOD: f64 = 0.02;
@@ -53,8 +53,8 @@ impl Theory {
     }
 
     /// What an elastic impact `degrees` from the surface leaves.
-    fn at(&self, degrees: f64) -> Left {
-        self.sphere.impact(FRICTION, 1.0 / degrees.to_radians().tan())
+    fn at(&self, degrees: f64) -> CompliantRebound {
+        self.sphere.impact(WAX_ON_PYREX_FRICTION, 1.0 / degrees.to_radians().tan())
     }
 
     fn e_t(&self, degrees: f64) -> f64 {
@@ -78,8 +78,8 @@ fn glance(k: f64, degrees: f64, rim: f64) -> ImpactKinematics {
     ImpactKinematics {
         normal_speed,
         tangential_speed,
-        diameter: DIAMETER,
-        spin: 2.0 * rim * tangential_speed / DIAMETER,
+        diameter: WAX_PARTICLE_DIAMETER,
+        spin: 2.0 * rim * tangential_speed / WAX_PARTICLE_DIAMETER,
         normal_restitution: 1.0,
         stiffness_ratio: k,
     }
@@ -87,7 +87,7 @@ fn glance(k: f64, degrees: f64, rim: f64) -> ImpactKinematics {
 
 /// `e_t` of the library's effect for an elastic impact without spin.
 fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Result<f64> {
-    let term = term("tangential-compliance", &[FRICTION, near_normal, exponent])?;
+    let term = term("tangential-compliance", &[WAX_ON_PYREX_FRICTION, near_normal, exponent])?;
     let before = Rebound { restitution: 0.0, spin: 0.0 };
     Ok(term.effect().tangential(&glance(k, degrees, 0.0), before).restitution)
 }
@@ -95,7 +95,7 @@ fn effect(k: f64, [near_normal, exponent]: [f64; 2], degrees: f64) -> Result<f64
 /// What the library's law of the theory leaves.
 fn law(impact: &ImpactKinematics) -> Result<Rebound> {
     let law = LISTED_LAWS.iter().find(|law| law.name == "maw-barber-fawcett").ok_or("no law")?;
-    Ok(TangentialLaw::Listed { law, values: [FRICTION, 0.0, 0.0, 0.0] }.rebound(impact))
+    Ok(TangentialLaw::Listed { law, values: [WAX_ON_PYREX_FRICTION, 0.0, 0.0, 0.0] }.rebound(impact))
 }
 
 /// How far the law is from the integrated theory, over stiffness ratios, angles and spins: speed along the wall and speed of the rim,
@@ -108,10 +108,11 @@ fn law_from_theory(extent: Extent) -> Result<f64> {
             for rim in [-3.0, 0.0, 0.6] {
                 let impact = glance(k, degrees, rim);
                 let slip = impact.tangential_speed * (1.0 - rim);
-                let integrated = theory.sphere.impact(FRICTION, slip / impact.normal_speed).impulse;
+                let integrated =
+                    theory.sphere.impact(WAX_ON_PYREX_FRICTION, slip / impact.normal_speed).impulse;
                 let left = law(&impact)?;
                 let along = (1.0 - left.restitution) * impact.tangential_speed / slip;
-                let turned = 0.2 * DIAMETER * (left.spin - impact.spin) / slip;
+                let turned = 0.2 * WAX_PARTICLE_DIAMETER * (left.spin - impact.spin) / slip;
                 largest = largest.max((along - integrated).abs()).max((turned - integrated).abs());
             }
         }
@@ -120,13 +121,13 @@ fn law_from_theory(extent: Extent) -> Result<f64> {
 }
 
 /// The parameters of the effect that come nearest to the theory past the critical angle, and how near.
-struct Fit {
+struct ComplianceFit {
     parameters: [f64; 2],
     rms: f64,
     largest: f64,
 }
 
-impl Fit {
+impl ComplianceFit {
     /// Least squares over evenly spaced angles: `near_normal` enters linearly, the exponent is looked for on a fine ladder within its
     /// bounds (0.05 to 20).
     fn new(k: f64, points: &[[f64; 2]]) -> Result<Self> {
@@ -170,7 +171,7 @@ struct Compared {
     /// The theory over the angle [degrees]: past the end of sliding, and before it.
     past: Vec<[f64; 2]>,
     glancing: Vec<[f64; 2]>,
-    fit: Fit,
+    fit: ComplianceFit,
 }
 
 impl Compared {
@@ -178,10 +179,10 @@ impl Compared {
         let wax = wax_on_pyrex()?;
         let k = wax.stiffness_ratio;
         let theory = Theory::new(k, extent);
-        let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
+        let critical = critical_angle(WAX_ON_PYREX_FRICTION, 1.0, k).to_degrees();
         let past = theory.over([critical + 0.01, 89.9], extent.count(400));
         let glancing = theory.over([2.0, critical], extent.count(200));
-        let fit = Fit::new(k, &past)?;
+        let fit = ComplianceFit::new(k, &past)?;
         Ok(Self { wax, k, theory, critical, past, glancing, fit })
     }
 
@@ -191,9 +192,9 @@ impl Compared {
     }
 }
 
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let compared = Compared::new(extent)?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: HEADING.to_owned(),
         text: text(&compared),
         tables: vec![table(extent)],
@@ -221,7 +222,7 @@ fn text(compared: &Compared) -> Vec<String> {
          never made; only k and psi count."
             .to_owned(),
         format!(
-            "For k = {} (wax on Pyrex), f = {FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° \
+            "For k = {} (wax on Pyrex), f = {WAX_ON_PYREX_FRICTION} and e_n = 1, e_t leaves sliding at {critical:.1}° \
              with {}, falls to {} at {lowest_at:.0}° and comes back to {} head-on. It rises above rolling \
              only for stiffer tangential contacts: to the values in the table.",
             number(*k),
@@ -257,7 +258,7 @@ fn gross_slip(compared: &Compared) -> Result<Claim> {
         THEORY,
         "the effect up to the critical angle (gross slip): largest difference in e_t",
         Published::within(0.0, ACCURACY),
-        Fit::of(compared.k, compared.fit.parameters, &compared.glancing)?.largest,
+        ComplianceFit::of(compared.k, compared.fit.parameters, &compared.glancing)?.largest,
     ))
 }
 
@@ -267,7 +268,7 @@ fn all_friction(compared: &Compared) -> Claim {
         THEORY,
         "share of the friction that acts at the critical angle of Eq. 11, e_n = 1 (below it all acts)",
         Published::within(1.0, ACCURACY),
-        compared.theory.at(critical).impulse / (critical.to_radians().tan() * 2.0 * FRICTION),
+        compared.theory.at(critical).impulse / (critical.to_radians().tan() * 2.0 * WAX_ON_PYREX_FRICTION),
     )
 }
 
@@ -280,12 +281,12 @@ fn below_rolling(compared: &Compared) -> Result<Claim> {
         "e_t lies below rolling (5/7) just past the transition",
         &format!("{} at {just_past:.0}°", number(by_theory)),
         &number(by_effect),
-        by_effect < ROLLING && by_theory < ROLLING,
+        by_effect < ROLLING_SHARE && by_theory < ROLLING_SHARE,
     ))
 }
 
 fn nearest(compared: &Compared) -> Claim {
-    let Fit { parameters: [near_normal, exponent], rms, largest } = compared.fit;
+    let ComplianceFit { parameters: [near_normal, exponent], rms, largest } = compared.fit;
     let [lowest_at, lowest] = lowest(&compared.past);
     Claim::fitted(
         THEORY,
@@ -316,7 +317,7 @@ fn with_the_papers_number(compared: &Compared) -> Result<Claim> {
              (near_normal {near_normal}, exponent {exponent}): largest difference in e_t"
         ),
         Published::within(0.0, GOOD),
-        Fit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest,
+        ComplianceFit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest,
     )
     .because(
         "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung \
@@ -345,7 +346,7 @@ fn the_papers_number(compared: &Compared) -> Claim {
 /// Frequency along the wall over frequency along the normal, squared [1], at the deepest point of a fully plastic impact of 1 m/s:
 /// `m v²/2 = pi R p_y delta²`.
 fn plastic_swing(contact: &Contact) -> f64 {
-    let radius = 0.5 * DIAMETER;
+    let radius = 0.5 * WAX_PARTICLE_DIAMETER;
     let mass = 4.0 / 3.0 * PI * radius.powi(3) * contact.density;
     let normal = 2.0 * PI * radius * contact.limiting_pressure();
     let deepest = (mass / normal).sqrt();
@@ -356,7 +357,7 @@ fn plastic_swing(contact: &Contact) -> f64 {
 fn table(extent: Extent) -> Table {
     let row = |[k, nu]: [f64; 2]| {
         let theory = Theory::new(k, extent);
-        let critical = critical_angle(FRICTION, 1.0, k).to_degrees();
+        let critical = critical_angle(WAX_ON_PYREX_FRICTION, 1.0, k).to_degrees();
         let [lowest_at, lowest] = lowest(&theory.over([critical, 89.9], extent.count(100).max(30)));
         vec![
             number(k),
@@ -369,7 +370,9 @@ fn table(extent: Extent) -> Table {
         ]
     };
     study::table(
-        &format!("Elastic theory over k, f = {FRICTION}, without spin; Poisson's ratio of two equal solids"),
+        &format!(
+            "Elastic theory over k, f = {WAX_ON_PYREX_FRICTION}, without spin; Poisson's ratio of two equal solids"
+        ),
         0,
         "k [1] | Poisson's ratio [1] | critical [°] | e_t there | lowest e_t | e_t at 80° | e_t head-on",
         [[2.0 / 3.0, 0.5], [0.75, 0.4], [0.7 / 0.85, 0.3], [0.8 / 0.9, 0.2], [1.0, 0.0]].map(row).to_vec(),
@@ -390,7 +393,7 @@ fn chart(compared: &Compared) -> Result<Figure> {
         .line("effect, near_normal 1, exponent 2.2", &curve(MEETING_TROIANO)?)
         .line("law maw-barber-fawcett", &by_law)
         .points("elastic theory", &compared.theory.over([3.0, 89.9], 60))
-        .mark_y(ROLLING, "5/7")
+        .mark_y(ROLLING_SHARE, "5/7")
         .mark_x(compared.critical, "")
         .x_range(0.0, 90.0)
         .y_range(0.4, 1.0)

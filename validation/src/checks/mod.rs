@@ -12,19 +12,19 @@ use crate::Result;
 use nearwall::material::Library;
 use nearwall::normal::Contact;
 
-use crate::study::{Extent, Study};
+use crate::study::{Extent, SourceStudy};
 
 /// Friction of wax on Pyrex [1] (Troiano et al., Fig 7), used wherever one is needed.
-const FRICTION: f64 = 0.28;
+const WAX_ON_PYREX_FRICTION: f64 = 0.28;
 
 /// Diameter of the wax particles [m] (Troiano et al.).
-const DIAMETER: f64 = 75e-6;
+const WAX_PARTICLE_DIAMETER: f64 = 75e-6;
 
 /// Runs every check.
 ///
 /// # Errors
 /// When a material or the measured table cannot be read.
-pub fn study(extent: Extent) -> Result<Study> {
+pub fn study(extent: Extent) -> Result<SourceStudy> {
     let parts = vec![
         adhesion::part()?,
         normal_contact::part(extent)?,
@@ -34,7 +34,7 @@ pub fn study(extent: Extent) -> Result<Study> {
         resuspension::part(),
         properties::part(),
     ];
-    Ok(Study {
+    Ok(SourceStudy {
         title: "Independent checks".to_owned(),
         source: format!(
             "Not a paper: independent computation of the same quantities (validation/src/oracle, without \

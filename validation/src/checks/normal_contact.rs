@@ -3,16 +3,16 @@
 use nearwall::normal::{Contact, NormalLaw};
 use nearwall_lab::report::{Chart, Figure, number};
 
-use super::{DIAMETER as WAX, Result, wax_on};
+use super::{Result, WAX_PARTICLE_DIAMETER as WAX, wax_on};
 use crate::claim::{Claim, Published};
-use crate::oracle::normal_contact::{Impact, follow};
+use crate::oracle::normal_contact::{ContactImpact, follow};
 use crate::steps::even_in_logarithm;
-use crate::study::{Extent, Part};
+use crate::study::{Extent, StudyPart};
 
 /// Error of a step of the integration.
-const TOLERANCE: f64 = 1e-10;
+const STEP_TOLERANCE: f64 = 1e-10;
 /// Diameter of the particle of the figures [m]; the result depends on `v_adh/v_y` and `v/v_y` alone.
-const DIAMETER: f64 = 20e-6;
+const SPHERE_DIAMETER: f64 = 20e-6;
 
 /// A contact whose adhesive velocity is so many times its yield velocity.
 fn contact(ratio: f64) -> Contact {
@@ -25,7 +25,7 @@ fn contact(ratio: f64) -> Contact {
         stiffness_ratio: 0.7,
         melt: None,
     };
-    let speeds = NormalLaw::ThorntonNing.speeds(&without, DIAMETER);
+    let speeds = NormalLaw::ThorntonNing.speeds(&without, SPHERE_DIAMETER);
     // v_adh goes with W^(5/6).
     Contact { work_of_adhesion: (ratio * speeds.yielding / speeds.adhesive).powf(1.2), ..without }
 }
@@ -48,7 +48,7 @@ fn fluorescein() -> Contact {
 
 /// `e_n` of the impact as it is followed.
 fn followed(contact: &Contact, diameter: f64, speed: f64) -> f64 {
-    let impact = Impact {
+    let impact = ContactImpact {
         radius: 0.5 * diameter,
         density: contact.density,
         reduced_modulus: contact.reduced_modulus,
@@ -56,7 +56,7 @@ fn followed(contact: &Contact, diameter: f64, speed: f64) -> f64 {
         limiting_pressure: contact.limiting_pressure(),
         speed,
     };
-    follow(&impact, TOLERANCE).rebound_speed / speed
+    follow(&impact, STEP_TOLERANCE).rebound_speed / speed
 }
 
 fn restitution(law: NormalLaw, contact: &Contact, diameter: f64, speed: f64) -> f64 {
@@ -67,7 +67,7 @@ fn restitution(law: NormalLaw, contact: &Contact, diameter: f64, speed: f64) -> 
 pub(super) const HEADING: &str = "Normal impact, integrated in time";
 
 /// `v_adh/v_y` [1] for which impacts are followed.
-const RATIOS: [f64; 3] = [0.3, 3.0, 30.0];
+const SPEED_RATIOS: [f64; 3] = [0.3, 3.0, 30.0];
 
 /// Both laws and the followed impact over `v/v_y`.
 struct Curves {
@@ -80,18 +80,18 @@ struct Curves {
 impl Curves {
     fn new(ratio: f64, steps: usize) -> Self {
         let contact = contact(ratio);
-        let plain = NormalLaw::ThorntonNing.speeds(&contact, DIAMETER);
-        let raised = NormalLaw::PlasticJkr.speeds(&contact, DIAMETER);
+        let plain = NormalLaw::ThorntonNing.speeds(&contact, SPHERE_DIAMETER);
+        let raised = NormalLaw::PlasticJkr.speeds(&contact, SPHERE_DIAMETER);
         let speeds = even_in_logarithm([0.9 * plain.sticking, 30.0 * raised.sticking], steps);
         let line = |e_n: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> {
             speeds.clone().map(|v| [v / plain.yielding, e_n(v)]).collect()
         };
-        let of = |law: NormalLaw| line(&|v| restitution(law, &contact, DIAMETER, v));
+        let of = |law: NormalLaw| line(&|v| restitution(law, &contact, SPHERE_DIAMETER, v));
         Self {
             ratio,
             closed: of(NormalLaw::ThorntonNing),
             raised: of(NormalLaw::PlasticJkr),
-            followed: line(&|v| followed(&contact, DIAMETER, v)),
+            followed: line(&|v| followed(&contact, SPHERE_DIAMETER, v)),
         }
     }
 
@@ -102,10 +102,10 @@ impl Curves {
 }
 
 /// The part.
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let steps = extent.count(120).max(25);
-    let curves = RATIOS.map(|ratio| Curves::new(ratio, steps));
-    Ok(Part {
+    let curves = SPEED_RATIOS.map(|ratio| Curves::new(ratio, steps));
+    Ok(StudyPart {
         heading: HEADING.to_owned(),
         text: vec![
             "The closed form of Thornton & Ning adds what adhesion and yielding take. Yielding also \
@@ -117,7 +117,7 @@ pub fn part(extent: Extent) -> Result<Part> {
         ],
         figures: vec![chart(&curves), ratios(extent)?],
         claims: claims(curves.iter().map(Curves::gap).fold(0.0, f64::max)),
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
@@ -151,7 +151,7 @@ fn ratios(extent: Extent) -> Result<Figure> {
     let line: Vec<[f64; 2]> = ratios
         .map(|ratio| {
             let contact = contact(ratio);
-            let sticking = |law: NormalLaw| law.speeds(&contact, DIAMETER).sticking;
+            let sticking = |law: NormalLaw| law.speeds(&contact, SPHERE_DIAMETER).sticking;
             [ratio, sticking(NormalLaw::PlasticJkr) / sticking(NormalLaw::ThorntonNing)]
         })
         .collect();

@@ -1,9 +1,9 @@
 //! Which properties are tested for random models and impacts, and how to run the tests.
 
-use crate::study::{Part, table};
+use crate::study::{StudyPart, table};
 
 /// Group of tests (a file of tests/properties) and what it says.
-const PROPERTIES: [[&str; 2]; 13] = [
+const PROPERTY_TESTS: [[&str; 2]; 13] = [
     ["bounds", "e_n, e_t and the probability of capture lie in 0 to 1 for every law and effect (1)"],
     ["bounds", "inputs of 1e-300 to 1e300 give numbers, and no panic"],
     ["energy", "motion and spin together never gain, with any spin, for every law and effect (2)"],
@@ -25,8 +25,8 @@ const PROPERTIES: [[&str; 2]; 13] = [
     ["units", "the same outcome in other kilograms, metres, seconds and kelvins, with every effect (3)"],
 ];
 
-pub fn part() -> Part {
-    Part {
+pub fn part() -> StudyPart {
+    StudyPart {
         heading: "Properties that hold for every model".to_owned(),
         text: vec![
             "Random models (laws, effects and their parameters) and impacts; a case that fails is cut down \
@@ -45,8 +45,8 @@ pub fn part() -> Part {
             "",
             2,
             "group | property",
-            PROPERTIES.map(|row| row.map(str::to_owned).to_vec()).to_vec(),
+            PROPERTY_TESTS.map(|row| row.map(str::to_owned).to_vec()).to_vec(),
         )],
-        ..Part::default()
+        ..StudyPart::default()
     }
 }

@@ -4,7 +4,7 @@ use nearwall_lab::report::{Chart, Figure};
 
 use crate::claim::{Claim, Published};
 use crate::steps::even_in_logarithm;
-use crate::study::Part;
+use crate::study::StudyPart;
 
 /// The table and its reader are those of the library's own tests: one copy of the data.
 #[path = "../../../tests/common/measured_resuspension.rs"]
@@ -16,8 +16,8 @@ const PLACE: &str = "Reeks & Hall 2001, as read off by V. Bourgin";
 
 pub(super) const HEADING: &str = "Resuspension: alumina spheres on polished steel";
 
-pub fn part() -> Part {
-    Part {
+pub fn part() -> StudyPart {
+    StudyPart {
         heading: HEADING.to_owned(),
         text: vec![
             "The law of Reeks & Hall with the reduced adhesion of Biasi et al. 2001, 0.56 J/m² and air at room \
@@ -27,7 +27,7 @@ pub fn part() -> Part {
         ],
         figures: [10, 20].map(figure).to_vec(),
         claims: claims(),
-        ..Part::default()
+        ..StudyPart::default()
     }
 }
 

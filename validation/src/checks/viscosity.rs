@@ -7,7 +7,7 @@ use nearwall::slag::{SlagViscosity, ViscosityLaw};
 use nearwall_lab::report::{Chart, Figure, number};
 
 use crate::claim::{Claim, Published};
-use crate::study::{Part, table};
+use crate::study::{StudyPart, table};
 
 /// The table and its reader are those of the library's own tests: one copy of the data.
 #[path = "../../../tests/common/measured_slags.rs"]
@@ -37,7 +37,7 @@ fn error(pairs: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// A law beside the measured melts.
-struct Found {
+struct LawErrors {
     law: &'static ViscosityLaw,
     /// Stated rms error in log10, and how far ours may be off.
     stated: [f64; 2],
@@ -46,7 +46,7 @@ struct Found {
     iron_free: Vec<[f64; 2]>,
 }
 
-impl Found {
+impl LawErrors {
     fn row(&self) -> Vec<String> {
         let [rms, bias] = error(&self.all);
         let [without, _] = error(&self.iron_free);
@@ -83,16 +83,16 @@ pub fn melts() -> usize {
     measured().iter().filter(|row| row.in_ash_window).count()
 }
 
-pub fn part() -> Result<Part> {
+pub fn part() -> Result<StudyPart> {
     let all = measured();
     let rows: Vec<&Measured> = all.iter().filter(|row| row.in_ash_window).collect();
     let iron_free: Vec<&Measured> = rows.iter().copied().filter(|row| row.iron() == 0.0).collect();
     let mut found = Vec::new();
     for (law, stated, tolerance) in STATED {
         let (all, iron_free) = (pairs(law, &rows)?, pairs(law, &iron_free)?);
-        found.push(Found { law, stated: [stated, tolerance], all, iron_free });
+        found.push(LawErrors { law, stated: [stated, tolerance], all, iron_free });
     }
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Viscosity of slags: laws and measurements".to_owned(),
         text: vec![format!(
             "Rows: every one of tests/data/slag_viscosity_measured.csv, {} points, all with ash_window = 1, \
@@ -108,10 +108,10 @@ pub fn part() -> Result<Part> {
             "Error in log10",
             1,
             "law | stated rms | rms | mean | rms of rows without iron",
-            found.iter().map(Found::row).collect(),
+            found.iter().map(LawErrors::row).collect(),
         )],
         figures: found.iter().map(|found| figure(found.law, &found.all)).collect(),
-        claims: found.iter().map(Found::claim).collect(),
+        claims: found.iter().map(LawErrors::claim).collect(),
     })
 }
 

@@ -11,15 +11,15 @@ use super::statistics::binomial;
 use super::{MEASURED_ADHESION, PLAIN, Result, model};
 use crate::claim::Claim;
 use crate::steps::{even, even_in_logarithm};
-use crate::study::{Extent, Part, table};
+use crate::study::{Extent, StudyPart, table};
 
 const SEED: u64 = 11;
 
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let plain = model(PLAIN)?;
     let clean = contact(&plain, RATIO[0], None)?;
     let cases = Cases::new(&clean, extent)?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Work of adhesion and who sticks".to_owned(),
         text: text(&clean),
         tables: vec![sets_table()?, speeds_table(&clean), cases.table()],
@@ -160,14 +160,14 @@ fn figure(clean: &Contact) -> Figure {
 }
 
 /// A contact with a name, and how much of each set sticks under it.
-struct Case {
+struct AdhesionCase {
     name: String,
     hold: Hold,
     shares: Vec<[f64; 2]>,
 }
 
 struct Cases {
-    list: Vec<Case>,
+    list: Vec<AdhesionCase>,
     /// Impacts of each set under both assumed spreads: diameter and normal speed.
     impacts: Vec<[Vec<(f64, f64)>; 2]>,
 }
@@ -212,7 +212,7 @@ impl Cases {
     }
 
     fn add(&mut self, name: &str, hold: Hold) {
-        self.list.push(Case { name: name.to_owned(), hold, shares: self.shares(hold) });
+        self.list.push(AdhesionCase { name: name.to_owned(), hold, shares: self.shares(hold) });
     }
 
     /// Share of every set that sticks, under both spreads.
@@ -333,7 +333,7 @@ impl Cases {
                 any |= fits(&self.shares(hold))?;
             }
         }
-        let fitted: Vec<&Case> = self.list.iter().rev().take(Spread::ALL.len()).rev().collect();
+        let fitted: Vec<&AdhesionCase> = self.list.iter().rev().take(Spread::ALL.len()).rev().collect();
         let works = fitted.iter().map(|case| number(case.hold.contact.work_of_adhesion)).collect::<Vec<_>>();
         let third: Vec<String> = fitted
             .iter()

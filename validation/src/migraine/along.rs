@@ -11,14 +11,14 @@ use super::statistics::{mean, quantile};
 use super::{PLAIN, Result, impact, model, with};
 use crate::claim::{Claim, Published};
 use crate::steps::even_in_logarithm;
-use crate::study::{Extent, Part, table};
+use crate::study::{Extent, StudyPart, table};
 
 const SEED: u64 = 12;
 
 /// Impacts of every set under the first assumption.
 type Drawn = Vec<Vec<Impact>>;
 
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let plain = model(PLAIN)?;
     let drawn = drawn(extent.count(4000) as u64)?;
     let friction = friction_of_set_4(&plain, &drawn)?;
@@ -26,7 +26,7 @@ pub fn part(extent: Extent) -> Result<Part> {
     claims.extend([order(&plain, &drawn)?, rolling(&plain, &drawn, friction)?]);
     claims.extend([least(&plain, &SETS[0])?, least(&plain, &SETS[3])?]);
     claims.extend(dissipation(&plain, &drawn)?);
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Tangential restitution (Fig 2, Eq. 4)".to_owned(),
         text: vec![
             format!(

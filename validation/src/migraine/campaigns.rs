@@ -8,9 +8,9 @@ use super::published::{PARTING, RATIO, SETS, Set};
 use super::sample::{Sampler, Spread};
 use super::statistics::{binomial, mean, quantile};
 use super::{CALIBRATED, MEASURED_ADHESION, OLD, Result, model, with};
-use crate::claim::{Basis, Claim, Published};
+use crate::claim::{Claim, ClaimBasis, Published};
 use crate::steps::range;
-use crate::study::{Extent, Part, table};
+use crate::study::{Extent, StudyPart, table};
 use crate::terms::first_value;
 
 const SEED: u64 = 17;
@@ -30,7 +30,7 @@ struct Counts {
 }
 
 /// One observable: its name, from counts, and as published.
-struct Observable {
+struct CampaignObservable {
     name: &'static str,
     of: fn(&Counts) -> f64,
     published: fn(&Set) -> f64,
@@ -38,20 +38,25 @@ struct Observable {
     trials: fn(&Set) -> Option<[usize; 2]>,
 }
 
-const OBSERVABLES: [Observable; 3] = [
-    Observable {
+const OBSERVABLES: [CampaignObservable; 3] = [
+    CampaignObservable {
         name: "stuck",
         of: |counts| counts.stuck,
         published: |set| set.stuck as f64 / set.impacts as f64,
         trials: |set| Some([set.stuck, set.impacts]),
     },
-    Observable {
+    CampaignObservable {
         name: "rebounds below 0.6",
         of: |counts| counts.below,
         published: |set| set.below as f64 / set.rebounds() as f64,
         trials: |set| Some([set.below, set.rebounds()]),
     },
-    Observable { name: "mean e_t", of: |counts| counts.e_t, published: |set| set.e_t, trials: |_| None },
+    CampaignObservable {
+        name: "mean e_t",
+        of: |counts| counts.e_t,
+        published: |set| set.e_t,
+        trials: |_| None,
+    },
 ];
 
 /// Campaigns of every set under one model and one assumption on the spread.
@@ -61,7 +66,7 @@ type Campaigns = Vec<Vec<Counts>>;
 type Both = [[Campaigns; 2]; 2];
 
 /// The part, and what it comes to in a sentence.
-pub fn part(extent: Extent) -> Result<(Part, String)> {
+pub fn part(extent: Extent) -> Result<(StudyPart, String)> {
     let models = [model(OLD)?, model(CALIBRATED)?];
     let replicates = extent.count(500);
     let run = |spread: Spread| -> Result<[Campaigns; 2]> {
@@ -69,7 +74,7 @@ pub fn part(extent: Extent) -> Result<(Part, String)> {
     };
     let both = [run(Spread::Even)?, run(Spread::Slow)?];
     let gains = gains(&both);
-    let part = Part {
+    let part = StudyPart {
         heading: "The sets as campaigns: before, after, and the gain on unseen sets".to_owned(),
         text: text(&models[1], replicates)?,
         tables: vec![table_of(&both), gain_table(&gains), steps(&both, &models, replicates)?],
@@ -79,7 +84,7 @@ pub fn part(extent: Extent) -> Result<(Part, String)> {
     Ok((part, lead(&gains)))
 }
 
-fn lead(gains: &[Gain]) -> String {
+fn lead(gains: &[CampaignGain]) -> String {
     let ([below_before, below_after], _) = gains[1];
     let ([e_t_before, e_t_after], _) = gains[2];
     format!(
@@ -197,13 +202,13 @@ fn table_of(both: &Both) -> Table {
 }
 
 /// Mean error over the unseen sets before and after, and the gain with its 5 and 95 %.
-type Gain = ([f64; 2], [f64; 3]);
+type CampaignGain = ([f64; 2], [f64; 3]);
 
 /// One for each observable, over both spreads. Published shares are drawn anew from their counts for each campaign, so that the interval
 /// holds the luck of both.
-fn gains(both: &Both) -> Vec<Gain> {
+fn gains(both: &Both) -> Vec<CampaignGain> {
     let replicates = both[0][0][0].len();
-    let gain = |(place, observable): (usize, &Observable)| {
+    let gain = |(place, observable): (usize, &CampaignObservable)| {
         let mut gained = Vec::new();
         for (spread, replicate) in both.iter().flat_map(|spread| (0..replicates).map(move |r| (spread, r))) {
             let off_by = |campaigns: &Campaigns| {
@@ -223,7 +228,7 @@ fn gains(both: &Both) -> Vec<Gain> {
 }
 
 /// Mean distance of the expected from the published over the unseen sets and all assumptions.
-fn error<'a>(assumptions: impl Iterator<Item = &'a Campaigns>, observable: &Observable) -> f64 {
+fn error<'a>(assumptions: impl Iterator<Item = &'a Campaigns>, observable: &CampaignObservable) -> f64 {
     let mut off = Vec::new();
     for campaigns in assumptions {
         for (set, counts) in SETS.iter().zip(campaigns).filter(|(set, _)| UNSEEN.contains(&set.number)) {
@@ -283,7 +288,7 @@ fn steps(both: &Both, models: &[Model; 2], replicates: usize) -> Result<Table> {
 }
 
 /// The published share with the luck of its count drawn again; other numbers as printed.
-fn redrawn(observable: &Observable, set: &Set, replicate: usize, place: usize) -> f64 {
+fn redrawn(observable: &CampaignObservable, set: &Set, replicate: usize, place: usize) -> f64 {
     let Some([hits, trials]) = (observable.trials)(set) else { return (observable.published)(set) };
     let share = hits as f64 / trials as f64;
     let draw = ImpactRng::new(SEED + 1, (10 * replicate + place) as u64);
@@ -292,8 +297,8 @@ fn redrawn(observable: &Observable, set: &Set, replicate: usize, place: usize) -
     drawn as f64 / trials as f64
 }
 
-fn gain_table(gains: &[Gain]) -> Table {
-    let row = |(observable, (errors, gain)): (&Observable, &Gain)| {
+fn gain_table(gains: &[CampaignGain]) -> Table {
+    let row = |(observable, (errors, gain)): (&CampaignObservable, &CampaignGain)| {
         let mut row = vec![observable.name.to_owned()];
         row.extend(errors.map(hundredths));
         row.push(format!("{:.3} [{:.3}, {:.3}]", gain[0], gain[1], gain[2]));
@@ -334,7 +339,7 @@ fn figure(both: &Both) -> Figure {
     chart.figure("migraine-campaigns", "v_n even. Sets 1 and 4 were used, sets 2, 3 and 5 were not.")
 }
 
-fn claims(both: &Both, gains: &[Gain]) -> Result<Vec<Claim>> {
+fn claims(both: &Both, gains: &[CampaignGain]) -> Result<Vec<Claim>> {
     let mut claims = Vec::new();
     let calibrated = &both[0][1];
     for (set, counts) in SETS.iter().zip(calibrated) {
@@ -348,7 +353,7 @@ fn claims(both: &Both, gains: &[Gain]) -> Result<Vec<Claim>> {
 }
 
 /// What the calibrated model says of a set beside what is published.
-fn expected(set: &Set, counts: &[Counts], observable: &Observable) -> Result<Claim> {
+fn expected(set: &Set, counts: &[Counts], observable: &CampaignObservable) -> Result<Claim> {
     let [expected, low, high] = interval(counts, observable.of);
     let published = (observable.published)(set);
     let band = match (observable.trials)(set) {
@@ -359,7 +364,7 @@ fn expected(set: &Set, counts: &[Counts], observable: &Observable) -> Result<Cla
         None => Published::within(published, 0.005),
     };
     let fitted = !UNSEEN.contains(&set.number) && observable.name != "stuck";
-    let basis = if fitted { Basis::Fitted } else { Basis::Predicted };
+    let basis = if fitted { ClaimBasis::Fitted } else { ClaimBasis::Predicted };
     let what = format!("{}, calibrated model (expected over campaigns)", observable.name);
     let claim = basis.number(&set.name(), &what, band, expected);
     Ok(claim.because(&reason(observable, [low, high], published - expected)))
@@ -378,7 +383,7 @@ fn least_claim(set: &Set, counts: &[Counts], least: f64) -> Claim {
     )
 }
 
-fn gain_claim((observable, (errors, gain)): (&Observable, &Gain)) -> Claim {
+fn gain_claim((observable, (errors, gain)): (&CampaignObservable, &CampaignGain)) -> Claim {
     Claim::predicted_statement(
         "sets 2, 3 and 5",
         &format!("gain on the unseen sets: {}", observable.name),
@@ -398,7 +403,7 @@ fn gain_claim((observable, (errors, gain)): (&Observable, &Gain)) -> Claim {
 }
 
 /// Why an expected number lies where it does, `low_by` [1] below the published one.
-fn reason(observable: &Observable, [low, high]: [f64; 2], low_by: f64) -> String {
+fn reason(observable: &CampaignObservable, [low, high]: [f64; 2], low_by: f64) -> String {
     let drawn = format!("5 to 95 % of campaigns: {low:.3} to {high:.3}.");
     match observable.name {
         "stuck" => format!("Band: 95 % binomial. {drawn} The inputs do not contain what decides capture."),

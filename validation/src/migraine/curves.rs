@@ -5,19 +5,19 @@ use nearwall::normal::{Contact, NormalLaw, plastic_term, restitution, yield_velo
 use nearwall_lab::report::{Chart, Figure, number};
 
 use super::published::{
-    ALL_IMPACTS, DURATION, MOLTEN, PARTING, RATIO, RATIOS, SETS, STRONG_PERCENT, Set, TEMPERATURES,
-    near_normal,
+    ALL_IMPACTS, DRAWN_RATIOS, DURATION, FIGURE_TEMPERATURES, MOLTEN, PARTING, RATIO, SETS, STRONG_PERCENT,
+    Set, near_normal,
 };
 use super::{PLAIN, Result, e_n, model, with};
 use crate::claim::{Claim, Published};
 use crate::steps::even;
-use crate::study::{Part, table};
+use crate::study::{StudyPart, table};
 
 /// Yield strength that the library assumes for tungsten dust at 3000 K [Pa], and how far either way it may be off [1].
 pub const ASSUMED_STRENGTH: f64 = 300e6;
 pub const STRENGTH_FACTOR: f64 = 3.0;
 
-pub fn part() -> Result<Part> {
+pub fn part() -> Result<StudyPart> {
     let plain = model(PLAIN)?;
     let mut figures = Vec::new();
     for set in &SETS {
@@ -30,7 +30,7 @@ pub fn part() -> Result<Part> {
     }
     claims.extend([overestimate(&plain)?, agreement(), one_pressure(&plain)?, equal_curves()]);
     claims.extend([temperature(&plain)?, duration(&plain)?]);
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Normal restitution against speed, and what was calibrated (Figs 1, 3 to 6)".to_owned(),
         text: text(&plain)?,
         tables: vec![window_table(&plain)?, strength_table(&plain)?],
@@ -40,7 +40,7 @@ pub fn part() -> Result<Part> {
 }
 
 fn text(plain: &Model) -> Result<Vec<String>> {
-    let wall = plain.walls().first().ok_or("no wall")?.material().mechanical(TEMPERATURES[1])?;
+    let wall = plain.walls().first().ok_or("no wall")?.material().mechanical(FIGURE_TEMPERATURES[1])?;
     Ok(vec![
         "Bands lie between the smallest and the largest dust of a set (R = 4 and 5 µm, in set 5 6 and 8 \
          µm), as in the paper; dust at 3000 K, target at 1000 K; work of adhesion of clean metal, 2 gamma, \
@@ -56,7 +56,7 @@ fn text(plain: &Model) -> Result<Vec<String>> {
             ASSUMED_STRENGTH / 1e6,
             STRENGTH_FACTOR,
             RATIO[0],
-            TEMPERATURES[1],
+            FIGURE_TEMPERATURES[1],
             wall.yield_strength / 1e6
         ),
         format!(
@@ -71,8 +71,8 @@ fn text(plain: &Model) -> Result<Vec<String>> {
 
 /// The contact of the model's solids at the paper's temperatures.
 pub fn contact(model: &Model, yield_ratio: f64, work_of_adhesion: Option<f64>) -> Result<Contact> {
-    let particle = model.particle().mechanical(TEMPERATURES[0])?;
-    let wall = model.walls().first().ok_or("no wall")?.material().mechanical(TEMPERATURES[1])?;
+    let particle = model.particle().mechanical(FIGURE_TEMPERATURES[0])?;
+    let wall = model.walls().first().ok_or("no wall")?.material().mechanical(FIGURE_TEMPERATURES[1])?;
     Ok(Contact::new(&particle, &wall, yield_ratio, work_of_adhesion))
 }
 
@@ -81,7 +81,7 @@ fn figure(plain: &Model, set: &Set) -> Result<Figure> {
     let [small, middle, large] = set.size.map(|size| size * 1e-6);
     let title = format!("Set {} ({}): normal restitution", set.number, set.figure);
     let mut chart = Chart::new(&title, "normal speed v_n [m/s]", "e_n [1]").y_range(0.0, 0.7).y_step(0.1);
-    for ratio in RATIOS {
+    for ratio in DRAWN_RATIOS {
         let model = with(plain, &[("yield-ratio", &[ratio])])?;
         let curve = |diameter| -> Result<Vec<f64>> {
             speeds.iter().map(|speed| e_n(&model, diameter, *speed, 0.5)).collect()
@@ -224,7 +224,7 @@ fn strength_table(plain: &Model) -> Result<nearwall_lab::report::Table> {
     let [slowest, fastest] = SETS[0].normal;
     let mut rows = Vec::new();
     for strength in [1.0 / STRENGTH_FACTOR, 1.0, STRENGTH_FACTOR] {
-        for ratio in RATIOS {
+        for ratio in DRAWN_RATIOS {
             let contact = contact(plain, ratio * strength, None)?;
             let speeds = NormalLaw::ThorntonNing.speeds(&contact, 9e-6);
             let e_n = |speed| number(restitution(speed, speeds.adhesive, speeds.yielding));
@@ -340,7 +340,7 @@ fn agreement() -> Claim {
 /// Whether one `p_y` suits all near-normal sets.
 fn one_pressure(plain: &Model) -> Result<Claim> {
     let [bare, low, high] = window(plain)?;
-    let needs = RATIOS.map(|c| number(bare / c / 1e6));
+    let needs = DRAWN_RATIOS.map(|c| number(bare / c / 1e6));
     let assumed = ASSUMED_STRENGTH / 1e6;
     Ok(Claim::predicted_statement(
         "section 4, sets 1, 2, 3, 5",
@@ -361,13 +361,13 @@ fn one_pressure(plain: &Model) -> Result<Claim> {
     .because(&format!(
         "Without adhesion this asks sigma_y below {} MPa of c = {}, {} of {} and {} of {}: all inside \
          {assumed} MPa times or by {STRENGTH_FACTOR}, so the counts choose no c.",
-        needs[0], RATIOS[0], needs[1], RATIOS[1], needs[2], RATIOS[2]
+        needs[0], DRAWN_RATIOS[0], needs[1], DRAWN_RATIOS[1], needs[2], DRAWN_RATIOS[2]
     )))
 }
 
 /// Which strengths give every `c` the same curve.
 fn equal_curves() -> Claim {
-    let equal = RATIOS.map(|c| RATIO[0] * ASSUMED_STRENGTH / c);
+    let equal = DRAWN_RATIOS.map(|c| RATIO[0] * ASSUMED_STRENGTH / c);
     let range = ASSUMED_STRENGTH / STRENGTH_FACTOR..=ASSUMED_STRENGTH * STRENGTH_FACTOR;
     Claim::derived_statement(
         "5 (i)",
@@ -375,7 +375,7 @@ fn equal_curves() -> Claim {
         "4, not 2.8",
         &format!(
             "the same curve: c = {} with sigma_y = {} MPa",
-            RATIOS.map(|c| c.to_string()).join(", "),
+            DRAWN_RATIOS.map(|c| c.to_string()).join(", "),
             equal.map(|strength| number(strength / 1e6)).join(", ")
         ),
         !equal.iter().all(|strength| range.contains(strength)),
@@ -392,7 +392,7 @@ fn temperature(plain: &Model) -> Result<Claim> {
     let strength = |temperature: f64| -> Result<f64> {
         Ok(plain.particle().mechanical(temperature)?.yield_strength / 1e6)
     };
-    let [hot, _] = TEMPERATURES;
+    let [hot, _] = FIGURE_TEMPERATURES;
     Ok(Claim::predicted(
         "section 3 (iii)",
         "above 1500 K the temperature has little influence: e_n at 1500 K over e_n at 3000 K, 4 m/s",
@@ -435,7 +435,7 @@ mod tests {
     fn the_texts_quote_the_library() {
         let plain = model(PLAIN).unwrap();
         let dust = |temperature| plain.particle().mechanical(temperature).unwrap().yield_strength;
-        assert_eq!(dust(TEMPERATURES[0]), ASSUMED_STRENGTH);
+        assert_eq!(dust(FIGURE_TEMPERATURES[0]), ASSUMED_STRENGTH);
         assert_eq!(contact(&plain, RATIO[0], None).unwrap().limiting_pressure(), 1.2e9);
     }
 }

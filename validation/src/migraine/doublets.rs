@@ -13,41 +13,41 @@ use super::statistics::{mean, quantile};
 use super::{MEASURED_ADHESION, PLAIN, Result, model};
 use crate::claim::Claim;
 use crate::steps::even;
-use crate::study::{Extent, Part, table};
+use crate::study::{Extent, StudyPart, table};
 
 const SEED: u64 = 15;
-const DIAMETER: f64 = 9e-6;
-const RADIUS: f64 = 0.5 * DIAMETER;
+const DUST_DIAMETER: f64 = 9e-6;
+const DUST_RADIUS: f64 = 0.5 * DUST_DIAMETER;
 /// Normal speed of the tables [m/s], in the middle of the sets'.
-const SPEED: f64 = 4.0;
+const DUST_SPEED: f64 = 4.0;
 /// Spins `R omega/v_n` [1] before the impact.
-const SPINS: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 4.0];
+const SPINS_BEFORE: [f64; 7] = [0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 4.0];
 /// Normal speeds of the hits before, over that of the hit that counts [1].
 const EARLIER: [f64; 3] = [1.0, 2.0, 4.0];
 /// Hits before the one that counts, so that the spin has forgotten where it began.
 const HISTORY: u64 = 8;
 
 /// Impacts of doublets: restitution of the centre and spin `R omega/v_n` after it; hits; spin before.
-struct Sample {
+struct DoubletSample {
     restitution: Vec<f64>,
     spin: Vec<f64>,
     hits: Vec<f64>,
     arriving_spin: Vec<f64>,
 }
 
-impl Sample {
+impl DoubletSample {
     fn above(&self, limit: f64) -> f64 {
         self.restitution.iter().filter(|e| **e > limit).count() as f64 / self.restitution.len() as f64
     }
 }
 
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let solid = contact(&model(PLAIN)?, RATIO[0], Some(MEASURED_ADHESION))?;
     let count = extent.count(20_000);
-    let fixed = SPINS.map(|spin| sample(&solid, SPEED, count, |_| spin));
+    let fixed = SPINS_BEFORE.map(|spin| sample(&solid, DUST_SPEED, count, |_| spin));
     let travelled = EARLIER.map(|earlier| travelled(&solid, earlier, count / 4));
-    let single = single(&solid, SPEED);
-    Ok(Part {
+    let single = single(&solid, DUST_SPEED);
+    Ok(StudyPart {
         heading: "Doublets: can agglomerates be the quarter above 0.6?".to_owned(),
         text: text(&solid, &fixed, &travelled, single),
         tables: vec![spin_table(&fixed, &travelled, single)],
@@ -57,19 +57,24 @@ pub fn part(extent: Extent) -> Result<Part> {
 }
 
 fn single(solid: &Contact, speed: f64) -> f64 {
-    let speeds = NormalLaw::ThorntonNing.speeds(solid, DIAMETER);
+    let speeds = NormalLaw::ThorntonNing.speeds(solid, DUST_DIAMETER);
     restitution(speed, speeds.adhesive, speeds.yielding)
 }
 
-fn text(solid: &Contact, fixed: &[Sample], [travelled, _, fast]: &[Sample; 3], single: f64) -> Vec<String> {
+fn text(
+    solid: &Contact,
+    fixed: &[DoubletSample],
+    [travelled, _, fast]: &[DoubletSample; 3],
+    single: f64,
+) -> Vec<String> {
     let still = &fixed[0];
-    let half = SPINS.iter().zip(fixed).find(|(_, sample)| sample.above(PARTING) >= 0.5);
+    let half = SPINS_BEFORE.iter().zip(fixed).find(|(_, sample)| sample.above(PARTING) >= 0.5);
     vec![
         format!(
             "A rigid doublet (validation/src/migraine/rigid_doublet.rs) arrives in a random orientation and \
              hits with one end, then perhaps the other, until it leaves. The contact is Thornton & Ning's \
              with p_y = {} GPa and {MEASURED_ADHESION} J/m², seen with the effective mass at the contact; \
-             no friction; {SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed \
+             no friction; {DUST_SPEED} m/s, 9 µm grains, for which a single grain has e_n = {single:.2}. Seed \
              {SEED}.",
             number(solid.limiting_pressure() / 1e9)
         ),
@@ -108,18 +113,18 @@ fn arriving(speed: f64, spin: f64, draw: ImpactRng) -> DoubletMotion {
     let [a, b, c] = direction(draw, 2);
     let across = [y * c - z * b, z * a - x * c, x * b - y * a];
     let length = across.iter().map(|part| part * part).sum::<f64>().sqrt();
-    DoubletMotion::arriving(speed, axis, across.map(|part| spin * speed / RADIUS * part / length))
+    DoubletMotion::arriving(speed, axis, across.map(|part| spin * speed / DUST_RADIUS * part / length))
 }
 
 fn hit(solid: &Contact, motion: &DoubletMotion) -> Option<DoubletRebound> {
-    rebound(motion, RADIUS, |speed, mass| contact_restitution(solid, DIAMETER, speed, mass))
+    rebound(motion, DUST_RADIUS, |speed, mass| contact_restitution(solid, DUST_DIAMETER, speed, mass))
 }
 
 fn spin_of(motion: &DoubletMotion, speed: f64) -> f64 {
-    motion.spin.iter().map(|part| part * part).sum::<f64>().sqrt() * RADIUS / speed
+    motion.spin.iter().map(|part| part * part).sum::<f64>().sqrt() * DUST_RADIUS / speed
 }
 
-fn sample(solid: &Contact, speed: f64, count: usize, spin: impl Fn(u64) -> f64) -> Sample {
+fn sample(solid: &Contact, speed: f64, count: usize, spin: impl Fn(u64) -> f64) -> DoubletSample {
     let mut sample = empty();
     for key in 0..count as u64 {
         let motion = arriving(speed, spin(key), ImpactRng::new(SEED, key));
@@ -132,29 +137,30 @@ fn sample(solid: &Contact, speed: f64, count: usize, spin: impl Fn(u64) -> f64) 
 }
 
 /// Doublets that hit before, `earlier` times as fast, and kept their spin.
-fn travelled(solid: &Contact, earlier: f64, count: usize) -> Sample {
+fn travelled(solid: &Contact, earlier: f64, count: usize) -> DoubletSample {
     let mut sample = empty();
     for key in 0..count as u64 {
         let mut spin = 0.0;
         for round in 0..HISTORY {
             let draw = ImpactRng::new(SEED + 1, HISTORY * key + round);
-            if let Some(after) = hit(solid, &arriving(earlier * SPEED, spin, draw)) {
-                spin = spin_of(&after.motion, earlier * SPEED);
+            if let Some(after) = hit(solid, &arriving(earlier * DUST_SPEED, spin, draw)) {
+                spin = spin_of(&after.motion, earlier * DUST_SPEED);
             }
         }
         sample.arriving_spin.push(earlier * spin);
-        if let Some(after) = hit(solid, &arriving(SPEED, earlier * spin, ImpactRng::new(SEED + 2, key))) {
-            sample.add(&after, SPEED);
+        if let Some(after) = hit(solid, &arriving(DUST_SPEED, earlier * spin, ImpactRng::new(SEED + 2, key)))
+        {
+            sample.add(&after, DUST_SPEED);
         }
     }
     sample
 }
 
-fn empty() -> Sample {
-    Sample { restitution: Vec::new(), spin: Vec::new(), hits: Vec::new(), arriving_spin: Vec::new() }
+fn empty() -> DoubletSample {
+    DoubletSample { restitution: Vec::new(), spin: Vec::new(), hits: Vec::new(), arriving_spin: Vec::new() }
 }
 
-impl Sample {
+impl DoubletSample {
     fn add(&mut self, after: &DoubletRebound, speed: f64) {
         self.restitution.push(after.restitution);
         self.spin.push(spin_of(&after.motion, speed));
@@ -162,15 +168,15 @@ impl Sample {
     }
 }
 
-fn spin_table(fixed: &[Sample], travelled: &[Sample], single: f64) -> Table {
-    let given = SPINS.map(|_| "doublets, one spin".to_owned());
+fn spin_table(fixed: &[DoubletSample], travelled: &[DoubletSample], single: f64) -> Table {
+    let given = SPINS_BEFORE.map(|_| "doublets, one spin".to_owned());
     let kept = EARLIER.map(|earlier| format!("doublets, earlier hits at {earlier} v_n"));
     let mut rows = vec![grain_row(single)];
     rows.extend(given.into_iter().zip(fixed).chain(kept.into_iter().zip(travelled)).map(doublet_row));
     let quarter = 100.0 * published();
     table(
         &format!(
-            "Centre-of-mass restitution over random orientations at {SPEED} m/s, against the spin before \
+            "Centre-of-mass restitution over random orientations at {DUST_SPEED} m/s, against the spin before \
              (in units of v_n/R, its mean). \"Doublets needed\": share of the rebounds that would have to \
              be doublets, the rest grains, for {quarter:.1} % above 0.6. Last column: what agglomerates' \
              restitution and spread stand for then, its fraction being the {quarter:.1} %."
@@ -187,7 +193,7 @@ fn grain_row(single: f64) -> Vec<String> {
     ["one grain", "0", &single, "0", "–", "0", "0", "–", "1", "–", "–"].map(str::to_owned).to_vec()
 }
 
-fn doublet_row((name, sample): (String, &Sample)) -> Vec<String> {
+fn doublet_row((name, sample): (String, &DoubletSample)) -> Vec<String> {
     let restitution = &sample.restitution;
     let fast: Vec<f64> = restitution.iter().copied().filter(|e| *e > PARTING).collect();
     vec![
@@ -230,12 +236,12 @@ fn angle_figure(solid: &Contact) -> Figure {
     };
     let followed = |e: Option<f64>| {
         along(&|phi| {
-            let motion = DoubletMotion::arriving(SPEED, [phi.sin(), 0.0, phi.cos()], [0.0; 3]);
-            let contact = |speed, mass| e.or_else(|| contact_restitution(solid, DIAMETER, speed, mass));
-            rebound(&motion, RADIUS, contact).map_or(f64::NAN, |after| after.restitution)
+            let motion = DoubletMotion::arriving(DUST_SPEED, [phi.sin(), 0.0, phi.cos()], [0.0; 3]);
+            let contact = |speed, mass| e.or_else(|| contact_restitution(solid, DUST_DIAMETER, speed, mass));
+            rebound(&motion, DUST_RADIUS, contact).map_or(f64::NAN, |after| after.restitution)
         })
     };
-    let single = single(solid, SPEED);
+    let single = single(solid, DUST_SPEED);
     chart = chart.line("Thornton & Ning contact, all hits", &followed(None));
     chart = chart.line(&format!("constant e = {single:.2}, all hits"), &followed(Some(single)));
     chart = chart.line(
@@ -250,9 +256,9 @@ fn angle_figure(solid: &Contact) -> Figure {
     )
 }
 
-fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
+fn histogram(fixed: &[DoubletSample], travelled: &DoubletSample) -> Figure {
     let edges = round_edges(0.0, 2.0, 40);
-    let heights = |sample: &Sample| -> Vec<f64> {
+    let heights = |sample: &DoubletSample| -> Vec<f64> {
         let within = |pair: &[f64]| {
             let inside = sample.restitution.iter().filter(|e| (pair[0]..pair[1]).contains(*e)).count();
             inside as f64 / sample.restitution.len() as f64 / (pair[1] - pair[0])
@@ -264,7 +270,7 @@ fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
         "e_n of the centre of mass [1]",
         "density [1]",
     );
-    for (spin, sample) in SPINS.iter().zip(fixed).filter(|(spin, _)| [0.0, 1.0, 1.5].contains(*spin)) {
+    for (spin, sample) in SPINS_BEFORE.iter().zip(fixed).filter(|(spin, _)| [0.0, 1.0, 1.5].contains(*spin)) {
         chart = chart.histogram(&format!("spin R omega/v_n = {spin}"), &edges, &heights(sample));
     }
     chart.histogram("spin of earlier hits", &edges, &heights(travelled)).mark_x(PARTING, "0.6").figure(
@@ -273,7 +279,7 @@ fn histogram(fixed: &[Sample], travelled: &Sample) -> Figure {
     )
 }
 
-fn claims(fixed: &[Sample; SPINS.len()], travelled: &Sample, single: f64) -> Vec<Claim> {
+fn claims(fixed: &[DoubletSample; SPINS_BEFORE.len()], travelled: &DoubletSample, single: f64) -> Vec<Claim> {
     let [still, .., spinning, fast, _] = fixed;
     vec![
         off_the_curve(travelled, single),
@@ -284,12 +290,12 @@ fn claims(fixed: &[Sample; SPINS.len()], travelled: &Sample, single: f64) -> Vec
 }
 
 /// Share above 0.6 [%].
-fn percent_above(sample: &Sample) -> f64 {
+fn percent_above(sample: &DoubletSample) -> f64 {
     100.0 * sample.above(PARTING)
 }
 
 /// Share of the rebounds that would have to be such doublets for the quarter above 0.6.
-fn needed(sample: &Sample) -> f64 {
+fn needed(sample: &DoubletSample) -> f64 {
     published() / sample.above(PARTING)
 }
 
@@ -298,7 +304,7 @@ fn share(needed: f64) -> String {
     if needed > 1.0 { "more than all".to_owned() } else { format!("{:.0} %", 100.0 * needed) }
 }
 
-fn off_the_curve(travelled: &Sample, single: f64) -> Claim {
+fn off_the_curve(travelled: &DoubletSample, single: f64) -> Claim {
     let deviation = spread(&travelled.restitution);
     Claim::predicted_statement(
         "section 3 (i)",
@@ -313,7 +319,7 @@ fn off_the_curve(travelled: &Sample, single: f64) -> Claim {
     )
 }
 
-fn without_spin(still: &Sample) -> Claim {
+fn without_spin(still: &DoubletSample) -> Claim {
     Claim::predicted_statement(
         "section 4, mechanisms",
         &format!("doublets without spin are the {:.1} % of rebounds above 0.6", 100.0 * published()),
@@ -329,7 +335,7 @@ fn without_spin(still: &Sample) -> Claim {
     .because("Second impacts are included. Even if all dust were doublets, the quarter would not be reached.")
 }
 
-fn by_spin(still: &Sample, spinning: &Sample) -> Claim {
+fn by_spin(still: &DoubletSample, spinning: &DoubletSample) -> Claim {
     let [spun, unspun] = [spinning, still].map(|sample| mean(&sample.restitution));
     Claim::predicted_statement(
         "section 4, mechanisms [21]",
@@ -346,7 +352,7 @@ fn by_spin(still: &Sample, spinning: &Sample) -> Claim {
     .because("This requires a rim speed above the speed of the doublet.")
 }
 
-fn injection(travelled: &Sample, fast: &Sample) -> Claim {
+fn injection(travelled: &DoubletSample, fast: &DoubletSample) -> Claim {
     Claim::predicted_statement(
         "section 5 (iv)",
         "a major source of systematic deviations is agglomerate injection: a small share of doublets \
@@ -364,7 +370,7 @@ fn injection(travelled: &Sample, fast: &Sample) -> Claim {
          hits leave are not sufficient; even at R omega/v_n = {}, from another source (glancing impacts, \
          plasma), {:.0} % of the rebounds would have to be doublets. The effect agglomerates describes the \
          quarter without explaining it.",
-        SPINS[5],
+        SPINS_BEFORE[5],
         100.0 * needed(fast)
     ))
 }

@@ -29,9 +29,9 @@ mod statistics;
 use crate::Result;
 use nearwall::{Impact, Model};
 
-use crate::study::{Extent, Study};
+use crate::study::{Extent, SourceStudy};
 use crate::terms::term;
-use published::TEMPERATURES;
+use published::FIGURE_TEMPERATURES;
 
 /// The paper's model with its new numbers and nothing else: `validation/migraine/plain.toml`.
 pub(crate) const PLAIN: &str = include_str!("../../migraine/plain.toml");
@@ -46,7 +46,7 @@ const MEASURED_ADHESION: f64 = 0.13;
 ///
 /// # Errors
 /// When a model cannot be read or an impact not be resolved.
-pub fn study(extent: Extent) -> Result<Study> {
+pub fn study(extent: Extent) -> Result<SourceStudy> {
     let (campaigns, gain) = campaigns::part(extent)?;
     let parts = vec![
         curves::part()?,
@@ -58,7 +58,7 @@ pub fn study(extent: Extent) -> Result<Study> {
         molten::part()?,
         campaigns,
     ];
-    Ok(Study {
+    Ok(SourceStudy {
         title: "Tungsten dust in Pilot-PSI (MIGRAINE)".to_owned(),
         source: "\"Experimental validation of the analytical model for tungsten dust - wall mechanical \
             impacts incorporated in the MIGRAINE dust dynamics code\" (Pilot-PSI, 520 impacts in six sets). \
@@ -91,8 +91,8 @@ fn impact(diameter: f64, normal_speed: f64, tangential_speed: f64) -> Impact {
         normal_speed,
         tangential_speed,
         diameter,
-        particle_temperature: TEMPERATURES[0],
-        wall_temperature: TEMPERATURES[1],
+        particle_temperature: FIGURE_TEMPERATURES[0],
+        wall_temperature: FIGURE_TEMPERATURES[1],
         ..Impact::default()
     }
 }

@@ -10,14 +10,14 @@ use super::sample::{Sampler, Spread};
 use super::statistics::binomial;
 use super::{MOLYBDENUM, Result, model};
 use crate::claim::{Claim, Published};
-use crate::study::{Part, table};
+use crate::study::{StudyPart, table};
 
 const SEED: u64 = 16;
 /// Temperatures [K]: below melting (2896 K), the paper's "> 2900", and the upper end of the melt's properties.
-const TEMPERATURES: [f64; 3] = [2890.0, 2900.0, 3200.0];
+const MELT_TEMPERATURES: [f64; 3] = [2890.0, 2900.0, 3200.0];
 
 /// An impact of the sweep over temperatures [K] and speeds [m/s].
-struct Tried {
+struct MeltTried {
     temperature: f64,
     speed: f64,
     /// Of the drop, where it is one.
@@ -25,7 +25,7 @@ struct Tried {
     probability: f64,
 }
 
-impl Tried {
+impl MeltTried {
     fn new(model: &Model, temperature: f64, speed: f64) -> Result<Self> {
         let impact = Impact {
             particle_temperature: temperature,
@@ -54,18 +54,18 @@ impl Tried {
 }
 
 /// Temperatures by speeds. The speeds of set 6 are not printed; those of set 5, the same size in the same plasma, stand in.
-fn sweep(model: &Model) -> Result<Vec<Tried>> {
+fn sweep(model: &Model) -> Result<Vec<MeltTried>> {
     let [slowest, fastest] = SETS[4].normal;
     let mut tried = Vec::new();
-    for temperature in TEMPERATURES {
+    for temperature in MELT_TEMPERATURES {
         for speed in [slowest, 4.0, fastest, 50.0, 150.0] {
-            tried.push(Tried::new(model, temperature, speed)?);
+            tried.push(MeltTried::new(model, temperature, speed)?);
         }
     }
     Ok(tried)
 }
 
-pub fn part() -> Result<Part> {
+pub fn part() -> Result<StudyPart> {
     let model = model(MOLYBDENUM)?;
     let tried = sweep(&model)?;
     let [stuck, impacts] = [MOLTEN[1], MOLTEN[0]];
@@ -74,7 +74,7 @@ pub fn part() -> Result<Part> {
     let within = || tried.iter().filter(|tried| tried.numbers.is_some() && tried.speed <= SETS[4].normal[1]);
     let least = within().map(|tried| tried.probability).fold(f64::INFINITY, f64::min);
     let splash = within().filter_map(|tried| tried.numbers).map(|numbers| numbers.splash).fold(0.0, f64::max);
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Molten molybdenum sticks (set 6, Fig 7b)".to_owned(),
         text: vec![format!(
             "[capture] model = \"droplet\" calls a particle above the melting point of its material a \
@@ -87,7 +87,7 @@ pub fn part() -> Result<Part> {
              where the criterion changes its mind.",
             0,
             "T_p [K] | v_n [m/s] | We [1] | Re [1] | K [1] | p_stick [1]",
-            tried.iter().map(Tried::row).collect(),
+            tried.iter().map(MeltTried::row).collect(),
         )],
         figures: Vec::new(),
         claims: vec![capture(low, least, splash), droplets(&model, least)?, shape()],
@@ -97,7 +97,7 @@ pub fn part() -> Result<Part> {
 /// From the lower bound, the least capture found, and the largest K beside it.
 fn capture(low: f64, least: f64, splash: f64) -> Claim {
     let [slowest, fastest] = SETS[4].normal;
-    let [_, coolest, hottest] = TEMPERATURES;
+    let [_, coolest, hottest] = MELT_TEMPERATURES;
     Claim::predicted(
         "set 6",
         &format!(
@@ -116,7 +116,7 @@ fn droplets(model: &Model, least: f64) -> Result<Claim> {
     let flattened = model.with_laws(NormalLaw::PlasticJkr, model.tangential_law());
     let solid = [solid_share(model, Spread::Even)?, solid_share(model, Spread::Slow)?];
     let raised = [solid_share(&flattened, Spread::Even)?, solid_share(&flattened, Spread::Slow)?];
-    let [solid_at, ..] = TEMPERATURES;
+    let [solid_at, ..] = MELT_TEMPERATURES;
     let [impacts, stuck] = MOLTEN;
     let claim = Claim::predicted_statement(
         "section 4, sticking events (iii)",
@@ -156,7 +156,7 @@ fn solid_share(model: &Model, spread: Spread) -> Result<f64> {
     let mut held = 0;
     for key in 0..COUNT {
         let draw = ImpactRng::new(SEED, key);
-        let impact = Impact { particle_temperature: TEMPERATURES[0], ..sampler.impact(draw) };
+        let impact = Impact { particle_temperature: MELT_TEMPERATURES[0], ..sampler.impact(draw) };
         held += u64::from(model.resolve(0, &impact, draw)?.stuck);
     }
     Ok(held as f64 / COUNT as f64)

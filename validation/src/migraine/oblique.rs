@@ -10,7 +10,7 @@ use super::statistics::{binomial, mean};
 use super::{MEASURED_ADHESION, PLAIN, Result, impact, model, with};
 use crate::claim::{Claim, Published};
 use crate::steps::even;
-use crate::study::{Extent, Part, table};
+use crate::study::{Extent, StudyPart, table};
 
 const SEED: u64 = 14;
 const EXPONENTS: [f64; 3] = [0.0, 0.5, 1.0];
@@ -20,9 +20,9 @@ const AGGLOMERATES: [f64; 2] = [0.8, 0.1];
 /// Strength and exponent of `validation/migraine/calibrated.toml`.
 const CHOSEN: [f64; 2] = [1.0, 0.5];
 
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let plain = with(&model(PLAIN)?, &[("adhesion-energy", &[MEASURED_ADHESION])])?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Oblique impacts (set 4, Fig 5)".to_owned(),
         text: text(),
         tables: vec![strengths(&plain, extent)?],

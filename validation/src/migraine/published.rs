@@ -148,11 +148,11 @@ pub const PARTING: f64 = 0.6;
 /// `p_y/sigma_y` found, and used before.
 pub const RATIO: [f64; 2] = [4.0, 2.8];
 /// `p_y/sigma_y` drawn here; 1.6 to 2.8 is what finite elements give (section 2), 4 what the paper finds.
-pub const RATIOS: [f64; 3] = [1.6, 2.8, 4.0];
+pub const DRAWN_RATIOS: [f64; 3] = [1.6, 2.8, 4.0];
 /// Mean `e_t` over all sets.
 pub const E_T: f64 = 0.8;
 /// Temperatures of dust and target in the figures [K].
-pub const TEMPERATURES: [f64; 2] = [3000.0, 1000.0];
+pub const FIGURE_TEMPERATURES: [f64; 2] = [3000.0, 1000.0];
 /// Molybdenum is hotter than this, the target at most so hot [K].
 pub const MOLTEN_TEMPERATURES: [f64; 2] = [2900.0, 1000.0];
 /// Duration of an impact [s] (section 3, "Uncertainties"), "~".

@@ -24,7 +24,7 @@ use std::f64::consts::TAU;
 use nearwall::normal::{Contact, NormalLaw};
 
 /// Number of hits after which a doublet counts as at rest on the wall.
-const MOST_HITS: u32 = 1000;
+const MOST_DOUBLET_HITS: u32 = 1000;
 
 /// Motion of a doublet. The third direction is the wall's normal, away from the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,8 +82,8 @@ pub fn rebound(
     radius: f64,
     restitution: impl Fn(f64, f64) -> Option<f64>,
 ) -> Option<DoubletRebound> {
-    let mut flight = Flight { motion: *arriving, height: 2.0 * radius, radius };
-    for hits in 0..MOST_HITS {
+    let mut flight = DoubletFlight { motion: *arriving, height: 2.0 * radius, radius };
+    for hits in 0..MOST_DOUBLET_HITS {
         let Some((time, end)) = flight.next_touch() else {
             let restitution = flight.motion.speed / -arriving.speed;
             return Some(DoubletRebound { motion: flight.motion, restitution, hits });
@@ -95,14 +95,14 @@ pub fn rebound(
 }
 
 /// A doublet in flight.
-struct Flight {
+struct DoubletFlight {
     motion: DoubletMotion,
     /// Height of the centre of mass above the wall [m].
     height: f64,
     radius: f64,
 }
 
-impl Flight {
+impl DoubletFlight {
     /// The axis after `time` [s]: it turns at a constant rate in the plane perpendicular to the spin.
     fn axis_after(&self, time: f64) -> [f64; 3] {
         let DoubletMotion { axis, spin, .. } = self.motion;

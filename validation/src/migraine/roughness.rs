@@ -11,7 +11,7 @@ use super::statistics::{mean, quantile};
 use super::{MEASURED_ADHESION, PLAIN, Result, e_n, impact, model, with};
 use crate::claim::{Claim, Published};
 use crate::steps::even;
-use crate::study::{Extent, Part, table};
+use crate::study::{Extent, StudyPart, table};
 
 const SEED: u64 = 13;
 const SIZE: f64 = 9e-6;
@@ -21,14 +21,14 @@ const FAST: f64 = 8.0;
 /// Tilt of the facets in the picture [rad]: assumed, for show.
 const SHOWN_TILT: f64 = 0.1;
 
-pub fn part(extent: Extent) -> Result<Part> {
+pub fn part(extent: Extent) -> Result<StudyPart> {
     let plain = model(PLAIN)?;
     let nano = with(&plain, &[("nano-roughness", &[1.0])])?;
     let measured = with(&plain, &[("adhesion-energy", &[MEASURED_ADHESION]), ("nano-roughness", &[1.0])])?;
     let draws = extent.count(4000);
     let mut claims = scatter(&nano, &measured)?.to_vec();
     claims.extend([lifted(&plain)?, either_draw(&plain)?, polished(&plain, draws / 100)?]);
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Roughness: adhesion and geometry at random".to_owned(),
         text: vec![
             "MIGRAINE draws the adhesive velocity between zero and its JKR value; the effect nano-roughness \

@@ -4,7 +4,7 @@
 use crate::Result;
 use nearwall::{Impact, ImpactRng};
 
-use super::published::{Set, TEMPERATURES};
+use super::published::{FIGURE_TEMPERATURES, Set};
 
 /// How impacts lie within the printed ranges. Both are assumed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -86,8 +86,8 @@ impl Sampler {
             normal_speed,
             tangential_speed: normal_speed * angle.tan(),
             diameter: 1e-6 * self.size(uniform(2)),
-            particle_temperature: TEMPERATURES[0],
-            wall_temperature: TEMPERATURES[1],
+            particle_temperature: FIGURE_TEMPERATURES[0],
+            wall_temperature: FIGURE_TEMPERATURES[1],
             ..Impact::default()
         }
     }

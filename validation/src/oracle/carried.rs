@@ -47,7 +47,7 @@ pub struct Sphere {
 
 /// Where it is on its way: time [s], place [m], speed [m/s], temperature [K].
 #[derive(Debug, Clone, Copy)]
-pub struct Place {
+pub struct OnTheWay {
     /// [s].
     pub time: f64,
     /// [m].
@@ -73,7 +73,7 @@ pub fn relaxation_time(sphere: &Sphere, air: &Air) -> f64 {
 }
 
 /// A flight along a line on which air moves and gravity acts.
-pub struct Flight<'a> {
+pub struct CarriedFlight<'a> {
     /// The sphere.
     pub sphere: Sphere,
     /// The air.
@@ -86,7 +86,7 @@ pub struct Flight<'a> {
     pub air_speed: &'a dyn Fn(f64) -> f64,
 }
 
-impl Flight<'_> {
+impl CarriedFlight<'_> {
     fn slope(&self, [at, speed, temperature]: [f64; 3]) -> [f64; 3] {
         let Self { sphere, air, .. } = self;
         let slip = (self.air_speed)(at) - speed;
@@ -105,7 +105,7 @@ impl Flight<'_> {
     }
 
     /// One step.
-    fn step(&self, from: Place, time: f64) -> Place {
+    fn step(&self, from: OnTheWay, time: f64) -> OnTheWay {
         let y = [from.at, from.speed, from.temperature];
         let along = |slope: [f64; 3], by: f64| [0, 1, 2].map(|i| y[i] + by * slope[i]);
         let a = self.slope(y);
@@ -114,11 +114,11 @@ impl Flight<'_> {
         let d = self.slope(along(c, time));
         let [at, speed, temperature] =
             [0, 1, 2].map(|i| y[i] + time / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
-        Place { time: from.time + time, at, speed, temperature }
+        OnTheWay { time: from.time + time, at, speed, temperature }
     }
 
     /// The way from `start` in steps of `step` [s] as long as `goes_on`; the last place is the first where it does not.
-    pub fn way(&self, start: Place, step: f64, goes_on: impl Fn(&Place) -> bool) -> Vec<Place> {
+    pub fn way(&self, start: OnTheWay, step: f64, goes_on: impl Fn(&OnTheWay) -> bool) -> Vec<OnTheWay> {
         let mut way = vec![start];
         let mut here = start;
         while goes_on(&here) && way.len() < 1_000_000 {
@@ -129,7 +129,7 @@ impl Flight<'_> {
     }
 
     /// The place where it comes to `end` [m]; the last step is shortened until it ends there.
-    pub fn arrives(&self, start: Place, step: f64, end: f64) -> Place {
+    pub fn arrives(&self, start: OnTheWay, step: f64, end: f64) -> OnTheWay {
         let ahead = (end - start.at).signum();
         let way = self.way(start, step, |place| (end - place.at) * ahead > 0.0);
         let before = way[way.len().saturating_sub(2)];
@@ -168,8 +168,8 @@ mod tests {
         let sphere = Sphere { diameter: 80e-6, density: 1000.0, heat_capacity: 2000.0 };
         let air = Air::at(293.15);
         let tau = relaxation_time(&sphere, &air);
-        let flight = Flight { sphere, air, law: Law::Stokes, downwards: 1.0, air_speed: &|_| 1.8 };
-        let start = Place { time: 0.0, at: 0.0, speed: 0.1, temperature: 293.15 };
+        let flight = CarriedFlight { sphere, air, law: Law::Stokes, downwards: 1.0, air_speed: &|_| 1.8 };
+        let start = OnTheWay { time: 0.0, at: 0.0, speed: 0.1, temperature: 293.15 };
         let last = 1.8 + tau * GRAVITY * (1.0 - air.density / 1000.0);
         for place in flight.way(start, tau / 100.0, |place| place.time < 8.0 * tau).iter().step_by(50) {
             let [speed, way] = stokes_closed_form(0.1, last, tau, place.time);
@@ -181,8 +181,9 @@ mod tests {
     fn what_falls_long_enough_has_its_terminal_speed() {
         let sphere = Sphere { diameter: 100e-6, density: 1000.0, heat_capacity: 2000.0 };
         let air = Air::at(293.15);
-        let flight = Flight { sphere, air, law: Law::SchillerNaumann, downwards: 1.0, air_speed: &|_| 0.0 };
-        let start = Place { time: 0.0, at: 0.0, speed: 0.0, temperature: 293.15 };
+        let flight =
+            CarriedFlight { sphere, air, law: Law::SchillerNaumann, downwards: 1.0, air_speed: &|_| 0.0 };
+        let start = OnTheWay { time: 0.0, at: 0.0, speed: 0.0, temperature: 293.15 };
         let way = flight.way(start, 1e-4, |place| place.time < 0.6);
         let terminal = terminal_speed(100e-6, &air);
         assert!((way[way.len() - 1].speed / terminal - 1.0).abs() < 1e-6);

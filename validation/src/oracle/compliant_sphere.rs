@@ -9,7 +9,7 @@
 //! contact forgets its stretch.
 //!
 //! `delta` approach [m], `E*` reduced modulus [Pa], `k` Mindlin's ratio of tangential to normal stiffness [1], `f` friction
-//! [1], `s = u - omega d/2` slip speed [m/s]. Motion: `m d²delta/dt² = -F_n`, `m du/dt = -F_t`, `m ds/dt = -(7/2) F_t` (sphere).
+//! [1], `s = u - omega d/2` slip speed [m/s]. SlipMotion: `m d²delta/dt² = -F_n`, `m du/dt = -F_t`, `m ds/dt = -(7/2) F_t` (sphere).
 //! What comes out depends on `k` and on `psi = k s/(f v_n)` alone; units are chosen so that mass, `v_n`, `R` and `E*` are one.
 //!
 //! Limits: elastic (`e_n = 1`), quasi-static, similar materials in the sense that normal and tangential tractions do not couple
@@ -28,7 +28,7 @@ pub struct CompliantSphere {
 
 /// How it leaves, in units of the slip before the impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Left {
+pub struct CompliantRebound {
     /// Tangential impulse over mass and slip speed before [1]: `(u - u')/s`.
     pub impulse: f64,
     /// Slip after over slip before [1]; negative where the slip is reversed.
@@ -39,7 +39,7 @@ pub struct Left {
     pub energy_lost: f64,
 }
 
-impl Left {
+impl CompliantRebound {
     /// Tangential restitution [1] of a sphere that came without spin.
     pub fn tangential_restitution(&self) -> f64 {
         1.0 - self.impulse
@@ -51,7 +51,7 @@ const DEEPEST: f64 = 0.974_514_96;
 
 impl CompliantSphere {
     /// The impact with the friction `f` [1] and a slip before it of `slip` [1] times `v_n`.
-    pub fn impact(&self, friction: f64, slip: f64) -> Left {
+    pub fn impact(&self, friction: f64, slip: f64) -> CompliantRebound {
         let radius = DEEPEST.sqrt() * 1.02;
         let width = radius / self.springs as f64;
         // Springs lie on both sides of the middle: each stands for two. Midpoints, so that half widths count.
@@ -74,7 +74,7 @@ impl CompliantSphere {
         };
         // Hertz: the contact lasts 2.9432 deepest/v_n.
         let step = 2.9432 * DEEPEST / self.steps as f64;
-        let mut motion = Motion { depth: 0.0, approach: 1.0, slip, impulse: 0.0 };
+        let mut motion = SlipMotion { depth: 0.0, approach: 1.0, slip, impulse: 0.0 };
         let mut force = [0.0; 2];
         loop {
             // Velocity Verlet.
@@ -87,7 +87,7 @@ impl CompliantSphere {
             motion.kick(force, 0.5 * step);
         }
         let impulse = motion.impulse / slip;
-        Left {
+        CompliantRebound {
             impulse,
             slip: motion.slip / slip,
             normal_restitution: -motion.approach,
@@ -110,14 +110,14 @@ impl CompliantSphere {
     }
 }
 
-struct Motion {
+struct SlipMotion {
     depth: f64,
     approach: f64,
     slip: f64,
     impulse: f64,
 }
 
-impl Motion {
+impl SlipMotion {
     fn kick(&mut self, [normal, tangential]: [f64; 2], time: f64) {
         self.approach -= normal * time;
         self.slip -= 3.5 * tangential * time;

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 /// The sphere, the contact and the impact, in SI units.
 #[derive(Debug, Clone, Copy)]
-pub struct Impact {
+pub struct ContactImpact {
     /// Radius `R` [m].
     pub radius: f64,
     /// Density `rho` [kg/m³].
@@ -27,7 +27,7 @@ pub struct Impact {
     pub work_of_adhesion: f64,
     /// Limiting contact pressure `p_y` [Pa].
     pub limiting_pressure: f64,
-    /// Impact speed `v` [m/s].
+    /// ContactImpact speed `v` [m/s].
     pub speed: f64,
 }
 
@@ -53,12 +53,12 @@ pub struct Bounce {
 }
 
 /// Follows one impact.
-pub fn follow(impact: &Impact, tolerance: f64) -> Bounce {
-    Motion::new(impact, tolerance).run(impact)
+pub fn follow(impact: &ContactImpact, tolerance: f64) -> Bounce {
+    ContactMotion::new(impact, tolerance).run(impact)
 }
 
 /// Unit system: lengths over `R`, pressures over `E*`, masses so that `rho` is 1.
-struct Motion {
+struct ContactMotion {
     adhesion: f64,
     limit: f64,
     mass: f64,
@@ -68,7 +68,7 @@ struct Motion {
 }
 
 /// Root of the contact radius, speed into the wall, work done against the contact, time.
-type State = [f64; 4];
+type ContactState = [f64; 4];
 
 /// Which curve the contact follows.
 #[derive(Clone, Copy)]
@@ -77,8 +77,8 @@ enum Curve {
     Limited,
 }
 
-impl Motion {
-    fn new(impact: &Impact, tolerance: f64) -> Self {
+impl ContactMotion {
+    fn new(impact: &ContactImpact, tolerance: f64) -> Self {
         let sound = (impact.reduced_modulus / impact.density).sqrt();
         Self {
             adhesion: impact.work_of_adhesion / (impact.reduced_modulus * impact.radius),
@@ -90,7 +90,7 @@ impl Motion {
         }
     }
 
-    fn run(mut self, impact: &Impact) -> Bounce {
+    fn run(mut self, impact: &ContactImpact) -> Bounce {
         let state = [self.touching(1.0), self.speed, 0.0, 0.0];
         let (turn, curve) = self.way_in(state);
         let force = self.force(turn[0], curve);
@@ -102,7 +102,7 @@ impl Motion {
             }
         };
         let parting = (PI * self.adhesion * radius * radius / 8.0).cbrt().sqrt();
-        let halt = |s: &State| (s[0] - parting).min(-s[1]);
+        let halt = |s: &ContactState| (s[0] - parting).min(-s[1]);
         let end = self.until([turn[0], 0.0, 0.0, turn[3]], Curve::Elastic { radius }, halt);
         // The motion ended either at the parting or at a standstill before it.
         let free = end[0] - parting <= -end[1];
@@ -126,7 +126,7 @@ impl Motion {
     }
 
     /// Follows the contact to its turning point; the curve it is on there.
-    fn way_in(&mut self, first: State) -> (State, Curve) {
+    fn way_in(&mut self, first: ContactState) -> (ContactState, Curve) {
         let elastic = Curve::Elastic { radius: 1.0 };
         let yielding = self.yield_root();
         if yielding <= first[0] {
@@ -199,14 +199,19 @@ impl Motion {
         hertz - mixed + PI * w * a * a
     }
 
-    fn rates(&self, state: &State, curve: Curve) -> State {
+    fn rates(&self, state: &ContactState, curve: Curve) -> ContactState {
         let stretch = self.approach(state[0], curve);
         let force = self.force(state[0], curve);
         [state[1], -force * stretch / self.mass, force * stretch * state[1], stretch]
     }
 
     /// Follows the motion until `left`, positive on the way, comes to 0.
-    fn until(&mut self, start: State, curve: Curve, left: impl Fn(&State) -> f64) -> State {
+    fn until(
+        &mut self,
+        start: ContactState,
+        curve: Curve,
+        left: impl Fn(&ContactState) -> f64,
+    ) -> ContactState {
         let mut state = start;
         let mut step = self.first_step(&state, curve);
         loop {
@@ -227,14 +232,14 @@ impl Motion {
     }
 
     /// A step that is short against the motion: a thousandth of the contact's change of size.
-    fn first_step(&self, state: &State, curve: Curve) -> f64 {
+    fn first_step(&self, state: &ContactState, curve: Curve) -> f64 {
         let size = state[0].max(1e-3 * self.speed.powf(0.2));
         let acceleration = self.rates(state, curve)[1].abs();
         1e-3 * size / (state[1].abs() + (acceleration * size).sqrt())
     }
 
     /// One step of Dormand & Prince (1980), order 5, and its error by their order 4 over what is allowed.
-    fn stride(&self, state: &State, curve: Curve, step: f64) -> (State, f64) {
+    fn stride(&self, state: &ContactState, curve: Curve, step: f64) -> (ContactState, f64) {
         const STAGES: [&[f64]; 6] = [
             &[1.0 / 5.0],
             &[3.0 / 40.0, 9.0 / 40.0],
@@ -267,7 +272,7 @@ impl Motion {
 }
 
 /// `state + step sum(weights rates)`.
-fn advance(state: &State, rates: &[State; 7], weights: &[f64], step: f64) -> State {
+fn advance(state: &ContactState, rates: &[ContactState; 7], weights: &[f64], step: f64) -> ContactState {
     let mut sum = *state;
     for (rate, weight) in rates.iter().zip(weights) {
         for (value, slope) in sum.iter_mut().zip(rate) {

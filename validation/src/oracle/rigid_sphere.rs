@@ -24,7 +24,7 @@ pub struct RigidSphere {
 
 /// How it leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Left {
+pub struct RigidRebound {
     /// Speed along the wall [m/s].
     pub tangential_speed: f64,
     /// Spin [rad/s].
@@ -37,13 +37,17 @@ pub struct Left {
 
 impl RigidSphere {
     /// The impact in `steps` steps of the normal impulse, with friction `f` [1] and normal restitution `e_n` [1].
-    pub fn impact(&self, friction: f64, normal_restitution: f64, steps: u32) -> Left {
+    pub fn impact(&self, friction: f64, normal_restitution: f64, steps: u32) -> RigidRebound {
         let step = (1.0 + normal_restitution) * self.normal_speed / f64::from(steps);
         let slip = |u: f64, spin: f64| u - 0.5 * self.diameter * spin;
         // What rounding leaves of a slip that has stopped.
         let none = 1e-9 * slip(self.tangential_speed, self.spin).abs();
-        let mut left =
-            Left { tangential_speed: self.tangential_speed, spin: self.spin, sticks: false, reversals: 0 };
+        let mut left = RigidRebound {
+            tangential_speed: self.tangential_speed,
+            spin: self.spin,
+            sticks: false,
+            reversals: 0,
+        };
         for _ in 0..steps {
             let before = slip(left.tangential_speed, left.spin);
             // What friction may do in this step, and what stopping the slip takes: a unit of impulse changes u by one and

@@ -5,13 +5,13 @@ use nearwall::{Impact, Model, Outcome};
 use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
-    DIAMETER, E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_LEAST, E_T_STEEP, FRICTION, GLANCING,
-    NEARLY_STEEP, SHALLOW, SLIDING_END, SLIDING_END_ANGLE, SOLIDS, STEEP, YIELD_RATIO,
+    E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_LEAST, E_T_STEEP, GLANCING, NEARLY_STEEP, SHALLOW,
+    SLIDING_END, SLIDING_END_ANGLE, SOLIDS, STEEP, WAX_DIAMETER, WAX_FRICTION, YIELD_RATIO,
 };
 use super::{Result, arriving, contact, decide, model, passes, thornton_ning};
 use crate::oracle::carried::{Air, terminal_speed};
 use crate::steps::{even, through};
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, ClaimBasis, Published, StudyPart};
 
 /// Where the friction is read off the law [degrees]: still sliding.
 const SLIDING: f64 = 41.0;
@@ -23,7 +23,7 @@ pub(super) fn stated_e_n(angle: f64) -> f64 {
 
 /// `e_t` of sliding by Eq. 10.
 pub(super) fn sliding(e_n: f64, angle: f64) -> f64 {
-    1.0 - FRICTION.value * (1.0 + e_n) * angle.to_radians().tan()
+    1.0 - WAX_FRICTION.value * (1.0 + e_n) * angle.to_radians().tan()
 }
 
 /// Angle [degrees] at which the stated `(1+e_n) tan(alpha)` ends sliding.
@@ -39,7 +39,7 @@ fn over_normal(angle: f64) -> f64 {
 /// The air's speed in the tube that makes `v_n = 1 m/s` at an angle [degrees]: what is left of 1/sin(angle) after the
 /// terminal velocity [m/s].
 fn tube_air(angle: f64) -> f64 {
-    over_normal(angle) - terminal_speed(DIAMETER, &Air::at(293.15))
+    over_normal(angle) - terminal_speed(WAX_DIAMETER, &Air::at(293.15))
 }
 
 /// The air at small angles over that of normal impacts [1], as the paper has it.
@@ -82,7 +82,7 @@ impl Models {
     /// The `p_y/sigma_y` that Fig. 6 asks for, without lift.
     fn yield_ratio(&self) -> Result<f64> {
         let stated = contact(&self.plain, "default", YIELD_RATIO.value, |_| {})?;
-        let e_n = |c| thornton_ning(&Contact { yield_ratio: c, ..stated }, DIAMETER, 1.0);
+        let e_n = |c| thornton_ning(&Contact { yield_ratio: c, ..stated }, WAX_DIAMETER, 1.0);
         Ok(passes(e_n, E_N_NEAR_NORMAL.value, [0.3, 1.0]))
     }
 }
@@ -123,10 +123,10 @@ impl Lift {
 }
 
 /// The part on the angle.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let models = Models::new()?;
     let lift = Lift::new();
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Figs 6 and 7: the angle".to_owned(),
         text: vec![effects_text(&models)?, lift_text(&lift), sliding_text(&models)?],
         figures: vec![normal_chart(&models, &lift)?, tangential_chart(&models, &lift)?],
@@ -138,7 +138,7 @@ pub(super) fn part() -> Result<Part> {
             steep_claims(&models, &lift)?,
         ]
         .concat(),
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
@@ -176,7 +176,7 @@ fn lift_text(lift: &Lift) -> String {
 }
 
 fn sliding_text(models: &Models) -> Result<String> {
-    let (f, stated) = (FRICTION.value, E_T_GLANCING.value);
+    let (f, stated) = (WAX_FRICTION.value, E_T_GLANCING.value);
     let ratio = (1.0 + E_N_GLANCING.value) * SHALLOW.to_radians().tan();
     let intercept = stated + f * ratio;
     Ok(format!(
@@ -216,7 +216,7 @@ fn normal_chart(models: &Models, lift: &Lift) -> Result<Figure> {
 
 fn tangential_chart(models: &Models, lift: &Lift) -> Result<Figure> {
     let compliant = |angle: f64| Ok(models.refined(angle, lift.four)?.tangential_restitution);
-    let end = [SLIDING_END_ANGLE.value, 1.0 - FRICTION.value * SLIDING_END.value];
+    let end = [SLIDING_END_ANGLE.value, 1.0 - WAX_FRICTION.value * SLIDING_END.value];
     let stated = [[SHALLOW, E_T_GLANCING.value], end, [NEARLY_STEEP, E_T_STEEP.value]];
     Ok(Chart::new("Tangential restitution over the angle", "angle from the surface [°]", "e_t [1]")
         .x_range(0.0, 90.0)
@@ -237,21 +237,21 @@ fn normal_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     let [(_, _, _, strength), ..] = SOLIDS;
     let [strength, deviation] = strength.map(|pascals| pascals / 1e6);
     Ok(vec![
-        E_N_NEAR_NORMAL.beside(models.plain(STEEP)?.normal_restitution, Basis::Predicted).because(&format!(
+        E_N_NEAR_NORMAL.beside(models.plain(STEEP)?.normal_restitution, ClaimBasis::Predicted).because(&format!(
             "With c = {}, which the paper fitted to Fig. 8. Fig. 6 alone requires c = {:.2}. The deviation \
              is within the uncertainty of sigma_y = {strength} ± {deviation} MPa (part on speed).",
             YIELD_RATIO.value,
             models.yield_ratio()?
         )),
-        E_N_NEAR_NORMAL.beside(steep, Basis::Fitted).because(&format!(
+        E_N_NEAR_NORMAL.beside(steep, ClaimBasis::Fitted).because(&format!(
             "c is fitted to it; lift adds {:.1} % at {STEEP}°.",
             100.0 * (steep / models.refined(STEEP, 0.0)?.normal_restitution - 1.0)
         )),
         E_N_GLANCING
-            .beside(models.plain(GLANCING)?.normal_restitution, Basis::Predicted)
+            .beside(models.plain(GLANCING)?.normal_restitution, ClaimBasis::Predicted)
             .because("The plain law does not depend on the angle."),
         E_N_GLANCING
-            .beside(models.refined(GLANCING, lift.four)?.normal_restitution, Basis::Fitted)
+            .beside(models.refined(GLANCING, lift.four)?.normal_restitution, ClaimBasis::Fitted)
             .because("The lift is fitted to it."),
     ])
 }
@@ -292,13 +292,13 @@ fn sliding_claims(models: &Models) -> Result<Vec<Claim>> {
     let end = models.plain(SLIDING)?;
     let ratio = (1.0 + end.normal_restitution) * SLIDING.to_radians().tan();
     Ok(vec![
-        FRICTION
-            .beside((1.0 - end.tangential_restitution) / ratio, Basis::Fitted)
+        WAX_FRICTION
+            .beside((1.0 - end.tangential_restitution) / ratio, ClaimBasis::Fitted)
             .because("The parameter of the law; this checks only that the contact slides from 10° to 45°."),
-        E_T_GLANCING.beside(models.plain(SHALLOW)?.tangential_restitution, Basis::Predicted).because(
+        E_T_GLANCING.beside(models.plain(SHALLOW)?.tangential_restitution, ClaimBasis::Predicted).because(
             &format!(
                 "The paper contradicts itself: its f = {} in its Eq. 10 gives {:.2} (e_n {}) to {:.2} ({}).",
-                FRICTION.value,
+                WAX_FRICTION.value,
                 sliding(E_N_GLANCING.value, SHALLOW),
                 E_N_GLANCING.value,
                 sliding(E_N_NEAR_NORMAL.value, SHALLOW),
@@ -319,9 +319,9 @@ fn end_claims(models: &Models) -> Result<Vec<Claim>> {
     let between = stated_e_n(super::published::CRITICAL_ANGLE.value);
     Ok(vec![
         E_T_LEAST
-            .beside(least, Basis::Predicted)
+            .beside(least, ClaimBasis::Predicted)
             .because("The end of sliding. ± 5°, because the points are 5° to 10° apart."),
-        SLIDING_END.beside((1.0 + e_n) * least.to_radians().tan(), Basis::Predicted).because(&format!(
+        SLIDING_END.beside((1.0 + e_n) * least.to_radians().tan(), ClaimBasis::Predicted).because(&format!(
             "For finite k the law ends at 2/(7 - 1/k)/f at any e_n; {end} is {:.1}° for e_n = {between:.2}.",
             stated_end(between)
         )),
@@ -339,7 +339,7 @@ fn end_claims(models: &Models) -> Result<Vec<Claim>> {
             stated_e_n(angle),
             stated_end(stated_e_n(angle))
         )),
-        SLIDING_END_ANGLE.beside(least, Basis::Predicted).because(&format!(
+        SLIDING_END_ANGLE.beside(least, ClaimBasis::Predicted).because(&format!(
             "With e_n of the plain law, {e_n:.2}; a larger e_n ends sliding earlier, see Eq. 11."
         )),
     ])
@@ -349,10 +349,13 @@ fn end_claims(models: &Models) -> Result<Vec<Claim>> {
 fn steep_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     Ok(vec![
         E_T_STEEP
-            .beside(models.plain(NEARLY_STEEP)?.tangential_restitution, Basis::Predicted)
+            .beside(models.plain(NEARLY_STEEP)?.tangential_restitution, ClaimBasis::Predicted)
             .because("Rigid rolling gives 5/7, as the paper says; it omits compliance."),
         E_T_STEEP
-            .beside(models.refined(NEARLY_STEEP, lift.four / FASTER)?.tangential_restitution, Basis::Fitted)
+            .beside(
+                models.refined(NEARLY_STEEP, lift.four / FASTER)?.tangential_restitution,
+                ClaimBasis::Fitted,
+            )
             .because(
                 "The exponent of tangential-compliance is fitted to it; e_t = 1 at normal impact is assumed.",
             ),

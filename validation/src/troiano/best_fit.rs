@@ -5,14 +5,14 @@ use nearwall_lab::report::{Chart, Figure};
 
 use super::angle::{sliding, stated_e_n};
 use super::published::{
-    CRITICAL_ANGLE, E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_STEEP, FIT_E_N, FIT_E_T, FRICTION,
-    GLANCING, NEARLY_STEEP, SHALLOW, SLIDING_END, STEEP,
+    CRITICAL_ANGLE, E_N_GLANCING, E_N_NEAR_NORMAL, E_T_GLANCING, E_T_STEEP, FIT_E_N, FIT_E_T, GLANCING,
+    NEARLY_STEEP, SHALLOW, SLIDING_END, STEEP, WAX_FRICTION,
 };
 use crate::steps::{even, through};
-use crate::{Basis, Part};
+use crate::{ClaimBasis, StudyPart};
 
 /// Angles [degrees] that are fitted.
-const ANGLES: [f64; 2] = [10.0, 90.0];
+const FITTED_ANGLES: [f64; 2] = [10.0, 90.0];
 
 /// Least squares of Eq. 9 with constant `e_n` and `e_t` on points (angle [degrees], e_g): Gauss and Newton's method.
 fn fit(points: &[[f64; 2]]) -> [f64; 2] {
@@ -38,7 +38,7 @@ fn fit(points: &[[f64; 2]]) -> [f64; 2] {
 
 /// `e_t` where the stated sliding line ends.
 fn end_of_sliding() -> f64 {
-    1.0 - FRICTION.value * SLIDING_END.value
+    1.0 - WAX_FRICTION.value * SLIDING_END.value
 }
 
 /// `e_t` drawn straight through the stated values; angle in degrees.
@@ -68,41 +68,42 @@ fn paper(angle: f64) -> f64 {
 
 /// Constant `e_n` and `e_t` that fit best at angles so many degrees apart.
 fn fitted(e_t: fn(f64) -> f64, apart: f64) -> [f64; 2] {
-    let count = 1 + ((ANGLES[1] - ANGLES[0]) / apart) as usize;
-    fit(&even(ANGLES, count).map(|angle| [angle, e_g(e_t, angle)]).collect::<Vec<_>>())
+    let count = 1 + ((FITTED_ANGLES[1] - FITTED_ANGLES[0]) / apart) as usize;
+    fit(&even(FITTED_ANGLES, count).map(|angle| [angle, e_g(e_t, angle)]).collect::<Vec<_>>())
 }
 
 /// The part on the fit.
-pub(super) fn part() -> Part {
+pub(super) fn part() -> StudyPart {
     let points = fitted(stated_e_t, 5.0);
     let slid = fitted(slid_e_t, 5.0);
-    Part {
+    StudyPart {
         heading: "Fig 6: Eq. 9 with constant e_n and e_t".to_owned(),
         text: vec![text(points, slid)],
         figures: vec![chart()],
         claims: vec![
-            FIT_E_N.beside(points[0], Basis::Predicted).because(&format!(
+            FIT_E_N.beside(points[0], ClaimBasis::Predicted).because(&format!(
                 "From stated values at five angles instead of the figure's points. Sensitivity to the \
                  points: every 10° in place of 5° by {:.3}, the sliding line by {:.3}.",
                 (fitted(stated_e_t, 10.0)[0] - points[0]).abs(),
                 (slid[0] - points[0]).abs()
             )),
-            FIT_E_T.beside(points[1], Basis::Predicted).because(&format!(
+            FIT_E_T.beside(points[1], ClaimBasis::Predicted).because(&format!(
                 "As above. With the line f = {} it would be {:.2}: the paper's fit agrees with {} at \
                  {SHALLOW}°, not with Fig. 7's line.",
-                FRICTION.value, slid[1], E_T_GLANCING.value
+                WAX_FRICTION.value, slid[1], E_T_GLANCING.value
             )),
         ],
-        ..Part::default()
+        ..StudyPart::default()
     }
 }
 
 /// From the fits through the stated points and with the sliding line.
 fn text(points: [f64; 2], slid: [f64; 2]) -> String {
     let coarse = fitted(stated_e_t, 10.0);
-    let offset =
-        even(ANGLES, 161).map(|angle| (paper(angle) - e_g(stated_e_t, angle)).abs()).fold(0.0, f64::max);
-    let [low, high] = ANGLES;
+    let offset = even(FITTED_ANGLES, 161)
+        .map(|angle| (paper(angle) - e_g(stated_e_t, angle)).abs())
+        .fold(0.0, f64::max);
+    let [low, high] = FITTED_ANGLES;
     format!(
         "The paper fits e_g over all angles with two constants. Its points are in a figure only; here e_n \
          and e_t are drawn straight through the values that the text states ({} up to {GLANCING}°, falling \

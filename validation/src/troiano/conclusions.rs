@@ -3,23 +3,23 @@
 use nearwall::{Impact, Model};
 
 use super::published::{
-    DENSITY, DIAMETER, E_N_GLANCING, E_N_NEAR_NORMAL, GLANCING, STEEP, TARGETS, YIELD_RATIO,
+    E_N_GLANCING, E_N_NEAR_NORMAL, GLANCING, STEEP, TARGETS, WAX_DENSITY, WAX_DIAMETER, YIELD_RATIO,
 };
 use super::{Result, arriving, decide, model};
-use crate::oracle::carried::{Air, Flight, Law, Place, Sphere};
-use crate::{Claim, Part};
+use crate::oracle::carried::{Air, CarriedFlight, Law, OnTheWay, Sphere};
+use crate::{Claim, StudyPart};
 
 /// How far a particle flies off the wall [mm] in still air without gravity, until 1 % of its rebound speed [m/s] is left.
 fn reach(speed: f64) -> f64 {
-    let sphere = Sphere { diameter: DIAMETER, density: DENSITY, heat_capacity: 2000.0 };
-    let flight = Flight {
+    let sphere = Sphere { diameter: WAX_DIAMETER, density: WAX_DENSITY, heat_capacity: 2000.0 };
+    let flight = CarriedFlight {
         sphere,
         air: Air::at(293.15),
         law: Law::SchillerNaumann,
         downwards: 0.0,
         air_speed: &|_| 0.0,
     };
-    let start = Place { time: 0.0, at: 0.0, speed, temperature: 293.15 };
+    let start = OnTheWay { time: 0.0, at: 0.0, speed, temperature: 293.15 };
     let way = flight.way(start, 1e-4, |place| place.speed > 0.01 * speed);
     1e3 * way[way.len() - 1].at
 }
@@ -32,8 +32,8 @@ fn e_n(model: &Model, wall: &str, speed: f64, angle: f64) -> Result<f64> {
 }
 
 /// The part on the conclusions.
-pub(super) fn part() -> Result<Part> {
-    Ok(Part {
+pub(super) fn part() -> Result<StudyPart> {
+    Ok(StudyPart {
         heading: "Conclusions of the abstract".to_owned(),
         text: vec![
             "Four sentences summarise the paper. The first holds for stiff targets near the normal, which \
@@ -42,7 +42,7 @@ pub(super) fn part() -> Result<Part> {
                 .to_owned(),
         ],
         claims: vec![adequate()?, accumulation()?, dense_phase(), hot_particles()?],
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 

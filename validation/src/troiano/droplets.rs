@@ -8,16 +8,16 @@ use nearwall_lab::report::{Chart, Figure, number};
 use super::published::CAPTURE_120;
 use super::{Result, decide, model};
 use crate::steps::{even, range};
-use crate::{Claim, Part, Published};
+use crate::{Claim, Published, StudyPart};
 
 const HOT: f64 = 393.15;
 /// Fig. 14: impact speeds [m/s], angles [degrees], diameters [m].
-const SPEEDS: [f64; 2] = [0.7, 5.0];
-const ANGLES: [f64; 2] = [15.0, 90.0];
-const SIZES: [f64; 3] = [100e-6, 120e-6, 140e-6];
+const DROPLET_SPEEDS: [f64; 2] = [0.7, 5.0];
+const DROPLET_ANGLES: [f64; 2] = [15.0, 90.0];
+const DROPLET_SIZES: [f64; 3] = [100e-6, 120e-6, 140e-6];
 
 /// Fig. 14's impact that stands for all [m/s, degrees].
-const MIDDLE: [f64; 2] = [2.0, 90.0];
+const TYPICAL_IMPACT: [f64; 2] = [2.0, 90.0];
 
 /// What capture gains from the slowest to the fastest impact at one angle [points], by melting and by the droplet criterion.
 struct Trend([f64; 2]);
@@ -26,8 +26,9 @@ impl Trend {
     fn of(models: [&Model; 2], angle: f64) -> Result<Self> {
         let [mut by_melting, mut by_droplet] = [0.0; 2];
         for (model, gain) in models.into_iter().zip([&mut by_melting, &mut by_droplet]) {
-            let at = |speed: f64| decide(model, "default", &molten(speed, angle, SIZES[1]));
-            *gain = 100.0 * (at(SPEEDS[1])?.sticking_probability - at(SPEEDS[0])?.sticking_probability);
+            let at = |speed: f64| decide(model, "default", &molten(speed, angle, DROPLET_SIZES[1]));
+            *gain = 100.0
+                * (at(DROPLET_SPEEDS[1])?.sticking_probability - at(DROPLET_SPEEDS[0])?.sticking_probability);
         }
         Ok(Self([by_melting, by_droplet]))
     }
@@ -57,9 +58,9 @@ fn molten(speed: f64, angle: f64, diameter: f64) -> Impact {
 
 /// Every impact of Fig. 14.
 fn impacts() -> Vec<Impact> {
-    even(SPEEDS, 12)
-        .flat_map(|speed| even(ANGLES, 6).map(move |angle| (speed, angle)))
-        .flat_map(|(speed, angle)| SIZES.map(|diameter| molten(speed, angle, diameter)))
+    even(DROPLET_SPEEDS, 12)
+        .flat_map(|speed| even(DROPLET_ANGLES, 6).map(move |angle| (speed, angle)))
+        .flat_map(|(speed, angle)| DROPLET_SIZES.map(|diameter| molten(speed, angle, diameter)))
         .collect()
 }
 
@@ -80,7 +81,7 @@ fn span(melt: &Molten, impacts: &[Impact], of: fn(&DropletNumbers) -> f64) -> St
 }
 
 /// What both ways of posing it make of Fig. 14.
-struct Found {
+struct DropletResults {
     melting: Model,
     droplet: Model,
     melt: Molten,
@@ -92,7 +93,7 @@ struct Found {
     splash: String,
 }
 
-impl Found {
+impl DropletResults {
     fn new() -> Result<Self> {
         let [melting, droplet] = [model!("melting.toml")?, model!("droplet.toml")?];
         let melt = droplet.particle().molten(HOT)?;
@@ -127,10 +128,10 @@ impl Found {
 
     fn chart(&self) -> Figure {
         let splash_at = |angle: f64| -> Vec<[f64; 2]> {
-            even(SPEEDS, 44)
+            even(DROPLET_SPEEDS, 44)
                 .map(|speed| {
                     let normal = speed * angle.to_radians().sin();
-                    [speed, DropletNumbers::new(&self.melt, normal, SIZES[1]).splash]
+                    [speed, DropletNumbers::new(&self.melt, normal, DROPLET_SIZES[1]).splash]
                 })
                 .collect()
         };
@@ -162,7 +163,8 @@ impl Found {
 
     fn trends(&self) -> Result<[Claim; 2]> {
         let models = [&self.melting, &self.droplet];
-        let (shallow, straight) = (Trend::of(models, ANGLES[0])?, Trend::of(models, ANGLES[1])?);
+        let (shallow, straight) =
+            (Trend::of(models, DROPLET_ANGLES[0])?, Trend::of(models, DROPLET_ANGLES[1])?);
         let trend = |what: &str, published: &str, ours: &Trend, points| {
             let (text, holds) = (ours.text(), ours.beyond(points));
             Claim::predicted_statement("Fig 14", what, published, &text, holds)
@@ -179,8 +181,8 @@ impl Found {
     }
 
     fn mechanics(&self) -> Result<[Claim; 2]> {
-        let [speed, angle] = MIDDLE;
-        let outcome = decide(&self.melting, "default", &molten(speed, angle, SIZES[1]))?;
+        let [speed, angle] = TYPICAL_IMPACT;
+        let outcome = decide(&self.melting, "default", &molten(speed, angle, DROPLET_SIZES[1]))?;
         Ok([
             Claim::unchecked(
                 "Sec 4.3",
@@ -209,14 +211,14 @@ impl Found {
 }
 
 /// The part on droplets.
-pub(super) fn part() -> Result<Part> {
-    let found = Found::new()?;
+pub(super) fn part() -> Result<StudyPart> {
+    let found = DropletResults::new()?;
     let claims = [found.captures(), found.trends()?, found.mechanics()?];
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Fig 14: molten wax".to_owned(),
         text: found.text(),
         figures: vec![found.chart()],
         claims: claims.into_iter().flatten().collect(),
-        ..Part::default()
+        ..StudyPart::default()
     })
 }

@@ -4,10 +4,10 @@ use nearwall::capture::{CharFate, CharOnSlag, Judgement};
 use nearwall::material::Molten;
 use nearwall_lab::report::{Table, number};
 
-use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, Melt, TUBE_SPEED};
+use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, StatedMelt, TUBE_SPEED};
 use crate::steps::{even, range};
 use crate::study::table;
-use crate::{Claim, Part, Published};
+use crate::{Claim, Published, StudyPart};
 
 /// Speed [m/s] of the impacts.
 const SPEED: f64 = TUBE_SPEED.value;
@@ -20,7 +20,7 @@ const CHAR_FLUX: f64 = 1e7;
 /// A liquid wall and the particle that hits it.
 struct Wall {
     name: &'static str,
-    melt: Melt,
+    melt: StatedMelt,
     /// Density of the particle [kg/m³].
     particle: [f64; 2],
 }
@@ -86,13 +86,13 @@ impl Wall {
 }
 
 /// The part on section 3.1's statement about entrapment and over-layering.
-pub(super) fn part() -> Part {
-    Part {
+pub(super) fn part() -> StudyPart {
+    StudyPart {
         heading: "Section 3.1: neither entrapped nor over-layered".to_owned(),
         text: text(),
         tables: vec![corners()],
         claims: [slag(&WALLS[0]), wax(&WALLS[1])].concat(),
-        ..Part::default()
+        ..StudyPart::default()
     }
 }
 

@@ -8,10 +8,10 @@ use nearwall::normal::{
 };
 use nearwall_lab::report::number;
 
-use super::published::{DIAMETER, PYREX, SOLIDS, TARGETS, YIELD_RATIO};
+use super::published::{PYREX, SOLIDS, TARGETS, WAX_DIAMETER, YIELD_RATIO};
 use super::{Result, contact, model};
 use crate::steps::even;
-use crate::{Claim, Part, Published};
+use crate::{Claim, Published, StudyPart};
 
 /// Number under the root of Eq. 1: as printed, and as it has to be.
 pub(super) const AS_PRINTED: f64 = 4.0 / 3.0;
@@ -35,11 +35,11 @@ fn equation_6(w: f64, inner: f64) -> f64 {
 }
 
 /// The part on the normal impact.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let model = model!("targets.toml")?;
     let on = |wall: &str| contact(&model, wall, YIELD_RATIO.value, |_| {});
     let (pyrex, teflon) = (on("pyrex")?, on("teflon")?);
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Equations 1 to 6: the normal impact".to_owned(),
         text: vec![
             "Each equation was computed as printed and compared with Thornton and Ning's closed form, which \
@@ -60,7 +60,7 @@ pub(super) fn part() -> Result<Part> {
             elastic(&teflon),
             plastic(),
         ],
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
@@ -71,7 +71,7 @@ fn same(place: &str, what: &str, ratio: f64) -> Claim {
 
 /// Eq 1.
 fn sticking_velocity(pyrex: &Contact) -> Claim {
-    let ratio = |factor| equation_1(factor, pyrex, DIAMETER) / adhesive_velocity(pyrex, DIAMETER);
+    let ratio = |factor| equation_1(factor, pyrex, WAX_DIAMETER) / adhesive_velocity(pyrex, WAX_DIAMETER);
     Claim::derived_statement(
         "Eq 1",
         "number under the sixth root, with K = 4E*/3",
@@ -111,8 +111,8 @@ fn yielding(pyrex: &Contact) -> Claim {
 
 /// Eq 4.
 fn sticking(pyrex: &Contact) -> Claim {
-    let printed = equation_1(AS_PRINTED, pyrex, DIAMETER);
-    let speeds = NormalLaw::ThorntonNing.speeds(pyrex, DIAMETER);
+    let printed = equation_1(AS_PRINTED, pyrex, WAX_DIAMETER);
+    let speeds = NormalLaw::ThorntonNing.speeds(pyrex, WAX_DIAMETER);
     Claim::derived_statement(
         "Eq 4",
         "wax on Pyrex, c = 0.7: the speed up to which e_n is 0 [m/s]",
@@ -131,7 +131,7 @@ fn sticking(pyrex: &Contact) -> Claim {
 
 /// Eq 5.
 fn elastic(teflon: &Contact) -> Claim {
-    let (adhesive, yielding) = (adhesive_velocity(teflon, DIAMETER), yield_velocity(teflon));
+    let (adhesive, yielding) = (adhesive_velocity(teflon, WAX_DIAMETER), yield_velocity(teflon));
     let speed = 0.5 * (adhesive + yielding);
     let printed = (1.0 - (adhesive / speed).powi(2)).sqrt();
     same(

@@ -4,37 +4,38 @@ use nearwall::{Impact, Model, Outcome, global_restitution};
 use nearwall_lab::report::{Chart, Figure, Table};
 
 use super::published::{
-    CAMERA, DENSITY, DIAMETER, E_N_MEAN, E_N_SYRUP, E_N_THICK, E_N_THIN, SPEEDS, STEEP, Stated, YIELD_RATIO,
+    CAMERA, E_N_MEAN, E_N_SYRUP, E_N_THICK, E_N_THIN, FIGURE_SPEEDS, STEEP, StatedNumber, WAX_DENSITY,
+    WAX_DIAMETER, YIELD_RATIO,
 };
 use super::{Result, arriving, decide, model};
 use crate::steps::even;
 use crate::study::table;
 use crate::terms::first_value;
-use crate::{Basis, Claim, Part};
+use crate::{Claim, ClaimBasis, StudyPart};
 
 /// What lies on a wall of `layers.toml`, and the mean `e_n` that the paper states.
-struct Layer {
+struct CoveringLayer {
     wall: &'static str,
     /// Thickness of the powder [mm].
     thickness: f64,
     /// Below the powder.
     below: &'static str,
-    stated: Stated,
+    stated: StatedNumber,
 }
 
 /// Bare, thin, thick, on syrup.
-const LAYERS: [Layer; 4] = [
-    Layer { wall: "bare", thickness: 0.0, below: "", stated: E_N_MEAN },
-    Layer { wall: "thin", thickness: 0.25, below: "", stated: E_N_THIN },
-    Layer { wall: "thick", thickness: 1.4, below: "", stated: E_N_THICK },
-    Layer { wall: "syrup", thickness: 0.2, below: " on syrup", stated: E_N_SYRUP },
+const LAYERS: [CoveringLayer; 4] = [
+    CoveringLayer { wall: "bare", thickness: 0.0, below: "", stated: E_N_MEAN },
+    CoveringLayer { wall: "thin", thickness: 0.25, below: "", stated: E_N_THIN },
+    CoveringLayer { wall: "thick", thickness: 1.4, below: "", stated: E_N_THICK },
+    CoveringLayer { wall: "syrup", thickness: 0.2, below: " on syrup", stated: E_N_SYRUP },
 ];
 /// Thickness of the syrup [m]: assumed, the paper gives none.
 const FILM: f64 = 0.2e-3;
 /// Speeds over which impacts on syrup are counted.
 const COUNTED: usize = 26;
 
-impl Layer {
+impl CoveringLayer {
     fn name(&self) -> String {
         if self.thickness == 0.0 {
             "Pyrex".to_owned()
@@ -51,7 +52,7 @@ impl Layer {
 
 /// Mean `e_n` and `e_g` over the speeds of Fig. 10.
 fn means(outcome: &dyn Fn(f64) -> Result<Outcome>) -> Result<[f64; 2]> {
-    let speeds: Vec<f64> = even(SPEEDS, 51).collect();
+    let speeds: Vec<f64> = even(FIGURE_SPEEDS, 51).collect();
     let (mut e_n, mut e_g) = (0.0, 0.0);
     for speed in &speeds {
         let outcome = outcome(*speed)?;
@@ -67,22 +68,22 @@ fn means(outcome: &dyn Fn(f64) -> Result<Outcome>) -> Result<[f64; 2]> {
 
 /// Means on each of [`LAYERS`].
 fn means_on_layers(model: &Model) -> Result<Vec<[f64; 2]>> {
-    let on = |layer: &Layer| means(&|speed| decide(model, layer.wall, &arriving(speed, STEEP)));
+    let on = |layer: &CoveringLayer| means(&|speed| decide(model, layer.wall, &arriving(speed, STEEP)));
     LAYERS.iter().map(on).collect()
 }
 
 /// How many impacts of the speeds of Fig. 10 are held for certain.
 fn held(outcome: impl Fn(f64) -> Result<Outcome>) -> Result<usize> {
-    let outcomes = even(SPEEDS, COUNTED).map(outcome).collect::<Result<Vec<_>>>()?;
+    let outcomes = even(FIGURE_SPEEDS, COUNTED).map(outcome).collect::<Result<Vec<_>>>()?;
     Ok(outcomes.iter().filter(|outcome| outcome.sticking_probability == 1.0).count())
 }
 
 /// The part on layers.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let model = model!("layers.toml")?;
     let syrup = model!("syrup.toml")?;
     let means = means_on_layers(&model)?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Figs 10 and 11: powder on the target".to_owned(),
         text: text(first_value(&syrup, "liquid-film")?),
         tables: vec![layers(&means)],
@@ -93,11 +94,11 @@ pub(super) fn part() -> Result<Part> {
 
 /// `viscosity` is that of the syrup [Pa s].
 fn text(viscosity: f64) -> Vec<String> {
-    let stokes = DENSITY * DIAMETER * SPEEDS[1] / (9.0 * viscosity);
-    let diameter = 1e6 * DIAMETER;
-    let slow = E_N_THICK.value * SPEEDS[0];
+    let stokes = WAX_DENSITY * WAX_DIAMETER * FIGURE_SPEEDS[1] / (9.0 * viscosity);
+    let diameter = 1e6 * WAX_DIAMETER;
+    let slow = E_N_THICK.value * FIGURE_SPEEDS[0];
     let gravity = 9.81;
-    let [low, high] = SPEEDS;
+    let [low, high] = FIGURE_SPEEDS;
     vec![
         "`powder-layer` has two parameters, fitted to the two dry layers, so their e_n proves nothing. \
          Three points of a curve in two numbers do not test its form: any law that decreases fast and \
@@ -128,7 +129,7 @@ fn text(viscosity: f64) -> Vec<String> {
 }
 
 fn layers(means: &[[f64; 2]]) -> Table {
-    let row = |(layer, [e_n, e_g]): (&Layer, &[f64; 2])| {
+    let row = |(layer, [e_n, e_g]): (&CoveringLayer, &[f64; 2])| {
         vec![layer.name(), format!("{}", layer.stated.value), format!("{e_n:.3}"), format!("{e_g:.3}")]
     };
     table(
@@ -149,7 +150,7 @@ fn chart(model: &Model) -> Result<Figure> {
     let curve = even([0.0, 1.5e-3], 76)
         .map(|thickness| Ok([1e3 * thickness, over(thickness)?]))
         .collect::<Result<Vec<_>>>()?;
-    let [bare, thin, thick, syrup] = LAYERS.each_ref().map(Layer::point);
+    let [bare, thin, thick, syrup] = LAYERS.each_ref().map(CoveringLayer::point);
     Ok(Chart::new(
         "Normal restitution over powder",
         "thickness of the powder [mm]",
@@ -167,7 +168,7 @@ fn chart(model: &Model) -> Result<Figure> {
 fn dry(means: &[[f64; 2]]) -> Vec<Claim> {
     let [bare, thin, thick] = [0, 1, 2].map(|layer| means[layer][0]);
     vec![
-        E_N_THIN.beside(thin, Basis::Fitted).because(&format!(
+        E_N_THIN.beside(thin, ClaimBasis::Fitted).because(&format!(
             "One of the effect's two parameters is fitted to it. With c = {} the bare e_n is {bare:.3}, \
              {:.0} % above {} (Fig. 8), and so are the layers. Band: {}, as {} beside it has two decimals.",
             YIELD_RATIO.value,
@@ -176,7 +177,7 @@ fn dry(means: &[[f64; 2]]) -> Vec<Claim> {
             E_N_THIN.tolerance,
             E_N_THICK.value
         )),
-        E_N_THICK.beside(thick, Basis::Fitted).because("The other parameter is fitted to it."),
+        E_N_THICK.beside(thick, ClaimBasis::Fitted).because("The other parameter is fitted to it."),
     ]
 }
 
@@ -191,7 +192,7 @@ fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Result<Vec<Cla
         some => some.to_string(),
     };
     Ok(vec![
-        E_N_SYRUP.beside(mean, Basis::Predicted).because(&format!(
+        E_N_SYRUP.beside(mean, ClaimBasis::Predicted).because(&format!(
             "{} mm lies where the curve fitted to the other two is steep. \"The same regardless\" gives no \
              number; within ± {:.2} the two agree.",
             LAYERS[3].thickness,
@@ -219,7 +220,7 @@ fn on_syrup(model: &Model, syrup: &Model, [mean, _]: [f64; 2]) -> Result<Vec<Cla
 fn beside_the_mean(model: &Model, means: &[[f64; 2]]) -> Result<Vec<Claim>> {
     let [bare, thin, thick] = [0, 1, 2].map(|layer| means[layer][1]);
     let end = |speed: f64| decide(model, LAYERS[0].wall, &arriving(speed, STEEP));
-    let [slow, fast] = [end(SPEEDS[0])?.normal_restitution, end(SPEEDS[1])?.normal_restitution];
+    let [slow, fast] = [end(FIGURE_SPEEDS[0])?.normal_restitution, end(FIGURE_SPEEDS[1])?.normal_restitution];
     Ok(vec![
         Claim::predicted_statement(
             "Fig 11",

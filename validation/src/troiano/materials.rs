@@ -4,19 +4,19 @@ use nearwall::material::Library;
 use nearwall_lab::report::{Table, number};
 
 use super::published::{
-    CAMERA, COAL_SLAG, DENSITY, MELTING, MOLTEN_WAX, Melt, SLAG, SOLIDS, Solid, TARGETS, TUBE_SPEED,
-    VISCOSITY_AT,
+    CAMERA, COAL_SLAG, MELTING, MOLTEN_WAX, SLAG, SOLIDS, StatedMelt, StatedSolid, TARGETS, TUBE_SPEED,
+    VISCOSITY_AT, WAX_DENSITY,
 };
 use crate::steps::range;
 use crate::study::table;
-use crate::{Claim, Part, Published, Result};
+use crate::{Claim, Published, Result, StudyPart};
 
 const ROOM: f64 = 293.15;
 
 /// The library's materials, read by name and key.
-struct Shelf(Library);
+struct WallMaterial(Library);
 
-impl Shelf {
+impl WallMaterial {
     /// A property at a temperature [K].
     fn value(&self, material: &str, key: &str, temperature: f64) -> Result<f64> {
         let found = self.0.get(material).and_then(|material| material.property(key));
@@ -33,10 +33,10 @@ impl Shelf {
 }
 
 /// The part on materials.
-pub(super) fn part() -> Result<Part> {
-    let shelf = Shelf(Library::built_in()?);
+pub(super) fn part() -> Result<StudyPart> {
+    let shelf = WallMaterial(Library::built_in()?);
     let (rows, same) = table_1(&shelf)?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Tables 1 and 2: the materials".to_owned(),
         text: vec![
             "The library's materials against the printed ones, room temperature, MPa. The table says that \
@@ -57,7 +57,7 @@ pub(super) fn part() -> Result<Part> {
             viscosity(&shelf, "90", 1, 0.05)?,
             kinematic_viscosity(&shelf)?,
         ],
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
@@ -71,7 +71,7 @@ fn solids(rows: Vec<Vec<String>>) -> Table {
 }
 
 /// Table 1 row by row, and how many rows are the library's.
-fn table_1(shelf: &Shelf) -> Result<(Vec<Vec<String>>, u32)> {
+fn table_1(shelf: &WallMaterial) -> Result<(Vec<Vec<String>>, u32)> {
     let (mut rows, mut same) = (Vec::new(), 0);
     for (name, material, modulus, strength) in SOLIDS {
         let read =
@@ -108,7 +108,7 @@ fn as_printed(same: u32) -> Claim {
     )
 }
 
-fn slag_modulus(shelf: &Shelf) -> Result<Claim> {
+fn slag_modulus(shelf: &WallMaterial) -> Result<Claim> {
     let mut same = true;
     for [temperature, modulus] in SLAG {
         same &= shelf.value("coal-slag", "youngs_modulus", temperature)? == modulus;
@@ -123,7 +123,7 @@ fn slag_modulus(shelf: &Shelf) -> Result<Claim> {
 }
 
 fn resemblance() -> Claim {
-    let others = |of: fn(&Solid) -> f64| range(SOLIDS.iter().skip(1).map(of));
+    let others = |of: fn(&StatedSolid) -> f64| range(SOLIDS.iter().skip(1).map(of));
     let (modulus, strength) = (others(|solid| solid.2[0]), others(|solid| solid.3[0]));
     let [(_, _, wax_modulus, wax_strength), ..] = SOLIDS;
     let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
@@ -143,7 +143,7 @@ fn resemblance() -> Claim {
     ))
 }
 
-fn surface_energies(shelf: &Shelf) -> Result<Claim> {
+fn surface_energies(shelf: &WallMaterial) -> Result<Claim> {
     let mut same = true;
     for target in &TARGETS {
         let read = |key| shelf.value(target.material, key, ROOM);
@@ -160,11 +160,11 @@ fn surface_energies(shelf: &Shelf) -> Result<Claim> {
     ))
 }
 
-fn wax_melt(shelf: &Shelf) -> Result<Claim> {
+fn wax_melt(shelf: &WallMaterial) -> Result<Claim> {
     let density = shelf.value("montan-wax", "density", 373.15)?;
     let tension = shelf.value("montan-wax", "surface_tension", 373.15)?;
     let melting = shelf.value("montan-wax", "melting_point", 353.15)? - 273.15;
-    let same = density == DENSITY
+    let same = density == WAX_DENSITY
         && tension == MOLTEN_WAX.tension[0]
         && (MELTING[0]..=MELTING[1]).contains(&melting);
     Ok(Claim::derived_statement(
@@ -177,7 +177,7 @@ fn wax_melt(shelf: &Shelf) -> Result<Claim> {
     .because("Inputs: properties of the library's wax."))
 }
 
-fn slag_melt(shelf: &Shelf) -> Result<Claim> {
+fn slag_melt(shelf: &WallMaterial) -> Result<Claim> {
     let density = shelf.value("coal-slag", "density", 1673.15)?;
     let tension = shelf.value("coal-slag", "surface_tension", 1673.15)?;
     let within = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
@@ -207,7 +207,7 @@ fn pixel() -> Claim {
 }
 
 /// Of the wax at one of the paper's two temperatures [°C].
-fn viscosity(shelf: &Shelf, celsius: &str, place: usize, tolerance: f64) -> Result<Claim> {
+fn viscosity(shelf: &WallMaterial, celsius: &str, place: usize, tolerance: f64) -> Result<Claim> {
     Ok(Claim::fitted(
         "Sec 3.1",
         &format!("viscosity of the wax at {celsius} °C [Pa s]"),
@@ -216,10 +216,10 @@ fn viscosity(shelf: &Shelf, celsius: &str, place: usize, tolerance: f64) -> Resu
     ))
 }
 
-fn kinematic_viscosity(shelf: &Shelf) -> Result<Claim> {
+fn kinematic_viscosity(shelf: &WallMaterial) -> Result<Claim> {
     let [thin, thick] = VISCOSITY_AT.map(|temperature| shelf.value("montan-wax", "viscosity", temperature));
-    let wax = [thin? / DENSITY, thick? / DENSITY];
-    let Melt { viscosity, density, .. } = COAL_SLAG;
+    let wax = [thin? / WAX_DENSITY, thick? / WAX_DENSITY];
+    let StatedMelt { viscosity, density, .. } = COAL_SLAG;
     let slag = [viscosity[0] / density[1], viscosity[1] / density[0]];
     let span = |[low, high]: [f64; 2]| format!("{} to {}", number(low), number(high));
     Ok(Claim::derived_statement(

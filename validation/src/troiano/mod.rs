@@ -24,13 +24,13 @@ use nearwall::normal::{Contact, NormalLaw};
 use nearwall::{Impact, ImpactError, Model, Outcome};
 
 use crate::steps::even;
-use crate::{Extent, Result, Study};
+use crate::{Extent, Result, SourceStudy};
 
 /// The study.
 ///
 /// # Errors
 /// A model or case file that cannot be read, an impact that cannot be decided.
-pub fn study(extent: Extent) -> Result<Study> {
+pub fn study(extent: Extent) -> Result<SourceStudy> {
     let mut parts = vec![
         equations::part()?,
         oblique::part()?,
@@ -47,7 +47,7 @@ pub fn study(extent: Extent) -> Result<Study> {
         entrapment::part(),
     ]);
     parts.extend([tube::part(extent)?, plate::part(extent)?, conclusions::part()?]);
-    Ok(Study {
+    Ok(SourceStudy {
         title: "Wax on targets (Troiano et al.)".to_owned(),
         source: "M. Troiano, R. Solimene, P. Salatino, F. Montagnaro: Multiphase flow patterns in \
             entrained-flow slagging gasifiers: physical modelling of particle–wall impact at near-ambient \
@@ -86,7 +86,7 @@ fn arriving(normal_speed: f64, angle: f64) -> Impact {
     Impact {
         normal_speed,
         tangential_speed: normal_speed / angle.to_radians().tan(),
-        diameter: published::DIAMETER,
+        diameter: published::WAX_DIAMETER,
         ..Impact::default()
     }
 }
@@ -122,7 +122,7 @@ fn thornton_ning(contact: &Contact, diameter: f64, speed: f64) -> f64 {
 /// Mean of a quantity over the speeds of Figs 8 and 10, evenly spaced.
 fn mean_over_speeds(quantity: impl Fn(f64) -> f64) -> f64 {
     const COUNT: usize = 251;
-    even(published::SPEEDS, COUNT).map(quantity).sum::<f64>() / COUNT as f64
+    even(published::FIGURE_SPEEDS, COUNT).map(quantity).sum::<f64>() / COUNT as f64
 }
 
 /// Where a rising or falling quantity passes `target`, between two numbers.

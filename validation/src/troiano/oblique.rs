@@ -6,21 +6,21 @@ use nearwall_lab::report::number;
 
 use super::angle::{sliding, stated_e_n};
 use super::published::{
-    CRITICAL_ANGLE, E_N_GLANCING, E_N_NEAR_NORMAL, FIT_E_N, FIT_E_T, FRICTION, GLANCING, ROLLING,
-    SLIDING_END, SLIDING_END_ANGLE, STEEP, TARGETS, YIELD_RATIO,
+    CRITICAL_ANGLE, E_N_GLANCING, E_N_NEAR_NORMAL, FIT_E_N, FIT_E_T, GLANCING, RIGID_ROLLING, SLIDING_END,
+    SLIDING_END_ANGLE, STEEP, TARGETS, WAX_FRICTION, YIELD_RATIO,
 };
 use super::{Result, arriving, contact, decide, model, passes};
 use crate::steps::range;
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, ClaimBasis, Published, StudyPart};
 
 /// Angle [degrees] at which Eq. 11 ends sliding, for the paper's friction.
 fn critical(e_n: f64, k: f64) -> f64 {
-    critical_angle(FRICTION.value, e_n, k).to_degrees()
+    critical_angle(WAX_FRICTION.value, e_n, k).to_degrees()
 }
 
 /// Angle [degrees] at which a rigid sphere begins to roll: where Eq. 10 reaches 5/7.
 fn rigid(e_n: f64) -> f64 {
-    (2.0 / (7.0 * FRICTION.value * (1.0 + e_n))).atan().to_degrees()
+    (2.0 / (7.0 * WAX_FRICTION.value * (1.0 + e_n))).atan().to_degrees()
 }
 
 /// Mindlin's tangential over normal stiffness of wax on a target [1].
@@ -29,16 +29,16 @@ fn stiffness_ratio(wall: &str) -> Result<f64> {
 }
 
 /// The part on the oblique impact.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let k = stiffness_ratio("pyrex")?;
     let mut claims = vec![right_hand_side()?, middle_expression()];
     claims.extend(sliding_and_rolling()?);
     claims.extend([rigid_body(), critical_claim(k), stiffness(k)?, counting()?]);
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Equations 7 to 14: the oblique impact".to_owned(),
         text: vec![rolling_text(k), stiffness_text(k)],
         claims,
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
@@ -60,7 +60,7 @@ fn rolling_text(k: f64) -> String {
 fn stiffness_text(k: f64) -> String {
     let angle = CRITICAL_ANGLE.value;
     let e_n_for = |k: f64| passes(|e_n| critical(e_n, k), angle, [0.0, 1.0]);
-    let end = |k: f64| 2.0 / ((7.0 - 1.0 / k) * FRICTION.value);
+    let end = |k: f64| 2.0 / ((7.0 - 1.0 / k) * WAX_FRICTION.value);
     format!(
         "What Eq. 12 was in the authors' calculation cannot be told from {angle}°: with Mindlin's k = \
          {k:.3} Eq. 11 gives {angle}° for e_n = {:.3}, with k = 1, which the equation as printed gives for \
@@ -138,7 +138,7 @@ fn sliding_and_rolling() -> Result<[Claim; 2]> {
             Published::within(1.0, 1e-9),
             sliding(slid.normal_restitution, 30.0) / slid.tangential_restitution,
         ),
-        ROLLING.beside(at(70.0)?.tangential_restitution, Basis::Derived),
+        RIGID_ROLLING.beside(at(70.0)?.tangential_restitution, ClaimBasis::Derived),
     ])
 }
 
@@ -166,7 +166,7 @@ fn critical_claim(k: f64) -> Claim {
     let (end, end_angle) = (SLIDING_END.value, SLIDING_END_ANGLE.value);
     let implied = end / end_angle.to_radians().tan() - 1.0;
     let near_normal = E_N_NEAR_NORMAL.value;
-    CRITICAL_ANGLE.beside(critical(between, k), Basis::Predicted).because(&format!(
+    CRITICAL_ANGLE.beside(critical(between, k), ClaimBasis::Predicted).because(&format!(
         "With Mindlin's k and e_n = {between:.2} at {angle}°, drawn straight between Fig. 6's {} at \
          {GLANCING}° and {near_normal} at {STEEP}°. With e_n = {implied:.2}, which {end} at {end_angle}° \
          implies, it is {:.1}°; with {near_normal}, {:.1}°.",

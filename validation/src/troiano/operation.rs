@@ -8,7 +8,7 @@ use super::passes;
 use super::published::{FEED, LEAST_ANGLE, OPERATIONS, Operation, SHALLOW, TUBE};
 use crate::oracle::carried::{Air, terminal_speed};
 use crate::study::table;
-use crate::{Claim, Part};
+use crate::{Claim, StudyPart};
 
 impl Operation {
     /// Speed [m/s] that an air flow [m³/h at 273 K] of a temperature [°C] gives its particles: air plus terminal velocity.
@@ -35,10 +35,10 @@ fn span([low, high]: [f64; 2]) -> String {
 }
 
 /// The part on the operating conditions.
-pub(super) fn part() -> Part {
+pub(super) fn part() -> StudyPart {
     let mut claims: Vec<Claim> = OPERATIONS.iter().map(air_flow).collect();
     claims.extend([smallest_angle(), batches()]);
-    Part {
+    StudyPart {
         heading: "Table 3: the operating conditions".to_owned(),
         text: vec![
             "The paper takes the impact speed as air speed plus terminal velocity. Put into that sum, its \
@@ -49,7 +49,7 @@ pub(super) fn part() -> Part {
         ],
         tables: vec![speeds()],
         claims,
-        ..Part::default()
+        ..StudyPart::default()
     }
 }
 

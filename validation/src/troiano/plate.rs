@@ -4,38 +4,38 @@ use nearwall::normal::Contact;
 use nearwall_lab::report::{Chart, Figure, Table};
 use nearwall_lab::simulate::Hit;
 
-use super::published::{CAMERA, DIAMETER, E_N_MEAN, TUBE_SPEED, YIELD_RATIO};
-use super::tube::{AIR_SPEED, ROOM, hits, read, wax};
+use super::published::{CAMERA, E_N_MEAN, TUBE_SPEED, WAX_DIAMETER, YIELD_RATIO};
+use super::tube::{AIR_SPEED, ROOM_AIR, hits, read, wax};
 use super::{Result, contact, mean_over_speeds, model, passes, thornton_ning};
-use crate::oracle::carried::{Flight, Law, Place, relaxation_time, terminal_speed};
+use crate::oracle::carried::{CarriedFlight, Law, OnTheWay, relaxation_time, terminal_speed};
 use crate::steps::even;
 use crate::study::table;
-use crate::{Basis, Claim, Extent, Part};
+use crate::{Claim, ClaimBasis, Extent, StudyPart};
 
 /// Normal speeds [m/s] of the table.
-const SPEEDS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
+const PLATE_SPEEDS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 
 /// What two frames a millisecond apart make of a normal restitution [1] at a plate, over what it is: the particle is braked
 /// on its way in and out. The speed between two frames is that half-way; the nearest pairs lie a millisecond off on average.
 fn seen(speed: f64, e_n: f64, air: f64) -> f64 {
     let height = 0.03_f64;
     let gas = |z: f64| -air * (std::f64::consts::FRAC_PI_2 * (z / height).clamp(0.0, 1.0)).sin();
-    let flight = Flight {
-        sphere: wax(DIAMETER),
-        air: ROOM,
+    let flight = CarriedFlight {
+        sphere: wax(WAX_DIAMETER),
+        air: ROOM_AIR,
         law: Law::SchillerNaumann,
         downwards: -1.0,
         air_speed: &gas,
     };
     let at = |speed: f64, step: f64| {
-        let start = Place { time: 0.0, at: 0.5 * DIAMETER, speed, temperature: ROOM.temperature };
+        let start = OnTheWay { time: 0.0, at: 0.5 * WAX_DIAMETER, speed, temperature: ROOM_AIR.temperature };
         let way = flight.way(start, step, |place| place.time.abs() < CAMERA.frame - 1e-9);
         way[way.len() - 1].speed
     };
     at(e_n * speed, 1e-6) / -at(-speed, -1e-6) / e_n
 }
 
-/// `e_n` as the frames show it over what it is [1] at each of [`SPEEDS`], with air as fast as the particle, and in still air.
+/// `e_n` as the frames show it over what it is [1] at each of [`PLATE_SPEEDS`], with air as fast as the particle, and in still air.
 struct Frames {
     moving: [f64; 4],
     still: [f64; 4],
@@ -45,8 +45,8 @@ impl Frames {
     fn new() -> Self {
         let e_n = E_N_MEAN.value;
         Self {
-            moving: SPEEDS.map(|speed| seen(speed, e_n, speed)),
-            still: SPEEDS.map(|speed| seen(speed, e_n, 0.0)),
+            moving: PLATE_SPEEDS.map(|speed| seen(speed, e_n, speed)),
+            still: PLATE_SPEEDS.map(|speed| seen(speed, e_n, 0.0)),
         }
     }
 
@@ -61,7 +61,7 @@ fn yield_ratio(share: f64) -> Result<f64> {
     let pyrex = contact(&model!("wax-on-pyrex.toml")?, "default", YIELD_RATIO.value, |_| {})?;
     let mean = |c: f64| {
         let contact = Contact { yield_ratio: c, ..pyrex };
-        share * mean_over_speeds(|speed| thornton_ning(&contact, DIAMETER, speed))
+        share * mean_over_speeds(|speed| thornton_ning(&contact, WAX_DIAMETER, speed))
     };
     Ok(passes(mean, E_N_MEAN.value, [0.3, 2.0]))
 }
@@ -74,14 +74,14 @@ fn speed_at_plate(hits: &[Hit]) -> [f64; 2] {
 }
 
 /// The part on the plate.
-pub(super) fn part(extent: Extent) -> Result<Part> {
+pub(super) fn part(extent: Extent) -> Result<StudyPart> {
     let mut case = read("validation/troiano/rig.toml", include_str!("../../troiano/rig.toml"))?;
     let count = &mut case.injections[0].count;
     *count = extent.count(*count as usize) as u64;
     let hits = hits(&mut case)?;
     let speed = speed_at_plate(&hits);
     let frames = Frames::new();
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Fig 3: the plate below the tube".to_owned(),
         text: vec![plate_text(speed), frames_text(&frames)?],
         tables: vec![frames_table(&frames)],
@@ -113,12 +113,12 @@ fn frames_text(frames: &Frames) -> Result<String> {
          and c for the mean of Fig. 10 {:.2} in place of {:.2}. The paper says nothing of it; its own Fig. \
          5 calls the paths linear.",
         1e3 * CAMERA.frame,
-        1e6 * DIAMETER,
-        1e3 * relaxation_time(&wax(DIAMETER), &ROOM),
+        1e6 * WAX_DIAMETER,
+        1e3 * relaxation_time(&wax(WAX_DIAMETER), &ROOM_AIR),
         frames.moving[0],
-        SPEEDS[0],
+        PLATE_SPEEDS[0],
         frames.moving[3],
-        SPEEDS[3],
+        PLATE_SPEEDS[3],
         e_n / frames.share(),
         yield_ratio(frames.share())?,
         yield_ratio(1.0)?
@@ -133,7 +133,7 @@ fn frames_table(frames: &Frames) -> Table {
         "e_n = 0.28 as two frames 1 ms apart show it, air as fast as the particle (assumed)",
         0,
         "v_n at the wall [m/s] | seen over true | the same in still air",
-        SPEEDS.iter().zip(frames.moving.iter().zip(&frames.still)).map(row).collect(),
+        PLATE_SPEEDS.iter().zip(frames.moving.iter().zip(&frames.still)).map(row).collect(),
     )
 }
 
@@ -141,7 +141,7 @@ fn chart(hits: &[Hit]) -> Figure {
     let points: Vec<[f64; 2]> =
         hits.iter().map(|hit| [hit.impact.diameter * 1e6, hit.impact.speed()]).collect();
     let tube: Vec<[f64; 2]> =
-        even([50e-6, 110e-6], 31).map(|d| [d * 1e6, AIR_SPEED + terminal_speed(d, &ROOM)]).collect();
+        even([50e-6, 110e-6], 31).map(|d| [d * 1e6, AIR_SPEED + terminal_speed(d, &ROOM_AIR)]).collect();
     Chart::new("Speed at the plate", "diameter [µm]", "speed [m/s]")
         .x_range(50.0, 110.0)
         .y_range(0.0, 2.5)
@@ -152,7 +152,7 @@ fn chart(hits: &[Hit]) -> Figure {
 
 fn claims(speed: f64, frames: &Frames) -> Vec<Claim> {
     vec![
-        TUBE_SPEED.beside(speed, Basis::Predicted).because(
+        TUBE_SPEED.beside(speed, ClaimBasis::Predicted).because(
             "At the plate, for 2 m/s at the tube's end. The size of the plate and the flow around it are \
              not given; a smaller plate decelerates less. If 2 m/s were the tube's value, Figs 12 to 14 \
              were measured at lower speeds.",

@@ -5,17 +5,17 @@ use nearwall::normal::{Contact, NormalLaw, restitution, yield_velocity};
 use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
-    DIAMETER, DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, HARD_SPHERE, MODULUS_SPREAD, PYREX, SOLIDS, SPEEDS,
-    STEEP, STRENGTH_SPREAD, YIELD_RATIO,
+    DIAMETER_SPREAD, E_N_FIG_8, E_N_MEAN, FIGURE_SPEEDS, HARD_SPHERE, MODULUS_SPREAD, PYREX, SOLIDS, STEEP,
+    STRENGTH_SPREAD, WAX_DIAMETER, YIELD_RATIO,
 };
 use super::{Result, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
 use crate::steps::even;
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, ClaimBasis, Published, StudyPart};
 
 /// Speed between the ends of the figure [m/s] at which the door is tried.
-const MIDDLE: f64 = 1.25;
+const TYPICAL_SPEED: f64 = 1.25;
 /// Where the `p_y/sigma_y` of a mean is looked for.
-const RATIOS: [f64; 2] = [0.3, 1.5];
+const FITTED_RATIOS: [f64; 2] = [0.3, 1.5];
 
 /// The contact of wax and Pyrex with strength [Pa] and modulus [Pa] off by so much, and `c`.
 fn wax(model: &Model, strength: f64, modulus: f64, c: f64) -> Result<Contact> {
@@ -27,7 +27,7 @@ fn wax(model: &Model, strength: f64, modulus: f64, c: f64) -> Result<Contact> {
 
 /// Mean `e_n` over the paper's speeds.
 fn mean(contact: &Contact) -> f64 {
-    mean_over_speeds(|v| thornton_ning(contact, DIAMETER, v))
+    mean_over_speeds(|v| thornton_ning(contact, WAX_DIAMETER, v))
 }
 
 /// Mean `e_n` on Pyrex with the paper's inputs.
@@ -40,7 +40,7 @@ struct Centre(Contact);
 
 impl Centre {
     fn e_n(&self, speed: f64) -> f64 {
-        thornton_ning(&self.0, DIAMETER, speed)
+        thornton_ning(&self.0, WAX_DIAMETER, speed)
     }
 
     /// With the paper's `v_s` as printed.
@@ -53,7 +53,7 @@ impl Centre {
     }
 
     fn adhesive_velocity(&self) -> f64 {
-        NormalLaw::ThorntonNing.speeds(&self.0, DIAMETER).adhesive
+        NormalLaw::ThorntonNing.speeds(&self.0, WAX_DIAMETER).adhesive
     }
 
     fn with(&self, c: f64) -> Contact {
@@ -62,19 +62,19 @@ impl Centre {
 
     /// The `c` of the stated mean.
     fn best(&self) -> f64 {
-        passes(|c| mean(&self.with(c)), E_N_MEAN.value, RATIOS)
+        passes(|c| mean(&self.with(c)), E_N_MEAN.value, FITTED_RATIOS)
     }
 
     /// The same with `v_s` as printed.
     fn best_printed(&self) -> f64 {
         let mean = |c| mean_over_speeds(|v| Self(self.with(c)).printed(v));
-        passes(mean, E_N_MEAN.value, RATIOS)
+        passes(mean, E_N_MEAN.value, FITTED_RATIOS)
     }
 
     /// What the range of diameters moves `e_n` by at a speed [m/s].
     fn by_size(&self, speed: f64) -> f64 {
         let at = |diameter| thornton_ning(&self.0, diameter, speed);
-        at(DIAMETER + DIAMETER_SPREAD) - at(DIAMETER - DIAMETER_SPREAD)
+        at(WAX_DIAMETER + DIAMETER_SPREAD) - at(WAX_DIAMETER - DIAMETER_SPREAD)
     }
 }
 
@@ -101,26 +101,27 @@ impl Moved {
 }
 
 /// The part on speed.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let model = model!("wax-on-pyrex.toml")?;
     let centre = Centre(wax(&model, 0.0, 0.0, YIELD_RATIO.value)?);
     let moved = Moved::new(&model)?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Fig 8: the speed".to_owned(),
         text: vec![inputs_text(&centre, &moved), slip_text(&centre)],
         figures: vec![chart(&model, &centre, &moved)?],
         claims: [fit_claims(&model, &centre)?, plastic_claims(&centre), adhesion_claims(&model, &centre)?]
             .concat(),
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
 /// What the inputs say, and how well they are known.
 fn inputs_text(centre: &Centre, moved: &Moved) -> String {
-    let [slow, fast] = SPEEDS;
+    let [slow, fast] = FIGURE_SPEEDS;
     let [low, high] = moved.ends(centre, mean);
     let [(_, _, modulus, strength), ..] = SOLIDS;
-    let sizes = [DIAMETER - DIAMETER_SPREAD, DIAMETER + DIAMETER_SPREAD].map(|diameter| 1e6 * diameter);
+    let sizes =
+        [WAX_DIAMETER - DIAMETER_SPREAD, WAX_DIAMETER + DIAMETER_SPREAD].map(|diameter| 1e6 * diameter);
     format!(
         "Thornton and Ning's law with the paper's inputs and c = {} has a mean e_n of {:.3} between {slow} \
          and {fast} m/s, {:.3} at {slow}, {:.3} at 1 and {:.3} at {fast} m/s; the deviations of sigma_y \
@@ -145,7 +146,7 @@ fn inputs_text(centre: &Centre, moved: &Moved) -> String {
 
 /// What Table 4's slip does.
 fn slip_text(centre: &Centre) -> String {
-    let [slow, fast] = SPEEDS;
+    let [slow, fast] = FIGURE_SPEEDS;
     format!(
         "Table 4's slip of ten in v_s decides the form at the low end. With the mended {:.2} m/s adhesion \
          lowers e_n at {slow} m/s from {:.2} to {:.2} and the curve is nearly flat, as the paper says of \
@@ -169,20 +170,20 @@ fn chart(model: &Model, centre: &Centre, moved: &Moved) -> Result<Figure> {
     let speeds: Vec<f64> = even([0.1, 3.5], 171).collect();
     let ends: Vec<[f64; 2]> = speeds
         .iter()
-        .map(|speed| moved.ends(centre, |contact| thornton_ning(contact, DIAMETER, *speed)))
+        .map(|speed| moved.ends(centre, |contact| thornton_ning(contact, WAX_DIAMETER, *speed)))
         .map(|ends| ends.map(|end| end.max(0.0)))
         .collect();
     let end = |side: usize| ends.iter().map(|ends| ends[side]).collect::<Vec<f64>>();
     let curve = |of: &dyn Fn(f64) -> f64| -> Vec<[f64; 2]> { speeds.iter().map(|v| [*v, of(*v)]).collect() };
     let hard = wax(model, 0.0, 0.0, 0.5 * (HARD_SPHERE[0] + HARD_SPHERE[1]))?;
-    let stated: Vec<[f64; 2]> = even(SPEEDS, 6).map(|speed| [speed, E_N_MEAN.value]).collect();
+    let stated: Vec<[f64; 2]> = even(FIGURE_SPEEDS, 6).map(|speed| [speed, E_N_MEAN.value]).collect();
     Ok(Chart::new("Normal restitution over the normal speed", "normal impact speed [m/s]", "e_n [1]")
         .x_range(0.0, 3.5)
         .y_range(0.0, 1.0)
         .band(&speeds, &end(0), &end(1))
         .line("c = 0.7", &curve(&|v| centre.e_n(v)))
         .line("c = 0.7 with the printed v_s", &curve(&|v| centre.printed(v)))
-        .line("c = 2.8, hard sphere", &curve(&|v| thornton_ning(&hard, DIAMETER, v)))
+        .line("c = 2.8, hard sphere", &curve(&|v| thornton_ning(&hard, WAX_DIAMETER, v)))
         .points("stated mean", &stated)
         .figure(
             "troiano-speed",
@@ -198,15 +199,15 @@ fn fit_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
     let c = YIELD_RATIO;
     let [low, high] = [c.value - c.tolerance, c.value + c.tolerance];
     Ok(vec![
-        E_N_MEAN.beside(mean(&centre.0), Basis::Fitted).because(&format!(
+        E_N_MEAN.beside(mean(&centre.0), ClaimBasis::Fitted).because(&format!(
             "c = {} is the paper's fit and printed to one digit; {low:.2} to {high:.2} gives {:.3} to \
              {:.3}. Equal weights over the speeds are an assumption.",
             c.value,
             mean_of(low),
             mean_of(high)
         )),
-        E_N_FIG_8.beside(mean(&centre.0), Basis::Fitted),
-        c.beside(centre.best(), Basis::Fitted)
+        E_N_FIG_8.beside(mean(&centre.0), ClaimBasis::Fitted),
+        c.beside(centre.best(), ClaimBasis::Fitted)
             .because(&format!("c for a mean e_n of {} with the corrected v_s.", E_N_MEAN.value)),
         Claim::predicted_statement(
             "Fig 8",
@@ -222,7 +223,7 @@ fn fit_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
 /// Of the plastic regime.
 fn plastic_claims(centre: &Centre) -> Vec<Claim> {
     let (yielding, adhesive) = (yield_velocity(&centre.0), centre.adhesive_velocity());
-    let [slow, fast] = SPEEDS;
+    let [slow, fast] = FIGURE_SPEEDS;
     let kept = centre.e_n(fast) / centre.e_n(slow);
     let kept_without = centre.without_adhesion(fast) / centre.without_adhesion(slow);
     let top = even([0.05, fast], 2951)
@@ -260,10 +261,10 @@ fn plastic_claims(centre: &Centre) -> Vec<Claim> {
 
 /// Of adhesion, and of the door that users take.
 fn adhesion_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
-    let [slow, fast] = SPEEDS;
+    let [slow, fast] = FIGURE_SPEEDS;
     let over = |speed: f64| centre.without_adhesion(speed) / centre.e_n(speed);
-    let added = [slow, MIDDLE, fast].map(|speed| format!("{:.0}", 100.0 * (over(speed) - 1.0)));
-    let by_door = decide(model, "default", &arriving(MIDDLE, STEEP))?.normal_restitution;
+    let added = [slow, TYPICAL_SPEED, fast].map(|speed| format!("{:.0}", 100.0 * (over(speed) - 1.0)));
+    let by_door = decide(model, "default", &arriving(TYPICAL_SPEED, STEEP))?.normal_restitution;
     Ok(vec![
         Claim::predicted_statement(
             "Sec 4.1",
@@ -282,7 +283,7 @@ fn adhesion_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
             "Fig 8",
             "e_n at 1.25 m/s: `Model::resolve` over the law with the contact of this part [1]",
             Published::within(1.0, 1e-12),
-            by_door / centre.e_n(MIDDLE),
+            by_door / centre.e_n(TYPICAL_SPEED),
         ),
     ])
 }

@@ -4,23 +4,23 @@ use nearwall::normal::{Contact, restitution, yield_velocity};
 use nearwall::{Model, global_restitution};
 use nearwall_lab::report::{BarChart, Figure, Table};
 
-use super::published::{DIAMETER, E_N_MEAN, E_N_MEAN_WAX, STEEP, TARGETS, Target, YIELD_RATIO};
+use super::published::{E_N_MEAN, E_N_MEAN_WAX, STEEP, StatedTarget, TARGETS, WAX_DIAMETER, YIELD_RATIO};
 use super::{Result, arriving, contact, decide, mean_over_speeds, model, passes, thornton_ning};
 use crate::steps::range;
 use crate::study::table;
-use crate::{Basis, Claim, Part};
+use crate::{Claim, ClaimBasis, StudyPart};
 
 /// Speed of Fig. 9 [m/s], not its normal part.
-const SPEED: f64 = 1.25;
+const SPEED_OF_FIGURE: f64 = 1.25;
 
 /// Its normal part [m/s].
 fn normal_speed() -> f64 {
-    SPEED * STEEP.to_radians().sin()
+    SPEED_OF_FIGURE * STEEP.to_radians().sin()
 }
 
 /// An impact on one of the targets.
-struct Found {
-    target: &'static Target,
+struct TargetImpact {
+    target: &'static StatedTarget,
     contact: Contact,
     /// Restitution by the law, and `e_n` with Table 4's velocities as printed [1].
     e_n: f64,
@@ -28,8 +28,8 @@ struct Found {
     printed: f64,
 }
 
-impl Found {
-    fn on(model: &Model, target: &'static Target) -> Result<Self> {
+impl TargetImpact {
+    fn on(model: &Model, target: &'static StatedTarget) -> Result<Self> {
         let normal = normal_speed();
         let outcome = decide(model, target.wall, &arriving(normal, STEEP))?;
         Ok(Self {
@@ -47,14 +47,14 @@ impl Found {
 
     /// Mean `e_n` over the speeds of Fig. 10.
     fn mean(&self) -> f64 {
-        mean_over_speeds(|speed| thornton_ning(&self.contact, DIAMETER, speed))
+        mean_over_speeds(|speed| thornton_ning(&self.contact, WAX_DIAMETER, speed))
     }
 
     /// The `p_y/sigma_y` of the mean `e_n` that was stated on wax.
     fn ratio_needed(&self) -> f64 {
         let mean = |c| {
             let contact = Contact { yield_ratio: c, ..self.contact };
-            mean_over_speeds(|speed| thornton_ning(&contact, DIAMETER, speed))
+            mean_over_speeds(|speed| thornton_ning(&contact, WAX_DIAMETER, speed))
         };
         passes(mean, E_N_MEAN_WAX.value, [0.1, 1.0])
     }
@@ -74,33 +74,33 @@ impl Found {
 
 /// On each of the four.
 struct Four {
-    teflon: Found,
-    wax: Found,
-    steel: Found,
-    pyrex: Found,
+    teflon: TargetImpact,
+    wax: TargetImpact,
+    steel: TargetImpact,
+    pyrex: TargetImpact,
 }
 
 impl Four {
     fn new(model: &Model) -> Result<Self> {
-        let [teflon, wax, steel, pyrex] = TARGETS.each_ref().map(|target| Found::on(model, target));
+        let [teflon, wax, steel, pyrex] = TARGETS.each_ref().map(|target| TargetImpact::on(model, target));
         Ok(Self { teflon: teflon?, wax: wax?, steel: steel?, pyrex: pyrex? })
     }
 
     /// In the order of the paper's table.
-    fn all(&self) -> [&Found; 4] {
+    fn all(&self) -> [&TargetImpact; 4] {
         [&self.teflon, &self.wax, &self.steel, &self.pyrex]
     }
 
     /// `e_n` over that on Pyrex [1].
-    fn over_pyrex(&self, found: &Found) -> f64 {
+    fn over_pyrex(&self, found: &TargetImpact) -> f64 {
         found.e_n / self.pyrex.e_n
     }
 }
 
 /// The part on targets.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let four = Four::new(&model!("targets.toml")?)?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Fig 9: the target".to_owned(),
         text: vec![slip_text(&four), soft_text(&four)],
         tables: vec![overview(&four)],
@@ -141,14 +141,14 @@ fn overview(four: &Four) -> Table {
         "v_i = 1.25 m/s at 84°, 75 µm",
         1,
         "target | E* [GPa] | v_y [m/s] | e_n | e_g | e_n with Table 4 as printed | mean e_n, 0.5–3 m/s",
-        four.all().map(Found::row).to_vec(),
+        four.all().map(TargetImpact::row).to_vec(),
     )
 }
 
 fn bars(four: &Four) -> Figure {
     let names = TARGETS.each_ref().map(|target| target.name.to_owned());
     let caption = format!(
-        "{SPEED} m/s at {STEEP}°. Measured: the same on all; the means stated are {} on Pyrex and on wax.",
+        "{SPEED_OF_FIGURE} m/s at {STEEP}°. Measured: the same on all; the means stated are {} on Pyrex and on wax.",
         E_N_MEAN.value
     );
     BarChart::new("Normal restitution on four targets", "e_n [1]", &names)
@@ -160,7 +160,8 @@ fn bars(four: &Four) -> Figure {
 /// Of `e_n` on stiff and on soft targets.
 fn same_restitution(four: &Four) -> Vec<Claim> {
     let [steel, wax, teflon] = [&four.steel, &four.wax, &four.teflon].map(|found| four.over_pyrex(found));
-    let yielding = |found: &Found| yield_velocity(&found.contact) / yield_velocity(&four.pyrex.contact);
+    let yielding =
+        |found: &TargetImpact| yield_velocity(&found.contact) / yield_velocity(&four.pyrex.contact);
     let same = |what: &str, ours: &str, holds| {
         Claim::predicted_statement("Fig 9", what, "negligible difference", ours, holds)
     };
@@ -200,7 +201,7 @@ fn same_speeds(four: &Four) -> Vec<Claim> {
             "An error in Table 4: the value of Pyrex is given for all. Equal e_n implies equal v_y only \
              within the law.",
         ),
-        E_N_MEAN_WAX.beside(four.wax.mean(), Basis::Predicted).because(&format!(
+        E_N_MEAN_WAX.beside(four.wax.mean(), ClaimBasis::Predicted).because(&format!(
             "As above for soft targets; c was fitted on Pyrex, where the mean is {:.2}.",
             four.pyrex.mean()
         )),

@@ -4,11 +4,11 @@ use nearwall::{Impact, Model, Outcome};
 use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
-    CAPTURE_70, CAPTURE_105, CONVERSION, E_N_MEAN, FLOW_TEST, IMPACTS, MELTING, STEEP, TUBE_SPEED,
+    CAPTURE_70, CAPTURE_105, CHAR_CONVERSION, E_N_MEAN, FLOW_TEST, IMPACTS, MELTING, STEEP, TUBE_SPEED,
 };
 use super::{Result, arriving, decide, model, passes};
 use crate::steps::{even, through};
-use crate::{Basis, Claim, Part, Published};
+use crate::{Claim, ClaimBasis, Published, StudyPart};
 
 /// A particle at 2 m/s and 84° and a temperature [K] of particle and target.
 fn hot(diameter: f64, kelvin: f64) -> Impact {
@@ -63,15 +63,15 @@ fn over_temperatures(of: impl Fn(f64) -> Result<f64>) -> Result<Vec<[f64; 2]>> {
 }
 
 /// The part on melting.
-pub(super) fn melting() -> Result<Part> {
+pub(super) fn melting() -> Result<StudyPart> {
     let model = model!("melting.toml")?;
     let flow = model!("flow-test.toml")?;
-    Ok(Part {
+    Ok(StudyPart {
         heading: "Figs 12 and 13: the temperature".to_owned(),
         text: vec![set_text(&model), error_text(), flow_text(&model, &flow)?, openfoam_text()?],
         figures: vec![capture_chart(&model, &flow)?, rebound_chart(&model, &flow)?],
         claims: [captures_claims(&model)?, flow_claims(&flow)?, rebound_claims(&model)?].concat(),
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
@@ -187,8 +187,8 @@ fn captures_claims(model: &Model) -> Result<Vec<Claim>> {
         none("capture at 50 °C, \"practically zero\" [%]", 50.0)?
             .because("Below one of 100; at least 50 impacts a point."),
         none("capture at 20 °C [%]", 20.0)?,
-        CAPTURE_70.beside(capture(model, 70.0)?, Basis::Fitted),
-        CAPTURE_105.beside(capture(model, 105.0)?, Basis::Fitted),
+        CAPTURE_70.beside(capture(model, 70.0)?, ClaimBasis::Fitted),
+        CAPTURE_105.beside(capture(model, 105.0)?, ClaimBasis::Fitted),
     ])
 }
 
@@ -267,10 +267,10 @@ fn captured_char(model: &Model, conversion: f64) -> Result<f64> {
 }
 
 /// The part on coal conversion.
-pub(super) fn conversion() -> Result<Part> {
+pub(super) fn conversion() -> Result<StudyPart> {
     let model = model!("char.toml")?;
-    let [low, high] = CONVERSION;
-    Ok(Part {
+    let [low, high] = CHAR_CONVERSION;
+    Ok(StudyPart {
         heading: "Fig 12, coal: the conversion".to_owned(),
         text: vec![format!(
             "Li et al.'s captures are in a figure, their numbers not in the text. What can be posed is \
@@ -280,12 +280,12 @@ pub(super) fn conversion() -> Result<Part> {
         )],
         figures: vec![conversion_chart(&model)?],
         claims: conversion_claims(&model)?,
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
 fn conversion_chart(model: &Model) -> Result<Figure> {
-    let [low, high] = CONVERSION;
+    let [low, high] = CHAR_CONVERSION;
     let curve = even([0.7, 1.0], 301)
         .map(|conversion| Ok([conversion, captured_char(model, conversion)?]))
         .collect::<Result<Vec<_>>>()?;
@@ -302,7 +302,7 @@ fn conversion_chart(model: &Model) -> Result<Figure> {
 }
 
 fn conversion_claims(model: &Model) -> Result<Vec<Claim>> {
-    let [low, high] = CONVERSION;
+    let [low, high] = CHAR_CONVERSION;
     let mut captured = Vec::new();
     for conversion in [0.85, low, high, 0.95] {
         captured.push(captured_char(model, conversion)?);

@@ -3,19 +3,19 @@
 use std::path::Path;
 
 use nearwall_lab::report::{Chart, Figure, Table, number};
-use nearwall_lab::simulate::{self, Case, Hit, Shape};
+use nearwall_lab::simulate::{self, Case, Hit, SurfaceShape};
 
-use super::published::{DENSITY, FUSION_TIME, RESIDENCE, TUBE, TUBE_LENGTH, TUBE_SPEED};
+use super::published::{FUSION_TIME, RESIDENCE, TUBE, TUBE_LENGTH, TUBE_SPEED, WAX_DENSITY};
 use super::{Result, passes};
 use crate::oracle::carried::{
-    Air, Flight, Law, Place, Sphere, relaxation_time, stokes_closed_form, terminal_speed,
+    Air, CarriedFlight, Law, OnTheWay, Sphere, relaxation_time, stokes_closed_form, terminal_speed,
 };
 use crate::steps::even;
 use crate::study::table;
-use crate::{Basis, Claim, Extent, Part, Published};
+use crate::{Claim, ClaimBasis, Extent, Published, StudyPart};
 
 /// The air of `tube.toml` at 20 and 105 °C: the numbers of its tables.
-pub(super) const ROOM: Air =
+pub(super) const ROOM_AIR: Air =
     Air { temperature: 293.15, density: 1.204, viscosity: 1.813e-5, conductivity: 0.025_715_384_615 };
 const WARM: Air = Air {
     temperature: 378.15,
@@ -27,7 +27,7 @@ const WARM: Air = Air {
 pub(super) const AIR_SPEED: f64 = 1.81;
 const FIRST_SPEED: f64 = 0.17;
 /// Heat capacity of the wax [J/(kg K)]: assumed, paraffin-like.
-const HEAT: f64 = 2000.0;
+const WAX_HEAT_CAPACITY: f64 = 2000.0;
 
 pub(super) fn read(name: &str, text: &str) -> Result<Case> {
     Ok(Case::from_toml(name, text, Path::new(""))?)
@@ -47,7 +47,7 @@ pub(super) fn hits(case: &mut Case) -> Result<Vec<Hit>> {
 fn tracked(case: &mut Case, diameter: f64, end: f64) -> Result<Hit> {
     case.set("diameter", diameter)?;
     for surface in &mut case.surfaces {
-        if let Shape::Plane { point, .. } = &mut surface.shape {
+        if let SurfaceShape::Plane { point, .. } = &mut surface.shape {
             point.z = end;
         }
     }
@@ -55,33 +55,33 @@ fn tracked(case: &mut Case, diameter: f64, end: f64) -> Result<Hit> {
 }
 
 pub(super) fn wax(diameter: f64) -> Sphere {
-    Sphere { diameter, density: DENSITY, heat_capacity: HEAT }
+    Sphere { diameter, density: WAX_DENSITY, heat_capacity: WAX_HEAT_CAPACITY }
 }
 
 /// The same by Runge and Kutta.
-fn integrated(diameter: f64, air: Air, end: f64) -> Place {
-    let flight = Flight {
+fn integrated(diameter: f64, air: Air, end: f64) -> OnTheWay {
+    let flight = CarriedFlight {
         sphere: wax(diameter),
         air,
         law: Law::SchillerNaumann,
         downwards: 1.0,
         air_speed: &|_| AIR_SPEED,
     };
-    let start = Place { time: 0.0, at: TUBE[2], speed: FIRST_SPEED, temperature: 293.15 };
+    let start = OnTheWay { time: 0.0, at: TUBE[2], speed: FIRST_SPEED, temperature: 293.15 };
     // The library's wall is touched by the particle's surface.
     flight.arrives(start, 1e-4, end - 0.5 * diameter)
 }
 
 /// Way from the inner tube's end [m] on which a particle of `diameter` [m] comes to a speed [m/s], by Runge and Kutta.
 fn way_to(diameter: f64, speed: f64) -> f64 {
-    let flight = Flight {
+    let flight = CarriedFlight {
         sphere: wax(diameter),
-        air: ROOM,
+        air: ROOM_AIR,
         law: Law::SchillerNaumann,
         downwards: 1.0,
         air_speed: &|_| AIR_SPEED,
     };
-    let start = Place { time: 0.0, at: 0.0, speed: FIRST_SPEED, temperature: 293.15 };
+    let start = OnTheWay { time: 0.0, at: 0.0, speed: FIRST_SPEED, temperature: 293.15 };
     let way = flight.way(start, 1e-4, |place| place.speed < speed);
     way[way.len() - 1].at
 }
@@ -101,16 +101,16 @@ fn fusion_time(diameter: f64, air: f64, latent: f64) -> f64 {
     let conductivity = Air::at(air).conductivity;
     let melting = 353.15;
     let warming = heating_time(diameter, air) * ((air - 293.15) / (air - melting)).ln();
-    warming + DENSITY * latent * diameter * diameter / (12.0 * conductivity * (air - melting))
+    warming + WAX_DENSITY * latent * diameter * diameter / (12.0 * conductivity * (air - melting))
 }
 
 /// Relaxation time [s] of a wax particle's temperature in air [K], `Nu = 2`.
 fn heating_time(diameter: f64, air: f64) -> f64 {
-    DENSITY * HEAT * diameter * diameter / (12.0 * Air::at(air).conductivity)
+    WAX_DENSITY * WAX_HEAT_CAPACITY * diameter * diameter / (12.0 * Air::at(air).conductivity)
 }
 
 /// Diameters [m] that are followed.
-const SIZES: [f64; 4] = [50e-6, 80e-6, 100e-6, 120e-6];
+const TUBE_SIZES: [f64; 4] = [50e-6, 80e-6, 100e-6, 120e-6];
 /// Of these, the one of Fig. 12, and the paper's largest.
 const EIGHTY: usize = 1;
 const HUNDRED: usize = 2;
@@ -136,11 +136,11 @@ impl Track {
             // Closer together where the speed changes.
             let end = TUBE[2] + (TUBE[1] - TUBE[2]) * share.powi(3);
             let hit = tracked(case, diameter, end)?;
-            let other = integrated(diameter, ROOM, end);
+            let other = integrated(diameter, ROOM_AIR, end);
             line.push([end - TUBE[2], hit.impact.speed()]);
             largest = largest.max(apart(hit.impact.speed(), other.speed)).max(apart(hit.time, other.time));
         }
-        let other = |end: f64| [end - TUBE[2], integrated(diameter, ROOM, end).speed];
+        let other = |end: f64| [end - TUBE[2], integrated(diameter, ROOM_AIR, end).speed];
         let last = tracked(case, diameter, TUBE[1])?;
         Ok(Self {
             diameter,
@@ -154,7 +154,7 @@ impl Track {
 
     /// Air plus terminal velocity [m/s].
     fn last_speed(&self) -> f64 {
-        AIR_SPEED + terminal_speed(self.diameter, &ROOM)
+        AIR_SPEED + terminal_speed(self.diameter, &ROOM_AIR)
     }
 
     /// Speed at the end over air plus terminal velocity [1].
@@ -163,13 +163,13 @@ impl Track {
     }
 
     fn row(&self) -> Vec<String> {
-        let tau = relaxation_time(&wax(self.diameter), &ROOM);
+        let tau = relaxation_time(&wax(self.diameter), &ROOM_AIR);
         let last = self.last_speed();
         vec![
             format!("{:.0}", self.diameter * 1e6),
             format!("{:.1}", 1e3 * tau),
             format!("{:.2}", 10.0 * tau * TUBE_SPEED.value),
-            format!("{:.3}", terminal_speed(self.diameter, &ROOM)),
+            format!("{:.3}", terminal_speed(self.diameter, &ROOM_AIR)),
             format!("{last:.3}"),
             format!("{:.3}", self.speed),
             format!("{:.3}", 100.0 * self.share()),
@@ -181,16 +181,16 @@ impl Track {
 }
 
 /// The part on the tube.
-pub(super) fn part(extent: Extent) -> Result<Part> {
+pub(super) fn part(extent: Extent) -> Result<StudyPart> {
     let mut case = read("validation/troiano/tube.toml", include_str!("../../troiano/tube.toml"))?;
     let mut tracks = Vec::new();
-    for diameter in SIZES {
+    for diameter in TUBE_SIZES {
         tracks.push(Track::new(&mut case, diameter, extent)?);
     }
     let usual = usual_speed(&mut case)?;
     let warm = warmed(&mut case)?;
-    let fusion = Fusion::new(tracks[EIGHTY].time, tracks[HUNDRED].time);
-    Ok(Part {
+    let fusion = FusionTimes::new(tracks[EIGHTY].time, tracks[HUNDRED].time);
+    Ok(StudyPart {
         heading: "Eq. 13 and Fig 3: the tube".to_owned(),
         text: vec![case_text(), length_text(&tracks), fusion.text()],
         tables: vec![ways(&tracks)],
@@ -215,13 +215,13 @@ fn case_text() -> String {
          with independent code for drag and heat, which was itself compared with the closed form of Stokes' \
          drag.",
         TUBE[2],
-        3600.0 * area * AIR_SPEED * 273.15 / ROOM.temperature,
+        3600.0 * area * AIR_SPEED * 273.15 / ROOM_AIR.temperature,
         TUBE[1]
     )
 }
 
 fn length_text(tracks: &[Track]) -> String {
-    let ten = relaxation_time(&wax(SIZES[HUNDRED]), &ROOM);
+    let ten = relaxation_time(&wax(TUBE_SIZES[HUNDRED]), &ROOM_AIR);
     let time = passes(|t| stokes_closed_form(0.0, 2.0, ten, t)[1], 20.0 * ten, [0.0, 40.0 * ten]);
     let reached = stokes_closed_form(0.0, 2.0, ten, time)[0] / 2.0;
     let largest = &tracks[tracks.len() - 1];
@@ -266,10 +266,11 @@ fn chart(tracks: &[Track]) -> Figure {
 
 /// Of the length and what it is for.
 fn length_claims(tracks: &[Track]) -> Vec<Claim> {
-    let needed = |air: f64| 10.0 * relaxation_time(&wax(SIZES[HUNDRED]), &Air::at(air)) * TUBE_SPEED.value;
+    let needed =
+        |air: f64| 10.0 * relaxation_time(&wax(TUBE_SIZES[HUNDRED]), &Air::at(air)) * TUBE_SPEED.value;
     let least = tracks.iter().map(Track::share).fold(1.0, f64::min);
     vec![
-        TUBE_LENGTH.beside(needed(273.15), Basis::Predicted).because(&format!(
+        TUBE_LENGTH.beside(needed(273.15), ClaimBasis::Predicted).because(&format!(
             "100 µm, 2 m/s, air of 0 °C, to which the paper refers its flows; {:.2} m with air of 20 °C. \
              \"Typical values\" are not given.",
             needed(293.15)
@@ -292,9 +293,11 @@ fn length_claims(tracks: &[Track]) -> Vec<Claim> {
 
 /// Of speed and time at the end.
 fn speed_claims(tracks: &[Track]) -> Vec<Claim> {
-    let [small, large] = [65e-6, 95e-6].map(|diameter| terminal_speed(diameter, &ROOM));
+    let [small, large] = [65e-6, 95e-6].map(|diameter| terminal_speed(diameter, &ROOM_AIR));
     vec![
-        TUBE_SPEED.beside(tracks[EIGHTY].speed, Basis::Fitted).because("The air speed is chosen for it."),
+        TUBE_SPEED
+            .beside(tracks[EIGHTY].speed, ClaimBasis::Fitted)
+            .because("The air speed is chosen for it."),
         Claim::predicted(
             "Fig 12",
             "spread of the impact speed from 80 ± 15 µm alone [m/s]",
@@ -302,7 +305,7 @@ fn speed_claims(tracks: &[Track]) -> Vec<Claim> {
             0.5 * (large - small),
         )
         .because("At the tube's end; the stated ± 0.1 m/s holds. At the plate it is more, see below."),
-        RESIDENCE.beside(tracks[HUNDRED].time / FUSION_TIME, Basis::Predicted).because(&format!(
+        RESIDENCE.beside(tracks[HUNDRED].time / FUSION_TIME, ClaimBasis::Predicted).because(&format!(
             "100 µm from the inner tube's end; {} m at {} m/s would be {:.2} times. \"About three\" is \
              taken as ± half a unit.",
             TUBE_LENGTH.value,
@@ -313,7 +316,7 @@ fn speed_claims(tracks: &[Track]) -> Vec<Claim> {
 }
 
 /// What melting takes.
-struct Fusion {
+struct FusionTimes {
     /// Time [s] that 80 and 100 µm have in the tube.
     eighty: f64,
     hundred: f64,
@@ -328,15 +331,15 @@ struct Fusion {
 const LATENT: [f64; 2] = [100e3, 200e3];
 const MIDDLE_LATENT: f64 = 150e3;
 
-impl Fusion {
+impl FusionTimes {
     fn new(eighty: f64, hundred: f64) -> Self {
-        let of_hundred = |air: f64| LATENT.map(|latent| fusion_time(SIZES[HUNDRED], air, latent));
+        let of_hundred = |air: f64| LATENT.map(|latent| fusion_time(TUBE_SIZES[HUNDRED], air, latent));
         Self {
             eighty,
             hundred,
             at_110: of_hundred(383.15),
             at_120: of_hundred(393.15),
-            slow: fusion_time(SIZES[EIGHTY], 358.15, MIDDLE_LATENT),
+            slow: fusion_time(TUBE_SIZES[EIGHTY], 358.15, MIDDLE_LATENT),
         }
     }
 
@@ -344,7 +347,7 @@ impl Fusion {
         let Self { at_110, at_120, slow, .. } = self;
         format!(
             "The fusion time {FUSION_TIME} s of 100 µm is stated without its air temperature or heat of \
-             fusion. With Nu = 2, {HEAT} J/(kg K), melting at 80 °C and {:.0} to {:.0} kJ/kg (assumed) it \
+             fusion. With Nu = 2, {WAX_HEAT_CAPACITY} J/(kg K), melting at 80 °C and {:.0} to {:.0} kJ/kg (assumed) it \
              is {:.2} to {:.2} s in air of 110 °C and {:.2} to {:.2} s at 120 °C; warming alone takes {:.2} \
              s. So \"three times\" is {:.1} to {:.1} times at 120 °C. Just above the melting range it is \
              not even one: in air of 85 °C an 80 µm particle needs {slow:.2} s and has {:.1}.",
@@ -354,7 +357,7 @@ impl Fusion {
             at_110[1],
             at_120[0],
             at_120[1],
-            fusion_time(SIZES[HUNDRED], 393.15, 0.0),
+            fusion_time(TUBE_SIZES[HUNDRED], 393.15, 0.0),
             self.hundred / at_120[1],
             self.hundred / at_120[0],
             self.eighty
@@ -363,7 +366,7 @@ impl Fusion {
 
     fn claims(&self) -> Vec<Claim> {
         let Self { at_110, at_120, slow, eighty, .. } = self;
-        let time = |air| fusion_time(SIZES[EIGHTY], air, MIDDLE_LATENT);
+        let time = |air| fusion_time(TUBE_SIZES[EIGHTY], air, MIDDLE_LATENT);
         let molten = passes(time, *eighty, [354.0, 450.0]) - 273.15;
         vec![
             Claim::unchecked(
@@ -389,7 +392,7 @@ impl Fusion {
                 "Sensible heat takes five relaxation times, {:.2} s; the heat of fusion ({:.0} kJ/kg \
                  assumed) flows at a difference of 5 K only. From 80 °C (melting assumed there) to \
                  {molten:.0} °C of air, particles arrive partly molten.",
-                5.0 * heating_time(SIZES[EIGHTY], 358.15),
+                5.0 * heating_time(TUBE_SIZES[EIGHTY], 358.15),
                 MIDDLE_LATENT / 1e3
             )),
         ]
@@ -399,8 +402,8 @@ impl Fusion {
 /// Temperature at the end.
 fn air_temperature(warm: &Hit) -> Claim {
     let costs = |latent| {
-        fusion_time(SIZES[EIGHTY], WARM.temperature, latent)
-            - fusion_time(SIZES[EIGHTY], WARM.temperature, 0.0)
+        fusion_time(TUBE_SIZES[EIGHTY], WARM.temperature, latent)
+            - fusion_time(TUBE_SIZES[EIGHTY], WARM.temperature, 0.0)
     };
     Claim::predicted(
         "Fig 12",
@@ -419,7 +422,7 @@ fn air_temperature(warm: &Hit) -> Claim {
 /// Speed [m/s] of 80 µm at the end of the tube with the default tolerance.
 fn usual_speed(case: &mut Case) -> Result<f64> {
     let strict = std::mem::replace(&mut case.tolerance, 1e-6);
-    let hit = tracked(case, SIZES[EIGHTY], TUBE[1]);
+    let hit = tracked(case, TUBE_SIZES[EIGHTY], TUBE[1]);
     case.tolerance = strict;
     Ok(hit?.impact.speed())
 }
@@ -427,13 +430,13 @@ fn usual_speed(case: &mut Case) -> Result<f64> {
 /// The particle of 80 µm at the end of the tube with warm air, which the case keeps.
 fn warmed(case: &mut Case) -> Result<Hit> {
     case.set("gas_temperature", WARM.temperature)?;
-    tracked(case, SIZES[EIGHTY], TUBE[1])
+    tracked(case, TUBE_SIZES[EIGHTY], TUBE[1])
 }
 
 /// The library against Runge and Kutta: all tracks, the speed [m/s] with the default tolerance, and warm air.
 fn checks(tracks: &[Track], usual: f64, warm: &Hit) -> Vec<Claim> {
-    let other = integrated(SIZES[EIGHTY], ROOM, TUBE[1]).speed;
-    let warmth = integrated(SIZES[EIGHTY], WARM, TUBE[1]).temperature;
+    let other = integrated(TUBE_SIZES[EIGHTY], ROOM_AIR, TUBE[1]).speed;
+    let warmth = integrated(TUBE_SIZES[EIGHTY], WARM, TUBE[1]).temperature;
     vec![
         Claim::derived(
             "check",

@@ -5,14 +5,14 @@ use nearwall::normal::{Contact, NormalLaw, Speeds, yield_velocity};
 use nearwall_lab::report::Table;
 
 use super::equations::{AS_PRINTED, equation_1};
-use super::published::{DIAMETER, TARGETS, Target, YIELD_RATIO};
+use super::published::{StatedTarget, TARGETS, WAX_DIAMETER, YIELD_RATIO};
 use super::{Result, contact, model};
 use crate::study::table;
-use crate::{Claim, Part, Published};
+use crate::{Claim, Published, StudyPart};
 
 /// The velocities of a target.
-struct Found {
-    target: &'static Target,
+struct TargetVelocities {
+    target: &'static StatedTarget,
     contact: Contact,
     /// `v_y` by Eq. 3 and `v_s` by Eq. 1 as printed [m/s].
     yielding: f64,
@@ -20,14 +20,14 @@ struct Found {
     ours: Speeds,
 }
 
-impl Found {
-    fn on(model: &Model, target: &'static Target) -> Result<Self> {
+impl TargetVelocities {
+    fn on(model: &Model, target: &'static StatedTarget) -> Result<Self> {
         let contact = contact(model, target.wall, YIELD_RATIO.value, |_| {})?;
         Ok(Self {
             target,
             yielding: yield_velocity(&contact),
-            printed: equation_1(AS_PRINTED, &contact, DIAMETER),
-            ours: NormalLaw::ThorntonNing.speeds(&contact, DIAMETER),
+            printed: equation_1(AS_PRINTED, &contact, WAX_DIAMETER),
+            ours: NormalLaw::ThorntonNing.speeds(&contact, WAX_DIAMETER),
             contact,
         })
     }
@@ -88,10 +88,11 @@ impl Found {
 }
 
 /// The part on the velocities.
-pub(super) fn part() -> Result<Part> {
+pub(super) fn part() -> Result<StudyPart> {
     let model = model!("targets.toml")?;
-    let found = TARGETS.iter().map(|target| Found::on(&model, target)).collect::<Result<Vec<_>>>()?;
-    Ok(Part {
+    let found =
+        TARGETS.iter().map(|target| TargetVelocities::on(&model, target)).collect::<Result<Vec<_>>>()?;
+    Ok(StudyPart {
         heading: "Table 4: yield and sticking velocities".to_owned(),
         text: vec![
             "Work of adhesion W = 2√(γ1 γ2), which the paper does not state; Teflon's value confirms it, \
@@ -105,16 +106,16 @@ pub(super) fn part() -> Result<Part> {
         ],
         tables: vec![velocities(&found)],
         claims: found.iter().flat_map(|found| [found.yield_claim(), found.sticking_claim()]).collect(),
-        ..Part::default()
+        ..StudyPart::default()
     })
 }
 
-fn velocities(found: &[Found]) -> Table {
+fn velocities(found: &[TargetVelocities]) -> Table {
     table(
         "wax of 75 µm, c = 0.7; speeds in m/s",
         1,
         "target | E* [GPa] | W [J/m²] | v_y, printed | v_y, Eq. 3 | v_s, printed | Eq. 1 as printed | \
          Thornton–Ning | sticks below",
-        found.iter().map(Found::row).collect(),
+        found.iter().map(TargetVelocities::row).collect(),
     )
 }
