@@ -11,7 +11,6 @@ use super::observable::Observable;
 use super::record::Rival;
 use super::slip::{Slip, slips};
 use crate::dataset::{Measurement, Reading};
-use nearwall::impact::Input;
 use nearwall::model::Model;
 
 /// A rival that gains this much less than the extended model is not listed [nats].
@@ -92,10 +91,4 @@ fn root(reading: &mut Reading) -> Option<f64> {
     let value = reading.value.sqrt();
     *reading = Reading { value, error: reading.error.map(|error| error / (2.0 * value)) };
     Some(-(2.0 * value).ln())
-}
-
-/// Multiplies an input.
-pub(super) fn scale(input: &Input, row: &mut Measurement, factor: f64) {
-    let value = (input.value)(&row.impact);
-    (input.set)(&mut row.impact, factor * value);
 }

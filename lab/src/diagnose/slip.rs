@@ -2,9 +2,8 @@
 
 use toml_edit::{DocumentMut, Item, Value};
 
-use super::rival::scale;
 use crate::dataset::Measurement;
-use nearwall::impact::{INPUTS, Input};
+use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
 /// Another reading of the numbers.
@@ -49,13 +48,13 @@ pub(super) fn slips(base: &Model, text: &str) -> Vec<Slip> {
     let mut all = Vec::new();
     for (id, factor, words) in SIZES {
         all.push(of_rows(id, format!("These numbers fit if d were {words}"), move |row| {
-            for_input("d", |input| scale(input, row, factor));
+            scale("d", row, factor);
         }));
     }
     for (id, factor, words) in SPEEDS {
         all.push(of_rows(id, format!("These numbers fit if the speeds were {words}"), move |row| {
             for name in ["v_n", "v_t", "v_gas"] {
-                for_input(name, |input| scale(input, row, factor));
+                scale(name, row, factor);
             }
         }));
     }
@@ -84,9 +83,11 @@ fn of_rows(id: &str, explanation: String, change: impl Fn(&mut Measurement) + Se
     Slip { id: id.to_owned(), explanation, change: Box::new(change), model: None, energy: false }
 }
 
-fn for_input(name: &str, change: impl FnOnce(&Input)) {
+/// Multiplies the input of this name.
+fn scale(name: &str, row: &mut Measurement, factor: f64) {
     if let Some(input) = INPUTS.iter().find(|input| input.name == name) {
-        change(input);
+        let value = (input.value)(&row.impact);
+        (input.set)(&mut row.impact, factor * value);
     }
 }
 

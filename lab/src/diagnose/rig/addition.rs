@@ -235,3 +235,14 @@ pub(super) fn extended_text(
 pub(super) fn apply_all(additions: &[RigAddition], model: &Model) -> Model {
     additions.iter().fold(model.clone(), |model, addition| addition.apply(&model))
 }
+
+/// Additions with all parameters at these coordinates, one addition after the other.
+pub(super) fn moved(additions: &[RigAddition], at: &[f64]) -> Vec<RigAddition> {
+    let mut rest = at;
+    let one = |addition: &RigAddition| {
+        let (own, others) = rest.split_at(addition.axes.len().min(rest.len()));
+        rest = others;
+        addition.moved(own)
+    };
+    additions.iter().map(one).collect()
+}

@@ -6,16 +6,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::super::part::{LawParameter, Part};
 use super::super::search::descend;
-use super::addition::RigAddition;
-use super::gain::HeldOut;
+use super::addition::{RigAddition, moved};
+use super::candidates::{candidates, unchanged_inputs};
 use super::noise::{Data, Prepared, Values};
 use super::shelf::{Candidate, Shelf, predict};
 use super::significance::NullGains;
 use crate::rig::{Forward, Predicted};
-use nearwall::effect::{CurveTarget, EFFECTS};
-use nearwall::impact::{INPUTS, Impact};
 
 /// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
 const SHORTLIST: f64 = 4.0;
@@ -29,11 +26,6 @@ const LEAST_THRESHOLD: f64 = 2.0;
 pub(super) const DISTINGUISHABLE: f64 = 2.0;
 /// What a curve must gain beyond a law to be named before it [nats].
 const BEYOND_LAWS: f64 = 3.0;
-/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
-/// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
-const CARRIES: f64 = 0.5;
-/// Most that any cause may lose there [nats].
-const MOST_LOST: f64 = 4.0;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
 /// Most other beginnings of a choice that are tried, besides that with numbers that are usually fitted.
@@ -49,13 +41,6 @@ const UNCHANGED: f64 = 1.1;
 /// One cause, and one more for so many readings; and most causes.
 const READINGS_A_CAUSE: usize = 3;
 const MOST_CAUSES: usize = 5;
-/// How far beyond the range of an input a law's place is searched, as a share of the range.
-const BEYOND: f64 = 0.5;
-/// Least standard deviation of an input's mean over the experiments, as a share of its range, from which on it is changed on purpose: for a curve
-/// over it.
-const CHANGES: f64 = 0.05;
-/// Correlation from which two inputs change together.
-const TOGETHER: f64 = 0.98;
 /// Most candidates kept of a round that finds none significant.
 const HINTS: usize = 4;
 /// First size of the simplex, and iterations a parameter: for a law that is to be compared with others first, and for one that is promising.
@@ -92,6 +77,21 @@ pub(super) struct Round {
 }
 
 impl Round {
+    /// Whether a candidate can be another cause than the winner, and not only a freer form of it.
+    pub fn is_rival(&self, other: &Scored) -> bool {
+        // A free curve over an input contains the laws over it.
+        let own = self.winner.addition.variables();
+        let inputs = other.addition.variables();
+        let freer = inputs.is_empty() || inputs.iter().any(|input| own.contains(input));
+        !(other.addition.is_curve() && freer)
+    }
+
+    /// The candidates that the winner could be mistaken for and that gain at most `behind` less than it [nats], the best first.
+    pub fn rivals(&self, behind: f64) -> impl Iterator<Item = &Scored> {
+        let close = move |one: &&Scored| one.gain > self.winner.gain - behind;
+        self.others.iter().filter(close).filter(|one| self.is_rival(one))
+    }
+
     /// All fitted candidates.
     fn all(&self) -> Vec<Scored> {
         std::iter::once(&self.winner).chain(&self.others).cloned().collect()
@@ -127,14 +127,7 @@ pub(super) struct RigStudy<'a> {
 impl<'a> RigStudy<'a> {
     pub fn new(forward: &'a dyn Forward, level: f64, seed: u64, progress: &'a (dyn Fn() + Sync)) -> Self {
         let data = Data::new(forward.experiments());
-        let unchanged = INPUTS
-            .iter()
-            .enumerate()
-            .filter(|(place, input)| {
-                range(forward, input.name).is_some_and(|range| !changes(&means(forward, *place), range))
-            })
-            .map(|(_, input)| input.name)
-            .collect();
+        let unchanged = unchanged_inputs(forward);
         Self { forward, data, level, seed, progress, unchanged, shelves: Mutex::default() }
     }
 
@@ -255,42 +248,6 @@ impl<'a> RigStudy<'a> {
             choice.additions.push(round.winner.addition.clone());
             choice.rounds.push(round);
         }
-    }
-
-    /// The choice without the causes, from the last one on, that do not help to predict experiments that they have not seen, and the names of
-    /// those left out.
-    ///
-    /// # Errors
-    /// Why a model cannot decide an impact.
-    pub fn carried(
-        &self,
-        mut choice: Choice,
-        write: &dyn Fn(&[RigAddition]) -> Option<String>,
-        weights: &[f64],
-    ) -> Result<(Choice, Vec<String>), String> {
-        let mut dropped = Vec::new();
-        let held_out = |choice: &Choice, causes: usize| HeldOut::new(self, choice, causes, None, write);
-        while !choice.rounds.is_empty() {
-            let causes = choice.rounds.len();
-            let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?)
-            else {
-                break;
-            };
-            // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
-            let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
-            let seen = if causes > 1 { parameters as f64 } else { 0.0 };
-            let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
-            let beyond = (self.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
-            if with.gain_over(&without, self) > seen - (CARRIES * beyond).min(MOST_LOST) {
-                break;
-            }
-            choice.rounds.pop();
-            if let Some(last) = choice.additions.pop() {
-                dropped.push(last.name());
-            }
-            choice.additions = self.fit(&choice.additions, weights);
-        }
-        Ok((choice, dropped))
     }
 
     /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
@@ -545,131 +502,4 @@ fn other_starts(choice: &Choice) -> Vec<Choice> {
         }
     }
     starts
-}
-
-/// Additions with all parameters at these coordinates, one addition after the other.
-pub(super) fn moved(additions: &[RigAddition], at: &[f64]) -> Vec<RigAddition> {
-    let mut rest = at;
-    let one = |addition: &RigAddition| {
-        let (own, others) = rest.split_at(addition.axes.len().min(rest.len()));
-        rest = others;
-        addition.moved(own)
-    };
-    additions.iter().map(one).collect()
-}
-
-/// The range of an input over the first impacts of all experiments, without the outermost hundredths; `None` if it does not vary.
-pub(super) fn range(forward: &dyn Forward, input: &str) -> Option<[f64; 2]> {
-    let sorted = sorted_values(forward, input)?;
-    let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share).round() as usize];
-    let [low, high] = [at(0.005), at(0.995)];
-    (high - low > 1e-6 * high.abs()).then_some([low, high])
-}
-
-/// The value of an input that does not vary and that an impact does not have by itself, as the thickness of a layer.
-fn present(forward: &dyn Forward, input: &str) -> Option<f64> {
-    let absent = INPUTS.iter().find(|one| one.name == input).map(|one| (one.value)(&Impact::default()))?;
-    let value = *sorted_values(forward, input)?.first()?;
-    (absent == 0.0 && value > 0.0).then_some(value)
-}
-
-fn sorted_values(forward: &dyn Forward, input: &str) -> Option<Vec<f64>> {
-    let place = INPUTS.iter().position(|one| one.name == input)?;
-    let all = (0..forward.experiments().len()).flat_map(|one| forward.input_values(one, place));
-    let mut sorted: Vec<f64> = all.map(|(value, _)| value).filter(|value| value.is_finite()).collect();
-    sorted.sort_by(f64::total_cmp);
-    (!sorted.is_empty()).then_some(sorted)
-}
-
-/// The inputs over which a curve could be seen, with its knots: those whose mean changes from experiment to experiment. Of inputs that
-/// change together the first one.
-fn curve_inputs(forward: &dyn Forward) -> Vec<(usize, Vec<f64>)> {
-    let mut means_of_earlier: Vec<Vec<f64>> = Vec::new();
-    let mut curves = Vec::new();
-    for (place, input) in INPUTS.iter().enumerate() {
-        let Some([low, high]) = range(forward, input.name) else { continue };
-        let mut means = means(forward, place);
-        if !changes(&means, [low, high]) || means_of_earlier.iter().any(|one| together(one, &means)) {
-            continue;
-        }
-        means_of_earlier.push(means.clone());
-        means.retain(|mean| mean.is_finite());
-        means.sort_by(f64::total_cmp);
-        let middle = means[means.len() / 2];
-        let inside = middle > low + 0.1 * (high - low) && middle < high - 0.1 * (high - low);
-        curves.push((place, vec![low, if inside { middle } else { 0.5 * (low + high) }, high]));
-    }
-    curves
-}
-
-/// The mean of an input, by place, over the first impacts of each experiment.
-fn means(forward: &dyn Forward, place: usize) -> Vec<f64> {
-    let mean = |experiment: usize| {
-        let values = forward.input_values(experiment, place);
-        let weight: f64 = values.iter().map(|(_, weight)| weight).sum();
-        values.iter().map(|(value, weight)| value * weight).sum::<f64>() / weight
-    };
-    (0..forward.experiments().len()).map(mean).collect()
-}
-
-/// Whether an input with these means and this range changes from experiment to experiment.
-fn changes(means: &[f64], [low, high]: [f64; 2]) -> bool {
-    deviation(means) >= CHANGES * (high - low)
-}
-
-fn deviation(values: &[f64]) -> f64 {
-    let finite: Vec<f64> = values.iter().copied().filter(|value| value.is_finite()).collect();
-    let mean = finite.iter().sum::<f64>() / finite.len().max(1) as f64;
-    (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / finite.len().max(1) as f64).sqrt()
-}
-
-/// Whether two inputs are correlated so well over the experiments that a curve over one is a curve over the other.
-fn together(one: &[f64], other: &[f64]) -> bool {
-    let centred = |values: &[f64]| {
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
-        values.iter().map(|value| value - mean).collect::<Vec<f64>>()
-    };
-    let (a, b) = (centred(one), centred(other));
-    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    product(&a, &b).abs() > TOGETHER * (product(&a, &a) * product(&b, &b)).sqrt()
-}
-
-/// Everything that could be added beside the causes with these names.
-fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAddition> {
-    let ranges: Vec<(&str, Option<[f64; 2]>)> =
-        INPUTS.iter().map(|input| (input.name, range(forward, input.name))).collect();
-    let range_of = |input: &str| ranges.iter().find(|(name, _)| *name == input).and_then(|(_, range)| *range);
-    let base = forward.base(0);
-    let has = |id: &str| base.terms().iter().any(|term| term.kind().id == id);
-    let effects = EFFECTS.into_iter().filter(|effect| !has(effect.id)).map(Part::Effect);
-    let numbers = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(base).is_some());
-    let parts = effects.chain(numbers.map(Part::LawParameter));
-    // A transition may begin within the range of the data and have its middle beyond.
-    let wider = |input: &str| {
-        let [low, high] = range_of(input)?;
-        let beyond = BEYOND * (high - low);
-        Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
-    };
-    // A layer or a film that is the same in all experiments acts nevertheless.
-    let wider = |input: &str| {
-        wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]))
-    };
-    let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
-    let curves = curve_inputs(forward);
-    let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));
-    let targets = [
-        (CurveTarget::Capture, "capture", false),
-        (CurveTarget::NormalRestitution, "e_n", LawParameter::NormalRestitution.of(base).is_some()),
-        (CurveTarget::TangentialRestitution, "e_t", LawParameter::TangentialRestitution.of(base).is_some()),
-    ];
-    for (on, _, has_level) in targets.into_iter().filter(|(_, part, _)| measured(part)) {
-        if !has_level {
-            all.push(RigAddition::curve(on, None));
-        }
-        for (place, knots) in &curves {
-            all.push(RigAddition::curve(on, Some((*place, knots.clone()))));
-        }
-    }
-    all.retain(|one| !found.contains(&one.key()));
-    all
 }

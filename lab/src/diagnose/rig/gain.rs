@@ -7,8 +7,8 @@ use super::super::data_split::shuffled;
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
-use super::addition::{Kind, RigAddition};
-use super::choice::{Choice, RigStudy, moved};
+use super::addition::{Kind, RigAddition, moved};
+use super::choice::{Choice, RigStudy};
 use super::noise::Prepared;
 use super::posterior::Posterior;
 use super::shelf::predict;
@@ -21,6 +21,12 @@ const PARTS: usize = 6;
 const LEAST: usize = 4;
 /// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
 const MOST_OF_ONE: f64 = 2.3;
+
+/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
+/// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
+const CARRIES: f64 = 0.5;
+/// Most that any cause may lose there [nats].
+const MOST_LOST: f64 = 4.0;
 
 /// Predictions of experiments by models that have not seen them.
 pub(super) struct HeldOut {
@@ -139,6 +145,41 @@ impl HeldOut {
         let known: Vec<f64> = data.readings.iter().enumerate().filter_map(of).collect();
         (!known.is_empty()).then(|| (known.iter().sum::<f64>() / known.len() as f64).sqrt())
     }
+}
+
+/// The choice without the causes, from the last one on, that do not help to predict experiments that they have not seen, and the names of
+/// those left out.
+///
+/// # Errors
+/// Why a model cannot decide an impact.
+pub(super) fn carried(
+    study: &RigStudy<'_>,
+    mut choice: Choice,
+    write: &dyn Fn(&[RigAddition]) -> Option<String>,
+    weights: &[f64],
+) -> Result<(Choice, Vec<String>), String> {
+    let mut dropped = Vec::new();
+    let held_out = |choice: &Choice, causes: usize| HeldOut::new(study, choice, causes, None, write);
+    while !choice.rounds.is_empty() {
+        let causes = choice.rounds.len();
+        let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?) else {
+            break;
+        };
+        // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
+        let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
+        let seen = if causes > 1 { parameters as f64 } else { 0.0 };
+        let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
+        let beyond = (study.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
+        if with.gain_over(&without, study) > seen - (CARRIES * beyond).min(MOST_LOST) {
+            break;
+        }
+        choice.rounds.pop();
+        if let Some(last) = choice.additions.pop() {
+            dropped.push(last.name());
+        }
+        choice.additions = study.fit(&choice.additions, weights);
+    }
+    Ok((choice, dropped))
 }
 
 /// Predictions of all readings by a model file: its terms and changed numbers on the model of each experiment, whose settings may

@@ -6,6 +6,7 @@
 //! decided again. Candidates are those of the diagnosis of impacts. Method and limits: `docs/rig-diagnosis.md`.
 
 mod addition;
+mod candidates;
 mod choice;
 mod gain;
 mod next;
@@ -26,7 +27,7 @@ use super::extend::ranges;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
 use crate::rig::{CaseText, Forward};
-use addition::{RigAddition, extended_text};
+use addition::{RigAddition, extended_text, moved};
 use choice::RigStudy;
 use gain::HeldOut;
 use nearwall::impact::INPUTS;
@@ -88,7 +89,8 @@ pub fn diagnose_rig(
     let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
     let choice = study.choose(&all).map_err(RigError::Undecided)?;
     let whole = choice.clone();
-    let (mut choice, not_carried) = study.carried(choice, &write, &all).map_err(RigError::Undecided)?;
+    let (mut choice, not_carried) =
+        gain::carried(&study, choice, &write, &all).map_err(RigError::Undecided)?;
     let undecided = report::undecided(&choice);
     if !undecided.is_empty() {
         choice.additions.clear();
@@ -112,14 +114,14 @@ pub fn diagnose_rig(
     };
     let next = next.map_err(RigError::Undecided)?;
     let drawn = posterior.draws(draws, options.seed);
-    let draws = drawn.iter().filter_map(|at| write(&choice::moved(&choice.additions, at))).collect();
+    let draws = drawn.iter().filter_map(|at| write(&moved(&choice.additions, at))).collect();
     let found = report::Found { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
     found.record(data, options).map_err(RigError::Undecided)
 }
 
 /// The ranges of the inputs over the first impacts.
 fn valid(forward: &dyn Forward) -> InlineTable {
-    ranges(INPUTS.iter().filter_map(|input| Some((input.name, choice::range(forward, input.name)?))))
+    ranges(INPUTS.iter().filter_map(|input| Some((input.name, candidates::range(forward, input.name)?))))
 }
 
 /// Sets the parameters' intervals to those of the draws.

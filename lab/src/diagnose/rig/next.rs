@@ -12,11 +12,10 @@
 
 use serde::Serialize;
 
-use super::addition::RigAddition;
-use super::choice::{Choice, RigStudy, Round, Scored, moved};
+use super::addition::{RigAddition, moved};
+use super::choice::{Choice, RigStudy, Scored};
 use super::posterior::Posterior;
 use super::proposals::proposals;
-use super::report::is_rival;
 use super::shelf::predict;
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
 use crate::rig::{CaseText, RigCase, Simulated};
@@ -411,7 +410,7 @@ fn causes(
     if choice.rounds.is_empty() || dropped.is_some() {
         // Nothing is named, or not all that explains the file: the best candidates, and none of them.
         let candidates: Vec<&Scored> = match dropped {
-            Some(round) => std::iter::once(&round.winner).chain(rivals(round)).collect(),
+            Some(round) => std::iter::once(&round.winner).chain(round.rivals(SURVIVES)).collect(),
             None => choice.hints.iter().filter(|one| !one.addition.is_curve()).collect(),
         };
         let candidates = if candidates.is_empty() { choice.hints.iter().collect() } else { candidates };
@@ -439,7 +438,7 @@ fn causes(
             }
             all.push(Cause { name: round.winner.addition.name(), weight: 1.0, states: own });
         }
-        for other in rivals(round).take(MOST_CAUSES) {
+        for other in round.rivals(SURVIVES).take(MOST_CAUSES) {
             let states = match last {
                 true => states(study, before, other, DRAWS[1])?,
                 false => vec![[before, std::slice::from_ref(&other.addition), after].concat()],
@@ -464,12 +463,6 @@ fn alternatives(choice: &Choice) -> Vec<Cause> {
     let before = choice.additions.get(..choice.rounds.len() - 1).unwrap_or_default().to_vec();
     let weight = (-round.winner.gain).exp().min(1.0);
     vec![Cause { name: "no further effect".to_owned(), weight, states: vec![before] }]
-}
-
-/// The candidates of a round that its winner could be mistaken for, the best first.
-fn rivals(round: &Round) -> impl Iterator<Item = &Scored> {
-    let survives = |one: &&Scored| one.gain > round.winner.gain - SURVIVES;
-    round.others.iter().filter(survives).filter(|one| is_rival(round, one))
 }
 
 /// A candidate beside additions: the fit, and places of its search range as often as they are likely.

@@ -10,8 +10,8 @@ use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
 use rayon::prelude::*;
 
-use super::addition::RigAddition;
-use super::choice::{RigStudy, moved};
+use super::addition::{RigAddition, moved};
+use super::choice::RigStudy;
 use super::noise::Prepared;
 use super::shelf::predict;
 

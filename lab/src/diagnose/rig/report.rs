@@ -12,7 +12,8 @@ use super::super::record::{
 use super::super::verdict::{fit_sentence, is_refuted};
 use super::MISFIT;
 use super::addition::{Kind, RigAddition};
-use super::choice::{Choice, DISTINGUISHABLE, RigStudy, Round, Scored, range};
+use super::candidates::range;
+use super::choice::{Choice, DISTINGUISHABLE, RigStudy, Round, Scored};
 use super::gain::{HeldOut, predict_file};
 use super::next::{NextExperiment, table};
 use super::noise::Noise;
@@ -120,20 +121,9 @@ pub(super) fn undecided(choice: &Choice) -> Vec<String> {
 
 /// Causes that the readings cannot tell from the winner of a round.
 fn rivals(round: &Round) -> Vec<String> {
-    let close = round.others.iter().filter(|other| other.gain > round.winner.gain - DISTINGUISHABLE);
-    let mut names: Vec<String> =
-        close.filter(|other| is_rival(round, other)).map(|other| other.addition.name()).collect();
+    let mut names: Vec<String> = round.rivals(DISTINGUISHABLE).map(|other| other.addition.name()).collect();
     names.dedup();
     names
-}
-
-/// Whether a candidate can be another cause than the winner of a round, and not only a freer form of it.
-pub(super) fn is_rival(round: &Round, other: &Scored) -> bool {
-    // A free curve over an input contains the laws over it.
-    let own = round.winner.addition.variables();
-    let inputs = other.addition.variables();
-    let freer = inputs.is_empty() || inputs.iter().any(|input| own.contains(input));
-    !(other.addition.is_curve() && freer)
 }
 
 /// Factor on the variance of the likelihood by a misfit that the additions leave.
