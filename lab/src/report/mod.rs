@@ -22,6 +22,6 @@ pub use diagnosis::page as diagnosis_page;
 pub use format::{number, percent};
 pub use map::page as map_page;
 pub use page::{Page, RowStatus, Table};
-pub use rig::{RigPage, page as rig_page};
+pub use rig::{RigPage, RigSource, page as rig_page};
 pub use sensitivity::page as sensitivity_page;
 pub use walls::{openfoam_page, standalone_page};

@@ -1,14 +1,19 @@
-//! `nearwall diagnose`: the effects that a model lacks to explain measured impacts, and the extended model.
+//! `nearwall diagnose`: the effects that a model lacks to explain measured impacts, or the readings of a rig, and the
+//! extended model.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use nearwall::Model;
 use nearwall::input::Document;
-use nearwall_lab::atomic_file::{WriteError, make_folder, write_texts};
+use nearwall_lab::atomic_file::{make_folder, write_texts};
+use nearwall_lab::dataset::RigMeasurements;
+use nearwall_lab::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
 use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options};
-use nearwall_lab::report::diagnosis_page;
+use nearwall_lab::report::{RigPage, RigSource, diagnosis_page, rig_page};
+use nearwall_lab::rig::{CaseText, Forward, Replayed, RigCase, Simulated, particles_for};
 
-use crate::{CommandResult, diagnose_rig, progress};
+use crate::{CommandResult, progress};
 
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
@@ -24,29 +29,29 @@ use crate::{CommandResult, diagnose_rig, progress};
     settings of the case, and observables as captured@WALL (docs/rig-diagnosis.md).")]
 pub struct Arguments {
     /// The measured impacts
-    pub(crate) data: PathBuf,
+    data: PathBuf,
     /// The base model
     #[arg(long, required_unless_present = "case")]
     model: Option<PathBuf>,
     /// A case of `nearwall simulate`: the rows are experiments on a rig, which it simulates
     #[arg(long, value_name = "CASE.toml", conflicts_with_all = ["model", "columns", "group", "wall"])]
-    pub(crate) case: Option<PathBuf>,
+    case: Option<PathBuf>,
     /// OpenFOAM cases with recorded impacts: the rows are experiments on a rig; their column `experiment` names the
     /// sub-folder of the case. --model is the model file of these runs
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["case", "columns", "group", "wall"])]
     impacts: Option<PathBuf>,
     /// Model files to draw from the fit, written to draws/ in the output folder; the range over 39 is a 95 % band
     #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(crate) draws: usize,
+    draws: usize,
     /// Output folder
     #[arg(long, value_name = "DIR")]
-    pub(crate) out: PathBuf,
+    out: PathBuf,
     /// Seed of the split into fitted and held-out rows; the same seed gives the same bytes
     #[arg(long, default_value_t = 1)]
-    pub(crate) seed: u64,
+    seed: u64,
     /// Accepted share of false discoveries
     #[arg(long, default_value_t = 0.05)]
-    pub(crate) level: f64,
+    level: f64,
     /// Column map that renames and converts the columns of a laboratory's own file
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
@@ -64,8 +69,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         return Err(format!("--level {}: must lie between 0 and 0.5", arguments.level).into());
     }
     match (&arguments.case, &arguments.impacts, &arguments.model) {
-        (Some(case), ..) => diagnose_rig::run(arguments, case),
-        (None, Some(folder), Some(model)) => diagnose_rig::run_recorded(arguments, folder, model),
+        (Some(case), ..) => run_simulated(arguments, case),
+        (None, Some(folder), Some(model)) => run_recorded(arguments, folder, model),
         (None, None, Some(model)) => run_impacts(arguments, model),
         (None, _, None) => Err("give --model M.toml, or --case CASE.toml for experiments on a rig".into()),
     }
@@ -90,41 +95,109 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     if arguments.draws > 0 && draws.is_empty() {
         eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
     }
-    write(arguments, file_of_model, &diagnosis, &extended, &draws)?;
+    write_impacts(arguments, file_of_model, &diagnosis, &extended, &draws)?;
     crate::print_page(&summary(&diagnosis), &arguments.out.join("report.html"))
 }
 
-/// Writes all output files, or none.
-fn write(
+/// Diagnoses the readings of a rig that a case of `nearwall simulate` describes.
+fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
+    let data = read_rig(arguments)?;
+    let text = CaseText::from_file(case)?;
+    let rigs = RigCase::all(&text, &data)?;
+    let forward = Simulated::new(&rigs, particles_for(&data))?;
+    let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
+    let source = RigSource::Case { file: &case.display().to_string(), number: &|key| text.number(key) };
+    write_rig(arguments, &[case], source, &found)?;
+    crate::print_page(&summary(&found.diagnosis), &arguments.out.join("report.html"))
+}
+
+/// Diagnoses with the impacts that OpenFOAM recorded below `folder`, in runs with the model file `model`.
+fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> CommandResult {
+    let mut data = read_rig(arguments)?;
+    let document = Document::from_file(model)?;
+    let base = Model::from_toml(document.name(), document.text())?;
+    let forward = Replayed::new(folder, &data, &base)?;
+    crate::note(forward.notes());
+    data.notes.extend_from_slice(forward.notes());
+    let mut found = diagnosed(arguments, &forward, &data, document.text(), None)?;
+    let limits = forward.account_notes(&Model::from_toml("extended.toml", &found.extended)?)?;
+    found.notes.extend_from_slice(&limits);
+    let [folder, file] = [folder, model].map(|path| path.display().to_string());
+    write_rig(arguments, &[model], RigSource::Recorded { folder: &folder, model: &file }, &found)?;
+    let limits: String = limits.iter().map(|note| format!("{note}\n")).collect();
+    crate::print_page(&(limits + &summary(&found.diagnosis)), &arguments.out.join("report.html"))
+}
+
+/// Reads the readings of the rig.
+fn read_rig(arguments: &Arguments) -> Result<RigMeasurements, Box<dyn std::error::Error>> {
+    let file = arguments.data.display().to_string();
+    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
+    let data = RigMeasurements::read(&file, source)?;
+    crate::note(&data.notes);
+    Ok(data)
+}
+
+fn diagnosed(
+    arguments: &Arguments,
+    forward: &dyn Forward,
+    data: &RigMeasurements,
+    model: &str,
+    case: Option<&CaseText>,
+) -> Result<RigDiagnosis, RigError> {
+    let bar = progress::spinner("candidates tested");
+    let options = Options { seed: arguments.seed, level: arguments.level, group: None };
+    let found = diagnose_rig(forward, data, model, &options, arguments.draws, case, &|| bar.inc(1));
+    bar.finish_and_clear();
+    found
+}
+
+fn write_impacts(
     arguments: &Arguments,
     model: &Path,
     diagnosis: &Diagnosis,
     extended: &str,
     draws: &[String],
 ) -> CommandResult {
-    let Arguments { data, out, columns, .. } = arguments;
+    let Arguments { data, columns, .. } = arguments;
     let names = [data.as_path(), model].map(|path| path.display().to_string());
     let page = diagnosis_page(diagnosis, &names, extended)?;
     let json = serde_json::to_string_pretty(diagnosis)? + "\n";
     let inputs: Vec<&Path> = [data.as_path(), model].into_iter().chain(columns.as_deref()).collect();
     let results = [("extended.toml", extended), ("diagnosis.json", &json), ("report.html", &page)];
-    let named = results.into_iter().map(|(name, text)| (name.to_owned(), text));
-    Ok(write_texts(out, &inputs, named.chain(drawn_files(out, draws)?))?)
+    write(&arguments.out, &inputs, &results, draws)
 }
 
-/// Names and texts of drawn model files in the folder `draws`, which is created if there are any.
-pub(crate) fn drawn_files<'a>(
-    out: &Path,
-    draws: &'a [String],
-) -> Result<impl Iterator<Item = (String, &'a str)>, WriteError> {
+fn write_rig(
+    arguments: &Arguments,
+    inputs: &[&Path],
+    source: RigSource<'_>,
+    found: &RigDiagnosis,
+) -> CommandResult {
+    let name = arguments.data.display().to_string();
+    let page = rig_page(found, &RigPage { data: &name, source })?;
+    let json = serde_json::to_string_pretty(found)? + "\n";
+    let inputs: Vec<&Path> =
+        std::iter::once(arguments.data.as_path()).chain(inputs.iter().copied()).collect();
+    let mut results =
+        vec![("report.html", page.as_str()), ("extended.toml", &found.extended), ("diagnosis.json", &json)];
+    if !found.next.is_empty() {
+        results.push(("next_experiments.csv", &found.next_table));
+    }
+    write(&arguments.out, &inputs, &results, &found.draws)
+}
+
+/// Writes all of these names and texts and the drawn model files into a folder, or none; no file may be one of `inputs`.
+fn write(out: &Path, inputs: &[&Path], results: &[(&str, &str)], draws: &[String]) -> CommandResult {
     if !draws.is_empty() {
         make_folder(&out.join("draws"))?;
     }
+    let named = results.iter().map(|(name, text)| ((*name).to_owned(), *text));
     let name = |number: usize| format!("draws/{:02}.toml", number + 1);
-    Ok(draws.iter().enumerate().map(move |(number, text)| (name(number), text.as_str())))
+    let drawn = draws.iter().enumerate().map(|(number, text)| (name(number), text.as_str()));
+    Ok(write_texts(out, inputs, named.chain(drawn))?)
 }
 
-pub(crate) fn summary(diagnosis: &Diagnosis) -> String {
+fn summary(diagnosis: &Diagnosis) -> String {
     let mut text = format!("{}\n", diagnosis.verdict);
     for finding in &diagnosis.findings {
         let parameters: Vec<String> = finding

@@ -3,7 +3,6 @@
 mod check;
 mod compare;
 mod diagnose;
-mod diagnose_rig;
 mod map;
 mod materials;
 mod predict;

@@ -23,10 +23,26 @@ use crate::diagnose::rig::RigDiagnosis;
 pub struct RigPage<'a> {
     /// Path of the data file.
     pub data: &'a str,
-    /// Path of the case file, or of the folder with recorded impacts.
-    pub case: &'a str,
-    /// The number of a setting in the case, for experiments that do not change it.
-    pub in_case: &'a dyn Fn(&str) -> Option<f64>,
+    /// What predicts the readings.
+    pub source: RigSource<'a>,
+}
+
+/// What predicts the readings of a rig.
+pub enum RigSource<'a> {
+    /// `nearwall simulate` with a case.
+    Case {
+        /// Path of the case file.
+        file: &'a str,
+        /// The number of a setting in the case, for experiments that do not change it.
+        number: &'a dyn Fn(&str) -> Option<f64>,
+    },
+    /// Impacts that OpenFOAM recorded.
+    Recorded {
+        /// Path of the folder with the cases.
+        folder: &'a str,
+        /// Path of their model file.
+        model: &'a str,
+    },
 }
 
 /// The page: verdict, fit, measured against predicted values, causes, changed numbers, gain, what to measure next, what cannot be seen,
@@ -43,7 +59,11 @@ pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::
     fit::add(&mut page, found);
     rivals::add_undecided(&mut page, diagnosis);
     page.heading("Measured against predicted");
-    let over = over_setting::figures(&mut page, found, from.in_case);
+    let in_case: &dyn Fn(&str) -> Option<f64> = match from.source {
+        RigSource::Case { number, .. } => number,
+        RigSource::Recorded { .. } => &|_| None,
+    };
+    let over = over_setting::figures(&mut page, found, in_case);
     page.figures(over.into_iter().chain(parity::figures(found)));
     add_overview(&mut page, &words::findings(&diagnosis.findings));
     for (place, finding) in diagnosis.findings.iter().enumerate() {
@@ -58,7 +78,11 @@ pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::
     add_rejected(&mut page, &diagnosis.rows);
     add_method(&mut page, diagnosis, from);
     usage::add_commands(&mut page, found, from);
-    page.foot(&format!("Made from {} and {} with seed {}.", from.data, from.case, diagnosis.seed));
+    let source = match from.source {
+        RigSource::Case { file, .. } => format!("{} and {file}", from.data),
+        RigSource::Recorded { folder, model } => format!("{}, {folder} and {model}", from.data),
+    };
+    page.foot(&format!("Made from {source} with seed {}.", diagnosis.seed));
     page.html()
 }
 
@@ -88,8 +112,15 @@ fn add_notes(page: &mut Page, notes: &[String]) {
 fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
     let Diagnosis { seed, level, .. } = diagnosis;
     page.heading("How it was judged");
+    let (does, options) = match from.source {
+        RigSource::Case { file, .. } => ("simulates every experiment", format!("--case {}", quoted(file))),
+        RigSource::Recorded { folder, model } => (
+            "decides again every impact that OpenFOAM recorded",
+            format!("--impacts {} --model {}", quoted(folder), quoted(model)),
+        ),
+    };
     page.note(format!(
-        "The base model simulates every experiment; a candidate changes its wall law. Candidates are every effect of the library \
+        "The base model {does}; a candidate changes its wall law. Candidates are every effect of the library \
          whose inputs vary over the impacts, the numbers of the base model's own laws, and free curves over the inputs whose mean \
          changes from experiment to experiment. A candidate is accepted if data sets drawn from the model without it, with the \
          errors of these readings, let any candidate gain as much in at most a share of {level} of the sets. Intervals hold 95 % \
@@ -97,8 +128,8 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
          decides the draws and the parts of the cross-validation. docs/rig-diagnosis.md of nearwall describes the method and its \
          limits."
     ));
-    let [data, case] = [from.data, from.case].map(quoted);
+    let data = quoted(from.data);
     page.code(format!(
-        "nearwall diagnose {data} \\\n  --case {case} \\\n  --seed {seed} --level {level} --out DIR"
+        "nearwall diagnose {data} \\\n  {options} \\\n  --seed {seed} --level {level} --out DIR"
     ));
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{RigPage, page};
+use super::{RigPage, RigSource, page};
 use crate::dataset::BadRow;
 use crate::diagnose::rig::{KindErrors, NextExperiment, RigDiagnosis, RigRow};
 use crate::diagnose::{
@@ -13,8 +13,8 @@ use crate::diagnose::{
 /// The number of figures of the page, and its text without tags, each piece of white space one blank.
 fn seen(found: &RigDiagnosis) -> (usize, String) {
     let in_case = |key: &str| (key == "particles.temperature").then_some(300.0);
-    let html =
-        page(found, &RigPage { data: "lab/rig.csv", case: "my rig/case.toml", in_case: &in_case }).unwrap();
+    let source = RigSource::Case { file: "my rig/case.toml", number: &in_case };
+    let html = page(found, &RigPage { data: "lab/rig.csv", source }).unwrap();
     assert!(!html.contains("NaN") && !html.contains("inf ") && !html.contains("nats"), "{html}");
     assert!(!html.contains("https:") && !html.contains("src="), "{html}");
     for figure in html.split("<figure id=\"").skip(1) {

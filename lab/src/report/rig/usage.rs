@@ -4,7 +4,7 @@ use super::super::diagnosis::fit::extends;
 use super::super::diagnosis::quoted;
 use super::super::diagnosis::usage::{extra_inputs, not_examined_table, openfoam};
 use super::super::page::Page;
-use super::RigPage;
+use super::{RigPage, RigSource};
 use crate::diagnose::Diagnosis;
 use crate::diagnose::rig::RigDiagnosis;
 
@@ -24,11 +24,16 @@ pub(super) fn add_commands(page: &mut Page, found: &RigDiagnosis, from: &RigPage
         format!("{file} is next to this page. Nothing was added, so it equals the base model:")
     });
     page.code(found.extended.trim_end());
-    page.text("To simulate the rig with it, name it in the case instead of the base model and run the case:");
-    let case = quoted(from.case);
-    page.code(format!(
-        "model = \"{file}\"              # in the case file; the path is relative to it\n\nnearwall check {file}\nnearwall simulate {case} -o extended"
-    ));
+    if let RigSource::Case { file: case, .. } = from.source {
+        page.text(
+            "To simulate the rig with it, name it in the case instead of the base model and run the case:",
+        );
+        let case = quoted(case);
+        page.code(format!(
+            "model = \"{file}\"              # in the case file; the path is relative to it\n\n\
+             nearwall check {file}\nnearwall simulate {case} -o extended"
+        ));
+    }
     page.text(format!(
         "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a solver needs \
          openfoam/environment):"
