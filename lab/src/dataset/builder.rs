@@ -2,8 +2,9 @@
 
 use std::io::Read;
 
-use super::column::{Cells, PARCEL_COLUMNS, Values};
-use super::column_map::{ColumnMap, ONLY_MAPPED};
+use super::column::{Cells, Values};
+use super::column_map::ColumnMap;
+use super::column_names::{DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
 use super::input_errors::InputErrorColumns;
@@ -11,7 +12,8 @@ use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements, Unselected};
 use super::notes::{self, NoteCounts};
 use super::number::{NamedColumns, NumberStyle, is_blank};
-use super::observed::{DETAILS, OBSERVATIONS, ObservedCells};
+use super::observed::ObservedCells;
+use super::row_error::RowError;
 use super::selection::{Selection, Ticket};
 use super::{BadRow, DatasetError, WallChoice};
 use nearwall::impact::{INPUTS, Impact};
@@ -55,7 +57,7 @@ impl<'a> Builder<'a> {
         most: usize,
     ) -> Result<Self, DatasetError> {
         let headers = table.headers();
-        let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem))?;
+        let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem.to_string()))?;
         let inputs = InputColumns::new(|name| named.column(name));
         let style = NumberStyle { markers: true, ..map.style };
         let unnamed = |name: &str| {
@@ -67,7 +69,7 @@ impl<'a> Builder<'a> {
         });
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
-            .map_err(|problem| table.column_fault(&problem, true))?;
+            .map_err(|problem| table.column_fault(&problem.to_string(), true))?;
         if OBSERVATIONS.iter().all(|name| named.index(name).is_none()) {
             let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
             return Err(table.column_fault(&problem, true));
@@ -108,7 +110,9 @@ impl<'a> Builder<'a> {
     ) {
         self.read += 1;
         let next = next.map_err(|bad| with_lines(bad, cells));
-        let row = next.and_then(|line| self.read(line, cells).map_err(|reason| BadRow { line, reason }));
+        let row = next.and_then(|line| {
+            self.read(line, cells).map_err(|error| BadRow { line, reason: error.to_string() })
+        });
         match row {
             Ok(row) => self.add(row, cells, unselected),
             Err(bad) if self.rejected.len() < self.selection.most() => self.rejected.push(bad),
@@ -162,15 +166,15 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn read(&mut self, line: u64, cells: &csv::StringRecord) -> Result<Measurement, String> {
+    fn read(&mut self, line: u64, cells: &csv::StringRecord) -> Result<Measurement, RowError> {
         self.check_quotes(cells)?;
         let mut impact = Impact::default();
         let mut stated = self.inputs.read(cells, &mut impact)?;
         self.velocity.complete(cells, &mut impact, &mut stated)?;
-        impact.check().map_err(|error| error.to_string())?;
+        impact.check()?;
         let input_errors = self.errors.read(cells, &impact, &self.velocity)?;
         let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
-        let wall = self.walls.of(wall).map_err(|error| error.to_string())?;
+        let wall = self.walls.of(wall)?;
         let (e_n, e_t, captured) = (None, None, None);
         let (impacts, rebounds) = (1.0, 1.0);
         let mut row =
@@ -182,14 +186,14 @@ impl<'a> Builder<'a> {
     }
 
     /// Refuses a quoted cell that contains whole rows: its quotation mark is not closed.
-    fn check_quotes(&self, cells: &csv::StringRecord) -> Result<(), String> {
+    fn check_quotes(&self, cells: &csv::StringRecord) -> Result<(), RowError> {
         if !cells.as_slice().contains('\n') {
             return Ok(());
         }
         let separator = char::from(self.map.layout.separator);
         let is_row = |line: &str| line.matches(separator).count() + 1 >= cells.len();
         match cells.iter().any(|cell| cell.lines().skip(1).any(is_row)) {
-            true => Err("unterminated quotation mark: a quoted cell contains the following rows".to_owned()),
+            true => Err(RowError::OpenQuote),
             false => Ok(()),
         }
     }

@@ -27,20 +27,6 @@ pub enum Values {
     },
 }
 
-/// Names of columns that tell groups of rows apart.
-const GROUPS: [&str; 10] =
-    ["series", "day", "date", "batch", "burst", "lab", "laboratory", "session", "run", "campaign"];
-
-/// The columns of OpenFOAM's record that identify a parcel, order its impacts and weigh them: the rank that made it, its
-/// number there, its age [s] and its number of particles. A file with all of them is such a record; they are no causes.
-pub const PARCEL_COLUMNS: [&str; 4] = ["origProcId", "origId", "parcel_age", "n_particles"];
-
-/// Whether a column of this name tells groups of rows apart that may share an error: `series`, `day`, `date`, `batch`,
-/// `burst`, `lab`, `laboratory`, `session`, `run` or `campaign`, in upper or lower case. Its numbers are labels.
-pub fn names_groups(name: &str) -> bool {
-    GROUPS.iter().any(|group| group.eq_ignore_ascii_case(name))
-}
-
 /// Largest number of labels of rows that are not kept.
 const MOST_LABELS: usize = 1000;
 
@@ -180,6 +166,7 @@ impl Column {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::dataset::names_groups;
 
     /// A column of labels.
     pub fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {

@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use super::column::names_groups;
+use super::column_names::{ANGLE_ERROR, ONLY_MAPPED, SPEED_ERROR, is_error, names, names_groups};
 use super::csv_table::Layout;
 use super::detection::Detection;
 use super::impact_velocity::{AngleFrom, over_determined};
 use super::number::{NamedColumns, NumberColumn, NumberStyle};
 use super::observed::OutcomeWords;
-use super::unit::{Dimension, Unit, is_error, names, read_unit};
+use super::row_error::HeaderError;
+use super::unit::{Dimension, Unit, read_unit};
 use nearwall::input::{Document, InputError, Section, unknown};
 
 /// The format of a file of impacts. The default is nearwall's own: names as in [`INPUTS`], SI units, commas.
@@ -40,11 +41,6 @@ struct Source {
 const LAST_HEADER_LINE: f64 = 10_000.0;
 
 impl ColumnMap {
-    /// The column of standard errors of `speed`.
-    pub(super) const SPEED_ERROR: &str = "speed_err";
-    /// The column of standard errors of `angle`.
-    pub(super) const ANGLE_ERROR: &str = "angle_err";
-
     /// Reads a column map.
     ///
     /// # Errors
@@ -76,7 +72,7 @@ impl ColumnMap {
                 map.check_errors(&columns)?;
                 columns.finish()?;
                 if let Some(problem) = over_determined(|key| map.source(key).is_some()) {
-                    return Err(top.fault("columns", problem));
+                    return Err(top.fault("columns", problem.to_string()));
                 }
             }
             Ok(map)
@@ -113,7 +109,7 @@ impl ColumnMap {
             "angle" if self.from.is_none() => {
                 return Err(columns.fault(name, format!("state its unit and its origin: {ANGLE_EXAMPLE}")));
             }
-            Self::ANGLE_ERROR if !columns.is_section(name) => {
+            ANGLE_ERROR if !columns.is_section(name) => {
                 return Err(columns.fault(name, "state its unit: { column = \"...\", unit = \"deg\" }"));
             }
             _ => {}
@@ -134,7 +130,7 @@ impl ColumnMap {
 
     /// Refuses the error of a quantity that the map does not give.
     fn check_errors(&self, columns: &Section<'_>) -> Result<(), InputError> {
-        for (error, of) in [(Self::SPEED_ERROR, "speed"), (Self::ANGLE_ERROR, "angle")] {
+        for (error, of) in [(SPEED_ERROR, "speed"), (ANGLE_ERROR, "angle")] {
             if self.source(error).is_some() && self.source(of).is_none() {
                 return Err(
                     columns.fault(error, format!("is the standard error of `{of}`, which has no column"))
@@ -174,7 +170,7 @@ impl ColumnMap {
     ///
     /// # Errors
     /// The reason, if a column of the map is missing or a name has two columns.
-    pub(super) fn name_columns(&self, headers: &csv::StringRecord) -> Result<NamedColumns, String> {
+    pub(super) fn name_columns(&self, headers: &csv::StringRecord) -> Result<NamedColumns, HeaderError> {
         let columns = names().map(|(name, _)| self.name_column(name, headers));
         Ok(NamedColumns { columns: columns.filter_map(Result::transpose).collect::<Result<_, _>>()? })
     }
@@ -183,7 +179,7 @@ impl ColumnMap {
         &self,
         name: &'static str,
         headers: &csv::StringRecord,
-    ) -> Result<Option<NumberColumn>, String> {
+    ) -> Result<Option<NumberColumn>, HeaderError> {
         let place = |column: &str| headers.iter().position(|header| header == column);
         // In measured data, markers of missing values are blanks.
         let style = NumberStyle { markers: true, ..self.style };
@@ -194,10 +190,9 @@ impl ColumnMap {
             (None, _) if ONLY_MAPPED.contains(&name) => Ok(None),
             (None, None) => Ok(None),
             (None, Some(index)) => found(index, Unit::SI),
-            (Some(source), Some(_)) => Err(format!(
-                "{} reads {name} from column `{}`, but a column `{name}` exists too; list it under [ignore] or use it",
-                self.file, source.column
-            )),
+            (Some(source), Some(_)) => {
+                Err(HeaderError::TwoColumns { map: self.file.clone(), name, column: source.column.clone() })
+            }
             (Some(source), None) => match place(&source.column) {
                 Some(index) => found(index, source.unit),
                 None => Err(self.absent(source, headers)),
@@ -205,10 +200,10 @@ impl ColumnMap {
         }
     }
 
-    fn absent(&self, source: &Source, headers: &csv::StringRecord) -> String {
+    fn absent(&self, source: &Source, headers: &csv::StringRecord) -> HeaderError {
         let known: Vec<&str> = headers.iter().filter(|header| !header.is_empty()).collect();
         let problem = unknown(&source.column, "column", &known);
-        format!("{} reads {} from a missing column: {problem}", self.file, source.name)
+        HeaderError::NoColumn { map: self.file.clone(), name: source.name, problem }
     }
 
     /// Parses a number of a possible cause.
@@ -216,9 +211,6 @@ impl ColumnMap {
         self.style.parse(cell).filter(|number| number.is_finite())
     }
 }
-
-/// Names that only a map can give to a column: their meaning needs a unit, or depends on other columns.
-pub(super) const ONLY_MAPPED: [&str; 4] = ["speed", ColumnMap::SPEED_ERROR, "angle", ColumnMap::ANGLE_ERROR];
 
 /// An example of an angle's entry.
 const ANGLE_EXAMPLE: &str = r#"angle = { column = "...", unit = "deg", from = "surface" } (0 is glancing) or from = "normal" (0 is head-on)"#;

@@ -3,10 +3,10 @@
 use std::io::Read;
 
 use super::csv_table::{CsvTable, Layout};
-use super::impact_velocity::NO_NORMAL_SPEED;
 use super::inputs::InputColumns;
 use super::notes;
 use super::number::{NumberColumn, NumberStyle};
+use super::row_error::{HeaderError, RowError};
 use super::unit::Unit;
 use super::{BadRow, DatasetError};
 use nearwall::impact::{INPUTS, Impact};
@@ -41,7 +41,7 @@ impl<R: Read> ImpactReader<R> {
             Some(NumberColumn { name, index, unit: Unit::SI, style: NumberStyle::default() })
         });
         if !inputs.gives("v_n") {
-            return Err(table.column_fault(NO_NORMAL_SPEED, false));
+            return Err(table.column_fault(&HeaderError::NoNormalSpeed.to_string(), false));
         }
         Ok(Self { table, inputs })
     }
@@ -99,10 +99,10 @@ impl<R: Read> ImpactReader<R> {
     }
 
     fn read_row(&self, line: u64, row: &mut Row) -> Result<(), BadRow> {
-        let bad = |reason: String| BadRow { line, reason };
         row.line = line;
-        self.inputs.read(&row.cells, &mut row.impact).map_err(bad)?;
-        row.impact.check().map_err(|error| bad(error.to_string()))
+        let read = self.inputs.read(&row.cells, &mut row.impact);
+        let checked = read.and_then(|_| Ok(row.impact.check()?));
+        checked.map_err(|error: RowError| BadRow { line, reason: error.to_string() })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::inputs::{InputColumns, Stated, position};
 use super::number::NumberColumn;
+use super::row_error::{HeaderError, RowError};
 use nearwall::impact::Impact;
 
 /// The origin of an angle.
@@ -37,10 +38,10 @@ impl AngleColumn {
     const SLACK: f64 = 0.06;
 
     /// Sines of the angles from the surface and from the normal [1]: the shares of `v_n` and `v_t` in the speed.
-    fn read(&self, cells: &csv::StringRecord) -> Result<Option<[f64; 2]>, String> {
+    fn read(&self, cells: &csv::StringRecord) -> Result<Option<[f64; 2]>, RowError> {
         let Some(angle) = self.column.read_finite(cells)? else { return Ok(None) };
         if !(0.0..=90.0 + Self::SLACK).contains(&angle) {
-            return Err(format!("angle = {angle}°: must be between 0° and 90°"));
+            return Err(RowError::Angle(angle));
         }
         let angle = angle.min(90.0);
         // Sines of both angles: the cosine of 90° is not exactly 0.
@@ -65,29 +66,23 @@ pub(super) enum ImpactVelocity {
     TangentialAndAngle(AngleColumn),
 }
 
-/// The error of a file without a normal speed.
-pub(super) const NO_NORMAL_SPEED: &str = "there is no column `v_n` (normal speed, m/s)";
-
 /// The columns that may determine the velocity.
 pub(super) const KEYS: [&str; 4] = ["v_n", "v_t", "speed", "angle"];
 
-/// The sufficient sets of [`KEYS`].
-const SUFFICIENT: &str = "v_n, or v_n and v_t, or angle with one of speed, v_n and v_t";
-
 /// The error if the keys over-determine the velocity; `has` tells which of [`KEYS`] are given.
-pub(super) fn over_determined(has: impl Fn(&str) -> bool) -> Option<String> {
+pub(super) fn over_determined(has: impl Fn(&str) -> bool) -> Option<HeaderError> {
     let given: Vec<&str> = KEYS.into_iter().filter(|key| has(key)).collect();
     let contradicts = given.len() > 2 || (has("speed") && (has("v_n") || has("v_t")));
-    contradicts.then(|| format!("{} over-determine the velocity; keep {SUFFICIENT}", given.join(", ")))
+    contradicts.then(|| HeaderError::OverDetermined(given.join(", ")))
 }
 
 /// The error if the keys under-determine the velocity; `has` tells which of [`KEYS`] are given.
-fn under_determined(has: impl Fn(&str) -> bool) -> String {
+fn under_determined(has: impl Fn(&str) -> bool) -> HeaderError {
     let given: Vec<&str> = KEYS.into_iter().filter(|key| has(key)).collect();
-    if given.is_empty() {
-        return NO_NORMAL_SPEED.to_owned();
+    match given.is_empty() {
+        true => HeaderError::NoNormalSpeed,
+        false => HeaderError::UnderDetermined(given.join(", ")),
     }
-    format!("{} alone does not determine the normal speed; give {SUFFICIENT}", given.join(", "))
 }
 
 impl ImpactVelocity {
@@ -99,7 +94,7 @@ impl ImpactVelocity {
         inputs: &InputColumns,
         speed: Option<NumberColumn>,
         angle: Option<AngleColumn>,
-    ) -> Result<Self, String> {
+    ) -> Result<Self, HeaderError> {
         let has = |key: &str| match key {
             "speed" => speed.is_some(),
             "angle" => angle.is_some(),
@@ -134,15 +129,15 @@ impl ImpactVelocity {
         cells: &csv::StringRecord,
         impact: &mut Impact,
         stated: &mut Stated,
-    ) -> Result<(), String> {
+    ) -> Result<(), RowError> {
         match self {
             Self::Speeds => return Ok(()),
             Self::SpeedAndAngle(speed, angle) => {
-                let speed = speed.read_finite(cells)?.ok_or("speed is blank")?;
+                let speed = speed.read_finite(cells)?.ok_or(RowError::Blank("speed"))?;
                 if speed < 0.0 {
-                    return Err("speed is negative".to_owned());
+                    return Err(RowError::Negative("speed"));
                 }
-                let shares = angle.read(cells)?.ok_or("angle is blank")?;
+                let shares = angle.read(cells)?.ok_or(RowError::Blank("angle"))?;
                 [impact.normal_speed, impact.tangential_speed] = shares.map(|share| speed * share);
             }
             Self::NormalAndAngle(angle) => {
@@ -152,9 +147,9 @@ impl ImpactVelocity {
             }
             Self::TangentialAndAngle(angle) => {
                 if !stated[position("v_t")] {
-                    return Err("v_t is blank, but v_n is computed from it".to_owned());
+                    return Err(RowError::NoTangentialSpeed);
                 }
-                let [normal, tangential] = angle.read(cells)?.ok_or("angle is blank")?;
+                let [normal, tangential] = angle.read(cells)?.ok_or(RowError::Blank("angle"))?;
                 impact.normal_speed = other_speed(impact.tangential_speed, normal, tangential, "v_t")?;
             }
         }
@@ -187,9 +182,9 @@ impl ImpactVelocity {
 }
 
 /// The wanted speed [m/s] from the given one; both sines [1].
-fn other_speed(known: f64, wanted: f64, given: f64, name: &str) -> Result<f64, String> {
+fn other_speed(known: f64, wanted: f64, given: f64, name: &'static str) -> Result<f64, RowError> {
     if given == 0.0 {
-        return Err(format!("{name} is 0 at this angle and does not determine the other speed"));
+        return Err(RowError::Undetermined(name));
     }
     Ok(known * wanted / given)
 }

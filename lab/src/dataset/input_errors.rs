@@ -1,21 +1,13 @@
 //! Standard errors of the inputs of an impact.
 
-use super::column_map::ColumnMap;
+use super::column_names::{ANGLE_ERROR, INPUT_ERRORS, SPEED_ERROR};
 use super::impact_velocity::ImpactVelocity;
 use super::number::{NamedColumns, NumberColumn};
+use super::row_error::RowError;
 use nearwall::impact::{INPUTS, Impact, Input};
 
 /// Every input, with a lifetime that an iterator may return.
 static ALL_INPUTS: &[Input; INPUTS.len()] = &INPUTS;
-
-/// The columns of standard errors of inputs, each with the place of its input in [`INPUTS`].
-pub(super) const INPUT_ERRORS: [(&str, usize); 5] = [
-    ("v_n_err", Impact::NORMAL_SPEED),
-    ("v_t_err", Impact::TANGENTIAL_SPEED),
-    ("d_err", Impact::DIAMETER),
-    ("T_p_err", Impact::PARTICLE_TEMPERATURE),
-    ("T_w_err", Impact::WALL_TEMPERATURE),
-];
 
 /// Places of the speeds in [`INPUT_ERRORS`].
 const SPEEDS: [usize; 2] = [0, 1];
@@ -51,8 +43,8 @@ impl InputErrorColumns {
     pub(super) fn new(named: &NamedColumns) -> Self {
         Self {
             columns: INPUT_ERRORS.map(|(name, _)| named.column(name)),
-            speed: named.column(ColumnMap::SPEED_ERROR),
-            angle: named.column(ColumnMap::ANGLE_ERROR),
+            speed: named.column(SPEED_ERROR),
+            angle: named.column(ANGLE_ERROR),
         }
     }
 
@@ -65,7 +57,7 @@ impl InputErrorColumns {
         cells: &csv::StringRecord,
         impact: &Impact,
         velocity: &ImpactVelocity,
-    ) -> Result<InputErrors, String> {
+    ) -> Result<InputErrors, RowError> {
         let mut stated = [None; INPUT_ERRORS.len()];
         for (stated, column) in stated.iter_mut().zip(&self.columns) {
             *stated = read_error(column.as_ref(), cells)?;
@@ -82,10 +74,10 @@ impl InputErrorColumns {
     }
 }
 
-fn read_error(column: Option<&NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
+fn read_error(column: Option<&NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
     let Some(column) = column else { return Ok(None) };
     match column.read_finite(cells)? {
-        Some(error) if error < 0.0 => Err(format!("{} is negative", column.name)),
+        Some(error) if error < 0.0 => Err(RowError::Negative(column.name)),
         error => Ok(error),
     }
 }

@@ -1,6 +1,7 @@
 //! The inputs of an impact in the cells of a row.
 
 use super::number::{NumberColumn, NumberStyle, is_blank};
+use super::row_error::RowError;
 use nearwall::impact::{INPUTS, Impact};
 use nearwall::model::ExtraInput;
 
@@ -69,7 +70,7 @@ impl InputColumns {
     ///
     /// # Errors
     /// The reason, for a cell that is not a number or a blank `v_n`.
-    pub(super) fn read(&self, cells: &csv::StringRecord, impact: &mut Impact) -> Result<Stated, String> {
+    pub(super) fn read(&self, cells: &csv::StringRecord, impact: &mut Impact) -> Result<Stated, RowError> {
         *impact = Impact::default();
         let mut stated = Stated::default();
         for (place, (input, column)) in INPUTS.iter().zip(&self.columns).enumerate() {
@@ -79,7 +80,7 @@ impl InputColumns {
                     (input.set)(impact, value);
                     stated[place] = true;
                 }
-                None if input.name == "v_n" => return Err("v_n is blank".to_owned()),
+                None if input.name == "v_n" => return Err(RowError::Blank("v_n")),
                 None => {}
             }
         }
@@ -97,7 +98,7 @@ impl ExtraColumn {
     ///
     /// # Errors
     /// The reason, for a cell that should be a number and is not.
-    fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
+    fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
         let cell = self.index.and_then(|index| cells.get(index)).unwrap_or("");
         if cell.is_empty() || (self.style.markers && is_blank(cell)) {
             return Ok(None);
@@ -109,7 +110,7 @@ impl ExtraColumn {
         };
         match value {
             None => Err(self.style.not_a_number(name, cell)),
-            Some(value) if !value.is_finite() => Err(format!("{name} is not finite")),
+            Some(value) if !value.is_finite() => Err(RowError::NotFinite(name.clone())),
             value => Ok(value),
         }
     }

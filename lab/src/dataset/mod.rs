@@ -10,6 +10,7 @@
 mod builder;
 mod column;
 mod column_map;
+mod column_names;
 mod csv_table;
 mod detection;
 mod impact_reader;
@@ -23,12 +24,14 @@ mod number;
 mod observed;
 mod rig_measurements;
 mod rig_observable;
+mod row_error;
 mod selection;
 mod unit;
 mod wall_choice;
 
-pub use column::{Column, PARCEL_COLUMNS, Values, names_groups};
+pub use column::{Column, Values};
 pub use column_map::ColumnMap;
+pub use column_names::{PARCEL_COLUMNS, names_groups};
 pub use detection::Detection;
 pub use impact_reader::{ImpactReader, Row};
 pub use input_errors::InputErrors;

@@ -1,7 +1,8 @@
 //! Warnings about a file: assumptions and likely mistakes.
 
+use super::column_names::INPUT_ERRORS;
 use super::detection::Detection;
-use super::input_errors::{INPUT_ERRORS, InputErrors};
+use super::input_errors::InputErrors;
 use super::measurements::{Measurement, Reading};
 use super::observed::Remarks;
 use nearwall::impact::{INPUTS, Impact, Input};

@@ -1,5 +1,6 @@
 //! Numbers in cells: their notation, their unit, and markers of missing values.
 
+use super::row_error::RowError;
 use super::unit::Unit;
 
 /// The notation of numbers in a file.
@@ -31,14 +32,14 @@ impl NumberStyle {
     }
 
     /// The error of a cell that is not a number, with the remedy if a column map can help.
-    pub(super) fn not_a_number(self, name: &str, cell: &str) -> String {
+    pub(super) fn not_a_number(self, name: &str, cell: &str) -> RowError {
         let other = Self { decimal_comma: !self.decimal_comma, ..self };
         let hint = match (self.markers && other.parse(cell).is_some(), self.decimal_comma) {
             (false, _) => "",
             (true, false) => "; for a decimal comma set decimal = \",\" in the column map",
             (true, true) => "; the column map sets decimal = \",\"",
         };
-        format!("{name} `{cell}` is not a number{hint}")
+        RowError::NotANumber { name: name.to_owned(), cell: cell.to_owned(), hint }
     }
 }
 
@@ -60,7 +61,7 @@ impl NumberColumn {
     ///
     /// # Errors
     /// The reason, for a cell that is not a number.
-    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
+    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
         let cell = cells.get(self.index).unwrap_or("");
         if if self.style.markers { is_blank(cell) } else { cell.is_empty() } {
             return Ok(None);
@@ -70,9 +71,9 @@ impl NumberColumn {
     }
 
     /// As [`Self::read`], without NaN and infinity.
-    pub(super) fn read_finite(&self, cells: &csv::StringRecord) -> Result<Option<f64>, String> {
+    pub(super) fn read_finite(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
         match self.read(cells)? {
-            Some(value) if !value.is_finite() => Err(format!("{} is not finite", self.name)),
+            Some(value) if !value.is_finite() => Err(RowError::NotFinite(self.name.to_owned())),
             other => Ok(other),
         }
     }
@@ -111,10 +112,14 @@ mod tests {
         assert_eq!(comma.parse("12"), Some(12.0));
         assert_eq!(comma.parse("1.234,5"), None);
         assert_eq!(comma.parse("1,234,5"), None);
-        assert!(comma.not_a_number("d", "1.5").contains("decimal"), "{}", comma.not_a_number("d", "1.5"));
+        assert!(
+            comma.not_a_number("d", "1.5").to_string().contains("decimal"),
+            "{}",
+            comma.not_a_number("d", "1.5").to_string()
+        );
         let point = NumberStyle { decimal_comma: false, markers: true };
-        assert!(point.not_a_number("d", "1,5").contains("decimal = \",\""));
-        assert_eq!(NumberStyle::default().not_a_number("d", "1,5"), "d `1,5` is not a number");
+        assert!(point.not_a_number("d", "1,5").to_string().contains("decimal = \",\""));
+        assert_eq!(NumberStyle::default().not_a_number("d", "1,5").to_string(), "d `1,5` is not a number");
     }
 
     #[test]

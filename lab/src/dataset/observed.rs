@@ -2,13 +2,8 @@
 
 use super::measurements::{Measurement, Reading};
 use super::number::{NamedColumns, is_blank};
+use super::row_error::RowError;
 use nearwall::input::{InputError, Section};
-
-/// The columns of observations; a row has at least one of them.
-pub(super) const OBSERVATIONS: [&str; 5] = ["e_n", "e_t", "outcome", "capture_efficiency", "captured"];
-
-/// The columns that qualify an observation.
-pub(super) const DETAILS: [&str; 3] = ["e_n_err", "e_t_err", "n_impacts"];
 
 /// Largest plausible restitution [1]. Rough walls and spin give more than 1; a larger value is in another unit.
 const HIGHEST: f64 = 3.0;
@@ -63,10 +58,10 @@ impl OutcomeWords {
         }
     }
 
-    fn unknown(&self, cell: &str) -> String {
+    fn unknown(&self, cell: &str) -> RowError {
         let own = self.rebound.iter().chain(&self.stick).map(String::as_str);
         let known: Vec<&str> = Self::REBOUND.into_iter().chain(Self::STICK).chain(own).collect();
-        format!("outcome `{cell}` is unknown; use one of {}", known.join(", "))
+        RowError::UnknownOutcome { cell: cell.to_owned(), known: known.join(", ") }
     }
 }
 
@@ -82,11 +77,11 @@ impl ObservedCells<'_> {
     ///
     /// # Errors
     /// The reason why the row cannot be used.
-    pub(super) fn read_into(&self, row: &mut Measurement) -> Result<Remarks, String> {
+    pub(super) fn read_into(&self, row: &mut Measurement) -> Result<Remarks, RowError> {
         let counted = self.number("n_impacts")?;
         row.impacts = counted.unwrap_or(1.0);
         if row.impacts < 1.0 || row.impacts.fract() != 0.0 {
-            return Err(format!("n_impacts is {}; it must be a whole number from 1", row.impacts));
+            return Err(RowError::NotWhole { name: "n_impacts", value: row.impacts, least: 1 });
         }
         row.captured = self.share_captured(counted)?;
         let uncounted = counted.is_none() && row.captured.is_some_and(|share| share.fract() != 0.0);
@@ -108,57 +103,53 @@ impl ObservedCells<'_> {
             Some(share) => (row.impacts * (1.0 - share)).max(1.0),
         };
         if row.captured.is_none() && row.e_n.is_none() && row.e_t.is_none() {
-            return Err("the row has no observation: all columns of observations are blank".to_owned());
+            return Err(RowError::NoObservation);
         }
         Ok(Remarks { uncounted, no_error })
     }
 
     /// The captured share of the impacts [1], if recorded.
-    fn share_captured(&self, counted: Option<f64>) -> Result<Option<f64>, String> {
+    fn share_captured(&self, counted: Option<f64>) -> Result<Option<f64>, RowError> {
         let impacts = counted.unwrap_or(1.0);
         let count = self.count_captured(counted)?.map(|count| count / impacts);
         let stated = self.number("capture_efficiency")?;
         if let Some(share) = stated.filter(|share| !(0.0..=1.0).contains(share)) {
-            return Err(format!("capture_efficiency is {share}; it must be between 0 and 1"));
+            return Err(RowError::NoShare(share));
         }
         if let (Some(share), Some(1.0)) = (stated.filter(|share| share.fract() != 0.0), counted) {
-            return Err(format!("capture_efficiency is {share}, but n_impacts is 1"));
+            return Err(RowError::ShareOfOne(share));
         }
         if let (Some(count), Some(stated)) = (count, stated)
             && (count - stated).abs() > ROUNDING
         {
-            return Err(format!("captured / n_impacts is {count:.4}, but capture_efficiency is {stated}"));
+            return Err(RowError::TwoShares { count, stated });
         }
         let share = count.or(stated);
         match (self.outcome()?, share) {
             (None, share) => Ok(share),
-            (Some(_), None) if impacts > 1.0 => Err(format!(
-                "one outcome cannot describe {impacts} impacts; give captured or capture_efficiency"
-            )),
+            (Some(_), None) if impacts > 1.0 => Err(RowError::OneOutcome(impacts)),
             (Some(stuck), None) => Ok(Some(f64::from(stuck))),
             (Some(stuck), Some(share)) if f64::from(stuck) == share => Ok(Some(share)),
             (Some(stuck), Some(share)) => {
                 let word = if stuck { "stick" } else { "rebound" };
-                Err(format!("outcome is {word}, but the captured share is {share}"))
+                Err(RowError::OtherOutcome { word, share })
             }
         }
     }
 
-    fn count_captured(&self, counted: Option<f64>) -> Result<Option<f64>, String> {
+    fn count_captured(&self, counted: Option<f64>) -> Result<Option<f64>, RowError> {
         let Some(count) = self.number("captured")? else { return Ok(None) };
         if count < 0.0 || count.fract() != 0.0 {
-            return Err(format!("captured is {count}; it must be a whole number from 0"));
+            return Err(RowError::NotWhole { name: "captured", value: count, least: 0 });
         }
         match counted {
-            Some(impacts) if count > impacts => {
-                Err(format!("captured is {count}, more than n_impacts = {impacts}"))
-            }
-            None if count > 1.0 => Err(format!("captured is {count}, but n_impacts is blank")),
+            Some(impacts) if count > impacts => Err(RowError::MoreThanImpacts { count, impacts }),
+            None if count > 1.0 => Err(RowError::NoImpacts(count)),
             _ => Ok(Some(count)),
         }
     }
 
-    fn outcome(&self) -> Result<Option<bool>, String> {
+    fn outcome(&self) -> Result<Option<bool>, RowError> {
         let cell = self.columns.index("outcome").and_then(|index| self.cells.get(index)).unwrap_or("");
         match self.words.captured(cell) {
             None if is_blank(cell) => Ok(None),
@@ -170,29 +161,29 @@ impl ObservedCells<'_> {
     /// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
     fn reading(
         &self,
-        [name, error]: [&str; 2],
+        [name, error]: [&'static str; 2],
         lowest: f64,
         no_error: &mut bool,
-    ) -> Result<Option<Reading>, String> {
+    ) -> Result<Option<Reading>, RowError> {
         let Some(value) = self.number(name)? else { return Ok(None) };
         if value < lowest {
             return Err(match lowest {
-                0.0 => format!("{name} is negative"),
-                _ => format!("{name} is {value}, below {lowest}"),
+                0.0 => RowError::Negative(name),
+                _ => RowError::Below { name, value, least: lowest },
             });
         }
         if value > HIGHEST {
-            return Err(format!("{name} is {value}, above {HIGHEST}; check its unit"));
+            return Err(RowError::Above { name, value, most: HIGHEST });
         }
-        let error = self.number(error)?;
-        if error.is_some_and(|error| error < 0.0) {
-            return Err(format!("{name}_err is negative"));
+        let stated = self.number(error)?;
+        if stated.is_some_and(|stated| stated < 0.0) {
+            return Err(RowError::Negative(error));
         }
-        *no_error |= error == Some(0.0);
-        Ok(Some(Reading { value, error: error.filter(|error| *error > 0.0) }))
+        *no_error |= stated == Some(0.0);
+        Ok(Some(Reading { value, error: stated.filter(|stated| *stated > 0.0) }))
     }
 
-    fn number(&self, name: &str) -> Result<Option<f64>, String> {
+    fn number(&self, name: &str) -> Result<Option<f64>, RowError> {
         self.columns.column(name).map_or(Ok(None), |column| column.read_finite(self.cells))
     }
 }

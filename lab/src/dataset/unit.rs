@@ -1,7 +1,5 @@
 //! The units of a column map.
 
-use super::input_errors::INPUT_ERRORS;
-use nearwall::impact::INPUTS;
 use nearwall::input::{InputError, Section, unknown};
 
 /// A unit and its conversion to SI: `(value + offset) factor / divisor`.
@@ -95,43 +93,6 @@ impl Dimension {
     }
 }
 
-/// The names that a column map accepts beyond the inputs of an impact.
-const MORE_NAMES: [(&str, Dimension); 14] = [
-    ("speed", Dimension::Speed),
-    ("speed_err", Dimension::Speed),
-    ("angle", Dimension::Angle),
-    ("angle_err", Dimension::Angle),
-    ("e_n", Dimension::Share),
-    ("e_n_err", Dimension::Share),
-    ("e_t", Dimension::Share),
-    ("e_t_err", Dimension::Share),
-    ("outcome", Dimension::Text),
-    ("capture_efficiency", Dimension::Share),
-    ("captured", Dimension::Count),
-    ("n_impacts", Dimension::Count),
-    ("wall", Dimension::Text),
-    ("series", Dimension::Text),
-];
-
-/// Every name that a column map accepts, with its dimension.
-pub(super) fn names() -> impl Iterator<Item = (&'static str, Dimension)> {
-    let of_unit = |unit: &str| match unit {
-        "m" => Dimension::Length,
-        "m/s" => Dimension::Speed,
-        "K" => Dimension::Temperature,
-        "rad/s" => Dimension::Spin,
-        "kg/m3" => Dimension::Density,
-        _ => Dimension::Share,
-    };
-    let errors = INPUT_ERRORS.into_iter().map(move |(name, place)| (name, of_unit(INPUTS[place].unit)));
-    INPUTS.iter().map(move |input| (input.name, of_unit(input.unit))).chain(errors).chain(MORE_NAMES)
-}
-
-/// Whether the column of this name holds standard errors, which are differences.
-pub(super) fn is_error(name: &str) -> bool {
-    name.ends_with("_err")
-}
-
 /// Reads the key `unit`, SI by default; an angle has no default.
 pub(super) fn read_unit(details: &Section<'_>, dimension: Dimension) -> Result<Unit, InputError> {
     let units = dimension.units();
@@ -167,6 +128,8 @@ pub(super) fn read_quantity(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dataset::column_names::names;
+    use nearwall::impact::INPUTS;
 
     fn si(dimension: Dimension, unit: &str, value: f64) -> f64 {
         dimension.unit(unit).unwrap().to_si(value)
