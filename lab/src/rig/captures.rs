@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::PredictionError;
 use crate::simulate::{Case, Fate, PathTree, SimulationError, SurfaceKind, run_once};
 use nearwall::model::Model;
 
@@ -69,8 +70,8 @@ impl<'a> Flights<'a> {
     /// What the walls capture under a model; particles with a model of their own keep it.
     ///
     /// # Errors
-    /// Why none of the particles can be used.
-    pub fn captures(&self, model: &Model) -> Result<Captures, String> {
+    /// [`PredictionError::NoParticle`] where none of the particles can be used.
+    pub fn captures(&self, model: &Model) -> Result<Captures, PredictionError> {
         let surfaces: Vec<usize> = walls(self.case).map(|(index, _)| index).collect();
         let mut captures = Captures::new(self.case, self.particles.len());
         let follow = |path: &Result<PathTree<'a>, SimulationError>| {
@@ -102,11 +103,12 @@ impl<'a> Flights<'a> {
 }
 
 impl Captures {
-    fn usable(self) -> Result<Self, String> {
+    fn usable(self) -> Result<Self, PredictionError> {
         if self.injected.iter().any(|mass| *mass > 0.0) {
             return Ok(self);
         }
-        Err(self.trouble.unwrap_or_else(|| "no particle could be used".to_owned()))
+        let trouble = self.trouble.unwrap_or_else(|| "no particle could be used".to_owned());
+        Err(PredictionError::NoParticle(trouble))
     }
 }
 
@@ -114,7 +116,7 @@ impl Captures {
 ///
 /// # Errors
 /// As `nearwall simulate`, and why none of the particles can be used.
-pub fn run_captures(case: &Case) -> Result<Captures, String> {
+pub fn run_captures(case: &Case) -> Result<Captures, PredictionError> {
     let surfaces: Vec<usize> = walls(case).map(|(index, _)| index).collect();
     let mut captures = Captures::new(case, usize::try_from(case.count()).unwrap_or(usize::MAX));
     run_once::<String>(case, None, &mut |_, _, number, trajectory| {
@@ -133,6 +135,7 @@ pub fn run_captures(case: &Case) -> Result<Captures, String> {
             }
         }
         Ok(())
-    })?;
+    })
+    .map_err(PredictionError::NoParticle)?;
     captures.usable()
 }

@@ -33,16 +33,54 @@ pub enum SettingError {
         /// The dotted key.
         key: String,
         /// The reason, with the remedy.
-        reason: String,
+        reason: SettingFault,
     },
+    /// The changed case cannot be read.
+    #[error("{0}")]
+    Case(String),
     /// The case with the settings of an experiment cannot be read.
     #[error("{experiment}: with its settings the case is at fault: {reason}")]
     Experiment {
         /// File, line and name of the experiment.
         experiment: String,
         /// The error of the case.
-        reason: String,
+        reason: Box<SettingError>,
     },
+}
+
+/// Why a case has no place for a setting.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SettingFault {
+    /// A part of the key names no table.
+    #[error("the case has no `{part}` there, only {keys}")]
+    NoTable {
+        /// The part.
+        part: String,
+        /// The keys that are there.
+        keys: String,
+    },
+    /// A part of the key names a value.
+    #[error("`{0}` is a value in the case; make it a distribution there, or set `{0}` itself")]
+    Value(String),
+    /// A part of the key names a list, and the next one none of its tables.
+    #[error("`{list}` is a list; name one of {names} after it")]
+    List {
+        /// The list.
+        list: String,
+        /// Names of its tables.
+        names: String,
+    },
+    /// An observable is of a wall that the case does not have.
+    #[error("the case has no wall `{wall}`; it has {walls}")]
+    NoWall {
+        /// The wall.
+        wall: String,
+        /// The walls of the case.
+        walls: String,
+    },
+    /// Particles have a model file of their own.
+    #[error("particles with a model file of their own cannot be diagnosed; give them the model of the case")]
+    OwnModels,
 }
 
 /// The text of a case, with its model as a table in it.
@@ -91,7 +129,10 @@ impl CaseText {
         let mut changed = self.clone();
         changed.change(experiment, settings)?;
         let read = self.read(&changed.document);
-        read.map_err(|reason| SettingError::Experiment { experiment: experiment.to_owned(), reason })
+        read.map_err(|error| SettingError::Experiment {
+            experiment: experiment.to_owned(),
+            reason: Box::new(error),
+        })
     }
 
     /// Changes settings, which messages say come from `experiment`.
@@ -112,13 +153,13 @@ impl CaseText {
     /// The case of a changed text.
     ///
     /// # Errors
-    /// What is wrong with it.
-    pub(super) fn read(&self, document: &DocumentMut) -> Result<Case, String> {
+    /// [`SettingError::Case`].
+    pub(super) fn read(&self, document: &DocumentMut) -> Result<Case, SettingError> {
         let read = Case::from_toml(&self.name, &document.to_string(), &self.folder);
         // Lines of the changed text mean nothing to the reader.
         read.map_err(|error| match error {
-            InputError::Fault { problem, .. } => problem,
-            other => other.to_string(),
+            InputError::Fault { problem, .. } => SettingError::Case(problem),
+            other => other.into(),
         })
     }
 
@@ -165,7 +206,7 @@ fn name_of(table: &dyn TableLike) -> Option<&str> {
 }
 
 /// Sets a dotted key to a cell: a value of TOML, or a text.
-fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), String> {
+fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), SettingFault> {
     let mut parts: Vec<&str> = key.split('.').collect();
     let last = parts.pop().unwrap_or_default();
     let value = cell.parse::<Value>().unwrap_or_else(|_| Value::from(cell));
@@ -174,15 +215,11 @@ fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), String> 
     while let Some(part) = parts.next() {
         let keys = table.iter().map(|(key, _)| key.to_owned()).collect::<Vec<_>>().join(", ");
         let Some(item) = table.get_mut(part) else {
-            return Err(format!("the case has no `{part}` there, only {keys}"));
+            return Err(SettingFault::NoTable { part: part.to_owned(), keys });
         };
         table = match item {
             Item::ArrayOfTables(tables) => named(tables, part, parts.next())?,
-            item => item.as_table_like_mut().ok_or_else(|| {
-                format!(
-                    "`{part}` is a value in the case; make it a distribution there, or set `{part}` itself"
-                )
-            })?,
+            item => item.as_table_like_mut().ok_or_else(|| SettingFault::Value(part.to_owned()))?,
         };
     }
     table.insert(last, Item::Value(value));
@@ -194,9 +231,9 @@ fn named<'a>(
     tables: &'a mut ArrayOfTables,
     list: &str,
     wanted: Option<&str>,
-) -> Result<&'a mut dyn TableLike, String> {
+) -> Result<&'a mut dyn TableLike, SettingFault> {
     let names: Vec<String> = tables.iter().filter_map(|t| name_of(t).map(str::to_owned)).collect();
     let found = tables.iter_mut().find(|table| name_of(*table) == wanted);
     let found = found.map(|table| table as &mut dyn TableLike);
-    found.ok_or_else(|| format!("`{list}` is a list; name one of {} after it", names.join(", ")))
+    found.ok_or_else(|| SettingFault::List { list: list.to_owned(), names: names.join(", ") })
 }

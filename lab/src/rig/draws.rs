@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
 use crate::results::standalone::Run;
 use crate::simulate::Case;
@@ -128,13 +129,13 @@ pub struct CaptureBand {
 /// Adds the bands of what the walls capture to the runs of a case. `progress` is called after each draw.
 ///
 /// # Errors
-/// Why a drawn model cannot decide the case.
+/// [`PredictionError`] where a drawn model cannot decide the case.
 pub fn add_capture_bands(
     case: &mut Case,
     runs: &mut [Run],
     draws: &DrawnModels,
     progress: &(dyn Fn() + Sync),
-) -> Result<(), String> {
+) -> Result<(), PredictionError> {
     let key = case.sweep.as_ref().map(|sweep| sweep.key.clone());
     for run in runs {
         if let Some((key, value)) = key.as_ref().zip(run.value) {
@@ -151,13 +152,13 @@ pub fn add_capture_bands(
 /// run anew with each model and the same random numbers.
 ///
 /// # Errors
-/// Why a drawn model cannot decide the case.
+/// [`PredictionError`] where a drawn model cannot decide the case.
 fn capture_bands(
     case: &mut Case,
     run: &Run,
     draws: &DrawnModels,
     progress: &(dyn Fn() + Sync),
-) -> Result<Vec<CaptureBand>, String> {
+) -> Result<Vec<CaptureBand>, PredictionError> {
     let mut captures: Vec<Captures> = Vec::new();
     if case.deposit.is_some() {
         for model in &draws.models {

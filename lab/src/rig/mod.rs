@@ -11,20 +11,53 @@ mod captures;
 mod case_text;
 mod draws;
 mod recorded_flight;
+mod recording;
+mod replay_error;
 mod replayed;
 pub mod sensitivity;
 mod simulated;
 pub mod tally;
 
 pub use captures::{Captures, Flights, run_captures};
-pub use case_text::{CaseText, SettingError};
+pub use case_text::{CaseText, SettingError, SettingFault};
 pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};
-pub use replayed::{ReplayAccount, ReplayError, Replayed};
+pub use recording::ReplayAccount;
+pub use replay_error::ReplayError;
+pub use replayed::Replayed;
 pub use simulated::{RigCase, Simulated, particles_for};
 pub use tally::Predicted;
 
 use crate::dataset::Experiment;
+use crate::simulate::SimulationError;
 use nearwall::model::Model;
+
+/// Why a model cannot predict what a rig measures.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PredictionError {
+    /// A particle cannot be followed, or an impact cannot be decided.
+    #[error("{place}: {reason}")]
+    Impact {
+        /// File, line and name of the experiment, or the line of a record.
+        place: String,
+        /// The reason.
+        reason: String,
+    },
+    /// The case of an experiment cannot be made.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The case cannot have a value of its sweep.
+    #[error(transparent)]
+    Sweep(#[from] SimulationError),
+    /// No particle of a case can be used, for this reason.
+    #[error("{0}")]
+    NoParticle(String),
+}
+
+impl PredictionError {
+    fn new(place: &str, reason: &impl std::fmt::Display) -> Self {
+        Self::Impact { place: place.to_owned(), reason: reason.to_string() }
+    }
+}
 
 /// A change of an experiment's base model.
 pub type ModelChange<'a> = dyn Fn(&Model) -> Model + Sync + 'a;
@@ -40,8 +73,9 @@ pub trait Forward: Sync {
     /// What the changed model predicts for the readings of an experiment, in their order.
     ///
     /// # Errors
-    /// Why the changed model cannot decide an impact.
-    fn predict(&self, experiment: usize, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String>;
+    /// [`PredictionError`] where the changed model cannot decide an impact.
+    fn predict(&self, experiment: usize, change: &ModelChange<'_>)
+    -> Result<Vec<Predicted>, PredictionError>;
 
     /// Most causes that one diagnosis may name: one where predictions are only approximate beside the law of the record.
     fn most_causes(&self) -> usize {

@@ -5,6 +5,8 @@
 //! `a - r (s' - s)`, as the gas and gravity stay. The time until the particle is at the wall follows, and from it the speed there and the
 //! way along the wall. Exact for Stokes drag in a gas of one velocity.
 
+use nalgebra::Vector3;
+
 /// Distance of a point from its wall, as a share of the wall's size, up to which the wall is flat [1].
 const FLAT: f64 = 1e-3;
 /// How far beyond the recorded impacts of a wall a particle may arrive, as a share of the wall's size [1].
@@ -19,83 +21,60 @@ const MEAN: [f64; 2] = [0.02, 0.6];
 /// the share tells little of it, and drag grows with the speed.
 const DRAG_ALONE: f64 = 0.02;
 
-type Vector = [f64; 3];
-
-fn minus(a: Vector, b: Vector) -> Vector {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn length(a: Vector) -> f64 {
-    dot(a, a).sqrt()
-}
-
 /// A flat wall as its recorded impacts show it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FlatWall {
     /// Orthonormal directions along the wall: one if all impacts lie on a line.
-    along: Vec<Vector>,
+    along: Vec<Vector3<f64>>,
     /// Corners of the box around the impacts [m].
-    ends: [Vector; 2],
+    ends: [Vector3<f64>; 2],
     size: f64,
 }
 
 impl FlatWall {
     /// The wall with impacts at these points; `None` if it is not flat, or has fewer than three.
-    pub fn of(points: &[Vector]) -> Option<Self> {
+    pub fn of(points: &[Vector3<f64>]) -> Option<Self> {
         let first = *points.first().filter(|_| points.len() > 2)?;
-        let mut along: Vec<Vector> = Vec::new();
+        let mut along: Vec<Vector3<f64>> = Vec::new();
         let mut size = 0.0;
         while along.len() < 3 {
-            let rest = points.iter().map(|point| beside(minus(*point, first), &along));
-            let farthest = rest.max_by(|a, b| length(*a).total_cmp(&length(*b)))?;
-            let far = length(farthest);
+            let rest = points.iter().map(|point| beside(point - first, &along));
+            let farthest = rest.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+            let far = farthest.norm();
             size = f64::max(size, far);
             if far <= FLAT * size {
                 break;
             }
-            along.push(farthest.map(|x| x / far));
+            along.push(farthest / far);
         }
-        let mut ends = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for point in points {
-            for (axis, at) in point.iter().enumerate() {
-                ends[0][axis] = ends[0][axis].min(*at);
-                ends[1][axis] = ends[1][axis].max(*at);
-            }
-        }
+        let ends = points.iter().fold([first; 2], |[low, high], point| [low.inf(point), high.sup(point)]);
         (1..3).contains(&along.len()).then_some(Self { along, ends, size })
     }
 
     /// Whether impacts were recorded around a point.
-    pub fn has(&self, point: Vector) -> bool {
+    pub fn has(&self, point: Vector3<f64>) -> bool {
         let beyond = BEYOND * self.size;
         (0..3).all(|axis| (self.ends[0][axis] - beyond..=self.ends[1][axis] + beyond).contains(&point[axis]))
     }
 
     /// The directions along both walls, if they are parallel.
-    fn shared<'a>(&'a self, other: &'a Self) -> Option<&'a [Vector]> {
+    fn shared<'a>(&'a self, other: &'a Self) -> Option<&'a [Vector3<f64>]> {
         let [few, many] = if self.along.len() < other.along.len() { [self, other] } else { [other, self] };
-        let inside = |direction: &Vector| length(beside(*direction, &many.along)) < 10.0 * FLAT;
+        let inside = |direction: &Vector3<f64>| beside(*direction, &many.along).norm() < 10.0 * FLAT;
         few.along.iter().all(inside).then_some(&many.along)
     }
 }
 
 /// What of a vector is perpendicular to these directions.
-fn beside(vector: Vector, along: &[Vector]) -> Vector {
-    along.iter().fold(vector, |rest, direction| {
-        let part = dot(rest, *direction);
-        minus(rest, direction.map(|x| part * x))
-    })
+fn beside(vector: Vector3<f64>, along: &[Vector3<f64>]) -> Vector3<f64> {
+    along.iter().fold(vector, |rest, direction| rest - direction * rest.dot(direction))
 }
 
 /// One end of a recorded flight.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct End<'a> {
+pub(super) struct FlightEnd<'a> {
     pub wall: &'a FlatWall,
-    pub position: Vector,
+    pub position: Vector3<f64>,
     pub age: f64,
     /// Normal and tangential speed [m/s]; at the start those of the rebound.
     pub speeds: [f64; 2],
@@ -108,7 +87,7 @@ pub(super) struct Flight {
     /// From wall to wall [m]; 0 if the particle returns to its wall.
     way: f64,
     /// Along the wall [m].
-    drift: Vector,
+    drift: Vector3<f64>,
     /// Speeds at the start [m/s], and accelerations there [m/s²].
     speeds: [f64; 2],
     accelerations: [f64; 2],
@@ -122,16 +101,16 @@ pub(super) struct Landing {
     /// Normal and tangential speed [m/s].
     pub speeds: [f64; 2],
     /// Distance from the recorded impact [m].
-    pub shift: Vector,
+    pub shift: Vector3<f64>,
 }
 
 impl Flight {
     /// The flight between two recorded impacts; `None` unless the walls are parallel and the law above describes it.
-    pub fn new(from: &End<'_>, to: &End<'_>) -> Option<Self> {
+    pub fn new(from: &FlightEnd<'_>, to: &FlightEnd<'_>) -> Option<Self> {
         let along = from.wall.shared(to.wall)?;
-        let whole = minus(to.position, from.position);
-        let across = length(beside(whole, along));
-        let drift = minus(whole, beside(whole, along));
+        let whole = to.position - from.position;
+        let off = beside(whole, along);
+        let (across, drift) = (off.norm(), whole - off);
         let time = to.age - from.age;
         let returns = across <= FLAT * from.wall.size.max(to.wall.size) && from.wall == to.wall;
         let (way, end) = if returns { (0.0, -to.speeds[0]) } else { (across, to.speeds[0]) };
@@ -163,8 +142,8 @@ impl Flight {
         let speed = |which: usize| (speeds[which] + acceleration(which) * build_up(self.rate, time)).abs();
         let recorded = self.distance(self.speeds[1], self.accelerations[1], self.time);
         let now = self.distance(speeds[1], acceleration(1), time);
-        let longer = if recorded.abs() > 1e-3 * length(self.drift) { now / recorded - 1.0 } else { 0.0 };
-        Some(Landing { speeds: [speed(0), speed(1)], shift: self.drift.map(|x| x * longer) })
+        let longer = if recorded.abs() > 1e-3 * self.drift.norm() { now / recorded - 1.0 } else { 0.0 };
+        Some(Landing { speeds: [speed(0), speed(1)], shift: self.drift * longer })
     }
 
     /// The way after this time.
@@ -284,7 +263,7 @@ mod tests {
     }
 
     fn wall(x: f64) -> FlatWall {
-        FlatWall::of(&[[x, 0.0, 0.0], [x, 0.0, 0.1], [x, 0.0, 0.2]]).unwrap()
+        FlatWall::of(&[0.0, 0.1, 0.2].map(|z| Vector3::new(x, 0.0, z))).unwrap()
     }
 
     #[test]
@@ -299,8 +278,8 @@ mod tests {
             let (at, speeds, time) = go(start);
             let [low, high] = [wall(0.0), wall(width)];
             let (to, x) = if g[0] < 0.0 { (&low, 0.0) } else { (&high, width) };
-            let from = End { wall: &low, position: [0.0; 3], age: 1.0, speeds: start };
-            let to = End { wall: to, position: [x, 0.0, at], age: 1.0 + time, speeds };
+            let from = FlightEnd { wall: &low, position: Vector3::zeros(), age: 1.0, speeds: start };
+            let to = FlightEnd { wall: to, position: Vector3::new(x, 0.0, at), age: 1.0 + time, speeds };
             let flight = Flight::new(&from, &to).unwrap();
             assert!(flight.again(start).unwrap().shift.iter().all(|x| x.abs() < 1e-6));
             for other in other {
@@ -320,8 +299,8 @@ mod tests {
     fn a_particle_that_the_gas_stops_does_not_arrive() {
         let (at, speeds, time) = followed(0.01, 2.0, [0.0; 2], 25.0, [0.6, 1.0]).unwrap();
         let [low, high] = [wall(0.0), wall(0.01)];
-        let from = End { wall: &low, position: [0.0; 3], age: 0.0, speeds: [0.6, 1.0] };
-        let to = End { wall: &high, position: [0.01, 0.0, at], age: time, speeds };
+        let from = FlightEnd { wall: &low, position: Vector3::zeros(), age: 0.0, speeds: [0.6, 1.0] };
+        let to = FlightEnd { wall: &high, position: Vector3::new(0.01, 0.0, at), age: time, speeds };
         let flight = Flight::new(&from, &to).unwrap();
         assert_eq!(flight.again([0.24, 1.0]), None);
         assert!(flight.again([0.26, 1.0]).is_some());
@@ -329,16 +308,22 @@ mod tests {
 
     #[test]
     fn only_flat_parallel_walls_have_flights() {
-        let circle: Vec<Vector> =
-            (0..20).map(|i| [f64::from(i).cos(), f64::from(i).sin(), f64::from(i)]).collect();
+        let circle: Vec<Vector3<f64>> =
+            (0..20).map(|i| Vector3::new(f64::from(i).cos(), f64::from(i).sin(), f64::from(i))).collect();
         assert_eq!(FlatWall::of(&circle), None);
-        let side = FlatWall::of(&[[0.0, 0.0, 0.0], [0.1, 0.0, 0.0], [0.05, 0.0, 0.0]]).unwrap();
-        let from = End { wall: &side, position: [0.05, 0.0, 0.0], age: 0.0, speeds: [1.0, 1.0] };
+        let side = FlatWall::of(&[0.0, 0.1, 0.05].map(|x| Vector3::new(x, 0.0, 0.0))).unwrap();
+        let from =
+            FlightEnd { wall: &side, position: Vector3::new(0.05, 0.0, 0.0), age: 0.0, speeds: [1.0, 1.0] };
         let floor = wall(0.1);
-        let to = End { wall: &floor, position: [0.1, 0.0, 0.05], age: 0.05, speeds: [1.0, 1.0] };
+        let to =
+            FlightEnd { wall: &floor, position: Vector3::new(0.1, 0.0, 0.05), age: 0.05, speeds: [1.0, 1.0] };
         assert_eq!(Flight::new(&from, &to), None);
-        let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+        let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
         let square = FlatWall::of(&square).unwrap();
-        assert!(square.has([0.5, 0.5, 0.0]) && !square.has([1.2, 0.5, 0.0]) && square.along.len() == 2);
+        assert!(
+            square.has(Vector3::new(0.5, 0.5, 0.0))
+                && !square.has(Vector3::new(1.2, 0.5, 0.0))
+                && square.along.len() == 2
+        );
     }
 }

@@ -16,219 +16,19 @@
 //!   to the variance of the prediction ([`Tally::set_doubt`]).
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::recorded_flight::{End, FlatWall, Flight, Landing};
-use super::tally::{Predicted, TalliedHit, Tally};
-use super::{Forward, ModelChange};
-use crate::dataset::{Experiment, RigMeasurements, RigQuantity};
-use crate::results::openfoam::impact_history::{self, Decision, HistoryError, ImpactHistory, ParcelId};
-use nearwall::impact::{INPUTS, Impact, ImpactError, Outcome};
+use nalgebra::Vector3;
+
+use super::recorded_flight::{FlatWall, Flight, FlightEnd};
+use super::recording::{Parcel, Recording, ReplayAccount, ReplayedImpact};
+use super::replay_error::ReplayError;
+use super::tally::{Predicted, Tally};
+use super::{Forward, ModelChange, PredictionError};
+use crate::dataset::{Experiment, RigMeasurements, RigQuantity, RigReading};
+use crate::results::openfoam::impact_history;
+use nearwall::impact::INPUTS;
 use nearwall::model::Model;
-use nearwall::rng::ImpactRng;
-
-/// Most impacts of an experiment that are replayed; of more, whole parcels are left out evenly.
-const MOST_IMPACTS: u64 = 20_000;
-/// Probability of capture of the base from which too few parcels go on to stand for the others [1].
-const CERTAIN: f64 = 0.99;
-/// What is doubtful after a flight that begins again, over the square of the relative change of the rebound [1]; assumed.
-const FLOWN_AGAIN: f64 = 0.25;
-/// Largest share of a parcel that arrives [1]: one parcel must not stand for more.
-const MOST_SHARE: f64 = 100.0;
-/// Random draws over which the base is averaged.
-const DRAWS: usize = 64;
-/// Standard errors by which the captures of a record may differ from those of the base model, and the share of its impacts that
-/// may contradict the base model.
-const ERRORS: f64 = 4.5;
-const CONTRADICTIONS: f64 = 1e-3;
-/// Relative change of a rebound up to which it is the recorded one [1].
-const SAME: f64 = 1e-12;
-/// Difference between recorded and recomputed restitution that rounding explains [1].
-const ROUNDING: f64 = 1e-6;
-
-/// Why a record cannot be replayed.
-#[derive(Debug, thiserror::Error)]
-pub enum ReplayError {
-    /// The record cannot be read, or is a part of the impacts.
-    #[error(transparent)]
-    History(#[from] HistoryError),
-    /// An experiment has no folder.
-    #[error(
-        "{place}: there is no folder {}; the column `experiment` names the sub-folders of --impacts with the recorded cases{}",
-        .folder.display(), list(": there are ", .found)
-    )]
-    NoCase {
-        /// File, line and name of the experiment.
-        place: String,
-        /// The folder that is missing.
-        folder: PathBuf,
-        /// The folders beside it.
-        found: Vec<String>,
-    },
-    /// The model has no wall of this name.
-    #[error("{}: the run's model has a wall `{wall}`, the model file has none; give the model file of the run", .file.display())]
-    NoWall {
-        /// The record.
-        file: PathBuf,
-        /// The wall.
-        wall: String,
-    },
-    /// A reading is of a patch without recorded impacts.
-    #[error(
-        "{place}: `{column}`: {} has no impact on a patch of this name{}; what follows the @ is a patch that `record` of \
-         nearWallInteraction includes",
-        .file.display(), list(", only on ", .found)
-    )]
-    NoPatch {
-        /// File, line and name of the experiment.
-        place: String,
-        /// The column.
-        column: String,
-        /// The record.
-        file: PathBuf,
-        /// The patches with impacts.
-        found: Vec<String>,
-    },
-    /// The model file decides otherwise than the record.
-    #[error(
-        "{}: the model file is not the one of the run: {reason}; give the model file with which the case was run (walls with \
-         a memory cannot be replayed)",
-        .file.display()
-    )]
-    OtherModel {
-        /// The record.
-        file: PathBuf,
-        /// What differs.
-        reason: String,
-    },
-    /// The model cannot decide an impact.
-    #[error("{}:{line}: the model file cannot decide this impact: {reason}; give the model file of the run", .file.display())]
-    Undecided {
-        /// The record.
-        file: PathBuf,
-        /// The line, counted from 1.
-        line: u64,
-        /// The reason.
-        reason: String,
-    },
-    /// The record is empty.
-    #[error("{}: no impact is recorded; run the case until particles arrive at the walls", .0.display())]
-    Empty(PathBuf),
-}
-
-fn list(before: &str, names: &[String]) -> String {
-    if names.is_empty() { String::new() } else { format!("{before}{}", names.join(", ")) }
-}
-
-/// An impact, with what does not depend on the changed law.
-#[derive(Debug, Clone)]
-struct Step {
-    impact: Impact,
-    /// Index of the model's wall.
-    wall: usize,
-    /// Index of the patch.
-    patch: usize,
-    position: [f64; 3],
-    /// Time that the parcel has moved [s].
-    age: f64,
-    /// Probability of capture of the base [1].
-    base: f64,
-    captured: bool,
-    /// Recorded normal and tangential speed of a rebound [m/s].
-    recorded: [f64; 2],
-    /// The same by the base with the random numbers of the replay [m/s].
-    rebound: [f64; 2],
-    /// From here to the next recorded impact of the parcel, between flat parallel walls.
-    flight: Option<Flight>,
-    random: ImpactRng,
-    /// Mass of all particles [kg].
-    mass: f64,
-    /// Line in the record.
-    line: u64,
-}
-
-/// Normal and tangential speed of a rebound [m/s].
-fn rebound_speeds(impact: &Impact, outcome: &Outcome) -> [f64; 2] {
-    [
-        impact.normal_speed * outcome.normal_restitution,
-        impact.tangential_speed * outcome.tangential_restitution,
-    ]
-}
-
-/// Where the changed law leads a parcel: the next impact, with the share that is doubtful.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Onward {
-    /// As recorded, with the relative change of the rebound velocity.
-    AsRecorded(f64),
-    /// With other speeds, elsewhere.
-    Shifted(Landing, f64),
-    /// No impact is known.
-    Away,
-}
-
-impl Step {
-    /// What follows a rebound with these speeds [m/s].
-    ///
-    /// The change is that of the normal or the tangential speed, the larger one, at most 1: across the wall it decides when, and whether,
-    /// the next wall is met, along the wall where.
-    fn onward(&self, speeds: [f64; 2]) -> Onward {
-        let change = |(now, then): (f64, f64)| if now == then { 0.0 } else { (now / then - 1.0).abs() };
-        let changes = speeds.into_iter().zip(self.rebound).map(change);
-        let changed = changes.fold(0.0, |most: f64, one| if one > most { one } else { most }).min(1.0);
-        let Some(flight) = self.flight.as_ref().filter(|_| changed > SAME) else {
-            return Onward::AsRecorded(changed);
-        };
-        let now = |which: usize| self.recorded[which] + speeds[which] - self.rebound[which];
-        match flight.again([now(0), now(1)]) {
-            // Its first-order error is gone.
-            Some(landing) => Onward::Shifted(landing, FLOWN_AGAIN * changed * changed),
-            None => Onward::Away,
-        }
-    }
-}
-
-/// A parcel with its place among the steps.
-#[derive(Debug, Clone)]
-struct Parcel {
-    steps: Range<usize>,
-    /// Mass at the injection [kg].
-    injected: f64,
-    /// Number of particles.
-    particles: f64,
-}
-
-/// A replayed experiment.
-#[derive(Debug)]
-struct Recording {
-    file: PathBuf,
-    patches: Vec<String>,
-    /// The axis of each patch along which its coordinates are.
-    axes: Vec<usize>,
-    /// The patches that are flat.
-    flat: Vec<Option<FlatWall>>,
-    steps: Vec<Step>,
-    parcels: Vec<Parcel>,
-    /// Parcels without an impact, and the mass of one [kg].
-    missed: (f64, f64),
-    /// Mass that all of these have at the injection [kg].
-    injected: f64,
-}
-
-/// How well the record of an experiment answers for a changed law; shares of the injected mass [1].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ReplayAccount {
-    /// Caught on all recorded patches.
-    pub caught: f64,
-    /// Caught at the second or a later impact: these are as the base's rebounds led to them.
-    pub caught_later: f64,
-    /// Of this what is doubtful since rebounds before it change.
-    pub doubtful: f64,
-    /// Let go where the record ends: what becomes of it is not known.
-    pub without_record: f64,
-    /// Led by changed rebounds to where the run has no impact: taken as not caught.
-    pub led_away: f64,
-}
 
 /// Recorded impacts of all experiments, decided again for each law.
 #[derive(Debug)]
@@ -281,7 +81,7 @@ impl Replayed {
     ///
     /// # Errors
     /// Why the model cannot decide an impact.
-    pub fn account(&self, experiment: usize, model: &Model) -> Result<ReplayAccount, String> {
+    pub fn account(&self, experiment: usize, model: &Model) -> Result<ReplayAccount, PredictionError> {
         self.runs[experiment].replay(model, |_, _| {}, |_| {})
     }
 
@@ -289,7 +89,7 @@ impl Replayed {
     ///
     /// # Errors
     /// Why the model cannot decide an impact.
-    pub fn account_notes(&self, model: &Model) -> Result<Vec<String>, String> {
+    pub fn account_notes(&self, model: &Model) -> Result<Vec<String>, PredictionError> {
         let accounts =
             (0..self.runs.len()).map(|number| self.account(number, model)).collect::<Result<Vec<_>, _>>()?;
         let largest = |of: &dyn Fn(&ReplayAccount) -> f64| {
@@ -328,30 +128,26 @@ impl Replayed {
 
     /// Measures coordinates along the axis of each patch in which its impacts extend farthest.
     fn find_axes(&mut self) {
-        let along =
-            |reading: &&crate::dataset::RigReading| matches!(reading.quantity, RigQuantity::CapturedAlong(_));
+        let along = |reading: &&RigReading| matches!(reading.quantity, RigQuantity::CapturedAlong(_));
         let readings = self.experiments.iter().flat_map(|experiment| &experiment.readings);
         let patches: BTreeSet<String> = readings.filter(along).map(|reading| reading.wall.clone()).collect();
         for patch in patches {
             let on_patch = |run: &Recording| run.patches.iter().position(|name| *name == patch);
-            let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+            let mut ends = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
             for run in &self.runs {
                 let Some(number) = on_patch(run) else { continue };
-                for step in run.steps.iter().filter(|step| step.patch == number) {
-                    for (ends, at) in ends.iter_mut().zip(step.position) {
-                        *ends = [ends[0].min(at), ends[1].max(at)];
-                    }
+                for one in run.impacts.iter().filter(|one| one.patch == number) {
+                    ends = [ends[0].inf(&one.position), ends[1].sup(&one.position)];
                 }
             }
-            let length = |axis: usize| ends[axis][1] - ends[axis][0];
             // Of equal ones the first.
-            let axis = (0..3).rev().max_by(|a, b| length(*a).total_cmp(&length(*b))).unwrap_or(0);
+            let axis = (ends[1] - ends[0]).imax();
             for run in &mut self.runs {
                 if let Some(number) = on_patch(run) {
                     run.axes[number] = axis;
                 }
             }
-            let [low, high] = ends[axis];
+            let [low, high] = ends.map(|end| end[axis]);
             self.notes.push(format!(
                 "captured_from_Z1_to_Z2@{patch} is along {}, in which the recorded impacts extend farthest: {low:.4} to \
                  {high:.4} m.",
@@ -362,29 +158,28 @@ impl Replayed {
 
     /// Finds the flat patches, from their impacts in all experiments, and the flights between parallel ones.
     fn find_flights(&mut self) {
-        let mut points: BTreeMap<&str, Vec<[f64; 3]>> = BTreeMap::new();
+        let mut points: BTreeMap<String, Vec<Vector3<f64>>> = BTreeMap::new();
         for run in &self.runs {
-            for step in &run.steps {
-                points.entry(&run.patches[step.patch]).or_default().push(step.position);
+            for one in &run.impacts {
+                points.entry(run.patches[one.patch].clone()).or_default().push(one.position);
             }
         }
-        let flat: BTreeMap<String, FlatWall> = points
-            .into_iter()
-            .filter_map(|(patch, points)| Some((patch.to_owned(), FlatWall::of(&points)?)))
+        let flat: BTreeMap<&str, FlatWall> = points
+            .iter()
+            .filter_map(|(patch, points)| Some((patch.as_str(), FlatWall::of(points)?)))
             .collect();
         for run in &mut self.runs {
-            run.flat = run.patches.iter().map(|patch| flat.get(patch).cloned()).collect();
+            run.flat = run.patches.iter().map(|patch| flat.get(patch.as_str()).cloned()).collect();
             for parcel in &run.parcels {
-                for place in parcel.steps.clone().skip(1) {
-                    let [from, to] = [&run.steps[place - 1], &run.steps[place]];
+                for place in parcel.impacts.clone().skip(1) {
+                    let [from, to] = [&run.impacts[place - 1], &run.impacts[place]];
                     let arriving = [to.impact.normal_speed, to.impact.tangential_speed];
-                    let end = |step: &Step, speeds: [f64; 2]| {
-                        let wall = run.flat[step.patch].as_ref()?;
-                        Some(End { wall, position: step.position, age: step.age, speeds })
+                    let end = |one: &ReplayedImpact, speeds: [f64; 2]| {
+                        let wall = run.flat[one.patch].as_ref()?;
+                        Some(FlightEnd { wall, position: one.position, age: one.age, speeds })
                     };
                     let ends = end(from, from.recorded).zip(end(to, arriving));
-                    let flight = ends.and_then(|(from, to)| Flight::new(&from, &to));
-                    run.steps[place - 1].flight = flight;
+                    run.impacts[place - 1].flight = ends.and_then(|(from, to)| Flight::new(&from, &to));
                 }
             }
         }
@@ -436,246 +231,6 @@ fn check_patches(
     Ok(())
 }
 
-impl Recording {
-    fn new(history: &ImpactHistory, base: &Model, seed: u64) -> Result<Self, ReplayError> {
-        let file = || history.file.clone();
-        let mut patches: Vec<String> = Vec::new();
-        let mut walls: BTreeMap<&str, usize> = BTreeMap::new();
-        let (mut steps, mut parcels) = (Vec::new(), Vec::new());
-        for parcel in &history.parcels {
-            let Some(first) = parcel.impacts.first() else { continue };
-            let start = steps.len();
-            for (index, recorded) in parcel.impacts.iter().enumerate() {
-                let patch =
-                    patches.iter().position(|patch| **patch == *recorded.patch).unwrap_or_else(|| {
-                        patches.push(recorded.patch.to_string());
-                        patches.len() - 1
-                    });
-                let wall = match walls.get(&*recorded.wall) {
-                    Some(wall) => *wall,
-                    None => {
-                        let missing =
-                            || ReplayError::NoWall { file: file(), wall: recorded.wall.to_string() };
-                        let wall = base.find_wall(&recorded.wall).ok_or_else(missing)?;
-                        walls.insert(&recorded.wall, wall);
-                        wall
-                    }
-                };
-                let undecided = |error: ImpactError| ReplayError::Undecided {
-                    file: file(),
-                    line: recorded.line,
-                    reason: error.to_string(),
-                };
-                let decided = base.expect(wall, &recorded.impact, DRAWS).map_err(undecided)?;
-                let random = ImpactRng::new(seed, key(parcel.id, index));
-                let own = base.resolve(wall, &recorded.impact, random).map_err(undecided)?;
-                let rebound = rebound_speeds(&recorded.impact, &own);
-                steps.push(Step {
-                    impact: recorded.impact,
-                    wall,
-                    patch,
-                    position: recorded.position,
-                    age: recorded.age,
-                    base: decided.sticking_probability,
-                    captured: recorded.decision == Decision::Captured,
-                    recorded: match recorded.decision {
-                        Decision::Captured => [0.0; 2],
-                        Decision::Rebound { e_n, e_t } => {
-                            [e_n * recorded.impact.normal_speed, e_t * recorded.impact.tangential_speed]
-                        }
-                    },
-                    rebound,
-                    flight: None,
-                    random,
-                    mass: recorded.mass,
-                    line: recorded.line,
-                });
-            }
-            parcels.push(Parcel {
-                steps: start..steps.len(),
-                injected: first.mass,
-                particles: first.particles,
-            });
-        }
-        if steps.is_empty() {
-            return Err(ReplayError::Empty(file()));
-        }
-        // The record states no mass at the injection: that of the first impact, and the rest is that of parcels without an impact.
-        let arrived: f64 = parcels.iter().map(|parcel| parcel.injected).sum();
-        let injected = history.injected_mass.unwrap_or(arrived);
-        let others = history.injected_parcels.unwrap_or(0).saturating_sub(parcels.len() as u64) as f64;
-        let factor = if others > 0.0 { (injected / arrived).min(1.0) } else { injected / arrived };
-        for parcel in &mut parcels {
-            parcel.injected *= factor;
-        }
-        let rest = (injected - factor * arrived).max(0.0);
-        let missed = if others > 0.0 { (others, rest / others) } else { (0.0, 0.0) };
-        let (axes, flat) = (vec![0; patches.len()], vec![None; patches.len()]);
-        Ok(Self { file: file(), patches, axes, flat, steps, parcels, missed, injected })
-    }
-
-    /// Checks that the base model decides as the record says.
-    fn check(&self, history: &ImpactHistory, base: &Model) -> Result<(), ReplayError> {
-        let other = |reason: String| Err(ReplayError::OtherModel { file: self.file.clone(), reason });
-        let count = self.steps.len() as f64;
-        let allowed = CONTRADICTIONS * count;
-        let impossible =
-            |step: &&Step| step.base <= 0.0 && step.captured || step.base >= 1.0 && !step.captured;
-        let mut contradicting = self.steps.iter().filter(impossible);
-        let first = contradicting.next().map(|step| (step.line, step.captured));
-        if let Some((line, captured)) = first.filter(|_| 1.0 + contradicting.count() as f64 > allowed) {
-            let did = if captured { ["captured", "never captures"] } else { ["let go", "always captures"] };
-            return other(format!(
-                "on line {line} the run {} a parcel that the model file {}",
-                did[0], did[1]
-            ));
-        }
-        let expected: f64 = self.steps.iter().map(|step| step.base).sum();
-        let error = self.steps.iter().map(|step| step.base * (1.0 - step.base)).sum::<f64>().sqrt();
-        let captured = self.steps.iter().filter(|step| step.captured).count() as f64;
-        if (captured - expected).abs() > ERRORS * error + allowed + 0.5 {
-            return other(format!(
-                "the run captured {captured} of {count} impacts, the model file {expected:.1} +- {error:.1}"
-            ));
-        }
-        if base.terms().iter().any(|term| term.kind().stream.is_some()) {
-            return Ok(());
-        }
-        let mut differing = 0.0;
-        let recorded = history.parcels.iter().flat_map(|parcel| &parcel.impacts);
-        for (step, recorded) in self.steps.iter().zip(recorded) {
-            let Decision::Rebound { e_n, e_t } = recorded.decision else { continue };
-            let Ok(mean) = base.expect(step.wall, &step.impact, 1) else { continue };
-            let own = [mean.normal_restitution, mean.tangential_restitution];
-            if mean.variances != [0.0; 2]
-                || (own[0] - e_n).abs() <= ROUNDING * (1.0 + e_n.abs())
-                    && (own[1] - e_t).abs() <= ROUNDING * (1.0 + e_t.abs())
-            {
-                continue;
-            }
-            differing += 1.0;
-            if differing > allowed {
-                return other(format!(
-                    "on line {} the run has e_n = {e_n:.6} and e_t = {e_t:.6}, the model file {:.6} and {:.6}",
-                    step.line, own[0], own[1]
-                ));
-            }
-        }
-        Ok(())
-    }
-
-    /// Leaves out whole parcels evenly where there are more impacts than are replayed.
-    fn thinned(self, notes: &mut Vec<String>) -> Self {
-        let all = self.parcels.len();
-        let one_in = self.steps.len() as u64 as f64 / MOST_IMPACTS as f64;
-        if one_in <= 1.0 {
-            return self;
-        }
-        let kept = ((all as f64 / one_in) as usize).max(1);
-        let (mut steps, mut parcels) = (Vec::new(), Vec::with_capacity(kept));
-        for place in 0..kept {
-            let parcel = &self.parcels[place * all / kept];
-            let start = steps.len();
-            steps.extend_from_slice(&self.steps[parcel.steps.clone()]);
-            parcels.push(Parcel { steps: start..steps.len(), ..parcel.clone() });
-        }
-        notes.push(format!(
-            "{}: {kept} of {all} parcels are replayed, with {} of {} impacts.",
-            self.file.display(),
-            steps.len(),
-            self.steps.len()
-        ));
-        let missed = (self.missed.0 * kept as f64 / all as f64, self.missed.1);
-        let injected = parcels.iter().map(|parcel| parcel.injected).sum::<f64>() + missed.0 * missed.1;
-        Self { steps, parcels, missed, injected, ..self }
-    }
-
-    /// Decides all impacts again. `hit` gets each of them with the share that is doubtful, `end` each parcel after its last one.
-    fn replay(
-        &self,
-        model: &Model,
-        mut hit: impl FnMut(&TalliedHit<'_>, f64),
-        mut end: impl FnMut(&Parcel),
-    ) -> Result<ReplayAccount, String> {
-        let mut account = ReplayAccount::default();
-        for parcel in &self.parcels {
-            let (mut share, mut doubt) = (1.0, 0.0_f64);
-            let mut landing: Option<Landing> = None;
-            for (index, step) in self.steps[parcel.steps.clone()].iter().enumerate() {
-                let (mut impact, mut position) = (step.impact, step.position);
-                if let Some(Landing { speeds, shift }) = landing {
-                    [impact.normal_speed, impact.tangential_speed] = speeds;
-                    position = std::array::from_fn(|axis| position[axis] + shift[axis]);
-                    if self.flat[step.patch].as_ref().is_some_and(|wall| !wall.has(position)) {
-                        account.led_away += share * step.mass;
-                        break;
-                    }
-                }
-                let outcome: Outcome = model
-                    .resolve(step.wall, &impact, step.random)
-                    .map_err(|error| format!("{}:{}: {error}", self.file.display(), step.line))?;
-                let caught = outcome.sticking_probability;
-                let tallied = TalliedHit {
-                    wall: step.patch,
-                    coordinate: position[self.axes[step.patch]],
-                    impact: &impact,
-                    outcome: &outcome,
-                    share,
-                    caught,
-                    weight: parcel.particles,
-                    mass: step.mass,
-                };
-                hit(&tallied, doubt);
-                let mass = share * caught * step.mass;
-                account.caught += mass;
-                account.caught_later += if index > 0 { mass } else { 0.0 };
-                account.doubtful += doubt * mass;
-                let left = share * (1.0 - caught);
-                if step.base >= CERTAIN {
-                    account.without_record += left * step.mass;
-                    break;
-                }
-                if step.captured || left <= 0.0 {
-                    break;
-                }
-                share = left / (1.0 - step.base);
-                account.without_record += (share - MOST_SHARE).max(0.0) * step.mass;
-                share = share.min(MOST_SHARE);
-                match step.onward(rebound_speeds(&impact, &outcome)) {
-                    Onward::AsRecorded(change) => {
-                        // A flight that is not known again leads to the recorded impact.
-                        (doubt, landing) = (doubt.max(change), None);
-                    }
-                    Onward::Shifted(next, change) => {
-                        let shift = landing.map_or([0.0; 3], |landing| landing.shift);
-                        let shift = std::array::from_fn(|axis| shift[axis] + next.shift[axis]);
-                        (doubt, landing) = (doubt.max(change), Some(Landing { shift, ..next }));
-                    }
-                    Onward::Away => {
-                        account.led_away += share * step.mass;
-                        break;
-                    }
-                }
-            }
-            end(parcel);
-        }
-        let of = |mass: f64| mass / self.injected;
-        Ok(ReplayAccount {
-            caught: of(account.caught),
-            caught_later: of(account.caught_later),
-            doubtful: of(account.doubtful),
-            without_record: of(account.without_record),
-            led_away: of(account.led_away),
-        })
-    }
-}
-
-/// The key of an impact's random numbers: always the same, so that predictions change smoothly with a parameter.
-fn key(parcel: ParcelId, index: usize) -> u64 {
-    let parcel = (parcel.number as u64).wrapping_add((parcel.rank as u64) << 40);
-    parcel.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(index as u64)
-}
-
 impl Forward for Replayed {
     fn experiments(&self) -> &[Experiment] {
         &self.experiments
@@ -685,7 +240,11 @@ impl Forward for Replayed {
         &self.base
     }
 
-    fn predict(&self, experiment: usize, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+    fn predict(
+        &self,
+        experiment: usize,
+        change: &ModelChange<'_>,
+    ) -> Result<Vec<Predicted>, PredictionError> {
         let run = &self.runs[experiment];
         let model = change(&self.base);
         let tally = std::cell::RefCell::new(Tally::new(&self.experiments[experiment].readings, &run.patches));
@@ -712,9 +271,9 @@ impl Forward for Replayed {
         let Some(input) = INPUTS.get(input) else { return Vec::new() };
         let run = &self.runs[experiment];
         let first = |parcel: &Parcel| {
-            let step = run.steps.get(parcel.steps.start)?;
+            let one = run.impacts.get(parcel.impacts.start)?;
             // With what the model file puts on the wall.
-            let impact = self.base.met(step.wall, &step.impact).ok()?;
+            let impact = self.base.met(one.wall, &one.impact).ok()?;
             Some(((input.value)(&impact), parcel.particles))
         };
         run.parcels.iter().filter_map(first).collect()
@@ -724,6 +283,8 @@ impl Forward for Replayed {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nearwall::impact::Impact;
+    use nearwall::rng::ImpactRng;
 
     const HEADER: &str = "time,x,y,z,origProcId,origId,parcel_age,n_particles,v_n,v_t,d,T_p,patch,wall,injector,mass,regime,outcome,e_n,e_t";
 

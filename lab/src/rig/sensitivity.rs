@@ -9,6 +9,7 @@
 use serde::Serialize;
 use toml_edit::{DocumentMut, Item, Value};
 
+use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
 use super::case_text::CaseText;
 use nearwall::material::BUILT_IN_TEXT;
@@ -269,7 +270,7 @@ impl SensitivityCase {
     ///
     /// # Errors
     /// What is wrong with the case.
-    pub fn new(text: CaseText, particles: u64, clean_walls: bool) -> Result<Self, String> {
+    pub fn new(text: CaseText, particles: u64, clean_walls: bool) -> Result<Self, PredictionError> {
         let mut document = text.document().clone();
         let mut notes = Vec::new();
         if clean_walls && document.remove("deposit").is_some() {
@@ -304,7 +305,7 @@ impl SensitivityCase {
     ///
     /// # Errors
     /// Why the case cannot be computed as it is.
-    pub fn run(mut self, progress: &(dyn Fn() + Sync)) -> Result<Sensitivity, String> {
+    pub fn run(mut self, progress: &(dyn Fn() + Sync)) -> Result<Sensitivity, PredictionError> {
         let case = self.text.read(&self.document)?;
         let flights = case.deposit.is_none().then(|| Flights::new(&case, u64::MAX));
         let base = match &flights {
@@ -339,7 +340,7 @@ impl SensitivityCase {
         number: &Number,
         flights: Option<&Flights<'_>>,
         base: &Captures,
-    ) -> Result<NumberEffect, String> {
+    ) -> Result<NumberEffect, PredictionError> {
         // An end that is refused stays where the number is.
         let unmoved = || (number.how.apply(number.start(), 0.0, 0), base.clone());
         let ends = [-1.0, 1.0].map(|side| self.moved(number, side, flights));
@@ -378,8 +379,8 @@ impl SensitivityCase {
         number: &Number,
         side: f64,
         flights: Option<&Flights<'_>>,
-    ) -> Result<(f64, Captures), String> {
-        let mut refused = String::new();
+    ) -> Result<(f64, Captures), PredictionError> {
+        let mut refused = PredictionError::NoParticle(String::new());
         for halvings in 0..HALVINGS {
             let mut document = self.document.clone();
             for place in &number.items {
@@ -387,7 +388,8 @@ impl SensitivityCase {
                     change(item, &|value| number.how.apply(value, side, halvings));
                 }
             }
-            let captures = self.text.read(&document).and_then(|case| match flights {
+            let case = self.text.read(&document).map_err(PredictionError::from);
+            let captures = case.and_then(|case| match flights {
                 Some(flights) if !number.of_flight => flights.captures(&case.model),
                 Some(_) => Flights::new(&case, u64::MAX).captures(&case.model),
                 None => run_captures(&case),

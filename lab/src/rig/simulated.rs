@@ -8,13 +8,11 @@
 
 use rayon::prelude::*;
 
-use super::case_text::{CaseText, SettingError};
+use super::case_text::{CaseText, SettingError, SettingFault};
 use super::tally::{Blocks, Predicted, TalliedHit, Tally};
-use super::{Forward, ModelChange};
+use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements};
-use crate::simulate::{
-    Case, ExpectedHit, PathTree, SimulationError, Start, even_starts, follow_exactly, run_once,
-};
+use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
@@ -69,18 +67,12 @@ impl RigCase {
         case.tolerance = case.tolerance.max(TOLERANCE);
         let walls: Vec<&str> = case.surfaces.iter().map(|surface| surface.name.as_str()).collect();
         if let Some(reading) = experiment.readings.iter().find(|r| !walls.contains(&r.wall.as_str())) {
-            let reason = format!("the case has no wall `{}`; it has {}", reading.wall, walls.join(", "));
+            let reason = SettingFault::NoWall { wall: reading.wall.clone(), walls: walls.join(", ") };
             return Err(SettingError::Setting { experiment: place, key: reading.column.clone(), reason });
         }
         if case.has_own_models() {
-            let reason = "particles with a model file of their own cannot be diagnosed; \
-                          give them the model of the case"
-                .to_owned();
-            return Err(SettingError::Setting {
-                experiment: place,
-                key: "particles.model".to_owned(),
-                reason,
-            });
+            let (key, reason) = ("particles.model".to_owned(), SettingFault::OwnModels);
+            return Err(SettingError::Setting { experiment: place, key, reason });
         }
         Ok(Self { experiment: experiment.clone(), case, text: text.clone(), place })
     }
@@ -122,27 +114,27 @@ impl<'a> Simulated<'a> {
     ///
     /// # Errors
     /// Why no particle of an experiment can be followed.
-    pub fn new(rigs: &'a [RigCase], particles: u64) -> Result<Self, String> {
+    pub fn new(rigs: &'a [RigCase], particles: u64) -> Result<Self, PredictionError> {
         let runs = rigs.par_iter().map(|rig| Paths::new(rig, particles)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { runs, experiments: rigs.iter().map(|rig| rig.experiment.clone()).collect() })
     }
 }
 
 impl<'a> Paths<'a> {
-    fn new(rig: &'a RigCase, particles: u64) -> Result<Self, String> {
+    fn new(rig: &'a RigCase, particles: u64) -> Result<Self, PredictionError> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
         let starts = even_starts(&rig.case, particles);
-        let fly = |block: &Vec<Start>| -> Vec<Result<PathTree<'a>, SimulationError>> {
+        let fly = |block: &Vec<Start>| -> Vec<_> {
             block.par_iter().map(|start| PathTree::new(&rig.case, *start)).collect()
         };
-        let flown: Vec<Vec<Result<PathTree<'a>, SimulationError>>> = starts.iter().map(fly).collect();
+        let flown: Vec<_> = starts.iter().map(fly).collect();
         let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());
         let usable = |block: Vec<_>| block.into_iter().filter_map(Result::ok).collect();
         let blocks: Vec<Vec<PathTree<'a>>> = flown.into_iter().map(usable).collect();
         if let Some(trouble) = first_trouble
             && blocks.iter().all(Vec::is_empty)
         {
-            return Err(format!("{}: {trouble}", rig.place));
+            return Err(PredictionError::new(&rig.place, &trouble));
         }
         let mut paths = Self { rig, walls, blocks, base: Vec::new() };
         if rig.case.deposit.is_none() {
@@ -152,7 +144,7 @@ impl<'a> Paths<'a> {
         Ok(paths)
     }
 
-    fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+    fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<Predicted>, PredictionError> {
         let RigCase { case, experiment, .. } = self.rig;
         let model = change(&case.model);
         if case.deposit.is_some() {
@@ -187,13 +179,13 @@ impl<'a> Paths<'a> {
     }
 
     /// What a model gives in each block.
-    fn blocks(&self, model: &Model) -> Result<Vec<Blocks>, String> {
+    fn blocks(&self, model: &Model) -> Result<Vec<Blocks>, PredictionError> {
         let RigCase { case, experiment, place, .. } = self.rig;
         let mut tally = Tally::new(&experiment.readings, &self.walls);
         for block in &self.blocks {
             for particle in block {
                 let followed = particle.follow(model, |hit| tally.hit(&tallied(case, hit)));
-                followed.map_err(|error| format!("{place}: {error}"))?;
+                followed.map_err(|error| PredictionError::new(place, &error))?;
                 tally.end_particle_of_block(particle.mass);
             }
             tally.end_block();
@@ -202,9 +194,9 @@ impl<'a> Paths<'a> {
     }
 
     /// Runs the whole case, whose walls change with what they caught.
-    fn run_with_memory(&self, model: Model, tally: &mut Tally) -> Result<(), String> {
+    fn run_with_memory(&self, model: Model, tally: &mut Tally) -> Result<(), PredictionError> {
         let RigCase { experiment, text, place, case: base } = self.rig;
-        let mut case = text.with(place, &experiment.settings).map_err(|error| error.to_string())?;
+        let mut case = text.with(place, &experiment.settings)?;
         case.model = model;
         case.seed = base.seed;
         let ran = run_once::<String>(&case, None, &mut |case, _, _, trajectory| {
@@ -223,7 +215,7 @@ impl<'a> Paths<'a> {
             tally.end_particle(trajectory.mass[0]);
             Ok(())
         });
-        ran.map(drop).map_err(|error| format!("{place}: {error}"))
+        ran.map(drop).map_err(|error| PredictionError::new(place, &error))
     }
 }
 
@@ -249,7 +241,11 @@ impl Forward for Simulated<'_> {
         &self.runs[experiment].rig.case.model
     }
 
-    fn predict(&self, experiment: usize, change: &ModelChange<'_>) -> Result<Vec<Predicted>, String> {
+    fn predict(
+        &self,
+        experiment: usize,
+        change: &ModelChange<'_>,
+    ) -> Result<Vec<Predicted>, PredictionError> {
         self.runs[experiment].predict(change)
     }
 

@@ -47,7 +47,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     }
     text.change("--set", &settings)?;
     let case = SensitivityCase::new(text, arguments.particles.max(1), arguments.clean_walls);
-    let at_case = |error: String| format!("{}: {error}", arguments.case.display());
+    let at_case =
+        |error: nearwall_lab::rig::PredictionError| format!("{}: {error}", arguments.case.display());
     let case = case.map_err(at_case)?;
     let bar = progress::count(case.count() as u64, "numbers");
     let found = case.run(&|| bar.inc(1)).map_err(at_case)?;

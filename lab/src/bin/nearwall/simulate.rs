@@ -117,7 +117,7 @@ fn add_bands(case: &mut Case, runs: &mut [Run], draws: &DrawnModels) -> Result<(
         );
     }
     let bar = progress::count((runs.len() * draws.models.len()) as u64, "draws");
-    add_capture_bands(case, runs, draws, &|| bar.inc(1))?;
+    add_capture_bands(case, runs, draws, &|| bar.inc(1)).map_err(|error| error.to_string())?;
     bar.finish_and_clear();
     Ok(())
 }

@@ -12,7 +12,7 @@ use super::candidates::{candidates, unchanged_inputs};
 use super::noise::{Data, Prepared, Values};
 use super::shelf::{Candidate, Shelf, predict};
 use super::significance::NullGains;
-use crate::rig::{Forward, Predicted};
+use crate::rig::{Forward, Predicted, PredictionError};
 
 /// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
 const SHORTLIST: f64 = 4.0;
@@ -133,7 +133,7 @@ impl<'a> RigStudy<'a> {
 
     /// The predictions of all candidates beside these additions. A later call with the same causes gets the same predictions, whatever
     /// the values of their parameters: where they were computed matters little to a choice.
-    pub fn shelf(&self, additions: &[RigAddition]) -> Result<Arc<Shelf>, String> {
+    pub fn shelf(&self, additions: &[RigAddition]) -> Result<Arc<Shelf>, PredictionError> {
         let names: Vec<String> = additions.iter().map(RigAddition::key).collect();
         let mut shelves = self.shelves.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, shelf)) = shelves.iter().find(|(known, _)| *known == names) {
@@ -159,7 +159,7 @@ impl<'a> RigStudy<'a> {
     ///
     /// # Errors
     /// Why the base model cannot decide an impact.
-    pub fn choose(&self, weights: &[f64]) -> Result<Choice, String> {
+    pub fn choose(&self, weights: &[f64]) -> Result<Choice, PredictionError> {
         let nothing =
             Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
         let first = self.grown(nothing.clone(), weights, &|_| true)?;
@@ -218,7 +218,7 @@ impl<'a> RigStudy<'a> {
         mut choice: Choice,
         weights: &[f64],
         allowed: &dyn Fn(&RigAddition) -> bool,
-    ) -> Result<Choice, String> {
+    ) -> Result<Choice, PredictionError> {
         let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
         let most = most.min(self.forward.most_causes());
         // What the largest gain without an effect has to be exceeded by; known after the first round.
@@ -251,7 +251,7 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
-    fn exchanged(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, String> {
+    fn exchanged(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, PredictionError> {
         let mut place = 0;
         while choice.additions.len() > 1 && place < choice.additions.len() {
             let mut rest = choice.additions.clone();
@@ -283,7 +283,7 @@ impl<'a> RigStudy<'a> {
 
     /// What any candidate can still gain: up to predictions that equal the measured values [nats]. Without bound where a scatter is
     /// fitted.
-    fn room(&self, additions: &[RigAddition], weights: &[f64]) -> Result<f64, String> {
+    fn room(&self, additions: &[RigAddition], weights: &[f64]) -> Result<f64, PredictionError> {
         let predicted = predict(self.forward, additions)?;
         Ok(self.data.room(&predicted, weights))
     }
@@ -298,7 +298,7 @@ impl<'a> RigStudy<'a> {
         whole: &Choice,
         most: usize,
         weights: &[f64],
-    ) -> Result<Vec<RigAddition>, String> {
+    ) -> Result<Vec<RigAddition>, PredictionError> {
         let mut additions: Vec<RigAddition> = Vec::new();
         for round in 0..most.min(whole.rounds.len()) {
             let shelf = self.shelf(&additions)?;

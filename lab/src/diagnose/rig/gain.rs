@@ -12,7 +12,7 @@ use super::choice::{Choice, RigStudy};
 use super::noise::Prepared;
 use super::posterior::Posterior;
 use super::shelf::predict;
-use crate::rig::Predicted;
+use crate::rig::{Predicted, PredictionError, SettingError};
 use nearwall::model::Model;
 
 /// Parts of the cross-validation; with as many experiments or fewer each is left out in turn.
@@ -46,7 +46,7 @@ impl HeldOut {
         causes: usize,
         posterior: Option<&Posterior>,
         write: &dyn Fn(&[RigAddition]) -> Option<String>,
-    ) -> Result<Option<Self>, String> {
+    ) -> Result<Option<Self>, PredictionError> {
         let count = study.data.experiments;
         if count < LEAST {
             return Ok(None);
@@ -69,7 +69,7 @@ impl HeldOut {
             }
             let text = write(&additions);
             let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };
-            let model = Model::from_toml("extended.toml", &text).map_err(|error| error.to_string())?;
+            let model = Model::from_toml("extended.toml", &text).map_err(SettingError::from)?;
             let after = predict_file(study, &model, &additions)?;
             for (index, datum) in study.data.readings.iter().enumerate() {
                 if weights[datum.experiment] == 0.0 {
@@ -157,7 +157,7 @@ pub(super) fn carried(
     mut choice: Choice,
     write: &dyn Fn(&[RigAddition]) -> Option<String>,
     weights: &[f64],
-) -> Result<(Choice, Vec<String>), String> {
+) -> Result<(Choice, Vec<String>), PredictionError> {
     let mut dropped = Vec::new();
     let held_out = |choice: &Choice, causes: usize| HeldOut::new(study, choice, causes, None, write);
     while !choice.rounds.is_empty() {
@@ -188,7 +188,7 @@ pub(super) fn predict_file(
     study: &RigStudy<'_>,
     file: &Model,
     additions: &[RigAddition],
-) -> Result<Vec<Predicted>, String> {
+) -> Result<Vec<Predicted>, PredictionError> {
     let numbers: Vec<(LawParameter, f64)> = additions
         .iter()
         .filter_map(|addition| match addition.kind {

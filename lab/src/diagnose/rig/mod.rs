@@ -26,7 +26,7 @@ use toml_edit::InlineTable;
 use super::extend::ranges;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
-use crate::rig::{CaseText, Forward};
+use crate::rig::{CaseText, Forward, PredictionError};
 use addition::{RigAddition, extended_text, moved};
 use choice::RigStudy;
 use gain::HeldOut;
@@ -49,8 +49,8 @@ pub enum RigError {
         reasons: String,
     },
     /// The model cannot decide an impact of an experiment.
-    #[error("{0}")]
-    Undecided(String),
+    #[error(transparent)]
+    Undecided(#[from] PredictionError),
     /// The text of the base model cannot be edited.
     #[error("the model file cannot be extended: {0}")]
     Unextendable(String),
@@ -87,16 +87,15 @@ pub fn diagnose_rig(
     let all = vec![1.0; study.data.experiments];
     let valid = valid(forward);
     let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
-    let choice = study.choose(&all).map_err(RigError::Undecided)?;
+    let choice = study.choose(&all)?;
     let whole = choice.clone();
-    let (mut choice, not_carried) =
-        gain::carried(&study, choice, &write, &all).map_err(RigError::Undecided)?;
+    let (mut choice, not_carried) = gain::carried(&study, choice, &write, &all)?;
     let undecided = report::undecided(&choice);
     if !undecided.is_empty() {
         choice.additions.clear();
     }
 
-    let widened = report::widened(&study, &choice.additions, &all).map_err(RigError::Undecided)?;
+    let widened = report::widened(&study, &choice.additions, &all)?;
     let posterior = Posterior::new(&study, &choice.additions, &all, widened);
     set_intervals(&mut choice.additions, &posterior);
     let text = extended_text(model, &choice.additions, &valid);
@@ -105,18 +104,17 @@ pub fn diagnose_rig(
         true => None,
         false => {
             let causes = choice.rounds.len();
-            HeldOut::new(&study, &choice, causes, Some(&posterior), &write).map_err(RigError::Undecided)?
+            HeldOut::new(&study, &choice, causes, Some(&posterior), &write)?
         }
     };
     let next = match case {
-        Some(case) => next::next_experiments(&study, &choice, &whole, &posterior, data, case),
-        None => Ok(Vec::new()),
+        Some(case) => next::next_experiments(&study, &choice, &whole, &posterior, data, case)?,
+        None => Vec::new(),
     };
-    let next = next.map_err(RigError::Undecided)?;
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&choice.additions, at))).collect();
     let found = report::Found { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
-    found.record(data, options).map_err(RigError::Undecided)
+    Ok(found.record(data, options)?)
 }
 
 /// The ranges of the inputs over the first impacts.

@@ -18,7 +18,7 @@ use super::posterior::Posterior;
 use super::proposals::proposals;
 use super::shelf::predict;
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
-use crate::rig::{CaseText, RigCase, Simulated};
+use crate::rig::{CaseText, PredictionError, RigCase, Simulated};
 
 /// Causes within this of the best are asked to be told apart [nats], and most of them.
 const SURVIVES: f64 = 6.0;
@@ -126,7 +126,7 @@ pub(super) fn next_experiments(
     posterior: &Posterior,
     data: &RigMeasurements,
     text: &CaseText,
-) -> Result<Vec<NextExperiment>, String> {
+) -> Result<Vec<NextExperiment>, PredictionError> {
     let columns = columns(study, choice, data)?;
     let experiments: Vec<Experiment> = proposals(data, text)
         .into_iter()
@@ -399,7 +399,7 @@ fn causes(
     choice: &Choice,
     whole: &Choice,
     posterior: &Posterior,
-) -> Result<Vec<Cause>, String> {
+) -> Result<Vec<Cause>, PredictionError> {
     let drawn = posterior.draws(DRAWS[0] - 1, study.seed);
     let drawn = drawn.iter().map(|at| moved(&choice.additions, at));
     let nothing = |weight: f64| {
@@ -471,7 +471,7 @@ fn states(
     before: &[RigAddition],
     one: &Scored,
     count: usize,
-) -> Result<Vec<Vec<RigAddition>>, String> {
+) -> Result<Vec<Vec<RigAddition>>, PredictionError> {
     let with = |addition: &RigAddition| [before, std::slice::from_ref(addition)].concat();
     let all = vec![1.0; study.data.experiments];
     let values = study.data.values();
@@ -502,7 +502,7 @@ fn columns(
     study: &RigStudy<'_>,
     choice: &Choice,
     data: &RigMeasurements,
-) -> Result<Vec<(RigReading, Usual)>, String> {
+) -> Result<Vec<(RigReading, Usual)>, PredictionError> {
     let weights = vec![1.0; study.data.experiments];
     let scatter = study.data.scatter(&predict(study.forward, &choice.additions)?, &weights);
     let mut columns: Vec<(RigReading, Usual)> = Vec::new();

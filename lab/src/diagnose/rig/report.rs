@@ -19,7 +19,7 @@ use super::next::{NextExperiment, table};
 use super::noise::Noise;
 use super::shelf::predict;
 use crate::dataset::RigMeasurements;
-use crate::rig::Predicted;
+use crate::rig::{Predicted, PredictionError, SettingError};
 use nearwall::effect::EFFECTS;
 use nearwall::model::Model;
 
@@ -134,7 +134,7 @@ pub(super) fn widened(
     study: &RigStudy<'_>,
     additions: &[RigAddition],
     weights: &[f64],
-) -> Result<f64, String> {
+) -> Result<f64, PredictionError> {
     let predicted = predict(study.forward, additions)?;
     let parameters: usize = additions.iter().map(|addition| addition.axes.len()).sum();
     let (chi_square, readings) = study.data.chi_square(&predicted, weights);
@@ -152,11 +152,11 @@ impl Found<'_> {
     ///
     /// # Errors
     /// Why an impact cannot be decided.
-    pub fn record(self, file: &RigMeasurements, options: &Options) -> Result<RigDiagnosis, String> {
+    pub fn record(self, file: &RigMeasurements, options: &Options) -> Result<RigDiagnosis, PredictionError> {
         let Self { study, choice, held_out, .. } = &self;
         let all = vec![1.0; study.data.experiments];
         let base = predict(study.forward, &[])?;
-        let model = Model::from_toml("extended.toml", &self.text).map_err(|error| error.to_string())?;
+        let model = Model::from_toml("extended.toml", &self.text).map_err(SettingError::from)?;
         let extended = predict_file(study, &model, &choice.additions)?;
         let fit = Fit {
             base: self.fit_test(&base, 0, choice.structure[0]),
@@ -281,7 +281,7 @@ impl Found<'_> {
         })
     }
 
-    fn finding(&self, round: &Round, addition: &RigAddition) -> Result<Finding, String> {
+    fn finding(&self, round: &Round, addition: &RigAddition) -> Result<Finding, PredictionError> {
         let Scored { gain, p_value, .. } = round.winner;
         let others = rivals(round);
         let curve = addition.fitted_curve().map(|curve| FittedCurve {
@@ -323,7 +323,7 @@ impl Found<'_> {
     }
 
     /// The kind of observable that an addition changes most, in standard errors.
-    fn observable(&self, addition: &RigAddition) -> Result<&'static str, String> {
+    fn observable(&self, addition: &RigAddition) -> Result<&'static str, PredictionError> {
         let (study, data) = (self.study, &self.study.data);
         let all = &self.choice.additions;
         let rest: Vec<RigAddition> = all.iter().filter(|one| one.key() != addition.key()).cloned().collect();

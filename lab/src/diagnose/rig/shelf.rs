@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::addition::{RigAddition, apply_all};
 use super::noise::{Data, Prepared, Values};
-use crate::rig::{Forward, Predicted};
+use crate::rig::{Forward, Predicted, PredictionError};
 
 /// A candidate at one place.
 #[derive(Debug)]
@@ -36,7 +36,10 @@ pub(super) struct Shelf {
 ///
 /// # Errors
 /// Why an impact cannot be decided.
-pub(super) fn predict(forward: &dyn Forward, additions: &[RigAddition]) -> Result<Vec<Predicted>, String> {
+pub(super) fn predict(
+    forward: &dyn Forward,
+    additions: &[RigAddition],
+) -> Result<Vec<Predicted>, PredictionError> {
     let one = |experiment: usize| forward.predict(experiment, &|model| apply_all(additions, model));
     let all = (0..forward.experiments().len()).into_par_iter().map(one).collect::<Result<Vec<_>, _>>()?;
     Ok(all.into_iter().flatten().collect())
@@ -53,7 +56,7 @@ impl Shelf {
         additions: &[RigAddition],
         candidates: Vec<RigAddition>,
         progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, String> {
+    ) -> Result<Self, PredictionError> {
         let base = predict(forward, additions)?;
         let of = |blank: RigAddition| {
             let places = blank.places(blank.present(forward.base(0)));
