@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nearwall::Model;
-use nearwall_lab::dataset::{BadRow, ImpactReader, Row};
+use nearwall_lab::dataset::{BadRow, ImpactReader, ImpactRow};
 use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use pyo3::prelude::*;
 
@@ -62,7 +62,7 @@ fn predict_rows(
     let cells = matches!(data, TableSource::File(_)).then(|| TableCells::new(header));
     let mut found = Predictions::new(cells, predictor.has_bands(), file_notes(file, &reader));
     let mut notes = RowNotes::default();
-    let mut row = Row::default();
+    let mut row = ImpactRow::default();
     while let Some(next) = reader.next_into(&mut row)? {
         tick();
         match notes.predict(&predictor, next.as_ref().map(|()| &row)) {
@@ -80,7 +80,7 @@ impl Predictions {
         Self { cells, numbers: vec![Vec::new(); columns], regimes: Vec::new(), left_out: Vec::new(), notes }
     }
 
-    fn add(&mut self, row: &Row, predicted: &PredictedRow) {
+    fn add(&mut self, row: &ImpactRow, predicted: &PredictedRow) {
         if let Some(cells) = &mut self.cells {
             cells.push(&row.cells);
         }

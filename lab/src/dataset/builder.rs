@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{Cells, Values};
+use super::column::{ColumnCells, ColumnValues};
 use super::column_map::ColumnMap;
 use super::column_names::{DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
@@ -13,8 +13,8 @@ use super::measurements::{Measurement, Measurements, Unselected};
 use super::notes::{self, NoteCounts};
 use super::number::{NamedColumns, NumberStyle, is_blank};
 use super::observed::ObservedCells;
-use super::row_error::RowError;
-use super::selection::{Selection, Ticket};
+use super::row_error::RowFault;
+use super::selection::{RowSelection, Ticket};
 use super::{BadRow, DatasetError, WallChoice};
 use nearwall::impact::{INPUTS, Impact};
 
@@ -30,10 +30,10 @@ struct Builder<'a> {
     velocity: ImpactVelocity,
     errors: InputErrorColumns,
     /// The possible causes, each with its index in a row.
-    causes: Vec<(usize, Cells)>,
+    causes: Vec<(usize, ColumnCells)>,
     /// Columns that tell groups of rows apart, by index in a row.
     groups: Vec<usize>,
-    selection: Selection,
+    selection: RowSelection,
     rows: Vec<Measurement>,
     /// Number of records.
     read: usize,
@@ -85,7 +85,7 @@ impl<'a> Builder<'a> {
         Ok(Self {
             groups: causes.iter().map(|(index, _)| *index).filter(tells_groups).collect(),
             extra_counts: vec![[0; 2]; inputs.extra().count()],
-            selection: Selection::new(most),
+            selection: RowSelection::new(most),
             map,
             walls,
             named,
@@ -166,7 +166,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn read(&mut self, line: u64, cells: &csv::StringRecord) -> Result<Measurement, RowError> {
+    fn read(&mut self, line: u64, cells: &csv::StringRecord) -> Result<Measurement, RowFault> {
         self.check_quotes(cells)?;
         let mut impact = Impact::default();
         let mut stated = self.inputs.read(cells, &mut impact)?;
@@ -186,14 +186,14 @@ impl<'a> Builder<'a> {
     }
 
     /// Refuses a quoted cell that contains whole rows: its quotation mark is not closed.
-    fn check_quotes(&self, cells: &csv::StringRecord) -> Result<(), RowError> {
+    fn check_quotes(&self, cells: &csv::StringRecord) -> Result<(), RowFault> {
         if !cells.as_slice().contains('\n') {
             return Ok(());
         }
         let separator = char::from(self.map.layout.separator);
         let is_row = |line: &str| line.matches(separator).count() + 1 >= cells.len();
         match cells.iter().any(|cell| cell.lines().skip(1).any(is_row)) {
-            true => Err(RowError::OpenQuote),
+            true => Err(RowFault::OpenQuote),
             false => Ok(()),
         }
     }
@@ -226,7 +226,7 @@ impl<'a> Builder<'a> {
             }
             // A `wall` column with a single wall does not vary in meaning.
             let one_wall = column.name == "wall"
-                && matches!(&column.values, Values::Labels { levels, .. } if levels.len() < 2);
+                && matches!(&column.values, ColumnValues::Labels { levels, .. } if levels.len() < 2);
             if !one_wall {
                 columns.push(column);
             }
@@ -370,14 +370,14 @@ impl Measurements {
 
 /// The possible causes: all columns without another meaning, and the labels `wall` and `series`. The numbers of a column
 /// that tells groups apart are labels too.
-fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, Cells)> {
+fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, ColumnCells)> {
     let of_parcels = |header: &str| PARCEL_COLUMNS.contains(&header) && is_record(headers);
     let cause = |(index, header): (usize, &str)| match named.name_of(index) {
-        Some(name @ ("wall" | "series")) => Some((index, Cells::new(name, true))),
+        Some(name @ ("wall" | "series")) => Some((index, ColumnCells::new(name, true))),
         Some(_) => None,
         None if map.ignores(header) => None,
         None if of_parcels(header) && !map.reads_labels(header) => None,
-        None => Some((index, Cells::new(header, map.reads_labels(header)))),
+        None => Some((index, ColumnCells::new(header, map.reads_labels(header)))),
     };
     headers.iter().enumerate().filter_map(cause).collect()
 }

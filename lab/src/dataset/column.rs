@@ -6,16 +6,16 @@ use super::number::is_blank;
 
 /// A column that is not an input of the model.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Column {
+pub struct DataColumn {
     /// Its name in the file; `wall` and `series` by nearwall's name.
     pub name: String,
     /// One value for each usable row.
-    pub values: Values,
+    pub values: ColumnValues,
 }
 
-/// The cells of a [`Column`].
+/// The cells of a [`DataColumn`].
 #[derive(Debug, Clone, PartialEq)]
-pub enum Values {
+pub enum ColumnValues {
     /// Numbers in the file's own unit, NaN where the cell is blank.
     Numbers(Vec<f64>),
     /// Categories.
@@ -32,7 +32,7 @@ const MOST_LABELS: usize = 1000;
 
 /// The cells of a column while the file is read; whether all are numbers is known at the end.
 #[derive(Debug, Clone)]
-pub(super) struct Cells {
+pub(super) struct ColumnCells {
     name: String,
     /// Whether its numbers are labels.
     as_labels: bool,
@@ -49,7 +49,7 @@ pub(super) struct Cells {
     ends: Vec<usize>,
 }
 
-impl Cells {
+impl ColumnCells {
     /// An empty column.
     pub(super) fn new(name: &str, as_labels: bool) -> Self {
         Self {
@@ -105,16 +105,19 @@ impl Cells {
 
     /// The column; and if most cells are numbers, the line and the text of the first one that is not. `parse` reads one
     /// number.
-    pub(super) fn finish(mut self, parse: impl Fn(&str) -> Option<f64>) -> (Column, Option<(u64, String)>) {
+    pub(super) fn finish(
+        mut self,
+        parse: impl Fn(&str) -> Option<f64>,
+    ) -> (DataColumn, Option<(u64, String)>) {
         let invalid = self.invalid.take();
         let values = if self.filled > 0 && invalid.is_none() { self.numbers(parse) } else { self.labels() };
         let invalid = invalid.filter(|_| 2 * self.numbers > self.filled);
-        (Column { name: self.name, values }, invalid)
+        (DataColumn { name: self.name, values }, invalid)
     }
 
     /// All cells as numbers.
-    fn numbers(&self, parse: impl Fn(&str) -> Option<f64>) -> Values {
-        Values::Numbers(self.cells().map(|cell| parse(cell).unwrap_or(f64::NAN)).collect())
+    fn numbers(&self, parse: impl Fn(&str) -> Option<f64>) -> ColumnValues {
+        ColumnValues::Numbers(self.cells().map(|cell| parse(cell).unwrap_or(f64::NAN)).collect())
     }
 
     /// Labels that only rows have that are not kept, and whether there may be more.
@@ -125,7 +128,7 @@ impl Cells {
         (lost.cloned().collect(), self.others.len() >= MOST_LABELS)
     }
 
-    fn labels(&self) -> Values {
+    fn labels(&self) -> ColumnValues {
         let mut place: HashMap<&str, usize> =
             self.cells().filter(|cell| !cell.is_empty()).map(|cell| (cell, 0)).collect();
         let mut levels: Vec<&str> = place.keys().copied().collect();
@@ -134,7 +137,7 @@ impl Cells {
             place.insert(level, index);
         }
         let of_row = self.cells().map(|cell| place.get(cell).copied()).collect();
-        Values::Labels { levels: levels.into_iter().map(str::to_owned).collect(), of_row }
+        ColumnValues::Labels { levels: levels.into_iter().map(str::to_owned).collect(), of_row }
     }
 }
 
@@ -144,7 +147,7 @@ fn cells<'a>(text: &'a str, ends: &'a [usize]) -> impl Iterator<Item = &'a str> 
     starts.zip(ends).map(|(start, end)| text.get(start..*end).unwrap_or(""))
 }
 
-impl Values {
+impl ColumnValues {
     /// The cells of these rows.
     pub(crate) fn at(&self, rows: &[usize]) -> Self {
         match self {
@@ -156,7 +159,7 @@ impl Values {
     }
 }
 
-impl Column {
+impl DataColumn {
     /// The cells of these rows.
     pub(super) fn at(&self, rows: &[usize]) -> Self {
         Self { name: self.name.clone(), values: self.values.at(rows) }
@@ -169,8 +172,11 @@ pub(super) mod tests {
     use crate::dataset::names_groups;
 
     /// A column of labels.
-    pub fn words(levels: &[&str], of_row: &[Option<usize>]) -> Values {
-        Values::Labels { levels: levels.iter().map(|l| (*l).to_owned()).collect(), of_row: of_row.to_vec() }
+    pub fn words(levels: &[&str], of_row: &[Option<usize>]) -> ColumnValues {
+        ColumnValues::Labels {
+            levels: levels.iter().map(|l| (*l).to_owned()).collect(),
+            of_row: of_row.to_vec(),
+        }
     }
 
     #[test]
@@ -182,7 +188,7 @@ pub(super) mod tests {
     #[test]
     fn labels_are_sorted_and_kept_as_written() {
         let finish = |cells: &[&str], labels: bool| {
-            let mut column = Cells::new("c", labels);
+            let mut column = ColumnCells::new("c", labels);
             let parse = |cell: &str| cell.parse().ok();
             for (line, cell) in (1..).zip(cells) {
                 column.note(line, cell, parse);

@@ -23,7 +23,7 @@ pub struct ColumnMap {
     pub(super) words: OutcomeWords,
     /// The origin of the column `angle`.
     pub(super) from: Option<AngleFrom>,
-    sources: Vec<Source>,
+    sources: Vec<MappedColumn>,
     pub(super) ignored: Vec<String>,
     pub(super) labels: Vec<String>,
     pub(super) detection: Detection,
@@ -31,7 +31,7 @@ pub struct ColumnMap {
 
 /// One line of `[columns]`.
 #[derive(Debug, Clone)]
-struct Source {
+struct MappedColumn {
     name: &'static str,
     column: String,
     unit: Unit,
@@ -124,7 +124,7 @@ impl ColumnMap {
                 format!("column `{column}` is also listed under [ignore]; remove one of the two"),
             ));
         }
-        self.sources.push(Source { name, column, unit });
+        self.sources.push(MappedColumn { name, column, unit });
         Ok(())
     }
 
@@ -152,7 +152,7 @@ impl ColumnMap {
         }
     }
 
-    fn source(&self, name: &str) -> Option<&Source> {
+    fn source(&self, name: &str) -> Option<&MappedColumn> {
         self.sources.iter().find(|source| source.name == name)
     }
 
@@ -200,7 +200,7 @@ impl ColumnMap {
         }
     }
 
-    fn absent(&self, source: &Source, headers: &csv::StringRecord) -> HeaderError {
+    fn absent(&self, source: &MappedColumn, headers: &csv::StringRecord) -> HeaderError {
         let known: Vec<&str> = headers.iter().filter(|header| !header.is_empty()).collect();
         let problem = unknown(&source.column, "column", &known);
         HeaderError::NoColumn { map: self.file.clone(), name: source.name, problem }

@@ -6,7 +6,7 @@ use super::csv_table::{CsvTable, Layout};
 use super::inputs::InputColumns;
 use super::notes;
 use super::number::{NumberColumn, NumberStyle};
-use super::row_error::{HeaderError, RowError};
+use super::row_error::{HeaderError, RowFault};
 use super::unit::Unit;
 use super::{BadRow, DatasetError};
 use nearwall::impact::{INPUTS, Impact};
@@ -14,7 +14,7 @@ use nearwall::model::ExtraInput;
 
 /// One row of the file.
 #[derive(Debug, Clone, Default)]
-pub struct Row {
+pub struct ImpactRow {
     /// Line in the file, counted from 1.
     pub line: u64,
     /// Every cell as written.
@@ -84,8 +84,8 @@ impl<R: Read> ImpactReader<R> {
     ///
     /// # Errors
     /// [`DatasetError::Unreadable`] when the source fails.
-    pub fn next_row(&mut self) -> Result<Option<Result<Row, BadRow>>, DatasetError> {
-        let mut row = Row::default();
+    pub fn next_row(&mut self) -> Result<Option<Result<ImpactRow, BadRow>>, DatasetError> {
+        let mut row = ImpactRow::default();
         Ok(self.next_into(&mut row)?.map(|read| read.map(|()| row)))
     }
 
@@ -93,16 +93,16 @@ impl<R: Read> ImpactReader<R> {
     ///
     /// # Errors
     /// As [`Self::next_row`].
-    pub fn next_into(&mut self, row: &mut Row) -> Result<Option<Result<(), BadRow>>, DatasetError> {
+    pub fn next_into(&mut self, row: &mut ImpactRow) -> Result<Option<Result<(), BadRow>>, DatasetError> {
         let next = self.table.next_into(&mut row.cells)?;
         Ok(next.map(|line| self.read_row(line?, row)))
     }
 
-    fn read_row(&self, line: u64, row: &mut Row) -> Result<(), BadRow> {
+    fn read_row(&self, line: u64, row: &mut ImpactRow) -> Result<(), BadRow> {
         row.line = line;
         let read = self.inputs.read(&row.cells, &mut row.impact);
         let checked = read.and_then(|_| Ok(row.impact.check()?));
-        checked.map_err(|error: RowError| BadRow { line, reason: error.to_string() })
+        checked.map_err(|error: RowFault| BadRow { line, reason: error.to_string() })
     }
 }
 
@@ -110,7 +110,7 @@ impl<R: Read> ImpactReader<R> {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> (Vec<Row>, Vec<BadRow>) {
+    fn read(text: &str) -> (Vec<ImpactRow>, Vec<BadRow>) {
         let mut reader = ImpactReader::new("t.csv", text.as_bytes()).unwrap();
         let (mut rows, mut bad) = (Vec::new(), Vec::new());
         while let Some(next) = reader.next_row().unwrap() {

@@ -1,8 +1,8 @@
 //! The normal and tangential speed of an impact, from two speeds or from one speed and an angle.
 
-use super::inputs::{InputColumns, Stated, position};
+use super::inputs::{InputColumns, StatedInputs, position};
 use super::number::NumberColumn;
-use super::row_error::{HeaderError, RowError};
+use super::row_error::{HeaderError, RowFault};
 use nearwall::impact::Impact;
 
 /// The origin of an angle.
@@ -38,10 +38,10 @@ impl AngleColumn {
     const SLACK: f64 = 0.06;
 
     /// Sines of the angles from the surface and from the normal [1]: the shares of `v_n` and `v_t` in the speed.
-    fn read(&self, cells: &csv::StringRecord) -> Result<Option<[f64; 2]>, RowError> {
+    fn read(&self, cells: &csv::StringRecord) -> Result<Option<[f64; 2]>, RowFault> {
         let Some(angle) = self.column.read_finite(cells)? else { return Ok(None) };
         if !(0.0..=90.0 + Self::SLACK).contains(&angle) {
-            return Err(RowError::Angle(angle));
+            return Err(RowFault::Angle(angle));
         }
         let angle = angle.min(90.0);
         // Sines of both angles: the cosine of 90° is not exactly 0.
@@ -128,16 +128,16 @@ impl ImpactVelocity {
         &self,
         cells: &csv::StringRecord,
         impact: &mut Impact,
-        stated: &mut Stated,
-    ) -> Result<(), RowError> {
+        stated: &mut StatedInputs,
+    ) -> Result<(), RowFault> {
         match self {
             Self::Speeds => return Ok(()),
             Self::SpeedAndAngle(speed, angle) => {
-                let speed = speed.read_finite(cells)?.ok_or(RowError::Blank("speed"))?;
+                let speed = speed.read_finite(cells)?.ok_or(RowFault::Blank("speed"))?;
                 if speed < 0.0 {
-                    return Err(RowError::Negative("speed"));
+                    return Err(RowFault::Negative("speed"));
                 }
-                let shares = angle.read(cells)?.ok_or(RowError::Blank("angle"))?;
+                let shares = angle.read(cells)?.ok_or(RowFault::Blank("angle"))?;
                 [impact.normal_speed, impact.tangential_speed] = shares.map(|share| speed * share);
             }
             Self::NormalAndAngle(angle) => {
@@ -147,9 +147,9 @@ impl ImpactVelocity {
             }
             Self::TangentialAndAngle(angle) => {
                 if !stated[position("v_t")] {
-                    return Err(RowError::NoTangentialSpeed);
+                    return Err(RowFault::NoTangentialSpeed);
                 }
-                let [normal, tangential] = angle.read(cells)?.ok_or(RowError::Blank("angle"))?;
+                let [normal, tangential] = angle.read(cells)?.ok_or(RowFault::Blank("angle"))?;
                 impact.normal_speed = other_speed(impact.tangential_speed, normal, tangential, "v_t")?;
             }
         }
@@ -182,9 +182,9 @@ impl ImpactVelocity {
 }
 
 /// The wanted speed [m/s] from the given one; both sines [1].
-fn other_speed(known: f64, wanted: f64, given: f64, name: &'static str) -> Result<f64, RowError> {
+fn other_speed(known: f64, wanted: f64, given: f64, name: &'static str) -> Result<f64, RowFault> {
     if given == 0.0 {
-        return Err(RowError::Undetermined(name));
+        return Err(RowFault::Undetermined(name));
     }
     Ok(known * wanted / given)
 }

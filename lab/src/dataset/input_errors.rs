@@ -3,14 +3,14 @@
 use super::column_names::{ANGLE_ERROR, INPUT_ERRORS, SPEED_ERROR};
 use super::impact_velocity::ImpactVelocity;
 use super::number::{NamedColumns, NumberColumn};
-use super::row_error::RowError;
+use super::row_error::RowFault;
 use nearwall::impact::{INPUTS, Impact, Input};
 
 /// Every input, with a lifetime that an iterator may return.
 static ALL_INPUTS: &[Input; INPUTS.len()] = &INPUTS;
 
 /// Places of the speeds in [`INPUT_ERRORS`].
-const SPEEDS: [usize; 2] = [0, 1];
+const SPEED_PLACES: [usize; 2] = [0, 1];
 
 /// Standard errors of the inputs of a row, in the units of the inputs; 0 where none is stated.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -57,27 +57,27 @@ impl InputErrorColumns {
         cells: &csv::StringRecord,
         impact: &Impact,
         velocity: &ImpactVelocity,
-    ) -> Result<InputErrors, RowError> {
+    ) -> Result<InputErrors, RowFault> {
         let mut stated = [None; INPUT_ERRORS.len()];
         for (stated, column) in stated.iter_mut().zip(&self.columns) {
             *stated = read_error(column.as_ref(), cells)?;
         }
         let speed = read_error(self.speed.as_ref(), cells)?.unwrap_or(0.0);
         let angle = read_error(self.angle.as_ref(), cells)?.unwrap_or(0.0).to_radians();
-        let known = SPEEDS.map(|place| stated[place].unwrap_or(0.0));
+        let known = SPEED_PLACES.map(|place| stated[place].unwrap_or(0.0));
         let propagated = velocity.propagate(impact, known, speed, angle);
         let mut of = stated.map(|error| error.unwrap_or(0.0));
-        for (place, propagated) in SPEEDS.into_iter().zip(propagated) {
+        for (place, propagated) in SPEED_PLACES.into_iter().zip(propagated) {
             of[place] = stated[place].unwrap_or(propagated);
         }
         Ok(InputErrors { of })
     }
 }
 
-fn read_error(column: Option<&NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
+fn read_error(column: Option<&NumberColumn>, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
     let Some(column) = column else { return Ok(None) };
     match column.read_finite(cells)? {
-        Some(error) if error < 0.0 => Err(RowError::Negative(column.name)),
+        Some(error) if error < 0.0 => Err(RowFault::Negative(column.name)),
         error => Ok(error),
     }
 }

@@ -1,7 +1,7 @@
 //! The inputs of an impact in the cells of a row.
 
 use super::number::{NumberColumn, NumberStyle, is_blank};
-use super::row_error::RowError;
+use super::row_error::RowFault;
 use nearwall::impact::{INPUTS, Impact};
 use nearwall::model::ExtraInput;
 
@@ -22,7 +22,7 @@ struct ExtraColumn {
 }
 
 /// Whether a row states each of [`INPUTS`].
-pub(super) type Stated = [bool; INPUTS.len()];
+pub(super) type StatedInputs = [bool; INPUTS.len()];
 
 /// The index of the input of this name; that beyond the last one if there is none.
 pub(super) fn position(name: &str) -> usize {
@@ -70,9 +70,13 @@ impl InputColumns {
     ///
     /// # Errors
     /// The reason, for a cell that is not a number or a blank `v_n`.
-    pub(super) fn read(&self, cells: &csv::StringRecord, impact: &mut Impact) -> Result<Stated, RowError> {
+    pub(super) fn read(
+        &self,
+        cells: &csv::StringRecord,
+        impact: &mut Impact,
+    ) -> Result<StatedInputs, RowFault> {
         *impact = Impact::default();
-        let mut stated = Stated::default();
+        let mut stated = StatedInputs::default();
         for (place, (input, column)) in INPUTS.iter().zip(&self.columns).enumerate() {
             let Some(column) = column else { continue };
             match column.read(cells)? {
@@ -80,7 +84,7 @@ impl InputColumns {
                     (input.set)(impact, value);
                     stated[place] = true;
                 }
-                None if input.name == "v_n" => return Err(RowError::Blank("v_n")),
+                None if input.name == "v_n" => return Err(RowFault::Blank("v_n")),
                 None => {}
             }
         }
@@ -98,7 +102,7 @@ impl ExtraColumn {
     ///
     /// # Errors
     /// The reason, for a cell that should be a number and is not.
-    fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
+    fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
         let cell = self.index.and_then(|index| cells.get(index)).unwrap_or("");
         if cell.is_empty() || (self.style.markers && is_blank(cell)) {
             return Ok(None);
@@ -110,7 +114,7 @@ impl ExtraColumn {
         };
         match value {
             None => Err(self.style.not_a_number(name, cell)),
-            Some(value) if !value.is_finite() => Err(RowError::NotFinite(name.clone())),
+            Some(value) if !value.is_finite() => Err(RowFault::NotFinite(name.clone())),
             value => Ok(value),
         }
     }

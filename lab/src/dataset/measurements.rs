@@ -1,6 +1,6 @@
 //! Measured impacts with every column that may be a cause.
 
-use super::column::{Column, Values};
+use super::column::{ColumnValues, DataColumn};
 use super::detection::Detection;
 use super::input_errors::InputErrors;
 use super::{BadRow, DatasetError};
@@ -18,7 +18,7 @@ pub struct Measurements {
     /// The usable rows that were not selected.
     pub unselected: Unselected,
     /// The columns that are not inputs, in the order of the file.
-    pub columns: Vec<Column>,
+    pub columns: Vec<DataColumn>,
     /// The inputs that a column states, or two columns together.
     pub given: Vec<&'static str>,
     /// The rebounds that the apparatus cannot see.
@@ -82,7 +82,7 @@ impl Measurements {
     /// # Errors
     /// [`DatasetError::Group`] naming the columns of labels.
     pub fn check_group(&self, name: &str) -> Result<(), DatasetError> {
-        let is_label = |column: &&Column| matches!(column.values, Values::Labels { .. });
+        let is_label = |column: &&DataColumn| matches!(column.values, ColumnValues::Labels { .. });
         let labels: Vec<&str> =
             self.columns.iter().filter(is_label).map(|column| column.name.as_str()).collect();
         if labels.contains(&name) {
@@ -119,7 +119,7 @@ impl Measurements {
 #[cfg(test)]
 mod tests {
     use super::super::column::tests::words;
-    use super::super::{ColumnMap, DatasetError, Values, WallChoice};
+    use super::super::{ColumnMap, ColumnValues, DatasetError, WallChoice};
     use super::*;
     use nearwall::model::Model;
 
@@ -177,7 +177,7 @@ mod tests {
         assert_eq!(names, ["series", "operator", "humidity"]);
         assert_eq!(data.columns[0].values, words(&["7", "8"], &[Some(0), Some(1)]));
         assert_eq!(data.columns[1].values, words(&["Ann, B."], &[Some(0), None]));
-        let Values::Numbers(humidity) = &data.columns[2].values else { unreachable!() };
+        let ColumnValues::Numbers(humidity) = &data.columns[2].values else { unreachable!() };
         assert!(humidity[0] == 40.0 && humidity[1].is_nan());
         assert!(
             data.notes.iter().any(|note| note.contains("T_p is blank in 1 of 2 rows, taken as 293.15 K"))
@@ -332,7 +332,7 @@ mod tests {
         assert_eq!(data.given, ["v_n", "v_t", "d", "T_p"]);
         assert_eq!(data.columns.len(), 2, "{:?}", data.columns);
         assert_eq!(data.columns[0].values, words(&["01", "1"], &[Some(0), Some(1)]));
-        assert_eq!(data.columns[1].values, Values::Numbers(vec![1.5, -2.0]));
+        assert_eq!(data.columns[1].values, ColumnValues::Numbers(vec![1.5, -2.0]));
         assert!(data.notes.iter().any(|note| note == "2 columns without a name are not used"));
     }
 
@@ -506,7 +506,7 @@ mod tests {
         let column = |wanted: &str| data.columns.iter().find(|column| column.name == wanted).unwrap();
         assert_eq!((name.as_str(), &column("rig").values), ("rig", &words(&["1"], &[Some(0), None])));
         assert_eq!(column("Batch").values, words(&["1", "2"], &[Some(0), Some(1)]));
-        assert_eq!(column("humidity").values, Values::Numbers(vec![30.0, 40.0]));
+        assert_eq!(column("humidity").values, ColumnValues::Numbers(vec![30.0, 40.0]));
         // A mapped column may be named as in the file or as in nearwall.
         assert_eq!(["plate", "series"].map(|column| grouped(column).unwrap().0), ["series", "series"]);
         assert!(!data.notes.iter().any(|note| note.contains("does not exist")), "{:?}", data.notes);
@@ -575,7 +575,7 @@ mod tests {
         assert_eq!((data.detection.e_n, data.detection.rebound_speed), (Some(0.2), Some(0.05)));
         assert_eq!(
             data.columns,
-            [Column { name: "plate".into(), values: words(&["7"], &[Some(0), Some(0)]) }]
+            [DataColumn { name: "plate".into(), values: words(&["7"], &[Some(0), Some(0)]) }]
         );
     }
 

@@ -29,11 +29,11 @@ mod selection;
 mod unit;
 mod wall_choice;
 
-pub use column::{Column, Values};
+pub use column::{ColumnValues, DataColumn};
 pub use column_map::ColumnMap;
 pub use column_names::{PARCEL_COLUMNS, names_groups};
 pub use detection::Detection;
-pub use impact_reader::{ImpactReader, Row};
+pub use impact_reader::{ImpactReader, ImpactRow};
 pub use input_errors::InputErrors;
 pub use measurements::{Measurement, Measurements, Reading, Unselected};
 pub use notes::{assumed, unlikely};

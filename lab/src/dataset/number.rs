@@ -1,6 +1,6 @@
 //! Numbers in cells: their notation, their unit, and markers of missing values.
 
-use super::row_error::RowError;
+use super::row_error::RowFault;
 use super::unit::Unit;
 
 /// The notation of numbers in a file.
@@ -8,16 +8,16 @@ use super::unit::Unit;
 pub(super) struct NumberStyle {
     /// Whether the decimal separator is a comma.
     pub(super) decimal_comma: bool,
-    /// Whether the [`MARKERS`] denote a missing value.
+    /// Whether the [`MISSING_MARKERS`] denote a missing value.
     pub(super) markers: bool,
 }
 
 /// Markers of missing values.
-const MARKERS: [&str; 7] = ["NA", "NaN", "nan", "-", "n/a", "N/A", "#N/A"];
+const MISSING_MARKERS: [&str; 7] = ["NA", "NaN", "nan", "-", "n/a", "N/A", "#N/A"];
 
 /// Whether a cell is blank or a marker of a missing value.
 pub(super) fn is_blank(cell: &str) -> bool {
-    cell.is_empty() || (cell.len() <= 4 && MARKERS.contains(&cell))
+    cell.is_empty() || (cell.len() <= 4 && MISSING_MARKERS.contains(&cell))
 }
 
 impl NumberStyle {
@@ -32,14 +32,14 @@ impl NumberStyle {
     }
 
     /// The error of a cell that is not a number, with the remedy if a column map can help.
-    pub(super) fn not_a_number(self, name: &str, cell: &str) -> RowError {
+    pub(super) fn not_a_number(self, name: &str, cell: &str) -> RowFault {
         let other = Self { decimal_comma: !self.decimal_comma, ..self };
         let hint = match (self.markers && other.parse(cell).is_some(), self.decimal_comma) {
             (false, _) => "",
             (true, false) => "; for a decimal comma set decimal = \",\" in the column map",
             (true, true) => "; the column map sets decimal = \",\"",
         };
-        RowError::NotANumber { name: name.to_owned(), cell: cell.to_owned(), hint }
+        RowFault::NotANumber { name: name.to_owned(), cell: cell.to_owned(), hint }
     }
 }
 
@@ -61,7 +61,7 @@ impl NumberColumn {
     ///
     /// # Errors
     /// The reason, for a cell that is not a number.
-    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
+    pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
         let cell = cells.get(self.index).unwrap_or("");
         if if self.style.markers { is_blank(cell) } else { cell.is_empty() } {
             return Ok(None);
@@ -71,9 +71,9 @@ impl NumberColumn {
     }
 
     /// As [`Self::read`], without NaN and infinity.
-    pub(super) fn read_finite(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowError> {
+    pub(super) fn read_finite(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
         match self.read(cells)? {
-            Some(value) if !value.is_finite() => Err(RowError::NotFinite(self.name.to_owned())),
+            Some(value) if !value.is_finite() => Err(RowFault::NotFinite(self.name.to_owned())),
             other => Ok(other),
         }
     }

@@ -2,14 +2,14 @@
 
 use super::measurements::{Measurement, Reading};
 use super::number::{NamedColumns, is_blank};
-use super::row_error::RowError;
+use super::row_error::RowFault;
 use nearwall::input::{InputError, Section};
 
 /// Largest plausible restitution [1]. Rough walls and spin give more than 1; a larger value is in another unit.
 const HIGHEST: f64 = 3.0;
 
 /// Largest difference [1] between a counted and a stated share of captures, due to rounding.
-const ROUNDING: f64 = 0.01;
+const SHARE_ROUNDING: f64 = 0.01;
 
 /// What is unusual about the observations of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,10 +58,10 @@ impl OutcomeWords {
         }
     }
 
-    fn unknown(&self, cell: &str) -> RowError {
+    fn unknown(&self, cell: &str) -> RowFault {
         let own = self.rebound.iter().chain(&self.stick).map(String::as_str);
         let known: Vec<&str> = Self::REBOUND.into_iter().chain(Self::STICK).chain(own).collect();
-        RowError::UnknownOutcome { cell: cell.to_owned(), known: known.join(", ") }
+        RowFault::UnknownOutcome { cell: cell.to_owned(), known: known.join(", ") }
     }
 }
 
@@ -77,11 +77,11 @@ impl ObservedCells<'_> {
     ///
     /// # Errors
     /// The reason why the row cannot be used.
-    pub(super) fn read_into(&self, row: &mut Measurement) -> Result<Remarks, RowError> {
+    pub(super) fn read_into(&self, row: &mut Measurement) -> Result<Remarks, RowFault> {
         let counted = self.number("n_impacts")?;
         row.impacts = counted.unwrap_or(1.0);
         if row.impacts < 1.0 || row.impacts.fract() != 0.0 {
-            return Err(RowError::NotWhole { name: "n_impacts", value: row.impacts, least: 1 });
+            return Err(RowFault::NotWhole { name: "n_impacts", value: row.impacts, least: 1 });
         }
         row.captured = self.share_captured(counted)?;
         let uncounted = counted.is_none() && row.captured.is_some_and(|share| share.fract() != 0.0);
@@ -103,53 +103,53 @@ impl ObservedCells<'_> {
             Some(share) => (row.impacts * (1.0 - share)).max(1.0),
         };
         if row.captured.is_none() && row.e_n.is_none() && row.e_t.is_none() {
-            return Err(RowError::NoObservation);
+            return Err(RowFault::NoObservation);
         }
         Ok(Remarks { uncounted, no_error })
     }
 
     /// The captured share of the impacts [1], if recorded.
-    fn share_captured(&self, counted: Option<f64>) -> Result<Option<f64>, RowError> {
+    fn share_captured(&self, counted: Option<f64>) -> Result<Option<f64>, RowFault> {
         let impacts = counted.unwrap_or(1.0);
         let count = self.count_captured(counted)?.map(|count| count / impacts);
         let stated = self.number("capture_efficiency")?;
         if let Some(share) = stated.filter(|share| !(0.0..=1.0).contains(share)) {
-            return Err(RowError::NoShare(share));
+            return Err(RowFault::NoShare(share));
         }
         if let (Some(share), Some(1.0)) = (stated.filter(|share| share.fract() != 0.0), counted) {
-            return Err(RowError::ShareOfOne(share));
+            return Err(RowFault::ShareOfOne(share));
         }
         if let (Some(count), Some(stated)) = (count, stated)
-            && (count - stated).abs() > ROUNDING
+            && (count - stated).abs() > SHARE_ROUNDING
         {
-            return Err(RowError::TwoShares { count, stated });
+            return Err(RowFault::TwoShares { count, stated });
         }
         let share = count.or(stated);
         match (self.outcome()?, share) {
             (None, share) => Ok(share),
-            (Some(_), None) if impacts > 1.0 => Err(RowError::OneOutcome(impacts)),
+            (Some(_), None) if impacts > 1.0 => Err(RowFault::OneOutcome(impacts)),
             (Some(stuck), None) => Ok(Some(f64::from(stuck))),
             (Some(stuck), Some(share)) if f64::from(stuck) == share => Ok(Some(share)),
             (Some(stuck), Some(share)) => {
                 let word = if stuck { "stick" } else { "rebound" };
-                Err(RowError::OtherOutcome { word, share })
+                Err(RowFault::OtherOutcome { word, share })
             }
         }
     }
 
-    fn count_captured(&self, counted: Option<f64>) -> Result<Option<f64>, RowError> {
+    fn count_captured(&self, counted: Option<f64>) -> Result<Option<f64>, RowFault> {
         let Some(count) = self.number("captured")? else { return Ok(None) };
         if count < 0.0 || count.fract() != 0.0 {
-            return Err(RowError::NotWhole { name: "captured", value: count, least: 0 });
+            return Err(RowFault::NotWhole { name: "captured", value: count, least: 0 });
         }
         match counted {
-            Some(impacts) if count > impacts => Err(RowError::MoreThanImpacts { count, impacts }),
-            None if count > 1.0 => Err(RowError::NoImpacts(count)),
+            Some(impacts) if count > impacts => Err(RowFault::MoreThanImpacts { count, impacts }),
+            None if count > 1.0 => Err(RowFault::NoImpacts(count)),
             _ => Ok(Some(count)),
         }
     }
 
-    fn outcome(&self) -> Result<Option<bool>, RowError> {
+    fn outcome(&self) -> Result<Option<bool>, RowFault> {
         let cell = self.columns.index("outcome").and_then(|index| self.cells.get(index)).unwrap_or("");
         match self.words.captured(cell) {
             None if is_blank(cell) => Ok(None),
@@ -164,26 +164,26 @@ impl ObservedCells<'_> {
         [name, error]: [&'static str; 2],
         lowest: f64,
         no_error: &mut bool,
-    ) -> Result<Option<Reading>, RowError> {
+    ) -> Result<Option<Reading>, RowFault> {
         let Some(value) = self.number(name)? else { return Ok(None) };
         if value < lowest {
             return Err(match lowest {
-                0.0 => RowError::Negative(name),
-                _ => RowError::Below { name, value, least: lowest },
+                0.0 => RowFault::Negative(name),
+                _ => RowFault::Below { name, value, least: lowest },
             });
         }
         if value > HIGHEST {
-            return Err(RowError::Above { name, value, most: HIGHEST });
+            return Err(RowFault::Above { name, value, most: HIGHEST });
         }
         let stated = self.number(error)?;
         if stated.is_some_and(|stated| stated < 0.0) {
-            return Err(RowError::Negative(error));
+            return Err(RowFault::Negative(error));
         }
         *no_error |= stated == Some(0.0);
         Ok(Some(Reading { value, error: stated.filter(|stated| *stated > 0.0) }))
     }
 
-    fn number(&self, name: &str) -> Result<Option<f64>, RowError> {
+    fn number(&self, name: &str) -> Result<Option<f64>, RowFault> {
         self.columns.column(name).map_or(Ok(None), |column| column.read_finite(self.cells))
     }
 }

@@ -8,11 +8,12 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use super::csv_table::{CsvTable, Layout};
-use super::rig_observable::{NAMES, RigQuantity};
+use super::rig_observable::{OBSERVABLE_NAMES, RigQuantity};
 use super::{BadRow, DatasetError};
 
 /// Tables of a case file with which a setting begins.
-const TABLES: [&str; 8] = ["gas", "particles", "walls", "exits", "run", "conversion", "deposit", "model"];
+const SETTING_TABLES: [&str; 8] =
+    ["gas", "particles", "walls", "exits", "run", "conversion", "deposit", "model"];
 
 /// One measured number.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +84,7 @@ impl RigMeasurements {
         let columns = observables(&table)?;
         let is_setting = |name: &str| {
             let (first, rest) = name.split_once('.').unwrap_or((name, ""));
-            !rest.is_empty() && TABLES.contains(&first) && !name.contains('@')
+            !rest.is_empty() && SETTING_TABLES.contains(&first) && !name.contains('@')
         };
         let settings: Vec<(usize, String)> = table
             .headers()
@@ -168,7 +169,8 @@ fn observables<R: Read>(table: &CsvTable<R>) -> Result<Vec<ObservableColumn>, Da
             continue;
         }
         let Some(quantity) = RigQuantity::parse(quantity) else {
-            return Err(table.header_fault(format!("`{name}`: the observables are {NAMES}, each with @WALL")));
+            return Err(table
+                .header_fault(format!("`{name}`: the observables are {OBSERVABLE_NAMES}, each with @WALL")));
         };
         columns.push(ObservableColumn {
             name: name.to_owned(),
@@ -180,7 +182,8 @@ fn observables<R: Read>(table: &CsvTable<R>) -> Result<Vec<ObservableColumn>, Da
         });
     }
     if columns.is_empty() {
-        let fault = format!("no column is an observable of a rig, as captured@WALL: they are {NAMES}");
+        let fault =
+            format!("no column is an observable of a rig, as captured@WALL: they are {OBSERVABLE_NAMES}");
         return Err(table.column_fault(&fault, false));
     }
     Ok(columns)

@@ -42,7 +42,7 @@ pub enum RigQuantity {
 }
 
 /// The names for a message.
-pub(super) const NAMES: &str = "captured, capture_efficiency, mean_e_n, mean_e_t, share_e_n_below_0.6, quantile_0.5_e_n, \
+pub(super) const OBSERVABLE_NAMES: &str = "captured, capture_efficiency, mean_e_n, mean_e_t, share_e_n_below_0.6, quantile_0.5_e_n, \
                                 mean_conversion, captured_from_Z1_to_Z2 and captured_d_D1_to_D2";
 
 impl RigQuantity {

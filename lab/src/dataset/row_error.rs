@@ -5,7 +5,7 @@ use nearwall::impact::ImpactError;
 
 /// Why a row cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(super) enum RowError {
+pub(super) enum RowFault {
     #[error("{name} `{cell}` is not a number{hint}")]
     NotANumber { name: String, cell: String, hint: &'static str },
     #[error("{0} is not finite")]

@@ -18,16 +18,16 @@ pub const MOST_ROWS: usize = 100_000;
 /// The share of groups falls as long as most rows are in groups with no more rows than this, otherwise the share of rows.
 const LARGE_GROUP: usize = 100;
 /// Factor on a share when there are too many rows.
-const STEP: f64 = 0.8;
+const SHARE_STEP: f64 = 0.8;
 /// Seed of the draws.
-const SEED: u64 = 0x726f_7773;
+const SELECTION_SEED: u64 = 0x726f_7773;
 /// Streams of the draws.
 const OF_GROUP: u64 = 0;
 const OF_ROW: u64 = 1;
 /// An observation with fewer kept rows is noted.
-const FEW: usize = 30;
+const FEW_OBSERVATIONS: usize = 30;
 /// What is counted, in the order of [`observed`].
-const OBSERVED: [&str; 4] = ["e_n", "e_t", "a capture", "a rebound"];
+const COUNTED_OBSERVATIONS: [&str; 4] = ["e_n", "e_t", "a capture", "a rebound"];
 
 /// Draws of a row and its group.
 #[derive(Debug, Clone, Copy)]
@@ -46,8 +46,8 @@ impl Ticket {
     pub(super) fn new<'a>(line: u64, groups: impl Iterator<Item = &'a str> + Clone) -> Self {
         let alone = groups.clone().next().is_some() && groups.clone().all(str::is_empty);
         let group = if alone { line } else { groups.fold(FNV_OFFSET, hashed) };
-        let of_group = ImpactRng::new(SEED, group).uniform(OF_GROUP);
-        Self { group, of_group, of_row: ImpactRng::new(SEED, line).uniform(OF_ROW) }
+        let of_group = ImpactRng::new(SELECTION_SEED, group).uniform(OF_GROUP);
+        Self { group, of_group, of_row: ImpactRng::new(SELECTION_SEED, line).uniform(OF_ROW) }
     }
 }
 
@@ -63,7 +63,7 @@ fn hashed(hash: u64, cell: &str) -> u64 {
 
 /// The rows that are kept so far.
 #[derive(Debug)]
-pub(super) struct Selection {
+pub(super) struct RowSelection {
     /// Largest number of kept rows.
     most: usize,
     /// Share of the groups, and of the rows of a kept group.
@@ -73,10 +73,10 @@ pub(super) struct Selection {
     /// Rows that are not kept.
     others: usize,
     /// Rows with each observation among them.
-    observed: [usize; OBSERVED.len()],
+    observed: [usize; COUNTED_OBSERVATIONS.len()],
 }
 
-impl Selection {
+impl RowSelection {
     pub(super) fn new(most: usize) -> Self {
         let observed = Default::default();
         Self { most, groups: 1.0, rows: 1.0, kept: Vec::new(), others: 0, observed }
@@ -119,7 +119,7 @@ impl Selection {
         let before = self.kept.clone();
         while self.kept.len() > self.most {
             let share = if self.is_in_large_groups() { &mut self.rows } else { &mut self.groups };
-            *share *= STEP;
+            *share *= SHARE_STEP;
             let kept = std::mem::take(&mut self.kept);
             self.kept = kept.into_iter().filter(|ticket| self.accepts(ticket)).collect();
         }
@@ -148,10 +148,10 @@ impl Selection {
             let (every, names) = (1.0 / self.groups, groups.join(", "));
             notes.push(format!("the selected rows belong to one in {every:.1} of the groups of {names}"));
         }
-        for (place, name) in OBSERVED.iter().enumerate() {
+        for (place, name) in COUNTED_OBSERVATIONS.iter().enumerate() {
             let selected = rows.iter().filter(|row| observed(row)[place]).count();
             let all = selected + self.observed[place];
-            if selected < FEW && selected < all {
+            if selected < FEW_OBSERVATIONS && selected < all {
                 notes.push(format!(
                     "only {selected} of {all} rows with {name} were selected; for more use a file of the conditions \
                      under which they occur"
@@ -162,8 +162,8 @@ impl Selection {
     }
 }
 
-/// Whether a row has each of [`OBSERVED`].
-fn observed(row: &Measurement) -> [bool; OBSERVED.len()] {
+/// Whether a row has each of [`COUNTED_OBSERVATIONS`].
+fn observed(row: &Measurement) -> [bool; COUNTED_OBSERVATIONS.len()] {
     let share = |test: fn(f64) -> bool| row.captured.is_some_and(test);
     [row.e_n.is_some(), row.e_t.is_some(), share(|share| share > 0.0), share(|share| share < 1.0)]
 }
@@ -175,7 +175,7 @@ mod tests {
 
     /// The lines that remain of `count` rows, with their groups.
     fn select(most: usize, count: u64, group: impl Fn(u64) -> String) -> Vec<(u64, String)> {
-        let mut selection = Selection::new(most);
+        let mut selection = RowSelection::new(most);
         let mut kept: Vec<(u64, String)> = Vec::new();
         for line in 0..count {
             let name = group(line);

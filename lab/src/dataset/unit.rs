@@ -38,21 +38,21 @@ const fn part(name: &'static str, divisor: f64) -> Unit {
     scaled(name, 1.0, divisor)
 }
 
-const LENGTHS: [Unit; 5] =
+const LENGTH_UNITS: [Unit; 5] =
     [part("m", 1.0), part("mm", 1e3), part("um", 1e6), part("µm", 1e6), part("nm", 1e9)];
-const SPEEDS: [Unit; 4] = [part("m/s", 1.0), part("cm/s", 1e2), part("mm/s", 1e3), part("km/h", 3.6)];
-const TEMPERATURES: [Unit; 4] = [
+const SPEED_UNITS: [Unit; 4] = [part("m/s", 1.0), part("cm/s", 1e2), part("mm/s", 1e3), part("km/h", 3.6)];
+const TEMPERATURE_UNITS: [Unit; 4] = [
     part("K", 1.0),
     Unit { name: "C", offset: 273.15, factor: 1.0, divisor: 1.0 },
     Unit { name: "°C", offset: 273.15, factor: 1.0, divisor: 1.0 },
     Unit { name: "F", offset: 459.67, factor: 5.0, divisor: 9.0 },
 ];
-const SPINS: [Unit; 4] =
+const SPIN_UNITS: [Unit; 4] =
     [part("rad/s", 1.0), part("s^-1", 1.0), part("1/s", 1.0), scaled("rpm", std::f64::consts::TAU, 60.0)];
-const DENSITIES: [Unit; 2] = [part("kg/m3", 1.0), scaled("g/cm3", 1e3, 1.0)];
-const SHARES: [Unit; 2] = [part("1", 1.0), part("%", 100.0)];
+const DENSITY_UNITS: [Unit; 2] = [part("kg/m3", 1.0), scaled("g/cm3", 1e3, 1.0)];
+const SHARE_UNITS: [Unit; 2] = [part("1", 1.0), part("%", 100.0)];
 /// Angles are converted to degrees, not radians: 90 is a right angle exactly.
-const ANGLES: [Unit; 2] = [part("deg", 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
+const ANGLE_UNITS: [Unit; 2] = [part("deg", 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
 
 /// The dimension of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -75,13 +75,13 @@ impl Dimension {
     /// Its units; empty if it has none.
     pub(super) fn units(self) -> &'static [Unit] {
         match self {
-            Self::Length => &LENGTHS,
-            Self::Speed => &SPEEDS,
-            Self::Temperature => &TEMPERATURES,
-            Self::Spin => &SPINS,
-            Self::Density => &DENSITIES,
-            Self::Share => &SHARES,
-            Self::Angle => &ANGLES,
+            Self::Length => &LENGTH_UNITS,
+            Self::Speed => &SPEED_UNITS,
+            Self::Temperature => &TEMPERATURE_UNITS,
+            Self::Spin => &SPIN_UNITS,
+            Self::Density => &DENSITY_UNITS,
+            Self::Share => &SHARE_UNITS,
+            Self::Angle => &ANGLE_UNITS,
             Self::Count | Self::Text => &[],
         }
     }

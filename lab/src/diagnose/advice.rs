@@ -9,21 +9,21 @@ use super::forecast::Forecast;
 use super::hypothesis::Hypothesis;
 use super::likelihood::{Offset, mean};
 use super::observable::Observable;
-use super::record::Measure;
+use super::record::NextMeasurement;
 use crate::dataset::Measurement;
 use nearwall::impact::INPUTS;
 
 /// Places along an input.
-const STEPS: usize = 9;
+const INPUT_STEPS: usize = 9;
 /// (1.96 + 0.84)².
 const POWER: f64 = 7.85;
 /// Largest number of impacts in an advice.
-const MOST_IMPACTS: f64 = 1e5;
+const MOST_ADVISED_IMPACTS: f64 = 1e5;
 /// Scatter of a capture [1].
 const CAPTURE_SCATTER: f64 = 0.5;
 
 /// The measurement that best distinguishes two hypotheses; `None` if no single input does.
-pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str) -> Option<Measure> {
+pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str) -> Option<NextMeasurement> {
     let middle = median_row(found)?;
     let candidates = INPUTS.iter().filter_map(|input| {
         let [low, high] = found.data.range(input.name)?;
@@ -32,12 +32,12 @@ pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str)
         let last = if input.unit == "1" { high } else { high + beyond };
         let row = |step: usize| {
             let mut row = middle;
-            (input.set)(&mut row.impact, first + step as f64 / (STEPS - 1) as f64 * (last - first));
+            (input.set)(&mut row.impact, first + step as f64 / (INPUT_STEPS - 1) as f64 * (last - first));
             row
         };
-        let rows: Vec<Measurement> = (0..STEPS).map(row).collect();
+        let rows: Vec<Measurement> = (0..INPUT_STEPS).map(row).collect();
         let (impacts, observable, ends) = best_contrast(&rows, found, other)?;
-        Some(Measure {
+        Some(NextMeasurement {
             against: name.to_owned(),
             vary: input.name.to_owned(),
             range: ends.map(|step| (input.value)(&rows[step].impact)),
@@ -68,7 +68,7 @@ fn best_contrast(
                 let of = |mean| observable.predicted(mean);
                 let difference = (of(&ours[high]) - of(&ours[low])) - (of(&theirs[high]) - of(&theirs[low]));
                 let impacts = 4.0 * POWER * (scatter / difference).powi(2);
-                if impacts < MOST_IMPACTS && best.is_none_or(|b| impacts < b.0) {
+                if impacts < MOST_ADVISED_IMPACTS && best.is_none_or(|b| impacts < b.0) {
                     best = Some((impacts, observable, [low, high]));
                 }
             }

@@ -11,7 +11,7 @@ use super::observable::Observable;
 use super::part::{FittedPart, Part};
 
 /// A coordinate nearer than this to 0 or 1 is at a bound.
-const BOUND: f64 = 0.03;
+const NEAR_BOUND: f64 = 0.03;
 /// Largest correction for skewness, as a share of the mean.
 const LARGEST_SKEW: f64 = 0.3;
 
@@ -97,7 +97,7 @@ impl Addition {
 
     /// Whether one of several parameters is at a bound: a simpler effect then does as well.
     pub fn at_bound(&self) -> bool {
-        let at_bound = |at: &f64| !(BOUND..=1.0 - BOUND).contains(at);
+        let at_bound = |at: &f64| !(NEAR_BOUND..=1.0 - NEAR_BOUND).contains(at);
         matches!(self, Self::Part { part, .. } if part.at.len() > 1 && part.at.iter().any(at_bound))
     }
 

@@ -5,11 +5,11 @@ use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{LawParameter, Part};
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
 
 /// Least number of measurements for a curve.
-const CURVE_ROWS: usize = 4;
+const LEAST_CURVE_ROWS: usize = 4;
 
 /// The columns of a curve, by index: none for a level, one, or two for a surface.
 type Sides = [Option<usize>; 2];
@@ -49,7 +49,7 @@ fn varies(hypothesis: &Hypothesis<'_>, observable: Observable) -> bool {
     let data = hypothesis.data;
     let measured = |&row: &usize| observable.measured(&data.rows[row]);
     let values: Vec<f64> = data.search.iter().filter_map(measured).collect();
-    values.len() >= CURVE_ROWS && values.iter().any(|value| *value != values[0])
+    values.len() >= LEAST_CURVE_ROWS && values.iter().any(|value| *value != values[0])
 }
 
 /// The columns of the curves of an observable: a level, every column, and unless readings are `few` those on which the hypothesis
@@ -73,7 +73,7 @@ fn pairs(data: &DataSplit, one: usize, observable: Observable) -> Vec<Sides> {
     // How e_t depends on the speeds is a matter of the tangential law.
     let speed = |column: usize| ["v_n", "v_t"].contains(&data.covariates[column].name.as_str());
     let free = |column: &usize| {
-        let numeric = matches!(data.values(*column), Values::Numbers(_));
+        let numeric = matches!(data.values(*column), ColumnValues::Numbers(_));
         numeric && (observable != Observable::TangentialRestitution || !speed(*column))
     };
     if !free(&one) {
@@ -120,7 +120,8 @@ fn has_curve(hypothesis: &Hypothesis<'_>, sides: Sides, observable: Observable) 
 fn scatter_trends(hypothesis: &Hypothesis<'_>) -> impl Iterator<Item = Candidate> {
     let known = |covariate: usize| hypothesis.scatter_trends.iter().any(|trend| trend.covariate == covariate);
     let columns = hypothesis.data.covariates.iter().enumerate();
-    let open = columns
-        .filter(move |(covariate, column)| matches!(column.values, Values::Numbers(_)) && !known(*covariate));
+    let open = columns.filter(move |(covariate, column)| {
+        matches!(column.values, ColumnValues::Numbers(_)) && !known(*covariate)
+    });
     open.map(|(covariate, _)| Candidate::ScatterTrend { covariate })
 }

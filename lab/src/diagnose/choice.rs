@@ -8,7 +8,7 @@ use super::groups::GroupColumn;
 use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::interval::set_intervals;
 use super::likelihood::Scatter;
-use super::model_selection::{Discovery, Selection, select};
+use super::model_selection::{Discovery, ForwardSelection, select};
 use super::observable::Observable;
 use super::part::FittedPart;
 use super::record::GroupsFound;
@@ -32,7 +32,7 @@ pub(super) struct Task<'a> {
 
 /// The result of a choice on the fitted rows of a [`DataSplit`].
 #[derive(Clone)]
-pub(super) struct Choice {
+pub(super) struct CauseChoice {
     /// The rows, with the groups' shared errors if they have any.
     pub data: DataSplit,
     pub discoveries: Vec<Discovery>,
@@ -42,12 +42,12 @@ pub(super) struct Choice {
     /// Errors that groups share in the extended model.
     pub shared: SharedErrors,
     /// The parts, curves and scatter of the search.
-    state: Found,
+    state: FoundParts,
 }
 
 /// What was found, without the rows.
 #[derive(Clone)]
-struct Found {
+struct FoundParts {
     parts: Vec<FittedPart>,
     curves: Vec<ColumnCurve>,
     scatter_trends: Vec<ScatterTrend>,
@@ -55,7 +55,7 @@ struct Found {
     scatter: Scatter,
 }
 
-impl Found {
+impl FoundParts {
     fn without_causes(&self) -> Self {
         Self { parts: Vec::new(), ..self.without_curves() }
     }
@@ -77,7 +77,7 @@ fn follows_groups(curve: &ColumnCurve, data: &DataSplit, groups: &GroupColumn) -
     curve.form.sides.iter().any(|side| constant(side.0))
 }
 
-impl Choice {
+impl CauseChoice {
     /// Chooses causes on the fitted rows. Groups share an error only if the residuals beside the causes show it; the choice is then
     /// made anew with that error. A curve over a column that is constant within groups takes their errors for its own, so there the
     /// residuals without curves decide.
@@ -101,9 +101,9 @@ impl Choice {
 
     fn once(data: &DataSplit, task: Task<'_>) -> Self {
         let base = Hypothesis::base(data);
-        let Selection { hypothesis, discoveries, first_round, last_round } =
+        let ForwardSelection { hypothesis, discoveries, first_round, last_round } =
             select(&base, task.level, task.progress);
-        let state = Found {
+        let state = FoundParts {
             parts: hypothesis.parts,
             curves: hypothesis.curves,
             scatter_trends: hypothesis.scatter_trends,
@@ -130,7 +130,7 @@ impl Choice {
 
     /// The causes on these rows, as of the search.
     pub fn hypothesis<'a>(&self, data: &'a DataSplit) -> Hypothesis<'a> {
-        let Found { parts, curves, scatter_trends, background_capture, scatter } = self.state.clone();
+        let FoundParts { parts, curves, scatter_trends, background_capture, scatter } = self.state.clone();
         Hypothesis {
             curves,
             scatter_trends,

@@ -8,7 +8,7 @@ use nalgebra::DMatrix;
 use super::hypothesis::Hypothesis;
 
 /// A coordinate nearer than this to 0 or 1 is at the bound of its range.
-const BOUND: f64 = 0.02;
+const AT_BOUND: f64 = 0.02;
 /// Largest factor of the sandwich on a variance.
 const LARGEST_FACTOR: f64 = 10.0;
 
@@ -55,7 +55,8 @@ impl Covariance {
 
     /// From `H` with its sign changed and from `meat`, which is `Σ s sᵀ`. A coordinate at a bound has no usable curvature.
     fn robust(at: &[f64], curvature: &DMatrix<f64>, meat: &DMatrix<f64>) -> Self {
-        let free: Vec<usize> = (0..at.len()).filter(|&i| (BOUND..=1.0 - BOUND).contains(&at[i])).collect();
+        let free: Vec<usize> =
+            (0..at.len()).filter(|&i| (AT_BOUND..=1.0 - AT_BOUND).contains(&at[i])).collect();
         let part = |m: &DMatrix<f64>| DMatrix::from_fn(free.len(), free.len(), |i, j| m[(free[i], free[j])]);
         let matrix = part(curvature).cholesky().map(|c| c.inverse());
         let mut factors = vec![1.0; at.len()];

@@ -15,7 +15,7 @@ const WIDEST_ODDS: f64 = 10.0;
 
 /// What a curve is: its columns, its observable, and how it acts.
 #[derive(Debug, Clone)]
-pub(super) struct CurveForm {
+pub(super) struct ColumnCurveForm {
     /// Index among the covariates and basis of each side: none for a level shift, one for a curve, two for a surface.
     pub sides: Vec<(usize, Basis)>,
     pub observable: Observable,
@@ -23,7 +23,7 @@ pub(super) struct CurveForm {
     pub multiplicative: bool,
 }
 
-impl CurveForm {
+impl ColumnCurveForm {
     /// A constant.
     pub fn level(observable: Observable, multiplicative: bool) -> Self {
         Self { sides: Vec::new(), observable, multiplicative }
@@ -65,7 +65,11 @@ impl CurveForm {
         self.sides.iter().map(|(column, _)| data.covariates[*column].name.clone()).collect()
     }
 
-    fn smooth(&self, evaluation: &Evaluation<'_>, points: &[super::smooth::Point]) -> Option<Smoothed> {
+    fn smooth(
+        &self,
+        evaluation: &Evaluation<'_>,
+        points: &[super::smooth::WeightedResidual],
+    ) -> Option<Smoothed> {
         ridge(&self.penalty(), points, |row| self.entry(evaluation.data, row))
     }
 
@@ -105,7 +109,7 @@ impl CurveForm {
 /// A fitted curve or surface.
 #[derive(Debug, Clone)]
 pub(super) struct ColumnCurve {
-    pub form: CurveForm,
+    pub form: ColumnCurveForm,
     /// Heights of the basis functions; of a surface those of the first side, for each the second side.
     pub heights: Vec<f64>,
     /// Effective number of parameters.

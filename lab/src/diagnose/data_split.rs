@@ -8,7 +8,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::groups::{GroupColumn, units};
 use super::input_error::corrected;
 use super::likelihood::{GROSS_SHARE, Offset};
-use crate::dataset::{Column, Measurement, Measurements, Values};
+use crate::dataset::{ColumnValues, DataColumn, Measurement, Measurements};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
@@ -24,7 +24,7 @@ const FINE_DRAWS: usize = 64;
 /// So many groups can be tested as units.
 const MANY_GROUPS: usize = 10;
 /// Largest distance from the mean that counts [standard deviations].
-const FARTHEST: f64 = 4.0;
+const FARTHEST_DEVIATION: f64 = 4.0;
 /// With fewer readings no gross errors are expected: a row that looks like one is evidence.
 const MANY_READINGS: usize = 30;
 
@@ -35,7 +35,7 @@ pub(super) struct Covariate {
     /// SI unit of an input; empty for a further column.
     pub unit: &'static str,
     /// Blank cells of numbers have the median, which has no effect of its own.
-    pub values: Values,
+    pub values: ColumnValues,
     /// Rows with a blank cell.
     pub blank: Arc<[bool]>,
     /// Whether it is an input of the model.
@@ -43,62 +43,66 @@ pub(super) struct Covariate {
 }
 
 impl Covariate {
-    fn new(name: &str, unit: &'static str, mut values: Values, input: bool) -> Self {
+    fn new(name: &str, unit: &'static str, mut values: ColumnValues, input: bool) -> Self {
         let blank = match &mut values {
-            Values::Numbers(numbers) => {
+            ColumnValues::Numbers(numbers) => {
                 let blank: Vec<bool> = numbers.iter().map(|number| !number.is_finite()).collect();
                 let middle = median(numbers.iter().copied().filter(|number| number.is_finite()));
                 numbers.iter_mut().filter(|number| !number.is_finite()).for_each(|number| *number = middle);
                 blank
             }
-            Values::Labels { of_row, .. } => of_row.iter().map(Option::is_none).collect(),
+            ColumnValues::Labels { of_row, .. } => of_row.iter().map(Option::is_none).collect(),
         };
         Self { name: name.to_owned(), unit, values, blank: blank.into(), input }
     }
 
     fn varies(&self) -> bool {
         match &self.values {
-            Values::Numbers(numbers) => {
+            ColumnValues::Numbers(numbers) => {
                 let mut finite = numbers.iter().filter(|value| value.is_finite());
                 finite.next().is_some_and(|first| finite.any(|value| value != first))
             }
-            Values::Labels { levels, .. } => levels.len() > 1,
+            ColumnValues::Labels { levels, .. } => levels.len() > 1,
         }
     }
 
     /// A row's number or the index of its label; NaN where blank.
     pub fn cell(&self, row: usize) -> f64 {
         match &self.values {
-            Values::Numbers(_) if self.blank[row] => f64::NAN,
-            Values::Numbers(numbers) => numbers[row],
-            Values::Labels { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
+            ColumnValues::Numbers(_) if self.blank[row] => f64::NAN,
+            ColumnValues::Numbers(numbers) => numbers[row],
+            ColumnValues::Labels { of_row, .. } => of_row[row].map_or(f64::NAN, |level| level as f64),
         }
     }
 
     /// The median of a column of numbers.
     pub fn median(&self) -> f64 {
         match &self.values {
-            Values::Numbers(numbers) => median(numbers.iter().copied()),
-            Values::Labels { .. } => f64::NAN,
+            ColumnValues::Numbers(numbers) => median(numbers.iter().copied()),
+            ColumnValues::Labels { .. } => f64::NAN,
         }
     }
 
     /// Distance from the mean in standard deviations; labels are 0.
     pub fn standardised(&self) -> Vec<f64> {
         match &self.values {
-            Values::Numbers(numbers) => standardised(numbers.iter().copied()),
-            Values::Labels { of_row, .. } => vec![0.0; of_row.len()],
+            ColumnValues::Numbers(numbers) => standardised(numbers.iter().copied()),
+            ColumnValues::Labels { of_row, .. } => vec![0.0; of_row.len()],
         }
     }
 }
 
-/// Distances from the mean in standard deviations, at most [`FARTHEST`].
+/// Distances from the mean in standard deviations, at most [`FARTHEST_DEVIATION`].
 pub(super) fn standardised(values: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
     let count = values.clone().count().max(1) as f64;
     let mean = values.clone().sum::<f64>() / count;
     let deviation = (values.clone().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt();
     let z = |value: f64| {
-        if deviation > 0.0 { ((value - mean) / deviation).clamp(-FARTHEST, FARTHEST) } else { 0.0 }
+        if deviation > 0.0 {
+            ((value - mean) / deviation).clamp(-FARTHEST_DEVIATION, FARTHEST_DEVIATION)
+        } else {
+            0.0
+        }
     };
     values.map(z).collect()
 }
@@ -254,8 +258,8 @@ impl DataSplit {
     }
 
     /// The cells of a covariate; none if no column varies. A constant offset needs none.
-    pub fn values(&self, covariate: usize) -> &Values {
-        static NONE: Values = Values::Numbers(Vec::new());
+    pub fn values(&self, covariate: usize) -> &ColumnValues {
+        static NONE: ColumnValues = ColumnValues::Numbers(Vec::new());
         self.covariates.get(covariate).map_or(&NONE, |covariate| &covariate.values)
     }
 
@@ -266,7 +270,7 @@ impl DataSplit {
 
     /// The least and largest value of an input in the fitted rows, if it varies.
     pub fn range(&self, input: &str) -> Option<[f64; 2]> {
-        let Values::Numbers(numbers) = &self.covariate(input)?.values else { return None };
+        let ColumnValues::Numbers(numbers) = &self.covariate(input)?.values else { return None };
         let fitted = self.fit.iter().map(|&row| numbers[row]).filter(|value| value.is_finite());
         let [low, high] = fitted.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)]);
         (high > low).then_some([low, high])
@@ -278,20 +282,23 @@ fn covariates(base: &Model, data: &Measurements, groups: &[&str]) -> Vec<Covaria
     let given = INPUTS.iter().filter(|input| data.given.contains(&input.name));
     let inputs = given.map(|input| {
         let numbers = data.rows.iter().map(|row| (input.value)(&row.impact)).collect();
-        Covariate::new(input.name, input.unit, Values::Numbers(numbers), true)
+        Covariate::new(input.name, input.unit, ColumnValues::Numbers(numbers), true)
     });
     let declared = data.given_extra.iter().filter_map(|&place| {
         let input = base.extra_inputs().get(place)?;
         let cell = |row: &Measurement| row.impact.extra[place];
         let values = if input.is_label() {
             let label = |row: &Measurement| (cell(row) >= 0.0).then(|| cell(row) as usize);
-            Values::Labels { levels: input.labels.clone(), of_row: data.rows.iter().map(label).collect() }
+            ColumnValues::Labels {
+                levels: input.labels.clone(),
+                of_row: data.rows.iter().map(label).collect(),
+            }
         } else {
-            Values::Numbers(data.rows.iter().map(cell).collect())
+            ColumnValues::Numbers(data.rows.iter().map(cell).collect())
         };
         Some(Covariate::new(&input.name, "", values, false))
     });
     let further = data.columns.iter().filter(|column| !groups.contains(&column.name.as_str()));
-    let further = further.map(|Column { name, values }| Covariate::new(name, "", values.clone(), false));
+    let further = further.map(|DataColumn { name, values }| Covariate::new(name, "", values.clone(), false));
     inputs.chain(declared).chain(further).filter(Covariate::varies).collect()
 }

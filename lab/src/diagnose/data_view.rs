@@ -5,20 +5,20 @@ use super::gain::evaluate;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::record::{DataView, Finding};
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 use nearwall::impact::INPUTS;
 
 /// Values of the column at which a curve is evaluated.
-const STEPS: usize = 80;
+const CURVE_POINTS: usize = 80;
 /// Largest number of rows behind a curve, and of rows averaged at each of its values.
-const CURVE_ROWS: usize = 240;
-const NEAREST: usize = 40;
+const MOST_CURVE_ROWS: usize = 240;
+const AVERAGED_ROWS: usize = 40;
 /// Least number of rows averaged, if there are so many.
 const LEAST_NEAREST: usize = 12;
 /// Positive values that span more than this factor are evenly spaced in their logarithm.
-const LOG_SPAN: f64 = 30.0;
+const LOGARITHMIC_SPAN: f64 = 30.0;
 /// Number of parts by a second column, and least number of rows of each.
-const PARTS: usize = 3;
+const COLUMN_PARTS: usize = 3;
 const LEAST_PART: usize = 20;
 
 /// The views of every measured observable: all rows against the main column, then parts of the rows by a second column.
@@ -88,12 +88,12 @@ fn parts(covariate: &Covariate, rows: &[usize]) -> Vec<([f64; 2], Vec<usize>)> {
     sorted.sort_by(f64::total_cmp);
     let mut values: Vec<&[f64]> = sorted.chunk_by(|a, b| a == b).collect();
     let mut ranges: Vec<[f64; 2]> = Vec::new();
-    if values.len() <= PARTS || matches!(covariate.values, Values::Labels { .. }) {
+    if values.len() <= COLUMN_PARTS || matches!(covariate.values, ColumnValues::Labels { .. }) {
         values.sort_by_key(|value| std::cmp::Reverse(value.len()));
-        ranges.extend(values.iter().take(PARTS).map(|value| [value[0]; 2]));
+        ranges.extend(values.iter().take(COLUMN_PARTS).map(|value| [value[0]; 2]));
         ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
     } else {
-        for part in sorted.chunks(sorted.len().div_ceil(PARTS)) {
+        for part in sorted.chunks(sorted.len().div_ceil(COLUMN_PARTS)) {
             let from = ranges.last().map_or(part[0], |[_, end]| part[0].max(end.next_up()));
             ranges.extend(part.last().filter(|end| **end >= from).map(|end| [from, *end]));
         }
@@ -114,22 +114,23 @@ fn curve(
     observable: Observable,
 ) -> Vec<[f64; 3]> {
     let data = models[0].data;
-    let Values::Numbers(numbers) = &main.values else { return Vec::new() };
+    let ColumnValues::Numbers(numbers) = &main.values else { return Vec::new() };
     let mut seen: Vec<usize> = rows.iter().copied().filter(|&row| numbers[row].is_finite()).collect();
     seen.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
-    let seen: Vec<usize> = seen.iter().copied().step_by(seen.len().div_ceil(CURVE_ROWS).max(1)).collect();
+    let seen: Vec<usize> =
+        seen.iter().copied().step_by(seen.len().div_ceil(MOST_CURVE_ROWS).max(1)).collect();
     let (Some(&first), Some(&last)) = (seen.first(), seen.last()) else { return Vec::new() };
     let (low, high) = (numbers[first], numbers[last]);
-    let log = low > 0.0 && high > LOG_SPAN * low;
+    let log = low > 0.0 && high > LOGARITHMIC_SPAN * low;
     let place = |value: f64| if log { value.ln() } else { value };
-    let nearest = (seen.len() / 6).clamp(LEAST_NEAREST, NEAREST).min(seen.len());
+    let nearest = (seen.len() / 6).clamp(LEAST_NEAREST, AVERAGED_ROWS).min(seen.len());
 
     // At every value of the curve, copies of the nearest rows that have this value of the column.
     let input = INPUTS.iter().find(|input| main.input && input.name == main.name);
     let (mut copies, mut originals, mut values, mut weights) =
         (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for step in 0..STEPS {
-        let middle = place(low) + (place(high) - place(low)) * step as f64 / (STEPS - 1) as f64;
+    for step in 0..CURVE_POINTS {
+        let middle = place(low) + (place(high) - place(low)) * step as f64 / (CURVE_POINTS - 1) as f64;
         let value = if log { middle.exp() } else { middle }.clamp(low, high);
         let distance = |row: usize| (place(numbers[row]) - middle).abs();
         let mut near = seen.clone();
@@ -152,7 +153,7 @@ fn curve(
     }
     let covariate = |other: &Covariate| {
         let own = other.name == main.name;
-        let values = if own { Values::Numbers(values.clone()) } else { other.values.at(&originals) };
+        let values = if own { ColumnValues::Numbers(values.clone()) } else { other.values.at(&originals) };
         let blank = originals.iter().map(|&row| !own && other.blank[row]).collect();
         Covariate { values, blank, ..other.clone() }
     };
@@ -180,7 +181,7 @@ mod tests {
             name: "x".into(),
             unit: "",
             blank: vec![false; values.len()].into(),
-            values: Values::Numbers(values),
+            values: ColumnValues::Numbers(values),
             input: false,
         };
         let rows: Vec<usize> = (0..90).collect();

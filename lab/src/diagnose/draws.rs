@@ -16,7 +16,7 @@ use super::hypothesis::Hypothesis;
 use super::interval::{UNITS_FOR_DEFAULTS, first_errors, steps};
 
 /// Quantile of the normal distribution at the ends of a 95 % interval.
-const NORMAL: f64 = 1.959_964;
+const NORMAL_QUANTILE: f64 = 1.959_964;
 
 /// So many model files; none if the fit has no parameters. `base` is the text of the base model.
 ///
@@ -67,7 +67,8 @@ impl<'a> ParameterLaw<'a> {
         }
         let at = fit.coordinates();
         let freedom = (units as f64 - at.len() as f64).max(1.0);
-        let wider = StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.inverse_cdf(0.975)) / NORMAL;
+        let wider =
+            StudentsT::new(0.0, 1.0, freedom).map_or(1.0, |law| law.inverse_cdf(0.975)) / NORMAL_QUANTILE;
         let deviation = |place: usize| wider * found.factors[found.free[place]].sqrt();
         let root = found.matrix.as_ref().and_then(|matrix| {
             let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
@@ -89,7 +90,7 @@ impl<'a> ParameterLaw<'a> {
         }
         for (place, end) in &self.alone {
             let normal: f64 = StandardNormal.sample(random);
-            at[*place] = (at[*place] + normal.abs() / NORMAL * end).clamp(0.0, 1.0);
+            at[*place] = (at[*place] + normal.abs() / NORMAL_QUANTILE * end).clamp(0.0, 1.0);
         }
         let mut drawn = self.fit.with_coordinates(&at);
         // They are those of the fit.

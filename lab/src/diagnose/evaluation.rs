@@ -10,16 +10,16 @@ use super::likelihood::{
 };
 use super::observable::Observable;
 use super::shared_error::{GroupSums, SharedErrors};
-use super::smooth::Point;
+use super::smooth::WeightedResidual;
 use crate::dataset::{Measurement, Reading};
 use nearwall::model::Model;
 
 /// Largest number of steps of the scatter's estimate.
-const STEPS: usize = 8;
+const SCATTER_STEPS: usize = 8;
 /// Largest slope of the log score of one impact by the probability of capture [1].
 const STEEPEST: f64 = 20.0;
 /// The estimate ends when a step changes it by less than this share.
-const TOLERANCE: f64 = 3e-3;
+const SCATTER_TOLERANCE: f64 = 3e-3;
 
 /// A reading of `e_n` or `e_t` about its prediction.
 struct Residual {
@@ -99,7 +99,7 @@ impl<'a> Evaluation<'a> {
 
     /// The scatter of largest likelihood, by scoring from the present one, with the errors that groups share.
     pub fn with_fitted_scatter(mut self) -> Self {
-        for _ in 0..STEPS {
+        for _ in 0..SCATTER_STEPS {
             self.fit_shared_errors();
             let mut sums = [[0.0; 2]; 2];
             for (_, row, predictions, offset) in self.each() {
@@ -111,7 +111,7 @@ impl<'a> Evaluation<'a> {
                 if weight > 0.0 { (sum / weight).max(SMALLEST_SCATTER.powi(2)).sqrt() } else { before[which] }
             });
             let changes = self.scatter.iter().zip(before);
-            if changes.into_iter().all(|(next, before)| (next - before).abs() < TOLERANCE * next) {
+            if changes.into_iter().all(|(next, before)| (next - before).abs() < SCATTER_TOLERANCE * next) {
                 break;
             }
         }
@@ -303,7 +303,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// The residuals of an observable; a curve through them is multiplied with the prediction if `multiplicative`.
-    pub fn residuals(&self, observable: Observable, multiplicative: bool) -> Vec<Point> {
+    pub fn residuals(&self, observable: Observable, multiplicative: bool) -> Vec<WeightedResidual> {
         let which = observable as usize;
         let point = |(index, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
             let mean = mean(predictions, &offset);
@@ -311,12 +311,12 @@ impl<'a> Evaluation<'a> {
                 let variance = mean.capture * (1.0 - mean.capture);
                 // One step of a logistic fit: the residual in log odds and its information.
                 let (residual, weight) = ((row.captured? - mean.capture) / variance, variance * row.impacts);
-                return Some(Point { row: index, residual, weight, scale: 1.0 });
+                return Some(WeightedResidual { row: index, residual, weight, scale: 1.0 });
             }
             let own = self.row_residuals(row, &mean, &offset).find(|residual| residual.which == which)?;
             let scale =
                 if multiplicative { mean.restitution[which] - offset.restitution[which] } else { 1.0 };
-            Some(Point { row: index, residual: own.value, weight: own.weight, scale })
+            Some(WeightedResidual { row: index, residual: own.value, weight: own.weight, scale })
         };
         self.each().filter_map(point).collect()
     }

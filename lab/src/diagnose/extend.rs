@@ -2,14 +2,14 @@
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
-use super::curve::{ColumnCurve, CurveForm};
+use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
 use super::record::Estimate;
 use super::smooth::Basis;
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 use nearwall::effect::EffectInfo;
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
@@ -42,7 +42,7 @@ pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String
         }
     }
     if hypothesis.background_capture != 0.0 {
-        let form = CurveForm::level(Observable::Capture, false);
+        let form = ColumnCurveForm::level(Observable::Capture, false);
         let heights = vec![hypothesis.background_capture];
         added.push(fitted_curve(hypothesis.data, &ColumnCurve { form, heights, freedom: 1.0 }));
     }
@@ -119,7 +119,7 @@ fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
 fn knots(data: &DataSplit, column: usize, basis: &Basis) -> Value {
     match (basis, data.values(column)) {
         (Basis::Hats(knots), _) => Value::Array(knots.iter().copied().collect()),
-        (Basis::Labels(_), Values::Labels { levels, .. }) => Value::Array(levels.iter().collect()),
+        (Basis::Labels(_), ColumnValues::Labels { levels, .. }) => Value::Array(levels.iter().collect()),
         _ => Value::Array(Array::new()),
     }
 }
@@ -138,8 +138,10 @@ fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCu
         });
         let mut input = Table::new();
         match &covariate.values {
-            Values::Numbers(_) => input.insert("default", value(covariate.median())),
-            Values::Labels { levels, .. } => input.insert("labels", value(levels.iter().collect::<Array>())),
+            ColumnValues::Numbers(_) => input.insert("default", value(covariate.median())),
+            ColumnValues::Labels { levels, .. } => {
+                input.insert("labels", value(levels.iter().collect::<Array>()))
+            }
         };
         if let Some(inputs) = inputs.as_table_like_mut()
             && !inputs.contains_key(&covariate.name)
@@ -184,7 +186,7 @@ pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable)
 
 /// The range of every input that varies in the fitted rows.
 fn valid(data: &DataSplit) -> InlineTable {
-    let inputs = data.covariates.iter().filter(|c| c.input && matches!(c.values, Values::Numbers(_)));
+    let inputs = data.covariates.iter().filter(|c| c.input && matches!(c.values, ColumnValues::Numbers(_)));
     ranges(inputs.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))))
 }
 

@@ -13,7 +13,7 @@ use super::evaluation::Evaluation;
 use super::observable::Observable;
 
 /// From this number of rows on, they are many.
-pub(super) const MANY: usize = 30;
+pub(super) const MANY_ROWS: usize = 30;
 
 /// The base of the tests.
 #[derive(Debug, Clone, Copy)]
@@ -33,7 +33,7 @@ impl FewRows {
         let measured = |&row: &usize| Observable::Capture.measured(&rows.data.rows[row]).is_some();
         let captures = rows.rows.iter().any(measured);
         let classes = rows.rows.iter().any(|row| measured(row) && rows.data.rows[*row].impacts > 1.0);
-        let alone = rows.rows.len() < MANY;
+        let alone = rows.rows.len() < MANY_ROWS;
         (alone || classes).then(|| Self {
             readings: rows.data.readings(),
             chi_square: rows.stated_chi_square().map(|(chi, _)| chi),

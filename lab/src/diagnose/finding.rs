@@ -8,21 +8,19 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
+use super::constants::{CERTAINTY_RESAMPLES, NEARLY_BEST};
 use super::curve::ColumnCurve;
 use super::hypothesis::Hypothesis;
-use super::model_selection::{DISTINGUISHABLE, Discovery};
+use super::model_selection::{DISTINGUISHABLE_LEAD, Discovery};
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
-use super::record::{Alternative, Calibration, Finding, FittedCurve, FittedSurface};
+use super::record::{Alternative, Calibration, CauseCurve, CauseSurface, Finding};
 use super::smooth::Basis;
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
 
-/// Resamples for the certainty of a cause, and the gain at which one of them names it [nats].
-const RESAMPLES: usize = 200;
+/// Gain at which a resample names a cause [nats].
 const NOTICEABLE: f64 = 3.0;
-/// A cause is named with this share of the gain of the best candidate.
-const NEARLY: f64 = 0.75;
 /// Least gain of a curve beyond a level at which it is listed beside a level [nats].
 const BESIDE_LEVEL: f64 = 0.3;
 /// Largest number of alternatives listed.
@@ -176,7 +174,7 @@ impl FindingBuilder<'_> {
             comparable
                 && !other.addition.is_calibration()
                 && (other.q_value <= self.level || curve_beside_level)
-                && winner.lead(other) < DISTINGUISHABLE
+                && winner.lead(other) < DISTINGUISHABLE_LEAD
         };
         let mut rivals: Vec<&ScoredCandidate> = others.iter().filter(is_rival).collect();
         rivals.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
@@ -187,26 +185,26 @@ impl FindingBuilder<'_> {
     }
 
     /// A curve of one column for the page.
-    fn curve(&self, fitted: &ColumnCurve) -> Option<FittedCurve> {
+    fn curve(&self, fitted: &ColumnCurve) -> Option<CauseCurve> {
         let [side] = fitted.form.sides.as_slice() else { return None };
         let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
-        Some(FittedCurve { factor: fitted.form.multiplicative, at: self.places(side), adds })
+        Some(CauseCurve { factor: fitted.form.multiplicative, at: self.places(side), adds })
     }
 
     /// A surface over two columns for the page.
-    fn surface(&self, fitted: &ColumnCurve) -> Option<FittedSurface> {
+    fn surface(&self, fitted: &ColumnCurve) -> Option<CauseSurface> {
         let [one, two] = fitted.form.sides.as_slice() else { return None };
         let at = [one, two].map(|side| self.places(side));
         let row = |heights: &[f64]| heights.iter().map(|height| rounded(*height)).collect();
         let adds = fitted.heights.chunks(at[1].len().max(1)).map(row).collect();
-        Some(FittedSurface { factor: fitted.form.multiplicative, at, adds })
+        Some(CauseSurface { factor: fitted.form.multiplicative, at, adds })
     }
 
     /// The knots or the labels of a side of a curve.
     fn places(&self, (column, basis): &(usize, Basis)) -> Vec<String> {
         match (basis, self.hypothesis.data.values(*column)) {
             (Basis::Hats(knots), _) => knots.iter().map(|knot| rounded(*knot).to_string()).collect(),
-            (Basis::Labels(_), Values::Labels { levels, .. }) => levels.clone(),
+            (Basis::Labels(_), ColumnValues::Labels { levels, .. }) => levels.clone(),
             _ => Vec::new(),
         }
     }
@@ -226,14 +224,14 @@ fn certainty(winner: &ScoredCandidate, others: &[ScoredCandidate]) -> f64 {
     let mut random = ChaCha8Rng::seed_from_u64(0x7375_7265);
     let rivals: Vec<&ScoredCandidate> =
         others.iter().filter(|other| other.addition.is_systematic()).collect();
-    let wins = (0..RESAMPLES).filter(|_| {
+    let wins = (0..CERTAINTY_RESAMPLES).filter(|_| {
         let drawn: Vec<usize> =
             (0..rows).map(|_| (random.next_u64() % rows.max(1) as u64) as usize).collect();
         let gain = |one: &ScoredCandidate| drawn.iter().map(|&row| one.differences[row]).sum::<f64>();
         let own = gain(winner);
-        own > NOTICEABLE && rivals.iter().all(|rival| NEARLY * gain(rival) <= own)
+        own > NOTICEABLE && rivals.iter().all(|rival| NEARLY_BEST * gain(rival) <= own)
     });
-    wins.count() as f64 / RESAMPLES as f64
+    wins.count() as f64 / CERTAINTY_RESAMPLES as f64
 }
 
 /// The explanation of a finding for a reader.

@@ -10,7 +10,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 use super::artefact::lopsided_gain;
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
 use super::candidate_list::candidates;
-use super::curve::{ColumnCurve, CurveForm};
+use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::few_rows::FewRows;
@@ -29,7 +29,7 @@ const COARSE_ROWS: usize = 250;
 /// Candidates with a larger p-value, corrected for their own shapes, are not fitted, except for curves, whose fits take no time.
 const WORTH_A_FIT: f64 = 0.05;
 /// A candidate that changes the distribution is fitted, too, if a place of its grid gains this much [nats].
-const PROMISING: f64 = 2.0;
+const PROMISING_GAIN: f64 = 2.0;
 /// Such a candidate is fitted if its grid gains this share of what the best other one does.
 const NEAR_BEST: f64 = 0.5;
 /// Least effective number of independent tests with few rows: the laws are several, whatever few rows say.
@@ -38,7 +38,7 @@ const FEW_TESTS: f64 = 8.0;
 const REFINED_STARTS: [f64; 3] = [0.15, 0.5, 0.85];
 
 /// A round: the current hypothesis, which each candidate extends.
-pub(super) struct Round<'a> {
+pub(super) struct CandidateRound<'a> {
     hypothesis: &'a Hypothesis<'a>,
     /// The rows of the search.
     search: Evaluation<'a>,
@@ -49,7 +49,7 @@ pub(super) struct Round<'a> {
     lopsided: f64,
 }
 
-impl<'a> Round<'a> {
+impl<'a> CandidateRound<'a> {
     pub fn new(hypothesis: &'a Hypothesis<'a>) -> Self {
         let data = hypothesis.data;
         let search = hypothesis.evaluate(&data.search, hypothesis.offsets()).with_fitted_scatter();
@@ -97,7 +97,7 @@ impl<'a> Round<'a> {
     fn score_candidate(&self, candidate: Candidate, tested: &Tested) -> Option<ScoredCandidate> {
         let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. });
         let hopeless =
-            !cheap && self.few.is_none() && tested.p_value > WORTH_A_FIT && tested.gain < PROMISING;
+            !cheap && self.few.is_none() && tested.p_value > WORTH_A_FIT && tested.gain < PROMISING_GAIN;
         if tested.starts.is_empty() || hopeless {
             return None;
         }
@@ -106,7 +106,7 @@ impl<'a> Round<'a> {
             Candidate::Curve { sides, observable } => self.better_curve(sides, observable)?,
             Candidate::ScatterTrend { covariate } => Addition::ScatterTrend(self.fit_trend(covariate)),
             Candidate::BackgroundCapture => {
-                let level = CurveForm::level(Observable::Capture, false);
+                let level = ColumnCurveForm::level(Observable::Capture, false);
                 Addition::BackgroundCapture(level.fit(&self.search)?.heights.first().copied()?)
             }
         };
@@ -173,7 +173,7 @@ impl<'a> Round<'a> {
         if curve.form.sides.is_empty() {
             return 0.0;
         }
-        let level = CurveForm::level(curve.form.observable, curve.form.multiplicative);
+        let level = ColumnCurveForm::level(curve.form.observable, curve.form.multiplicative);
         let gain = |level| self.fitted_gain(&Addition::Curve(level)) - 1.0;
         level.fit(&self.search).map_or(0.0, gain).max(0.0)
     }
@@ -245,7 +245,7 @@ impl<'a> Round<'a> {
         };
         let sides = columns.iter().map(basis).collect::<Option<Vec<_>>>()?;
         let fit = |multiplicative| {
-            let form = CurveForm { sides: sides.clone(), observable, multiplicative };
+            let form = ColumnCurveForm { sides: sides.clone(), observable, multiplicative };
             let curve = Addition::Curve(form.fit(&self.search)?);
             Some((self.fitted_gain(&curve), curve))
         };

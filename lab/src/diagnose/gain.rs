@@ -4,29 +4,24 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use super::constants::{BOOTSTRAP_RESAMPLES, LEAST_ROWS, ROW_DRAWS};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
 use super::likelihood::{Mean, Offset, Scatter};
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
-use crate::dataset::{Measurement, Measurements, Unselected, Values};
+use crate::dataset::{ColumnValues, Measurement, Measurements, Unselected};
 use nearwall::model::{ExtraInput, Model};
 
-/// Resamples of the bootstrap.
-const RESAMPLES: usize = 1000;
 /// Largest number of rows in figures.
 const SAMPLE_ROWS: usize = 1500;
-/// Least number of held-out rows for a gain.
-const LEAST_ROWS: usize = 3;
 /// How the gain is measured where the file has not seen some rows.
 pub(super) const HELD_OUT: &str = "held-out";
 /// How the gain is measured where no row is left that the file has not seen.
 pub(super) const CROSS_VALIDATED: &str = "cross-validated";
 /// Factor on the standard error of a cross-validated gain: its models share rows.
 pub(super) const SHARED_FITS: f64 = 1.4;
-/// Random draws a row of a stochastic model, as many as `nearwall predict` takes.
-const DRAWS: usize = 64;
 
 /// Root mean square of the noise of the readings [1], the scatter and the stated errors together; `None` for captures.
 pub(super) fn noise_floor(data: &Measurements, scatter: Scatter, observable: Observable) -> Option<f64> {
@@ -47,7 +42,7 @@ pub(super) fn evaluate<'b>(hypothesis: &Hypothesis<'b>, rows: &[usize]) -> Evalu
 
 /// Some rows under the base model and under an extended model file, one entry a row.
 #[derive(Default)]
-pub(super) struct HeldOut {
+pub(super) struct HeldOutRows {
     units: Vec<usize>,
     /// Squared errors before and after, by observable; of captures summed over the impacts of the row.
     squares: [Vec<Option<[f64; 2]>>; 3],
@@ -63,10 +58,10 @@ pub(super) struct ModelFile<'a> {
     pub scatter: Scatter,
 }
 
-impl HeldOut {
+impl HeldOutRows {
     /// Adds these rows of the file, predicted by the two models as a user would.
     pub fn add(&mut self, data: &Measurements, units: &[usize], rows: &[usize], models: [&ModelFile<'_>; 2]) {
-        let [before, after] = models.map(|file| Predicted::new(file, data, rows));
+        let [before, after] = models.map(|file| PredictedRows::new(file, data, rows));
         let pairs = before.scores.into_iter().zip(after.scores);
         self.scores.extend(pairs.map(|(before, after)| [before, after]));
         self.units.extend(rows.iter().map(|&row| units[row]));
@@ -123,15 +118,15 @@ impl HeldOut {
 }
 
 /// Rows under one model file.
-struct Predicted {
+struct PredictedRows {
     squares: [Vec<Option<f64>>; 3],
     scores: Vec<f64>,
 }
 
-impl Predicted {
+impl PredictedRows {
     fn new(file: &ModelFile<'_>, data: &Measurements, rows: &[usize]) -> Self {
         let some = rows_for(file.model, data, rows);
-        let split = DataSplit::bare(file.model, &some, DRAWS);
+        let split = DataSplit::bare(file.model, &some, ROW_DRAWS);
         let offsets = vec![Offset::default(); some.len()];
         let evaluation = Evaluation::new(&split, file.model, split.all(), offsets, file.scatter);
         let squares = Observable::ALL.map(|observable| {
@@ -155,10 +150,10 @@ fn rows_for(model: &Model, data: &Measurements, rows: &[usize]) -> Vec<Measureme
 }
 
 /// The cell of a row as an input of a model; NaN where blank.
-fn extra_value(input: &ExtraInput, values: &Values, row: usize) -> f64 {
+fn extra_value(input: &ExtraInput, values: &ColumnValues, row: usize) -> f64 {
     match values {
-        Values::Numbers(numbers) => numbers[row],
-        Values::Labels { levels, of_row } => {
+        ColumnValues::Numbers(numbers) => numbers[row],
+        ColumnValues::Labels { levels, of_row } => {
             of_row[row].and_then(|level| input.value_of_text(&levels[level])).unwrap_or(f64::NAN)
         }
     }
@@ -177,7 +172,7 @@ pub(super) fn sums_by_unit(rows: &[(usize, [f64; 2])]) -> Vec<[f64; 2]> {
 /// 95 % interval of the ratio of the root mean squares, by a bootstrap over units.
 pub(super) fn bootstrap(units: &[[f64; 2]], seed: u64) -> [f64; 2] {
     let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x6761_696e);
-    let mut ratios: Vec<f64> = (0..RESAMPLES)
+    let mut ratios: Vec<f64> = (0..BOOTSTRAP_RESAMPLES)
         .map(|_| {
             let mut sums = [0.0; 2];
             for _ in 0..units.len() {
@@ -189,7 +184,7 @@ pub(super) fn bootstrap(units: &[[f64; 2]], seed: u64) -> [f64; 2] {
         })
         .collect();
     ratios.sort_by(f64::total_cmp);
-    [ratios[RESAMPLES / 40], ratios[RESAMPLES - 1 - RESAMPLES / 40]]
+    [ratios[BOOTSTRAP_RESAMPLES / 40], ratios[BOOTSTRAP_RESAMPLES - 1 - BOOTSTRAP_RESAMPLES / 40]]
 }
 
 /// The same by Student's t of the linearised logarithm of the ratio, which is wider for few units; `widened` multiplies its error.
@@ -286,8 +281,8 @@ pub(super) fn sample(base: &Hypothesis<'_>, extended: &Hypothesis<'_>) -> Sample
         SampleRow { held_out: place < held_out.len(), cells, errors, values: values[place] }
     };
     let words = data.covariates.iter().map(|column| match &column.values {
-        Values::Labels { levels, .. } => Some(levels.clone()),
-        Values::Numbers(_) => None,
+        ColumnValues::Labels { levels, .. } => Some(levels.clone()),
+        ColumnValues::Numbers(_) => None,
     });
     Sample {
         columns: data.covariates.iter().map(|c| (c.name.clone(), c.unit.to_owned())).collect(),

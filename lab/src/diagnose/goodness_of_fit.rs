@@ -14,8 +14,8 @@ use super::record::{Fit, FitTest, LargeMisfit};
 use nearwall::impact::INPUTS;
 
 /// Largest number of misfits listed, and least size of a listed one in standard errors.
-const MISFITS: usize = 5;
-const LEAST: f64 = 2.0;
+pub(super) const MOST_LISTED: usize = 5;
+const LEAST_MISFIT: f64 = 2.0;
 /// Least number of degrees of freedom within replicates.
 const LEAST_REPLICATES: usize = 5;
 
@@ -90,7 +90,7 @@ fn replicates(rows: &Evaluation<'_>, parameters: f64) -> Option<FitTest> {
 
 /// The largest misfits, the largest first.
 fn largest(mut residuals: Vec<StatedResidual>) -> Vec<LargeMisfit> {
-    residuals.retain(|residual| residual.standard_errors.abs() >= LEAST);
+    residuals.retain(|residual| residual.standard_errors.abs() >= LEAST_MISFIT);
     residuals.sort_by(|a, b| b.standard_errors.abs().total_cmp(&a.standard_errors.abs()));
     let one = |residual: StatedResidual| LargeMisfit {
         line: residual.line,
@@ -99,5 +99,5 @@ fn largest(mut residuals: Vec<StatedResidual>) -> Vec<LargeMisfit> {
         predicted: residual.predicted,
         standard_errors: residual.standard_errors,
     };
-    residuals.into_iter().take(MISFITS).map(one).collect()
+    residuals.into_iter().take(MOST_LISTED).map(one).collect()
 }

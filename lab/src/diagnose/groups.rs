@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::dataset::{Column, Measurement, Measurements, Values, names_groups};
+use crate::dataset::{ColumnValues, DataColumn, Measurement, Measurements, names_groups};
 
 /// So many batches are few.
 const FEW_BATCHES: usize = 8;
@@ -28,17 +28,19 @@ pub(super) struct GroupColumn {
 impl GroupColumn {
     /// The column that the user names, else every one whose name says that it groups rows; none with fewer than two groups.
     pub fn all(data: &Measurements, declared: Option<&str>) -> Vec<Self> {
-        let named = |column: &&Column| match declared {
+        let named = |column: &&DataColumn| match declared {
             Some(name) => column.name == name,
             None => groups_by_default(column),
         };
         data.columns.iter().filter(named).filter_map(|column| Self::of(column, declared.is_some())).collect()
     }
 
-    fn of(column: &Column, declared: bool) -> Option<Self> {
+    fn of(column: &DataColumn, declared: bool) -> Option<Self> {
         let labels: Vec<Option<u64>> = match &column.values {
-            Values::Labels { of_row, .. } => of_row.iter().map(|label| label.map(|l| l as u64)).collect(),
-            Values::Numbers(numbers) => {
+            ColumnValues::Labels { of_row, .. } => {
+                of_row.iter().map(|label| label.map(|l| l as u64)).collect()
+            }
+            ColumnValues::Numbers(numbers) => {
                 numbers.iter().map(|number| number.is_finite().then(|| number.to_bits())).collect()
             }
         };
@@ -54,8 +56,8 @@ impl GroupColumn {
 
 /// Whether a column groups rows unless the user says otherwise. Few batches with many rows each are a material that may differ, so a
 /// possible cause; many are a random choice.
-fn groups_by_default(column: &Column) -> bool {
-    let few = matches!(&column.values, Values::Labels { levels, .. } if levels.len() <= FEW_BATCHES);
+fn groups_by_default(column: &DataColumn) -> bool {
+    let few = matches!(&column.values, ColumnValues::Labels { levels, .. } if levels.len() <= FEW_BATCHES);
     names_groups(&column.name) && !(column.name.eq_ignore_ascii_case("batch") && few)
 }
 

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::curve::{ColumnCurve, CurveForm};
+use super::constants::FIRST_SCATTER;
+use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::forecast::Forecast;
@@ -13,18 +14,16 @@ use super::observable::Observable;
 use super::part::{FittedPart, Part};
 use super::search::{descend, descend_to};
 use super::smooth::surface;
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 use nearwall::effect::Term;
 use nearwall::model::Model;
 
 /// A part acts on an observable if it changes it by more than this share of its largest change.
 const MINOR: f64 = 0.05;
 /// Scatter of a capture in comparisons with that of restitutions [1].
-const CAPTURE_SCATTER: f64 = 0.25;
+const CAPTURE_WEIGHT_SCATTER: f64 = 0.25;
 /// Tolerance of the last fit [nats].
 const SUMMIT: f64 = 1e-4;
-/// First guess of the scatter of `e_n` and `e_t` [1].
-const FIRST_SCATTER: Scatter = [0.1, 0.1];
 
 /// A scatter that changes with a covariate.
 #[derive(Debug, Clone, Copy)]
@@ -231,7 +230,7 @@ impl<'a> Hypothesis<'a> {
         if self.curves.iter().any(|curve| curve.form.observable == Observable::Capture) {
             return;
         }
-        let level = CurveForm::level(Observable::Capture, false);
+        let level = ColumnCurveForm::level(Observable::Capture, false);
         let fitted = level.fit(&self.evaluate(rows, self.offsets()).with_fitted_scatter());
         self.background_capture = fitted.and_then(|curve| curve.heights.first().copied()).unwrap_or(before);
     }
@@ -281,7 +280,7 @@ impl<'a> Hypothesis<'a> {
     /// with one of them.
     ///
     /// The plain laws explain speed and diameter: for a part with another input they only interact with that input.
-    fn discrepancy_columns(&self, observable: Observable) -> (Vec<&'a Values>, Vec<&'a Values>) {
+    fn discrepancy_columns(&self, observable: Observable) -> (Vec<&'a ColumnValues>, Vec<&'a ColumnValues>) {
         let plain = |name: &&str| ["v_n", "d"].contains(name);
         let mut own: Vec<&str> = Vec::new();
         for part in self.acting_on(observable) {
@@ -334,7 +333,7 @@ impl<'a> Hypothesis<'a> {
     /// was not measured.
     pub fn changes(&self, one: &Forecast, other: &Forecast) -> [f64; 3] {
         let [e_n, e_t] = self.scatter;
-        let scatter = [e_n, e_t, CAPTURE_SCATTER];
+        let scatter = [e_n, e_t, CAPTURE_WEIGHT_SCATTER];
         let mut sums = [0.0; 3];
         for (place, &index) in self.data.search.iter().enumerate() {
             let row = &self.data.rows[index];

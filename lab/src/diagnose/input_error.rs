@@ -12,9 +12,9 @@ use nearwall::impact::{INPUTS, Impact, Input};
 use nearwall::model::Model;
 
 /// Places of the grid of true values.
-const GRID: usize = 120;
+const GRID_PLACES: usize = 120;
 /// Steps of the estimate of their distribution: more of them would follow the errors.
-const STEPS: usize = 60;
+const ESTIMATE_STEPS: usize = 60;
 /// Largest number of rows for it.
 const PRIOR_ROWS: usize = 2000;
 /// Errors are a share of the reading if their shares differ by less than this.
@@ -62,17 +62,17 @@ struct TrueValues {
 impl TrueValues {
     fn of(values: &[f64], errors: &[f64]) -> Self {
         let [low, high] = ends(values);
-        let step = (high - low) / (GRID - 1) as f64;
-        let grid: Vec<f64> = (0..GRID).map(|place| low + step * place as f64).collect();
+        let step = (high - low) / (GRID_PLACES - 1) as f64;
+        let grid: Vec<f64> = (0..GRID_PLACES).map(|place| low + step * place as f64).collect();
         let shares: Vec<f64> = values.iter().zip(errors).map(|(value, error)| error / value.abs()).collect();
         let [least, most] = ends(&shares);
         let relative = least > 0.0 && most < least * (1.0 + SAME_SHARE);
-        let mut found = Self { weights: vec![1.0 / GRID as f64; GRID], grid, relative };
+        let mut found = Self { weights: vec![1.0 / GRID_PLACES as f64; GRID_PLACES], grid, relative };
         let every = values.len().div_ceil(PRIOR_ROWS);
         let some = values.iter().zip(errors).step_by(every).filter(|(_, error)| **error > 0.0);
         let densities: Vec<Vec<f64>> = some.map(|(value, error)| found.densities(*value, *error)).collect();
-        for _ in 0..STEPS {
-            let mut sums = vec![0.0; GRID];
+        for _ in 0..ESTIMATE_STEPS {
+            let mut sums = vec![0.0; GRID_PLACES];
             for row in &densities {
                 let total: f64 = row.iter().zip(&found.weights).map(|(p, w)| p * w).sum();
                 if total > 0.0 {

@@ -12,12 +12,12 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::covariance::Covariance;
 use super::hypothesis::Hypothesis;
-use super::profile::{Higher, Profile};
+use super::profile::{Higher, LikelihoodProfile};
 use super::search::SearchAxis;
 
 /// First step of the differences, in the coordinate; the next is a standard error within these bounds.
 const FIRST_STEP: f64 = 8e-3;
-const STEPS: [f64; 2] = [2e-4, 4e-2];
+const DIFFERENCE_STEPS: [f64; 2] = [2e-4, 4e-2];
 /// Standard error of a coordinate of which nothing is known yet, and of one that nothing determines.
 const UNKNOWN_ERROR: f64 = 0.05;
 /// Correlation of two parameters from which the data determine only their combination.
@@ -28,7 +28,7 @@ const SUMMITS: usize = 4;
 pub(super) const UNITS_FOR_DEFAULTS: usize = 30;
 
 /// Intervals of all coordinates and their covariance.
-struct Found {
+struct FoundIntervals {
     ends: Vec<[f64; 2]>,
     covariance: Covariance,
 }
@@ -68,7 +68,7 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
         *hypothesis = freed.clone();
     }
     // A profile that finds a better fit again and again has no ends.
-    let Found { ends, covariance } = found.unwrap_or_else(|| symmetric(&freed, rows, quantile));
+    let FoundIntervals { ends, covariance } = found.unwrap_or_else(|| symmetric(&freed, rows, quantile));
     let mut place = 0;
     for (part, freed) in hypothesis.parts.iter_mut().zip(&freed.parts) {
         let own = place..place + part.axes.len();
@@ -93,23 +93,23 @@ pub(super) fn first_errors(hypothesis: &Hypothesis<'_>, rows: &[usize]) -> Vec<f
 
 /// Steps of the differences from standard errors.
 pub(super) fn steps(errors: &[f64]) -> Vec<f64> {
-    errors.iter().map(|error| error.clamp(STEPS[0], STEPS[1])).collect()
+    errors.iter().map(|error| error.clamp(DIFFERENCE_STEPS[0], DIFFERENCE_STEPS[1])).collect()
 }
 
 /// Without profiles.
-fn symmetric(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> Found {
+fn symmetric(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> FoundIntervals {
     let covariance = Covariance::of(hypothesis, rows, &steps(&first_errors(hypothesis, rows)));
     let of = |(place, at): (usize, f64)| {
         let error = covariance.error(place).unwrap_or(1.0) * covariance.factors[place].sqrt();
         [at - quantile * error, at + quantile * error]
     };
     let ends = hypothesis.coordinates().into_iter().enumerate().map(of).collect();
-    Found { ends, covariance }
+    FoundIntervals { ends, covariance }
 }
 
 /// By profiles, first for an exact model, then with the factors of the sandwich over the errors that follow.
-fn profiled(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> Result<Found, Higher> {
-    let profile = Profile::new(hypothesis, rows);
+fn profiled(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> Result<FoundIntervals, Higher> {
+    let profile = LikelihoodProfile::new(hypothesis, rows);
     let walk = |place: usize, quantile: f64, error: f64| {
         let end = |sign| profile.end(place, sign, quantile, error);
         Ok([end(-1.0)?, end(1.0)?])
@@ -125,7 +125,7 @@ fn profiled(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> Resul
         if factor > 1.0 { walk(place, quantile * factor, errors[place]) } else { Ok(ends[place]) }
     };
     let ends = (0..count).into_par_iter().map(wider).collect::<Result<_, Higher>>()?;
-    Ok(Found { ends, covariance })
+    Ok(FoundIntervals { ends, covariance })
 }
 
 /// Pairs of a part's parameters, by place, of which the data determine only a combination, with their correlation [1].

@@ -14,7 +14,7 @@ pub(super) const GROSS_SHARE: f64 = 0.02;
 /// Density of a gross error [1].
 pub(super) const GROSS_DENSITY: f64 = 0.4;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
-const FAR: f64 = 8.0;
+const NEGLIGIBLE_DISTANCE: f64 = 8.0;
 /// No outcome is predicted with more certainty than one minus this.
 const UNCERTAINTY: f64 = 0.005;
 /// Largest offset of the log odds of capture.
@@ -127,7 +127,7 @@ fn deviation(
 
 fn normal_density(residual: f64, deviation: f64) -> f64 {
     let z = residual / deviation;
-    if z.abs() > FAR {
+    if z.abs() > NEGLIGIBLE_DISTANCE {
         return 0.0;
     }
     (-0.5 * z * z).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt())
@@ -173,7 +173,7 @@ impl Hidden {
     /// Of a distribution about `expected` with this deviation, below `visible_from`; `None` if all is visible.
     pub fn of(expected: f64, deviation: f64, visible_from: f64) -> Option<Self> {
         let limit = (visible_from - expected) / deviation;
-        if limit < -FAR {
+        if limit < -NEGLIGIBLE_DISTANCE {
             return None;
         }
         let limit = limit.min(3.0);

@@ -11,6 +11,7 @@ mod candidate;
 mod candidate_list;
 mod choice;
 pub mod comparison;
+mod constants;
 mod covariance;
 mod curve;
 mod data_split;
@@ -49,14 +50,15 @@ mod verdict;
 
 pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
 pub use record::{
-    Alternative, Calibration, DataView, Diagnosis, Errors, Estimate, Finding, Fit, FitTest, FittedCurve,
-    FittedSurface, Gain, GroupsFound, LargeMisfit, Measure, Misfit, NotExamined, Options, Rival, Rows,
+    Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate, Finding, Fit,
+    FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement, NotExamined, Options, Rival, Rows,
     Sample, SampleRow, ScatterFound, Unexplained,
 };
 pub use unselected::read_measurements;
 
 use crate::dataset::{BadRow, Measurement, Measurements};
 use choice::Task;
+use constants::LEAST_ROWS;
 use data_split::DataSplit;
 use groups::GroupColumn;
 use hypothesis::Hypothesis;
@@ -85,8 +87,6 @@ pub enum DiagnosisError {
     Unextendable(String),
 }
 
-/// Least number of rows.
-const LEAST_ROWS: usize = 3;
 /// Bounds of a plausible input [SI units], far beyond any laboratory; the lower one for inputs that laws divide by.
 const LARGEST_INPUT: f64 = 1e12;
 const SMALLEST_DIVISOR: f64 = 1e-15;

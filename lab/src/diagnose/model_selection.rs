@@ -3,8 +3,8 @@
 use super::candidate::{Addition, ScoredCandidate};
 use super::candidate_list::surfaces_over;
 use super::curve::ColumnCurve;
-use super::few_rows::MANY as FEW_ROWS;
-use super::fitting::Round;
+use super::few_rows::MANY_ROWS;
+use super::fitting::CandidateRound;
 use super::hypothesis::{Hypothesis, own_inputs};
 use super::part::{FittedPart, Part};
 
@@ -13,13 +13,13 @@ const MOST_CAUSES: usize = 6;
 /// Least gain of a further cause, as a share of the gain of the first one: less is ascribed to inexact laws.
 const FURTHER_GAIN: f64 = 0.05;
 /// Least gain of any cause [nats]; its significance is tested apart.
-const LEAST_GAIN: f64 = 0.5;
+const LEAST_CAUSE_GAIN: f64 = 0.5;
 /// Causes within this gain are about as good [nats], and a redundant one gains less beside its parameters.
 const CLOSE_GAIN: f64 = 3.0;
 /// Least share of a curve's gain that a constant offset does not give, if the curve is preferred to an effect.
 const OWN_SHARE: f64 = 0.25;
 /// A law reaches a free curve if it gains this share of what the curve does.
-const REACH: f64 = 0.75;
+const LAW_REACH: f64 = 0.75;
 /// The same with few readings, which a curve follows too closely.
 const FEW_REACH: f64 = 0.5;
 /// A law fails if a free surface over its inputs gains this share of what the law does.
@@ -37,7 +37,7 @@ const ROWS_A_CAUSE: usize = 12;
 /// Least share of the gain of a scatter trend at which a stochastic effect is preferred to the trend.
 const STOCHASTIC_SHARE: f64 = 0.85;
 /// Lead in standard errors at which one candidate is distinguishable from another (5 %, one-sided).
-pub(super) const DISTINGUISHABLE: f64 = 1.645;
+pub(super) const DISTINGUISHABLE_LEAD: f64 = 1.645;
 
 /// A cause or a calibration that joined the hypothesis.
 #[derive(Clone)]
@@ -50,7 +50,7 @@ pub(super) struct Discovery {
 }
 
 /// The result of the forward selection.
-pub(super) struct Selection<'a> {
+pub(super) struct ForwardSelection<'a> {
     pub hypothesis: Hypothesis<'a>,
     pub discoveries: Vec<Discovery>,
     /// All candidates of the first round: how each alone improves the base model.
@@ -60,17 +60,21 @@ pub(super) struct Selection<'a> {
 }
 
 /// Extends `base`; `level` is the accepted share of false discoveries, `progress` is called after each candidate.
-pub(super) fn select<'a>(base: &Hypothesis<'a>, level: f64, progress: &(dyn Fn() + Sync)) -> Selection<'a> {
+pub(super) fn select<'a>(
+    base: &Hypothesis<'a>,
+    level: f64,
+    progress: &(dyn Fn() + Sync),
+) -> ForwardSelection<'a> {
     let data = base.data;
     let mut hypothesis = base.clone();
     let mut discoveries: Vec<Discovery> = Vec::new();
-    let few = data.search.len() < FEW_ROWS;
+    let few = data.search.len() < MANY_ROWS;
     let (mut first_round, mut last_round) = (None, Vec::new());
     for _ in 0..2 * MOST_CAUSES {
         hypothesis.fit_scatter(&data.search);
-        let scored = Round::new(&hypothesis).score_all(progress);
+        let scored = CandidateRound::new(&hypothesis).score_all(progress);
         first_round.get_or_insert_with(|| scored.clone());
-        let least = LEAST_GAIN.max(FURTHER_GAIN * first_gain(&discoveries));
+        let least = LEAST_CAUSE_GAIN.max(FURTHER_GAIN * first_gain(&discoveries));
         let Some(mut winner) = choose(&scored, few, level, least) else {
             last_round = scored;
             break;
@@ -99,7 +103,7 @@ pub(super) fn select<'a>(base: &Hypothesis<'a>, level: f64, progress: &(dyn Fn()
         }
     }
     drop_rate(&mut hypothesis);
-    Selection { hypothesis, discoveries, first_round: first_round.unwrap_or_default(), last_round }
+    ForwardSelection { hypothesis, discoveries, first_round: first_round.unwrap_or_default(), last_round }
 }
 
 /// Drops the constant rate of captures if the causes explain the captures without it.
@@ -192,8 +196,8 @@ fn better_surface(
         return None;
     };
     let law = with.without_discrepancy();
-    let beside = Round::new(&law).score(&surfaces_over(before, effect.inputs), &|| {});
-    let round = Round::new(before);
+    let beside = CandidateRound::new(&law).score(&surfaces_over(before, effect.inputs), &|| {});
+    let round = CandidateRound::new(before);
     let needed = beside.iter().filter(|surface| surface.q_value <= level);
     let alone = needed.filter_map(|surface| match &surface.addition {
         Addition::Curve(curve) => round.surface_instead(curve, surface),
@@ -245,7 +249,7 @@ fn best<'a>(scored: impl Iterator<Item = &'a ScoredCandidate>) -> Option<&'a Sco
 fn simplest_of_best<'a>(parts: &[&'a ScoredCandidate]) -> Option<&'a ScoredCandidate> {
     let best = best(parts.iter().copied())?;
     let about_as_good = |part: &&&ScoredCandidate| {
-        (best.lead(part) < DISTINGUISHABLE || best.addition.at_bound())
+        (best.lead(part) < DISTINGUISHABLE_LEAD || best.addition.at_bound())
             && (part.gain() > 0.9 * best.gain() || best.gain() - part.gain() < CLOSE_GAIN)
     };
     // Another value of a parameter that the model has is simpler than an effect.
@@ -277,8 +281,8 @@ fn is_weak_surface(one: &ScoredCandidate, scored: &[ScoredCandidate]) -> bool {
 fn beats(curve: &ScoredCandidate, part: &ScoredCandidate, few: bool) -> bool {
     let level = matches!(&curve.addition, Addition::Curve(one) if one.form.sides.is_empty());
     let own = level || curve.own_gain > OWN_SHARE * curve.gain();
-    let reach = if few { FEW_REACH } else { REACH };
-    own && curve.lead(part) > DISTINGUISHABLE && part.gain() < reach * curve.gain()
+    let reach = if few { FEW_REACH } else { LAW_REACH };
+    own && curve.lead(part) > DISTINGUISHABLE_LEAD && part.gain() < reach * curve.gain()
 }
 
 /// The gain of the first cause [nats]; 0 before.

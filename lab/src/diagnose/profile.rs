@@ -11,19 +11,19 @@ use super::search::descend;
 /// Rise above the summit [nats] that makes it a foothill.
 const HIGHER: f64 = 0.05;
 /// The walk ends where `r` exceeds the quantile by this factor.
-const BEYOND: f64 = 1.4;
+const WALK_END: f64 = 1.4;
 /// Steps of the walk, in shares of the quantile.
-const STEP: f64 = 0.4;
+const WALK_STEP: f64 = 0.4;
 /// Shortest step in the coordinate.
 const SHORTEST: f64 = 1e-4;
 /// Largest number of places on a walk.
-const PLACES: usize = 16;
+const MOST_WALKED: usize = 16;
 /// Size of the first simplex of the other coordinates, and its iterations for each of them.
-const SIMPLEX: f64 = 0.03;
-const ITERATIONS: u64 = 25;
+const PROFILE_SIMPLEX: f64 = 0.03;
+const PROFILE_ITERATIONS: u64 = 25;
 
 /// The likelihood of some rows about its summit.
-pub(super) struct Profile<'a> {
+pub(super) struct LikelihoodProfile<'a> {
     hypothesis: &'a Hypothesis<'a>,
     rows: &'a [usize],
     offsets: Vec<Offset>,
@@ -38,13 +38,13 @@ pub(super) struct Higher(pub Vec<f64>);
 
 /// A place on the profile.
 #[derive(Clone)]
-struct Place {
+struct ProfilePoint {
     at: Vec<f64>,
     /// Distance from the summit [standard errors].
     root: f64,
 }
 
-impl<'a> Profile<'a> {
+impl<'a> LikelihoodProfile<'a> {
     /// About the present coordinates.
     pub fn new(hypothesis: &'a Hypothesis<'a>, rows: &'a [usize]) -> Self {
         let (at, offsets) = (hypothesis.coordinates(), hypothesis.offsets());
@@ -62,12 +62,12 @@ impl<'a> Profile<'a> {
     /// The outermost coordinate in the direction `sign` at which `r` is at most `quantile`; `error` is a guess of the standard error.
     pub fn end(&self, coordinate: usize, sign: f64, quantile: f64, error: f64) -> Result<f64, Higher> {
         let bound = if sign > 0.0 { 1.0 } else { 0.0 };
-        let mut step = STEP * quantile * error;
-        let mut last = Place { at: self.at.clone(), root: 0.0 };
+        let mut step = WALK_STEP * quantile * error;
+        let mut last = ProfilePoint { at: self.at.clone(), root: 0.0 };
         let mut end = self.at[coordinate];
-        for _ in 0..PLACES {
+        for _ in 0..MOST_WALKED {
             let from = last.at[coordinate];
-            if from == bound || last.root > BEYOND * quantile {
+            if from == bound || last.root > WALK_END * quantile {
                 break;
             }
             let place = self.place(coordinate, (from + sign * step).clamp(0.0, 1.0), &last)?;
@@ -77,7 +77,7 @@ impl<'a> Profile<'a> {
             } else if last.root <= quantile {
                 end = from + (to - from) * (quantile - last.root) / (place.root - last.root);
             }
-            let rise = (place.root - last.root) / (STEP * quantile);
+            let rise = (place.root - last.root) / (WALK_STEP * quantile);
             step = (step / rise.clamp(0.5, 2.0)).max(SHORTEST);
             last = place;
         }
@@ -85,7 +85,7 @@ impl<'a> Profile<'a> {
     }
 
     /// The profile at a value of a coordinate; the others start as at `near`.
-    fn place(&self, coordinate: usize, value: f64, near: &Place) -> Result<Place, Higher> {
+    fn place(&self, coordinate: usize, value: f64, near: &ProfilePoint) -> Result<ProfilePoint, Higher> {
         let others = |at: &[f64]| [&at[..coordinate], &at[coordinate + 1..]].concat();
         let whole = |others: &[f64]| [&others[..coordinate], &[value], &others[coordinate..]].concat();
         let cost = |some: &[f64]| -self.score(&whole(some));
@@ -98,10 +98,14 @@ impl<'a> Profile<'a> {
         let (first, start) = if one.0 < other.0 { one } else { other };
         let (found, least) = match start.len() {
             0 => (start, first),
-            count => descend(cost, &start, SIMPLEX, ITERATIONS * count as u64),
+            count => descend(cost, &start, PROFILE_SIMPLEX, PROFILE_ITERATIONS * count as u64),
         };
         let at = whole(&found);
         let fall = self.summit + least;
-        if fall < -HIGHER { Err(Higher(at)) } else { Ok(Place { at, root: (2.0 * fall.max(0.0)).sqrt() }) }
+        if fall < -HIGHER {
+            Err(Higher(at))
+        } else {
+            Ok(ProfilePoint { at, root: (2.0 * fall.max(0.0)).sqrt() })
+        }
     }
 }

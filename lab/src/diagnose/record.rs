@@ -150,11 +150,11 @@ pub struct Finding {
     /// Causes that these data cannot distinguish from this one.
     pub indistinguishable_from: Vec<String>,
     /// Measurements that would distinguish them.
-    pub measure_next: Vec<Measure>,
+    pub measure_next: Vec<NextMeasurement>,
     /// The fitted curve, for a column that no effect explains.
-    pub curve: Option<FittedCurve>,
+    pub curve: Option<CauseCurve>,
     /// The surface, if this is an unknown dependence on two columns.
-    pub surface: Option<FittedSurface>,
+    pub surface: Option<CauseSurface>,
     /// The finding in a few sentences.
     pub explanation: String,
 }
@@ -183,7 +183,7 @@ pub struct Alternative {
 
 /// A measurement that would distinguish two causes.
 #[derive(Debug, Clone, Serialize)]
-pub struct Measure {
+pub struct NextMeasurement {
     /// The other cause.
     pub against: String,
     /// The input to vary.
@@ -200,7 +200,7 @@ pub struct Measure {
 
 /// A fitted curve over a column.
 #[derive(Debug, Clone, Serialize)]
-pub struct FittedCurve {
+pub struct CauseCurve {
     /// Whether it is multiplied with the prediction rather than added.
     pub factor: bool,
     /// Its knots in the column's unit, or the labels.
@@ -211,12 +211,12 @@ pub struct FittedCurve {
 
 /// A fitted surface over two columns.
 #[derive(Debug, Clone, Serialize)]
-pub struct FittedSurface {
+pub struct CauseSurface {
     /// Whether it is multiplied with the prediction rather than added.
     pub factor: bool,
     /// The knots of each column in its unit, or its labels.
     pub at: [Vec<String>; 2],
-    /// The heights there, a row for each knot of the first column: as of a [`FittedCurve`].
+    /// The heights there, a row for each knot of the first column: as of a [`CauseCurve`].
     pub adds: Vec<Vec<f64>>,
 }
 

@@ -16,7 +16,7 @@ use nearwall::model::Model;
 /// A rival that gains this much less than the extended model is not listed [nats].
 const BEHIND: f64 = 3.0;
 /// Least gain of a rival [nats].
-const LEAST_GAIN: f64 = 6.0;
+const LEAST_RIVAL_GAIN: f64 = 6.0;
 /// Least lead over the extended model at which a rival takes the place of the causes, and a slip that of one cause [nats]: without
 /// parameters it is a little ahead of a cause that it imitates.
 const DECISIVE: f64 = 0.0;
@@ -32,7 +32,7 @@ pub(super) fn rivals(base: &Hypothesis<'_>, extended: &Hypothesis<'_>, text: &st
     let mut all: Vec<Rival> = Vec::new();
     let mut add = |id: String, gain: f64, explanation: String| {
         let lead = gain - explained;
-        if gain >= LEAST_GAIN && lead >= -BEHIND {
+        if gain >= LEAST_RIVAL_GAIN && lead >= -BEHIND {
             all.push(Rival { id, observable, gain, lead, explanation });
         }
     };

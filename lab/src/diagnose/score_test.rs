@@ -17,13 +17,13 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// Draws of random signs.
-const DRAWS: usize = 400;
+const SIGN_DRAWS: usize = 400;
 /// Shapes from which fits start.
 const STARTS: usize = 2;
 /// Shapes whose p-values are computed: those with the largest `t`.
-const LARGEST: usize = 10;
+const TESTED_SHAPES: usize = 10;
 /// Smallest p-value.
-const SMALLEST: f64 = 1e-300;
+const SMALLEST_P_VALUE: f64 = 1e-300;
 
 /// The shapes of one candidate.
 #[derive(Debug, Clone, Default)]
@@ -57,7 +57,7 @@ pub(super) fn test(candidates: &[Shapes], units: &[usize], skewed: bool) -> Vec<
     let by_unit: Vec<Vec<Vec<f64>>> = candidates.iter().map(|shapes| sums(shapes, &units, count)).collect();
     let largest = largest_of_random_signs(candidates, &by_unit, count);
     let mut results: Vec<Tested> = Vec::new();
-    let mut corrected_draws = vec![1.0_f64; DRAWS];
+    let mut corrected_draws = vec![1.0_f64; SIGN_DRAWS];
     for (place, (shapes, sums)) in candidates.iter().zip(&by_unit).enumerate() {
         let drawn: Vec<f64> = largest.iter().map(|row| tail(row[place], shapes.both_signs)).collect();
         let tests = independent_tests(&drawn);
@@ -84,7 +84,7 @@ fn one(shapes: &Shapes, sums: &[Vec<f64>], tests: f64, skewed: bool) -> Tested {
         // Of shapes that rest on few units a smaller t may be the better evidence.
         let chance =
             |&(shape, t): &(usize, f64)| student_tail(t, effective(&sums[shape]) - 1.0, shapes.both_signs);
-        order.iter().take(LARGEST).map(chance).fold(1.0, f64::min)
+        order.iter().take(TESTED_SHAPES).map(chance).fold(1.0, f64::min)
     } else {
         order.first().map_or(1.0, |(_, t)| tail(*t, shapes.both_signs))
     };
@@ -94,7 +94,7 @@ fn one(shapes: &Shapes, sums: &[Vec<f64>], tests: f64, skewed: bool) -> Tested {
 
 /// The p-value of the best of `tests` independent tests.
 pub(super) fn corrected(p: f64, tests: f64) -> f64 {
-    (-f64::exp_m1(tests.max(1.0) * f64::ln_1p(-p.min(1.0 - 1e-16)))).clamp(SMALLEST, 1.0)
+    (-f64::exp_m1(tests.max(1.0) * f64::ln_1p(-p.min(1.0 - 1e-16)))).clamp(SMALLEST_P_VALUE, 1.0)
 }
 
 /// The number of independent tests whose smallest p-values are distributed like these.
@@ -152,7 +152,8 @@ fn sums(shapes: &Shapes, units: &[usize], count: usize) -> Vec<Vec<f64>> {
 fn largest_of_random_signs(candidates: &[Shapes], by_unit: &[Vec<Vec<f64>>], count: usize) -> Vec<Vec<f64>> {
     let shapes: usize = by_unit.iter().map(Vec::len).sum();
     let mut random = ChaCha8Rng::seed_from_u64(0x7369_676e);
-    let signs = DMatrix::from_fn(DRAWS, count, |_, _| if random.next_u32() & 1 == 0 { 1.0 } else { -1.0 });
+    let signs =
+        DMatrix::from_fn(SIGN_DRAWS, count, |_, _| if random.next_u32() & 1 == 0 { 1.0 } else { -1.0 });
     let mut normed = DMatrix::zeros(count, shapes);
     for (column, u) in by_unit.iter().flatten().enumerate() {
         let norm = u.iter().map(|u| u * u).sum::<f64>().sqrt();
@@ -176,7 +177,7 @@ fn largest_of_random_signs(candidates: &[Shapes], by_unit: &[Vec<Vec<f64>>], cou
         };
         candidates.iter().zip(by_unit).map(of).collect::<Vec<f64>>()
     };
-    (0..DRAWS).map(of_draw).collect()
+    (0..SIGN_DRAWS).map(of_draw).collect()
 }
 
 #[cfg(test)]

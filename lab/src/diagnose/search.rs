@@ -8,7 +8,7 @@ use argmin::solver::neldermead::NelderMead;
 use nearwall::effect::{Parameter, Search};
 
 /// The descent ends when the standard deviation of the simplex' costs falls below this [nats].
-const TOLERANCE: f64 = 0.01;
+const SIMPLEX_TOLERANCE: f64 = 0.01;
 
 /// The search range of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +84,7 @@ pub(super) fn descend(
     size: f64,
     rounds: u64,
 ) -> (Vec<f64>, f64) {
-    descend_to(TOLERANCE, cost, start, size, rounds)
+    descend_to(SIMPLEX_TOLERANCE, cost, start, size, rounds)
 }
 
 /// The same to a tolerance [nats].

@@ -1,7 +1,7 @@
 //! The shapes of candidates: how each would change the log score of every row, to first order in its amplitude.
 
 use super::candidate::Candidate;
-use super::curve::CurveForm;
+use super::curve::ColumnCurveForm;
 use super::data_split::standardised;
 use super::evaluation::{Evaluation, Slope};
 use super::forecast::Forecast;
@@ -11,10 +11,10 @@ use super::observable::Observable;
 use super::part::{FittedPart, Part};
 use super::score_test::Shapes;
 use super::smooth::Basis;
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 
 /// Largest ratio of likelihoods under two distributions, so that no single row decides.
-const LARGEST_RATIO: f64 = 20.0;
+const LARGEST_LIKELIHOOD_RATIO: f64 = 20.0;
 /// Largest square of a standardised residual.
 const LARGEST_SQUARE: f64 = 9.0;
 
@@ -33,7 +33,7 @@ pub(super) struct ShapeBuilder<'a, 'b> {
 impl<'a, 'b> ShapeBuilder<'a, 'b> {
     pub fn new(hypothesis: &'b Hypothesis<'a>, search: &'b Evaluation<'a>) -> Self {
         let slopes = search.slopes();
-        let level = CurveForm::level(Observable::Capture, false).fit(search);
+        let level = ColumnCurveForm::level(Observable::Capture, false).fit(search);
         let level_slopes = level.map_or_else(
             || slopes.clone(),
             |level| {
@@ -91,7 +91,8 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
     fn of_distribution(&self, part: &FittedPart) -> (Vec<f64>, f64) {
         let evaluation = self.with(part).evaluate(&*self.search.rows, &*self.search.offsets);
         let scores = evaluation.with_scatter(self.search.scatter).scores();
-        let ratio = |(after, before): (&f64, &f64)| (after - before).exp().min(LARGEST_RATIO) - 1.0;
+        let ratio =
+            |(after, before): (&f64, &f64)| (after - before).exp().min(LARGEST_LIKELIHOOD_RATIO) - 1.0;
         let gain = scores.iter().sum::<f64>() - self.scores.iter().sum::<f64>();
         (scores.iter().zip(&self.scores).map(ratio).collect(), gain)
     }
@@ -171,7 +172,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
             rows.iter().map(height).collect::<Vec<f64>>()
         };
         let mut functions: Vec<Vec<f64>> = (0..basis.len()).map(hat).collect();
-        if let Values::Numbers(numbers) = values {
+        if let ColumnValues::Numbers(numbers) = values {
             let x = standardised(rows.iter().map(|&row| numbers[row]));
             functions.extend([1, 2, 3].map(|power| x.iter().map(|x| x.powi(power)).collect::<Vec<f64>>()));
             functions.push(ranks(&x));
@@ -185,8 +186,10 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
     /// The product of two columns, by value and by rank.
     fn product(&self, one: usize, two: usize) -> Vec<Vec<f64>> {
         let column = |index: usize| match self.search.data.values(index) {
-            Values::Numbers(numbers) => Some(standardised(self.search.rows.iter().map(|&row| numbers[row]))),
-            Values::Labels { .. } => None,
+            ColumnValues::Numbers(numbers) => {
+                Some(standardised(self.search.rows.iter().map(|&row| numbers[row])))
+            }
+            ColumnValues::Labels { .. } => None,
         };
         let (Some(a), Some(b)) = (column(one), column(two)) else { return Vec::new() };
         let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).collect::<Vec<f64>>();

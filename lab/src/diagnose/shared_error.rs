@@ -5,10 +5,10 @@
 //! `½ tau² R² / (1 + tau² S) - ½ ln(1 + tau² S)`. `tau` maximises the sum over groups.
 
 /// Standard deviations tried [1].
-const SMALLEST: f64 = 1e-4;
-const LARGEST: f64 = 2.0;
+const SMALLEST_DEVIATION: f64 = 1e-4;
+const LARGEST_DEVIATION: f64 = 2.0;
 /// Steps of the search for the standard deviation, on a logarithmic scale.
-const STEPS: usize = 28;
+const DEVIATION_STEPS: usize = 28;
 
 /// Sums over the rows of one group, of `e_n` and `e_t`.
 #[derive(Debug, Clone, Copy, Default)]
@@ -34,8 +34,14 @@ impl SharedErrors {
     pub fn fit(groups: Vec<GroupSums>) -> Self {
         let scatter = [0, 1].map(|which| {
             let gain = |tau: f64| groups.iter().map(|group| gain(group, which, tau * tau)).sum::<f64>();
-            let place = |step: usize| SMALLEST * (LARGEST / SMALLEST).powf(step as f64 / STEPS as f64);
-            let best = (0..=STEPS).map(place).map(|tau| (tau, gain(tau))).max_by(|a, b| a.1.total_cmp(&b.1));
+            let place = |step: usize| {
+                SMALLEST_DEVIATION
+                    * (LARGEST_DEVIATION / SMALLEST_DEVIATION).powf(step as f64 / DEVIATION_STEPS as f64)
+            };
+            let best = (0..=DEVIATION_STEPS)
+                .map(place)
+                .map(|tau| (tau, gain(tau)))
+                .max_by(|a, b| a.1.total_cmp(&b.1));
             best.map_or(0.0, |(tau, gain)| if gain > 0.0 { tau } else { 0.0 })
         });
         Self { scatter, groups }

@@ -20,7 +20,7 @@ pub(super) struct Slip {
 }
 
 /// Factors on the diameter: what is given, and the factor to the true one.
-const SIZES: [(&str, f64, &str); 5] = [
+const SIZE_SLIPS: [(&str, f64, &str); 5] = [
     ("diameter-is-radius", 2.0, "twice as large: is the column d the radius?"),
     ("diameter-doubled", 0.5, "half as large: is the column d twice the diameter?"),
     ("diameter-in-micrometres", 1e-6, "a millionth of what is given: is it in micrometres?"),
@@ -28,14 +28,14 @@ const SIZES: [(&str, f64, &str); 5] = [
     ("diameter-factor-1000", 1e3, "a thousand times as large: which unit has the column d?"),
 ];
 /// The same for speeds.
-const SPEEDS: [(&str, f64, &str); 4] = [
+const SPEED_SLIPS: [(&str, f64, &str); 4] = [
     ("speed-in-millimetres", 1e-3, "a thousandth of what is given: are they in mm/s?"),
     ("speed-in-centimetres", 1e-2, "a hundredth of what is given: are they in cm/s?"),
     ("speed-in-kilometres-per-hour", 1.0 / 3.6, "divided by 3.6: are they in km/h?"),
     ("speed-factor-1000", 1e3, "a thousand times as large: which unit do they have?"),
 ];
 /// Numbers of a material, and factors that a unit or a misplaced digit makes.
-const NUMBERS: [(&str, &[f64]); 3] = [
+const MATERIAL_SLIPS: [(&str, &[f64]); 3] = [
     ("density", &[1e3, 1e-3]),
     ("youngs_modulus", &[0.1, 10.0, 1e-3, 1e3]),
     ("yield_strength", &[0.1, 10.0, 1e-3, 1e3]),
@@ -46,12 +46,12 @@ const CELSIUS: f64 = 273.15;
 /// All slips that a model and its file allow.
 pub(super) fn slips(base: &Model, text: &str) -> Vec<Slip> {
     let mut all = Vec::new();
-    for (id, factor, words) in SIZES {
+    for (id, factor, words) in SIZE_SLIPS {
         all.push(of_rows(id, format!("These numbers fit if d were {words}"), move |row| {
             scale("d", row, factor);
         }));
     }
-    for (id, factor, words) in SPEEDS {
+    for (id, factor, words) in SPEED_SLIPS {
         all.push(of_rows(id, format!("These numbers fit if the speeds were {words}"), move |row| {
             for name in ["v_n", "v_t", "v_gas"] {
                 scale(name, row, factor);
@@ -101,7 +101,7 @@ fn of_materials(base: &Model, text: &str) -> Vec<Slip> {
         groups.insert(0, names);
     }
     let mut all = Vec::new();
-    for (key, factors) in NUMBERS {
+    for (key, factors) in MATERIAL_SLIPS {
         for &factor in factors {
             for group in &groups {
                 let Some(model) = scaled(&document, group, key, factor) else { continue };

@@ -6,14 +6,14 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::dataset::Values;
+use crate::dataset::ColumnValues;
 
 /// Largest number of knots of a curve.
 const KNOTS: usize = 8;
 /// Largest number of knots of one side of a surface.
 const SIDE_KNOTS: usize = 5;
 /// Least number of points of a curve with so many parameters.
-const LEAST_POINTS: usize = 4;
+const LEAST_CURVE_POINTS: usize = 4;
 /// Largest number of different labels.
 const LABELS: usize = 40;
 /// Penalties tried, relative to the mean diagonal of the normal matrix.
@@ -33,10 +33,10 @@ pub(super) enum Basis {
 
 impl Basis {
     /// The basis for a column; `None` if the rows with these indices do not vary enough in it.
-    pub fn of(values: &Values, rows: &[usize]) -> Option<Self> {
+    pub fn of(values: &ColumnValues, rows: &[usize]) -> Option<Self> {
         match values {
-            Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row]), KNOTS),
-            Values::Labels { levels, of_row } => {
+            ColumnValues::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row]), KNOTS),
+            ColumnValues::Labels { levels, of_row } => {
                 let used =
                     (0..levels.len()).filter(|&l| rows.iter().any(|&row| of_row[row] == Some(l))).count();
                 // Nearly as many labels as rows identify the row and predict nothing for another one.
@@ -47,10 +47,12 @@ impl Basis {
     }
 
     /// The basis of one side of a surface.
-    pub fn of_side(values: &Values, rows: &[usize]) -> Option<Self> {
+    pub fn of_side(values: &ColumnValues, rows: &[usize]) -> Option<Self> {
         match values {
-            Values::Numbers(numbers) => Self::of_numbers(rows.iter().map(|&row| numbers[row]), SIDE_KNOTS),
-            Values::Labels { .. } => Self::of(values, rows),
+            ColumnValues::Numbers(numbers) => {
+                Self::of_numbers(rows.iter().map(|&row| numbers[row]), SIDE_KNOTS)
+            }
+            ColumnValues::Labels { .. } => Self::of(values, rows),
         }
     }
 
@@ -76,10 +78,10 @@ impl Basis {
     }
 
     /// The basis functions at a row.
-    pub fn entry(&self, values: &Values, row: usize) -> Entry {
+    pub fn entry(&self, values: &ColumnValues, row: usize) -> Entry {
         match (self, values) {
-            (Self::Hats(knots), Values::Numbers(numbers)) => hats(knots, numbers[row]),
-            (Self::Labels(_), Values::Labels { of_row, .. }) => {
+            (Self::Hats(knots), ColumnValues::Numbers(numbers)) => hats(knots, numbers[row]),
+            (Self::Labels(_), ColumnValues::Labels { of_row, .. }) => {
                 of_row[row].map_or(Vec::new(), |level| vec![(level, 1.0)])
             }
             _ => Vec::new(),
@@ -126,7 +128,7 @@ fn hats(knots: &[f64], value: f64) -> Entry {
 
 /// One row as a curve is fitted to it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Point {
+pub(super) struct WeightedResidual {
     /// Index of the row.
     pub row: usize,
     /// Measured minus predicted value.
@@ -155,7 +157,7 @@ pub(super) struct Smoothed {
 /// cross-validation error. `None` where there are too few points.
 pub(super) fn ridge(
     penalty: &DMatrix<f64>,
-    points: &[Point],
+    points: &[WeightedResidual],
     entry: impl Fn(usize) -> Entry,
 ) -> Option<Smoothed> {
     let count = penalty.nrows();
@@ -174,7 +176,7 @@ pub(super) fn ridge(
         square += point.weight * point.residual * point.residual;
         weights += point.weight;
     }
-    if weights <= 0.0 || points.len() < count.min(LEAST_POINTS) {
+    if weights <= 0.0 || points.len() < count.min(LEAST_CURVE_POINTS) {
         return None;
     }
     let scale = normal.trace() / count as f64;
@@ -194,21 +196,21 @@ pub(super) fn ridge(
 /// Fits curves over the columns `own`, and interactions of each of them with another of `own` or `others`. Returns the
 /// fitted values at the rows `targets`, with mean zero over the points, and the effective number of parameters.
 pub(super) fn surface(
-    own: &[&Values],
-    others: &[&Values],
-    points: &[Point],
+    own: &[&ColumnValues],
+    others: &[&ColumnValues],
+    points: &[WeightedResidual],
     targets: &[usize],
 ) -> (Vec<f64>, f64) {
     let rows: Vec<usize> = points.iter().map(|point| point.row).collect();
-    let based = |values: &[&'_ Values]| {
-        let with_basis = |values: &&'_ Values| Some((Basis::of(values, &rows)?, (*values).clone()));
+    let based = |values: &[&'_ ColumnValues]| {
+        let with_basis = |values: &&'_ ColumnValues| Some((Basis::of(values, &rows)?, (*values).clone()));
         values.iter().filter_map(with_basis).collect::<Vec<_>>()
     };
     let (own, others) = (based(own), based(others));
-    let mut left: Vec<Point> = points.to_vec();
+    let mut left: Vec<WeightedResidual> = points.to_vec();
     let mut fitted = vec![0.0; targets.len()];
     let mut parameters = 0.0;
-    let mut take = |left: &mut Vec<Point>, at: &dyn Fn(usize) -> f64| {
+    let mut take = |left: &mut Vec<WeightedResidual>, at: &dyn Fn(usize) -> f64| {
         left.iter_mut().for_each(|point| point.residual -= point.scale * at(point.row));
         fitted.iter_mut().zip(targets).for_each(|(sum, &row)| *sum += at(row));
     };
@@ -245,7 +247,7 @@ pub(super) fn surface(
 }
 
 /// The basis functions of an interaction: all products.
-pub(super) fn products(pair: &[(&Basis, &Values); 2], row: usize) -> Entry {
+pub(super) fn products(pair: &[(&Basis, &ColumnValues); 2], row: usize) -> Entry {
     let [one, two] = pair.map(|(basis, values)| basis.entry(values, row));
     let wide = pair[1].0.len();
     let product = |&(a, x): &(usize, f64)| two.iter().map(move |&(b, y)| (a * wide + b, x * y));
@@ -256,14 +258,14 @@ pub(super) fn products(pair: &[(&Basis, &Values); 2], row: usize) -> Entry {
 mod tests {
     use super::*;
 
-    fn points(count: usize, of: impl Fn(usize) -> f64) -> Vec<Point> {
-        (0..count).map(|row| Point { row, residual: of(row), weight: 1.0, scale: 1.0 }).collect()
+    fn points(count: usize, of: impl Fn(usize) -> f64) -> Vec<WeightedResidual> {
+        (0..count).map(|row| WeightedResidual { row, residual: of(row), weight: 1.0, scale: 1.0 }).collect()
     }
 
     #[test]
     fn a_curve_follows_a_sine() {
         let x: Vec<f64> = (0..200).map(|i| f64::from(i) / 200.0).collect();
-        let values = Values::Numbers(x.clone());
+        let values = ColumnValues::Numbers(x.clone());
         let rows: Vec<usize> = (0..200).collect();
         let basis = Basis::of(&values, &rows).unwrap();
         let fit =
@@ -277,13 +279,13 @@ mod tests {
     #[test]
     fn labels_have_heights_and_identifiers_of_rows_are_refused() {
         let of_row = (0..60).map(|i| Some(i % 3)).collect();
-        let values = Values::Labels { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
+        let values = ColumnValues::Labels { levels: vec!["a".into(), "b".into(), "c".into()], of_row };
         let rows: Vec<usize> = (0..60).collect();
         let basis = Basis::of(&values, &rows).unwrap();
         let points = points(60, |i| [0.5, -0.25, -0.25][i % 3]);
         let fit = ridge(&basis.penalty(), &points, |row| basis.entry(&values, row)).unwrap();
         assert!((fit.heights[0] - 0.5).abs() < 0.01 && fit.freedom < 3.01);
-        let labels = Values::Labels {
+        let labels = ColumnValues::Labels {
             levels: (0..30).map(|i| i.to_string()).collect(),
             of_row: (0..60).map(|i| Some(i % 30)).collect(),
         };

@@ -10,9 +10,9 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::choice::{Choice, Task};
+use super::choice::{CauseChoice, Task};
 use super::data_split::{DataSplit, shuffled};
-use super::gain::{CROSS_VALIDATED, HELD_OUT, HeldOut, ModelFile};
+use super::gain::{CROSS_VALIDATED, HELD_OUT, HeldOutRows, ModelFile};
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::record::Gain;
@@ -28,9 +28,9 @@ const SECOND_SHARE: f64 = 0.5;
 /// With fewer units the gain is cross-validated.
 const LEAST_UNITS: usize = 40;
 /// With fewer groups their rows are held out one by one: so few groups say nothing of others.
-const LEAST_GROUPS: usize = 5;
+const LEAST_HELD_OUT_GROUPS: usize = 5;
 /// Parts of the cross-validation with many units, and with few.
-const PARTS: usize = 5;
+const FEW_PARTS: usize = 5;
 const MANY_PARTS: usize = 10;
 /// Largest number of unseen lines that are listed.
 const LISTED_LINES: usize = 1000;
@@ -38,15 +38,15 @@ const LISTED_LINES: usize = 1000;
 const GAIN_ROWS: usize = 20_000;
 
 /// The rows that measure the gain.
-pub(super) struct Measured {
+pub(super) struct MeasuredGain {
     /// [`HELD_OUT`] or [`CROSS_VALIDATED`].
     pub how: &'static str,
-    pub rows: HeldOut,
+    pub rows: HeldOutRows,
     /// After a cross-validation, all rows under the file that is written, which has seen them.
-    pub seen: Option<HeldOut>,
+    pub seen: Option<HeldOutRows>,
 }
 
-impl Measured {
+impl MeasuredGain {
     /// The gain in an observable; `noise` is the scatter that no model removes [1].
     pub fn gain(&self, observable: Observable, noise: Option<f64>, seed: u64) -> Option<Gain> {
         self.rows.gain(observable, self.how, noise, seed, self.seen.as_ref())
@@ -56,9 +56,9 @@ impl Measured {
 /// The choice of causes, and the choice whose fit is written.
 pub(super) struct Study {
     /// On all rows; on three quarters of a large file.
-    pub choice: Choice,
+    pub choice: CauseChoice,
     /// The same, or the choice on three quarters.
-    pub file: Choice,
+    pub file: CauseChoice,
     /// Rows that the file has not seen; empty for a cross-validation.
     unseen: Vec<usize>,
     /// What is held out as a whole.
@@ -72,18 +72,19 @@ impl Study {
         if units.count >= MANY_UNITS {
             let (fitted, unseen) = units.quarter(seed);
             let share = if whole.is_large() { 1.0 } else { FIRST_SHARE };
-            let choice = Choice::new(&whole.fitting(&fitted), Task { level: share * task.level, ..task });
+            let choice =
+                CauseChoice::new(&whole.fitting(&fitted), Task { level: share * task.level, ..task });
             let grouped = units.of_groups(&choice);
             if grouped.is_none() && (whole.is_large() || !choice.names().is_empty()) {
                 return Self { file: choice.clone(), choice, unseen, units, seed };
             }
             task.level *= SECOND_SHARE;
         }
-        let choice = Choice::new(whole, task);
+        let choice = CauseChoice::new(whole, task);
         let units = units.of_groups(&choice).unwrap_or(units);
         if !choice.names().is_empty() && (LEAST_UNITS..MANY_UNITS).contains(&units.count) {
             let (fitted, unseen) = units.quarter(seed);
-            let file = Choice::new(&whole.fitting(&fitted), task);
+            let file = CauseChoice::new(&whole.fitting(&fitted), task);
             if file.names() == choice.names() {
                 return Self { choice, file, unseen, units, seed };
             }
@@ -114,22 +115,22 @@ impl Study {
         task: Task<'_>,
         models: [&Hypothesis<'_>; 2],
         text: &str,
-    ) -> Result<Measured, InputError> {
-        let mut held_out = HeldOut::default();
+    ) -> Result<MeasuredGain, InputError> {
+        let mut held_out = HeldOutRows::default();
         let base = ModelFile { model: &whole.base, scatter: models[0].scatter };
         if !self.unseen.is_empty() {
             let model = Model::from_toml("extended.toml", text)?;
             let extended = ModelFile { model: &model, scatter: models[1].scatter };
             let unseen = &self.unseen[..self.unseen.len().min(GAIN_ROWS)];
             held_out.add(rows, &self.units.of_row, unseen, [&base, &extended]);
-            return Ok(Measured { how: HELD_OUT, rows: held_out, seen: None });
+            return Ok(MeasuredGain { how: HELD_OUT, rows: held_out, seen: None });
         }
         let parts = self.units.parts(self.seed);
         let file = |part: &Vec<usize>| {
             let mut inside = vec![false; whole.rows.len()];
             part.iter().for_each(|&row| inside[row] = true);
             let others: Vec<usize> = (0..whole.rows.len()).filter(|&row| !inside[row]).collect();
-            let choice = Choice::new(&whole.fitting(&others), task);
+            let choice = CauseChoice::new(&whole.fitting(&others), task);
             let text = choice.model_text(task).unwrap_or_else(|_| task.text.to_owned());
             Ok((Model::from_toml("extended.toml", &text)?, choice.scatter()))
         };
@@ -138,10 +139,10 @@ impl Study {
             held_out.add(rows, &self.units.of_row, part, [&base, &ModelFile { model, scatter: *scatter }]);
         }
         let model = Model::from_toml("extended.toml", text)?;
-        let mut seen = HeldOut::default();
+        let mut seen = HeldOutRows::default();
         let extended = ModelFile { model: &model, scatter: models[1].scatter };
         seen.add(rows, &self.units.of_row, &whole.all(), [&base, &extended]);
-        Ok(Measured { how: CROSS_VALIDATED, rows: held_out, seen: Some(seen) })
+        Ok(MeasuredGain { how: CROSS_VALIDATED, rows: held_out, seen: Some(seen) })
     }
 }
 
@@ -154,9 +155,9 @@ struct Units {
 
 impl Units {
     /// The groups that share an error in a choice, if there are enough of them and they are not the units already.
-    fn of_groups(&self, choice: &Choice) -> Option<Self> {
+    fn of_groups(&self, choice: &CauseChoice) -> Option<Self> {
         let groups = choice.data.shared.as_ref()?;
-        let fewer = (LEAST_GROUPS..self.count).contains(&groups.count);
+        let fewer = (LEAST_HELD_OUT_GROUPS..self.count).contains(&groups.count);
         fewer.then(|| Self { of_row: groups.of_row.clone(), count: groups.count })
     }
 
@@ -169,7 +170,7 @@ impl Units {
 
     /// The rows in parts.
     fn parts(&self, seed: u64) -> Vec<Vec<usize>> {
-        let count = if self.count < LEAST_UNITS { MANY_PARTS } else { PARTS }.min(self.count);
+        let count = if self.count < LEAST_UNITS { MANY_PARTS } else { FEW_PARTS }.min(self.count);
         let mut part_of = vec![0; self.count];
         let order = shuffled(self.count, seed);
         order.iter().enumerate().for_each(|(place, &unit)| part_of[unit] = place % count);

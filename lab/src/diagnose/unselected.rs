@@ -9,7 +9,7 @@ use crate::dataset::{ColumnMap, DatasetError, MOST_ROWS, Measurement, Measuremen
 use nearwall::model::Model;
 
 /// Rows that are evaluated together.
-const BLOCK: usize = 25_000;
+const ROWS_AT_ONCE: usize = 25_000;
 
 /// Reads measured impacts in bounded memory: of a file with more than [`crate::dataset::MOST_ROWS`] usable rows a selection,
 /// and the sums of the others that [`super::diagnose`] needs. `base` is the model of `walls`.
@@ -64,7 +64,7 @@ impl UnselectedSums<'_> {
         self.sums.rows += 1;
         self.stated_errors |= row.input_errors.each().next().is_some();
         self.block.push(row);
-        if self.block.len() == BLOCK {
+        if self.block.len() == ROWS_AT_ONCE {
             self.evaluate();
         }
     }

@@ -1,7 +1,8 @@
 //! Writes the record of a diagnosis and its verdict.
 
 use super::candidate::{Addition, ScoredCandidate};
-use super::choice::Choice;
+use super::choice::CauseChoice;
+use super::constants::{LEAST_CERTAINTY, REFUTED};
 use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
@@ -15,17 +16,13 @@ use super::record::{
 use nearwall::effect::{EFFECTS, EffectInfo};
 
 /// Largest number of misfits listed.
-const MISFITS: usize = 12;
+const MOST_MISFITS: usize = 12;
 /// With fewer rows the verdict warns that effects may go undetected.
-const MANY_ROWS: usize = 60;
+const WARNED_ROWS: usize = 60;
 /// With fewer rows, causes that cannot be told apart are undecided.
-const FEW_ROWS: usize = 12;
-/// Least share of resamples that name a cause.
-const LEAST_CERTAINTY: f64 = 0.5;
+const UNDECIDED_ROWS: usize = 12;
 /// Share of resamples below which a cause is never named.
 const HARDLY_EVER: f64 = 0.2;
-/// p-value at which a model is refuted.
-const REFUTED: f64 = 0.01;
 /// p-value, without correction, of candidates that may carry a misfit; and how many of them are named.
 const POSSIBLE: f64 = 0.05;
 const MOST_UNDECIDED: usize = 6;
@@ -53,12 +50,12 @@ pub(super) fn misfit(
     let mut all: Vec<Misfit> = first_round.iter().filter_map(one).collect();
     let name = |misfit: &Misfit| (misfit.column.clone(), misfit.observable);
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| name(a).cmp(&name(b))));
-    all.truncate(MISFITS);
+    all.truncate(MOST_MISFITS);
     all
 }
 
 /// The record without rows, errors, misfits, gains, verdict and sample.
-pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &Choice, options: &Options) -> Diagnosis {
+pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options: &Options) -> Diagnosis {
     let data = hypothesis.data;
     let builder = FindingBuilder { hypothesis, level: options.level };
     let mut findings: Vec<Finding> = Vec::new();
@@ -74,7 +71,7 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &Choice, options: &Opt
             findings.push(finding);
         }
     }
-    if choice.data.search.len() < FEW_ROWS {
+    if choice.data.search.len() < UNDECIDED_ROWS {
         for finding in &mut findings {
             finding.indistinguishable_from.extend(possible_laws(finding));
         }
@@ -129,17 +126,17 @@ fn possible_laws(finding: &Finding) -> Vec<String> {
 
 /// With few rows, a cause that the data cannot tell from others is no finding, nor ever one that resampled data hardly name: all of them
 /// are undecided.
-pub(super) fn undecided(findings: &[Finding], choice: &Choice) -> Vec<String> {
+pub(super) fn undecided(findings: &[Finding], choice: &CauseChoice) -> Vec<String> {
     let Some(first) = findings.first() else { return Vec::new() };
     let mut all = vec![first.cause.clone()];
     all.extend(first.indistinguishable_from.iter().cloned());
-    let few = choice.data.search.len() < FEW_ROWS;
+    let few = choice.data.search.len() < UNDECIDED_ROWS;
     let unsure = few && all.len() > 1 && first.certainty < LEAST_CERTAINTY;
     if unsure || first.certainty < HARDLY_EVER { all } else { Vec::new() }
 }
 
 /// Candidates that may carry a misfit which the errors show, if none is significant by itself.
-pub(super) fn possible_causes(fit: &Fit, choice: &Choice) -> Vec<String> {
+pub(super) fn possible_causes(fit: &Fit, choice: &CauseChoice) -> Vec<String> {
     if !choice.discoveries.is_empty() || !is_refuted(fit) {
         return Vec::new();
     }
@@ -216,7 +213,7 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
             groups.column, groups.count
         );
     }
-    if rows < MANY_ROWS {
+    if rows < WARNED_ROWS {
         text += &format!(" With only {rows} rows, an effect of usual size may go undetected.");
     }
     text

@@ -8,7 +8,7 @@ mod notes;
 use std::io::Read;
 use std::path::Path;
 
-use crate::dataset::{BadRow, ImpactReader, Row, WallChoice, WallError};
+use crate::dataset::{BadRow, ImpactReader, ImpactRow, WallChoice, WallError};
 use crate::rig::{Band, DrawnModels, DrawsError};
 use nearwall::impact::ImpactError;
 use nearwall::model::{Expectation, Model};
@@ -92,7 +92,7 @@ impl<'a> Predictor<'a> {
     ///
     /// # Errors
     /// [`WallError::Unknown`].
-    pub fn wall(&self, row: &Row) -> Result<usize, WallError> {
+    pub fn wall(&self, row: &ImpactRow) -> Result<usize, WallError> {
         self.walls.of(self.wall_column.and_then(|column| row.cells.get(column)))
     }
 
@@ -100,11 +100,11 @@ impl<'a> Predictor<'a> {
     ///
     /// # Errors
     /// The line of the row, and why the model cannot decide the impact.
-    pub fn row(&self, row: &Row) -> Result<PredictedRow, BadRow> {
+    pub fn row(&self, row: &ImpactRow) -> Result<PredictedRow, BadRow> {
         self.predict(row).map_err(|error| BadRow { line: row.line, reason: error.to_string() })
     }
 
-    fn predict(&self, row: &Row) -> Result<PredictedRow, RowError> {
+    fn predict(&self, row: &ImpactRow) -> Result<PredictedRow, RowError> {
         let wall = self.wall(row)?;
         let expect = |model: &Model| model.expect(wall, &row.impact, DRAWS);
         let mean = expect(self.model)?;

@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::{PredictedRow, Predictor};
-use crate::dataset::{BadRow, ImpactReader, Row, assumed, unlikely};
+use crate::dataset::{BadRow, ImpactReader, ImpactRow, assumed, unlikely};
 use nearwall::model::{ExtraInput, Model};
 
 /// Notes about the columns of a file: unused ones that resemble an input, and the assumed values of absent inputs.
@@ -40,8 +40,8 @@ impl RowNotes {
     pub fn predict<'r>(
         &mut self,
         predictor: &Predictor<'_>,
-        next: Result<&'r Row, &BadRow>,
-    ) -> Result<(&'r Row, PredictedRow), BadRow> {
+        next: Result<&'r ImpactRow, &BadRow>,
+    ) -> Result<(&'r ImpactRow, PredictedRow), BadRow> {
         let predicted = next.map_err(Clone::clone).and_then(|row| {
             self.warn(predictor.model(), row);
             Ok((row, predictor.row(row)?))
@@ -56,7 +56,7 @@ impl RowNotes {
         predicted
     }
 
-    fn warn(&mut self, model: &Model, row: &Row) {
+    fn warn(&mut self, model: &Model, row: &ImpactRow) {
         if self.unit.is_none() {
             self.unit = unlikely(row.line, &row.impact);
         }
@@ -101,7 +101,7 @@ impl RowNotes {
 }
 
 /// A warning if a row has a word that the model file does not list.
-fn unknown_label(model: &Model, row: &Row) -> Option<String> {
+fn unknown_label(model: &Model, row: &ImpactRow) -> Option<String> {
     let mut extra = model.extra_inputs().iter().zip(row.impact.extra.iter());
     let (input, _) = extra.find(|(input, value)| input.is_unknown(**value))?;
     let (line, name, known) = (row.line, &input.name, input.labels.join(", "));

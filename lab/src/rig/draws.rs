@@ -14,7 +14,7 @@ use nearwall::model::Model;
 /// Most particles of a case whose expected captures make a band.
 const BAND_PARTICLES: u64 = 1000;
 /// The ends of a 95 % band.
-const ENDS: [f64; 2] = [0.025, 0.975];
+const BAND_ENDS: [f64; 2] = [0.025, 0.975];
 
 /// Why a folder's models cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -103,7 +103,7 @@ impl Band {
             let rest = place.fract();
             value(place.floor()) * (1.0 - rest) + value(place.ceil()) * rest
         };
-        Self { low: at(ENDS[0]), median: at(0.5), high: at(ENDS[1]) }
+        Self { low: at(BAND_ENDS[0]), median: at(0.5), high: at(BAND_ENDS[1]) }
     }
 
     fn times(self, factor: f64) -> Self {

@@ -1,7 +1,7 @@
 //! Forward models of a rig: what a wall law predicts for what the whole rig measures.
 //!
-//! A [`Forward`] predicts every reading of [`crate::dataset::RigMeasurements`] for a changed wall law. [`Simulated`] follows
-//! particles as `nearwall simulate` does; [`Replayed`] decides again the impacts that OpenFOAM recorded. Both hand their hits to a
+//! A [`Forward`] predicts every reading of [`crate::dataset::RigMeasurements`] for a changed wall law. [`SimulatedRig`] follows
+//! particles as `nearwall simulate` does; [`ReplayedRig`] decides again the impacts that OpenFOAM recorded. Both hand their hits to a
 //! [`tally`], which sums them up to the observables. `diagnose::rig` compares the predictions with the measurements.
 //!
 //! For forecasts, [`add_capture_bands`] gives what models drawn from a fit capture, and [`sensitivity`] the numbers on which captures
@@ -23,9 +23,9 @@ pub use case_text::{CaseText, SettingError, SettingFault};
 pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};
 pub use recording::ReplayAccount;
 pub use replay_error::ReplayError;
-pub use replayed::Replayed;
-pub use simulated::{RigCase, Simulated, particles_for};
-pub use tally::Predicted;
+pub use replayed::ReplayedRig;
+pub use simulated::{RigCase, SimulatedRig, particles_for};
+pub use tally::PredictedReading;
 
 use crate::dataset::Experiment;
 use crate::simulate::SimulationError;
@@ -74,8 +74,11 @@ pub trait Forward: Sync {
     ///
     /// # Errors
     /// [`PredictionError`] where the changed model cannot decide an impact.
-    fn predict(&self, experiment: usize, change: &ModelChange<'_>)
-    -> Result<Vec<Predicted>, PredictionError>;
+    fn predict(
+        &self,
+        experiment: usize,
+        change: &ModelChange<'_>,
+    ) -> Result<Vec<PredictedReading>, PredictionError>;
 
     /// Most causes that one diagnosis may name: one where predictions are only approximate beside the law of the record.
     fn most_causes(&self) -> usize {

@@ -8,9 +8,9 @@
 use nalgebra::Vector3;
 
 /// Distance of a point from its wall, as a share of the wall's size, up to which the wall is flat [1].
-const FLAT: f64 = 1e-3;
+const FLATNESS: f64 = 1e-3;
 /// How far beyond the recorded impacts of a wall a particle may arrive, as a share of the wall's size [1].
-const BEYOND: f64 = 0.02;
+const BEYOND_IMPACTS: f64 = 0.02;
 /// Most times that a flight may take of what was recorded [1].
 const LONGEST: f64 = 100.0;
 /// Shares of a change of speed that lie in the mean of a flight, `(mean - end)/(start - end)` [1], which the law above can have, with the
@@ -42,7 +42,7 @@ impl FlatWall {
             let farthest = rest.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
             let far = farthest.norm();
             size = f64::max(size, far);
-            if far <= FLAT * size {
+            if far <= FLATNESS * size {
                 break;
             }
             along.push(farthest / far);
@@ -53,14 +53,14 @@ impl FlatWall {
 
     /// Whether impacts were recorded around a point.
     pub fn has(&self, point: Vector3<f64>) -> bool {
-        let beyond = BEYOND * self.size;
+        let beyond = BEYOND_IMPACTS * self.size;
         (0..3).all(|axis| (self.ends[0][axis] - beyond..=self.ends[1][axis] + beyond).contains(&point[axis]))
     }
 
     /// The directions along both walls, if they are parallel.
     fn shared<'a>(&'a self, other: &'a Self) -> Option<&'a [Vector3<f64>]> {
         let [few, many] = if self.along.len() < other.along.len() { [self, other] } else { [other, self] };
-        let inside = |direction: &Vector3<f64>| beside(*direction, &many.along).norm() < 10.0 * FLAT;
+        let inside = |direction: &Vector3<f64>| beside(*direction, &many.along).norm() < 10.0 * FLATNESS;
         few.along.iter().all(inside).then_some(&many.along)
     }
 }
@@ -72,7 +72,7 @@ fn beside(vector: Vector3<f64>, along: &[Vector3<f64>]) -> Vector3<f64> {
 
 /// One end of a recorded flight.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct FlightEnd<'a> {
+pub(super) struct RecordedContact<'a> {
     pub wall: &'a FlatWall,
     pub position: Vector3<f64>,
     pub age: f64,
@@ -82,7 +82,7 @@ pub(super) struct FlightEnd<'a> {
 
 /// A recorded flight.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Flight {
+pub(super) struct RecordedFlight {
     time: f64,
     /// From wall to wall [m]; 0 if the particle returns to its wall.
     way: f64,
@@ -104,15 +104,15 @@ pub(super) struct Landing {
     pub shift: Vector3<f64>,
 }
 
-impl Flight {
+impl RecordedFlight {
     /// The flight between two recorded impacts; `None` unless the walls are parallel and the law above describes it.
-    pub fn new(from: &FlightEnd<'_>, to: &FlightEnd<'_>) -> Option<Self> {
+    pub fn new(from: &RecordedContact<'_>, to: &RecordedContact<'_>) -> Option<Self> {
         let along = from.wall.shared(to.wall)?;
         let whole = to.position - from.position;
         let off = beside(whole, along);
         let (across, drift) = (off.norm(), whole - off);
         let time = to.age - from.age;
-        let returns = across <= FLAT * from.wall.size.max(to.wall.size) && from.wall == to.wall;
+        let returns = across <= FLATNESS * from.wall.size.max(to.wall.size) && from.wall == to.wall;
         let (way, end) = if returns { (0.0, -to.speeds[0]) } else { (across, to.speeds[0]) };
         let [start, along_start] = from.speeds;
         if !(time > 0.0 && start > 0.0 && (returns || way > 0.0)) {
@@ -278,9 +278,10 @@ mod tests {
             let (at, speeds, time) = go(start);
             let [low, high] = [wall(0.0), wall(width)];
             let (to, x) = if g[0] < 0.0 { (&low, 0.0) } else { (&high, width) };
-            let from = FlightEnd { wall: &low, position: Vector3::zeros(), age: 1.0, speeds: start };
-            let to = FlightEnd { wall: to, position: Vector3::new(x, 0.0, at), age: 1.0 + time, speeds };
-            let flight = Flight::new(&from, &to).unwrap();
+            let from = RecordedContact { wall: &low, position: Vector3::zeros(), age: 1.0, speeds: start };
+            let to =
+                RecordedContact { wall: to, position: Vector3::new(x, 0.0, at), age: 1.0 + time, speeds };
+            let flight = RecordedFlight::new(&from, &to).unwrap();
             assert!(flight.again(start).unwrap().shift.iter().all(|x| x.abs() < 1e-6));
             for other in other {
                 let (at_other, expected, _) = go(other);
@@ -299,9 +300,9 @@ mod tests {
     fn a_particle_that_the_gas_stops_does_not_arrive() {
         let (at, speeds, time) = followed(0.01, 2.0, [0.0; 2], 25.0, [0.6, 1.0]).unwrap();
         let [low, high] = [wall(0.0), wall(0.01)];
-        let from = FlightEnd { wall: &low, position: Vector3::zeros(), age: 0.0, speeds: [0.6, 1.0] };
-        let to = FlightEnd { wall: &high, position: Vector3::new(0.01, 0.0, at), age: time, speeds };
-        let flight = Flight::new(&from, &to).unwrap();
+        let from = RecordedContact { wall: &low, position: Vector3::zeros(), age: 0.0, speeds: [0.6, 1.0] };
+        let to = RecordedContact { wall: &high, position: Vector3::new(0.01, 0.0, at), age: time, speeds };
+        let flight = RecordedFlight::new(&from, &to).unwrap();
         assert_eq!(flight.again([0.24, 1.0]), None);
         assert!(flight.again([0.26, 1.0]).is_some());
     }
@@ -312,12 +313,20 @@ mod tests {
             (0..20).map(|i| Vector3::new(f64::from(i).cos(), f64::from(i).sin(), f64::from(i))).collect();
         assert_eq!(FlatWall::of(&circle), None);
         let side = FlatWall::of(&[0.0, 0.1, 0.05].map(|x| Vector3::new(x, 0.0, 0.0))).unwrap();
-        let from =
-            FlightEnd { wall: &side, position: Vector3::new(0.05, 0.0, 0.0), age: 0.0, speeds: [1.0, 1.0] };
+        let from = RecordedContact {
+            wall: &side,
+            position: Vector3::new(0.05, 0.0, 0.0),
+            age: 0.0,
+            speeds: [1.0, 1.0],
+        };
         let floor = wall(0.1);
-        let to =
-            FlightEnd { wall: &floor, position: Vector3::new(0.1, 0.0, 0.05), age: 0.05, speeds: [1.0, 1.0] };
-        assert_eq!(Flight::new(&from, &to), None);
+        let to = RecordedContact {
+            wall: &floor,
+            position: Vector3::new(0.1, 0.0, 0.05),
+            age: 0.05,
+            speeds: [1.0, 1.0],
+        };
+        assert_eq!(RecordedFlight::new(&from, &to), None);
         let square = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[x, y]| Vector3::new(x, y, 0.0));
         let square = FlatWall::of(&square).unwrap();
         assert!(

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use nalgebra::Vector3;
 
 use super::PredictionError;
-use super::recorded_flight::{FlatWall, Flight, Landing};
+use super::recorded_flight::{FlatWall, Landing, RecordedFlight};
 use super::replay_error::ReplayError;
 use super::tally::TalliedHit;
 use crate::results::openfoam::impact_history::{Decision, ImpactHistory, ParcelId, RecordedImpact};
@@ -16,7 +16,7 @@ use nearwall::model::Model;
 use nearwall::rng::ImpactRng;
 
 /// Most impacts of an experiment that are replayed; of more, whole parcels are left out evenly.
-const MOST_IMPACTS: u64 = 20_000;
+const MOST_REPLAYED: u64 = 20_000;
 /// Probability of capture of the base from which too few parcels go on to stand for the others [1].
 const CERTAIN: f64 = 0.99;
 /// What is doubtful after a flight that begins again, over the square of the relative change of the rebound [1]; assumed.
@@ -24,15 +24,15 @@ const FLOWN_AGAIN: f64 = 0.25;
 /// Largest share of a parcel that arrives [1]: one parcel must not stand for more.
 const MOST_SHARE: f64 = 100.0;
 /// Random draws over which the base is averaged.
-const DRAWS: usize = 64;
+const BASE_DRAWS: usize = 64;
 /// Standard errors by which the captures of a record may differ from those of the base model, and the share of its impacts that
 /// may contradict the base model.
 const ERRORS: f64 = 4.5;
 const CONTRADICTIONS: f64 = 1e-3;
 /// Relative change of a rebound up to which it is the recorded one [1].
-const SAME: f64 = 1e-12;
+const UNCHANGED_REBOUND: f64 = 1e-12;
 /// Difference between recorded and recomputed restitution that rounding explains [1].
-const ROUNDING: f64 = 1e-6;
+const RESTITUTION_ROUNDING: f64 = 1e-6;
 
 /// An impact, with what does not depend on the changed law.
 #[derive(Debug, Clone)]
@@ -53,7 +53,7 @@ pub(super) struct ReplayedImpact {
     /// The same by the base with the random numbers of the replay [m/s].
     pub rebound: [f64; 2],
     /// From here to the next recorded impact of the parcel, between flat parallel walls.
-    pub flight: Option<Flight>,
+    pub flight: Option<RecordedFlight>,
     pub random: ImpactRng,
     /// Mass of all particles [kg].
     pub mass: f64,
@@ -89,7 +89,7 @@ impl ReplayedImpact {
         let change = |(now, then): (f64, f64)| if now == then { 0.0 } else { (now / then - 1.0).abs() };
         let changes = speeds.into_iter().zip(self.rebound).map(change);
         let changed = changes.fold(0.0, |most: f64, one| if one > most { one } else { most }).min(1.0);
-        let Some(flight) = self.flight.as_ref().filter(|_| changed > SAME) else {
+        let Some(flight) = self.flight.as_ref().filter(|_| changed > UNCHANGED_REBOUND) else {
             return NextImpact::AsRecorded(changed);
         };
         let now = |which: usize| self.recorded[which] + speeds[which] - self.rebound[which];
@@ -173,7 +173,7 @@ impl ReplayedImpact {
         random: ImpactRng,
     ) -> Result<Self, ImpactError> {
         let impact = recorded.impact;
-        let base_probability = base.expect(wall, &impact, DRAWS)?.sticking_probability;
+        let base_probability = base.expect(wall, &impact, BASE_DRAWS)?.sticking_probability;
         let rebound = rebound_speeds(&impact, &base.resolve(wall, &impact, random)?);
         let (captured, speeds) = match recorded.decision {
             Decision::Captured => (true, [0.0; 2]),
@@ -282,8 +282,8 @@ impl Recording {
             let Ok(mean) = base.expect(one.wall, &one.impact, 1) else { continue };
             let own = [mean.normal_restitution, mean.tangential_restitution];
             if mean.variances != [0.0; 2]
-                || (own[0] - e_n).abs() <= ROUNDING * (1.0 + e_n.abs())
-                    && (own[1] - e_t).abs() <= ROUNDING * (1.0 + e_t.abs())
+                || (own[0] - e_n).abs() <= RESTITUTION_ROUNDING * (1.0 + e_n.abs())
+                    && (own[1] - e_t).abs() <= RESTITUTION_ROUNDING * (1.0 + e_t.abs())
             {
                 continue;
             }
@@ -301,7 +301,7 @@ impl Recording {
     /// Leaves out whole parcels evenly where there are more impacts than are replayed.
     pub fn thinned(self, notes: &mut Vec<String>) -> Self {
         let all = self.parcels.len();
-        let one_in = self.impacts.len() as u64 as f64 / MOST_IMPACTS as f64;
+        let one_in = self.impacts.len() as u64 as f64 / MOST_REPLAYED as f64;
         if one_in <= 1.0 {
             return self;
         }

@@ -11,7 +11,7 @@
 //! - Where the base holds a parcel with (almost) certainty, the record says nothing about what follows. What the changed law lets go there is
 //!   *without a record*.
 //! - If a rebound changes, later impacts are an approximation. Between flat parallel walls the flight begins again with the new rebound
-//!   ([`Flight`]): the next impact has other speeds and another place, or is missed. Elsewhere later impacts stay as recorded. The relative
+//!   ([`RecordedFlight`]): the next impact has other speeds and another place, or is missed. Elsewhere later impacts stay as recorded. The relative
 //!   change of the rebound velocity, of a flight begun again a quarter of its square, is the share of what follows that is doubtful; it adds
 //!   to the variance of the prediction ([`Tally::set_doubt`]).
 
@@ -20,10 +20,10 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Vector3;
 
-use super::recorded_flight::{FlatWall, Flight, FlightEnd};
+use super::recorded_flight::{FlatWall, RecordedContact, RecordedFlight};
 use super::recording::{Parcel, Recording, ReplayAccount, ReplayedImpact};
 use super::replay_error::ReplayError;
-use super::tally::{Predicted, Tally};
+use super::tally::{PredictedReading, Tally};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements, RigQuantity, RigReading};
 use crate::results::openfoam::impact_history;
@@ -32,14 +32,14 @@ use nearwall::model::Model;
 
 /// Recorded impacts of all experiments, decided again for each law.
 #[derive(Debug)]
-pub struct Replayed {
+pub struct ReplayedRig {
     base: Model,
     runs: Vec<Recording>,
     experiments: Vec<Experiment>,
     notes: Vec<String>,
 }
 
-impl Replayed {
+impl ReplayedRig {
     /// Reads the records of all experiments below `folder`, of cases that were run with the model `base`.
     ///
     /// # Errors
@@ -176,10 +176,11 @@ impl Replayed {
                     let arriving = [to.impact.normal_speed, to.impact.tangential_speed];
                     let end = |one: &ReplayedImpact, speeds: [f64; 2]| {
                         let wall = run.flat[one.patch].as_ref()?;
-                        Some(FlightEnd { wall, position: one.position, age: one.age, speeds })
+                        Some(RecordedContact { wall, position: one.position, age: one.age, speeds })
                     };
                     let ends = end(from, from.recorded).zip(end(to, arriving));
-                    run.impacts[place - 1].flight = ends.and_then(|(from, to)| Flight::new(&from, &to));
+                    run.impacts[place - 1].flight =
+                        ends.and_then(|(from, to)| RecordedFlight::new(&from, &to));
                 }
             }
         }
@@ -231,7 +232,7 @@ fn check_patches(
     Ok(())
 }
 
-impl Forward for Replayed {
+impl Forward for ReplayedRig {
     fn experiments(&self) -> &[Experiment] {
         &self.experiments
     }
@@ -244,7 +245,7 @@ impl Forward for Replayed {
         &self,
         experiment: usize,
         change: &ModelChange<'_>,
-    ) -> Result<Vec<Predicted>, PredictionError> {
+    ) -> Result<Vec<PredictedReading>, PredictionError> {
         let run = &self.runs[experiment];
         let model = change(&self.base);
         let tally = std::cell::RefCell::new(Tally::new(&self.experiments[experiment].readings, &run.patches));
@@ -353,7 +354,7 @@ mod tests {
             "experiment,captured@floor,capture_efficiency@floor,captured_from_0.05_to_0.15@floor,mean_e_n@floor\n\
              a,0.5,0.5,0.1,0.5\n",
         );
-        let replayed = Replayed::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
+        let replayed = ReplayedRig::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
         assert!(replayed.notes()[0].contains("along z"), "{:?}", replayed.notes());
         // p = 0.5 in the run, 0.2 in the changed law: shares 1, 1.6, 2.56.
         let changed = model(350.0 + 5.0 * 4.0_f64.ln(), 0.5);
@@ -383,7 +384,7 @@ mod tests {
             "captured_from_0_to_0.01@floor,captured_from_0.047_to_0.048@floor,captured_from_0.067_to_0.069@floor,\
              captured_from_0.09_to_0.3@floor\n0.5,0.1,0.1,0.1\n",
         );
-        let replayed = Replayed::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
+        let replayed = ReplayedRig::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
         // Bounces of 1 s with 1 and 0.5 m/s take 0.5 and 0.25 s with 0.5 and 0.125 m/s. Along the floor the speed grows by 0.2 m/s in
         // a second: of 0.9 m, 0.1 m in the record, the particle gets 0.425 m and 0.18625 m far.
         let predicted = replayed.predict(0, &|_| model(350.0, 0.25)).unwrap();
@@ -401,7 +402,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         write(folder.path(), &captures(&[(1, 1.0, "c"), (2, 3.0, "c")], 500.0), 8.0, 4);
         let data = data("captured@floor\n0.5\n");
-        let replayed = Replayed::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
+        let replayed = ReplayedRig::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
         let changed = model(500.0 + 5.0 * 4.0_f64.ln(), 0.5);
         let account = replayed.account(0, &changed).unwrap();
         assert!((account.caught - 0.1).abs() < 1e-9 && (account.without_record - 0.4).abs() < 1e-9);
@@ -415,7 +416,7 @@ mod tests {
         let hits = captures(&[(1, 1.0, "rrc"), (2, 2.0, "c"), (3, 1.0, "rr")], 350.0);
         write(&folder.path().join("a"), &hits, 5.0, 4);
         let fault = |text: &str, model: &Model| {
-            Replayed::new(folder.path(), &data(text), model).unwrap_err().to_string()
+            ReplayedRig::new(folder.path(), &data(text), model).unwrap_err().to_string()
         };
         let good = "experiment,captured@floor\na,0.5\n";
         let said = fault(good, &model(350.0, 0.6));
@@ -471,7 +472,7 @@ mod tests {
             bins.windows(2).map(|bin| format!("captured_from_{}_to_{}@floor", bin[0], bin[1])).collect();
         let cells = vec!["0.1"; columns.len()].join(",");
         let data = data(&format!("captured@floor,{}\n0.5,{cells}\n", columns.join(",")));
-        let replayed = Replayed::new(folder.path(), &data, &base).unwrap();
+        let replayed = ReplayedRig::new(folder.path(), &data, &base).unwrap();
         // Both better and worse capture than in the run.
         for law in [&changed, &model(349.0, 0.5)] {
             let predicted = replayed.predict(0, &|_| law.clone()).unwrap();
@@ -501,7 +502,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let mass: f64 = run.iter().filter(|hit| hit.number == 0).map(|hit| hit.mass).sum();
         write(folder.path(), &run, 2.0 * mass, 16000);
-        let replayed = Replayed::new(folder.path(), &data("captured@floor\n0.5\n"), &base).unwrap();
+        let replayed = ReplayedRig::new(folder.path(), &data("captured@floor\n0.5\n"), &base).unwrap();
         assert!(replayed.notes()[0].contains("of 8000 parcels are replayed"), "{:?}", replayed.notes());
         let [predicted] = replayed.predict(0, &Model::clone).unwrap()[..] else { unreachable!() };
         let counted: f64 =

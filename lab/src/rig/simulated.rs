@@ -9,7 +9,7 @@
 use rayon::prelude::*;
 
 use super::case_text::{CaseText, SettingError, SettingFault};
-use super::tally::{Blocks, Predicted, TalliedHit, Tally};
+use super::tally::{PredictedReading, ReadingBlocks, TalliedHit, Tally};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements};
 use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
@@ -64,7 +64,7 @@ impl RigCase {
     ) -> Result<Self, SettingError> {
         let mut case = text.with(&place, &experiment.settings)?;
         case.seed = case.seed.wrapping_add(number);
-        case.tolerance = case.tolerance.max(TOLERANCE);
+        case.tolerance = case.tolerance.max(PATH_TOLERANCE);
         let walls: Vec<&str> = case.surfaces.iter().map(|surface| surface.name.as_str()).collect();
         if let Some(reading) = experiment.readings.iter().find(|r| !walls.contains(&r.wall.as_str())) {
             let reason = SettingFault::NoWall { wall: reading.wall.clone(), walls: walls.join(", ") };
@@ -86,30 +86,30 @@ struct Paths<'a> {
     /// In independent blocks.
     blocks: Vec<Vec<PathTree<'a>>>,
     /// What the base law gives with many particles, and in these blocks.
-    base: Vec<(Predicted, Blocks)>,
+    base: Vec<(PredictedReading, ReadingBlocks)>,
 }
 
 /// All experiments with the paths of their particles up to the first contact.
 #[derive(Debug)]
-pub struct Simulated<'a> {
+pub struct SimulatedRig<'a> {
     runs: Vec<Paths<'a>>,
     experiments: Vec<Experiment>,
 }
 
 /// Relative error of a step of a path: far below the Monte Carlo error [1].
-const TOLERANCE: f64 = 1e-4;
+const PATH_TOLERANCE: f64 = 1e-4;
 /// Fewest and most particles of an experiment.
-const PARTICLES: [f64; 2] = [256.0, 512.0];
+const PARTICLE_RANGE: [f64; 2] = [256.0, 512.0];
 /// Times as many follow the base law.
 const BASE_PARTICLES: u64 = 8;
 
 /// Number of particles with which the Monte Carlo error is well below that of the readings.
 pub fn particles_for(data: &RigMeasurements) -> u64 {
     let counts = data.experiments.iter().flat_map(|one| &one.readings).filter_map(|reading| reading.count);
-    (2.0 * counts.fold(0.0, f64::max)).clamp(PARTICLES[0], PARTICLES[1]) as u64
+    (2.0 * counts.fold(0.0, f64::max)).clamp(PARTICLE_RANGE[0], PARTICLE_RANGE[1]) as u64
 }
 
-impl<'a> Simulated<'a> {
+impl<'a> SimulatedRig<'a> {
     /// Flies about `particles` particles of each case to their first contact.
     ///
     /// # Errors
@@ -144,7 +144,7 @@ impl<'a> Paths<'a> {
         Ok(paths)
     }
 
-    fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<Predicted>, PredictionError> {
+    fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
         let RigCase { case, experiment, .. } = self.rig;
         let model = change(&case.model);
         if case.deposit.is_some() {
@@ -157,7 +157,7 @@ impl<'a> Paths<'a> {
     }
 
     /// What the base law gives with this number of particles on exact paths.
-    fn exactly(&self, particles: u64) -> Vec<Predicted> {
+    fn exactly(&self, particles: u64) -> Vec<PredictedReading> {
         let RigCase { case, experiment, .. } = self.rig;
         let mut tally = Tally::new(&experiment.readings, &self.walls);
         for block in even_starts(case, particles) {
@@ -179,7 +179,7 @@ impl<'a> Paths<'a> {
     }
 
     /// What a model gives in each block.
-    fn blocks(&self, model: &Model) -> Result<Vec<Blocks>, PredictionError> {
+    fn blocks(&self, model: &Model) -> Result<Vec<ReadingBlocks>, PredictionError> {
         let RigCase { case, experiment, place, .. } = self.rig;
         let mut tally = Tally::new(&experiment.readings, &self.walls);
         for block in &self.blocks {
@@ -232,7 +232,7 @@ fn tallied<'h>(case: &Case, hit: &ExpectedHit<'h>) -> TalliedHit<'h> {
     }
 }
 
-impl Forward for Simulated<'_> {
+impl Forward for SimulatedRig<'_> {
     fn experiments(&self) -> &[Experiment] {
         &self.experiments
     }
@@ -245,7 +245,7 @@ impl Forward for Simulated<'_> {
         &self,
         experiment: usize,
         change: &ModelChange<'_>,
-    ) -> Result<Vec<Predicted>, PredictionError> {
+    ) -> Result<Vec<PredictedReading>, PredictionError> {
         self.runs[experiment].predict(change)
     }
 

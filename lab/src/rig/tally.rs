@@ -11,11 +11,11 @@ use nearwall::impact::{Impact, Outcome};
 const QUANTILE_WINDOW: f64 = 0.1;
 
 /// Standard deviation of what is doubtful, as a share of it [1]; assumed.
-const DOUBT: f64 = 0.5;
+const DOUBTFUL_DEVIATION: f64 = 0.5;
 
 /// A predicted reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Predicted {
+pub struct PredictedReading {
     /// The value [1]; NaN where nothing happens that could be measured, as no rebound.
     pub value: f64,
     /// Its Monte Carlo variance [1].
@@ -26,17 +26,17 @@ pub struct Predicted {
 
 /// A predicted reading with the part of each block of particles in it. The blocks are the same for all models.
 #[derive(Debug, Clone)]
-pub struct Blocks {
+pub struct ReadingBlocks {
     /// The reading.
-    pub predicted: Predicted,
+    pub predicted: PredictedReading,
     /// What each block adds to the error of the reading [1]; none for a quantile.
     residuals: Vec<f64>,
 }
 
-impl Blocks {
+impl ReadingBlocks {
     /// A better known value with the difference of these blocks from those of its model. What the difference shares with the blocks' own error is
     /// gone from its variance; of a quantile half is taken to be shared.
-    pub fn moved(&self, known: &Predicted, of_its_model: &Self) -> Predicted {
+    pub fn moved(&self, known: &PredictedReading, of_its_model: &Self) -> PredictedReading {
         let difference = self.predicted.value - of_its_model.predicted.value;
         let value = known.value + difference;
         if !value.is_finite() {
@@ -49,7 +49,7 @@ impl Blocks {
             let pairs = self.residuals.iter().zip(&of_its_model.residuals);
             count / (count - 1.0).max(1.0) * pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>()
         };
-        Predicted { value, variance: known.variance + variance, particles: self.predicted.particles }
+        PredictedReading { value, variance: known.variance + variance, particles: self.predicted.particles }
     }
 }
 
@@ -93,19 +93,19 @@ impl Ratio {
         self.squares[2] += b * b;
     }
 
-    fn predicted(&self) -> Predicted {
+    fn predicted(&self) -> PredictedReading {
         let [a, b] = self.sums;
         let (particles, ratio) = (self.particles, a / b);
         let [aa, ab, bb] = self.squares;
         let scatter = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0) / (b * b);
         let small = particles / (particles - 1.0).max(1.0);
-        Predicted { value: ratio, variance: scatter * small, particles }
+        PredictedReading { value: ratio, variance: scatter * small, particles }
     }
 }
 
 /// What one reading needs.
 #[derive(Debug)]
-struct Line {
+struct ReadingSums {
     quantity: RigQuantity,
     wall: usize,
     ratio: Ratio,
@@ -124,7 +124,7 @@ struct Line {
 /// Sums for the readings of one experiment.
 #[derive(Debug)]
 pub struct Tally {
-    lines: Vec<Line>,
+    lines: Vec<ReadingSums>,
     /// Share of the next hits that is doubtful [1].
     doubt: f64,
 }
@@ -132,7 +132,7 @@ pub struct Tally {
 impl Tally {
     /// Sums for these readings; `walls` are the names to which [`TalliedHit::wall`] refers. A wall that is not among them is never hit.
     pub fn new(readings: &[RigReading], walls: &[String]) -> Self {
-        let line = |reading: &RigReading| Line {
+        let line = |reading: &RigReading| ReadingSums {
             quantity: reading.quantity,
             wall: walls.iter().position(|wall| *wall == reading.wall).unwrap_or(usize::MAX),
             ratio: Ratio::default(),
@@ -196,13 +196,13 @@ impl Tally {
     }
 
     /// What the blocks give for each reading.
-    pub fn blocks(mut self) -> Vec<Blocks> {
-        let of = |line: &mut Line| {
+    pub fn blocks(mut self) -> Vec<ReadingBlocks> {
+        let of = |line: &mut ReadingSums| {
             let predicted = line.predicted();
             let [_, sum] = line.ratio.sums;
             let residuals = line.blocks.iter().map(|[a, b]| (a - predicted.value * b) / sum);
             let is_ratio = !matches!(line.quantity, RigQuantity::Quantile(..));
-            Blocks { predicted, residuals: if is_ratio { residuals.collect() } else { Vec::new() } }
+            ReadingBlocks { predicted, residuals: if is_ratio { residuals.collect() } else { Vec::new() } }
         };
         self.lines.iter_mut().map(of).collect()
     }
@@ -210,8 +210,9 @@ impl Tally {
     /// Ends this number of particles that hit no wall; `injected` is the mass of each at the start [kg].
     pub fn end_missed(&mut self, count: f64, injected: f64) {
         use RigQuantity::{Captured, CapturedAlong, CapturedBySize};
-        let by_mass =
-            |line: &&mut Line| matches!(line.quantity, Captured | CapturedAlong(_) | CapturedBySize(_));
+        let by_mass = |line: &&mut ReadingSums| {
+            matches!(line.quantity, Captured | CapturedAlong(_) | CapturedBySize(_))
+        };
         for line in self.lines.iter_mut().filter(by_mass) {
             line.ratio.particles += if injected > 0.0 { count } else { 0.0 };
             line.ratio.sums[1] += count * injected;
@@ -220,12 +221,12 @@ impl Tally {
     }
 
     /// The predictions, in the order of the readings.
-    pub fn predicted(mut self) -> Vec<Predicted> {
-        self.lines.iter_mut().map(Line::predicted).collect()
+    pub fn predicted(mut self) -> Vec<PredictedReading> {
+        self.lines.iter_mut().map(ReadingSums::predicted).collect()
     }
 }
 
-impl Line {
+impl ReadingSums {
     fn hit(&mut self, hit: &TalliedHit<'_>) {
         let caught = hit.share * hit.caught;
         let rebounds = hit.share * (1.0 - hit.caught) * hit.weight;
@@ -261,11 +262,15 @@ impl Line {
         }
     }
 
-    fn predicted(&mut self) -> Predicted {
+    fn predicted(&mut self) -> PredictedReading {
         let RigQuantity::Quantile(_, probability) = self.quantity else {
             let sampled = self.ratio.predicted();
-            let doubt = if self.doubtful > 0.0 { DOUBT * self.doubtful / self.ratio.sums[1] } else { 0.0 };
-            return Predicted { variance: sampled.variance + doubt * doubt, ..sampled };
+            let doubt = if self.doubtful > 0.0 {
+                DOUBTFUL_DEVIATION * self.doubtful / self.ratio.sums[1]
+            } else {
+                0.0
+            };
+            return PredictedReading { variance: sampled.variance + doubt * doubt, ..sampled };
         };
         self.values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let total: f64 = self.values.iter().map(|(_, weight)| weight).sum();
@@ -282,7 +287,7 @@ impl Line {
         let slope = (quantile(high) - quantile(low)) / (high - low);
         let particles = self.values.len() as f64;
         let variance = probability * (1.0 - probability) / particles.max(1.0) * slope * slope;
-        Predicted { value: quantile(probability), variance, particles }
+        PredictedReading { value: quantile(probability), variance, particles }
     }
 }
 
@@ -384,7 +389,7 @@ mod tests {
             });
             tally.end_particle(2.0);
         }
-        let Predicted { value, variance, particles } = tally.predicted()[0];
+        let PredictedReading { value, variance, particles } = tally.predicted()[0];
         assert!((value - 0.3).abs() < 1e-12 && particles == 100.0);
         assert!((variance - 0.21 / 99.0).abs() < 1e-12);
     }

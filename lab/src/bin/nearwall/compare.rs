@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use nearwall::Model;
 use nearwall_lab::atomic_file::write_texts;
 use nearwall_lab::dataset::{ColumnMap, WallChoice};
-use nearwall_lab::diagnose::comparison::{Candidate, Comparison, compare};
+use nearwall_lab::diagnose::comparison::{ComparedModel, Comparison, compare};
 use nearwall_lab::report::{comparison_page, comparison_text};
 
 use crate::{CommandResult, progress};
@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let models: Vec<Model> =
         arguments.models.iter().map(|path| Model::from_file(path)).collect::<Result<_, _>>()?;
     let candidate = |(path, model): (&PathBuf, _)| read(arguments, map.as_ref(), path, model);
-    let candidates: Vec<Candidate<'_>> =
+    let candidates: Vec<ComparedModel<'_>> =
         arguments.models.iter().zip(&models).map(candidate).collect::<Result<_, _>>()?;
     let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
     crate::note(&notes);
@@ -68,7 +68,7 @@ fn read<'a>(
     map: Option<&ColumnMap>,
     path: &Path,
     model: &'a Model,
-) -> Result<Candidate<'a>, Box<dyn std::error::Error>> {
+) -> Result<ComparedModel<'a>, Box<dyn std::error::Error>> {
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
     let name = path.display().to_string();
@@ -76,7 +76,7 @@ fn read<'a>(
     let walls = WallChoice::new(model, arguments.wall.as_deref()).map_err(of_model)?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
     let source = bar.wrap_read(source);
-    let read = Candidate::read(name.clone(), model, &file, source, map, &walls);
+    let read = ComparedModel::read(name.clone(), model, &file, source, map, &walls);
     Ok(read.map_err(|error| match error {
         nearwall_lab::dataset::DatasetError::Wall(error) => of_model(error),
         other => other.to_string(),

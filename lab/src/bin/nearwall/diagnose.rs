@@ -11,7 +11,7 @@ use nearwall_lab::dataset::RigMeasurements;
 use nearwall_lab::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
 use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options};
 use nearwall_lab::report::{RigPage, RigSource, diagnosis_page, rig_page};
-use nearwall_lab::rig::{CaseText, Forward, Replayed, RigCase, Simulated, particles_for};
+use nearwall_lab::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig, particles_for};
 
 use crate::{CommandResult, progress};
 
@@ -104,7 +104,7 @@ fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
     let data = read_rig(arguments)?;
     let text = CaseText::from_file(case)?;
     let rigs = RigCase::all(&text, &data)?;
-    let forward = Simulated::new(&rigs, particles_for(&data))?;
+    let forward = SimulatedRig::new(&rigs, particles_for(&data))?;
     let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
     let source = RigSource::Case { file: &case.display().to_string(), number: &|key| text.number(key) };
     write_rig(arguments, &[case], source, &found)?;
@@ -116,7 +116,7 @@ fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> CommandRe
     let mut data = read_rig(arguments)?;
     let document = Document::from_file(model)?;
     let base = Model::from_toml(document.name(), document.text())?;
-    let forward = Replayed::new(folder, &data, &base)?;
+    let forward = ReplayedRig::new(folder, &data, &base)?;
     crate::note(forward.notes());
     data.notes.extend_from_slice(forward.notes());
     let mut found = diagnosed(arguments, &forward, &data, document.text(), None)?;

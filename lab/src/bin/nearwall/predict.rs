@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
 use nearwall_lab::atomic_file::{AtomicFile, WriteError};
-use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, Row};
+use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, ImpactRow};
 use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use rayon::prelude::*;
 
@@ -128,7 +128,7 @@ const ROWS_A_TASK: usize = 256;
 #[derive(Default)]
 struct RowBlock {
     /// Rows, and why those that cannot be used are bad.
-    rows: Vec<(Row, Option<BadRow>)>,
+    rows: Vec<(ImpactRow, Option<BadRow>)>,
     /// Number of rows that were read.
     count: usize,
     /// Why no more rows can be read.
@@ -187,7 +187,7 @@ struct PredictedText {
 }
 
 impl PredictedText {
-    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(Row, Option<BadRow>)]) {
+    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(ImpactRow, Option<BadRow>)]) {
         self.text.clear();
         for (row, bad) in rows {
             match self.notes.predict(predictor, bad.as_ref().map_or(Ok(row), Err)) {
@@ -199,7 +199,7 @@ impl PredictedText {
 }
 
 /// Writes the cells of a row and its prediction, each number with as few digits as give the same bits when they are read.
-fn write_row(row: &Row, predicted: &PredictedRow, text: &mut Vec<u8>) {
+fn write_row(row: &ImpactRow, predicted: &PredictedRow, text: &mut Vec<u8>) {
     let mut digits = zmij::Buffer::new();
     let mut write_number = |value: f64, text: &mut Vec<u8>| {
         text.push(b',');

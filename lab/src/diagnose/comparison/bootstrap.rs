@@ -3,12 +3,11 @@
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::measure::{Measure, Totals};
+use super::super::constants::BOOTSTRAP_RESAMPLES;
+use super::measure::{ComparisonMeasure, Totals};
 
-/// Number of resamples.
-const RESAMPLES: usize = 1000;
 /// Least number of groups for an interval.
-const LEAST_GROUPS: usize = 3;
+const LEAST_BOOTSTRAP_GROUPS: usize = 3;
 
 /// The measures of all models on all rows and on every resample.
 pub(super) struct Bootstrap {
@@ -27,23 +26,23 @@ impl Bootstrap {
             let drawn: Vec<usize> = (0..groups).map(|_| draw()).collect();
             measures(totals, drawn.into_iter())
         };
-        let count = if groups < LEAST_GROUPS { 0 } else { RESAMPLES };
+        let count = if groups < LEAST_BOOTSTRAP_GROUPS { 0 } else { BOOTSTRAP_RESAMPLES };
         Self { values, resampled: (0..count).map(&mut resample).collect() }
     }
 
     /// 95 % interval of a measure of a model.
-    pub fn interval(&self, model: usize, measure: Measure) -> Option<[f64; 2]> {
+    pub fn interval(&self, model: usize, measure: ComparisonMeasure) -> Option<[f64; 2]> {
         ends(self.resampled.iter().map(|models| models[model][measure as usize]))
     }
 
     /// 95 % interval of how much worse a model is than `best` in a measure.
-    pub fn excess_interval(&self, model: usize, best: usize, measure: Measure) -> Option<[f64; 2]> {
+    pub fn excess_interval(&self, model: usize, best: usize, measure: ComparisonMeasure) -> Option<[f64; 2]> {
         let which = measure as usize;
         ends(self.resampled.iter().map(|models| measure.excess(models[model][which], models[best][which])))
     }
 
     /// The best model in a measure, the first of equals; `None` where nothing was measured.
-    pub fn best(&self, measure: Measure) -> Option<usize> {
+    pub fn best(&self, measure: ComparisonMeasure) -> Option<usize> {
         let value = |model: usize| self.values[model][measure as usize];
         let models = (0..self.values.len()).filter(|model| value(*model).is_finite());
         models.min_by(|a, b| measure.excess(value(*a), value(*b)).total_cmp(&0.0))
@@ -58,7 +57,7 @@ fn measures(totals: &[Totals], groups: impl Iterator<Item = usize> + Clone) -> V
             let own = totals.of_group[group].as_flattened();
             sums.as_flattened_mut().iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
-        Measure::ALL.map(|measure| measure.value(sums[measure as usize]))
+        ComparisonMeasure::ALL.map(|measure| measure.value(sums[measure as usize]))
     };
     totals.iter().map(of_model).collect()
 }

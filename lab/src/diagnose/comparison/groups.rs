@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 
 use super::super::data_split::shuffled;
-use crate::dataset::{Measurements, Values};
+use crate::dataset::{ColumnValues, Measurements};
 
 /// The column that names groups.
-const COLUMN: &str = "series";
+const SERIES: &str = "series";
 /// Parts of the rows: the scatter for one is estimated on the others.
 const FOLDS: usize = 5;
 /// Largest number of groups; single rows beyond it are bundled.
 const MOST_GROUPS: usize = 20_000;
 
 /// The group of every row.
-pub(super) struct Groups {
+pub(super) struct RowGroups {
     /// `series`, or `row`.
     pub by: &'static str,
     /// Number of the group of each row.
@@ -21,12 +21,12 @@ pub(super) struct Groups {
     pub count: usize,
 }
 
-impl Groups {
+impl RowGroups {
     /// The series of the rows, if there are at least two; a row without one is a group of its own.
     pub fn of(data: &Measurements) -> Self {
         let rows = data.rows.len();
-        let series = data.columns.iter().find(|column| column.name == COLUMN).and_then(|column| {
-            let Values::Labels { of_row, .. } = &column.values else { return None };
+        let series = data.columns.iter().find(|column| column.name == SERIES).and_then(|column| {
+            let ColumnValues::Labels { of_row, .. } = &column.values else { return None };
             let mut numbers: BTreeMap<Option<usize>, usize> = BTreeMap::new();
             let mut count = 0;
             let mut number = |label: &Option<usize>| {
@@ -41,7 +41,7 @@ impl Groups {
             (count > 1).then_some((of_row, count))
         });
         match series {
-            Some((of_row, count)) => Self { by: COLUMN, of_row, count },
+            Some((of_row, count)) => Self { by: SERIES, of_row, count },
             None => {
                 let count = rows.min(MOST_GROUPS);
                 Self { by: "row", of_row: (0..rows).map(|row| row % MOST_GROUPS).collect(), count }

@@ -1,11 +1,11 @@
 //! The measures of a model: log likelihood of a row, root mean square errors, log loss of capture.
 
-use super::groups::Groups;
+use super::groups::RowGroups;
 use super::score::ScoredRows;
 
 /// A measure of the agreement of a model with the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Measure {
+pub(super) enum ComparisonMeasure {
     /// Mean log likelihood of a row, all observables together [nats]; higher is better.
     LogLikelihood,
     /// Root mean square error of `e_n` [1].
@@ -16,7 +16,7 @@ pub(super) enum Measure {
     Capture,
 }
 
-impl Measure {
+impl ComparisonMeasure {
     pub const ALL: [Self; 4] =
         [Self::LogLikelihood, Self::NormalRestitution, Self::TangentialRestitution, Self::Capture];
 
@@ -42,10 +42,10 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    pub fn new(rows: &ScoredRows, groups: &Groups) -> Self {
+    pub fn new(rows: &ScoredRows, groups: &RowGroups) -> Self {
         let mut of_group = vec![[[0.0; 2]; 4]; groups.count];
         for (row, group) in groups.of_row.iter().enumerate() {
-            let terms = Measure::ALL.map(|measure| term(measure, rows, row));
+            let terms = ComparisonMeasure::ALL.map(|measure| term(measure, rows, row));
             for (sum, term) in of_group[*group].as_flattened_mut().iter_mut().zip(terms.as_flattened()) {
                 *sum += term;
             }
@@ -55,14 +55,14 @@ impl Totals {
 }
 
 /// What a row adds to sum and weight of a measure; nothing where it was not measured.
-fn term(measure: Measure, rows: &ScoredRows, row: usize) -> [f64; 2] {
+fn term(measure: ComparisonMeasure, rows: &ScoredRows, row: usize) -> [f64; 2] {
     let pair = |which: usize| rows.pairs[which][row];
     let squared = |[measured, predicted]: [f64; 2]| [(measured - predicted).powi(2), 1.0];
     let term = match measure {
-        Measure::LogLikelihood => Some([rows.likelihood[row], 1.0]),
-        Measure::NormalRestitution => pair(0).map(squared),
-        Measure::TangentialRestitution => pair(1).map(squared),
-        Measure::Capture => pair(2).map(|[share, p]| {
+        ComparisonMeasure::LogLikelihood => Some([rows.likelihood[row], 1.0]),
+        ComparisonMeasure::NormalRestitution => pair(0).map(squared),
+        ComparisonMeasure::TangentialRestitution => pair(1).map(squared),
+        ComparisonMeasure::Capture => pair(2).map(|[share, p]| {
             let loss = -(share * p.ln() + (1.0 - share) * (1.0 - p).ln());
             [rows.impacts[row] * loss, rows.impacts[row]]
         }),

@@ -13,22 +13,20 @@ mod score;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 
+use super::constants::LEAST_ROWS;
 use super::fault;
 use crate::dataset::{ColumnMap, DatasetError, MOST_ROWS, Measurement, Measurements, WallChoice};
 use bootstrap::Bootstrap;
-use groups::Groups;
+use groups::RowGroups;
 use measure::Totals;
 use nearwall::model::Model;
 use score::ScoredRows;
 
 pub use record::{Comparison, Difference, GroupedRows, Interval, ModelErrors, ModelResult, ModelRows};
 
-/// Least number of rows that every model decides.
-const LEAST_ROWS: usize = 3;
-
 /// A model under comparison, with the data as its walls read them.
 #[derive(Debug)]
-pub struct Candidate<'a> {
+pub struct ComparedModel<'a> {
     /// Its name in the results: that of its file.
     name: String,
     model: &'a Model,
@@ -38,7 +36,7 @@ pub struct Candidate<'a> {
     rows: ModelRows,
 }
 
-impl<'a> Candidate<'a> {
+impl<'a> ComparedModel<'a> {
     /// Reads the data in bounded memory: of a file with more than [`MOST_ROWS`] usable rows a selection. `model` is that of `walls`,
     /// `name` its name in the results, and `file` names the source in messages.
     ///
@@ -131,7 +129,7 @@ pub enum ComparisonError {
 ///
 /// # Errors
 /// [`ComparisonError`].
-pub fn compare(candidates: &[Candidate<'_>], seed: u64) -> Result<Comparison, ComparisonError> {
+pub fn compare(candidates: &[ComparedModel<'_>], seed: u64) -> Result<Comparison, ComparisonError> {
     let lines = common_lines(candidates, |model, row| fault(model, row).is_none());
     let read = candidates.first().map_or(0, |candidate| candidate.data.read);
     if lines.len() < LEAST_ROWS {
@@ -142,7 +140,7 @@ pub fn compare(candidates: &[Candidate<'_>], seed: u64) -> Result<Comparison, Co
         .iter()
         .map(|candidate| candidate.data.without(|row| (!lines.contains(&row.line)).then(String::new)))
         .collect();
-    let groups = Groups::of(&common[0]);
+    let groups = RowGroups::of(&common[0]);
     let folds = groups.folds(seed);
     let scored = candidates.iter().zip(&common);
     let scored: Vec<ScoredRows> =
@@ -160,7 +158,10 @@ pub fn compare(candidates: &[Candidate<'_>], seed: u64) -> Result<Comparison, Co
 }
 
 /// The lines of the rows that every model uses.
-fn common_lines(candidates: &[Candidate<'_>], uses: impl Fn(&Model, &Measurement) -> bool) -> BTreeSet<u64> {
+fn common_lines(
+    candidates: &[ComparedModel<'_>],
+    uses: impl Fn(&Model, &Measurement) -> bool,
+) -> BTreeSet<u64> {
     let mut counts: BTreeMap<u64, usize> = BTreeMap::new();
     for candidate in candidates {
         for row in candidate.data.rows.iter().filter(|row| uses(candidate.model, row)) {
@@ -172,8 +173,8 @@ fn common_lines(candidates: &[Candidate<'_>], uses: impl Fn(&Model, &Measurement
 }
 
 /// The first reason of each model.
-fn first_reasons(candidates: &[Candidate<'_>]) -> String {
-    let reason = |candidate: &Candidate<'_>| {
+fn first_reasons(candidates: &[ComparedModel<'_>]) -> String {
+    let reason = |candidate: &ComparedModel<'_>| {
         Some(format!("{}: {}.", candidate.name, candidate.rows.first_reason.as_ref()?))
     };
     candidates.iter().filter_map(reason).collect::<Vec<_>>().join(" ")
@@ -216,8 +217,16 @@ mod tests {
         let compared = |most: usize| {
             let candidate = |(name, model): (&str, _)| {
                 let walls = WallChoice::new(model, None).unwrap();
-                Candidate::read_at_most(most, name.to_owned(), model, "t.csv", text.as_bytes(), None, &walls)
-                    .unwrap()
+                ComparedModel::read_at_most(
+                    most,
+                    name.to_owned(),
+                    model,
+                    "t.csv",
+                    text.as_bytes(),
+                    None,
+                    &walls,
+                )
+                .unwrap()
             };
             let candidates = [("softer", &softer), ("right", &right)].map(candidate);
             (compare(&candidates, 1).unwrap(), candidates[0].notes().to_vec())

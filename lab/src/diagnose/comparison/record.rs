@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::bootstrap::Bootstrap;
-use super::measure::Measure;
+use super::measure::ComparisonMeasure;
 
 /// From this number of groups on, intervals of the bootstrap are reliable.
 const RELIABLE_GROUPS: usize = 10;
@@ -128,7 +128,7 @@ pub(super) fn comparison(
 }
 
 fn errors(bootstrap: &Bootstrap, model: usize) -> ModelErrors {
-    let of = |measure: Measure| {
+    let of = |measure: ComparisonMeasure| {
         let which = measure as usize;
         let best = bootstrap.best(measure)?;
         let value = bootstrap.values[model][which];
@@ -139,10 +139,10 @@ fn errors(bootstrap: &Bootstrap, model: usize) -> ModelErrors {
         value.is_finite().then(|| Interval { value, ci95: bootstrap.interval(model, measure), behind_best })
     };
     ModelErrors {
-        log_likelihood: of(Measure::LogLikelihood),
-        rmse_e_n: of(Measure::NormalRestitution),
-        rmse_e_t: of(Measure::TangentialRestitution),
-        log_loss_stick: of(Measure::Capture),
+        log_likelihood: of(ComparisonMeasure::LogLikelihood),
+        rmse_e_n: of(ComparisonMeasure::NormalRestitution),
+        rmse_e_t: of(ComparisonMeasure::TangentialRestitution),
+        log_loss_stick: of(ComparisonMeasure::Capture),
     }
 }
 

@@ -1,16 +1,12 @@
 //! The rows under one model: log likelihood and errors.
 
+use super::super::constants::{FIRST_SCATTER, ROW_DRAWS};
 use super::super::data_split::DataSplit;
 use super::super::evaluation::Evaluation;
 use super::super::likelihood::{Offset, Scatter};
 use super::super::observable::Observable;
 use crate::dataset::Measurement;
 use nearwall::model::Model;
-
-/// Random draws a row of a model with random effects.
-const DRAWS: usize = 64;
-/// First guess of the scatter of `e_n` and `e_t` [1].
-const FIRST_SCATTER: Scatter = [0.1, 0.1];
 
 /// The rows under one model.
 pub(super) struct ScoredRows {
@@ -28,7 +24,7 @@ impl ScoredRows {
     /// Predicts the rows; `folds` is the part of each row.
     pub fn new(model: &Model, rows: &[Measurement], folds: &[usize]) -> Self {
         let all: Vec<usize> = (0..rows.len()).collect();
-        let data = DataSplit::bare(model, rows, DRAWS);
+        let data = DataSplit::bare(model, rows, ROW_DRAWS);
         let offsets = vec![Offset::default(); rows.len()];
         let whole = Evaluation::new(&data, model, all.clone(), offsets, FIRST_SCATTER);
         let mut likelihood = vec![0.0; rows.len()];

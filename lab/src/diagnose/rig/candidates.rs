@@ -8,10 +8,10 @@ use nearwall::effect::{CurveTarget, EFFECTS};
 use nearwall::impact::{INPUTS, Impact};
 
 /// How far beyond the range of an input a law's place is searched, as a share of the range.
-const BEYOND: f64 = 0.5;
+const SEARCH_BEYOND: f64 = 0.5;
 /// Least standard deviation of an input's mean over the experiments, as a share of its range, from which on it is changed on purpose: for a curve
 /// over it.
-const CHANGES: f64 = 0.05;
+const LEAST_INPUT_CHANGE: f64 = 0.05;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
 
@@ -71,7 +71,7 @@ fn means(forward: &dyn Forward, place: usize) -> Vec<f64> {
 
 /// Whether an input with these means and this range changes from experiment to experiment.
 fn changes(means: &[f64], [low, high]: [f64; 2]) -> bool {
-    deviation(means) >= CHANGES * (high - low)
+    deviation(means) >= LEAST_INPUT_CHANGE * (high - low)
 }
 
 fn deviation(values: &[f64]) -> f64 {
@@ -113,7 +113,7 @@ pub(super) fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -
     // A transition may begin within the range of the data and have its middle beyond.
     let wider = |input: &str| {
         let [low, high] = range_of(input)?;
-        let beyond = BEYOND * (high - low);
+        let beyond = SEARCH_BEYOND * (high - low);
         Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
     };
     // A layer or a film that is the same in all experiments acts nevertheless.

@@ -6,24 +6,25 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::super::constants::{CERTAINTY_RESAMPLES, NEARLY_BEST};
 use super::super::search::descend;
 use super::addition::{RigAddition, moved};
 use super::candidates::{candidates, unchanged_inputs};
-use super::noise::{Data, Prepared, Values};
-use super::shelf::{Candidate, Shelf, predict};
+use super::noise::{Data, PreparedReadings, ReadingValues};
+use super::prediction_table::{PredictionTable, TabledCandidate, predict};
 use super::significance::NullGains;
-use crate::rig::{Forward, Predicted, PredictionError};
+use crate::rig::{Forward, PredictedReading, PredictionError};
 
 /// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
 const SHORTLIST: f64 = 4.0;
 /// Most laws, and most curves that are fitted.
 const MOST_FITTED: [(bool, usize); 2] = [(false, 7), (true, 2)];
 /// And those that gain this share of the best are fitted.
-const PROMISING: f64 = 0.4;
+const PROMISING_SHARE: f64 = 0.4;
 /// Gain below which no candidate of a usual list is significant [nats].
 const LEAST_THRESHOLD: f64 = 2.0;
 /// Gain by which a cause must lead another one to be told from it [nats]: a ratio of likelihoods of 7.
-pub(super) const DISTINGUISHABLE: f64 = 2.0;
+pub(super) const DISTINGUISHABLE_GAIN: f64 = 2.0;
 /// What a curve must gain beyond a law to be named before it [nats].
 const BEYOND_LAWS: f64 = 3.0;
 /// What is left to gain from which on causes are exchanged [nats].
@@ -33,23 +34,20 @@ const OTHER_STARTS: usize = 3;
 /// Gain for which a cause is exchanged [nats].
 const EXCHANGED: f64 = 1.5;
 /// Difference in gain below which the candidate with fewer parameters is taken, and of these a number of the base's own laws [nats].
-const EQUAL: f64 = 0.5;
+const EQUAL_GAIN: f64 = 0.5;
 /// What a law that is not in the model yet must gain beyond one of its numbers to be named first, and what it must gain beyond that if no
 /// experiment changes one of its inputs on purpose [nats]: odds of 3 to 1 each. Over such an input a law is hardly more than a level.
 const NEW_LAW: f64 = 1.1;
 const UNCHANGED: f64 = 1.1;
 /// One cause, and one more for so many readings; and most causes.
 const READINGS_A_CAUSE: usize = 3;
-const MOST_CAUSES: usize = 5;
+const MOST_RIG_CAUSES: usize = 5;
 /// Most candidates kept of a round that finds none significant.
 const HINTS: usize = 4;
 /// First size of the simplex, and iterations a parameter: for a law that is to be compared with others first, and for one that is promising.
-const SIMPLEX: f64 = 0.08;
+const FIT_SIMPLEX: f64 = 0.08;
 const FIRST_ITERATIONS: u64 = 8;
-const ITERATIONS: u64 = 25;
-/// Resamples for the certainty of a cause; it is named with this share of the gain of the best candidate.
-const RESAMPLES: u64 = 200;
-const NEARLY: f64 = 0.75;
+const FIT_ITERATIONS: u64 = 25;
 
 /// A fitted candidate.
 #[derive(Debug, Clone)]
@@ -63,12 +61,12 @@ pub(super) struct Scored {
     /// Corrected for all candidates.
     pub p_value: f64,
     /// Its predictions.
-    prepared: Option<Arc<Prepared>>,
+    prepared: Option<Arc<PreparedReadings>>,
 }
 
 /// A round that found a cause.
 #[derive(Debug, Clone)]
-pub(super) struct Round {
+pub(super) struct RigRound {
     pub winner: Scored,
     /// The other fitted candidates, the best first.
     pub others: Vec<Scored>,
@@ -76,7 +74,7 @@ pub(super) struct Round {
     pub certainty: f64,
 }
 
-impl Round {
+impl RigRound {
     /// Whether a candidate can be another cause than the winner, and not only a freer form of it.
     pub fn is_rival(&self, other: &Scored) -> bool {
         // A free curve over an input contains the laws over it.
@@ -100,10 +98,10 @@ impl Round {
 
 /// What was chosen.
 #[derive(Debug, Clone)]
-pub(super) struct Choice {
+pub(super) struct RigChoice {
     /// Fitted together.
     pub additions: Vec<RigAddition>,
-    pub rounds: Vec<Round>,
+    pub rounds: Vec<RigRound>,
     /// Smallest corrected p-value of a candidate beside the base model, and beside the additions.
     pub structure: [f64; 2],
     /// The best candidates of the last round, which found none significant; the best first.
@@ -121,28 +119,29 @@ pub(super) struct RigStudy<'a> {
     /// Inputs that vary over the impacts of an experiment, but not from one experiment to the other.
     unchanged: Vec<&'static str>,
     /// Predictions of the candidates beside causes, by the names of these.
-    shelves: Mutex<Vec<(Vec<String>, Arc<Shelf>)>>,
+    tables: Mutex<Vec<(Vec<String>, Arc<PredictionTable>)>>,
 }
 
 impl<'a> RigStudy<'a> {
     pub fn new(forward: &'a dyn Forward, level: f64, seed: u64, progress: &'a (dyn Fn() + Sync)) -> Self {
         let data = Data::new(forward.experiments());
         let unchanged = unchanged_inputs(forward);
-        Self { forward, data, level, seed, progress, unchanged, shelves: Mutex::default() }
+        Self { forward, data, level, seed, progress, unchanged, tables: Mutex::default() }
     }
 
     /// The predictions of all candidates beside these additions. A later call with the same causes gets the same predictions, whatever
     /// the values of their parameters: where they were computed matters little to a choice.
-    pub fn shelf(&self, additions: &[RigAddition]) -> Result<Arc<Shelf>, PredictionError> {
+    pub fn table(&self, additions: &[RigAddition]) -> Result<Arc<PredictionTable>, PredictionError> {
         let names: Vec<String> = additions.iter().map(RigAddition::key).collect();
-        let mut shelves = self.shelves.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, shelf)) = shelves.iter().find(|(known, _)| *known == names) {
-            return Ok(Arc::clone(shelf));
+        let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, table)) = tables.iter().find(|(known, _)| *known == names) {
+            return Ok(Arc::clone(table));
         }
         let candidates = candidates(self.forward, &self.data, &names);
-        let shelf = Arc::new(Shelf::new(self.forward, &self.data, additions, candidates, self.progress)?);
-        shelves.push((names, Arc::clone(&shelf)));
-        Ok(shelf)
+        let table =
+            Arc::new(PredictionTable::new(self.forward, &self.data, additions, candidates, self.progress)?);
+        tables.push((names, Arc::clone(&table)));
+        Ok(table)
     }
 
     /// Log likelihood of the measured values with these additions [nats]; minus infinity where the model refuses an impact.
@@ -151,7 +150,7 @@ impl<'a> RigStudy<'a> {
         self.score_of(&predicted, weights)
     }
 
-    pub fn score_of(&self, predicted: &[Predicted], weights: &[f64]) -> f64 {
+    pub fn score_of(&self, predicted: &[PredictedReading], weights: &[f64]) -> f64 {
         self.data.score(&self.data.prepare(predicted), &self.data.values(), weights)
     }
 
@@ -159,9 +158,9 @@ impl<'a> RigStudy<'a> {
     ///
     /// # Errors
     /// Why the base model cannot decide an impact.
-    pub fn choose(&self, weights: &[f64]) -> Result<Choice, PredictionError> {
+    pub fn choose(&self, weights: &[f64]) -> Result<RigChoice, PredictionError> {
         let nothing =
-            Choice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
+            RigChoice { additions: Vec::new(), rounds: Vec::new(), structure: [1.0; 2], hints: Vec::new() };
         let first = self.grown(nothing.clone(), weights, &|_| true)?;
         if first.rounds.len() < 2 {
             return Ok(self.without_redundant(first, weights));
@@ -188,7 +187,7 @@ impl<'a> RigStudy<'a> {
                 && let Some(start) = starts.next()
             {
                 let start = start?;
-                let start = Choice { additions: self.fit(&start.additions, weights), ..start };
+                let start = RigChoice { additions: self.fit(&start.additions, weights), ..start };
                 let grown = self.grown(start, weights, &|_| true)?;
                 if self.worth(&grown.additions, weights) > self.worth(&best.additions, weights) + EXCHANGED {
                     best = grown;
@@ -215,11 +214,11 @@ impl<'a> RigStudy<'a> {
     /// The choice with further causes of those `allowed`, one a round, until none is significant.
     fn grown(
         &self,
-        mut choice: Choice,
+        mut choice: RigChoice,
         weights: &[f64],
         allowed: &dyn Fn(&RigAddition) -> bool,
-    ) -> Result<Choice, PredictionError> {
-        let most = MOST_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
+    ) -> Result<RigChoice, PredictionError> {
+        let most = MOST_RIG_CAUSES.min(1 + self.data.count(weights) / READINGS_A_CAUSE);
         let most = most.min(self.forward.most_causes());
         // What the largest gain without an effect has to be exceeded by; known after the first round.
         let mut threshold = LEAST_THRESHOLD;
@@ -228,10 +227,10 @@ impl<'a> RigStudy<'a> {
                 choice.structure[1] = 1.0;
                 return Ok(choice);
             }
-            let shelf = self.shelf(&choice.additions)?;
-            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
+            let table = self.table(&choice.additions)?;
+            let null = NullGains::new(&table, &self.data, weights, self.seed);
             threshold = null.quantile(1.0 - self.level);
-            let mut scored = self.first_look(&shelf, &null, weights, &[]);
+            let mut scored = self.first_look(&table, &null, weights, &[]);
             scored.retain(|one| allowed(&one.addition));
             let least = scored.iter().map(|one| one.p_value).fold(1.0, f64::min);
             choice.structure[1] = least;
@@ -243,7 +242,7 @@ impl<'a> RigStudy<'a> {
                 return Ok(choice);
             }
             let fitted = self.fit_all(&choice.additions, &scored, weights);
-            let Some(round) = self.decide(&shelf, fitted, weights) else { return Ok(choice) };
+            let Some(round) = self.decide(&table, fitted, weights) else { return Ok(choice) };
             choice.additions = round.winner.beside.clone();
             choice.additions.push(round.winner.addition.clone());
             choice.rounds.push(round);
@@ -251,14 +250,14 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
-    fn exchanged(&self, mut choice: Choice, weights: &[f64]) -> Result<Choice, PredictionError> {
+    fn exchanged(&self, mut choice: RigChoice, weights: &[f64]) -> Result<RigChoice, PredictionError> {
         let mut place = 0;
         while choice.additions.len() > 1 && place < choice.additions.len() {
             let mut rest = choice.additions.clone();
             let removed = rest.remove(place);
-            let shelf = self.shelf(&rest)?;
-            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
-            let scored = self.first_look(&shelf, &null, weights, &[]);
+            let table = self.table(&rest)?;
+            let null = NullGains::new(&table, &self.data, weights, self.seed);
+            let scored = self.first_look(&table, &null, weights, &[]);
             let fitted = self.fit_all(&rest, &scored, weights);
             let now = self.worth(&choice.additions, weights);
             let better = fitted.iter().find(|one| one.addition.key() != removed.key()).and_then(|one| {
@@ -266,7 +265,7 @@ impl<'a> RigStudy<'a> {
                     self.fit(&[rest.as_slice(), std::slice::from_ref(&one.addition)].concat(), weights);
                 (self.worth(&joint, weights) > now + EXCHANGED).then_some(joint)
             });
-            match better.and_then(|joint| Some((joint, self.decide(&shelf, fitted, weights)?))) {
+            match better.and_then(|joint| Some((joint, self.decide(&table, fitted, weights)?))) {
                 Some((joint, round))
                     if joint.last().map(RigAddition::key) == Some(round.winner.addition.key()) =>
                 {
@@ -295,16 +294,16 @@ impl<'a> RigStudy<'a> {
     /// Why the base model cannot decide an impact.
     pub fn choose_again(
         &self,
-        whole: &Choice,
+        whole: &RigChoice,
         most: usize,
         weights: &[f64],
     ) -> Result<Vec<RigAddition>, PredictionError> {
         let mut additions: Vec<RigAddition> = Vec::new();
         for round in 0..most.min(whole.rounds.len()) {
-            let shelf = self.shelf(&additions)?;
-            let null = NullGains::new(&shelf, &self.data, weights, self.seed);
-            let known = whole.rounds.get(round).map_or(Vec::new(), Round::all);
-            let scored = self.first_look(&shelf, &null, weights, &known);
+            let table = self.table(&additions)?;
+            let null = NullGains::new(&table, &self.data, weights, self.seed);
+            let known = whole.rounds.get(round).map_or(Vec::new(), RigRound::all);
+            let scored = self.first_look(&table, &null, weights, &known);
             if scored.first().is_none_or(|best| best.p_value > self.level) {
                 break;
             }
@@ -322,16 +321,22 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The candidates at their best places, of the table and of earlier fits.
-    fn first_look(&self, shelf: &Shelf, null: &NullGains, weights: &[f64], known: &[Scored]) -> Vec<Scored> {
+    fn first_look(
+        &self,
+        table: &PredictionTable,
+        null: &NullGains,
+        weights: &[f64],
+        known: &[Scored],
+    ) -> Vec<Scored> {
         let values = self.data.values();
-        let base = self.data.score(&shelf.base_prepared, &values, weights);
-        let one = |candidate: &Candidate| {
+        let base = self.data.score(&table.base_prepared, &values, weights);
+        let one = |candidate: &TabledCandidate| {
             let (score, at) = self.best(candidate, &values, weights, known);
             let gain = score - base - candidate.cost();
-            let addition = candidate.blank.moved(at);
+            let addition = candidate.addition.moved(at);
             Scored { addition, beside: Vec::new(), gain, p_value: null.p_value(gain), prepared: None }
         };
-        let mut all: Vec<Scored> = shelf.candidates.iter().map(one).collect();
+        let mut all: Vec<Scored> = table.candidates.iter().map(one).collect();
         all.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         all
     }
@@ -339,13 +344,13 @@ impl<'a> RigStudy<'a> {
     /// The best of the places of a candidate and of its earlier fit, with its log likelihood [nats].
     fn best<'b>(
         &self,
-        candidate: &'b Candidate,
-        values: &Values,
+        candidate: &'b TabledCandidate,
+        values: &ReadingValues,
         weights: &[f64],
         known: &'b [Scored],
     ) -> (f64, &'b [f64]) {
         let (score, place) = candidate.best(&self.data, values, weights);
-        let key = candidate.blank.key();
+        let key = candidate.addition.key();
         let fitted = known.iter().find(|one| one.addition.key() == key);
         let fitted = fitted.and_then(|one| {
             let prepared = one.prepared.as_ref()?;
@@ -367,7 +372,7 @@ impl<'a> RigStudy<'a> {
                 -self.score(&all, weights)
             };
             let start = one.addition.at.clone();
-            let (at, cost) = descend(joint, &start, SIMPLEX, iterations * start.len() as u64);
+            let (at, cost) = descend(joint, &start, FIT_SIMPLEX, iterations * start.len() as u64);
             (self.progress)();
             let gain = -cost - base - start.len() as f64;
             Scored { addition: one.addition.moved(&at), gain, ..one.clone() }
@@ -382,7 +387,7 @@ impl<'a> RigStudy<'a> {
             let mut own =
                 scored.iter().filter(move |one| one.addition.is_curve() == curve).cloned().peekable();
             let best = own.peek().map_or(0.0, |one| one.gain);
-            let least = (best - SHORTLIST).min(PROMISING * best);
+            let least = (best - SHORTLIST).min(PROMISING_SHARE * best);
             own.filter(move |one| one.gain > least).take(most).collect::<Vec<Scored>>()
         });
         // A number of the base's own laws is the simplest explanation, and cheap to fit.
@@ -395,7 +400,7 @@ impl<'a> RigStudy<'a> {
         promising.extend(left_out);
         // What was found before took part of this candidate's effect: the numbers are only right together.
         let fit = |one: Scored| {
-            let alone = improved(&one, ITERATIONS);
+            let alone = improved(&one, FIT_ITERATIONS);
             let mut all = [additions, std::slice::from_ref(&alone.addition)].concat();
             if !additions.is_empty() {
                 all = self.fit(&all, weights);
@@ -413,46 +418,47 @@ impl<'a> RigStudy<'a> {
     }
 
     /// The round with its winner and all others.
-    fn decide(&self, shelf: &Shelf, fitted: Vec<Scored>, weights: &[f64]) -> Option<Round> {
+    fn decide(&self, table: &PredictionTable, fitted: Vec<Scored>, weights: &[f64]) -> Option<RigRound> {
         let winner = self.winner(&fitted)?;
         let name = winner.addition.key();
-        let certainty = self.certainty(shelf, &name, weights, &fitted);
+        let certainty = self.certainty(table, &name, weights, &fitted);
         let others = fitted.into_iter().filter(|one| one.addition.key() != name).collect();
-        Some(Round { winner, others, certainty })
+        Some(RigRound { winner, others, certainty })
     }
 
     /// The winner of a round; of equal ones that with fewest parameters.
     fn winner(&self, fitted: &[Scored]) -> Option<Scored> {
         let worth = |one: &Scored| one.gain - self.surprise(&one.addition);
         let best = fitted.iter().map(worth).fold(f64::NEG_INFINITY, f64::max);
-        let equal = fitted.iter().filter(|one| worth(one) > best - EQUAL);
+        let equal = fitted.iter().filter(|one| worth(one) > best - EQUAL_GAIN);
         equal.min_by_key(|one| (one.addition.axes.len(), !one.addition.is_number())).cloned()
     }
 
     /// Share of resampled experiments in which the candidate gains nearly as much as the best one.
-    fn certainty(&self, shelf: &Shelf, name: &str, weights: &[f64], fitted: &[Scored]) -> f64 {
+    fn certainty(&self, table: &PredictionTable, name: &str, weights: &[f64], fitted: &[Scored]) -> f64 {
         let values = self.data.values();
         let inside: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] > 0.0).collect();
         let mut named = 0;
-        for number in 0..RESAMPLES {
+        for number in 0..CERTAINTY_RESAMPLES as u64 {
             let mut random = ChaCha8Rng::seed_from_u64(self.seed ^ 0x7265_7361);
             random.set_stream(number);
             let mut drawn = vec![0.0; weights.len()];
             for _ in 0..inside.len() {
                 drawn[inside[(random.next_u64() % inside.len() as u64) as usize]] += 1.0;
             }
-            let base = self.data.score(&shelf.base_prepared, &values, &drawn);
-            let gain = |candidate: &Candidate| {
+            let base = self.data.score(&table.base_prepared, &values, &drawn);
+            let gain = |candidate: &TabledCandidate| {
                 self.best(candidate, &values, &drawn, fitted).0 - base - candidate.cost()
             };
             // A free curve contains every law over its input, so it is no rival of them.
-            let rivals = shelf.candidates.iter().filter(|c| !c.blank.is_curve() || c.blank.key() == name);
+            let rivals =
+                table.candidates.iter().filter(|c| !c.addition.is_curve() || c.addition.key() == name);
             let best = rivals.map(gain).fold(f64::NEG_INFINITY, f64::max);
-            let own = shelf.candidates.iter().filter(|c| c.blank.key() == name).map(gain);
+            let own = table.candidates.iter().filter(|c| c.addition.key() == name).map(gain);
             let own = own.fold(f64::NEG_INFINITY, f64::max);
-            named += u64::from(own > 0.0 && own >= NEARLY * best);
+            named += u64::from(own > 0.0 && own >= NEARLY_BEST * best);
         }
-        named as f64 / RESAMPLES as f64
+        named as f64 / CERTAINTY_RESAMPLES as f64
     }
 
     /// Fits all parameters together, from their present values.
@@ -462,12 +468,12 @@ impl<'a> RigStudy<'a> {
             return additions.to_vec();
         }
         let cost = |at: &[f64]| -self.score(&moved(additions, at), weights);
-        let (at, _) = descend(cost, &start, 0.5 * SIMPLEX, ITERATIONS * start.len() as u64);
+        let (at, _) = descend(cost, &start, 0.5 * FIT_SIMPLEX, FIT_ITERATIONS * start.len() as u64);
         moved(additions, &at)
     }
 
     /// The choice without causes that later ones made superfluous.
-    fn without_redundant(&self, mut choice: Choice, weights: &[f64]) -> Choice {
+    fn without_redundant(&self, mut choice: RigChoice, weights: &[f64]) -> RigChoice {
         for place in (0..choice.additions.len().saturating_sub(1)).rev() {
             let mut rest = choice.additions.clone();
             let removed = rest.remove(place);
@@ -483,7 +489,7 @@ impl<'a> RigStudy<'a> {
 }
 
 /// The beginnings of a choice with the next best law in place of the winner of a round.
-fn other_starts(choice: &Choice) -> Vec<Choice> {
+fn other_starts(choice: &RigChoice) -> Vec<RigChoice> {
     let mut starts = Vec::new();
     for (place, round) in choice.rounds.iter().enumerate() {
         let laws = round.others.iter().filter(|other| !other.addition.is_curve() && other.gain > 0.0);
@@ -493,12 +499,12 @@ fn other_starts(choice: &Choice) -> Vec<Choice> {
                 rounds.iter().map(|round| round.winner.addition.clone()).collect();
             additions.push(other.addition.clone());
             let others = round.all().into_iter().filter(|one| one.addition.key() != other.addition.key());
-            rounds.push(Round {
+            rounds.push(RigRound {
                 winner: other.clone(),
                 others: others.collect(),
                 certainty: round.certainty,
             });
-            starts.push(Choice { additions, rounds, ..choice.clone() });
+            starts.push(RigChoice { additions, rounds, ..choice.clone() });
         }
     }
     starts

@@ -8,17 +8,17 @@ use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interv
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
 use super::addition::{Kind, RigAddition, moved};
-use super::choice::{Choice, RigStudy};
-use super::noise::Prepared;
+use super::choice::{RigChoice, RigStudy};
+use super::noise::PreparedReadings;
 use super::posterior::Posterior;
-use super::shelf::predict;
-use crate::rig::{Predicted, PredictionError, SettingError};
+use super::prediction_table::predict;
+use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::model::Model;
 
 /// Parts of the cross-validation; with as many experiments or fewer each is left out in turn.
-const PARTS: usize = 6;
+const EXPERIMENT_PARTS: usize = 6;
 /// Least number of experiments for a gain.
-const LEAST: usize = 4;
+const LEAST_EXPERIMENTS: usize = 4;
 /// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
 const MOST_OF_ONE: f64 = 2.3;
 
@@ -29,12 +29,12 @@ const CARRIES: f64 = 0.5;
 const MOST_LOST: f64 = 4.0;
 
 /// Predictions of experiments by models that have not seen them.
-pub(super) struct HeldOut {
+pub(super) struct HeldOutExperiments {
     /// By reading: the base model and the extended one.
-    pub predicted: Vec<[Predicted; 2]>,
+    pub predicted: Vec<[PredictedReading; 2]>,
 }
 
-impl HeldOut {
+impl HeldOutExperiments {
     /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole choice, serves as places of a fit; without it
     /// a cause keeps the numbers of the whole choice. `write` gives the text of a model file with additions. `None` with too few experiments.
     ///
@@ -42,19 +42,19 @@ impl HeldOut {
     /// Why a model cannot decide an impact.
     pub fn new(
         study: &RigStudy<'_>,
-        whole: &Choice,
+        whole: &RigChoice,
         causes: usize,
         posterior: Option<&Posterior>,
         write: &dyn Fn(&[RigAddition]) -> Option<String>,
     ) -> Result<Option<Self>, PredictionError> {
         let count = study.data.experiments;
-        if count < LEAST {
+        if count < LEAST_EXPERIMENTS {
             return Ok(None);
         }
         let order = shuffled(count, study.seed);
-        let parts = PARTS.min(count);
+        let parts = EXPERIMENT_PARTS.min(count);
         let base = predict(study.forward, &[])?;
-        let mut predicted: Vec<[Predicted; 2]> = base.iter().map(|one| [*one, *one]).collect();
+        let mut predicted: Vec<[PredictedReading; 2]> = base.iter().map(|one| [*one, *one]).collect();
         let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
         for part in 0..parts {
             let mut weights = vec![1.0; count];
@@ -86,7 +86,7 @@ impl HeldOut {
     pub fn gain_over(&self, other: &Self, study: &RigStudy<'_>) -> f64 {
         let experiments = study.data.experiments;
         let values = study.data.values();
-        let score = |all: &Prepared, of: &dyn Fn(usize) -> bool| {
+        let score = |all: &PreparedReadings, of: &dyn Fn(usize) -> bool| {
             let weights: Vec<f64> = (0..experiments).map(|one| f64::from(u8::from(of(one)))).collect();
             study.data.score(all, &values, &weights)
         };
@@ -109,7 +109,7 @@ impl HeldOut {
         };
         let rows: Vec<(usize, [f64; 2])> = data.readings.iter().enumerate().filter_map(of_kind).collect();
         let units = sums_by_unit(&rows);
-        if units.len() < LEAST {
+        if units.len() < LEAST_EXPERIMENTS {
             return None;
         }
         let rmse = |which: usize| {
@@ -118,7 +118,7 @@ impl HeldOut {
         let [one, other] = [bootstrap(&units, study.seed), student_interval(&units, SHARED_FITS)];
         let weights = vec![1.0; data.experiments];
         let mean_score = |which: usize| {
-            let all: Vec<Predicted> = self.predicted.iter().map(|pair| pair[which]).collect();
+            let all: Vec<PredictedReading> = self.predicted.iter().map(|pair| pair[which]).collect();
             study.score_of(&all, &weights) / data.readings.len() as f64
         };
         Some(Gain {
@@ -154,12 +154,13 @@ impl HeldOut {
 /// Why a model cannot decide an impact.
 pub(super) fn carried(
     study: &RigStudy<'_>,
-    mut choice: Choice,
+    mut choice: RigChoice,
     write: &dyn Fn(&[RigAddition]) -> Option<String>,
     weights: &[f64],
-) -> Result<(Choice, Vec<String>), PredictionError> {
+) -> Result<(RigChoice, Vec<String>), PredictionError> {
     let mut dropped = Vec::new();
-    let held_out = |choice: &Choice, causes: usize| HeldOut::new(study, choice, causes, None, write);
+    let held_out =
+        |choice: &RigChoice, causes: usize| HeldOutExperiments::new(study, choice, causes, None, write);
     while !choice.rounds.is_empty() {
         let causes = choice.rounds.len();
         let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?) else {
@@ -188,7 +189,7 @@ pub(super) fn predict_file(
     study: &RigStudy<'_>,
     file: &Model,
     additions: &[RigAddition],
-) -> Result<Vec<Predicted>, PredictionError> {
+) -> Result<Vec<PredictedReading>, PredictionError> {
     let numbers: Vec<(LawParameter, f64)> = additions
         .iter()
         .filter_map(|addition| match addition.kind {

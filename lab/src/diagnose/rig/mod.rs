@@ -1,6 +1,6 @@
 //! Diagnosis of a simulation from what the whole rig measures.
 //!
-//! Data flow: readings → predictions of every candidate at places of its range (`shelf`) → test against data sets without an effect
+//! Data flow: readings → predictions of every candidate at places of its range (`prediction_table`) → test against data sets without an effect
 //! (`significance`) → fits and choice (`choice`) → draws of the parameters (`posterior`) → gain on held-out experiments
 //! (`gain`) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
 //! decided again. Candidates are those of the diagnosis of impacts. Method and limits: `docs/rig-diagnosis.md`.
@@ -13,9 +13,9 @@ mod next;
 mod noise;
 mod places;
 mod posterior;
+mod prediction_table;
 mod proposals;
 mod report;
-mod shelf;
 mod significance;
 
 pub use next::NextExperiment;
@@ -29,7 +29,7 @@ use crate::dataset::RigMeasurements;
 use crate::rig::{CaseText, Forward, PredictionError};
 use addition::{RigAddition, extended_text, moved};
 use choice::RigStudy;
-use gain::HeldOut;
+use gain::HeldOutExperiments;
 use nearwall::impact::INPUTS;
 use posterior::Posterior;
 
@@ -104,7 +104,7 @@ pub fn diagnose_rig(
         true => None,
         false => {
             let causes = choice.rounds.len();
-            HeldOut::new(&study, &choice, causes, Some(&posterior), &write)?
+            HeldOutExperiments::new(&study, &choice, causes, Some(&posterior), &write)?
         }
     };
     let next = match case {
@@ -113,7 +113,8 @@ pub fn diagnose_rig(
     };
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&choice.additions, at))).collect();
-    let found = report::Found { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
+    let found =
+        report::RigFindings { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
     Ok(found.record(data, options)?)
 }
 

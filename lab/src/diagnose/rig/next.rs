@@ -13,24 +13,24 @@
 use serde::Serialize;
 
 use super::addition::{RigAddition, moved};
-use super::choice::{Choice, RigStudy, Scored};
+use super::choice::{RigChoice, RigStudy, Scored};
 use super::posterior::Posterior;
+use super::prediction_table::predict;
 use super::proposals::proposals;
-use super::shelf::predict;
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
-use crate::rig::{CaseText, PredictionError, RigCase, Simulated};
+use crate::rig::{CaseText, PredictionError, RigCase, SimulatedRig};
 
 /// Causes within this of the best are asked to be told apart [nats], and most of them.
 const SURVIVES: f64 = 6.0;
-const MOST_CAUSES: usize = 4;
+const MOST_SURVIVING: usize = 4;
 /// Values of the numbers of the first cause, and of any other one.
-const DRAWS: [usize; 2] = [12, 5];
+const STATES: [usize; 2] = [12, 5];
 /// Most rows of the table.
-const ROWS: usize = 8;
+const MOST_PROPOSALS: usize = 8;
 /// Particles followed in each proposal.
-const PARTICLES: u64 = 200;
+const PROPOSAL_PARTICLES: u64 = 200;
 /// Count of particles that is assumed where the file states neither counts nor errors.
-const COUNT: f64 = 100.0;
+const ASSUMED_COUNT: f64 = 100.0;
 /// Logarithm of the ratio of likelihoods that decides [nats].
 const DECIDES: f64 = 3.0;
 /// Readings that decide beyond this many usual ones are not worth waiting for.
@@ -40,7 +40,7 @@ const MOST_REPEATS: f64 = 100.0;
 const TELLING: usize = 4;
 const LEAST_TOLD: f64 = 0.002;
 /// Least expected information of any other row [nats].
-const LEAST: f64 = 0.02;
+const LEAST_WORTH: f64 = 0.02;
 
 /// An experiment worth making.
 #[derive(Debug, Clone, Serialize)]
@@ -121,8 +121,8 @@ struct Possible {
 /// Why the cases of the proposals cannot be simulated.
 pub(super) fn next_experiments(
     study: &RigStudy<'_>,
-    choice: &Choice,
-    whole: &Choice,
+    choice: &RigChoice,
+    whole: &RigChoice,
     posterior: &Posterior,
     data: &RigMeasurements,
     text: &CaseText,
@@ -139,7 +139,7 @@ pub(super) fn next_experiments(
     // A proposal that the case refuses, as a temperature without a gas property, is none.
     let cases: Vec<RigCase> =
         experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
-    let forward = Simulated::new(&cases, PARTICLES)?;
+    let forward = SimulatedRig::new(&cases, PROPOSAL_PARTICLES)?;
     let mut causes = causes(study, choice, whole, posterior)?;
     let mut by_state: Vec<Vec<f64>> = Vec::new();
     for cause in &mut causes {
@@ -170,7 +170,7 @@ pub(super) fn next_experiments(
     }
     let mut rows: Vec<NextExperiment> = Vec::new();
     let mut measured = ensemble.unmeasured();
-    while rows.len() < ROWS {
+    while rows.len() < MOST_PROPOSALS {
         let before = ensemble.tells(&measured);
         let with = |one: &Possible| ensemble.with(&measured, one, one.usual.count());
         let more = |one: &Possible| ensemble.tells(&with(one)) - before;
@@ -182,7 +182,7 @@ pub(super) fn next_experiments(
             best.filter(|(_, value)| **value > least).map(|(place, _)| &options[place])
         };
         let telling = if rows.len() < TELLING { most(&told, LEAST_TOLD) } else { None };
-        let Some(best) = telling.or_else(|| most(&worth, LEAST)) else { break };
+        let Some(best) = telling.or_else(|| most(&worth, LEAST_WORTH)) else { break };
         let [place, column] = best.place;
         let best = Possible { predicted: best.predicted.clone(), left: best.left.clone(), ..*best };
         measured = with(&best);
@@ -195,13 +195,13 @@ pub(super) fn next_experiments(
 
 /// Errors of readings that stand for a normal distribution, in standard deviations: means of eight parts of it of equal probability.
 /// Their variance is 0.945.
-const NORMAL: [f64; 8] = [-1.647, -0.8949, -0.4905, -0.1580, 0.1580, 0.4905, 0.8949, 1.647];
+const NORMAL_ERRORS: [f64; 8] = [-1.647, -0.8949, -0.4905, -0.1580, 0.1580, 0.4905, 0.8949, 1.647];
 
 /// Factor and shift that give each reading of a table its own order of these errors.
-const ORDERS: [[usize; 2]; ROWS] = [[1, 0], [3, 3], [1, 6], [3, 2], [5, 4], [7, 7], [5, 2], [7, 5]];
+const ORDERS: [[usize; 2]; MOST_PROPOSALS] = [[1, 0], [3, 3], [1, 6], [3, 2], [5, 4], [7, 7], [5, 2], [7, 5]];
 
 /// Readings that are taken to be measured.
-struct Measured {
+struct MeasuredReadings {
     /// For each state and error that gives the readings, the logarithm of their density by each state.
     logs: Vec<Vec<f64>>,
     /// Number of readings.
@@ -269,24 +269,28 @@ impl Ensemble {
     }
 
     /// Nothing is measured yet.
-    fn unmeasured(&self) -> Measured {
+    fn unmeasured(&self) -> MeasuredReadings {
         let count = self.states.len();
-        Measured { logs: vec![vec![0.0; count]; count * NORMAL.len()], rows: 0 }
+        MeasuredReadings { logs: vec![vec![0.0; count]; count * NORMAL_ERRORS.len()], rows: 0 }
     }
 
     /// The readings that were measured and one more of so many particles.
-    fn with(&self, measured: &Measured, one: &Possible, count: f64) -> Measured {
+    fn with(&self, measured: &MeasuredReadings, one: &Possible, count: f64) -> MeasuredReadings {
         let kernels = self.kernels(one, count);
-        let [factor, shift] = ORDERS[measured.rows % ROWS];
+        let [factor, shift] = ORDERS[measured.rows % MOST_PROPOSALS];
         let row = |(place, logs): (usize, &Vec<f64>)| {
-            let [middle, variance] = kernels[place / NORMAL.len()];
-            let reading = middle + variance.sqrt() * NORMAL[(factor * place + shift) % NORMAL.len()];
+            let [middle, variance] = kernels[place / NORMAL_ERRORS.len()];
+            let reading =
+                middle + variance.sqrt() * NORMAL_ERRORS[(factor * place + shift) % NORMAL_ERRORS.len()];
             let log = |[middle, variance]: &[f64; 2]| {
                 -0.5 * (reading - middle).powi(2) / variance - 0.5 * variance.ln()
             };
             logs.iter().zip(&kernels).map(|(known, kernel)| known + log(kernel)).collect()
         };
-        Measured { logs: measured.logs.iter().enumerate().map(row).collect(), rows: measured.rows + 1 }
+        MeasuredReadings {
+            logs: measured.logs.iter().enumerate().map(row).collect(),
+            rows: measured.rows + 1,
+        }
     }
 
     /// Logarithms of the densities of all causes at a set of readings, given those of the states.
@@ -303,20 +307,20 @@ impl Ensemble {
     /// weight.
     fn expected(
         &self,
-        measured: &Measured,
+        measured: &MeasuredReadings,
         weight: impl Fn(usize) -> f64,
         of: impl Fn(usize, &[f64]) -> f64,
     ) -> f64 {
         let one = |(place, logs): (usize, &Vec<f64>)| {
-            let state = place / NORMAL.len();
-            let weight = weight(state) / NORMAL.len() as f64;
+            let state = place / NORMAL_ERRORS.len();
+            let weight = weight(state) / NORMAL_ERRORS.len() as f64;
             if weight == 0.0 { 0.0 } else { weight * of(self.states[state].1, &self.log_densities(logs)) }
         };
         measured.logs.iter().enumerate().map(one).sum()
     }
 
     /// Expected information on the cause [nats].
-    fn tells(&self, measured: &Measured) -> f64 {
+    fn tells(&self, measured: &MeasuredReadings) -> f64 {
         let gain = |cause: usize, logs: &[f64]| {
             let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let all: f64 = logs.iter().zip(&self.weights).map(|(log, w)| w * (log - most).exp()).sum();
@@ -396,11 +400,11 @@ impl Ensemble {
 /// The surviving causes, the first as likely as any other.
 fn causes(
     study: &RigStudy<'_>,
-    choice: &Choice,
-    whole: &Choice,
+    choice: &RigChoice,
+    whole: &RigChoice,
     posterior: &Posterior,
 ) -> Result<Vec<Cause>, PredictionError> {
-    let drawn = posterior.draws(DRAWS[0] - 1, study.seed);
+    let drawn = posterior.draws(STATES[0] - 1, study.seed);
     let drawn = drawn.iter().map(|at| moved(&choice.additions, at));
     let nothing = |weight: f64| {
         let states = std::iter::once(choice.additions.clone()).chain(drawn.clone()).collect();
@@ -416,8 +420,8 @@ fn causes(
         let candidates = if candidates.is_empty() { choice.hints.iter().collect() } else { candidates };
         let best = candidates.iter().map(|one| one.gain).fold(0.0, f64::max);
         let mut all = Vec::new();
-        for one in candidates.into_iter().take(MOST_CAUSES) {
-            let states = states(study, &choice.additions, one, DRAWS[1])?;
+        for one in candidates.into_iter().take(MOST_SURVIVING) {
+            let states = states(study, &choice.additions, one, STATES[1])?;
             all.push(Cause { name: one.addition.name(), weight: (one.gain - best).exp(), states });
         }
         // It is not significant, so none of them is as likely as the best one.
@@ -433,14 +437,14 @@ fn causes(
             let mut own: Vec<Vec<RigAddition>> = drawn.clone().collect();
             // Undecided causes are not among the additions.
             match choice.additions.is_empty() {
-                true => own = states(study, &[], &round.winner, DRAWS[0])?,
+                true => own = states(study, &[], &round.winner, STATES[0])?,
                 false => own.insert(0, choice.additions.clone()),
             }
             all.push(Cause { name: round.winner.addition.name(), weight: 1.0, states: own });
         }
-        for other in round.rivals(SURVIVES).take(MOST_CAUSES) {
+        for other in round.rivals(SURVIVES).take(MOST_SURVIVING) {
             let states = match last {
-                true => states(study, before, other, DRAWS[1])?,
+                true => states(study, before, other, STATES[1])?,
                 false => vec![[before, std::slice::from_ref(&other.addition), after].concat()],
             };
             let weight = (other.gain - round.winner.gain).exp().min(1.0);
@@ -449,7 +453,7 @@ fn causes(
     }
     let first = all.remove(0);
     all.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-    all.truncate(MOST_CAUSES);
+    all.truncate(MOST_SURVIVING);
     all.insert(0, first);
     if all.len() == 1 {
         all.extend(alternatives(choice));
@@ -458,7 +462,7 @@ fn causes(
 }
 
 /// Where no rival is left: the last cause's removal, which weighs as little as its gain allows.
-fn alternatives(choice: &Choice) -> Vec<Cause> {
+fn alternatives(choice: &RigChoice) -> Vec<Cause> {
     let Some(round) = choice.rounds.last() else { return Vec::new() };
     let before = choice.additions.get(..choice.rounds.len() - 1).unwrap_or_default().to_vec();
     let weight = (-round.winner.gain).exp().min(1.0);
@@ -475,9 +479,9 @@ fn states(
     let with = |addition: &RigAddition| [before, std::slice::from_ref(addition)].concat();
     let all = vec![1.0; study.data.experiments];
     let values = study.data.values();
-    let shelf = study.shelf(before)?;
+    let table = study.table(before)?;
     let key = one.addition.key();
-    let places = shelf.candidates.iter().filter(|candidate| candidate.blank.key() == key);
+    let places = table.candidates.iter().filter(|candidate| candidate.addition.key() == key);
     let places = places.flat_map(|candidate| &candidate.places);
     let mut scored: Vec<(f64, &[f64])> =
         places.map(|place| (study.data.score(&place.prepared, &values, &all), place.at.as_slice())).collect();
@@ -500,7 +504,7 @@ fn states(
 /// The observables of the file with the usual error of each.
 fn columns(
     study: &RigStudy<'_>,
-    choice: &Choice,
+    choice: &RigChoice,
     data: &RigMeasurements,
 ) -> Result<Vec<(RigReading, Usual)>, PredictionError> {
     let weights = vec![1.0; study.data.experiments];
@@ -520,7 +524,7 @@ fn columns(
             (None, Some(scatter)) if count.is_none() || !reading.quantity.is_share() => {
                 Usual::Scatter(*scatter, count.unwrap_or(1.0))
             }
-            _ => Usual::Share(count.unwrap_or(COUNT)),
+            _ => Usual::Share(count.unwrap_or(ASSUMED_COUNT)),
         };
         columns.push((reading.clone(), usual));
     }

@@ -7,10 +7,10 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution as _, StandardNormal};
 
 use crate::dataset::Experiment;
-use crate::rig::Predicted;
+use crate::rig::PredictedReading;
 
 /// Distance that a predicted share keeps from 0 and 1 [1]: a stray particle must not refute a law.
-const LEAST_SHARE: f64 = 0.003;
+const SHARE_MARGIN: f64 = 0.003;
 /// Number of kinds of observables.
 const KINDS: usize = 8;
 /// Scatter of readings without a stated error before they are seen, which counts as one reading more: of a single particle where counts are
@@ -55,12 +55,12 @@ pub(super) struct Data {
 
 /// Predictions of all readings, prepared for many values of the data.
 #[derive(Debug, Clone)]
-pub(super) struct Prepared {
-    rows: Vec<Row>,
+pub(super) struct PreparedReadings {
+    rows: Vec<PreparedReading>,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Row {
+enum PreparedReading {
     /// `slope y + constant + count h(y)`, with the entropy `h` of a share.
     Share { slope: f64, constant: f64, count: f64 },
     /// `constant - (y - mean)²/(2 variance)`.
@@ -71,13 +71,13 @@ enum Row {
 
 /// Values of all readings, measured or drawn.
 #[derive(Debug, Clone)]
-pub(super) struct Values {
+pub(super) struct ReadingValues {
     value: Vec<f64>,
     /// Entropy of a share of this value [nats].
     entropy: Vec<f64>,
 }
 
-impl Values {
+impl ReadingValues {
     fn new(value: Vec<f64>) -> Self {
         let of = |y: f64| if y > 0.0 { -y * y.ln() } else { 0.0 };
         let entropy = value.iter().map(|&y| of(y) + of(1.0 - y)).collect();
@@ -114,8 +114,8 @@ impl Data {
     }
 
     /// The measured values.
-    pub fn values(&self) -> Values {
-        Values::new(self.readings.iter().map(|datum| datum.value).collect())
+    pub fn values(&self) -> ReadingValues {
+        ReadingValues::new(self.readings.iter().map(|datum| datum.value).collect())
     }
 
     /// The readings of experiments with a weight, and the weight.
@@ -129,40 +129,46 @@ impl Data {
         self.inside(weights).count()
     }
 
-    pub fn prepare(&self, predicted: &[Predicted]) -> Prepared {
-        let row = |(datum, one): (&Datum, &Predicted)| {
+    pub fn prepare(&self, predicted: &[PredictedReading]) -> PreparedReadings {
+        let row = |(datum, one): (&Datum, &PredictedReading)| {
             let one = &existing(one, datum.value);
             match datum.noise {
                 Noise::Counted(stated) => {
                     let (p, count) = share(one, stated);
                     let constant = count * (1.0 - p).ln();
                     let slope = count * p.ln() - constant;
-                    Row::Share { slope, constant: constant - 0.5 * (stated / count).ln(), count }
+                    PreparedReading::Share { slope, constant: constant - 0.5 * (stated / count).ln(), count }
                 }
                 Noise::Stated(error) => {
                     let variance = error * error + one.variance;
-                    Row::Normal { mean: one.value, half: 0.5 / variance, constant: -0.5 * variance.ln() }
+                    PreparedReading::Normal {
+                        mean: one.value,
+                        half: 0.5 / variance,
+                        constant: -0.5 * variance.ln(),
+                    }
                 }
-                Noise::Shared { kind, factor } => Row::Shared { kind, mean: one.value, weight: 1.0 / factor },
+                Noise::Shared { kind, factor } => {
+                    PreparedReading::Shared { kind, mean: one.value, weight: 1.0 / factor }
+                }
             }
         };
-        Prepared { rows: self.readings.iter().zip(predicted).map(row).collect() }
+        PreparedReadings { rows: self.readings.iter().zip(predicted).map(row).collect() }
     }
 
     /// Log likelihood of values under predictions, each experiment with its weight [nats].
-    pub fn score(&self, prepared: &Prepared, values: &Values, weights: &[f64]) -> f64 {
+    pub fn score(&self, prepared: &PreparedReadings, values: &ReadingValues, weights: &[f64]) -> f64 {
         let mut score = 0.0;
         let mut sums = [(0.0, 0.0); KINDS];
         for (index, times) in self.inside(weights) {
             let value = values.value[index];
             match prepared.rows[index] {
-                Row::Share { slope, constant, count } => {
+                PreparedReading::Share { slope, constant, count } => {
                     score += times * (slope * value + constant + count * values.entropy[index]);
                 }
-                Row::Normal { mean, half, constant } => {
+                PreparedReading::Normal { mean, half, constant } => {
                     score += times * (constant - half * (value - mean).powi(2));
                 }
-                Row::Shared { kind, mean, weight } => {
+                PreparedReading::Shared { kind, mean, weight } => {
                     let sum = &mut sums[kind.min(KINDS - 1)];
                     sum.0 += times;
                     sum.1 += times * weight * (value - mean).powi(2);
@@ -178,18 +184,19 @@ impl Data {
     }
 
     /// Largest gain of any other predictions [nats]: infinite where a scatter is fitted.
-    pub fn room(&self, predicted: &[Predicted], weights: &[f64]) -> f64 {
+    pub fn room(&self, predicted: &[PredictedReading], weights: &[f64]) -> f64 {
         if self.inside(weights).any(|(i, _)| matches!(self.readings[i].noise, Noise::Shared { .. })) {
             return f64::INFINITY;
         }
-        let exact = |(datum, one): (&Datum, &Predicted)| Predicted { value: datum.value, ..*one };
-        let exact: Vec<Predicted> = self.readings.iter().zip(predicted).map(exact).collect();
-        let score = |all: &[Predicted]| self.score(&self.prepare(all), &self.values(), weights);
+        let exact =
+            |(datum, one): (&Datum, &PredictedReading)| PredictedReading { value: datum.value, ..*one };
+        let exact: Vec<PredictedReading> = self.readings.iter().zip(predicted).map(exact).collect();
+        let score = |all: &[PredictedReading]| self.score(&self.prepare(all), &self.values(), weights);
         score(&exact) - score(predicted)
     }
 
     /// Fitted scatter of each kind under predictions [1].
-    pub fn scatter(&self, predicted: &[Predicted], weights: &[f64]) -> Vec<f64> {
+    pub fn scatter(&self, predicted: &[PredictedReading], weights: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.kinds.len()];
         for (index, _) in self.inside(weights) {
             let (datum, one) = (&self.readings[index], &predicted[index]);
@@ -203,7 +210,7 @@ impl Data {
     }
 
     /// Variance of a reading about a prediction [1]; `scatter` is that of each kind.
-    pub fn variance(&self, index: usize, one: &Predicted, scatter: &[f64]) -> f64 {
+    pub fn variance(&self, index: usize, one: &PredictedReading, scatter: &[f64]) -> f64 {
         match self.readings[index].noise {
             Noise::Counted(count) => {
                 let (p, count) = share(one, count);
@@ -215,7 +222,7 @@ impl Data {
     }
 
     /// Chi-square of the readings with a known error, and their number.
-    pub fn chi_square(&self, predicted: &[Predicted], weights: &[f64]) -> (f64, usize) {
+    pub fn chi_square(&self, predicted: &[PredictedReading], weights: &[f64]) -> (f64, usize) {
         let is_known = |index: &usize| !matches!(self.readings[*index].noise, Noise::Shared { .. });
         let known = self.inside(weights).map(|(index, _)| index).filter(is_known);
         let term = |index: usize| {
@@ -231,34 +238,44 @@ impl Data {
     }
 
     /// Values as predictions would give them, with a new error each; `scatter` is that of each kind.
-    pub fn draw(&self, predicted: &[Predicted], scatter: &[f64], random: &mut ChaCha8Rng) -> Values {
+    pub fn draw(
+        &self,
+        predicted: &[PredictedReading],
+        scatter: &[f64],
+        random: &mut ChaCha8Rng,
+    ) -> ReadingValues {
         let mut one = |(index, datum): (usize, &Datum)| {
             let one = &existing(&predicted[index], datum.value);
             let normal: f64 = StandardNormal.sample(random);
             match datum.noise {
                 Noise::Counted(count) => {
-                    let p = (one.value + one.variance.sqrt() * normal).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+                    let p =
+                        (one.value + one.variance.sqrt() * normal).clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN);
                     let drawn = Binomial::new(count.round() as u64, p).map(|law| law.sample(random));
                     drawn.map_or(p, |drawn| drawn as f64 / count.round())
                 }
                 _ => one.value + self.variance(index, one, scatter).sqrt() * normal,
             }
         };
-        Values::new(self.readings.iter().enumerate().map(&mut one).collect())
+        ReadingValues::new(self.readings.iter().enumerate().map(&mut one).collect())
     }
 }
 
 /// A prediction that can be compared: where the model says that nothing happens that could be measured, as no rebound, it is as wrong as
 /// it could be.
-fn existing(one: &Predicted, measured: f64) -> Predicted {
+fn existing(one: &PredictedReading, measured: f64) -> PredictedReading {
     if one.value.is_finite() {
         return *one;
     }
-    Predicted { value: if measured > 0.5 { 0.0 } else { 1.0 }, variance: 0.0, particles: one.particles }
+    PredictedReading {
+        value: if measured > 0.5 { 0.0 } else { 1.0 },
+        variance: 0.0,
+        particles: one.particles,
+    }
 }
 
 /// A predicted share away from 0 and 1, and the count reduced by the prediction's own error.
-fn share(one: &Predicted, count: f64) -> (f64, f64) {
-    let p = one.value.clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+fn share(one: &PredictedReading, count: f64) -> (f64, f64) {
+    let p = one.value.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN);
     (p, count / (1.0 + one.variance * count / (p * (1.0 - p))))
 }

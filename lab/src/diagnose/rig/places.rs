@@ -9,13 +9,13 @@ const OF_A_NUMBER: usize = 20;
 const OF_AN_EFFECT: usize = 80;
 const SIDE: usize = 6;
 /// Places of a range with three or more parameters.
-const MANY: usize = 48;
+const HALTON_PLACES: usize = 48;
 /// Bases of the Halton sequence.
 const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
 /// Sizes of a curve, as a share of its reach, and changes of a law's own number, as a share of its range: small ones too, where many
 /// readings show them.
-const SIZES: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
-const CHANGES: [f64; 4] = [0.01, 0.025, 0.06, 0.15];
+const CURVE_SIZES: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
+const NUMBER_CHANGES: [f64; 4] = [0.01, 0.025, 0.06, 0.15];
 /// Shapes of a curve over three knots.
 const SHAPES: [[f64; 3]; 7] = [
     [1.0, 1.0, 1.0],
@@ -35,7 +35,8 @@ impl RigAddition {
             (Kind::Part(Part::LawParameter(_)), Some(axis)) => {
                 let mut all = even(OF_A_NUMBER);
                 let here = now.map(|value| axis.coordinate(value));
-                let near = here.into_iter().flat_map(|at| CHANGES.iter().flat_map(move |c| [at - c, at + c]));
+                let near =
+                    here.into_iter().flat_map(|at| NUMBER_CHANGES.iter().flat_map(move |c| [at - c, at + c]));
                 all.extend(near.filter(|at| (0.0..=1.0).contains(at)).map(|at| vec![at]));
                 all
             }
@@ -51,7 +52,7 @@ fn curves(knots: usize) -> Vec<Vec<f64>> {
         _ => vec![vec![1.0; knots]],
     };
     let sized = |shape: Vec<f64>| {
-        let all = SIZES.iter().flat_map(|size| [-size, *size]);
+        let all = CURVE_SIZES.iter().flat_map(|size| [-size, *size]);
         all.map(move |size| shape.iter().map(|height| 0.5 + 0.5 * size * height).collect())
             .collect::<Vec<_>>()
     };
@@ -67,9 +68,9 @@ fn cube(dimensions: usize) -> Vec<Vec<f64>> {
             .into_iter()
             .flat_map(|x| even(SIDE).into_iter().map(move |y| [&x[..], &y].concat()))
             .collect(),
-        _ => {
-            (1..=MANY).map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect()).collect()
-        }
+        _ => (1..=HALTON_PLACES)
+            .map(|number| (0..dimensions).map(|d| halton(number, BASES[d % 6])).collect())
+            .collect(),
     }
 }
 

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 use super::addition::{RigAddition, moved};
 use super::choice::RigStudy;
-use super::noise::Prepared;
-use super::shelf::predict;
+use super::noise::PreparedReadings;
+use super::prediction_table::predict;
 
 /// Draws of each generation.
 const GENERATIONS: [usize; 3] = [60, 100, 200];
@@ -25,7 +25,7 @@ const FALL: f64 = 0.5;
 const GUESSES: [f64; 2] = [1e-3, 0.4];
 
 /// Log likelihood [nats] and predictions at some coordinates; none outside the search ranges.
-type Evaluated = (f64, Option<Prepared>);
+type Evaluated = (f64, Option<PreparedReadings>);
 
 /// Weighted draws of the coordinates of additions.
 #[derive(Debug, Default)]
@@ -33,7 +33,7 @@ pub(super) struct Posterior {
     at: Vec<Vec<f64>>,
     weights: Vec<f64>,
     /// Coordinates and predictions of all generations.
-    tried: Vec<(Vec<f64>, Prepared)>,
+    tried: Vec<(Vec<f64>, PreparedReadings)>,
 }
 
 impl Posterior {

@@ -7,11 +7,11 @@ use crate::rig::CaseText;
 /// Most settings of the file that are proposed again.
 const KNOWN: usize = 12;
 /// Settings inside the ranges of the file.
-const INSIDE: usize = 12;
+const INSIDE_RANGES: usize = 12;
 /// Settings that vary whose ends are combined, at most.
 const CORNERS: usize = 3;
 /// How far beyond a range, as a share of it.
-const BEYOND: f64 = 0.5;
+const BEYOND_RANGE: f64 = 0.5;
 /// Keys of a case that a rig can usually vary, and the factors or steps to try.
 const LEVERS: [(&str, [f64; 2], bool); 9] = [
     ("particles.speed", [0.5, 2.0], true),
@@ -66,12 +66,12 @@ pub(super) fn proposals(data: &RigMeasurements, text: &CaseText) -> Vec<Settings
         let end = |place: usize| if place < corners { (corner >> place & 1) as f64 } else { 0.5 };
         all.push(moved(&middle, &ranges, end));
     }
-    for number in 1..=INSIDE {
+    for number in 1..=INSIDE_RANGES {
         let from = known[number % known.len()];
         all.push(moved(from, &ranges, |place| halton(number, [2, 3, 5, 7, 11, 13][place % 6])));
     }
     for (beyond, _) in ranges.iter().enumerate() {
-        for share in [-BEYOND, 1.0 + BEYOND] {
+        for share in [-BEYOND_RANGE, 1.0 + BEYOND_RANGE] {
             all.push(moved(&middle, &ranges, |place| if place == beyond { share } else { 0.5 }));
         }
     }

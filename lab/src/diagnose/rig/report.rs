@@ -3,30 +3,28 @@
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::super::constants::{LEAST_CERTAINTY, REFUTED};
 use super::super::finding::sigma;
+use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Alternative, Calibration, Diagnosis, Finding, Fit, FitTest, FittedCurve, LargeMisfit, NotExamined,
+    Alternative, Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined,
     Options, Rows,
 };
 use super::super::verdict::{fit_sentence, is_refuted};
 use super::MISFIT;
 use super::addition::{Kind, RigAddition};
 use super::candidates::range;
-use super::choice::{Choice, DISTINGUISHABLE, RigStudy, Round, Scored};
-use super::gain::{HeldOut, predict_file};
+use super::choice::{DISTINGUISHABLE_GAIN, RigChoice, RigRound, RigStudy, Scored};
+use super::gain::{HeldOutExperiments, predict_file};
 use super::next::{NextExperiment, table};
 use super::noise::Noise;
-use super::shelf::predict;
+use super::prediction_table::predict;
 use crate::dataset::RigMeasurements;
-use crate::rig::{Predicted, PredictionError, SettingError};
+use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::effect::EFFECTS;
 use nearwall::model::Model;
 
-/// Readings with the largest misfit that are listed.
-const LARGEST: usize = 5;
-/// Least share of resamples that name a cause which is told from others by little.
-const LEAST_CERTAINTY: f64 = 0.5;
 /// With fewer experiments than these, causes that cannot be told apart are undecided.
 const FEW_EXPERIMENTS: usize = 6;
 
@@ -94,21 +92,21 @@ pub struct KindErrors {
 }
 
 /// What a diagnosis found.
-pub(super) struct Found<'a> {
+pub(super) struct RigFindings<'a> {
     pub study: &'a RigStudy<'a>,
-    pub choice: Choice,
+    pub choice: RigChoice,
     /// Causes of which one is significant, if the data cannot tell which.
     pub undecided: Vec<String>,
     /// Causes that explain these experiments but do not help to predict others.
     pub not_carried: Vec<String>,
-    pub held_out: Option<HeldOut>,
+    pub held_out: Option<HeldOutExperiments>,
     pub text: String,
     pub draws: Vec<String>,
     pub next: Vec<NextExperiment>,
 }
 
 /// With few experiments, causes that cannot be told apart.
-pub(super) fn undecided(choice: &Choice) -> Vec<String> {
+pub(super) fn undecided(choice: &RigChoice) -> Vec<String> {
     let Some(first) = choice.rounds.first() else { return Vec::new() };
     let others = rivals(first);
     let few = first.certainty < LEAST_CERTAINTY && choice.rounds.len() == 1;
@@ -120,8 +118,9 @@ pub(super) fn undecided(choice: &Choice) -> Vec<String> {
 }
 
 /// Causes that the readings cannot tell from the winner of a round.
-fn rivals(round: &Round) -> Vec<String> {
-    let mut names: Vec<String> = round.rivals(DISTINGUISHABLE).map(|other| other.addition.name()).collect();
+fn rivals(round: &RigRound) -> Vec<String> {
+    let mut names: Vec<String> =
+        round.rivals(DISTINGUISHABLE_GAIN).map(|other| other.addition.name()).collect();
     names.dedup();
     names
 }
@@ -147,7 +146,7 @@ fn p_of(chi_square: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(1.0, |law| law.sf(chi_square))
 }
 
-impl Found<'_> {
+impl RigFindings<'_> {
     /// The record.
     ///
     /// # Errors
@@ -229,7 +228,7 @@ impl Found<'_> {
         })
     }
 
-    fn fit_test(&self, predicted: &[Predicted], parameters: usize, structure: f64) -> FitTest {
+    fn fit_test(&self, predicted: &[PredictedReading], parameters: usize, structure: f64) -> FitTest {
         let data = &self.study.data;
         let (chi_square, readings) = data.chi_square(predicted, &vec![1.0; data.experiments]);
         if readings < data.readings.len() || readings <= parameters {
@@ -245,7 +244,7 @@ impl Found<'_> {
     }
 
     /// The readings farthest from the base model, of those with a known error.
-    fn largest(&self, base: &[Predicted]) -> Vec<LargeMisfit> {
+    fn largest(&self, base: &[PredictedReading]) -> Vec<LargeMisfit> {
         let data = &self.study.data;
         let mut all: Vec<LargeMisfit> = Vec::new();
         for (index, datum) in data.readings.iter().enumerate() {
@@ -263,11 +262,11 @@ impl Found<'_> {
             });
         }
         all.sort_by(|a, b| b.standard_errors.abs().total_cmp(&a.standard_errors.abs()));
-        all.truncate(LARGEST);
+        all.truncate(MOST_LISTED);
         all
     }
 
-    fn calibration(&self, round: &Round, addition: &RigAddition) -> Option<Calibration> {
+    fn calibration(&self, round: &RigRound, addition: &RigAddition) -> Option<Calibration> {
         let Kind::Part(Part::LawParameter(parameter)) = addition.kind else { return None };
         let [low, high] = addition.intervals.first()?.map(rounded);
         Some(Calibration {
@@ -281,10 +280,10 @@ impl Found<'_> {
         })
     }
 
-    fn finding(&self, round: &Round, addition: &RigAddition) -> Result<Finding, PredictionError> {
+    fn finding(&self, round: &RigRound, addition: &RigAddition) -> Result<Finding, PredictionError> {
         let Scored { gain, p_value, .. } = round.winner;
         let others = rivals(round);
-        let curve = addition.fitted_curve().map(|curve| FittedCurve {
+        let curve = addition.fitted_curve().map(|curve| CauseCurve {
             factor: curve.on != nearwall::effect::CurveTarget::Capture,
             at: curve
                 .axes
@@ -359,8 +358,8 @@ impl Found<'_> {
             .collect()
     }
 
-    fn rows(&self, base: &[Predicted], extended: &[Predicted], scatter: &[f64]) -> Vec<RigRow> {
-        let finite = |one: &Predicted| one.value.is_finite().then_some(one.value);
+    fn rows(&self, base: &[PredictedReading], extended: &[PredictedReading], scatter: &[f64]) -> Vec<RigRow> {
+        let finite = |one: &PredictedReading| one.value.is_finite().then_some(one.value);
         let row = |(index, datum): (usize, &super::noise::Datum)| {
             let experiment = &self.study.forward.experiments()[datum.experiment];
             let reading = &experiment.readings[datum.place];
@@ -379,11 +378,11 @@ impl Found<'_> {
         self.study.data.readings.iter().enumerate().map(row).collect()
     }
 
-    fn errors(&self, base: &[Predicted], extended: &[Predicted]) -> Vec<KindErrors> {
+    fn errors(&self, base: &[PredictedReading], extended: &[PredictedReading]) -> Vec<KindErrors> {
         let data = &self.study.data;
         let of = |(kind, name): (usize, &&'static str)| {
             let own = data.readings.iter().enumerate().filter(|(_, datum)| datum.kind == kind);
-            let squares = |predicted: &[Predicted]| {
+            let squares = |predicted: &[PredictedReading]| {
                 let all: Vec<f64> =
                     own.clone().map(|(i, datum)| (datum.value - predicted[i].value).powi(2)).collect();
                 let finite: Vec<f64> = all.into_iter().filter(|square| square.is_finite()).collect();
@@ -481,7 +480,7 @@ fn sentences(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readin
     if !(causes.is_empty() && values.is_empty())
         && let (Some(chi_square), Some(freedom), Some(p)) =
             (left.chi_square, left.degrees_of_freedom, left.p_value)
-        && p < 0.01
+        && p < REFUTED
     {
         text += &format!(
             " A misfit is left (chi-square {chi_square:.1} for {freedom}): errors larger than stated, or a cause that is not \

@@ -10,7 +10,7 @@ use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use super::noise::Data;
-use super::shelf::Shelf;
+use super::prediction_table::PredictionTable;
 
 /// Data sets drawn.
 const DRAWN: u64 = 1000;
@@ -22,17 +22,17 @@ const TAIL: usize = 10;
 pub(super) struct NullGains(Vec<f64>);
 
 impl NullGains {
-    pub fn new(shelf: &Shelf, data: &Data, weights: &[f64], seed: u64) -> Self {
-        let scatter = data.scatter(&shelf.base, weights);
+    pub fn new(table: &PredictionTable, data: &Data, weights: &[f64], seed: u64) -> Self {
+        let scatter = data.scatter(&table.base, weights);
         let one = |number: u64| {
             let mut random = ChaCha8Rng::seed_from_u64(seed ^ 0x006e_756c);
             random.set_stream(number);
-            let values = data.draw(&shelf.base, &scatter, &mut random);
-            let base = data.score(&shelf.base_prepared, &values, weights);
-            let gain = |candidate: &super::shelf::Candidate| {
+            let values = data.draw(&table.base, &scatter, &mut random);
+            let base = data.score(&table.base_prepared, &values, weights);
+            let gain = |candidate: &super::prediction_table::TabledCandidate| {
                 candidate.best(data, &values, weights).0 - base - candidate.cost()
             };
-            shelf.candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max)
+            table.candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max)
         };
         let mut gains: Vec<f64> = (0..DRAWN).into_par_iter().map(one).collect();
         gains.sort_by(f64::total_cmp);

@@ -6,7 +6,7 @@ use super::super::page::{Page, Table};
 use super::axis::Axis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
 use super::{cause_title, curve, spread, usage};
-use crate::diagnose::{Alternative, Diagnosis, Estimate, Finding, FittedSurface};
+use crate::diagnose::{Alternative, CauseSurface, Diagnosis, Estimate, Finding};
 use nearwall::effect::EFFECTS;
 
 /// A law whose lack of fit is less likely than this has another shape than the data.
@@ -116,7 +116,7 @@ pub(in crate::report) fn parameters(finding: &Finding) -> Table {
 }
 
 /// The heights of a surface.
-fn heights(finding: &Finding, surface: &FittedSurface) -> Table {
+fn heights(finding: &Finding, surface: &CauseSurface) -> Table {
     let names: Vec<&str> = finding.variables.iter().map(String::as_str).collect();
     let [one, two] = names[..] else { return Table::default() };
     let caption = match (finding.observable, surface.factor) {

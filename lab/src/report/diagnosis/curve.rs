@@ -3,13 +3,13 @@
 use super::super::chart::Figure;
 use super::axis::Axis;
 use super::plot::{EXTENDED, Means, Window, title, triple};
-use crate::diagnose::{Diagnosis, Finding, FittedCurve};
+use crate::diagnose::{CauseCurve, Diagnosis, Finding};
 
 /// The curve, with the rows that it was fitted to; `None` where its column does not vary in the sample.
 pub(super) fn figure(
     diagnosis: &Diagnosis,
     finding: &Finding,
-    shape: &FittedCurve,
+    shape: &CauseCurve,
     id: &str,
 ) -> Option<Figure> {
     let sample = &diagnosis.sample;

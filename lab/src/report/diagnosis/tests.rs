@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::page;
 use crate::diagnose::{
     Alternative, DataView, Diagnosis, Estimate, Finding, Fit, FitTest, Gain, GroupsFound, LargeMisfit,
-    Measure, Rival, Rows, Sample, SampleRow, ScatterFound,
+    NextMeasurement, Rival, Rows, Sample, SampleRow, ScatterFound,
 };
 
 const EXTENDED: &str = "[particle]\nmaterial = \"montan-wax\"\n";
@@ -190,7 +190,7 @@ fn a_cause_says_how_sure_it_is() {
     let mut found = finding("sliding-to-rolling");
     found.indistinguishable_from = vec!["tangential-compliance".into(), "unknown:day".into()];
     found.not_separable = vec!["Only the product of `friction` and `strength` is known.".into()];
-    found.measure_next = vec![Measure {
+    found.measure_next = vec![NextMeasurement {
         against: "tangential-compliance".into(),
         vary: "v_t".into(),
         range: [0.2, 9.0],

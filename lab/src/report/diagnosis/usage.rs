@@ -4,14 +4,14 @@ use super::super::format::{listed, with_unit};
 use super::super::page::{Page, Table};
 use super::plot::title;
 use super::{cause_title, fit};
-use crate::diagnose::{Diagnosis, Finding, Measure, NotExamined};
+use crate::diagnose::{Diagnosis, Finding, NextMeasurement, NotExamined};
 use nearwall::effect::EFFECTS;
 use nearwall::impact::INPUTS;
 use toml_edit::{DocumentMut, Item, Value};
 
 /// A measurement in a sentence.
-pub(super) fn sentence(measure: &Measure, cause: &str) -> String {
-    let Measure { against, vary, unit, impacts, .. } = measure;
+pub(super) fn sentence(measure: &NextMeasurement, cause: &str) -> String {
+    let NextMeasurement { against, vary, unit, impacts, .. } = measure;
     let [from, to] = measure.range.map(|end| with_unit(end, unit));
     let observe =
         if measure.observable == "outcome" { "which impacts are captured" } else { measure.observable };

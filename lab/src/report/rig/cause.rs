@@ -6,7 +6,7 @@ use super::super::diagnosis::plot::{Window, identifier};
 use super::super::diagnosis::{cause_title, rivals};
 use super::super::format::listed;
 use super::super::page::Page;
-use crate::diagnose::{Finding, FittedCurve};
+use crate::diagnose::{CauseCurve, Finding};
 use nearwall::impact::INPUTS;
 
 pub(super) fn add(page: &mut Page, finding: &Finding, place: usize) {
@@ -42,7 +42,7 @@ pub(super) fn add(page: &mut Page, finding: &Finding, place: usize) {
 }
 
 /// The fitted curve; `None` where it is a shift by one number.
-fn figure(finding: &Finding, curve: &FittedCurve) -> Option<Figure> {
+fn figure(finding: &Finding, curve: &CauseCurve) -> Option<Figure> {
     let input = finding.variables.first()?;
     let unit = INPUTS.iter().find(|one| one.name == input).map_or("", |one| one.unit);
     let points = curve.at.iter().zip(&curve.adds);

@@ -6,7 +6,7 @@ use super::{RigPage, RigSource, page};
 use crate::dataset::BadRow;
 use crate::diagnose::rig::{KindErrors, NextExperiment, RigDiagnosis, RigRow};
 use crate::diagnose::{
-    Alternative, Calibration, Diagnosis, Estimate, Finding, Fit, FitTest, FittedCurve, Gain, LargeMisfit,
+    Alternative, Calibration, CauseCurve, Diagnosis, Estimate, Finding, Fit, FitTest, Gain, LargeMisfit,
     NotExamined, Rows,
 };
 
@@ -318,7 +318,7 @@ fn readings_without_errors_and_predictions_are_said_to_be_so() {
     let mut found = with_cause(found(readings, &["mean_e_n"]), "unknown:T_p");
     found.diagnosis.fit.base = structure;
     found.diagnosis.gains.clear();
-    found.diagnosis.findings[0].curve = Some(FittedCurve {
+    found.diagnosis.findings[0].curve = Some(CauseCurve {
         factor: true,
         at: vec!["300".into(), "330".into(), "360".into()],
         adds: vec![0.0, 0.2, -0.1],

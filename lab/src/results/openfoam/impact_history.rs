@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{entries, file_name, tables, time_folders};
-use crate::dataset::{DatasetError, ImpactReader, PARCEL_COLUMNS, Row};
+use crate::dataset::{DatasetError, ImpactReader, ImpactRow, PARCEL_COLUMNS};
 use crate::results::RunResults;
 use nearwall::impact::Impact;
 use nearwall::model::ExtraInput;
@@ -68,7 +68,7 @@ pub enum HistoryError {
     },
     /// A line is damaged.
     #[error("{}:{line}: {reason}; run the case again, or remove all rows of this parcel", .file.display())]
-    Row {
+    ImpactRow {
         /// The file.
         file: PathBuf,
         /// The line, counted from 1.
@@ -272,12 +272,12 @@ pub fn read(
     let columns = Columns::of(&reader, &file, header_line)?;
     let mut names = Names::default();
     let mut parcels: BTreeMap<ParcelId, Vec<RecordedImpact>> = BTreeMap::new();
-    let mut row = Row::default();
+    let mut row = ImpactRow::default();
     while let Some(next) = reader.next_into(&mut row)? {
         let next = next.map_err(|bad| (bad.line, bad.reason));
         let read = next.and_then(|()| columns.read(&row, &mut names).map_err(|reason| (row.line, reason)));
         let (id, impact) =
-            read.map_err(|(line, reason)| HistoryError::Row { file: file.clone(), line, reason })?;
+            read.map_err(|(line, reason)| HistoryError::ImpactRow { file: file.clone(), line, reason })?;
         parcels.entry(id).or_default().push(impact);
     }
     let mut histories = Vec::with_capacity(parcels.len());
@@ -413,7 +413,7 @@ impl Columns {
     ///
     /// # Errors
     /// The reason why it is damaged.
-    fn read(&self, row: &Row, names: &mut Names) -> Result<(ParcelId, RecordedImpact), String> {
+    fn read(&self, row: &ImpactRow, names: &mut Names) -> Result<(ParcelId, RecordedImpact), String> {
         let cell = |index: usize| row.cells.get(index).unwrap_or("");
         let number = |index: usize, name: &str| {
             let value = cell(index).parse().ok().filter(|value: &f64| value.is_finite());

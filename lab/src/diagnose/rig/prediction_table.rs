@@ -6,30 +6,30 @@
 use rayon::prelude::*;
 
 use super::addition::{RigAddition, apply_all};
-use super::noise::{Data, Prepared, Values};
-use crate::rig::{Forward, Predicted, PredictionError};
+use super::noise::{Data, PreparedReadings, ReadingValues};
+use crate::rig::{Forward, PredictedReading, PredictionError};
 
 /// A candidate at one place.
 #[derive(Debug)]
-pub(super) struct Place {
+pub(super) struct TabledPlace {
     pub at: Vec<f64>,
-    pub prepared: Prepared,
+    pub prepared: PreparedReadings,
 }
 
 /// A candidate with its places.
 #[derive(Debug)]
-pub(super) struct Candidate {
-    pub blank: RigAddition,
-    pub places: Vec<Place>,
+pub(super) struct TabledCandidate {
+    pub addition: RigAddition,
+    pub places: Vec<TabledPlace>,
 }
 
 /// All candidates beside what a model already has.
 #[derive(Debug)]
-pub(super) struct Shelf {
+pub(super) struct PredictionTable {
     /// Predictions without a candidate.
-    pub base: Vec<Predicted>,
-    pub base_prepared: Prepared,
-    pub candidates: Vec<Candidate>,
+    pub base: Vec<PredictedReading>,
+    pub base_prepared: PreparedReadings,
+    pub candidates: Vec<TabledCandidate>,
 }
 
 /// Predictions of all readings by the base model with additions.
@@ -39,13 +39,13 @@ pub(super) struct Shelf {
 pub(super) fn predict(
     forward: &dyn Forward,
     additions: &[RigAddition],
-) -> Result<Vec<Predicted>, PredictionError> {
+) -> Result<Vec<PredictedReading>, PredictionError> {
     let one = |experiment: usize| forward.predict(experiment, &|model| apply_all(additions, model));
     let all = (0..forward.experiments().len()).into_par_iter().map(one).collect::<Result<Vec<_>, _>>()?;
     Ok(all.into_iter().flatten().collect())
 }
 
-impl Shelf {
+impl PredictionTable {
     /// Computes the predictions of all candidates beside `additions`; those that the impacts refuse or that change nothing are left out.
     ///
     /// # Errors
@@ -58,21 +58,21 @@ impl Shelf {
         progress: &(dyn Fn() + Sync),
     ) -> Result<Self, PredictionError> {
         let base = predict(forward, additions)?;
-        let of = |blank: RigAddition| {
-            let places = blank.places(blank.present(forward.base(0)));
+        let of = |addition: RigAddition| {
+            let places = addition.places(addition.present(forward.base(0)));
             let at = |at: Vec<f64>| {
                 let mut all = additions.to_vec();
-                all.push(blank.moved(&at));
+                all.push(addition.moved(&at));
                 let predicted = predict(forward, &all).ok()?;
                 let changed = predicted
                     .iter()
                     .zip(&base)
                     .any(|(a, b)| a.value != b.value && !(a.value.is_nan() && b.value.is_nan()));
-                changed.then(|| Place { at, prepared: data.prepare(&predicted) })
+                changed.then(|| TabledPlace { at, prepared: data.prepare(&predicted) })
             };
-            let places: Vec<Place> = places.into_par_iter().filter_map(at).collect();
+            let places: Vec<TabledPlace> = places.into_par_iter().filter_map(at).collect();
             progress();
-            (!places.is_empty()).then_some(Candidate { blank, places })
+            (!places.is_empty()).then_some(TabledCandidate { addition, places })
         };
         let candidates = candidates.into_par_iter().filter_map(of).collect();
         let base_prepared = data.prepare(&base);
@@ -80,15 +80,15 @@ impl Shelf {
     }
 }
 
-impl Candidate {
+impl TabledCandidate {
     /// The best place and its log likelihood [nats].
-    pub fn best(&self, data: &Data, values: &Values, weights: &[f64]) -> (f64, &Place) {
+    pub fn best(&self, data: &Data, values: &ReadingValues, weights: &[f64]) -> (f64, &TabledPlace) {
         let scored = self.places.iter().map(|place| (data.score(&place.prepared, values, weights), place));
         scored.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, &self.places[0]))
     }
 
     /// What the number of its parameters gains by chance [nats].
     pub fn cost(&self) -> f64 {
-        self.blank.axes.len() as f64
+        self.addition.axes.len() as f64
     }
 }

@@ -1,0 +1,20 @@
+//! Numbers that several files of the room use.
+
+use super::likelihood::Scatter;
+
+/// Least number of rows of a diagnosis, of a comparison, and of held-out rows for a gain.
+pub(super) const LEAST_ROWS: usize = 3;
+/// Random draws a row of a stochastic model, as many as `nearwall predict` takes.
+pub(super) const ROW_DRAWS: usize = 64;
+/// First guess of the scatter of `e_n` and `e_t` [1].
+pub(super) const FIRST_SCATTER: Scatter = [0.1, 0.1];
+/// Resamples of a bootstrap of errors.
+pub(super) const BOOTSTRAP_RESAMPLES: usize = 1000;
+/// Resamples for the certainty of a cause.
+pub(super) const CERTAINTY_RESAMPLES: usize = 200;
+/// A resample names a cause that gains this share of what the best candidate does [1].
+pub(super) const NEARLY_BEST: f64 = 0.75;
+/// Least share of resamples that name a cause [1]; with a smaller one it is a hint.
+pub(super) const LEAST_CERTAINTY: f64 = 0.5;
+/// p-value at which a model is refuted [1].
+pub(super) const REFUTED: f64 = 0.01;
