@@ -3,8 +3,8 @@
 
 #include "nearWallVelocityLagrangianPatchVectorField.H"
 #include "dictionaryChecks.H"
-#include "impactKey.H"
-#include "wallModel.H"
+#include "impactInputs.H"
+#include "wallRule.H"
 
 #include "addToRunTimeSelectionTable.H"
 #include "LagrangianMesh.H"
@@ -74,42 +74,6 @@ const FieldType* findField(const objectRegistry& db, const word& name)
 }
 
 
-//- Names under which the wall of a patch is looked for in the model
-wordList wallNames(const dictionary& dict, const polyPatch& pp)
-{
-    if (dict.found("wall"))
-    {
-        return wordList(1, nearWall::read<word>(dict, "wall"));
-    }
-    wordList names(1, pp.name());
-    names.append(pp.inGroups());
-    names.append(word("default"));
-    return names;
-}
-
-
-std::uint32_t readWall
-(
-    const dictionary& dict,
-    const polyPatch& pp,
-    const nearwall::model& model
-)
-{
-    std::uint32_t wall = 0;
-    const wordList names(wallNames(dict, pp));
-    for (const word& name : names)
-    {
-        if (model.find_wall(name, wall)) return wall;
-    }
-    FatalIOErrorInFunction(dict)
-        << "Patch '" << pp.name() << "': the model has no wall with a name of "
-        << names << "." << nl
-        << "    Add such a wall to the model, or name one of its walls with the"
-        << " key 'wall'." << exit(FatalIOError);
-    return wall;
-}
-
-
 //- Stop where the model needs a value that this condition does not pass on
 void refuseExtraInputs(const dictionary& dict, const nearwall::model& model)
 {
@@ -135,31 +99,24 @@ struct Foam::nearWallVelocityLagrangianPatchVectorField::settings
 {
     const dictionary dict;
     const nearWall::wallModelPtr model;
-    const std::uint32_t wall;
     const bool removesStuck;
     const std::uint64_t seed;
     const word gasVelocity;
-    const word gasTemperature;
 
     //- Temperature of parcels without one [K]
     const scalar particleTemperature;
 
-    //- Temperature of the wall [K]; 0 for that of the field, which is looked up
-    //  at the first impact: tools such as decomposePar have no fields
-    const scalar wallTemperature;
-
-    //- Must the field be there? Otherwise 293.15 K replaces it
-    const bool needsField;
+    //- The field of its temperature is looked up at the first impact: tools
+    //  such as decomposePar have no fields
+    nearWall::wallRule wall;
 
     settings(const dictionary& given, const polyPatch& pp, const Time& time)
     :
         dict(checkedKeys(given)),
         model(nearWall::readWallModel(dict, time)),
-        wall(readWall(dict, pp, *model)),
         removesStuck(readRemovesStuck(dict)),
         seed(std::uint64_t(nearWall::readOr<label>(dict, "seed", 1))),
         gasVelocity(nearWall::readOr<word>(dict, "U", word("U"))),
-        gasTemperature(nearWall::readOr<word>(dict, "field", word("T"))),
         particleTemperature
         (
             nearWall::readChecked<scalar>
@@ -167,10 +124,10 @@ struct Foam::nearWallVelocityLagrangianPatchVectorField::settings
                 dict, "particleTemperature", 293.15,
                 [](scalar T) { return T > 0; }, "above 0, in K"
             )
-        ),
-        wallTemperature(readWallTemperature(dict, pp)),
-        needsField(dict.found("wallTemperature") || dict.found("field"))
+        )
     {
+        wall.readWall(dict, pp, *model, "the wall model");
+        wall.readTemperature(dict, pp);
         refuseExtraInputs(dict, *model);
     }
 
@@ -199,33 +156,13 @@ struct Foam::nearWallVelocityLagrangianPatchVectorField::settings
         const word name(nearWall::readOr<word>(dict, "stuck", word("react")));
         return nearWall::checkedChoice(dict, "stuck", name, names);
     }
-
-    static scalar readWallTemperature
-    (
-        const dictionary& dict,
-        const polyPatch& pp
-    )
-    {
-        if (!dict.found("wallTemperature")) return 0;
-
-        const tokenList& entry = dict.lookup("wallTemperature");
-        const token t(entry.size() == 1 ? entry[0] : token());
-        if (t.isWord() && t.wordToken() == "field") return 0;
-        if (t.isNumber() && t.number() > 0) return t.number();
-
-        FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name() << "': wallTemperature must be 'field' or"
-            << " a number above 0, in K." << nl
-            << "    Give the number without a unit: wallTemperature 673.15;"
-            << exit(FatalIOError);
-        return 0;
-    }
 };
 
 
 struct Foam::nearWallVelocityLagrangianPatchVectorField::fieldInputs
 {
     const settings& given;
+    nearWall::wallRule wall;
     const LagrangianMesh& cloud;
     const polyMesh& mesh;
     const polyPatch& pp;
@@ -235,27 +172,22 @@ struct Foam::nearWallVelocityLagrangianPatchVectorField::fieldInputs
     const LagrangianScalarDynamicField* const rho;
     const LagrangianScalarDynamicField* const T;
 
-    //- Fields of the gas; null where there are none
+    //- Velocity of the gas; null where there is none
     const volVectorField* const gasU;
-    const volScalarField* const gasT;
 
     fieldInputs(const settings& s, const LagrangianPatch& patch)
     :
         given(s),
+        wall(s.wall),
         cloud(patch.boundaryMesh().mesh()),
         mesh(polyMeshOf(cloud)),
         pp(polyPatchOf(patch)),
         d(findField<LagrangianScalarDynamicField>(cloud, "d")),
         rho(findField<LagrangianScalarDynamicField>(cloud, "rho")),
         T(findField<LagrangianScalarDynamicField>(cloud, "T")),
-        gasU(findField<volVectorField>(mesh, s.gasVelocity)),
-        gasT
-        (
-            s.wallTemperature > 0
-          ? nullptr
-          : findField<volScalarField>(mesh, s.gasTemperature)
-        )
+        gasU(findField<volVectorField>(mesh, s.gasVelocity))
     {
+        wall.findField(given.dict, pp, mesh);
         if (!d)
         {
             FatalIOErrorInFunction(given.dict)
@@ -264,67 +196,46 @@ struct Foam::nearWallVelocityLagrangianPatchVectorField::fieldInputs
                 << "    Use a cloud of spherical particles, or another velocity"
                 << " condition." << exit(FatalIOError);
         }
-        if (!gasT && given.wallTemperature <= 0 && given.needsField)
+    }
+
+    //- A parcel as setInputs() takes it
+    struct parcel
+    {
+        const fieldInputs& in;
+        const label i;
+
+        scalar d() const { return (*in.d)[i]; }
+
+        scalar rho() const { return in.rho ? (*in.rho)[i] : 0; }
+
+        scalar T() const
         {
-            FatalIOErrorInFunction(given.dict)
-                << "Patch '" << pp.name() << "': the wall temperature is to"
-                << " come from a field, but no field '" << given.gasTemperature
-                << "' is registered." << nl
-                << "    Give a number in K, wallTemperature 300; or the name"
-                << " of the temperature field, field T;" << exit(FatalIOError);
+            return in.T ? (*in.T)[i] : in.given.particleTemperature;
         }
-    }
+    };
 
-    //- Temperature of the wall at a parcel [K]
-    scalar wallTemperature(const label parceli) const
-    {
-        if (given.wallTemperature > 0) return given.wallTemperature;
-        if (!gasT) return 293.15;
-        const label facei = cloud.facei()[parceli] - pp.start();
-        return gasT->boundaryField()[pp.index()][facei];
-    }
-
-    //- Speed of the gas along the wall [m/s]
-    scalar gasSpeed
-    (
-        const label parceli,
-        const vector& normal,
-        const vector& wall
-    ) const
-    {
-        if (!gasU) return 0;
-        const vector gas((*gasU)[cloud.celli()[parceli]] - wall);
-        return mag(gas - (gas & normal)*normal);
-    }
-
-    //- Key of the impact's random draws
-    std::uint64_t keyOf(const label parceli, const vector& U) const
-    {
-        nearWall::impactKey key;
-        key.addExact(mesh.time().timeIndex()).add((*d)[parceli]);
-        key.add(cloud.position(parceli), mesh.bounds().mag());
-        key.add(U, mag(U) + vSmall);
-        return key.value();
-    }
-
-    //- The impact of a parcel, without its speeds
+    //- The impact of a parcel
     nw_impact impactOf
     (
         const label parceli,
-        const vector& normal,
-        const vector& wall,
+        const nearWall::relativeVelocity& v,
         const vector& U
     ) const
     {
         nw_impact impact = nearwall::make_impact();
-        impact.wall = given.wall;
+        impact.wall = wall.wall;
         impact.seed = given.seed;
-        impact.key = keyOf(parceli, U);
-        impact.d = (*d)[parceli];
-        impact.rho_p = rho ? (*rho)[parceli] : 0;
-        impact.T_p = T ? (*T)[parceli] : given.particleTemperature;
-        impact.T_w = wallTemperature(parceli);
-        impact.v_gas = gasSpeed(parceli, normal, wall);
+        impact.key =
+            nearWall::keyOf(mesh, cloud.position(parceli), U, (*d)[parceli]);
+        const label facei = cloud.facei()[parceli] - pp.start();
+        const nearWall::impactSurroundings at
+        {
+            given.particleTemperature,
+            impact.conversion,
+            wall.temperatureAt(mesh, pp.index(), facei),
+            gasU ? (*gasU)[cloud.celli()[parceli]] : v.wall
+        };
+        nearWall::setInputs(impact, parcel{*this, parceli}, v, at);
         return impact;
     }
 };
@@ -454,16 +365,12 @@ Foam::nearWallVelocityLagrangianPatchVectorField::decide
     vector& U
 )
 {
-    const vector relative(U - wall);
-    const scalar vn = relative & normal;
+    const nearWall::relativeVelocity v(U, normal, wall);
 
     // No impact: the gas has turned the parcel around
-    if (vn <= 0) return LagrangianState::inCell;
+    if (v.vn <= 0) return LagrangianState::inCell;
 
-    const vector along(relative - vn*normal);
-    nw_impact impact = inputs.impactOf(parceli, normal, wall, U);
-    impact.v_n = vn;
-    impact.v_t = mag(along);
+    const nw_impact impact(inputs.impactOf(parceli, v, U));
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 
@@ -471,8 +378,8 @@ Foam::nearWallVelocityLagrangianPatchVectorField::decide
     if (model.resolve(impact, outcome) != NW_OK)
     {
         warnUnusable(model.explain(impact));
-        if (!std::isfinite(mag(relative))) return LagrangianState::toBeRemoved;
-        U -= 2*vn*normal;
+        if (!std::isfinite(v.vn + v.vt)) return LagrangianState::toBeRemoved;
+        U = v.rebound(U, 1, 0);
         return LagrangianState::inCell;
     }
     if (outcome.stuck)
@@ -482,7 +389,7 @@ Foam::nearWallVelocityLagrangianPatchVectorField::decide
         checkStuckCanStay();
         return stuckState();
     }
-    U = wall + outcome.e_t*along - outcome.e_n*vn*normal;
+    U = v.rebound(U, outcome.e_n, 1 - outcome.e_t);
     return LagrangianState::inCell;
 }
 

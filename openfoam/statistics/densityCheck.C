@@ -4,18 +4,13 @@
 #include "densityCheck.H"
 #include "versionCompat.H"
 
-void Foam::nearWall::densityCheck::report
-(
-    Ostream& os,
-    const parcelModels& models
-)
+void Foam::nearWall::densityCheck::report(Ostream& os)
 {
     // Assumed: the density of a material is known to some 50 %
     const scalar allowed = 1.5;
 
-    for (std::size_t i = 0; i < first_.size(); ++i)
+    for (densities& found : first_)
     {
-        densities& found = first_[i];
         if (found.isDone) continue;
 
         const bool seen = found.material > 0 && found.parcel > 0;
@@ -27,13 +22,10 @@ void Foam::nearWall::densityCheck::report
 
         // Those of the rank with the largest factor
         const bool mine = factor == largest;
-        const scalar parcel =
-            largestOfRanks(mine ? found.parcel : 0);
-        const scalar material =
-            largestOfRanks(mine ? found.material : 0);
-        const word& injector = models.all()[i].injector;
+        const scalar parcel = largestOfRanks(mine ? found.parcel : 0);
+        const scalar material = largestOfRanks(mine ? found.material : 0);
         os  << "    nearWallInteraction, warning: parcels";
-        if (!injector.empty()) os << " of injector " << injector;
+        if (!found.injector.empty()) os << " of injector " << found.injector;
         os  << " have a density of " << parcel << " kg/m3, the material in the"
             << " model " << material << " kg/m3; impacts have that of the"
             << " parcels. Is it the right material?" << nl;

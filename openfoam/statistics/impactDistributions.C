@@ -187,22 +187,19 @@ scalar columnSum(const scalarList& totals, const std::string& name)
 
 Foam::nearWall::impactDistributions::impactDistributions
 (
-    const fvMesh& mesh,
-    const injectorNames& injectors,
-    const dictionary& saved,
-    const fileName& folder
+    const statisticsSource& source
 )
 :
-    mesh_(mesh),
-    injectors_(injectors),
-    folder_(folder),
-    loaded_(saved),
+    mesh_(source.mesh),
+    injectors_(source.models.injectors()),
+    folder_(source.folder),
+    loaded_(source.savedAs("statistics")),
     latest_(nullptr),
-    lastTime_(mesh.time().value())
+    lastTime_(mesh_.time().value())
 {
-    forAll(patchesOf(mesh), patchi)
+    forAll(patchesOf(mesh_), patchi)
     {
-        const dictionary ofPatch(saved.subOrEmptyDict(patchName(patchi)));
+        const dictionary ofPatch(loaded_.subOrEmptyDict(patchName(patchi)));
         for (const word& key : ofPatch.toc())
         {
             const label injector = std::atoi(key.c_str() + savedAs.size());

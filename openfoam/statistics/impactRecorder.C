@@ -165,48 +165,29 @@ std::string fraction(const label level)
 } // End anonymous namespace
 
 
-Foam::nearWall::impactRecorder::impactRecorder
-(
-    const dictionary& coeffs,
-    const fvMesh& mesh,
-    const List<patchRule>& rules,
-    const injectorNames& injectors,
-    const std::vector<std::string>& extraInputs,
-    const dictionary& saved,
-    const fileName& folder
-)
+Foam::nearWall::impactRecorder::impactRecorder(const statisticsSource& source)
 :
-    mesh_(mesh),
-    rules_(rules),
-    injectors_(injectors),
-    extraInputs_(extraInputs),
-    header_(headerOf(extraInputs)),
+    mesh_(source.mesh),
+    rules_(source.rules()),
+    injectors_(source.models.injectors()),
+    extraInputs_(source.models.extraInputs()),
+    header_(headerOf(extraInputs_)),
     maxRows_(0),
-    recorded_(rules.size(), false),
-    file_(folder/"impacts.csv"),
-    level_(label(readExact(saved, "halvings"))),
-    before_(readExact(saved, "impacts")),
+    recorded_(rules_.size(), false),
+    file_(source.folder/"impacts.csv"),
+    saved_(source.savedAs("record")),
+    level_(label(readExact(saved_, "halvings"))),
     seen_(0),
     opened_(false),
     fileLevel_(0),
-    previous_
-    (
-        saved.found("start")
-      ? folder.path()/nearWall::read<string>(saved, "start")/"impacts.csv"
-      : fileName()
-    ),
-    previousRows_(readExact(saved, "rows")),
     // After the rounding of the time's name, before the next step
-    start_(mesh.time().value() + 1e-3*mesh.time().deltaTValue()),
-    identities_
-    (
-        nearWall::readOr<labelList>(saved, "identities", labelList())
-    )
+    start_(mesh_.time().value() + 1e-3*mesh_.time().deltaTValue()),
+    identities_(readOr<labelList>(saved_, "identities", labelList()))
 {
     inFile_.fill(0);
-    if (!coeffs.found("record")) return;
+    if (!source.coeffs.found("record")) return;
 
-    const dictionary& dict = coeffs.subDict("record");
+    const dictionary& dict = source.coeffs.subDict("record");
     refuseUnknownKeys(dict, wordList({"maxRows", "patches"}), "record");
     maxRows_ = readChecked<label>
     (
@@ -410,13 +391,20 @@ void Foam::nearWall::impactRecorder::open()
 {
     if (opened_ || !Pstream::master()) return;
     opened_ = true;
-    rewrite(previous_, start_);
+    const fileName previous
+    (
+        saved_.found("start")
+      ? file_.path().path()/nearWall::read<string>(saved_, "start")/file_.name()
+      : fileName()
+    );
+    rewrite(previous, start_);
 
-    if (rowsInFile() < previousRows_)
+    const scalar before = readExact(saved_, "rows");
+    if (rowsInFile() < before)
     {
         WarningInFunction
-            << "Of " << previousRows_ << " impacts recorded before "
-            << rowsInFile() << " are left in " << previous_ << nl
+            << "Of " << before << " impacts recorded before "
+            << rowsInFile() << " are left in " << previous << nl
             << "    The record is no even sample of the time before this run."
             << endl;
     }
@@ -444,6 +432,18 @@ Foam::scalar Foam::nearWall::impactRecorder::rowsInFile() const
 }
 
 
+void Foam::nearWall::impactRecorder::setLevel(const scalarList& survivors)
+{
+    scalar rows = 0;
+    label level = nHalvings;
+    while (level > 0 && rows + survivors[level - 1] <= maxRows_)
+    {
+        rows += survivors[--level];
+    }
+    level_ = max(min(level, nHalvings - 1), largestOfRanks(level_));
+}
+
+
 Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
 {
     dictionary dict;
@@ -456,15 +456,7 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
     sums[nHalvings] = seen_;
     sumOverRanks(sums);
 
-    // The level of the largest sample that fits, the same on all ranks
-    scalar rows = 0;
-    label level = nHalvings;
-    while (level > 0 && rows + sums[level - 1] <= maxRows_)
-    {
-        rows += sums[--level];
-    }
-    const label needed = min(level, nHalvings - 1);
-    level_ = max(needed, largestOfRanks(level_));
+    setLevel(sums);
     thin();
     if (Pstream::master() && fileLevel_ < level_)
     {
@@ -476,7 +468,7 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
     if (Pstream::master()) append(all);
 
     const scalar written = rowsInFile();
-    const scalar impacts = before_ + sums[nHalvings];
+    const scalar impacts = readExact(saved_, "impacts") + sums[nHalvings];
     os  << "    Near-wall record: " << exactText(written).c_str() << " rows, "
         << fraction(level_).c_str() << " of " << exactText(impacts).c_str()
         << " impacts" << nl;

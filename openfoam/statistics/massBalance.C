@@ -29,16 +29,11 @@ std::string digits(const scalar x)
 } // End anonymous namespace
 
 
-Foam::nearWall::massBalance::massBalance
-(
-    const dictionary& saved,
-    const fileName& folder,
-    const scalar injectorsAtStart
-)
+Foam::nearWall::massBalance::massBalance(const statisticsSource& source)
 :
-    sums_(names, saved),
-    table_(folder/"balance.dat"),
-    injectorsAtStart_(injectorsAtStart)
+    sums_(names, source.savedAs("balance")),
+    table_(source.folder/"balance.dat"),
+    injectorsAtStart_(source.injectedMass)
 {}
 
 
@@ -52,11 +47,11 @@ void Foam::nearWall::massBalance::start(const scalar mass)
 }
 
 
-Foam::scalarList Foam::nearWall::massBalance::totals
+Foam::nearWall::massBalance::state Foam::nearWall::massBalance::now
 (
-    const scalar injectors,
-    const content& onThisRank,
-    content& onAllRanks
+    const scalar injectedMass,
+    const scalar injectedParcels,
+    const content& onThisRank
 ) const
 {
     scalarList sums(sums_.added());
@@ -65,23 +60,24 @@ Foam::scalarList Foam::nearWall::massBalance::totals
     sums.append(onThisRank.stuck);
     sumOverRanks(sums);
 
-    onAllRanks.airborne = sums[n];
-    onAllRanks.stuck = sums[n + 1];
+    state s;
+    s.parcels = injectedParcels;
+    s.now.airborne = sums[n];
+    s.now.stuck = sums[n + 1];
     sums.setSize(n);
 
-    forAll(sums, i) sums[i] += sums_.base()[i];
-    sums[injected] = sums_.base()[injected] + (injectors - injectorsAtStart_);
-    sums[inCloud] = onAllRanks.airborne + onAllRanks.stuck;
-    return sums;
+    const scalarList& base = sums_.base();
+    forAll(sums, i) sums[i] += base[i];
+    sums[injected] = base[injected] + (injectedMass - injectorsAtStart_);
+    sums[inCloud] = s.now.airborne + s.now.stuck;
+    s.totals = sums;
+    return s;
 }
 
 
-Foam::scalar Foam::nearWall::massBalance::residual
-(
-    const scalarList& t,
-    const content& now
-)
+Foam::scalar Foam::nearWall::massBalance::state::residual() const
 {
+    const scalarList& t = totals;
     const scalar in = t[injected] + t[readBack];
     const scalar out =
         now.airborne + now.stuck + t[stuckRemoved] + t[escaped] + t[reacted]
@@ -90,49 +86,39 @@ Foam::scalar Foam::nearWall::massBalance::residual
 }
 
 
-void Foam::nearWall::massBalance::report
-(
-    Ostream& os,
-    const scalarList& t,
-    const content& now
-) const
+void Foam::nearWall::massBalance::report(Ostream& os, const state& s) const
 {
+    const scalarList& t = s.totals;
     os  << "    Near-wall mass balance [kg]: injected "
         << digits(t[injected]).c_str();
     if (t[readBack] != 0)
     {
         os  << " + read back " << digits(t[readBack]).c_str();
     }
-    os  << " = airborne " << digits(now.airborne).c_str()
-        << " + stuck " << digits(now.stuck + t[stuckRemoved]).c_str()
+    os  << " = airborne " << digits(s.now.airborne).c_str()
+        << " + stuck " << digits(s.now.stuck + t[stuckRemoved]).c_str()
         << " + escaped " << digits(t[escaped]).c_str()
         << " + reacted " << digits(t[reacted]).c_str();
     if (t[unusableRemoved] != 0)
     {
         os  << " + unusable " << digits(t[unusableRemoved]).c_str();
     }
-    os  << "; relative residual " << residual(t, now) << nl;
+    os  << "; relative residual " << s.residual() << nl;
 }
 
 
-void Foam::nearWall::massBalance::writeRow
-(
-    const scalar time,
-    const scalarList& t,
-    const content& now,
-    const scalar parcels
-)
+void Foam::nearWall::massBalance::writeRow(const scalar time, const state& s)
 {
     tableRow row;
     row.add("time_s", time);
-    for (const term i : {injected, readBack}) row.add(names[i], t[i]);
-    row.add("airborne_kg", now.airborne);
-    row.add("stuck_in_cloud_kg", now.stuck);
+    for (const term i : {injected, readBack}) row.add(names[i], s.totals[i]);
+    row.add("airborne_kg", s.now.airborne);
+    row.add("stuck_in_cloud_kg", s.now.stuck);
     for (const term i : {stuckRemoved, escaped, reacted, unusableRemoved})
     {
-        row.add(names[i], t[i]);
+        row.add(names[i], s.totals[i]);
     }
-    row.add("injected_parcels", parcels);
-    row.add("residual", residual(t, now));
+    row.add("injected_parcels", s.parcels);
+    row.add("residual", s.residual());
     table_.write(row);
 }

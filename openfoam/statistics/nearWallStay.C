@@ -5,29 +5,22 @@
 #include "versionCompat.H"
 #include "volFields.H"
 
-Foam::nearWall::nearWallStay::nearWallStay
-(
-    const fvMesh& mesh,
-    const List<patchRule>& rules,
-    const dictionary& saved,
-    const fileName& folder
-)
+Foam::nearWall::nearWallStay::nearWallStay(const statisticsSource& source)
 :
-    mesh_(mesh)
+    mesh_(source.mesh)
 {
-    DynamicList<label> patches;
+    const dictionary saved(source.savedAs("nearWallStay"));
     const wordList names({"mass_time_kg_s", "volume_time_m3_s", "since_s"});
-    forAll(rules, patchi)
+    forAll(source.rules(), patchi)
     {
-        const patchRule::ruleType type = rules[patchi].type;
+        const patchRule::ruleType type = source.rules()[patchi].type;
         if (type == patchRule::pass || type == patchRule::escape) continue;
 
-        patches.append(patchi);
-        const word& name = patchesOf(mesh)[patchi].name();
+        patches_.append(patchi);
+        const word& name = patchesOf(mesh_)[patchi].name();
         sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
-        tables_.emplace_back(folder/(name + ".nearWall.dat"));
+        tables_.emplace_back(source.folder/(name + ".nearWall.dat"));
     }
-    patches_ = patches;
     findCells();
 }
 

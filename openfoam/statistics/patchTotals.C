@@ -26,6 +26,17 @@ struct column
 
     //- Names of the two sums
     std::string part, whole;
+
+    column
+    (
+        const char* name,
+        const increment& add,
+        const char* part = "",
+        const char* whole = ""
+    )
+    :
+        name(name), add(add), part(part), whole(whole)
+    {}
 };
 
 
@@ -49,90 +60,77 @@ increment inRegime(const label regime, const increment& add)
 }
 
 
-label conversionClass(const scalar conversion)
+//- Mass that stuck with a conversion of this tenth
+increment inConversionClass(const label tenth)
 {
-    return max(label(0), min(label(9), label(10*conversion)));
+    const auto massInClass = [=](const impactEvent& e)
+    {
+        const label found = label(10*e.impact.conversion);
+        return max(label(0), min(label(9), found)) == tenth ? e.mass : 0;
+    };
+    return of(impactEvent::stuck, massInClass);
 }
 
+
+typedef const impactEvent& E;
+const increment count = [](E) { return scalar(1); };
+const increment particles = [](E e) { return e.particles; };
+const increment mass = [](E e) { return e.mass; };
+const auto rebounded = impactEvent::rebounded;
+const auto stuck = impactEvent::stuck;
+const auto escaped = impactEvent::escaped;
+const auto unusable = impactEvent::unusable;
 
 //- All columns after the time, in the order of the table
-std::vector<column> makeColumns()
+const std::vector<column> columns
 {
-    typedef const impactEvent& E;
-    const auto count = [](E) { return scalar(1); };
-    const auto particles = [](E e) { return e.particles; };
-    const auto mass = [](E e) { return e.mass; };
-    const auto rebounded = impactEvent::rebounded;
-    const auto stuck = impactEvent::stuck;
-    const auto escaped = impactEvent::escaped;
-    const auto unusable = impactEvent::unusable;
-
-    std::vector<column> all;
-    const auto sum = [&all](const std::string& name, const increment& add)
-    {
-        all.push_back({name, add, "", ""});
-    };
-    sum("hits", count);
-    sum("hit_particles", particles);
-    sum("hit_mass_kg", mass);
-    sum("rebounds", of(rebounded, count));
-    sum("rebound_mass_kg", of(rebounded, mass));
-    sum("sticks", of(stuck, count));
-    sum("stick_particles", of(stuck, particles));
-    sum("stick_mass_kg", of(stuck, mass));
-    sum("escapes", of(escaped, count));
-    sum("escape_mass_kg", of(escaped, mass));
-    sum("unusable", of(unusable, count));
-    sum("unusable_mass_kg", of(unusable, mass));
-    sum("impact_speed_sum_m_s", [](E e) { return e.speed; });
-    sum("normal_speed_sum_m_s", [](E e) { return e.impact.v_n; });
-    sum("e_n_sum", [](E e) { return e.en; });
-    sum("e_n2_sum", [](E e) { return sqr(e.en); });
-    sum("e_g_sum", [](E e) { return e.eg; });
-    const auto regimeName = [](const label r)
-    {
-        return std::string(nw_regime_name(nw_regime(r)));
-    };
-    for (label r = 0; r < 4; ++r)
-    {
-        sum("sticks_" + regimeName(r), inRegime(r, count));
-    }
-    for (label r = 0; r < 4; ++r)
-    {
-        sum("stick_mass_" + regimeName(r) + "_kg", inRegime(r, mass));
-    }
-    for (label b = 0; b < 10; ++b)
-    {
-        const auto inClass = [b](E e)
-        {
-            return conversionClass(e.impact.conversion) == b ? e.mass : 0;
-        };
-        const std::string from("0." + std::to_string(b));
-        sum("stick_mass_conversion_" + from + "_kg", of(stuck, inClass));
-    }
-    all.push_back
-    ({
-        "capture_by_particles", nullptr, "stick_particles", "hit_particles"
-    });
-    all.push_back({"capture_by_mass", nullptr, "stick_mass_kg", "hit_mass_kg"});
-    sum("eroded_volume_m3", [](E e) { return e.eroded; });
-    sum("outside_range", [](E e) { return scalar(e.outsideRange); });
-    return all;
-}
-
-
-const std::vector<column>& columns()
-{
-    static const std::vector<column> all(makeColumns());
-    return all;
-}
+    {"hits", count},
+    {"hit_particles", particles},
+    {"hit_mass_kg", mass},
+    {"rebounds", of(rebounded, count)},
+    {"rebound_mass_kg", of(rebounded, mass)},
+    {"sticks", of(stuck, count)},
+    {"stick_particles", of(stuck, particles)},
+    {"stick_mass_kg", of(stuck, mass)},
+    {"escapes", of(escaped, count)},
+    {"escape_mass_kg", of(escaped, mass)},
+    {"unusable", of(unusable, count)},
+    {"unusable_mass_kg", of(unusable, mass)},
+    {"impact_speed_sum_m_s", [](E e) { return e.speed; }},
+    {"normal_speed_sum_m_s", [](E e) { return e.impact.v_n; }},
+    {"e_n_sum", [](E e) { return e.en; }},
+    {"e_n2_sum", [](E e) { return sqr(e.en); }},
+    {"e_g_sum", [](E e) { return e.eg; }},
+    {"sticks_NSP-NSW", inRegime(NW_NSP_NSW, count)},
+    {"sticks_NSP-SW", inRegime(NW_NSP_SW, count)},
+    {"sticks_SP-NSW", inRegime(NW_SP_NSW, count)},
+    {"sticks_SP-SW", inRegime(NW_SP_SW, count)},
+    {"stick_mass_NSP-NSW_kg", inRegime(NW_NSP_NSW, mass)},
+    {"stick_mass_NSP-SW_kg", inRegime(NW_NSP_SW, mass)},
+    {"stick_mass_SP-NSW_kg", inRegime(NW_SP_NSW, mass)},
+    {"stick_mass_SP-SW_kg", inRegime(NW_SP_SW, mass)},
+    {"stick_mass_conversion_0.0_kg", inConversionClass(0)},
+    {"stick_mass_conversion_0.1_kg", inConversionClass(1)},
+    {"stick_mass_conversion_0.2_kg", inConversionClass(2)},
+    {"stick_mass_conversion_0.3_kg", inConversionClass(3)},
+    {"stick_mass_conversion_0.4_kg", inConversionClass(4)},
+    {"stick_mass_conversion_0.5_kg", inConversionClass(5)},
+    {"stick_mass_conversion_0.6_kg", inConversionClass(6)},
+    {"stick_mass_conversion_0.7_kg", inConversionClass(7)},
+    {"stick_mass_conversion_0.8_kg", inConversionClass(8)},
+    {"stick_mass_conversion_0.9_kg", inConversionClass(9)},
+    {"capture_by_particles", nullptr, "stick_particles", "hit_particles"},
+    {"capture_by_mass", nullptr, "stick_mass_kg", "hit_mass_kg"},
+    {"eroded_volume_m3", [](E e) { return e.eroded; }},
+    {"outside_range", [](E e) { return scalar(e.outsideRange); }}
+};
 
 
 //- A named sum among the totals of a patch
 scalar total(const scalarList& totals, const std::string& name)
 {
     label i = 0;
-    for (const column& c : columns())
+    for (const column& c : columns)
     {
         if (c.add && c.name == name) return totals[i];
         if (c.add) ++i;
@@ -188,31 +186,25 @@ void reportPatch(Ostream& os, const word& name, const scalarList& t)
 } // End anonymous namespace
 
 
-Foam::nearWall::patchTotals::patchTotals
-(
-    const fvMesh& mesh,
-    const List<patchRule>& rules,
-    const dictionary& saved,
-    const fileName& folder
-)
+Foam::nearWall::patchTotals::patchTotals(const statisticsSource& source)
 :
-    indices_(rules.size(), label(-1))
+    indices_(source.rules().size(), label(-1))
 {
-    DynamicList<word> names;
-    for (const column& c : columns())
+    wordList names;
+    for (const column& c : columns)
     {
         if (c.add) names.append(c.name);
     }
 
-    forAll(rules, patchi)
+    const dictionary saved(source.savedAs("patches"));
+    forAll(indices_, patchi)
     {
-        if (rules[patchi].type == patchRule::pass) continue;
+        if (source.rules()[patchi].type == patchRule::pass) continue;
 
         indices_[patchi] = sums_.size();
-        const word& name = patchesOf(mesh)[patchi].name();
-        const dictionary ofPatch(saved.subOrEmptyDict(name));
-        sums_.append(runningTotals(wordList(names), ofPatch, name));
-        tables_.emplace_back(folder/(name + ".dat"));
+        const word& name = patchesOf(source.mesh)[patchi].name();
+        sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
+        tables_.emplace_back(source.folder/(name + ".dat"));
     }
     written_.setSize(sums_.size());
 }
@@ -222,7 +214,7 @@ void Foam::nearWall::patchTotals::add(const impactEvent& e)
 {
     runningTotals& sums = sums_[indices_[e.patch]];
     label i = 0;
-    for (const column& c : columns())
+    for (const column& c : columns)
     {
         if (c.add) sums.add(i++, c.add(e));
     }
@@ -259,7 +251,7 @@ void Foam::nearWall::patchTotals::writeRows
         tableRow row;
         row.add("time_s", time);
         label k = 0;
-        for (const column& c : columns())
+        for (const column& c : columns)
         {
             row.add(c.name, c.add ? t[k++] : ratio(t, c.part, c.whole));
         }

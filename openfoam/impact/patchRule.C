@@ -8,7 +8,6 @@
 #include "processorCyclicPolyPatch.H"
 #include "processorPolyPatch.H"
 #include "versionCompat.H"
-#include "volFields.H"
 #include "wallPolyPatch.H"
 #include "wordRe.H"
 
@@ -169,11 +168,6 @@ struct patchEntries
     //- Every entry must be a dictionary and fit a patch that may have a rule
     void check() const
     {
-        DynamicList<word> names;
-        forAll(pbm, patchi)
-        {
-            if (mayBeNamed(pbm[patchi])) names.append(pbm[patchi].name());
-        }
         forAllConstIter(dictionary, dict, iter)
         {
             const keyType& key = (*iter).keyword();
@@ -184,32 +178,38 @@ struct patchEntries
                     << nl << "    " << key << " { type interact; }"
                     << exit(FatalIOError);
             }
-            const polyPatch* other = nullptr;
-            bool fits = false;
-            forAll(pbm, patchi)
-            {
-                if (!fit(key, pbm[patchi])) continue;
-                if (mayBeNamed(pbm[patchi])) fits = true;
-                else other = &pbm[patchi];
-            }
-            // localInteraction ignores them
-            if (!fits && other && isList) continue;
-            if (!fits && other)
-            {
-                FatalIOErrorInFunction(dict)
-                    << "patches: OpenFOAM itself handles '" << key
-                    << "', a patch of type " << other->type()
-                    << ". Remove the entry." << exit(FatalIOError);
-            }
-            if (!fits)
-            {
-                FatalIOErrorInFunction(dict)
-                    << "patches: '" << key << "' matches no patch and no patch"
-                    << " group of this mesh." << nl
-                    << "    The patches are " << wordList(names)
-                    << exit(FatalIOError);
-            }
+            checkFit(key);
         }
+    }
+
+    void checkFit(const keyType& key) const
+    {
+        wordList names;
+        const polyPatch* other = nullptr;
+        forAll(pbm, patchi)
+        {
+            const bool fits = fit(key, pbm[patchi]);
+            if (mayBeNamed(pbm[patchi]))
+            {
+                if (fits) return;
+                names.append(pbm[patchi].name());
+            }
+            else if (fits) other = &pbm[patchi];
+        }
+
+        // localInteraction ignores them
+        if (other && isList) return;
+        if (other)
+        {
+            FatalIOErrorInFunction(dict)
+                << "patches: OpenFOAM itself handles '" << key
+                << "', a patch of type " << other->type()
+                << ". Remove the entry." << exit(FatalIOError);
+        }
+        FatalIOErrorInFunction(dict)
+            << "patches: '" << key << "' matches no patch and no patch"
+            << " group of this mesh." << nl << "    The patches are " << names
+            << exit(FatalIOError);
     }
 };
 
@@ -249,145 +249,73 @@ scalar readFraction(const dictionary& dict, const word& key, const scalar other)
 }
 
 
-//- Reads the rule of one patch; FatalIOError on any fault
-struct ruleReader
+//- Faces whose wall temperature is outside the property tables of the wall:
+//  the model refuses impacts there. All of them at the start of a case are a
+//  mistake; some, or those of a run that goes on, are counted.
+void checkTemperature
+(
+    const dictionary& dict,
+    const polyPatch& pp,
+    const fvMesh& mesh,
+    const nearwall::model& model,
+    const string& modelName,
+    const wallRule& rule
+)
 {
-    const dictionary& dict;
-    const polyPatch& pp;
-    const fvMesh& mesh;
-    const nearwall::model& model;
-    const string& modelName;
-    patchRule& rule;
+    const nearwall::temperature_ranges known = model.ranges(rule.wall);
+    scalarField T(pp.size(), rule.temperature);
+    if (rule.temperatureFromField) T = rule.temperatureOn(mesh, pp.index());
+    label outside = 0;
+    for (const scalar x : T) outside += x < known.wall_low || x > known.wall_high;
+    outside = sumOfRanks(outside);
+    if (outside == 0) return;
 
-    //- Find the wall in the model: the given one, or by patch, group, default
-    void readWall() const
+    const label all = sumOfRanks(T.size());
+    OStringStream what;
+    what<< "the wall temperature is " << gMin(T) << " to " << gMax(T)
+        << " K, but the properties of wall '" << rule.wallName.c_str()
+        << "' in " << modelName.c_str() << " are known from "
+        << known.wall_low << " to " << known.wall_high << " K";
+    const bool goesOn = mesh.time().timeIndex() > 0;
+    if (rule.temperatureFromField && (goesOn || outside < all))
     {
-        const bool given = dict.found("wall");
-        DynamicList<string> names;
-        if (given)
-        {
-            names.append(nearWall::read<word>(dict, "wall"));
-        }
-        else
-        {
-            names.append(pp.name());
-            forAll(pp.inGroups(), i) names.append(pp.inGroups()[i]);
-            names.append("default");
-        }
-
-        forAll(names, i)
-        {
-            rule.wallName = names[i];
-            if (model.find_wall(rule.wallName, rule.wall)) return;
-        }
-
-        FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name() << "': " << modelName.c_str()
-            << " has no wall '"
-            << names[0].c_str() << "'" << (given ? "" : " and no default")
-            << "." << nl << "    Add [walls." << names[0].c_str() << "]"
-            << (given ? "" : " or [walls.default]")
-            << " to that model, or name one of its walls: " << pp.name()
-            << " { type interact; wall ...; }" << exit(FatalIOError);
+        Info<< "    nearWallInteraction, warning: patch " << pp.name() << ", "
+            << outside << " of " << all << " faces: " << what.str().c_str()
+            << "; impacts there cannot be decided" << endl;
+        return;
     }
+    const std::string source("field " + rule.temperatureField);
+    FatalIOErrorInFunction(dict)
+        << "Patch '" << pp.name() << "': " << what.str().c_str() << "." << nl
+        << "    Correct "
+        << (rule.temperatureFromField ? source.c_str() : "wallTemperature")
+        << ", or extend the property tables of the wall's material in the"
+        << " model." << exit(FatalIOError);
+}
 
-    //- Take the wall temperature from the field, which must be registered
-    void useField() const
+
+//- The type of a patch without an entry, or that of its entry, of which the
+//  keys are checked
+patchRule::ruleType readType
+(
+    const dictionary& dict,
+    const bool given,
+    const polyPatch& pp
+)
+{
+    if (!given)
     {
-        rule.temperatureFromField = true;
-        if (mesh.foundObject<volScalarField>(rule.temperatureField)) return;
-
-        FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name() << "': the wall temperature is to come"
-            << " from a field, but no field '" << rule.temperatureField
-            << "' is registered." << nl
-            << "    If this solver has no temperature, give a number in K,"
-            << " wallTemperature 300;" << nl
-            << "    otherwise give the name of its temperature field, field T;"
-            << exit(FatalIOError);
+        return isA<wallPolyPatch>(pp) ? patchRule::interact : patchRule::escape;
     }
-
-    //- Read where the wall temperature comes from
-    void readTemperature() const
-    {
-        rule.temperatureField = readOr<word>(dict, "field", word("T"));
-        if (!dict.found("wallTemperature"))
-        {
-            const bool isThere =
-                mesh.foundObject<volScalarField>(rule.temperatureField);
-            if (isThere || dict.found("field")) useField();
-            return;
-        }
-
-        const tokenList& given = dict.lookup("wallTemperature");
-        const token t(given.size() == 1 ? given[0] : token());
-        if (t.isWord() && t.wordToken() == "field")
-        {
-            useField();
-            return;
-        }
-        if (t.isNumber() && t.number() > 0)
-        {
-            rule.temperature = t.number();
-            return;
-        }
-
-        FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name()
-            << "': wallTemperature must be 'field' or a number above 0, in K."
-            << nl
-            << "    Give the number without a unit: wallTemperature 673.15;"
-            << exit(FatalIOError);
-    }
-
-    //- Faces whose wall temperature is outside the property tables of the
-    //  wall: the model refuses impacts there. All of them at the start of a
-    //  case are a mistake; some, or those of a run that goes on, are counted.
-    void checkTemperature() const
-    {
-        const nearwall::temperature_ranges known = model.ranges(rule.wall);
-        const scalarField T
-        (
-            rule.temperatureFromField
-          ? scalarField(rule.temperatureOn(mesh, pp.index()))
-          : scalarField(pp.size(), rule.temperature)
-        );
-        label outside = 0;
-        forAll(T, i)
-        {
-            if (T[i] < known.wall_low || T[i] > known.wall_high) ++outside;
-        }
-        outside = sumOfRanks(outside);
-        if (outside == 0) return;
-
-        const label all = sumOfRanks(T.size());
-        OStringStream what;
-        what<< "the wall temperature is " << gMin(T) << " to " << gMax(T)
-            << " K, but the properties of wall '" << rule.wallName.c_str()
-            << "' in " << modelName.c_str() << " are known from "
-            << known.wall_low << " to " << known.wall_high << " K";
-        const bool goesOn = mesh.time().timeIndex() > 0;
-        if (rule.temperatureFromField && (goesOn || outside < all))
-        {
-            Info<< "    nearWallInteraction, warning: patch " << pp.name()
-                << ", " << outside << " of " << all << " faces: "
-                << what.str().c_str()
-                << "; impacts there cannot be decided" << endl;
-            return;
-        }
-        const std::string source
-        (
-            rule.temperatureFromField
-          ? "field " + rule.temperatureField
-          : std::string("wallTemperature")
-        );
-        FatalIOErrorInFunction(dict)
-            << "Patch '" << pp.name() << "': " << what.str().c_str() << "." << nl
-            << "    Correct " << source.c_str()
-            << ", or extend the property tables of the wall's"
-            << " material in the model." << exit(FatalIOError);
-    }
-};
+    const word name(nearWall::read<word>(dict, "type"));
+    const string owner(" of patch '" + pp.name() + "'");
+    const patchRule::ruleType type =
+        checkedChoice(dict, "type", name, patchRule::typeNames, owner);
+    const string where("Patch '" + pp.name() + "', type " + name);
+    refuseUnknownKeys(dict, knownKeys(type), where);
+    if (pp.coupled()) refuseSplit(dict, pp);
+    return type;
+}
 
 } // End anonymous namespace
 
@@ -416,26 +344,13 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
         const dictionary& dict = given ? given->dict() : none;
         patchRule& rule = rules[patchi];
         rule.named = given;
-        if (given)
-        {
-            const word type(nearWall::read<word>(dict, "type"));
-            const string owner(" of patch '" + pp.name() + "'");
-            rule.type = checkedChoice(dict, "type", type, typeNames, owner);
-            const string where("Patch '" + pp.name() + "', type " + type);
-            refuseUnknownKeys(dict, knownKeys(rule.type), where);
-            if (pp.coupled()) refuseSplit(dict, pp);
-        }
-        else
-        {
-            rule.type = isA<wallPolyPatch>(pp) ? interact : escape;
-        }
-
+        rule.type = readType(dict, given, pp);
         if (rule.type == interact)
         {
-            const ruleReader reader{dict, pp, mesh, model, modelName, rule};
-            reader.readWall();
-            reader.readTemperature();
-            reader.checkTemperature();
+            rule.readWall(dict, pp, model, modelName);
+            rule.readTemperature(dict, pp);
+            rule.findField(dict, pp, mesh);
+            checkTemperature(dict, pp, mesh, model, modelName, rule);
             rule.extraInputs =
                 extraInput::read(coeffs, dict, pp, mesh, model, modelName);
         }
@@ -446,18 +361,6 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
         }
     }
     return rules;
-}
-
-
-const Foam::fvPatchScalarField& Foam::nearWall::patchRule::temperatureOn
-(
-    const fvMesh& mesh,
-    const label patchi
-) const
-{
-    return
-        mesh.lookupObject<volScalarField>(temperatureField)
-       .boundaryField()[patchi];
 }
 
 

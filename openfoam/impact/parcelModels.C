@@ -21,17 +21,12 @@ label numberOf
     const word& name
 )
 {
-    bool isThere = false;
-    forAll(injectors.all(), i)
-    {
-        isThere = isThere || injectors.all()[i] == name;
-    }
-    if (!isThere)
+    const wordList& all = injectors.all();
+    if (!std::count(all.begin(), all.end(), name))
     {
         FatalIOErrorInFunction(dict)
             << "injectors: the cloud has no injector '" << name << "'." << nl
-            << "    Its injectors are " << injectors.all()
-            << exit(FatalIOError);
+            << "    Its injectors are " << all << exit(FatalIOError);
     }
     const label id = injectors.typeId(name);
     if (id == -1 && !injectors.isOnly(name))
@@ -75,26 +70,19 @@ Foam::nearWall::parcelModels::parcelModels
                 << " { model \"<constant>/" << name << ".toml\"; }"
                 << exit(FatalIOError);
         }
-        const dictionary& given = (*iter).dict();
         const string owner("injector '" + name + "'");
-        refuseUnknownKeys(given, wordList({"model"}), owner);
-        const label id = numberOf(dict, injectors, name);
-        const wallModelPtr model(readWallModel(given, mesh.time()));
+        refuseUnknownKeys((*iter).dict(), wordList({"model"}), owner);
+        places_[numberOf(dict, injectors, name)] = all_.size();
+        if (injectors.isOnly(name)) places_[-1] = all_.size();
 
-        places_[id] = all_.size();
+        const wallModelPtr model(readWallModel((*iter).dict(), mesh.time()));
+        const string modelName("the model of " + owner);
         all_.push_back
         (
-            {
-                name,
-                model,
-                patchRule::read(coeffs, mesh, *model, "the model of " + owner)
-            }
+            {name, model, patchRule::read(coeffs, mesh, *model, modelName)}
         );
-        if (injectors.isOnly(name)) places_[-1] = places_[id];
     }
-    std::vector<wallModelPtr> models;
-    for (const entry& each : all_) models.push_back(each.model);
-    extraInput::checkNames(coeffs, models);
+    extraInput::checkNames(coeffs, extraInputs());
     erodes_ = findErosion();
 }
 
@@ -106,9 +94,8 @@ std::vector<std::string> Foam::nearWall::parcelModels::extraInputs() const
     {
         for (const std::string& name : each.model->extra_inputs())
         {
-            const bool isNew =
-                std::find(names.begin(), names.end(), name) == names.end();
-            if (isNew) names.push_back(name);
+            const auto end = names.end();
+            if (std::find(names.begin(), end, name) == end) names.push_back(name);
         }
     }
     return names;

@@ -170,6 +170,31 @@ struct inputReader
     }
 };
 
+
+//- Stop when a dictionary of inputs, if there is one, has another name
+void checkDeclared
+(
+    const dictionary* dict,
+    const std::vector<std::string>& declared
+)
+{
+    if (!dict) return;
+    forAllConstIter(dictionary, *dict, iter)
+    {
+        const std::string name((*iter).keyword());
+        if (std::count(declared.begin(), declared.end(), name)) continue;
+
+        std::string list;
+        for (const std::string& each : declared) list += " " + each;
+        FatalIOErrorInFunction(*dict)
+            << "extraInputs: no model declares the input '" << name.c_str()
+            << "'." << nl << "    The declared inputs are:"
+            << (declared.empty() ? " none" : list.c_str())
+            << ". Declare it in the model, [inputs." << name.c_str()
+            << "], or remove the key." << exit(FatalIOError);
+    }
+}
+
 } // End anonymous namespace
 
 
@@ -206,48 +231,17 @@ std::vector<Foam::nearWall::extraInput> Foam::nearWall::extraInput::read
 void Foam::nearWall::extraInput::checkNames
 (
     const dictionary& coeffs,
-    const std::vector<wallModelPtr>& models
+    const std::vector<std::string>& declared
 )
 {
-    std::vector<std::string> known;
-    for (const wallModelPtr& model : models)
-    {
-        for (const std::string& name : model->extra_inputs())
-        {
-            const bool isNew =
-                std::find(known.begin(), known.end(), name) == known.end();
-            if (isNew) known.push_back(name);
-        }
-    }
-
-    std::vector<const dictionary*> given{inputsOf(coeffs)};
+    checkDeclared(inputsOf(coeffs), declared);
     const dictionary patches
     (
         coeffs.isDict("patches") ? coeffs.subDict("patches") : dictionary()
     );
     forAllConstIter(dictionary, patches, iter)
     {
-        if ((*iter).isDict()) given.push_back(inputsOf((*iter).dict()));
-    }
-    for (const dictionary* dict : given)
-    {
-        if (!dict) continue;
-        forAllConstIter(dictionary, *dict, iter)
-        {
-            const std::string name((*iter).keyword());
-            if (std::find(known.begin(), known.end(), name) != known.end())
-            {
-                continue;
-            }
-            std::string list;
-            for (const std::string& each : known) list += " " + each;
-            FatalIOErrorInFunction(*dict)
-                << "extraInputs: no model declares the input '" << name.c_str()
-                << "'." << nl << "    The declared inputs are:"
-                << (known.empty() ? " none" : list.c_str())
-                << ". Declare it in the model, [inputs." << name.c_str()
-                << "], or remove the key." << exit(FatalIOError);
-        }
+        if ((*iter).isDict()) checkDeclared(inputsOf((*iter).dict()), declared);
     }
 }
 

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "runState.H"
+#include "dictionaryChecks.H"
+
+#include <cmath>
+
+Foam::nearWall::runState::runState(const statisticsSource& source)
+:
+    mesh_(source.mesh),
+    statisticsInterval_
+    (
+        readChecked<label>
+        (
+            source.coeffs, "statisticsInterval", 1,
+            [](label n) { return n >= 1; }, "a number of steps, 1 or more"
+        )
+    ),
+    totals_(source),
+    distributions_(source),
+    recorder_(source),
+    density_(source.models),
+    unknownInjector_(source.models.all().size() > 1 ? 0 : -1),
+    balance(source),
+    stay(source),
+    deposit(depositCloud::read(source.mesh, source.cloudName))
+{
+    if (readOr<Switch>(source.coeffs, "writeFields", Switch(true)))
+    {
+        const bool erodes = source.models.erodes();
+        fields_.reset(new wallHitFields(mesh_, source.cloudName, erodes));
+    }
+}
+
+
+void Foam::nearWall::runState::makeMemory
+(
+    const statisticsSource& source,
+    const bool isSteady,
+    const vector& gravity,
+    const wallShear& shear
+)
+{
+    const dictionary& coeffs = source.coeffs;
+    if (!coeffs.found("memory")) return;
+
+    if (!coeffs.isDict("memory"))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Key 'memory' must be a dictionary, as in" << nl
+            << "    memory { film yes; }" << nl
+            << "Without the key the walls remember nothing."
+            << exit(FatalIOError);
+    }
+    if (isSteady)
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "Key 'memory': a steady cloud has no time in which a deposit"
+            << " could grow; remove the key." << exit(FatalIOError);
+    }
+    memory.reset
+    (
+        new wallMemory
+        (
+            coeffs.subDict("memory"), mesh_, source.cloudName, source.rules(),
+            source.models.ofCloud().model, gravity, shear,
+            source.savedAs("memory"), source.folder
+        )
+    );
+}
+
+
+void Foam::nearWall::runState::begin(const bool isSteady)
+{
+    isSolving = true;
+    recorder_.reserveIdentities();
+    if (!isSteady) return;
+
+    deposit->clear();
+    totals_.clear();
+    distributions_.clear();
+    if (fields_) fields_->clear();
+}
+
+
+void Foam::nearWall::runState::addDecision
+(
+    const impactEvent& e,
+    const label place,
+    const bool isUnknown
+)
+{
+    density_.add(place, e);
+    unknownInjector_ += isUnknown;
+}
+
+
+void Foam::nearWall::runState::add(const impactEvent& e)
+{
+    totals_.add(e);
+    distributions_.add(e);
+    recorder_.add(e);
+    if (fields_) fields_->add(e);
+    if (memory && e.stuckByModel()) memory->addCaptured(e);
+}
+
+
+void Foam::nearWall::runState::addEscaped(const impactEvent& e)
+{
+    totals_.add(e);
+    balance.add(massBalance::escaped, e.mass);
+}
+
+
+bool Foam::nearWall::runState::addUnusable(impactEvent& e)
+{
+    ++unusable_;
+    if (unusableReason_.empty()) unusableReason_ = e.model->explain(e.impact);
+    e.result = impactEvent::unusable;
+
+    const bool isFinite = std::isfinite(e.speed) && std::isfinite(e.mass);
+    if (!isFinite)
+    {
+        e.speed = 0;
+        e.impact.v_n = 0;
+        if (!std::isfinite(e.mass)) e.mass = 0;
+        balance.add(massBalance::unusableRemoved, e.mass);
+    }
+    totals_.add(e);
+    return isFinite;
+}
+
+
+void Foam::nearWall::runState::finishUnusable(Ostream& os)
+{
+    const label n = sumOfRanks(unusable_);
+    unusable_ = 0;
+    if (n == 0) return;
+
+    List<string> reasons(Pstream::nProcs());
+    reasons[Pstream::myProcNo()] = unusableReason_;
+    unusableReason_.clear();
+    Pstream::gatherList(reasons);
+    string reason;
+    forAll(reasons, i)
+    {
+        if (reason.empty()) reason = reasons[i];
+    }
+    os  << "    nearWallInteraction: " << n << " impact" << (n == 1 ? "" : "s")
+        << " of this step could not be decided (the first: " << reason.c_str()
+        << "); the parcels rebound without loss, or are removed when"
+        << " their speed or mass is not a number" << nl;
+}
+
+
+void Foam::nearWall::runState::finishUnknownInjectors(Ostream& os)
+{
+    if (unknownInjector_ < 0) return;
+
+    const label n = sumOfRanks(unknownInjector_);
+    unknownInjector_ = 0;
+    if (n == 0) return;
+
+    os  << "    nearWallInteraction, warning: " << n << " impact"
+        << (n == 1 ? "" : "s") << " of parcels without the number of an"
+        << " injector (in the step of their injection OpenFOAM has not set it"
+        << " yet); the cloud's model decided" << nl;
+}
+
+
+Foam::dictionary Foam::nearWall::runState::finishStep
+(
+    Ostream& os,
+    const bool isSteady,
+    const massBalance::content& content,
+    const scalar injectedMass,
+    const scalar injectedParcels
+)
+{
+    const scalar time = mesh_.time().value();
+    const bool writes = mesh_.time().writeTime();
+    const bool isDue = steps_++ % statisticsInterval_ == 0;
+    const bool writeRow = writes || isDue;
+    dictionary saved;
+
+    const List<scalarList> totals(totals_.totals());
+    totals_.report(os, totals);
+    density_.report(os);
+    finishUnusable(os);
+    finishUnknownInjectors(os);
+    if (memory)
+    {
+        memory->finishStep(mesh_.time().deltaTValue());
+        const List<scalarList> sums(memory->totals());
+        memory->report(os, sums, time, writeRow);
+        if (writes) saved.add("memory", memory->saved(sums));
+    }
+    // A steady cloud forgets its parcels after each iteration
+    if (!isSteady)
+    {
+        const massBalance::state now
+        (
+            balance.now(injectedMass, injectedParcels, content)
+        );
+        balance.report(os, now);
+        if (writeRow) balance.writeRow(time, now);
+        if (writes)
+        {
+            saved.add("balance", balance.saved(now));
+            saved.add("nearWallStay", stay.write(now.totals[massBalance::injected]));
+        }
+    }
+
+    if (writeRow) totals_.writeRows(time, totals);
+    if (!writes) return saved;
+
+    saved.add("patches", totals_.saved(totals));
+    saved.add("statistics", distributions_.write());
+    if (recorder_.on()) saved.add("record", recorder_.write(os));
+    return saved;
+}
