@@ -53,10 +53,7 @@ Foam::nearWall::parcelModels::parcelModels
     injectors_(injectors)
 {
     const wallModelPtr ofCloud(readWallModel(coeffs, mesh.time()));
-    all_.push_back
-    (
-        {word(), ofCloud, patchRule::read(coeffs, mesh, *ofCloud)}
-    );
+    all_.push_back({word(), ofCloud, patchRule::read(coeffs, mesh, *ofCloud)});
 
     const dictionary dict(coeffs.subOrEmptyDict("injectors"));
     forAllConstIter(dictionary, dict, iter)

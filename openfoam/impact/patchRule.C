@@ -354,11 +354,8 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
             rule.extraInputs =
                 extraInput::read(coeffs, dict, pp, mesh, model, modelName);
         }
-        if (rule.type == rebound)
-        {
-            rule.e = readFraction(dict, "e", 1);
-            rule.mu = readFraction(dict, "mu", 0);
-        }
+        rule.e = readFraction(dict, "e", 1);
+        rule.mu = readFraction(dict, "mu", 0);
     }
     return rules;
 }

@@ -15,51 +15,30 @@
 
 #include <cmath>
 
+// Members have other names after Foundation 13, which was the last version with
+// this header
+#if __has_include("unitConversion.H")
+    #define NEARWALL_13_OR_LATER(in13, later) in13
+#else
+    #define NEARWALL_13_OR_LATER(in13, later) later
+#endif
+
 namespace
 {
 
 using namespace Foam;
 
-// Where a member has different names, the overload with that member is used.
-// The other one takes a parameter pack, so that it is the poorer match.
-
-//- The patch of the mesh: patch() up to Foundation 13
-template<class Patch>
-inline auto polyPatchOf(const Patch& p) -> decltype((p.poly()))
+//- The patch of the mesh
+inline const polyPatch& polyPatchOf(const LagrangianPatch& p)
 {
-    return p.poly();
+    return NEARWALL_13_OR_LATER(p.patch(), p.poly());
 }
 
-template<class Patch, class... None>
-inline const polyPatch& polyPatchOf(const Patch& p, None...)
-{
-    return p.patch();
-}
 
-//- The mesh that the parcels are in: mesh() up to Foundation 13
-template<class Mesh>
-inline auto polyMeshOf(const Mesh& m) -> decltype((m.poly()))
+//- The mesh that the parcels are in
+inline const polyMesh& polyMeshOf(const LagrangianMesh& m)
 {
-    return m.poly();
-}
-
-template<class Mesh, class... None>
-inline const polyMesh& polyMeshOf(const Mesh& m, None...)
-{
-    return m.mesh();
-}
-
-//- The schemes of a cloud: schemesDict() up to Foundation 13
-template<class Schemes>
-inline auto schemesOf(const Schemes& s) -> decltype((s.schemesDict()))
-{
-    return s.schemesDict();
-}
-
-template<class Schemes, class... None>
-inline const dictionary& schemesOf(const Schemes& s, None...)
-{
-    return s;
+    return NEARWALL_13_OR_LATER(m.mesh(), m.poly());
 }
 
 
@@ -310,7 +289,11 @@ Foam::nearWallVelocityLagrangianPatchVectorField::checkStuckCanStay() const
     const LagrangianMesh& cloud = patch().boundaryMesh().mesh();
     const word tracking
     (
-        nearWall::read<word>(schemesOf(cloud.schemes()), "tracking")
+        nearWall::read<word>
+        (
+            NEARWALL_13_OR_LATER(cloud.schemes().schemesDict(), cloud.schemes()),
+            "tracking"
+        )
     );
     const scalar longest = cloud.solution().lookup<scalar>
     (

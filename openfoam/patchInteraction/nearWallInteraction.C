@@ -24,42 +24,11 @@ Foam::nearWallInteraction<CloudType>::checkedCoeffs() const
         }),
         "nearWallInteraction"
     );
-    nearWall::requireWritable(coeffs(), tableFolder());
+    nearWall::requireWritable
+    (
+        coeffs(), nearWall::tableFolder(mesh(), this->owner().name())
+    );
     return coeffs();
-}
-
-
-template<class CloudType>
-Foam::fileName Foam::nearWallInteraction<CloudType>::tableFolder() const
-{
-    const Time& time = mesh().time();
-    return
-        nearWall::caseFolder(time)/"postProcessing"/"nearWallInteraction"
-       /this->owner().name()/nearWall::timeName(time);
-}
-
-
-template<class CloudType>
-Foam::scalar Foam::nearWallInteraction<CloudType>::injectedMass() const
-{
-    scalar mass = 0;
-    forAll(this->owner().injectors(), i)
-    {
-        mass += this->owner().injectors()[i].massInjected();
-    }
-    return mass;
-}
-
-
-template<class CloudType>
-Foam::scalar Foam::nearWallInteraction<CloudType>::injectedParcels() const
-{
-    scalar parcels = 0;
-    forAll(this->owner().injectors(), i)
-    {
-        parcels += this->owner().injectors()[i].parcelsAddedTotal();
-    }
-    return parcels;
 }
 
 
@@ -75,8 +44,8 @@ void Foam::nearWallInteraction<CloudType>::makeRunState()
         models_,
         this->properties().subOrEmptyDict(this->baseName())
             .subOrEmptyDict(this->modelType()),
-        tableFolder(),
-        injectedMass()
+        nearWall::tableFolder(mesh(), cloud.name()),
+        injected().injected
     };
     run_ = std::make_shared<nearWall::runState>(source);
     run_->makeMemory
@@ -188,28 +157,6 @@ Foam::label Foam::nearWallInteraction<CloudType>::faceAt
         if (isAt(facei)) return facei;
     }
     return -1;
-}
-
-
-template<class CloudType>
-typename Foam::nearWallInteraction<CloudType>::fullCloudType*
-Foam::nearWallInteraction<CloudType>::solverCloud() const
-{
-    return dynamic_cast<fullCloudType*>
-    (
-        &const_cast<CloudType&>(this->owner())
-    );
-}
-
-
-template<class CloudType>
-Foam::scalar Foam::nearWallInteraction<CloudType>::conversionOf
-(
-    const parcelType& p
-) const
-{
-    fullCloudType* const cloud = solverCloud();
-    return cloud ? nearWall::carbonConversion(*cloud, p, carbon_) : 1;
 }
 
 
@@ -524,7 +471,7 @@ Foam::nearWall::massBalance::content
 Foam::nearWallInteraction<CloudType>::measure()
 {
     const scalar duration = mesh().time().deltaTValue();
-    massBalance::content content;
+    massBalance::content content(injected());
     run_->stay.beginStep(duration);
     for (const parcelType& p : this->owner())
     {
@@ -557,17 +504,13 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     stopStuckParcels();
     run_->deposit->endStep();
 
+    // A steady cloud forgets its parcels after each iteration
+    massBalance::content content;
     const bool isSteady = this->owner().solution().steadyState();
+    if (!isSteady) content = measure();
     const dictionary saved
     (
-        run_->finishStep
-        (
-            NEARWALL_INFO_STREAM,
-            isSteady,
-            isSteady ? massBalance::content() : measure(),
-            injectedMass(),
-            injectedParcels()
-        )
+        run_->finishStep(NEARWALL_INFO_STREAM, isSteady ? nullptr : &content)
     );
     forAllConstIter(dictionary, saved, iter)
     {

@@ -169,16 +169,47 @@ void Foam::nearWall::runState::finishUnknownInjectors(Ostream& os)
 }
 
 
+void Foam::nearWall::runState::finishMemory
+(
+    Ostream& os,
+    const bool writeRow,
+    dictionary& saved
+)
+{
+    if (!memory) return;
+
+    const Time& time = mesh_.time();
+    memory->finishStep(time.deltaTValue());
+    const List<scalarList> totals(memory->totals());
+    memory->report(os, totals, time.value(), writeRow);
+    if (time.writeTime()) saved.add("memory", memory->saved(totals));
+}
+
+
+void Foam::nearWall::runState::finishBalance
+(
+    Ostream& os,
+    const massBalance::content& content,
+    const bool writeRow,
+    dictionary& saved
+)
+{
+    const massBalance::state now(balance.now(content));
+    balance.report(os, now);
+    if (writeRow) balance.writeRow(mesh_.time().value(), now);
+    if (!mesh_.time().writeTime()) return;
+
+    saved.add("balance", balance.saved(now));
+    saved.add("nearWallStay", stay.write(now.totals[massBalance::injected]));
+}
+
+
 Foam::dictionary Foam::nearWall::runState::finishStep
 (
     Ostream& os,
-    const bool isSteady,
-    const massBalance::content& content,
-    const scalar injectedMass,
-    const scalar injectedParcels
+    const massBalance::content* content
 )
 {
-    const scalar time = mesh_.time().value();
     const bool writes = mesh_.time().writeTime();
     const bool isDue = steps_++ % statisticsInterval_ == 0;
     const bool writeRow = writes || isDue;
@@ -189,30 +220,9 @@ Foam::dictionary Foam::nearWall::runState::finishStep
     density_.report(os);
     finishUnusable(os);
     finishUnknownInjectors(os);
-    if (memory)
-    {
-        memory->finishStep(mesh_.time().deltaTValue());
-        const List<scalarList> sums(memory->totals());
-        memory->report(os, sums, time, writeRow);
-        if (writes) saved.add("memory", memory->saved(sums));
-    }
-    // A steady cloud forgets its parcels after each iteration
-    if (!isSteady)
-    {
-        const massBalance::state now
-        (
-            balance.now(injectedMass, injectedParcels, content)
-        );
-        balance.report(os, now);
-        if (writeRow) balance.writeRow(time, now);
-        if (writes)
-        {
-            saved.add("balance", balance.saved(now));
-            saved.add("nearWallStay", stay.write(now.totals[massBalance::injected]));
-        }
-    }
-
-    if (writeRow) totals_.writeRows(time, totals);
+    finishMemory(os, writeRow, saved);
+    if (content) finishBalance(os, *content, writeRow, saved);
+    if (writeRow) totals_.writeRows(mesh_.time().value(), totals);
     if (!writes) return saved;
 
     saved.add("patches", totals_.saved(totals));

@@ -49,8 +49,6 @@ void Foam::nearWall::massBalance::start(const scalar mass)
 
 Foam::nearWall::massBalance::state Foam::nearWall::massBalance::now
 (
-    const scalar injectedMass,
-    const scalar injectedParcels,
     const content& onThisRank
 ) const
 {
@@ -61,14 +59,14 @@ Foam::nearWall::massBalance::state Foam::nearWall::massBalance::now
     sumOverRanks(sums);
 
     state s;
-    s.parcels = injectedParcels;
+    s.now = onThisRank;
     s.now.airborne = sums[n];
     s.now.stuck = sums[n + 1];
     sums.setSize(n);
 
     const scalarList& base = sums_.base();
     forAll(sums, i) sums[i] += base[i];
-    sums[injected] = base[injected] + (injectedMass - injectorsAtStart_);
+    sums[injected] = base[injected] + (s.now.injected - injectorsAtStart_);
     sums[inCloud] = s.now.airborne + s.now.stuck;
     s.totals = sums;
     return s;
@@ -118,7 +116,7 @@ void Foam::nearWall::massBalance::writeRow(const scalar time, const state& s)
     {
         row.add(names[i], s.totals[i]);
     }
-    row.add("injected_parcels", s.parcels);
+    row.add("injected_parcels", s.now.parcels);
     row.add("residual", s.residual());
     table_.write(row);
 }
