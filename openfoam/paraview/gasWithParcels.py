@@ -66,7 +66,8 @@ def colour(source, view, array, title, colours, place, ends=None, **settings):
     ColorBy(shown, array, separate=True)
     table = shown.LookupTable
     table.ColorSpace = 'RGB'
-    table.RGBPoints = [x for place, rgb in enumerate(colours) for x in (place/(len(colours) - 1), *(part/255 for part in rgb))]
+    table.RGBPoints = [x for place, rgb in enumerate(colours)
+                       for x in (place/(len(colours) - 1), *(part/255 for part in rgb))]
     if ends is None:
         shown.RescaleTransferFunctionToDataRange(False, True)
     else:
@@ -151,7 +152,8 @@ if cloud:
     parcels = reader(cloud, [f'lagrangian/{cloud}'])
     share = carbon_share(cloud)
     if 'active' in point_arrays(parcels):
-        parcels = Threshold(registrationName='in flight', Input=parcels, Scalars=['POINTS', 'active'], LowerThreshold=0.5, UpperThreshold=1e9)
+        parcels = Threshold(registrationName='in flight', Input=parcels, Scalars=['POINTS', 'active'],
+                            LowerThreshold=0.5, UpperThreshold=1e9)
     if not one_thick:
         # Gas behind the parcels that are shown, so that none is hidden
         box = Clip(registrationName='slab', Input=parcels, ClipType='Box', Exact=0, Crinkleclip=0)
