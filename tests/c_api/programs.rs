@@ -11,7 +11,7 @@ use crate::common::golden::{Golden, golden_cases};
 use crate::common::random::{Case, EVERY_REGIME, hostile_cases, random_cases, seed};
 use crate::interface::{for_each_number, for_each_struct};
 
-const BUILDS: [Build; 2] = [Build::Tested, Build::Lean];
+const BUILDS: [Build; 2] = [Build::Tested, Build::Shipped];
 
 #[test]
 fn a_c99_program_gets_the_golden_bits() {
@@ -40,7 +40,8 @@ fn a_cpp11_program_gets_the_bits_and_the_exceptions() {
         .iter()
         .flat_map(|(wall, impact, draw)| c_outcome(&model.resolve(*wall, impact, *draw).unwrap()))
         .collect();
-    for (language, build) in [(Language::Cpp("c++11"), Build::Tested), (Language::Cpp("c++17"), Build::Lean)]
+    for (language, build) in
+        [(Language::Cpp("c++11"), Build::Tested), (Language::Cpp("c++17"), Build::Shipped)]
     {
         let program = Program::build(language, "shim.cpp", build);
         write(program.folder(), 0, EVERY_REGIME, &cases);
@@ -54,7 +55,7 @@ fn a_cpp11_program_gets_the_bits_and_the_exceptions() {
 #[test]
 #[cfg(target_arch = "x86_64")]
 fn any_floating_point_state_is_survived_and_kept() {
-    let program = Program::build(Language::C("c99"), "floating_point_state.c", Build::Lean);
+    let program = Program::build(Language::C("c99"), "floating_point_state.c", Build::Shipped);
     let hostile: Vec<Case> = hostile_cases().into_iter().step_by(21).collect();
     let cases = [random_cases(seed(), 300), hostile].concat();
     write(program.folder(), 0, EVERY_REGIME, &cases);
@@ -83,7 +84,7 @@ fn the_library_is_loaded_and_unloaded_a_thousand_times() {
 /// A solver with two plugins, each of which brought its own: both answer for themselves, with the same bits.
 #[test]
 fn two_versions_live_in_one_process() {
-    let program = Program::build(Language::C("c99"), "two_versions.c", Build::Lean);
+    let program = Program::build(Language::C("c99"), "two_versions.c", Build::Shipped);
     write(program.folder(), 0, EVERY_REGIME, &random_cases(seed(), 300));
     let printed = program.run(&[&next_version(), program.folder()]);
     let (abi, version) = (nearwall::c_api::NW_ABI_VERSION, env!("CARGO_PKG_VERSION"));

@@ -71,8 +71,8 @@ pub fn compiles(language: Language, text: &str) {
 pub enum Build {
     /// With this test, unoptimised unless the test is.
     Tested,
-    /// As it is shipped to a solver: optimised, without the command.
-    Lean,
+    /// As it is shipped to a solver: optimised.
+    Shipped,
 }
 
 /// Words that `tests/hard` adds: options of the compiler, and what runs the program.
@@ -88,19 +88,18 @@ pub fn shared_library(build: Build) -> PathBuf {
     }
     match build {
         Build::Tested => library_path(),
-        Build::Lean => lean_library().to_owned(),
+        Build::Shipped => shipped_library().to_owned(),
     }
 }
 
-/// `cargo build --release --lib --no-default-features`, once, in a folder of its own.
-fn lean_library() -> &'static Path {
+/// The library of the build that makes the command, too; openfoam/Allwmake and bindings/install take the same.
+fn shipped_library() -> &'static Path {
     static BUILT: OnceLock<PathBuf> = OnceLock::new();
     BUILT.get_or_init(|| {
-        // The folder that openfoam/Allwmake uses, so that neither builds it twice.
-        let target = root().join("target/solver");
         let mut cargo = Command::new(env!("CARGO"));
-        cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--quiet"]);
-        run(cargo.arg("--target-dir").arg(&target).current_dir(root()));
+        run(cargo.args(["build", "--release", "--locked", "--offline", "--quiet"]).current_dir(root()));
+        let target =
+            std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), PathBuf::from);
         target.join("release/libnearwall.so")
     })
 }
@@ -135,9 +134,9 @@ pub fn next_version() -> PathBuf {
     edited("src/c_api/mod.rs", &[(&format!("NW_ABI_VERSION: u32 = {abi};"), "NW_ABI_VERSION: u32 = 99;")]);
     write_if_other(&folder.join("Cargo.lock"), &std::fs::read(root().join("Cargo.lock")).unwrap());
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--release", "--lib", "--no-default-features", "--offline", "--quiet"]);
+    cargo.args(["build", "--offline", "--quiet", "--config", "profile.dev.package.nearwall.opt-level=0"]);
     run(cargo.arg("--target-dir").arg(folder.join("target")).current_dir(&folder));
-    folder.join("target/release/libnearwall.so")
+    folder.join("target/debug/libnearwall.so")
 }
 
 fn copy(from: &Path, to: &Path) {

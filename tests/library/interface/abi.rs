@@ -192,7 +192,7 @@ fn the_page_for_other_codes_is_true() {
         assert!(there.contains(name), "the page names {name}, which is not there");
     }
     let version = env!("CARGO_PKG_VERSION").rsplit_once('.').unwrap().0;
-    let megabytes = std::fs::metadata(shared_library(Build::Lean)).unwrap().len() as f64 / 1e6;
+    let megabytes = std::fs::metadata(shared_library(Build::Shipped)).unwrap().len() as f64 / 1e6;
     let cases = read("tests/data/thornton_ning.csv").lines().count() - 1;
     let compared = read("tests/bindings/compare.py");
     let grid = compared.split(&format!("len(other) == {cases} + ")).nth(1).unwrap();

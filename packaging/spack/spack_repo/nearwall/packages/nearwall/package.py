@@ -33,10 +33,8 @@ class Nearwall(Package):
     depends_on("openfoam@1912:+source", when="+openfoam", type=("build", "link", "run"))
 
     def install(self, spec, prefix):
-        installer = Executable("bindings/install")
-        installer(extra_env={"PREFIX": str(prefix), "DESTDIR": ""})
-        which("cargo", required=True)(
-            "install", "--locked", "--no-track", "--path", ".", "--root", str(prefix), "-j", str(make_jobs)
+        which("make", required=True)(
+            "-C", "packaging", "install", f"PREFIX={prefix}", "DESTDIR=", extra_env={"CARGO_BUILD_JOBS": str(make_jobs)}
         )
         if spec.satisfies("+openfoam"):
             # Allwmake fills FOAM_USER_LIBBIN; OpenFOAM's own environment is set by its recipe.
