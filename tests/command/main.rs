@@ -14,6 +14,7 @@ mod extra_inputs;
 mod faults;
 mod forecast;
 mod gas_and_parcels;
+mod licences;
 mod map;
 mod pages;
 mod published;
