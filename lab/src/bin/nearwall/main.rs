@@ -24,7 +24,7 @@ macro_rules! subcommands {
     ($($name:ident: $module:ident),* $(,)?) => {
         /// What happens when a particle hits a wall
         #[derive(Parser)]
-        #[command(version, about, arg_required_else_help = true)]
+        #[command(name = "nearwall", version, about, arg_required_else_help = true)]
         enum Command { $($name($module::Arguments),)* }
 
         impl Command {
