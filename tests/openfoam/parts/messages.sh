@@ -58,7 +58,8 @@ case_messages() {
     local n how messages bytes most collective expected broadcasts=no
     case "${WM_PROJECT_VERSION:-}" in v*) [ "${WM_PROJECT_VERSION#v}" -lt 2206 ] || broadcasts=yes ;; esac
     mpicc -O1 -shared -fPIC -o "$work/libcountMessages.so" "$here/countMessages.c" > "$work/log.mpicc" 2>&1 \
-        || { bad messages "mpicc cannot compile countMessages.c: $(head -n 3 "$work/log.mpicc" | tr '\n' ' ')"; return; }
+        || { bad messages "mpicc cannot compile countMessages.c: $(head -n 3 "$work/log.mpicc" | tr '\n' ' ')"; \
+            return; }
     for n in 2 4 8; do
         own_messages "$n" 600 || return
         while read -r how messages bytes most collective _; do
@@ -76,5 +77,7 @@ case_messages() {
     done
     own_messages 4 60 || return
     if awk 'NR == FNR { m[$1] = $2; b[$1] = $3; next } $2 != m[$1] || $3 > 1.05*b[$1] || $3 < 0.95*b[$1] { bad = 1 } END { exit bad }' "$work/own-4" own
-    then ok "messages/parcels (as many with a tenth of the parcels)"; else bad messages/parcels "$(tr '\n' ';' < own) and $(tr '\n' ';' < "$work/own-4")"; fi
+    then ok "messages/parcels (as many with a tenth of the parcels)"
+    else bad messages/parcels "$(tr '\n' ';' < own) and $(tr '\n' ';' < "$work/own-4")"
+    fi
 }

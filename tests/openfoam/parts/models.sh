@@ -24,8 +24,12 @@ END
     done
     # shellcheck disable=SC2086
     set -- $found
-    if [ "$1" = "$3" ] && [ "$1" != "$5" ]; then ok "density/decides (e_n_sum $1, of 1000 kg/m3 $5)"; else bad density/decides "$found"; fi
-    if [ "$2 $4 $6" = "0 1 0" ] && grep -q "density of 2500 kg/m3, the material in the model 1000 kg/m3" "$work/density-parcel/log.serial"
+    if [ "$1" = "$3" ] && [ "$1" != "$5" ]
+    then ok "density/decides (e_n_sum $1, of 1000 kg/m3 $5)"
+    else bad density/decides "$found"
+    fi
+    if [ "$2 $4 $6" = "0 1 0" ] && grep -q "density of 2500 kg/m3, the material in the model 1000 kg/m3" \
+        "$work/density-parcel/log.serial"
     then ok density/warning; else bad density/warning "warnings: $2 $4 $6"; fi
 }
 
@@ -89,7 +93,8 @@ case_injectors() {
     solve injectors serial "$solver" || return
     f="$(folder kinematicCloud)/floor.dat"
     expect_numbers injectors/by-hand "$(last "$f" rebounds) $(last "$f" e_n_sum) $(last "$f" e_n2_sum) $(last "$f" hit_mass_kg)" "24 16.8 12.72 3e-6"
-    if grep -q "model of injector minerals: $PWD/constant/minerals.toml" log.serial && ! grep -q "without the number" log.serial
+    if grep -q "model of injector minerals: $PWD/constant/minerals.toml" log.serial \
+        && ! grep -q "without the number" log.serial
     then ok injectors/log; else bad injectors/log "the log does not name the model, or warns"; fi
     totals kinematicCloud 0 > totals.kinematicCloud
     restart_of injectors "$work/injectors"
@@ -99,8 +104,10 @@ case_injectors() {
     cp constant/interaction constant/interaction.good
     refuse injector-name  's/minerals {/mineral {/'      "no injector 'mineral'" "(model1 minerals)"
     refuse injector-word  's/{ minerals {.*/{ minerals yes; }/' "'minerals' must be a dictionary"
-    refuse injector-key   's/{ model "<constant>/{ film yes; model "<constant>/' "injector 'minerals': unknown key 'film'"
-    refuse injector-wall  's/floor .*/floor { type interact; wall floor; }/' "the model of injector 'minerals' has no wall 'floor'" "[walls.floor]"
+    refuse injector-key   's/{ model "<constant>/{ film yes; model "<constant>/' \
+        "injector 'minerals': unknown key 'film'"
+    refuse injector-wall  's/floor .*/floor { type interact; wall floor; }/' \
+        "the model of injector 'minerals' has no wall 'floor'" "[walls.floor]"
     sed -i 's/injectorID 5/injectorID 3/' constant/kinematicCloudProperties
     refuse injector-number '' "parcels of 'minerals' cannot be told from" "injectorID 1;"
 
@@ -124,7 +131,8 @@ case_near-wall() {
     cp "$f" whole
     rm -rf 0.1; settings 0.1 0.05 latestTime ascii
     solve near-wall again "$solver" || return
-    expect_numbers near-wall/restart "$(tail -n 1 "$(folder kinematicCloud 0.05)/floor.nearWall.dat")" "$(tail -n 1 whole)"
+    expect_numbers near-wall/restart "$(tail -n 1 "$(folder kinematicCloud 0.05)/floor.nearWall.dat")" \
+        "$(tail -n 1 whole)"
     rm -rf 0.05 0.1 postProcessing; settings 0.1 0.05 startTime ascii
     quiet decompose decomposePar
     solve near-wall ranks mpirun -np 2 "$solver" -parallel || return
@@ -239,7 +247,9 @@ case_extra-inputs() {
         # shellcheck disable=SC2086
         set -- $said
         if near "$(last "$2" e_n_sum)" "$(awk -v n="$(last "$2" rebounds)" -v e="$3" 'BEGIN { printf "%.17g", n*e }')" 1e-12
-        then ok "extra-inputs/by-hand-$1 (e_n $3)"; else bad "extra-inputs/by-hand-$1" "e_n_sum $(last "$2" e_n_sum), e_n $3"; fi
+        then ok "extra-inputs/by-hand-$1 (e_n $3)"
+        else bad "extra-inputs/by-hand-$1" "e_n_sum $(last "$2" e_n_sum), e_n $3"
+        fi
     done
     if grep -q "floor: interact.*humidity 0.9, plate glass, dirt from field" log.serial \
         && grep -q "lid: interact.*humidity 0.1, plate steel, dirt 0" log.serial
@@ -268,15 +278,21 @@ case_extra-inputs() {
 refused_inputs() {
     damp_case "$work/extra-inputs-bad" || return
     cp constant/interaction constant/interaction.good
-    refuse input-name     's/humidity 0.9/humidty 0.9/'  "no model declares the input 'humidty'" "humidity plate dirt" "[inputs.humidty]"
+    refuse input-name     's/humidity 0.9/humidty 0.9/' \
+        "no model declares the input 'humidty'" "humidity plate dirt" "[inputs.humidty]"
     refuse input-top-name 's/humidity 0.1/wind 0.1/'     "no model declares the input 'wind'"
-    refuse input-missing  '/^extraInputs/d'              "has the input 'plate', which has no default" "extraInputs { plate steel; }"
-    refuse input-word     's/plate glass/plate glas/'    "'plate' must be one of its words or 'field'" "did you mean \`glass\`? (known here: steel, glass)"
-    refuse input-number   's/humidity 0.9/humidity damp/' "'humidity' must be a number or 'field'" "\`damp\` is not a finite number"
+    refuse input-missing  '/^extraInputs/d' \
+        "has the input 'plate', which has no default" "extraInputs { plate steel; }"
+    refuse input-word     's/plate glass/plate glas/' \
+        "'plate' must be one of its words or 'field'" "did you mean \`glass\`? (known here: steel, glass)"
+    refuse input-number   's/humidity 0.9/humidity damp/' \
+        "'humidity' must be a number or 'field'" "\`damp\` is not a finite number"
     refuse input-two      's/humidity 0.9/humidity 0.9 1/' "'humidity' must be a number or 'field'"
     refuse input-field    's/humidity 0.9/humidity field/' "no field 'humidity' is registered or in" "volScalarField"
     refuse input-dict     's/^extraInputs.*/extraInputs 0.4;/' "'extraInputs' must be a dictionary" "humidity 0.4"
-    refuse input-of-other-type 's/{ type rebound;/{ type rebound; extraInputs { humidity 1; }/' "unknown key 'extraInputs'" "'sides', type rebound"
+    refuse input-of-other-type 's/{ type rebound;/{ type rebound; extraInputs { humidity 1; }/' \
+        "unknown key 'extraInputs'" "'sides', type rebound"
     sed -i 's/16(0 0 1 1/16(0 0 1 0.5/' 0/dirt; mv 0/dirt 0/plate; sed -i 's/dirt/plate/' 0/plate
-    refuse input-places   's/plate glass; dirt field/plate field/' "the field 'plate' has values that are not the place of one of its words"
+    refuse input-places   's/plate glass; dirt field/plate field/' \
+        "the field 'plate' has values that are not the place of one of its words"
 }

@@ -59,7 +59,9 @@ case_travelling() {
     if [ "$(wc -l < lying.before)" = 12 ] && join lying.before lying.after 2>/dev/null | awk '
             function far(a, b) { return (a - b)^2 > 1e-20 }
             far($4, 0.05) || far($7, 0.1) || far($5, $2 + 0.04) || far($6, $3) { bad = 1 } END { exit bad || NR != 12 }'
-    then ok "travelling/deposit (12 parcels, on the floor wherever it is)"; else bad travelling/deposit "$(join lying.before lying.after | head -n 2 | tr '\n' ';')"; fi
+    then ok "travelling/deposit (12 parcels, on the floor wherever it is)"
+    else bad travelling/deposit "$(join lying.before lying.after | head -n 2 | tr '\n' ';')"
+    fi
     check_balance travelling/balance kinematicCloud 0
 
     cp lying.after lying.whole; rm -rf 0.2
@@ -101,7 +103,8 @@ END
     then ok "refined/deposit ($n refinements, $(wc -l < lying.before) parcels before the last, 12 after)"
     else bad refined/deposit "$n refinements: $(join lying.before lying.after | head -n 2 | tr '\n' ';')"; fi
     check_balance refined/balance kinematicCloud 0
-    if near "$(sum_of 0.1/lagrangian/kinematicCloudDeposit/mass)" "$(last "$(folder kinematicCloud)/floor.dat" stick_mass_kg)" 1e-12
+    if near "$(sum_of 0.1/lagrangian/kinematicCloudDeposit/mass)" \
+        "$(last "$(folder kinematicCloud)/floor.dat" stick_mass_kg)" 1e-12
     then ok refined/mass; else bad refined/mass "$(sum_of 0.1/lagrangian/kinematicCloudDeposit/mass)"; fi
 }
 
@@ -125,7 +128,9 @@ case_cyclic() {
     solve cyclic serial "$solver" || return
     expected_faces > hits.expected; floor_hits > hits.serial
     if [ "$(awk '{ s += $2 } END { print s }' hits.expected)" = 12 ] && cmp -s hits.expected hits.serial
-    then ok "cyclic/faces (12 hits on $(awk '$2 > 0' hits.serial | wc -l) faces, as by hand)"; else bad cyclic/faces "$(paste hits.expected hits.serial | tr '\n' ';')"; fi
+    then ok "cyclic/faces (12 hits on $(awk '$2 > 0' hits.serial | wc -l) faces, as by hand)"
+    else bad cyclic/faces "$(paste hits.expected hits.serial | tr '\n' ';')"
+    fi
     totals kinematicCloud 0 > totals.serial
     check_balance cyclic/balance kinematicCloud 0
     cp hits.expected totals.serial "$work/cyclic-ranks"; cd "$work/cyclic-ranks" || return
@@ -134,7 +139,9 @@ case_cyclic() {
     quiet reconstruct reconstructPar -latestTime
     floor_hits > hits.ranks; totals kinematicCloud 0 > totals.ranks
     if cmp -s hits.expected hits.ranks && difference="$(same_totals totals.serial totals.ranks 1e-12)"
-    then ok "cyclic/ranks (the pair on two ranks)"; else bad cyclic/ranks "$difference $(paste hits.expected hits.ranks | tr '\n' ';')"; fi
+    then ok "cyclic/ranks (the pair on two ranks)"
+    else bad cyclic/ranks "$difference $(paste hits.expected hits.ranks | tr '\n' ';')"
+    fi
     check_balance cyclic/balance-ranks kinematicCloud 0
 }
 

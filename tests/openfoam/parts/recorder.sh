@@ -284,7 +284,9 @@ case_recorder() {
         check_histories "recorder/ranks-$ranks" ../recorder/whole.csv "$f/$file"
         distributions 0 floor > distributions.ranks
         if n="$(same_totals distributions distributions.ranks 1e-12)"
-        then ok "recorder/ranks-$ranks/distributions"; else bad "recorder/ranks-$ranks/distributions" "$(head -n 1 <<< "$n")"; fi
+        then ok "recorder/ranks-$ranks/distributions"
+        else bad "recorder/ranks-$ranks/distributions" "$(head -n 1 <<< "$n")"
+        fi
         check_sums "recorder/ranks-$ranks/sums" 0 floor
     done
 

@@ -198,8 +198,11 @@ grazing() {
     values 0.06/lagrangian/kinematicCloudDeposit/d | sort > stuck.list
     total="$(wc -l < "$dir/impacts.list")"
     equal=$((total - $(comm -3 "$dir/stuck.list" stuck.list | wc -l)))
-    if awk -v t="$total" -v e="$equal" -v s="$(wc -l < stuck.list)" 'BEGIN { exit !(t == 20000 && e >= 0.9999*t && s > 0.3*t && s < 0.7*t) }'
-    then ok "ranks/grazing ($equal of $total decided alike, $(wc -l < stuck.list) stuck)"; else bad ranks/grazing "$equal of $total decided alike, $(wc -l < stuck.list) stuck"; fi
+    if awk -v t="$total" -v e="$equal" -v s="$(wc -l < stuck.list)" \
+        'BEGIN { exit !(t == 20000 && e >= 0.9999*t && s > 0.3*t && s < 0.7*t) }'
+    then ok "ranks/grazing ($equal of $total decided alike, $(wc -l < stuck.list) stuck)"
+    else bad ranks/grazing "$equal of $total decided alike, $(wc -l < stuck.list) stuck"
+    fi
 }
 
 # All rows of a table over the starts of the solver: a later start replaces what
@@ -238,7 +241,10 @@ case_kill() {
     done
     rows="$(awk 'NR == FNR { t[NR] = $1; h[NR] = $2; n = NR; next } { if (($1 - t[FNR])^2 > 1e-18 || $2 != h[FNR]) bad++; m = FNR }
         END { print (n == m && !bad) ? "same" : n " and " m " rows, " bad " others" }' rows.whole rows.merged)"
-    if [ "$rows" = same ]; then ok "kill/tables ($(wc -l < rows.merged) rows, none twice, none lost)"; else bad kill/tables "$rows"; fi
+    if [ "$rows" = same ]
+    then ok "kill/tables ($(wc -l < rows.merged) rows, none twice, none lost)"
+    else bad kill/tables "$rows"
+    fi
 }
 
 # Serial, then decomposed where it stands, then put together, then serial again

@@ -30,7 +30,8 @@ case_ratio() {
     for i in 1 2 3 4 5; do
         for how in localInteraction nearWallNoMemory nearWall everything cooled; do
             case="$work/ratio-$how"; rm -rf "$case"; cp -r "$state" "$case"; cd "$case" || return
-            cp "$base/wallModels/$(case "$how" in everything|cooled) echo nearWall ;; *) echo "$how" ;; esac)" constant/wallInteraction
+            cp "$base/wallModels/$(case "$how" in everything|cooled) echo nearWall ;; *) echo "$how" ;; esac)" \
+                constant/wallInteraction
             if [ "$how" = cooled ]; then    # brick behind the slag: nearly the temperatures of the others
                 quiet set foamDictionary -entry boundaryField.slagWall -set "{ type nearWallDepositTemperature; Ta 320; h 20;
                     thicknessLayers (0.2); kappaLayers (2.5); qr qr; value uniform 1600; }" 0.4/T
@@ -103,5 +104,8 @@ case_beside() {
         echo "run$times"
     done
     hits="$(last "$(folder kinematicCloud)/floor.dat" hits)"
-    if [ "${hits:-0}" -gt 10000 ] 2>/dev/null; then ok "beside ($hits impacts on the floor)"; else bad beside "only ${hits:-no} impacts on the floor"; fi
+    if [ "${hits:-0}" -gt 10000 ] 2>/dev/null
+    then ok "beside ($hits impacts on the floor)"
+    else bad beside "only ${hits:-no} impacts on the floor"
+    fi
 }

@@ -122,7 +122,10 @@ same_files() {
                 || { bad "$name/$what" "$t/$file differs from that with localInteraction$(farthest "$first/$t/$file" "$second/$t/$file")"; return; }
         done < <(cd "$first/$t" && find . -type f ! -path './uniform/*' | sort)
     done
-    if [ "$n" -gt 3 ]; then ok "$name/$what ($n files to the last digit)"; else bad "$name/$what" "only $n files to compare"; fi
+    if [ "$n" -gt 3 ]
+    then ok "$name/$what ($n files to the last digit)"
+    else bad "$name/$what" "only $n files to compare"
+    fi
 }
 
 # Two files of numbers: the largest relative difference
@@ -165,7 +168,9 @@ stock_hits_and_mass() {
         fi
         cp impacts.near "impacts.$cloud"
         if [ "$n" -gt 0 ] && [ "$n" = "$seen" ]
-        then ok "$name/$run/$cloud/hits ($n, as OpenFOAM counts)"; else bad "$name/$run/$cloud/hits" "$n in the tables, OpenFOAM counts $seen"; fi
+        then ok "$name/$run/$cloud/hits ($n, as OpenFOAM counts)"
+        else bad "$name/$run/$cloud/hits" "$n in the tables, OpenFOAM counts $seen"
+        fi
         [ -n "$steady" ] || check_balance "$name/$run/$cloud/mass" "$cloud" "$start"
     done
 }
@@ -204,7 +209,8 @@ stock_collisions() {
     for run in serial restart ranks; do
         rm -rf "$dir-hard-$run"; cp -r "$dir-start" "$dir-hard-$run"; cd "$dir-hard-$run" || return
         start=0; interaction_is near
-        sed -i -E 's/collisionModel none;//; s/wallModel +[a-zA-Z]+;/wallModel nearWall; nearWallCoeffs { }/' constant/kinematicCloudProperties
+        sed -i -E 's/collisionModel none;//; s/wallModel +[a-zA-Z]+;/wallModel nearWall; nearWallCoeffs { }/' \
+            constant/kinematicCloudProperties
         case "$run" in
             serial)  solve "$name/collisions" near "$solver" || return ;;
             restart) start="$half"; cp -r "$dir-hard-serial/$half" .

@@ -55,12 +55,19 @@ case_deposit() {
         then ok "deposit/keep/$cloud/as-at-the-wall (12 parcels, T and d to the bit)"
         else bad "deposit/keep/$cloud/as-at-the-wall" "$(comm -3 at-the-wall kept.before | head -n 2 | tr '\n' ' ')"; fi
         if [ -z "$(comm -3 kept.earlier kept.after)" ]
-        then ok "deposit/keep/$cloud/unchanged (50 steps later, to the bit)"; else bad "deposit/keep/$cloud/unchanged" "$(comm -3 kept.earlier kept.after | head -n 2)"; fi
+        then ok "deposit/keep/$cloud/unchanged (50 steps later, to the bit)"
+        else bad "deposit/keep/$cloud/unchanged" "$(comm -3 kept.earlier kept.after | head -n 2)"
+        fi
         stuck="$(last "$(folder "$cloud")/floor.dat" stick_mass_kg)"
-        if near "$(sum_of "0.2/$d/mass")" "$stuck" 1e-12 && near "$(last "$(folder "$cloud")/balance.dat" stuck_in_cloud_kg)" "$stuck" 1e-12
-        then ok "deposit/keep/$cloud/mass ($stuck kg in files, table and balance)"; else bad "deposit/keep/$cloud/mass" "$(sum_of "0.2/$d/mass") and $stuck"; fi
+        if near "$(sum_of "0.2/$d/mass")" "$stuck" 1e-12 \
+            && near "$(last "$(folder "$cloud")/balance.dat" stuck_in_cloud_kg)" "$stuck" 1e-12
+        then ok "deposit/keep/$cloud/mass ($stuck kg in files, table and balance)"
+        else bad "deposit/keep/$cloud/mass" "$(sum_of "0.2/$d/mass") and $stuck"
+        fi
         if [ "$(awk -v c="Cloud: $cloud" 'index($0, c) { here = 1 } here && /Current number of parcels/ { n = $NF; here = 0 } END { print n }' log.keep)" = 0 ]
-        then ok "deposit/keep/$cloud/none-left-to-integrate"; else bad "deposit/keep/$cloud/none-left-to-integrate" "the solver still has parcels"; fi
+        then ok "deposit/keep/$cloud/none-left-to-integrate"
+        else bad "deposit/keep/$cloud/none-left-to-integrate" "the solver still has parcels"
+        fi
         check_balance "deposit/keep/$cloud/balance" "$cloud" 0
     done
     deposit_files
@@ -74,7 +81,9 @@ case_deposit() {
         parcel_columns "0.2/$d" active coordinates > still.after
         if [ "$(awk '$3 == 0' still.after | wc -l)" = 12 ] && [ -z "$(comm -3 still.earlier still.after)" ] \
             && ! values "0.2/$d/U" | grep -v '^0 0 0$' > /dev/null
-        then ok "deposit/react/$cloud/still (12 parcels, no velocity)"; else bad "deposit/react/$cloud/still" "one moved or has a velocity"; fi
+        then ok "deposit/react/$cloud/still (12 parcels, no velocity)"
+        else bad "deposit/react/$cloud/still" "one moved or has a velocity"
+        fi
         parcel_columns "0.1/$d" T > changed.earlier; parcel_columns "0.2/$d" T > changed.after
         if [ "$(comm -13 changed.earlier changed.after | wc -l)" = 12 ]
         then ok "deposit/react/$cloud/heated ($(head -n1 changed.earlier | cut -d' ' -f3) K, then $(head -n1 changed.after | cut -d' ' -f3) K)"
@@ -82,7 +91,8 @@ case_deposit() {
         [ ! -e "0.2/lagrangian/${cloud}Deposit" ] && ok "deposit/react/$cloud/no-files" || bad "deposit/react/$cloud/no-files" "an empty deposit was written"
         check_balance "deposit/react/$cloud/balance" "$cloud" 0
     done
-    if awk -v now="$(last "$(folder coalCloud1)/balance.dat" stuck_in_cloud_kg)" -v then="$(last "$(folder coalCloud1)/floor.dat" stick_mass_kg)" \
+    if awk -v now="$(last "$(folder coalCloud1)/balance.dat" stuck_in_cloud_kg)" -v \
+        then="$(last "$(folder coalCloud1)/floor.dat" stick_mass_kg)" \
         'BEGIN { exit !(now < 0.999*then) }'
     then ok "deposit/react/coal-burns ($(last "$(folder coalCloud1)/floor.dat" stick_mass_kg) kg captured, $(last "$(folder coalCloud1)/balance.dat" stuck_in_cloud_kg) kg left)"
     else bad deposit/react/coal-burns "its mass is that at capture"; fi
@@ -90,9 +100,12 @@ case_deposit() {
     hot_case remove "$work/deposit-remove" || return
     for cloud in $clouds; do
         stuck="$(last "$(folder "$cloud")/floor.dat" stick_mass_kg)"
-        if near "$(last "$(folder "$cloud")/balance.dat" stuck_removed_kg)" "$stuck" 1e-12 && [ ! -e "0.2/lagrangian/$cloud" ] \
+        if near "$(last "$(folder "$cloud")/balance.dat" stuck_removed_kg)" "$stuck" 1e-12 \
+            && [ ! -e "0.2/lagrangian/$cloud" ] \
             && near "$(face_mass "$cloud")" "$stuck" 1e-9
-        then ok "deposit/remove/$cloud ($stuck kg booked at the faces)"; else bad "deposit/remove/$cloud" "booked $(last "$(folder "$cloud")/balance.dat" stuck_removed_kg), on faces $(face_mass "$cloud"), stuck $stuck"; fi
+        then ok "deposit/remove/$cloud ($stuck kg booked at the faces)"
+        else bad "deposit/remove/$cloud" "booked $(last "$(folder "$cloud")/balance.dat" stuck_removed_kg), on faces $(face_mass "$cloud"), stuck $stuck"
+        fi
         check_balance "deposit/remove/$cloud/balance" "$cloud" 0
     done
 }
@@ -112,7 +125,9 @@ deposit_files() {
     if [ -z "$missing" ]; then ok deposit/files; else bad deposit/files "not written:$missing"; fi
     if quiet toVTK foamToVTK -latestTime -ascii && grep -aqs 'captureTime' VTK/lagrangian/coalCloud1Deposit/*.vtp \
         && grep -aqs 'NumberOfPoints=.12' VTK/lagrangian/coalCloud1Deposit/*.vtp
-    then ok deposit/foamToVTK; else bad deposit/foamToVTK "no file with 12 points and captureTime (see $PWD/log.toVTK)"; fi
+    then ok deposit/foamToVTK
+    else bad deposit/foamToVTK "no file with 12 points and captureTime (see $PWD/log.toVTK)"
+    fi
 }
 
 # Go on with react: what lies in the deposit stays there and is counted
@@ -141,7 +156,9 @@ deposit_ranks() {
     values 0.2/lagrangian/limestoneCloud1Deposit/positions | awk '{ printf "%.9f %.9f %.9f\n", $1, $2, $3 }' | sort > places.ranks
     values "$work/deposit-keep/0.2/lagrangian/limestoneCloud1Deposit/positions" | awk '{ printf "%.9f %.9f %.9f\n", $1, $2, $3 }' | sort > places.serial
     if [ -s places.serial ] && cmp -s places.serial places.ranks
-    then ok "deposit/reconstructPar ($(wc -l < places.ranks) parcels)"; else bad deposit/reconstructPar "$(wc -l < places.ranks) parcels, serial $(wc -l < places.serial)"; fi
+    then ok "deposit/reconstructPar ($(wc -l < places.ranks) parcels)"
+    else bad deposit/reconstructPar "$(wc -l < places.ranks) parcels, serial $(wc -l < places.serial)"
+    fi
     cd "$work/deposit-keep" || return
 }
 
