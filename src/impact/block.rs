@@ -27,10 +27,16 @@ impl Default for Block {
 }
 
 impl Block {
+    /// The [`INPUTS`] of one of the impacts.
+    #[inline(always)]
+    pub(crate) fn inputs_of(&self, index: usize) -> Impact {
+        Impact::from_inputs(|input| self.inputs[input][index])
+    }
+
     /// One of the impacts.
     #[inline]
     pub(crate) fn impact(&self, index: usize) -> Impact {
-        let mut impact = Impact::from_inputs(|input| self.inputs[input][index]);
+        let mut impact = self.inputs_of(index);
         for (value, column) in impact.extra.iter_mut().zip(&self.extra) {
             *value = column[index];
         }

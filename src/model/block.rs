@@ -2,8 +2,8 @@
 
 pub use fearless_simd::Level;
 
-use super::varying_block::Columns;
-use super::{Model, Prepared, TemperatureRanges};
+use super::prepared_block::{ContactColumns, StepColumns};
+use super::{Model, TemperatureRanges};
 use crate::impact::ImpactError;
 pub use crate::impact::{BLOCK, Block};
 use crate::rng::ImpactRng;
@@ -27,9 +27,13 @@ pub struct Outcomes {
     pub outside_range: [u32; BLOCK],
 }
 
-/// Room for the steps between the loops over a block; empty until a wall needs it. One serves any number of blocks.
+/// Room for the steps between the loops over a block. One serves any number of blocks.
 #[derive(Debug, Clone, Default)]
-pub struct Workspace(Option<Columns>);
+pub struct Workspace {
+    pub(super) steps: StepColumns,
+    /// `None` until a wall needs it.
+    pub(super) contacts: Option<ContactColumns>,
+}
 
 impl Default for Outcomes {
     fn default() -> Self {
@@ -76,20 +80,14 @@ impl Model {
         block: &Block,
         seed: u64,
         outcomes: &mut Outcomes,
-        Workspace(workspace): &mut Workspace,
+        workspace: &mut Workspace,
     ) -> Result<(), ImpactError> {
-        let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        match self.prepared.get(wall) {
-            Some(Prepared::Constant(prepared)) if prepared.decides_block(block) => {
-                prepared.resolve_block(block, seed, outcomes, level);
-                return Ok(());
-            }
-            Some(Prepared::Varying(prepared)) if prepared.decides_block(block) => {
-                let columns = workspace.get_or_insert_with(Columns::default);
-                prepared.resolve_block(of, block, seed, outcomes, columns, level);
-                return Ok(());
-            }
-            _ => {}
+        let prepared = self.prepared.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        if let Some(prepared) = prepared
+            && prepared.decides_block(block)
+        {
+            prepared.resolve_block(block, seed, outcomes, workspace, level);
+            return Ok(());
         }
         for index in 0..block.length.min(BLOCK) {
             let outcome =
@@ -108,16 +106,12 @@ impl Model {
     /// Whether the wall is prepared: within its [temperatures](Model::temperature_ranges) only [`Impact::check`] can then refuse an
     /// impact on it.
     pub fn is_prepared(&self, wall: usize) -> bool {
-        !matches!(self.prepared.get(wall), Some(Prepared::No(_)) | None)
+        matches!(self.prepared.get(wall), Some(Some(_)))
     }
 
     /// The temperatures [K] within which only [`Impact::check`] can refuse an impact on a wall; `None` for a wall of which a single
     /// impact has to be asked ([`Model::check`]).
     pub(crate) fn decided_temperatures(&self, wall: usize) -> Option<TemperatureRanges> {
-        match self.prepared.get(wall)? {
-            Prepared::Constant(_) | Prepared::Called(_) => Some(TemperatureRanges::ALL),
-            Prepared::Varying(prepared) => Some(prepared.known),
-            Prepared::No(decided) => *decided,
-        }
+        *self.decided.get(wall)?
     }
 }

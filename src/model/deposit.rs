@@ -50,10 +50,10 @@ impl Model {
     pub fn initial_deposit(&self, wall: usize, voidage: f64) -> Result<Deposit, ImpactError> {
         check_voidage(voidage)?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let solid = wall.layer_thickness * (1.0 - voidage);
+        let solid = wall.covering.layer_thickness * (1.0 - voidage);
         let powder = solid * self.particle.material.density_near(Impact::default().wall_temperature)?;
-        let covered = -(1.0 - wall.coverage).max(f64::MIN_POSITIVE).ln();
-        let cover = covered.max(cover::of_layer(wall.layer_thickness, Impact::default().diameter));
+        let covered = -(1.0 - wall.covering.coverage).max(f64::MIN_POSITIVE).ln();
+        let cover = covered.max(cover::of_layer(wall.covering.layer_thickness, Impact::default().diameter));
         Ok(Deposit { powder, solid, cover, ..Deposit::default() })
     }
 

@@ -30,14 +30,14 @@ impl Model {
             if let Some(powder) = &wall.powder {
                 text += &format!(", covered by {}", powder.name());
             }
-            if wall.film_thickness > 0.0 {
-                text += &format!(", film {} m", wall.film_thickness);
+            if wall.covering.film_thickness > 0.0 {
+                text += &format!(", film {} m", wall.covering.film_thickness);
             }
-            if wall.coverage > 0.0 {
-                text += &format!(", coverage {}", wall.coverage);
+            if wall.covering.coverage > 0.0 {
+                text += &format!(", coverage {}", wall.covering.coverage);
             }
-            if wall.layer_thickness > 0.0 {
-                text += &format!(", layer {} m", wall.layer_thickness);
+            if wall.covering.layer_thickness > 0.0 {
+                text += &format!(", layer {} m", wall.covering.layer_thickness);
             }
             if let Some(erosion) = &wall.erosion {
                 text += &format!(", eroded by {}", erosion.describe());

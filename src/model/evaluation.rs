@@ -12,6 +12,7 @@
 
 use crate::capture::{Combination, Stickiness};
 use crate::impact::{Impact, Outcome, Regime};
+use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
 /// A set of steps.
@@ -72,13 +73,13 @@ pub(super) struct Corrected {
     pub probability: f64,
 }
 
-/// What is known of an impact between two steps. `C` is the contact of particle and wall.
+/// What is known of an impact between two steps.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct ImpactState<C> {
+pub(super) struct ImpactState {
     /// The impact with regard to the local, tilted wall.
     pub impact: Impact,
     pub outside_range: bool,
-    pub contact: C,
+    pub contact: Contact,
     pub sticky: Stickiness,
     /// `rho v_adh²` [Pa]; 0 where the normal law computes it itself.
     pub adhesion: f64,
@@ -94,7 +95,7 @@ pub(super) struct ImpactState<C> {
     pub captured: bool,
 }
 
-impl<C> ImpactState<C> {
+impl ImpactState {
     /// The outcome after the last step.
     #[inline(always)]
     pub fn outcome(&self) -> Outcome {
@@ -112,8 +113,6 @@ impl<C> ImpactState<C> {
 
 /// The steps of an impact, as a kind of wall implements them.
 pub(super) trait WallSteps {
-    /// The contact of particle and wall; `()` where it is the same for all impacts.
-    type Contact: Copy + Default;
     /// Why an impact cannot be decided.
     type Fault;
 
@@ -125,23 +124,23 @@ pub(super) trait WallSteps {
     fn turn(&mut self, _: &mut Impact) {}
 
     /// The contact at the temperatures of the impact, with the effects on it.
-    fn contact(&mut self, impact: &Impact) -> Result<Self::Contact, Self::Fault>;
+    fn contact(&mut self, impact: &Impact) -> Result<Contact, Self::Fault>;
 
     /// Stickiness of particle and wall.
     fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, Self::Fault>;
 
     /// The part of the normal law that does not depend on speed, where a block computes it apart: `rho v_adh²` [Pa].
     #[inline(always)]
-    fn adhesion(&self, _: &Impact, _: &Self::Contact) -> f64 {
+    fn adhesion(&self, _: &Impact, _: &Contact) -> f64 {
         0.0
     }
 
     /// What the normal law gives.
-    fn normal_law(&mut self, impact: &Impact, contact: &Self::Contact, adhesion: f64) -> NormalRebound;
+    fn normal_law(&mut self, impact: &Impact, contact: &Contact, adhesion: f64) -> NormalRebound;
 
     /// The normal rebound after the effects on it.
     #[inline(always)]
-    fn normal_effects(&mut self, _: &Impact, _: &Self::Contact, rebound: NormalRebound) -> NormalRebound {
+    fn normal_effects(&mut self, _: &Impact, _: &Contact, rebound: NormalRebound) -> NormalRebound {
         rebound
     }
 
@@ -150,9 +149,6 @@ pub(super) trait WallSteps {
 
     /// Share of `e_n` [1] that a fully sticky particle loses where it still rebounds.
     fn rebound_loss(&self) -> f64;
-
-    /// Mindlin's stiffness ratio `k` [1] of the contact.
-    fn stiffness_ratio(&self, contact: &Self::Contact) -> f64;
 
     /// What the tangential law gives.
     fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound;
@@ -236,7 +232,7 @@ impl OnBareWall {
 pub(super) fn evaluate<S: WallSteps>(
     steps: &mut S,
     selected: StepSet,
-    state: &mut ImpactState<S::Contact>,
+    state: &mut ImpactState,
 ) -> Result<(), S::Fault> {
     if selected.contains(StepSet::RANGE) {
         state.outside_range = steps.outside_range(&state.impact);
@@ -269,7 +265,7 @@ pub(super) fn evaluate<S: WallSteps>(
             diameter: state.impact.diameter,
             spin: state.impact.spin,
             normal_restitution,
-            stiffness_ratio: steps.stiffness_ratio(&state.contact),
+            stiffness_ratio: state.contact.stiffness_ratio,
         };
         let rebound = steps.tangential_law(&kinematics);
         let rebound = steps.tangential_effects(&kinematics, rebound);

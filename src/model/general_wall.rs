@@ -141,7 +141,7 @@ impl Model {
     pub(super) fn at_wall(&self, wall: usize, impact: &mut Impact) -> Result<&Wall, ImpactError> {
         impact.check()?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        wall.apply_deposit(impact);
+        wall.covering.apply(impact);
         self.complete(impact)?;
         Ok(wall)
     }
@@ -278,7 +278,6 @@ fn place_met(wall: &Wall, arriving: &Impact, uniform: &impl Fn(u64) -> f64) -> P
 }
 
 impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for GeneralWall<'_, U, T> {
-    type Contact = Contact;
     type Fault = ImpactError;
 
     fn outside_range(&mut self, arriving: &Impact) -> bool {
@@ -369,10 +368,6 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     fn rebound_loss(&self) -> f64 {
         self.model.rebound_loss()
-    }
-
-    fn stiffness_ratio(&self, contact: &Contact) -> f64 {
-        contact.stiffness_ratio
     }
 
     fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {

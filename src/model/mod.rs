@@ -13,11 +13,10 @@ mod expectation;
 mod extra_input;
 mod general_wall;
 mod particle;
+mod prepared_block;
 mod prepared_wall;
 mod read;
 mod tilted_frame;
-mod varying_block;
-mod varying_wall;
 mod wall;
 mod wall_heat;
 
@@ -38,8 +37,7 @@ pub use expectation::Expectation;
 pub use expectation::{DrawLattice, RotatedLattice};
 pub use extra_input::ExtraInput;
 pub use particle::Particle;
-use prepared_wall::{CalledWall, PreparedWall};
-use varying_wall::VaryingWall;
+use prepared_wall::PreparedWall;
 use wall::Place;
 pub use wall::Wall;
 pub use wall_heat::{WallCooling, WallHeat, WallHeatError};
@@ -61,36 +59,11 @@ pub struct Model {
     uses_melt: bool,
     /// Whether a term is a fitted correction.
     has_corrections: bool,
-    /// For each wall its prepared form.
-    prepared: Vec<Prepared>,
-}
-
-/// A wall as it was prepared when the model was read.
-#[derive(Debug, Clone)]
-enum Prepared {
-    /// Constant properties, no melt: all numbers are known.
-    Constant(PreparedWall),
-    /// The same, with laws that are called for each impact.
-    Called(Box<CalledWall>),
-    /// Properties that differ between impacts.
-    Varying(Box<VaryingWall>),
-    /// Every impact needs the general steps. With the temperatures within which only [`Impact::check`] can refuse it, where there are such.
-    No(Option<TemperatureRanges>),
-}
-
-impl Prepared {
-    fn new(model: &Model, wall: &Wall) -> Self {
-        match PreparedWall::new(model, wall) {
-            Some((prepared, None)) => return Self::Constant(prepared),
-            Some((prepared, Some(laws))) => return Self::Called(Box::new(CalledWall { prepared, laws })),
-            None => {}
-        }
-        let decided = !model.has_droplets() && model.extra_inputs.is_empty();
-        VaryingWall::new(model, wall).map_or_else(
-            || Self::No(decided.then(|| model.ranges_of(wall))),
-            |wall| Self::Varying(Box::new(wall)),
-        )
-    }
+    /// For each wall its prepared form; `None` where every impact needs the general steps.
+    prepared: Vec<Option<PreparedWall>>,
+    /// For each wall the temperatures [K] within which only [`Impact::check`] can refuse an impact; `None` where a single impact
+    /// has to be asked ([`Model::check`]).
+    decided: Vec<Option<TemperatureRanges>>,
 }
 
 /// The effect of one term on one impact.
@@ -198,7 +171,9 @@ impl Model {
     fn prepare(mut self) -> Self {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
         self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
-        self.prepared = self.walls.iter().map(|wall| Prepared::new(&self, wall)).collect();
+        self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
+        let decided = !self.has_droplets() && self.extra_inputs.is_empty();
+        self.decided = self.walls.iter().map(|wall| decided.then(|| self.ranges_of(wall))).collect();
         self
     }
 
@@ -249,26 +224,25 @@ impl Model {
     /// [`ImpactError`] for an impact without physical meaning, or a temperature outside a property table.
     #[inline(always)]
     pub fn resolve(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
-        // Prepared walls do not support a melt layer.
-        if let (Some(Prepared::Constant(prepared)), 0.0) = (self.prepared.get(wall), impact.melt_thickness) {
+        // A constant contact has no melt layer.
+        if let (Some(Some(prepared)), 0.0) = (self.prepared.get(wall), impact.melt_thickness)
+            && prepared.varying.is_none()
+        {
             impact.check()?;
-            return Ok(prepared.resolve(impact, rng));
+            return Ok(prepared.resolve_constant(impact, rng));
         }
         self.resolve_varying(wall, impact, rng)
     }
 
-    /// Not inlined, so that the numbers of a prepared wall stay in registers.
+    /// Not inlined, so that the numbers of a constant contact stay in registers.
     #[inline(never)]
     fn resolve_varying(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
-        if let (Some(Prepared::Called(called)), 0.0) = (self.prepared.get(wall), impact.melt_thickness) {
-            impact.check()?;
-            return Ok(called.resolve(impact, rng));
-        }
-        if let (Some(Prepared::Varying(prepared)), Some(of)) = (self.prepared.get(wall), self.walls.get(wall))
+        if let (Some(Some(prepared)), Some(of)) = (self.prepared.get(wall), self.walls.get(wall))
+            && let Some(varying) = &prepared.varying
             && prepared.decides(impact)
         {
             impact.check()?;
-            return Ok(prepared.resolve(self, of, impact, rng));
+            return Ok(prepared.resolve_varying(varying, self, of, impact, rng));
         }
         self.evaluate_general(wall, impact, rng)
     }

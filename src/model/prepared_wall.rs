@@ -1,234 +1,194 @@
-//! The steps of an impact on a prepared wall: what depends on materials and model alone is computed when the model is read.
+//! The steps of an impact on a prepared wall: what model and wall decide is computed when the model is read.
 //!
-//! A wall is prepared when constant properties, the two laws and effects with a precomputed form ([`Precomputed`]) decide its impacts.
-//! The steps have no branches, so the compiler turns a loop over a block into vector instructions. Where one of the laws has no prepared
-//! form, both are called for each impact ([`CalledWall`]), and a block runs one by one.
+//! A wall is prepared when every effect of the model has a precomputed form ([`Precomputed`]), particles are no droplets and
+//! the model file declares no inputs. The contact of particle and wall is the same for all impacts ([`PreparedImpact`] with
+//! `CONSTANT`), or it varies ([`VaryingContact`]): properties over temperature, char that becomes ash, slag, powder. Both
+//! follow the same steps, alone and in blocks (`prepared_block.rs`). The steps have no branches, so the compiler turns a loop
+//! over a block into vector instructions; only a law by name is called for each impact.
+//!
+//! An impact of a patchwork meets its covered or its bare share (`general_wall.rs`): the share that it meets is evaluated
+//! whole, of the other one only what the probability of capture and the range need.
 
 use std::convert::Infallible;
+use std::sync::Arc;
 
-use fearless_simd::{Level, dispatch};
-
-use super::Model;
-use super::block::{BLOCK, Block, Outcomes};
-use super::evaluation::{ImpactState, NormalRebound, StepSet, WallSteps, evaluate};
-use super::wall::Wall;
-use crate::capture::{Combination, Stickiness};
-use crate::effect::{Precomputed, Term, Transition, stream};
+use super::evaluation::{ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate};
+use super::particle::{contact_of, density_of};
+use super::wall::{Adhesion, Covering, Wall};
+use super::{Model, TemperatureRanges};
+use crate::capture::{Combination, Stickiness, StickinessCriterion, WallState};
+use crate::effect::{DryOnMelt, Precomputed, Term, Transition, stream};
 use crate::impact::{INPUTS, Impact, Outcome};
-use crate::normal::{self, Contact, NormalLaw};
+use crate::material::{Material, Mechanical, Property};
+use crate::normal::{Contact, NormalLaw, ThorntonNingConstants, work_of_adhesion};
 use crate::rng::ImpactRng;
-use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw};
+use crate::tangential::{ImpactKinematics, ListedTangentialLaw, Rebound, TangentialLaw};
 
-/// The prepared numbers of one wall.
+/// What is known of a wall and its particles before an impact.
 #[derive(Debug, Clone)]
 pub(super) struct PreparedWall {
-    constants: Constants,
-    /// Which of [`INPUTS`] has to lie in which range for the outcome to be inside its range.
-    valid: Vec<(usize, [f64; 2])>,
+    pub constants: WallConstants,
+    /// What a contact that differs between impacts depends on; `None` where it is [`WallConstants::contact`].
+    pub varying: Option<Arc<VaryingContact>>,
+    /// Temperatures at which every property is known.
+    pub known: TemperatureRanges,
+    /// Which of [`INPUTS`] has to lie in which range for the terms.
+    pub valid: Vec<(usize, [f64; 2])>,
 }
 
-/// A prepared wall of which a law has no prepared form.
-#[derive(Debug, Clone)]
-pub(super) struct CalledWall {
-    /// The wall, whose own laws have no meaning.
-    pub prepared: PreparedWall,
-    pub laws: Laws,
-}
-
-/// Laws that are called for each impact.
+/// What the steps need of the wall.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Laws {
-    normal: NormalLaw,
-    contact: Contact,
-    tangential: TangentialLaw,
-}
-
-/// What the steps need of a wall.
-#[derive(Debug, Clone, Copy)]
-struct Constants {
-    normal: Normal,
-    tangential: Tangential,
-    /// Mindlin's `k` [1].
-    stiffness_ratio: f64,
-    transitions: Transitions,
+pub(super) struct WallConstants {
+    pub normal: NormalLaw,
+    pub tangential: TangentialLaw,
+    /// The contact where it is the same for all impacts, with the density of the particle's material.
+    pub contact: Contact,
+    /// Constants of Thornton–Ning for that contact.
+    pub thornton_ning: ThorntonNingConstants,
+    pub transitions: [Option<Transition>; 2],
     /// Whether a probability other than 0 and 1 may occur, and with it a draw.
-    draws: bool,
+    pub draws: bool,
     /// Share of `e_n` that full stickiness takes [1].
-    rebound_loss: f64,
-    /// Temperatures [K] for which the properties of particle and wall are stated.
-    materials: [[f64; 2]; 2],
-    /// Density of the particle's material [kg/m³].
-    density: f64,
-    /// Largest `rho v_n²` [Pa] for which the normal law is stated.
-    largest_pressure: f64,
+    pub rebound_loss: f64,
+    pub combination: Combination,
+    /// What the model file puts on the wall.
+    pub covering: Covering,
+    /// Temperatures [K] for which the properties of char, ash and wall are stated.
+    pub stated: [[f64; 2]; 3],
+    pub has_ash: bool,
+    /// Whether char and ash have a fitted work of adhesion.
+    pub fitted: [bool; 2],
+    /// Whether covered and bare share differ.
+    pub patchwork: bool,
+    /// Work of adhesion [J/m²] of char and ash with the bare wall and with powder, where it is the same for all impacts.
+    pub works: Option<[[f64; 2]; 2]>,
+    pub adhesion: Adhesion,
+    /// Surface tension [N/m] of the slag; NaN without slag or where it has none.
+    pub surface_tension: f64,
+    pub on_melt: Option<DryOnMelt>,
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Normal {
-    ThorntonNing(normal::Prepared),
-    Constant(f64),
+/// What a contact that differs between impacts depends on.
+#[derive(Debug)]
+pub(super) struct VaryingContact {
+    /// Char, ash, the bare wall and the powder on it; ash and powder are as char and wall where there are none.
+    pub solids: [SolidProperties; 4],
+    pub in_flight: Option<Arc<dyn StickinessCriterion>>,
+    pub slag: Option<Arc<dyn StickinessCriterion>>,
 }
 
-/// The tangential laws that can be prepared.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Tangential {
-    Constant(f64),
-    Sliding(f64),
-    SlidingRolling(f64),
+/// The mechanical properties of a solid.
+#[derive(Debug)]
+pub(super) struct SolidProperties {
+    /// Values of the properties in the order of [`Mechanical`]; those that vary have none here.
+    pub constant: [f64; 6],
+    /// Those that depend on temperature.
+    pub varying: [Option<Property>; 6],
+    /// Whether it has a fitted work of adhesion.
+    pub fitted: bool,
 }
 
-/// What makes the particle sticky; the stickiness of two transitions is multiplied.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Transitions {
-    None,
-    One(Transition),
-    Two(Transition, Transition),
+/// The state of particle and wall in an impact, at its covered and its bare share.
+pub(super) struct Surfaces {
+    /// Char and ash.
+    pub particle: [Mechanical; 2],
+    /// Density of the particle [kg/m³].
+    pub density: f64,
+    /// Stickiness of the particle [1].
+    pub stickiness: f64,
+    /// Whether the criterion of the particle's stickiness is stated for it.
+    pub flight_holds: bool,
+    pub slag: WallState,
+    /// Restitution [1] that the melt leaves a dry particle: 0 where it holds it, NaN without a liquid or a term for it.
+    pub on_melt: f64,
 }
 
-/// One impact on a prepared wall.
-struct PreparedImpact<'a> {
-    wall: &'a Constants,
-    /// `None` where the laws of `wall` decide: the compiler then leaves the calls out.
-    laws: Option<&'a Laws>,
-    rng: ImpactRng,
+/// One impact at one place; `CONSTANT` where the contact is the same for all impacts.
+pub(super) struct PreparedImpact<'a, const CONSTANT: bool> {
+    pub wall: &'a WallConstants,
+    pub surfaces: &'a Surfaces,
+    pub covered: bool,
+    /// What it meets there; without meaning where the contact is constant.
+    pub partner: Mechanical,
+    /// As [`Surfaces::on_melt`], at this place.
+    pub on_melt: f64,
+    /// Whether the normal law was used outside its range.
+    pub left_range: bool,
+    pub rng: ImpactRng,
 }
 
 impl PreparedWall {
-    /// Prepares a wall, with its laws where they have to be called ([`CalledWall`]); `None` where its impacts need the general steps.
-    pub fn new(model: &Model, wall: &Wall) -> Option<(Self, Option<Laws>)> {
-        let plain = model.capture.combination == Combination::default();
-        if model.stickiness.is_some()
-            || wall.melt.is_some()
-            || wall.powder.is_some()
-            || !plain
-            || !model.extra_inputs.is_empty()
-        {
+    /// Prepares a wall; `None` where its impacts need the general steps.
+    pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
+        if model.has_droplets() || !model.extra_inputs.is_empty() {
             return None;
         }
-        let mut contact = wall.prepared?;
-        let mut transitions = Transitions::None;
-        for term in &model.terms {
-            match term.effect().precompute()? {
-                Precomputed::YieldRatio(yield_ratio) => contact = Contact { yield_ratio, ..contact },
-                Precomputed::WorkOfAdhesion(work_of_adhesion) => {
-                    contact = Contact { work_of_adhesion, ..contact };
-                }
-                // There is no melt on a prepared wall.
-                Precomputed::OnMelt(_) => {}
-                Precomputed::Transition(transition) => transitions = transitions.and(transition)?,
-            }
-        }
-        let normal = match model.normal {
-            NormalLaw::ThorntonNing => Some(Normal::ThorntonNing(normal::Prepared::new(&contact))),
-            NormalLaw::Constant { restitution } => Some(Normal::Constant(restitution)),
-            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => None,
-        };
-        let tangential = Tangential::new(model.tangential);
-        let laws = Laws { normal: model.normal, contact, tangential: model.tangential };
-        let called = normal.is_none() || tangential.is_none();
-        // The powder of the model file changes these two inputs before a range is checked.
-        let changed = |name| name == "layer_thickness" || name == "coverage";
+        // What lies on the wall changes these inputs before a range is checked.
+        let changed = [Impact::COVERAGE, Impact::LAYER_THICKNESS, Impact::FILM_THICKNESS];
         let valid: Vec<_> = model.terms.iter().flat_map(Term::valid).copied().collect();
-        if valid.iter().any(|(input, _)| changed(INPUTS[*input].name)) {
+        if valid.iter().any(|(input, _)| changed.contains(input)) {
             return None;
         }
-        let constants = Constants {
-            // Without meaning where the laws are called.
-            normal: normal.unwrap_or(Normal::Constant(f64::NAN)),
-            tangential: tangential.unwrap_or(Tangential::Constant(f64::NAN)),
-            stiffness_ratio: contact.stiffness_ratio,
-            transitions,
-            draws: !matches!(transitions, Transitions::None),
-            rebound_loss: model.rebound_loss(),
-            materials: [model.particle().valid_range(), wall.material().valid_range()],
-            density: contact.density,
-            largest_pressure: if model.normal.is_contact_law() {
-                contact.largest_impact_pressure()
-            } else {
-                f64::INFINITY
-            },
+        let mut constants = WallConstants::new(model, wall)?;
+        let dry = wall.melt.is_none() && model.stickiness.is_none();
+        let plain = constants.combination == Combination::default();
+        let varying = if wall.prepared.is_some() && wall.powder.is_none() && dry && plain {
+            constants.draws = constants.transitions[0].is_some();
+            None
+        } else {
+            Some(Arc::new(VaryingContact::new(model, wall)?))
         };
-        Some((Self { constants, valid }, called.then_some(laws)))
+        Some(Self { constants, varying, known: model.ranges_of(wall), valid })
     }
 
-    /// Whether [`Self::resolve_block`] decides a block.
-    pub fn decides_block(&self, block: &Block) -> bool {
-        // A prepared wall does not support a melt layer.
-        let melt = &block.inputs[Impact::MELT_THICKNESS][..block.length.min(BLOCK)];
-        melt.iter().all(|thickness| *thickness == 0.0)
-    }
-
-    /// Decides one impact that has been checked.
+    /// Whether every property is known for an impact.
     #[inline(always)]
-    pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
+    pub fn decides(&self, impact: &Impact) -> bool {
+        within(impact.particle_temperature, self.known.particle)
+            & within(impact.wall_temperature, self.known.wall)
+    }
+
+    /// Decides one impact that has been checked, without melt on the wall, where the contact is constant.
+    #[inline(always)]
+    pub fn resolve_constant(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
         // First: no number has to be kept over the call.
         let holds = self.valid.is_empty() || self.terms_hold_for(impact);
-        self.steps(None, holds, impact, rng)
+        let surfaces = self.constants.dry_surfaces(impact, self.constants.stickiness(None, impact));
+        self.constants.decide::<true>(&surfaces, false, Mechanical::default(), holds, impact, rng)
     }
 
-    #[inline(always)]
-    fn steps(&self, laws: Option<&Laws>, holds: bool, impact: &Impact, rng: ImpactRng) -> Outcome {
-        let mut state = ImpactState { impact: *impact, ..ImpactState::default() };
-        let mut steps = PreparedImpact { wall: &self.constants, laws, rng };
-        let Ok(()) = evaluate(&mut steps, StepSet::ALL, &mut state);
-        let outcome = state.outcome();
-        Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
-    }
-
-    /// Decides a block of impacts that have been checked and that [`Self::decides_block`], with the instructions of `level`.
-    pub fn resolve_block(&self, block: &Block, seed: u64, outcomes: &mut Outcomes, level: Level) {
-        dispatch!(level, _simd => self.resolve_loops(block, seed, outcomes));
-    }
-
-    /// The steps in four loops, the fastest grouping measured: steps that divide stand beside steps that do not.
-    #[inline(always)]
-    fn resolve_loops(&self, block: &Block, seed: u64, outcomes: &mut Outcomes) {
-        let wall = &self.constants;
-        // Each law is matched outside its loop and is then a constant within it. Matching through the reference matters: of a
-        // local copy the compiler makes one enum again, whose variant every impact would have to ask for.
-        match wall.transitions {
-            Transitions::None => {
-                let wall = Constants { transitions: Transitions::None, ..*wall };
-                run(StepSet::STICKINESS, &wall, block, seed, outcomes);
-            }
-            Transitions::One(one) => {
-                let wall = Constants { transitions: Transitions::One(one), ..*wall };
-                run(StepSet::STICKINESS, &wall, block, seed, outcomes);
-            }
-            Transitions::Two(one, two) => {
-                let wall = Constants { transitions: Transitions::Two(one, two), ..*wall };
-                run(StepSet::STICKINESS, &wall, block, seed, outcomes);
-            }
+    /// Decides one impact that has been checked and that [`Self::decides`], where the contact is `varying`.
+    pub fn resolve_varying(
+        &self,
+        varying: &VaryingContact,
+        model: &Model,
+        wall: &Wall,
+        impact: &Impact,
+        rng: ImpactRng,
+    ) -> Outcome {
+        let constants = &self.constants;
+        let mut impact = *impact;
+        constants.covering.apply(&mut impact);
+        let surfaces = varying.surfaces(constants, model, wall, &impact);
+        let coverage = impact.coverage;
+        let drawn = coverage > 0.0 && (constants.patchwork || impact.melt_thickness > 0.0);
+        let covered = drawn && rng.uniform(stream::COVER) >= 1.0 - coverage;
+        let holds = self.terms_hold_for(&impact);
+        let at_place = |covered: bool| {
+            let partner = varying.solids[if covered { 3 } else { 2 }].at(impact.wall_temperature);
+            constants.decide::<false>(&surfaces, covered, partner, holds, &impact, rng)
+        };
+        let outcome = at_place(covered);
+        let share = if covered { 1.0 - coverage } else { coverage };
+        if !drawn || share == 0.0 {
+            return outcome;
         }
-        match wall.normal {
-            Normal::Constant(restitution) => {
-                let wall = Constants { normal: Normal::Constant(restitution), ..*wall };
-                normal_and_draw(&wall, block, seed, outcomes);
-            }
-            Normal::ThorntonNing(law) => {
-                let wall = Constants { normal: Normal::ThorntonNing(law), ..*wall };
-                run(StepSet::ADHESION, &wall, block, seed, outcomes);
-                normal_and_draw(&wall, block, seed, outcomes);
-            }
-        }
-        match wall.tangential {
-            Tangential::Constant(restitution) => {
-                let wall = Constants { tangential: Tangential::Constant(restitution), ..*wall };
-                run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
-            }
-            Tangential::Sliding(friction) => {
-                let wall = Constants { tangential: Tangential::Sliding(friction), ..*wall };
-                run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
-            }
-            Tangential::SlidingRolling(friction) => {
-                let wall = Constants { tangential: Tangential::SlidingRolling(friction), ..*wall };
-                run(StepSet::REBOUND.union(StepSet::RANGE), &wall, block, seed, outcomes);
-            }
-        }
-        for &(input, range) in &self.valid {
-            for i in 0..block.length.min(BLOCK) {
-                outcomes.outside_range[i] |= u32::from(!within(block.inputs[input][i], range));
-            }
+        let other = at_place(!covered);
+        let [met, elsewhere] = [outcome, other].map(|outcome| outcome.sticking_probability);
+        Outcome {
+            sticking_probability: both_shares(share, met, elsewhere),
+            outside_range: outcome.outside_range | other.outside_range,
+            ..outcome
         }
     }
 
@@ -239,168 +199,363 @@ impl PreparedWall {
     }
 }
 
-impl CalledWall {
-    /// Decides one impact that has been checked.
-    pub fn resolve(&self, impact: &Impact, rng: ImpactRng) -> Outcome {
-        let Self { prepared, laws } = self;
-        let holds = prepared.terms_hold_for(impact)
-            && laws.normal.holds_for(&prepared.constants.with_density(laws.contact, impact), impact)
-            && laws.tangential.holds_for(impact);
-        prepared.steps(Some(laws), holds, impact, rng)
+impl WallConstants {
+    fn new(model: &Model, wall: &Wall) -> Option<Self> {
+        let solids = solids_of(model, wall);
+        let [of_char, of_ash, of_wall, _] = solids.map(Material::stated_range);
+        let fitted = |solid: &Material| solid.property("work_of_adhesion").is_some();
+        let mut constants = Self {
+            normal: model.normal,
+            tangential: model.tangential,
+            contact: wall.prepared.unwrap_or_default(),
+            thornton_ning: ThorntonNingConstants::default(),
+            transitions: [None; 2],
+            draws: true,
+            rebound_loss: model.rebound_loss(),
+            combination: model.capture.combination,
+            covering: wall.covering,
+            stated: [of_char?, of_ash?, of_wall?],
+            has_ash: model.ash().is_some(),
+            fitted: [fitted(solids[0]), fitted(solids[1])],
+            patchwork: wall.melt.is_some() || wall.powder.is_some(),
+            works: constant_works(solids, wall.adhesion.work),
+            adhesion: wall.adhesion,
+            surface_tension: wall.slag.as_ref().map_or(Some(f64::NAN), constant_surface_tension)?,
+            on_melt: None,
+        };
+        for term in &model.terms {
+            constants.precompute(term.effect().precompute()?)?;
+        }
+        let Adhesion { yield_ratio, set, .. } = constants.adhesion;
+        let work_of_adhesion = set.unwrap_or(constants.contact.work_of_adhesion);
+        constants.contact = Contact { yield_ratio, work_of_adhesion, ..constants.contact };
+        constants.thornton_ning = ThorntonNingConstants::new(&constants.contact);
+        Some(constants)
     }
-}
 
-/// Runs the normal law, with the draw where there is one.
-#[inline(always)]
-fn normal_and_draw(wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
-    if wall.draws {
-        run(StepSet::NORMAL.union(StepSet::DRAW), &Constants { draws: true, ..*wall }, block, seed, outcomes);
-    } else {
-        run(
-            StepSet::NORMAL.union(StepSet::DRAW),
-            &Constants { draws: false, ..*wall },
-            block,
-            seed,
-            outcomes,
-        );
+    /// Takes the precomputed form of a term; `None` for a third transition.
+    fn precompute(&mut self, form: Precomputed) -> Option<()> {
+        match form {
+            Precomputed::YieldRatio(ratio) => self.adhesion.yield_ratio = ratio,
+            Precomputed::WorkOfAdhesion(work) => self.adhesion.set = Some(work),
+            Precomputed::Transition(one) => {
+                *self.transitions.iter_mut().find(|slot| slot.is_none())? = Some(one)
+            }
+            Precomputed::OnMelt(on_melt) => self.on_melt = self.on_melt.or(Some(on_melt)),
+        }
+        Some(())
     }
-}
 
-/// Runs some steps on each impact of a block. Between two loops the columns of the outcomes hold the quantities of the
-/// [`ImpactState`].
-#[inline(always)]
-fn run(selected: StepSet, wall: &Constants, block: &Block, seed: u64, outcomes: &mut Outcomes) {
-    for i in 0..block.length.min(BLOCK) {
-        let rng = ImpactRng::new(seed, block.keys[i]);
-        let mut state = load(i, wall, block, outcomes);
-        let Ok(()) = evaluate(&mut PreparedImpact { wall, laws: None, rng }, selected, &mut state);
-        store(i, selected, &state, outcomes);
-    }
-}
-
-/// The state of the impact `i` before a loop.
-#[inline(always)]
-fn load(i: usize, wall: &Constants, block: &Block, outcomes: &Outcomes) -> ImpactState<()> {
-    let input = |input: usize| block.inputs[input][i];
-    let normal = outcomes.normal_restitution[i];
-    ImpactState {
-        impact: Impact {
-            normal_speed: input(Impact::NORMAL_SPEED),
-            tangential_speed: input(Impact::TANGENTIAL_SPEED),
-            diameter: input(Impact::DIAMETER),
-            particle_temperature: input(Impact::PARTICLE_TEMPERATURE),
-            wall_temperature: input(Impact::WALL_TEMPERATURE),
-            particle_density: input(Impact::PARTICLE_DENSITY),
-            conversion: input(Impact::CONVERSION),
-            spin: input(Impact::SPIN),
-            ..Impact::default()
-        },
-        adhesion: normal,
-        sticky: Stickiness { particle: outcomes.sticking_probability[i], wall: 0.0 },
-        normal: wall.normal_rebound(normal),
-        chance: outcomes.spin[i],
-        ..ImpactState::default()
-    }
-}
-
-/// Stores what the steps of `selected` have set for the impact `i`.
-#[inline(always)]
-fn store(i: usize, selected: StepSet, state: &ImpactState<()>, outcomes: &mut Outcomes) {
-    if selected.contains(StepSet::STICKINESS) {
-        outcomes.sticking_probability[i] = state.sticky.particle;
-    }
-    if selected.contains(StepSet::ADHESION) {
-        outcomes.normal_restitution[i] = state.adhesion;
-    }
-    if selected.contains(StepSet::NORMAL) {
-        outcomes.normal_restitution[i] = state.normal.restitution;
-    }
-    if selected.contains(StepSet::DRAW) {
-        outcomes.spin[i] = state.chance;
-    }
-    if selected.contains(StepSet::RANGE) {
-        outcomes.outside_range[i] = u32::from(state.outside_range);
-    }
-    if selected.contains(StepSet::REBOUND) {
-        outcomes.normal_restitution[i] = state.normal_restitution;
-        outcomes.tangential_restitution[i] = state.rebound.restitution;
-        outcomes.sticking_probability[i] = state.probability;
-        outcomes.spin[i] = state.rebound.spin;
-        outcomes.stuck[i] = u32::from(state.captured);
-        let [particle, wall] = [state.sticky.is_particle_sticky(), state.sticky.is_wall_sticky()];
-        outcomes.regime[i] = 2 * u32::from(particle) + u32::from(wall);
-    }
-}
-
-impl Constants {
-    /// Density of the particle [kg/m³]: that of its material where the impact does not give it.
+    /// Stickiness [1] of the particle of an impact, from that which a criterion gives where there is one.
     #[inline(always)]
-    fn density(&self, impact: &Impact) -> f64 {
-        if impact.particle_density > 0.0 { impact.particle_density } else { self.density }
+    fn stickiness(&self, criterion: Option<f64>, impact: &Impact) -> f64 {
+        let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
+        let [first, second] = self.transitions;
+        let Some(first) = first else { return criterion.unwrap_or(0.0) };
+        let stickiness = first.at(temperature, conversion);
+        let product = criterion.map_or(stickiness, |product| product * stickiness);
+        second.map_or(product, |second| product * second.at(temperature, conversion))
     }
 
+    /// A particle of a stickiness [1] and a wall without slag, where the contact is constant.
     #[inline(always)]
-    fn with_density(&self, contact: Contact, impact: &Impact) -> Contact {
-        Contact { density: self.density(impact), ..contact }
+    pub fn dry_surfaces(&self, impact: &Impact, stickiness: f64) -> Surfaces {
+        let given = impact.particle_density;
+        Surfaces {
+            particle: [Mechanical::default(); 2],
+            density: if given > 0.0 { given } else { self.contact.density },
+            stickiness,
+            flight_holds: true,
+            slag: DRY,
+            on_melt: f64::NAN,
+        }
     }
 
+    /// Decides an impact at one place. `holds` says whether the terms are stated for it.
     #[inline(always)]
-    fn normal_rebound(&self, restitution: f64) -> NormalRebound {
-        let held = matches!(self.normal, Normal::ThorntonNing(_)) & (restitution <= 0.0);
-        NormalRebound { restitution, held }
+    fn decide<const CONSTANT: bool>(
+        &self,
+        surfaces: &Surfaces,
+        covered: bool,
+        partner: Mechanical,
+        holds: bool,
+        impact: &Impact,
+        rng: ImpactRng,
+    ) -> Outcome {
+        let (on_melt, left_range) = (f64::NAN, false);
+        let mut steps =
+            PreparedImpact::<CONSTANT> { wall: self, surfaces, covered, partner, on_melt, left_range, rng };
+        let mut state = ImpactState { impact: *impact, ..ImpactState::default() };
+        let Ok(()) = evaluate(&mut steps, StepSet::ALL, &mut state);
+        let outcome = state.outcome();
+        Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
+    }
+
+    /// Restitution [1] that melt of a viscosity [Pa s] and a surface tension [N/m] leaves a dry particle of a density [kg/m³];
+    /// see [`Surfaces::on_melt`].
+    #[inline(always)]
+    pub fn rebound_on_melt(
+        &self,
+        impact: &Impact,
+        density: f64,
+        [viscosity, surface_tension]: [f64; 2],
+    ) -> f64 {
+        let Some(on_melt) = self.on_melt else { return f64::NAN };
+        let e_n = on_melt.rebound(impact, density, viscosity, surface_tension);
+        let liquid = (viscosity < f64::INFINITY) & !surface_tension.is_nan();
+        if liquid { e_n } else { f64::NAN }
+    }
+
+    /// The covered share of the wall [1] that an impact meets.
+    #[inline(always)]
+    pub fn coverage(&self, impact: &Impact) -> f64 {
+        let mut impact = *impact;
+        self.covering.apply(&mut impact);
+        impact.coverage
+    }
+
+    /// The impact as a law by name receives it, at its place on the wall.
+    fn at_place(&self, mut impact: Impact, covered: bool) -> Impact {
+        self.covering.apply(&mut impact);
+        let patchwork = self.patchwork || impact.melt_thickness > 0.0;
+        if covered {
+            Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..impact }
+        } else if patchwork && impact.coverage > 0.0 {
+            Impact { coverage: 0.0, layer_thickness: 0.0, ..impact }
+        } else {
+            impact
+        }
+    }
+
+    /// Calls the normal law: its rebound, and whether it is stated for the impact. Not inlined and with copies, so that the
+    /// numbers of an impact by another law stay in registers.
+    #[cold]
+    #[inline(never)]
+    fn call_normal(&self, contact: Contact, impact: Impact, covered: bool) -> (NormalRebound, bool) {
+        let impact = self.at_place(impact, covered);
+        (NormalRebound::of(self.normal.rebound(&contact, &impact)), self.normal.holds_for(&contact, &impact))
+    }
+
+    /// Whether the tangential law is stated for an impact; not inlined, as [`Self::call_normal`].
+    #[cold]
+    #[inline(never)]
+    fn tangential_holds(&self, impact: Impact, covered: bool) -> bool {
+        self.tangential.holds_for(&self.at_place(impact, covered))
     }
 }
 
-impl WallSteps for PreparedImpact<'_> {
-    type Contact = ();
+/// Calls a tangential law by name; not inlined, as [`WallConstants::call_normal`].
+#[cold]
+#[inline(never)]
+fn call_tangential(
+    law: &ListedTangentialLaw,
+    values: crate::law::Values,
+    kinematics: ImpactKinematics,
+) -> Rebound {
+    (law.rebound)(&kinematics, &values)
+}
+
+impl VaryingContact {
+    fn new(model: &Model, wall: &Wall) -> Option<Self> {
+        let [char, ash, bare, powder] = solids_of(model, wall).map(SolidProperties::new);
+        let solids = [char?, ash?, bare?, powder?];
+        Some(Self { solids, in_flight: model.stickiness.clone(), slag: wall.melt.clone() })
+    }
+
+    /// The state of particle and wall.
+    #[inline(always)]
+    fn surfaces(&self, constants: &WallConstants, model: &Model, wall: &Wall, impact: &Impact) -> Surfaces {
+        let temperature = impact.particle_temperature;
+        let [char, ash, ..] = &self.solids;
+        let char = char.at(temperature);
+        let ash = if constants.has_ash { ash.at(temperature) } else { char };
+        let mut slag = self.slag.as_deref().map_or(DRY, |slag| slag.wall_state(impact));
+        let mut surface_tension = constants.surface_tension;
+        if impact.melt_thickness > 0.0 {
+            (slag, surface_tension) = model.with_melt(wall, impact, slag);
+        }
+        let density = density_of(impact, &char, constants.has_ash.then_some(&ash));
+        let criterion = self.in_flight.as_deref();
+        // In the known range there is no error.
+        let product = criterion.map(|criterion| criterion.in_flight(impact).unwrap_or(f64::NAN));
+        Surfaces {
+            particle: [char, ash],
+            density,
+            stickiness: constants.stickiness(product, impact),
+            flight_holds: criterion.is_none_or(|criterion| criterion.holds_in_flight(temperature)),
+            on_melt: constants.rebound_on_melt(impact, density, [slag.viscosity, surface_tension]),
+            slag,
+        }
+    }
+}
+
+impl Model {
+    /// The bare wall with melt of earlier particles on it, and the surface tension [N/m] of the melt, NaN for one without; `slag`
+    /// is the wall without them.
+    #[cold]
+    fn with_melt(&self, wall: &Wall, impact: &Impact, slag: WallState) -> (WallState, f64) {
+        // The density, the only property that may be unknown, is known at the nearest temperature.
+        let melt = self.melt_met(wall, impact).unwrap_or(None);
+        let state = WallState {
+            stickiness: self.wall_stickiness(wall, impact),
+            viscosity: melt.map_or(f64::INFINITY, |melt| melt.viscosity),
+            holds: slag.holds && self.melt_holds(impact),
+        };
+        (state, melt.and_then(|melt| melt.surface_tension).unwrap_or(f64::NAN))
+    }
+}
+
+/// A wall without slag.
+const DRY: WallState = WallState { stickiness: 0.0, viscosity: f64::INFINITY, holds: true };
+
+/// Char, ash, bare wall and powder, in the order of [`VaryingContact::solids`].
+fn solids_of<'a>(model: &'a Model, wall: &'a Wall) -> [&'a Material; 4] {
+    let (particle, bare) = (&model.particle, wall.material());
+    [particle.material(), particle.melting(), bare, wall.powder.as_ref().unwrap_or(bare)]
+}
+
+/// Works of adhesion [J/m²] of char and ash with bare wall and powder, in this order, where no temperature changes them.
+fn constant_works(solids: [&Material; 4], given: Option<f64>) -> Option<[[f64; 2]; 2]> {
+    let constant = |material: &Material, key| material.property(key).is_none_or(Property::is_constant);
+    let known = |solid: &&Material| constant(solid, "surface_energy") && constant(solid, "work_of_adhesion");
+    if !solids.iter().all(known) {
+        return None;
+    }
+    // No work of adhesion depends on the other properties, which may not be known at one temperature.
+    let adhesive = |solid: &Material| {
+        let at = |key| solid.property(key).map(|property| property.within_range(293.15));
+        let surface_energy = at("surface_energy")?;
+        Some(Mechanical { surface_energy, work_of_adhesion: at("work_of_adhesion"), ..Mechanical::default() })
+    };
+    let [char, ash, bare, powder] = solids.map(adhesive);
+    let (particle, walls) = ([char?, ash?], [bare?, powder?]);
+    Some(walls.map(|wall| particle.map(|solid| work_of_adhesion(&solid, &wall, given))))
+}
+
+/// Surface tension [N/m] of a slag that has one for all temperatures, NaN for one without; `None` where it depends on temperature.
+fn constant_surface_tension(slag: &Material) -> Option<f64> {
+    match slag.property("surface_tension") {
+        Some(property) if !property.is_constant() => None,
+        _ => Some(slag.surface_tension_near(293.15).unwrap_or(f64::NAN)),
+    }
+}
+
+impl SolidProperties {
+    fn new(material: &Material) -> Option<Self> {
+        let (fields, work_of_adhesion) = material.mechanical_by_field()?;
+        let fitted = work_of_adhesion.is_some();
+        let mut solid = Self { constant: [0.0; 6], varying: [const { None }; 6], fitted };
+        for (place, property) in fields.into_iter().chain(work_of_adhesion).enumerate() {
+            if property.is_constant() {
+                solid.constant[place] = property.within_range(293.15);
+            } else {
+                solid.varying[place] = Some(property.clone());
+            }
+        }
+        Some(solid)
+    }
+
+    /// The properties at a temperature [K] at which all are known.
+    #[inline(always)]
+    fn at(&self, temperature: f64) -> Mechanical {
+        let value = |place: usize| match &self.varying[place] {
+            Some(property) => property.within_range(temperature),
+            None => self.constant[place],
+        };
+        mechanical([value(0), value(1), value(2), value(3), value(4), value(5)], self.fitted)
+    }
+}
+
+/// The properties in their order; the last has no meaning where none is `fitted`.
+#[inline(always)]
+pub(super) fn mechanical(values: [f64; 6], fitted: bool) -> Mechanical {
+    let [density, youngs_modulus, poisson_ratio, yield_strength, surface_energy, work] = values;
+    let work_of_adhesion = fitted.then_some(work);
+    Mechanical { density, youngs_modulus, poisson_ratio, yield_strength, surface_energy, work_of_adhesion }
+}
+
+impl<const CONSTANT: bool> PreparedImpact<'_, CONSTANT> {
+    #[inline(always)]
+    fn thornton_ning(&self, contact: &Contact) -> ThorntonNingConstants {
+        if CONSTANT { self.wall.thornton_ning } else { ThorntonNingConstants::new(contact) }
+    }
+}
+
+impl<const CONSTANT: bool> WallSteps for PreparedImpact<'_, CONSTANT> {
     type Fault = Infallible;
 
     #[inline(always)]
     fn outside_range(&mut self, impact: &Impact) -> bool {
-        let [particle, wall] = self.wall.materials;
-        let speed = impact.normal_speed;
-        let small_contact = self.wall.density(impact) * speed * speed <= self.wall.largest_pressure;
-        !(within(impact.particle_temperature, particle)
-            & within(impact.wall_temperature, wall)
-            & small_contact)
-    }
-
-    #[inline(always)]
-    fn contact(&mut self, _: &Impact) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn adhesion(&self, impact: &Impact, (): &()) -> f64 {
-        match self.wall.normal {
-            Normal::ThorntonNing(law) => law.adhesive_pressure(impact.diameter),
-            Normal::Constant(_) => 0.0,
-        }
-    }
-
-    #[inline(always)]
-    fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, Infallible> {
-        let (temperature, conversion) = (impact.particle_temperature, impact.conversion);
-        let particle = match self.wall.transitions {
-            Transitions::None => 0.0,
-            Transitions::One(one) => one.at(temperature, conversion),
-            Transitions::Two(one, two) => one.at(temperature, conversion) * two.at(temperature, conversion),
+        let [char, ash, wall] = self.wall.stated;
+        let temperature = impact.particle_temperature;
+        let burnt = !CONSTANT & self.wall.has_ash & (impact.conversion > 0.5);
+        let particle = if burnt { within(temperature, ash) } else { within(temperature, char) };
+        let law = match self.wall.tangential {
+            TangentialLaw::Listed { .. } => self.wall.tangential_holds(*impact, self.covered),
+            _ => true,
         };
-        Ok(Stickiness { particle, wall: 0.0 })
+        !(particle
+            & within(impact.wall_temperature, wall)
+            & self.surfaces.flight_holds
+            & (self.covered | self.surfaces.slag.holds)
+            & law)
     }
 
     #[inline(always)]
-    fn normal_law(&mut self, impact: &Impact, (): &(), adhesive_pressure: f64) -> NormalRebound {
-        if let Some(laws) = self.laws {
-            let contact = self.wall.with_density(laws.contact, impact);
-            return NormalRebound::of(laws.normal.rebound(&contact, impact));
+    fn contact(&mut self, impact: &Impact) -> Result<Contact, Infallible> {
+        let density = self.surfaces.density;
+        if CONSTANT {
+            return Ok(Contact { density, ..self.wall.contact });
         }
-        self.wall.normal_rebound(match self.wall.normal {
-            Normal::ThorntonNing(law) => {
-                law.rebound(self.wall.density(impact), impact.normal_speed, adhesive_pressure)
+        let [char, ash] = &self.surfaces.particle;
+        let partner = &self.partner;
+        let Adhesion { yield_ratio, work, set } = self.wall.adhesion;
+        let works = match self.wall.works {
+            Some([[a, b], [c, d]]) => [if self.covered { c } else { a }, if self.covered { d } else { b }],
+            None => [char, ash].map(|solid| work_of_adhesion(solid, partner, work)),
+        };
+        let ash = self.wall.has_ash.then_some(ash);
+        let mut contact = contact_of(impact.conversion, density, (char, ash), partner, yield_ratio, works);
+        contact.work_of_adhesion = set.unwrap_or(contact.work_of_adhesion);
+        self.on_melt = if self.covered { f64::NAN } else { self.surfaces.on_melt };
+        Ok(contact)
+    }
+
+    #[inline(always)]
+    fn stickiness(&mut self, _: &Impact) -> Result<Stickiness, Infallible> {
+        let wall = if self.covered { 0.0 } else { self.surfaces.slag.stickiness };
+        Ok(Stickiness { particle: self.surfaces.stickiness, wall })
+    }
+
+    #[inline(always)]
+    fn adhesion(&self, impact: &Impact, contact: &Contact) -> f64 {
+        match self.wall.normal {
+            NormalLaw::ThorntonNing => self.thornton_ning(contact).adhesive_pressure(impact.diameter),
+            _ => 0.0,
+        }
+    }
+
+    #[inline(always)]
+    fn normal_law(&mut self, impact: &Impact, contact: &Contact, adhesion: f64) -> NormalRebound {
+        let (rebound, holds) = match self.wall.normal {
+            NormalLaw::ThorntonNing => {
+                let speed = impact.normal_speed;
+                let energy = self.thornton_ning(contact).energy(contact.density, speed, adhesion);
+                // Who asks only whether it is held needs no root.
+                let rebound = NormalRebound { restitution: energy.sqrt(), held: energy <= 0.0 };
+                (rebound, NormalLaw::ThorntonNing.holds_for(contact, impact))
             }
-            Normal::Constant(restitution) => restitution,
-        })
+            NormalLaw::Constant { restitution } => (NormalRebound { restitution, held: false }, true),
+            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => {
+                self.wall.call_normal(*contact, *impact, self.covered)
+            }
+        };
+        let rebounds = self.on_melt > 0.0;
+        self.left_range = !rebounds & !holds;
+        NormalRebound {
+            restitution: if rebounds { self.on_melt } else { rebound.restitution },
+            held: rebound.held & !rebounds,
+        }
     }
 
     #[inline(always)]
@@ -414,73 +569,36 @@ impl WallSteps for PreparedImpact<'_> {
     }
 
     #[inline(always)]
-    fn stiffness_ratio(&self, (): &()) -> f64 {
-        self.wall.stiffness_ratio
+    fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
+        match self.wall.tangential {
+            TangentialLaw::Listed { law, values } => call_tangential(law, values, *kinematics),
+            law => law.rebound(kinematics),
+        }
     }
 
     #[inline(always)]
-    fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
-        match self.laws {
-            Some(laws) => laws.tangential.rebound(kinematics),
-            None => self.wall.tangential.rebound(kinematics),
+    fn capture_probability(&mut self, _: &Impact, stickiness: Stickiness) -> f64 {
+        if CONSTANT {
+            return stickiness.particle;
         }
+        let place = OnBareWall {
+            rebounds_from_melt: self.on_melt > 0.0,
+            dry: self.on_melt.is_nan(),
+            contact_law: self.wall.normal.is_contact_law(),
+        };
+        let probability;
+        (probability, self.left_range) =
+            place.capture_probability(self.wall.combination, stickiness, self.left_range);
+        probability
+    }
+
+    #[inline(always)]
+    fn left_range(&self) -> bool {
+        self.left_range
     }
 }
 
 #[inline(always)]
 pub(super) fn within(value: f64, [low, high]: [f64; 2]) -> bool {
     (value >= low) & (value <= high)
-}
-
-impl Tangential {
-    pub fn new(law: TangentialLaw) -> Option<Self> {
-        match law {
-            TangentialLaw::Constant { restitution } => Some(Self::Constant(restitution)),
-            TangentialLaw::Sliding { friction } => Some(Self::Sliding(friction)),
-            TangentialLaw::SlidingRolling { friction } => Some(Self::SlidingRolling(friction)),
-            TangentialLaw::Listed { .. } => None,
-        }
-    }
-
-    #[inline(always)]
-    pub fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
-        match self {
-            Self::Constant(restitution) => TangentialLaw::Constant { restitution }.rebound(kinematics),
-            Self::Sliding(friction) => TangentialLaw::Sliding { friction }.rebound(kinematics),
-            Self::SlidingRolling(friction) => TangentialLaw::SlidingRolling { friction }.rebound(kinematics),
-        }
-    }
-}
-
-impl Transitions {
-    pub fn and(self, transition: Transition) -> Option<Self> {
-        match self {
-            Self::None => Some(Self::One(transition)),
-            Self::One(first) => Some(Self::Two(first, transition)),
-            Self::Two(..) => None,
-        }
-    }
-
-    /// The transitions, in the order of the file.
-    pub fn each(self) -> [Option<Transition>; 2] {
-        match self {
-            Self::None => [None, None],
-            Self::One(one) => [Some(one), None],
-            Self::Two(one, two) => [Some(one), Some(two)],
-        }
-    }
-
-    /// Stickiness [1] of a particle with a temperature [K] and a conversion [1], from that which a criterion gives where there is one.
-    #[inline(always)]
-    pub fn after(self, criterion: Option<f64>, temperature: f64, conversion: f64) -> f64 {
-        let times = |one: Transition| {
-            let stickiness = one.at(temperature, conversion);
-            criterion.map_or(stickiness, |product| product * stickiness)
-        };
-        match self {
-            Self::None => criterion.unwrap_or(0.0),
-            Self::One(one) => times(one),
-            Self::Two(one, two) => times(one) * two.at(temperature, conversion),
-        }
-    }
 }

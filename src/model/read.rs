@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use regex_lite::Regex;
 
-use super::wall::{Adhesion, Wall};
+use super::wall::{Adhesion, Covering, Wall};
 use super::{Model, Particle, extra_input};
 use crate::capture::{Capture, Criterion};
 use crate::deposit::resuspension::PowderAdhesion;
@@ -75,7 +75,6 @@ impl Model {
                 format!("neither the particle nor the slag of a wall has {needs}; give one to a material");
             return Err(top.fault("capture", problem));
         }
-        let (uses_melt, has_corrections, prepared) = (false, false, Vec::new());
         let model = Self {
             particle,
             capture,
@@ -85,9 +84,10 @@ impl Model {
             tangential,
             extra_inputs,
             terms,
-            uses_melt,
-            has_corrections,
-            prepared,
+            uses_melt: false,
+            has_corrections: false,
+            prepared: Vec::new(),
+            decided: Vec::new(),
         };
         Ok(model.prepare())
     }
@@ -184,9 +184,11 @@ impl WallReader<'_> {
             slag,
             melt,
             powder: self.library.named_by(section, "powder")?,
-            layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
-            film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
-            coverage,
+            covering: Covering {
+                layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
+                film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
+                coverage,
+            },
             erosion: own_erosion.or_else(|| self.erosion.clone()),
             shedding: section
                 .section("shedding")?

@@ -26,9 +26,7 @@ pub struct Wall {
     pub(super) melt: Option<Arc<dyn StickinessCriterion>>,
     /// The contact partner where powder covers the wall; otherwise the wall itself.
     pub(super) powder: Option<Material>,
-    pub(super) layer_thickness: f64,
-    pub(super) film_thickness: f64,
-    pub(super) coverage: f64,
+    pub(super) covering: Covering,
     /// How impacts erode it, where the model file says so.
     pub(super) erosion: Option<Arc<dyn Erosion>>,
     /// How strongly deposits hold to it, where the model file says so.
@@ -51,6 +49,17 @@ pub(super) struct Adhesion {
     pub set: Option<f64>,
 }
 
+/// What the model file puts on a wall.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Covering {
+    /// Thickness of the powder layer [m].
+    pub layer_thickness: f64,
+    /// Thickness of the liquid film [m].
+    pub film_thickness: f64,
+    /// Covered share [1].
+    pub coverage: f64,
+}
+
 /// What an impact meets on a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
@@ -60,6 +69,23 @@ pub(super) enum Place {
     Bare,
     /// Powder or char.
     Covered,
+}
+
+impl Covering {
+    /// Gives an impact the powder, the covering and the film that the model file puts on the wall.
+    ///
+    /// A layer whose coverage is not given covers like grains of the particle's diameter.
+    pub fn apply(&self, impact: &mut Impact) {
+        let diameter = impact.diameter;
+        let by_layer = |thickness: f64| {
+            if thickness > 0.0 { cover::share(cover::of_layer(thickness, diameter)) } else { 0.0 }
+        };
+        // A wall's memory knows its cover and gives it with the layer.
+        let given = if impact.coverage > 0.0 { impact.coverage } else { by_layer(impact.layer_thickness) };
+        impact.coverage = given.max(self.coverage).max(by_layer(self.layer_thickness));
+        impact.layer_thickness = impact.layer_thickness.max(self.layer_thickness);
+        impact.film_thickness = impact.film_thickness.max(self.film_thickness);
+    }
 }
 
 impl Wall {
@@ -86,21 +112,6 @@ impl Wall {
     /// Whether the name of the wall is a regular expression that matches the whole of `patch`.
     pub(super) fn fits(&self, patch: &str) -> bool {
         self.pattern.as_ref().is_some_and(|pattern| pattern.is_match(patch))
-    }
-
-    /// Gives an impact the powder, the covering and the film that the model file puts on the wall.
-    ///
-    /// A layer whose coverage is not given covers like grains of the particle's diameter.
-    pub(super) fn apply_deposit(&self, impact: &mut Impact) {
-        let diameter = impact.diameter;
-        let by_layer = |thickness: f64| {
-            if thickness > 0.0 { cover::share(cover::of_layer(thickness, diameter)) } else { 0.0 }
-        };
-        // A wall's memory knows its cover and gives it with the layer.
-        let given = if impact.coverage > 0.0 { impact.coverage } else { by_layer(impact.layer_thickness) };
-        impact.coverage = given.max(self.coverage).max(by_layer(self.layer_thickness));
-        impact.layer_thickness = impact.layer_thickness.max(self.layer_thickness);
-        impact.film_thickness = impact.film_thickness.max(self.film_thickness);
     }
 
     /// Whether covered and bare share decide an impact differently.

@@ -18,7 +18,7 @@ mod whitaker_bons;
 pub(crate) use bons::ORIGIN as BONS;
 pub use contact::{Contact, LARGEST_CONTACT_RADIUS, reduced_modulus, stiffness_ratio, work_of_adhesion};
 pub use thornton_ning::{
-    Prepared, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
+    ThorntonNingConstants, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
 };
 
 use crate::impact::Impact;
@@ -89,12 +89,6 @@ pub enum NormalLaw {
     },
 }
 
-/// `e_n²` [1] of an impact by Thornton–Ning.
-#[inline(always)]
-fn thornton_ning_energy(contact: &Contact, impact: &Impact) -> f64 {
-    Prepared::new(contact).energy(contact.density, impact.diameter, impact.normal_speed)
-}
-
 impl NormalLaw {
     /// Reads the `model` of a `[normal]` table and the law's own keys.
     ///
@@ -135,7 +129,11 @@ impl NormalLaw {
     #[inline(always)]
     pub fn rebound(self, contact: &Contact, impact: &Impact) -> Option<f64> {
         let e_n = match self {
-            Self::ThorntonNing => thornton_ning_energy(contact, impact).sqrt(),
+            Self::ThorntonNing => {
+                let constants = ThorntonNingConstants::new(contact);
+                let adhesion = constants.adhesive_pressure(impact.diameter);
+                constants.energy(contact.density, impact.normal_speed, adhesion).sqrt()
+            }
             Self::PlasticJkr => plastic_jkr::restitution(
                 impact.normal_speed,
                 adhesive_velocity(contact, impact.diameter),
@@ -145,23 +143,6 @@ impl NormalLaw {
             Self::Listed { law, values } => return (law.restitution)(impact, contact, &values),
         };
         (e_n > 0.0).then_some(e_n)
-    }
-
-    /// [`Self::rebound`] as a number, and whether adhesion holds the particle.
-    #[inline(always)]
-    pub(crate) fn restitution_or_held(self, contact: &Contact, impact: &Impact) -> (f64, bool) {
-        match self {
-            Self::ThorntonNing => {
-                // Who asks only whether it is held needs no root.
-                let energy = thornton_ning_energy(contact, impact);
-                (energy.sqrt(), energy <= 0.0)
-            }
-            Self::Constant { restitution } => (restitution, false),
-            Self::PlasticJkr | Self::Listed { .. } => {
-                let e_n = self.rebound(contact, impact);
-                (e_n.unwrap_or(0.0), e_n.is_none())
-            }
-        }
     }
 
     /// The case to which a listed law was fitted.

@@ -30,8 +30,8 @@ pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
 ///
 /// `rho v_adh² = C1² E* u^(-5/3)` with `u = d E*/2W` [1]: the formula above in other symbols. Density enters only with the kinetic
 /// energy, so the law works with `sqrt(rho) v` [Pa^½] in place of every speed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Prepared {
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ThorntonNingConstants {
     /// `E*/2W` [1/m], infinite without adhesion.
     inverse_length: f64,
     /// `C1² E*` [Pa].
@@ -40,7 +40,7 @@ pub struct Prepared {
     yielding: f64,
 }
 
-impl Prepared {
+impl ThorntonNingConstants {
     /// The constants for a contact; its density is not used.
     #[inline(always)]
     pub fn new(contact: &Contact) -> Self {
@@ -62,17 +62,11 @@ impl Prepared {
         self.adhesion_scale * (square * square * root)
     }
 
-    /// Share of the kinetic energy `e_n²` [1] that a particle of `density` [kg/m³] and `diameter` [m] keeps at `normal_speed` [m/s]; 0
-    /// when adhesion holds it.
+    /// Share of the kinetic energy `e_n²` [1] that a particle of `density` [kg/m³] keeps at `normal_speed` [m/s], from its
+    /// [`Self::adhesive_pressure`] [Pa]; 0 when adhesion holds it.
     #[inline(always)]
-    pub fn energy(&self, density: f64, diameter: f64, normal_speed: f64) -> f64 {
-        energy(density.sqrt() * normal_speed, self.adhesive_pressure(diameter), self.yielding)
-    }
-
-    /// Normal restitution `e_n` [1], from `rho v_adh²` [Pa]; otherwise as [`Self::energy`].
-    #[inline(always)]
-    pub fn rebound(&self, density: f64, normal_speed: f64, adhesive_pressure: f64) -> f64 {
-        energy(density.sqrt() * normal_speed, adhesive_pressure, self.yielding).sqrt()
+    pub fn energy(&self, density: f64, normal_speed: f64, adhesive_pressure: f64) -> f64 {
+        energy(density.sqrt() * normal_speed, adhesive_pressure, self.yielding)
     }
 }
 
@@ -85,7 +79,7 @@ pub fn speeds(contact: &Contact, diameter: f64) -> Speeds {
 
 /// Adhesive velocity `v_adh` [m/s] of a particle of `diameter` [m].
 pub fn adhesive_velocity(contact: &Contact, diameter: f64) -> f64 {
-    (Prepared::new(contact).adhesive_pressure(diameter) / contact.density).sqrt()
+    (ThorntonNingConstants::new(contact).adhesive_pressure(diameter) / contact.density).sqrt()
 }
 
 /// Yield velocity `v_y` [m/s].
