@@ -1,7 +1,20 @@
-//! What laws of all rooms have in common: parameters, and the case to which a law was fitted.
+//! What laws have in common: parameters, and the case to which a law was fitted.
 
 use crate::impact::Impact;
 use crate::input::{InputError, Section};
+
+/// What kind of quantity a number is: it says how far apart two values of it are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum QuantityKind {
+    /// A share, 0 to 1: values differ by a factor of their odds.
+    Share,
+    /// A temperature: values differ by a difference.
+    Temperature,
+    /// An angle: values differ by a difference.
+    Angle,
+    /// Any other quantity: values differ by a factor.
+    Amount,
+}
 
 /// One parameter of a law or an effect.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,6 +23,8 @@ pub struct Parameter {
     pub name: &'static str,
     /// SI unit.
     pub unit: &'static str,
+    /// What kind of quantity it is.
+    pub kind: QuantityKind,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
     /// Value where the model file does not give it, and which a fit leaves unless another one is worth it; `None` for a parameter that
@@ -44,7 +59,20 @@ impl Parameter {
         bounds: (f64, f64),
         search: Search,
     ) -> Self {
-        Self { name, unit, bounds, default: None, absent: None, search, about: "" }
+        Self {
+            name,
+            unit,
+            kind: QuantityKind::Amount,
+            bounds,
+            default: None,
+            absent: None,
+            search,
+            about: "",
+        }
+    }
+
+    pub(crate) const fn kind(self, kind: QuantityKind) -> Self {
+        Self { kind, ..self }
     }
 
     pub(crate) const fn default(self, value: f64) -> Self {

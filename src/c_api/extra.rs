@@ -4,9 +4,8 @@ use std::ffi::{CStr, c_char};
 
 use super::boundary::{Fault, guarded, guarded_status, put_text, reader, report};
 use super::types::{NW_BAD_STATE, NW_NOT_UTF8, NW_NULL_POINTER, NW_UNKNOWN_INPUT, nw_model, nw_status};
-use crate::impact::EXTRA_INPUTS;
+use crate::impact::{EXTRA_INPUTS, ExtraInput};
 use crate::input::unknown;
-use crate::model::ExtraInput;
 
 /// Length of the arrays `extra`: a model file declares at most this many inputs.
 pub const NW_EXTRA_INPUTS: usize = 8;
@@ -131,7 +130,7 @@ pub unsafe extern "C" fn nw_extra_input_value(
         // SAFETY: not null, and zero-terminated by the caller's promise.
         let text = unsafe { CStr::from_ptr(text) };
         let text = text.to_str().map_err(|_| NW_NOT_UTF8)?;
-        let found = value_of(input, text).map_err(|message| Fault::new(NW_BAD_STATE, &message))?;
+        let found = value_of(input, text)?;
         // SAFETY: not null, and writable by the caller's promise.
         unsafe { value.write_unaligned(found) };
         Ok(())
@@ -151,11 +150,12 @@ unsafe fn input<'a>(model: *const nw_model, index: u32) -> Result<&'a ExtraInput
 }
 
 /// The number in `text`, or the value of the word; otherwise the reason with the known words.
-fn value_of(input: &ExtraInput, text: &str) -> Result<f64, String> {
+fn value_of(input: &ExtraInput, text: &str) -> Result<f64, Fault> {
     let known: Vec<&str> = input.labels.iter().map(String::as_str).collect();
-    match input.value_of_text(text) {
-        Some(value) if known.is_empty() || known.contains(&text) => Ok(value),
-        _ if known.is_empty() => Err(format!("`{text}` is not a finite number")),
-        _ => Err(unknown(text, &format!("word of {}", input.name), &known)),
-    }
+    let reason = match input.value_of_text(text) {
+        Some(value) if known.is_empty() || known.contains(&text) => return Ok(value),
+        _ if known.is_empty() => format!("`{text}` is not a finite number"),
+        _ => unknown(text, &format!("word of {}", input.name), &known),
+    };
+    Err(Fault::new(NW_BAD_STATE, &reason))
 }

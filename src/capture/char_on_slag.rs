@@ -38,7 +38,7 @@
 use std::f64::consts::PI;
 
 use crate::deposit::cover;
-use crate::material::Molten;
+use crate::slag::Molten;
 
 /// A char particle and the slag it has reached. All finite and positive unless said.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -14,8 +14,16 @@ use super::stickiness::Combination;
 use super::viscosity::ViscosityCriterion;
 use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Section};
+use crate::law::QuantityKind;
 use crate::material::Material;
 use crate::slag::UnsuitableComposition;
+
+/// The kinds of the numbers of a `[capture]` table.
+pub(crate) const CAPTURE_KINDS: [(&str, QuantityKind); 3] = [
+    ("sticky_from", QuantityKind::Share),
+    ("flows_from", QuantityKind::Share),
+    ("contact_angle", QuantityKind::Angle),
+];
 
 /// A `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -38,7 +38,8 @@ use super::melt::{Melt, MeltLaws};
 use super::{StickinessCriterion, Unsuitable};
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
-use crate::material::{Material, Molten, overlap};
+use crate::material::{Material, overlap};
+use crate::slag::Molten;
 
 /// `K_cr` of Mundo et al. [1]: above it a droplet splashes.
 pub const SPLASH_K: f64 = 57.7;

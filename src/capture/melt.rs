@@ -7,7 +7,7 @@ use super::solidification::{Solidification, Stiffening};
 use crate::impact::{BLOCK, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::Material;
-use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw, withdrawn};
+use crate::slag::{SlagViscosity, VISCOSITY_LAWS, ViscosityLaw};
 
 /// The `law` and the `solidification` of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,9 +29,6 @@ impl MeltLaws {
 
     /// With a `law` that only materials without a viscosity of their own need.
     pub fn read_optional(section: &Section<'_>) -> Result<Self, InputError> {
-        if let Some(why) = section.text("law")?.as_deref().and_then(withdrawn) {
-            return Err(section.fault("law", why));
-        }
         let name = section.choice("law", &VISCOSITY_LAWS.map(|law| law.name))?;
         let law = name.and_then(|name| ViscosityLaw::from_name(&name));
         Ok(Self { law, solidification: Solidification::read(section)? })

@@ -21,6 +21,7 @@ mod viscosity;
 
 pub(crate) use char_on_slag::rebound_from_slag;
 pub use char_on_slag::{CharFate, CharOnSlag, Judgement, char_coverage, holding_force, submerging_work};
+pub(crate) use criterion::CAPTURE_KINDS;
 pub use criterion::{Capture, Criterion, MeltStates, StickinessCriterion, Unsuitable, WallState};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
 pub use kinetic_energy::{critical_viscosity, kinetic_energy};

@@ -26,7 +26,7 @@ pub mod shedding;
 pub mod sintering;
 pub mod wetting;
 
-use crate::material::Molten;
+use crate::slag::Molten;
 
 /// Properties of the melt on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]

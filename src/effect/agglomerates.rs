@@ -10,7 +10,7 @@
 //! Valid for a population, not for one particle. One draw, stream `stream::AGGLOMERATES`: below `fraction` the particle is an
 //! agglomerate, and the draw over `fraction`, `u`, sets its rebound.
 
-use super::{Effect, EffectInfo, Parameter, Search, stream};
+use super::{Effect, EffectInfo, Parameter, QuantityKind, Search, stream};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -21,8 +21,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     stream: Some(stream::AGGLOMERATES),
     parameters: &[
         Parameter::new("fraction", "1", (0.0, 1.0), Search::Linear(0.03, 0.6))
+            .kind(QuantityKind::Share)
             .about("share of the rebounds that are agglomerates'"),
         Parameter::new("restitution", "1", (0.0, 1.5), Search::Linear(0.5, 1.0))
+            .kind(QuantityKind::Share)
             .about("mean e_n of agglomerates"),
         Parameter::new("spread", "1", (0.0, 0.5), Search::Log(0.01, 0.2))
             .about("standard deviation of e_n of agglomerates"),

@@ -14,7 +14,7 @@
 //!
 //! The deposit that has formed is judged without it: melt that lies on the wall no longer has to be caught.
 
-use super::{Effect, EffectInfo, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, QuantityKind, Search};
 use crate::impact::Impact;
 
 pub(super) const INFO: EffectInfo = EffectInfo {
@@ -25,8 +25,10 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     parameters: &[
         // Below 1, so that the line has a length.
         Parameter::new("peak", "1", (0.0, 0.999_999), Search::InputRange("conversion"))
+            .kind(QuantityKind::Share)
             .about("carbon conversion at which most is caught"),
         Parameter::new("residual", "1", (0.0, 1.0), Search::Linear(0.0, 1.0))
+            .kind(QuantityKind::Share)
             .about("share of the stickiness left at full conversion"),
     ],
     build: |values| Box::new(ConversionDecline { peak: values[0], residual: values[1] }),

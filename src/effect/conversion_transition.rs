@@ -10,7 +10,7 @@
 //! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
 
 use super::transition::{ASYMMETRY, Variable, transition};
-use super::{EffectInfo, Parameter, Search};
+use super::{EffectInfo, Parameter, QuantityKind, Search};
 
 pub(super) const INFO: EffectInfo = EffectInfo {
     id: "conversion-transition",
@@ -19,10 +19,12 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     stream: None,
     parameters: &[
         Parameter::new("threshold", "1", (0.0, 1.0), Search::InputRange("conversion"))
+            .kind(QuantityKind::Share)
             .about("carbon conversion at which half of the impacts stick"),
         Parameter::new("width", "1", (1e-6, 10.0), Search::InputWidth("conversion"))
             .about("conversion over which the odds of sticking change by e"),
         Parameter::new("softening", "1", (0.0, 1.0), Search::Linear(0.0, 1.0))
+            .kind(QuantityKind::Share)
             .default(0.0)
             .about("share of e_n that a sticky particle loses where it still rebounds"),
         ASYMMETRY,

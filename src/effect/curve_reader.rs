@@ -2,9 +2,8 @@
 
 use super::fitted_curve::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, LARGEST_VALUE};
 use super::{EffectInfo, Parameter};
-use crate::impact::INPUTS;
+use crate::impact::{ExtraInput, INPUTS};
 use crate::input::{InputError, List, Section, unknown};
-use crate::model::ExtraInput;
 
 /// Most inputs of a curve.
 const MOST_AXES: usize = 2;

@@ -13,7 +13,7 @@
 //! ([`crate::capture::Combination`]) stay: this effect says what a liquid wall does to what is dry. Valid for smooth
 //! spheres small against the depth of the melt.
 
-use super::{Effect, EffectInfo, OnMelt, Parameter, Precomputed, Search};
+use super::{Effect, EffectInfo, OnMelt, Parameter, Precomputed, QuantityKind, Search};
 use crate::capture::rebound_from_slag;
 use crate::impact::Impact;
 use crate::normal::Contact;
@@ -24,6 +24,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["v_n", "d", "T_w"],
     stream: None,
     parameters: &[Parameter::new("contact_angle", "degrees", (0.0, 180.0), Search::Linear(60.0, 170.0))
+        .kind(QuantityKind::Angle)
         .about("contact angle of the melt on the particle, through the melt")],
     build: |values| Box::new(DryOnMelt { cosine: values[0].to_radians().cos() }),
 };

@@ -11,8 +11,7 @@
 //! impact unchanged.
 
 use super::{Effect, EffectInfo, Parameter, Search};
-use crate::impact::{INPUTS, Impact};
-use crate::model::ExtraInput;
+use crate::impact::{ExtraInput, INPUTS, Impact};
 
 /// Largest value [1], either way.
 pub(super) const LARGEST_VALUE: f64 = 100.0;

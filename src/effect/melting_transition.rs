@@ -11,7 +11,7 @@
 //! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
 
 use super::transition::{ASYMMETRY, Variable, transition};
-use super::{EffectInfo, Parameter, Search};
+use super::{EffectInfo, Parameter, QuantityKind, Search};
 
 pub(super) const INFO: EffectInfo = EffectInfo {
     id: "melting-transition",
@@ -20,10 +20,12 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     stream: None,
     parameters: &[
         Parameter::new("temperature", "K", (1.0, 1e4), Search::InputRange("T_p"))
+            .kind(QuantityKind::Temperature)
             .about("particle temperature at which half of the impacts stick"),
         Parameter::new("width", "K", (1e-3, 1e4), Search::InputWidth("T_p"))
             .about("temperature over which the odds of sticking change by e"),
         Parameter::new("softening", "1", (0.0, 1.0), Search::Linear(0.0, 1.0))
+            .kind(QuantityKind::Share)
             .default(1.0)
             .about("share of e_n that a molten particle loses where it still rebounds"),
         ASYMMETRY,

@@ -31,11 +31,10 @@ use std::sync::Arc;
 pub(crate) use fitted_curve::shifted_probability;
 pub use fitted_curve::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve};
 
-use crate::impact::{INPUTS, Impact};
+use crate::impact::{ExtraInput, INPUTS, Impact};
 use crate::input::{InputError, Section, unknown};
 use crate::law::describe_values;
-pub use crate::law::{Parameter, Search};
-use crate::model::ExtraInput;
+pub use crate::law::{Parameter, QuantityKind, Search};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 pub use dry_on_melt::DryOnMelt;

@@ -8,7 +8,7 @@
 //! give `h0 = 0.128 mm` and `r = 0.25`. The form is assumed and untested. Valid for wax powder up to 1.4 mm, near-normal
 //! impacts.
 
-use super::{Effect, EffectInfo, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, QuantityKind, Search};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -21,6 +21,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
         Parameter::new("thickness", "m", (1e-9, 1.0), Search::InputWidth("layer_thickness"))
             .about("layer thickness over which the loss builds up"),
         Parameter::new("residual", "1", (0.0, 1.0), Search::Linear(0.0, 0.95))
+            .kind(QuantityKind::Share)
             .about("share of e_n left over a thick layer"),
     ],
     build: |values| Box::new(PowderLayer { thickness: values[0], residual: values[1] }),

@@ -8,7 +8,7 @@
 //! `alpha_cr` is 43°. Valid for a rigid sphere; near normal real ones keep more (0.85 at 80°), see
 //! `tangential-compliance`. It exists as an effect besides the law so that a diagnosis can propose it.
 
-use super::{Effect, EffectInfo, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, QuantityKind, Search};
 use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw};
 
 pub(super) const INFO: EffectInfo = EffectInfo {
@@ -17,6 +17,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["v_t", "v_n"],
     stream: None,
     parameters: &[Parameter::new("friction", "1", (0.0, 10.0), Search::Linear(0.03, 0.9))
+        .kind(QuantityKind::Share)
         .about("friction coefficient of the sliding contact")],
     build: |values| Box::new(SlidingToRolling { friction: values[0] }),
 };

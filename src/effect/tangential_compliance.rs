@@ -18,7 +18,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Effect, EffectInfo, Parameter, Search};
+use super::{Effect, EffectInfo, Parameter, QuantityKind, Search};
 use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw, critical_angle};
 
 pub(super) const INFO: EffectInfo = EffectInfo {
@@ -28,6 +28,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     stream: None,
     parameters: &[
         Parameter::new("friction", "1", (0.0, 10.0), Search::Linear(0.03, 0.9))
+            .kind(QuantityKind::Share)
             .about("friction coefficient of the sliding contact"),
         Parameter::new("near_normal", "1", (0.0, 1.5), Search::Linear(0.76, 1.1))
             .about("e_t in the limit of a head-on impact"),

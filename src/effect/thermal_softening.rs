@@ -8,7 +8,7 @@
 //! ash. Valid below melting; beyond it use `melting-transition`. It multiplies the temperature tables of a material, if any.
 //! It softens the whole contact: the particle is assumed to yield before the wall and to contribute most of the compliance.
 
-use super::{Effect, EffectInfo, Parameter, Search, bounded};
+use super::{Effect, EffectInfo, Parameter, QuantityKind, Search, bounded};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -19,6 +19,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     stream: None,
     parameters: &[
         Parameter::new("onset", "K", (0.0, 1e4), Search::InputRange("T_p"))
+            .kind(QuantityKind::Temperature)
             .about("particle temperature from which it softens"),
         Parameter::new("scale", "K", (1.0, 1e5), Search::InputWidth("T_p"))
             .about("temperature over which the yield strength falls by e"),

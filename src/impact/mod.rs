@@ -2,12 +2,15 @@
 
 mod block;
 mod extra;
+mod extra_input;
 mod inputs;
 
 use std::borrow::Cow;
 
 pub use block::{BLOCK, Block};
 pub use extra::{EXTRA_INPUTS, ExtraInputs};
+pub use extra_input::ExtraInput;
+pub(crate) use extra_input::read_extra_inputs;
 pub(crate) use inputs::for_each_input;
 pub use inputs::{Bounds, INPUTS, Impact, Input};
 

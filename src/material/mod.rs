@@ -8,60 +8,70 @@ use std::sync::LazyLock;
 
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Limits, Section, unknown};
-use crate::slag::{Composition, surface_tension};
+use crate::law::QuantityKind;
+use crate::slag::{Composition, Molten, surface_tension};
 
 pub use property::{OutOfRange, Property};
 
-/// Key of a property in files, its limits, and whether it is required.
+/// Key of a property in files, its kind, its limits, and whether it is required.
 struct PropertyField {
     key: &'static str,
-    limits: Limits,
+    kind: QuantityKind,
     required: bool,
-}
-
-const fn field(key: &'static str, required: bool, limits: Limits) -> PropertyField {
-    PropertyField { key, limits, required }
+    limits: Limits,
 }
 
 const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) -> Limits {
     Limits { unit, low, high, known }
 }
 
-/// Every property of a material, in the order of display. The limits lie about a factor of ten beyond the most extreme known
-/// materials, which their texts name (round numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that
-/// never yields. Viscosity has no upper limit: a formula continued to low temperatures rises without bound and means a solid.
-const FIELDS: [PropertyField; 17] = [
-    field("density", true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590")),
-    field("youngs_modulus", true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12")),
-    field("poisson_ratio", true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5")),
-    field("yield_strength", true, limits("Pa", 0.01, 1e12, "weak gels some 0.1, diamond 1e11")),
-    field("surface_energy", true, limits("J/m2", 0.0, 100.0, "clean tungsten 3.3, diamond some 6")),
-    field("viscosity", false, limits("Pa s", 1e-7, f64::INFINITY, "liquid helium 3e-6")),
-    field("surface_tension", false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten 2.5")),
-    field("melting_point", false, limits("K", 0.1, 5e4, "helium some 1, carbides 4200")),
-    field("critical_viscosity_temperature", false, limits("K", 0.1, 5e4, "coal slags 1400 to 1800")),
-    field("liquidus", false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900")),
-    field("solidus", false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500")),
-    field("work_of_adhesion", false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to impacts 50")),
-    field("melt_fraction", false, limits("1", 0.0, 1.0, "a share of the mass")),
-    field("heat_capacity", false, limits("J/(kg K)", 0.01, 2e5, "hot metals 100, liquid hydrogen 1e4")),
-    field("thermal_conductivity", false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, diamond 2000")),
-    field("heat_of_fusion", false, limits("J/kg", 100.0, 5e7, "mercury 1.1e4, boron 4.6e6")),
-    field("emissivity", false, limits("1", 0.0, 1.0, "a black body has 1")),
-];
+macro_rules! define_fields {
+    ($($field:ident, $key:literal, $kind:ident, $required:literal, $limits:expr;)*) => {
+        /// A property by its place in [`FIELDS`].
+        #[derive(Debug, Clone, Copy)]
+        #[allow(dead_code, reason = "some are only read by their key")]
+        enum Field {
+            $($field,)*
+        }
 
-/// The first five fields are the mechanical ones, in the order of [`Mechanical`]; `work_of_adhesion` is one where it is given.
-const MECHANICAL: usize = 5;
-const DENSITY: usize = 0;
-const VISCOSITY: usize = 5;
-const SURFACE_TENSION: usize = 6;
-const MELTING_POINT: usize = 7;
-const WORK_OF_ADHESION: usize = 11;
-const MELT_FRACTION: usize = 12;
-const HEAT_CAPACITY: usize = 13;
-const THERMAL_CONDUCTIVITY: usize = 14;
-const HEAT_OF_FUSION: usize = 15;
-const EMISSIVITY: usize = 16;
+        const FIELDS: [PropertyField; [$($key),*].len()] = [$(
+            PropertyField { key: $key, kind: QuantityKind::$kind, required: $required, limits: $limits },
+        )*];
+    };
+}
+
+// Every property of a material, in the order of display; the first five are required. The limits lie about a factor of ten
+// beyond the most extreme known materials, which their texts name (round numbers as commonly tabulated, not re-read); they
+// admit a rigid wall, and one that never yields. Viscosity has no upper limit: a formula continued to low temperatures rises
+// without bound and means a solid.
+define_fields! {
+    Density, "density", Amount, true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590");
+    YoungsModulus, "youngs_modulus", Amount, true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12");
+    PoissonRatio, "poisson_ratio", Share, true, limits("1", -0.999, 0.5, "an elastic body is between -1 and 0.5");
+    YieldStrength, "yield_strength", Amount, true, limits("Pa", 0.01, 1e12, "weak gels some 0.1, diamond 1e11");
+    SurfaceEnergy, "surface_energy", Amount, true, limits("J/m2", 0.0, 100.0, "clean tungsten 3.3, diamond some 6");
+    Viscosity, "viscosity", Amount, false, limits("Pa s", 1e-7, f64::INFINITY, "liquid helium 3e-6");
+    SurfaceTension, "surface_tension", Amount, false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten 2.5");
+    MeltingPoint, "melting_point", Temperature, false, limits("K", 0.1, 5e4, "helium some 1, carbides 4200");
+    CriticalViscosityTemperature, "critical_viscosity_temperature", Temperature, false, limits("K", 0.1, 5e4, "coal slags 1400 to 1800");
+    Liquidus, "liquidus", Temperature, false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900");
+    Solidus, "solidus", Temperature, false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500");
+    WorkOfAdhesion, "work_of_adhesion", Amount, false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to impacts 50");
+    MeltFraction, "melt_fraction", Share, false, limits("1", 0.0, 1.0, "a share of the mass");
+    HeatCapacity, "heat_capacity", Amount, false, limits("J/(kg K)", 0.01, 2e5, "hot metals 100, liquid hydrogen 1e4");
+    ThermalConductivity, "thermal_conductivity", Amount, false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, diamond 2000");
+    HeatOfFusion, "heat_of_fusion", Amount, false, limits("J/kg", 100.0, 5e7, "mercury 1.1e4, boron 4.6e6");
+    Emissivity, "emissivity", Share, false, limits("1", 0.0, 1.0, "a black body has 1");
+}
+
+/// The properties of [`Mechanical`], in their order; `work_of_adhesion` is one where it is given.
+const MECHANICAL: [Field; 5] =
+    [Field::Density, Field::YoungsModulus, Field::PoissonRatio, Field::YieldStrength, Field::SurfaceEnergy];
+
+/// The kind of a property by its key in files.
+pub fn kind_of(key: &str) -> Option<QuantityKind> {
+    FIELDS.iter().find(|field| field.key == key).map(|field| field.kind)
+}
 
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
@@ -105,17 +115,6 @@ impl Mechanical {
             work_of_adhesion: None,
         }
     }
-}
-
-/// The properties of a melt at one temperature.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Molten {
-    /// Density `rho` [kg/m³].
-    pub density: f64,
-    /// Viscosity `mu` [Pa s].
-    pub viscosity: f64,
-    /// Surface tension `sigma` [N/m].
-    pub surface_tension: f64,
 }
 
 impl Material {
@@ -169,7 +168,7 @@ impl Material {
     /// # Errors
     /// [`ImpactError::OutOfRange`] outside the known range, and for a material without a viscosity.
     pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
-        self.value(VISCOSITY, temperature)
+        self.value(Field::Viscosity, temperature)
     }
 
     /// Surface tension [N/m] of the melt at a temperature [K]; without one of its own, that of its composition
@@ -179,12 +178,15 @@ impl Material {
     /// As [`Material::viscosity`].
     pub fn surface_tension(&self, temperature: f64) -> Result<f64, ImpactError> {
         let composed = self.surface_tension_by_composition();
-        composed.map_or_else(|| self.value(SURFACE_TENSION, temperature), Ok)
+        composed.map_or_else(|| self.value(Field::SurfaceTension, temperature), Ok)
     }
 
     /// Surface tension [N/m] by the composition, for a material without one of its own.
     fn surface_tension_by_composition(&self) -> Option<f64> {
-        let composition = self.composition.as_ref().filter(|_| self.properties[SURFACE_TENSION].is_none())?;
+        let composition = self
+            .composition
+            .as_ref()
+            .filter(|_| self.properties[Field::SurfaceTension as usize].is_none())?;
         surface_tension::kucuk(composition)
     }
 
@@ -193,20 +195,20 @@ impl Material {
     /// # Errors
     /// [`ImpactError::OutOfRange`] outside a table.
     pub fn density(&self, temperature: f64) -> Result<f64, ImpactError> {
-        self.value(DENSITY, temperature)
+        self.value(Field::Density, temperature)
     }
 
     /// Temperatures [K] at which the density is known.
     pub fn density_range(&self) -> [f64; 2] {
-        overlap(self.properties[DENSITY].iter().filter_map(Property::known_range))
+        overlap(self.properties[Field::Density as usize].iter().filter_map(Property::known_range))
     }
 
-    fn value(&self, field: usize, temperature: f64) -> Result<f64, ImpactError> {
+    fn value(&self, field: Field, temperature: f64) -> Result<f64, ImpactError> {
         let nowhere = OutOfRange { low: f64::NAN, high: f64::NAN };
-        let found = self.properties[field].as_ref().map_or(Err(nowhere), |p| p.at(temperature));
+        let found = self.properties[field as usize].as_ref().map_or(Err(nowhere), |p| p.at(temperature));
         found.map_err(|OutOfRange { low, high }| ImpactError::OutOfRange {
             material: self.name.clone(),
-            property: FIELDS[field].key,
+            property: FIELDS[field as usize].key,
             temperature,
             low,
             high,
@@ -220,21 +222,21 @@ impl Material {
     pub fn mechanical(&self, temperature: f64) -> Result<Mechanical, ImpactError> {
         Ok(Mechanical {
             density: self.density(temperature)?,
-            youngs_modulus: self.value(1, temperature)?,
-            poisson_ratio: self.value(2, temperature)?,
-            yield_strength: self.value(3, temperature)?,
-            surface_energy: self.value(4, temperature)?,
-            work_of_adhesion: match self.properties[WORK_OF_ADHESION] {
-                Some(_) => Some(self.value(WORK_OF_ADHESION, temperature)?),
+            youngs_modulus: self.value(Field::YoungsModulus, temperature)?,
+            poisson_ratio: self.value(Field::PoissonRatio, temperature)?,
+            yield_strength: self.value(Field::YieldStrength, temperature)?,
+            surface_energy: self.value(Field::SurfaceEnergy, temperature)?,
+            work_of_adhesion: match self.properties[Field::WorkOfAdhesion as usize] {
+                Some(_) => Some(self.value(Field::WorkOfAdhesion, temperature)?),
                 None => None,
             },
         })
     }
 
     /// The mechanical properties, in the order of [`Mechanical`]; the last is `None` for a material without a fitted work of adhesion.
-    pub(crate) fn mechanical_by_field(&self) -> Option<([&Property; MECHANICAL], Option<&Property>)> {
-        let [a, b, c, d, e] = [0, 1, 2, 3, 4].map(|field| self.properties[field].as_ref());
-        Some(([a?, b?, c?, d?, e?], self.properties[WORK_OF_ADHESION].as_ref()))
+    pub(crate) fn mechanical_by_field(&self) -> Option<([&Property; MECHANICAL.len()], Option<&Property>)> {
+        let [a, b, c, d, e] = MECHANICAL.map(|field| self.properties[field as usize].as_ref());
+        Some(([a?, b?, c?, d?, e?], self.properties[Field::WorkOfAdhesion as usize].as_ref()))
     }
 
     /// Temperatures [K] at which every mechanical property is stated to hold, where they are one range; `None` where a property has a
@@ -259,46 +261,46 @@ impl Material {
     /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at which it is known; `None` without
     /// one and without a composition.
     pub fn surface_tension_near(&self, temperature: f64) -> Option<f64> {
-        self.surface_tension_by_composition().or_else(|| self.near(SURFACE_TENSION, temperature))
+        self.surface_tension_by_composition().or_else(|| self.near(Field::SurfaceTension, temperature))
     }
 
     /// As [`Material::surface_tension_near`], the viscosity [Pa s] of its melt.
     pub fn viscosity_near(&self, temperature: f64) -> Option<f64> {
-        self.near(VISCOSITY, temperature)
+        self.near(Field::Viscosity, temperature)
     }
 
     /// As [`Material::surface_tension_near`], the share of liquid in its mass [1].
     pub fn melt_fraction_near(&self, temperature: f64) -> Option<f64> {
-        self.near(MELT_FRACTION, temperature)
+        self.near(Field::MeltFraction, temperature)
     }
 
     /// As [`Material::surface_tension_near`], the heat capacity [J/(kg K)].
     pub fn heat_capacity_near(&self, temperature: f64) -> Option<f64> {
-        self.near(HEAT_CAPACITY, temperature)
+        self.near(Field::HeatCapacity, temperature)
     }
 
     /// As [`Material::surface_tension_near`], the thermal conductivity [W/(m K)].
     pub fn thermal_conductivity_near(&self, temperature: f64) -> Option<f64> {
-        self.near(THERMAL_CONDUCTIVITY, temperature)
+        self.near(Field::ThermalConductivity, temperature)
     }
 
     /// As [`Material::surface_tension_near`], the heat of fusion [J/kg].
     pub fn heat_of_fusion_near(&self, temperature: f64) -> Option<f64> {
-        self.near(HEAT_OF_FUSION, temperature)
+        self.near(Field::HeatOfFusion, temperature)
     }
 
     /// As [`Material::surface_tension_near`], the total emissivity of its surface [1].
     pub fn emissivity_near(&self, temperature: f64) -> Option<f64> {
-        self.near(EMISSIVITY, temperature)
+        self.near(Field::Emissivity, temperature)
     }
 
     /// As [`Material::surface_tension_near`], the melting point [K].
     pub fn melting_point_near(&self, temperature: f64) -> Option<f64> {
-        self.near(MELTING_POINT, temperature)
+        self.near(Field::MeltingPoint, temperature)
     }
 
-    fn near(&self, field: usize, temperature: f64) -> Option<f64> {
-        let property = self.properties[field].as_ref()?;
+    fn near(&self, field: Field, temperature: f64) -> Option<f64> {
+        let property = self.properties[field as usize].as_ref()?;
         let [low, high] = property.known_range().unwrap_or([0.0, f64::INFINITY]);
         property.at(temperature.clamp(low, high)).ok()
     }
@@ -317,7 +319,7 @@ impl Material {
     /// # Errors
     /// As [`Material::molten`].
     pub fn is_molten(&self, temperature: f64) -> Result<bool, ImpactError> {
-        Ok(temperature > self.value(MELTING_POINT, temperature)?)
+        Ok(temperature > self.value(Field::MeltingPoint, temperature)?)
     }
 
     /// Temperatures [K] at which every property of the melt is known.
@@ -333,11 +335,13 @@ impl Material {
     }
 
     fn mechanical_properties(&self) -> impl Iterator<Item = &Property> {
-        self.properties[..MECHANICAL].iter().chain([&self.properties[WORK_OF_ADHESION]]).flatten()
+        let fields = MECHANICAL.into_iter().chain([Field::WorkOfAdhesion]);
+        fields.filter_map(|field| self.properties[field as usize].as_ref())
     }
 
     fn molten_properties(&self) -> impl Iterator<Item = &Property> {
-        [DENSITY, VISCOSITY, SURFACE_TENSION].into_iter().filter_map(|field| self.properties[field].as_ref())
+        let fields = [Field::Density, Field::Viscosity, Field::SurfaceTension];
+        fields.into_iter().filter_map(|field| self.properties[field as usize].as_ref())
     }
 
     /// Temperatures [K] at which every mechanical property is known.
@@ -347,17 +351,12 @@ impl Material {
 
     /// Temperatures [K] at which the material's own viscosity is known.
     pub fn viscosity_range(&self) -> [f64; 2] {
-        overlap(self.properties[VISCOSITY].iter().filter_map(Property::known_range))
+        overlap(self.properties[Field::Viscosity as usize].iter().filter_map(Property::known_range))
     }
 
     /// Whether every mechanical property is stated to hold at this temperature [K].
     pub fn holds_at(&self, temperature: f64) -> bool {
         self.mechanical_properties().all(|p| p.holds_at(temperature))
-    }
-
-    /// Temperatures [K] at which every mechanical property is stated to hold, where they are [constant](Self::is_constant).
-    pub fn valid_range(&self) -> [f64; 2] {
-        overlap(self.mechanical_properties().filter_map(Property::valid))
     }
 
     /// Whether the mechanical properties are the same at every temperature.

@@ -5,12 +5,13 @@ use std::sync::Arc;
 use regex_lite::Regex;
 
 use super::wall::{Adhesion, Covering, Wall};
-use super::{Model, Particle, extra_input};
+use super::{Model, Particle};
 use crate::capture::{Capture, Criterion};
 use crate::deposit::resuspension::PowderAdhesion;
 use crate::deposit::shedding::Strength;
 use crate::effect::Term;
 use crate::erosion::{self, Erosion};
+use crate::impact::read_extra_inputs;
 use crate::input::{Document, InputError, Limits, Section};
 use crate::material::{Library, Material};
 use crate::normal::{Contact, NormalLaw};
@@ -65,7 +66,7 @@ impl Model {
         let criterion = capture.criterion;
         let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;
-        let extra_inputs = extra_input::read(top)?;
+        let extra_inputs = read_extra_inputs(top)?;
         let terms = top.sections("effects")?;
         let terms =
             terms.iter().map(|section| Term::read(section, &extra_inputs)).collect::<Result<_, _>>()?;
@@ -379,16 +380,6 @@ e_t = 0.76
         }
         assert!(outside("watt-fereday", 50.0, 1700.0), "no iron and no magnesia");
         assert!(outside("giordano-russell-dingwell", 50.0, 1700.0), "no alkali");
-    }
-
-    #[test]
-    fn a_withdrawn_viscosity_law_is_refused_with_its_reason() {
-        let text = format!(
-            "{SMALLEST}[capture]\nmodel = \"viscosity\"\nlaw = \"kalmanovitch-frank-silica\"\nreference_viscosity = 25\n"
-        );
-        let message = Model::from_toml("m.toml", &text).unwrap_err().to_string();
-        assert!(message.contains("capture.law: `kalmanovitch-frank-silica` was withdrawn"), "{message}");
-        assert!(message.contains("Use \"kalmanovitch-frank\""), "{message}");
     }
 
     #[test]

@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 use super::brach_dunn::critical_velocity;
 use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
-use crate::law::{FitLimit, Origin, Parameter, Search, Values};
+use crate::law::{FitLimit, Origin, Parameter, QuantityKind, Search, Values};
 
 /// Poisson's ratio of particle and wall [1].
 const POISSON_RATIO: f64 = 0.27;
@@ -36,6 +36,7 @@ pub(super) static EL_BATSH: ListedNormalLaw = ListedNormalLaw {
         range: &[FitLimit::diameter(1e-6, 20e-6), FitLimit::temperature(1100.0, 1500.0)],
     },
     parameters: &[Parameter::new("e_n", "1", (0.0, 1.0), Search::Linear(0.02, 1.0))
+        .kind(QuantityKind::Share)
         .about("normal restitution above the critical velocity")],
     restitution: |impact, contact, values| {
         (impact.normal_speed > critical(impact, contact, values)).then_some(values[0])

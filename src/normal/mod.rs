@@ -23,7 +23,7 @@ pub use thornton_ning::{
 
 use crate::impact::Impact;
 use crate::input::{InputError, Section};
-use crate::law::{Origin, Parameter, Values, read_values};
+use crate::law::{Origin, Parameter, QuantityKind, Values, read_values};
 
 /// Every listed law.
 pub static LISTED_LAWS: [&ListedNormalLaw; 6] = [
@@ -34,6 +34,9 @@ pub static LISTED_LAWS: [&ListedNormalLaw; 6] = [
     &grant_tabakoff::GRANT_TABAKOFF,
     &tabakoff_wakeman::TABAKOFF_WAKEMAN,
 ];
+
+/// The kinds of the numbers of the laws that are not listed.
+pub(crate) const NORMAL_KINDS: [(&str, QuantityKind); 1] = [("e_n", QuantityKind::Share)];
 
 /// A law that may depend on every input of an impact, with its parameters and the case to which it was fitted.
 #[derive(Debug)]

@@ -28,16 +28,19 @@ pub static VISCOSITY_LAWS: [&ViscosityLaw; 4] = [
     &giordano_russell_dingwell::GIORDANO_RUSSELL_DINGWELL,
 ];
 
-/// What a model file is told that names a law which the library no longer has; `None` for every other name.
-pub fn withdrawn(name: &str) -> Option<&'static str> {
-    (name == "kalmanovitch-frank-silica").then_some(
-        "`kalmanovitch-frank-silica` was withdrawn: on 644 measured viscosities that its fit never saw it was worse than \
-         `kalmanovitch-frank` (rms 0.186 instead of 0.168 in log10). Use \"kalmanovitch-frank\"; see docs/slag-viscosity.md",
-    )
-}
-
 /// Ceiling of the exponent: `exp` stays finite (1e304), so a cold slag raises no overflow in a caller that traps it.
 const LARGEST_EXPONENT: f64 = 700.0;
+
+/// The properties of a melt at one temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Molten {
+    /// Density `rho` [kg/m³].
+    pub density: f64,
+    /// Viscosity `mu` [Pa s].
+    pub viscosity: f64,
+    /// Surface tension `sigma` [N/m].
+    pub surface_tension: f64,
+}
 
 /// How the viscosity of a molten slag follows from its composition and temperature.
 #[derive(Debug)]
@@ -232,14 +235,6 @@ mod tests {
             let outside = SlagViscosity::new(law, &lime);
             assert!(outside.is_err() || !outside.unwrap().holds_at(1600.0), "{law:?}");
         }
-    }
-
-    #[test]
-    fn withdrawn_laws_are_not_laws() {
-        let message = withdrawn("kalmanovitch-frank-silica").unwrap();
-        assert!(message.contains("withdrawn") && message.contains("\"kalmanovitch-frank\""));
-        assert_eq!(ViscosityLaw::from_name("kalmanovitch-frank-silica"), None);
-        assert!(VISCOSITY_LAWS.iter().all(|law| withdrawn(law.name).is_none()));
     }
 
     #[test]

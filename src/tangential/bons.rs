@@ -10,13 +10,14 @@
 //! shear of the gas, which the paper adds, are left out.
 
 use super::{ListedTangentialLaw, Rebound};
-use crate::law::{Parameter, Search};
+use crate::law::{Parameter, QuantityKind, Search};
 
 /// The law.
 pub(super) static BONS: ListedTangentialLaw = ListedTangentialLaw {
     name: "bons",
     origin: &crate::normal::BONS,
     parameters: &[Parameter::new("friction", "1", (0.0, 2.0), Search::Linear(0.03, 0.9))
+        .kind(QuantityKind::Share)
         .about("friction coefficient of the sliding contact")],
     rebound: |kinematics, values| {
         let (sine, cosine) = kinematics.angle_from_surface().sin_cos();

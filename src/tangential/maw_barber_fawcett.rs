@@ -34,7 +34,7 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::{ImpactKinematics, ListedTangentialLaw, Rebound};
-use crate::law::{Origin, Parameter, Search, Values};
+use crate::law::{Origin, Parameter, QuantityKind, Search, Values};
 
 /// The law.
 pub(super) static MAW_BARBER_FAWCETT: ListedTangentialLaw = ListedTangentialLaw {
@@ -45,6 +45,7 @@ pub(super) static MAW_BARBER_FAWCETT: ListedTangentialLaw = ListedTangentialLaw 
         range: &[],
     },
     parameters: &[Parameter::new("friction", "1", (0.0, 10.0), Search::Linear(0.03, 0.9))
+        .kind(QuantityKind::Share)
         .about("friction coefficient of the contact")],
     rebound,
 };

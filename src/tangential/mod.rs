@@ -16,7 +16,7 @@ pub use sliding_rolling::critical_angle;
 
 use crate::impact::Impact;
 use crate::input::{InputError, Section};
-use crate::law::{Origin, Parameter, Values, read_values};
+use crate::law::{Origin, Parameter, QuantityKind, Values, read_values};
 
 /// Every listed law.
 pub static LISTED_LAWS: [&ListedTangentialLaw; 4] = [
@@ -25,6 +25,10 @@ pub static LISTED_LAWS: [&ListedTangentialLaw; 4] = [
     &grant_tabakoff::GRANT_TABAKOFF,
     &tabakoff_wakeman::TABAKOFF_WAKEMAN,
 ];
+
+/// The kinds of the numbers of the laws that are not listed.
+pub(crate) const TANGENTIAL_KINDS: [(&str, QuantityKind); 2] =
+    [("e_t", QuantityKind::Share), ("friction", QuantityKind::Share)];
 
 /// A law with its parameters and the case to which it was fitted.
 #[derive(Debug)]

@@ -2,8 +2,7 @@
 //! plain random draws.
 
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
-use nearwall::impact::{EXTRA_INPUTS, INPUTS};
-use nearwall::model::ExtraInput;
+use nearwall::impact::{EXTRA_INPUTS, ExtraInput, INPUTS};
 use nearwall::model::block::{BLOCK, Block, Outcomes, Workspace};
 use nearwall::{Impact, ImpactRng, Model, Outcome};
 

@@ -9,8 +9,7 @@ use super::number::{NumberColumn, NumberStyle};
 use super::row_error::{HeaderError, RowFault};
 use super::unit::Unit;
 use super::{BadRow, DatasetError};
-use nearwall::impact::{INPUTS, Impact};
-use nearwall::model::ExtraInput;
+use nearwall::impact::{ExtraInput, INPUTS, Impact};
 
 /// One row of the file.
 #[derive(Debug, Clone, Default)]

@@ -2,8 +2,7 @@
 
 use super::number::{NumberColumn, NumberStyle, is_blank};
 use super::row_error::RowFault;
-use nearwall::impact::{INPUTS, Impact};
-use nearwall::model::ExtraInput;
+use nearwall::impact::{ExtraInput, INPUTS, Impact};
 
 /// The column of each of [`INPUTS`], and of the inputs that the model declares.
 pub(super) struct InputColumns {

@@ -12,7 +12,8 @@ use super::likelihood::{Mean, Offset, Scatter};
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
 use crate::dataset::{ColumnValues, Measurement, Measurements, Unselected};
-use nearwall::model::{ExtraInput, Model};
+use nearwall::Model;
+use nearwall::impact::ExtraInput;
 
 /// Largest number of rows in figures.
 const SAMPLE_ROWS: usize = 1500;

@@ -4,7 +4,8 @@ use std::io::Read;
 
 use super::{PredictedRow, Predictor};
 use crate::dataset::{BadRow, ImpactReader, ImpactRow, assumed, unlikely};
-use nearwall::model::{ExtraInput, Model};
+use nearwall::Model;
+use nearwall::impact::ExtraInput;
 
 /// Notes about the columns of a file: unused ones that resemble an input, and the assumed values of absent inputs.
 pub fn file_notes(file: &str, reader: &ImpactReader<impl Read>) -> Vec<String> {

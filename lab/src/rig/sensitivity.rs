@@ -12,43 +12,22 @@ use toml_edit::{DocumentMut, Item, Value};
 use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
 use super::case_text::CaseText;
+use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
 
-/// Shares, which are moved as odds.
-const SHARES: [&str; 19] = [
-    "poisson_ratio",
-    "e_n",
-    "e_t",
-    "friction",
-    "threshold",
-    "carbon",
-    "emissivity",
-    "melt_fraction",
-    "coverage",
-    "voidage",
-    "conversion",
-    "residual",
-    "fraction",
-    "restitution",
-    "peak",
-    "softening",
-    "accommodation",
-    "sticky_from",
-    "flows_from",
+/// The kinds of a case's own numbers, by key; those of the model state theirs.
+const CASE_KINDS: [(&str, QuantityKind); 10] = [
+    ("carbon", QuantityKind::Share),
+    ("conversion", QuantityKind::Share),
+    ("voidage", QuantityKind::Share),
+    ("accommodation", QuantityKind::Share),
+    ("emissivity", QuantityKind::Share),
+    ("temperature", QuantityKind::Temperature),
+    ("radiation_temperature", QuantityKind::Temperature),
+    ("melting_point", QuantityKind::Temperature),
+    ("angle_deg", QuantityKind::Angle),
+    ("azimuth_deg", QuantityKind::Angle),
 ];
-/// Temperatures, which are moved by a difference.
-const TEMPERATURES: [&str; 8] = [
-    "temperature",
-    "radiation_temperature",
-    "melting_point",
-    "critical_viscosity_temperature",
-    "liquidus",
-    "solidus",
-    "onset",
-    "T0",
-];
-/// Angles in degrees, which are moved by a difference.
-const ANGLES: [&str; 3] = ["contact_angle", "angle_deg", "azimuth_deg"];
 /// Numbers of materials that are known better than strengths and energies, also where they are assumed.
 const WELL_KNOWN: [&str; 5] =
     ["density", "heat_capacity", "thermal_conductivity", "heat_of_fusion", "composition"];
@@ -660,33 +639,43 @@ fn stated_factor(source: &str) -> Option<f64> {
     digits[..end].trim_end_matches('.').parse().ok().filter(|factor: &f64| *factor > 1.0)
 }
 
-fn is_temperature(key: &str, value: f64) -> bool {
+/// The kind of a number by its dotted key.
+fn kind_of(key: &str) -> QuantityKind {
     let parts: Vec<&str> = key.split('.').collect();
-    let named = |key: &&str| TEMPERATURES.contains(key);
-    value > 100.0 && parts.iter().rev().take(2).any(named) && parts.last() != Some(&"deviation")
+    let [before @ .., last] = parts.as_slice() else { return QuantityKind::Amount };
+    if let ["model", path @ ..] = parts.as_slice() {
+        return nearwall::model::kind_of(path).unwrap_or(QuantityKind::Amount);
+    }
+    let of = |part: &&str| CASE_KINDS.iter().find(|(name, _)| name == part).map(|(_, kind)| *kind);
+    // The numbers of a distribution: its deviation is no temperature, of its angles only the mean is one.
+    of(last).unwrap_or_else(|| match before.last().and_then(of) {
+        Some(QuantityKind::Temperature) if *last != "deviation" => QuantityKind::Temperature,
+        Some(QuantityKind::Angle) if *last == "mean" => QuantityKind::Angle,
+        _ => QuantityKind::Amount,
+    })
+}
+
+/// Whether a number is a temperature in K that is not 0 or a factor.
+fn is_temperature(key: &str, value: f64) -> bool {
+    value > 100.0 && kind_of(key) == QuantityKind::Temperature
 }
 
 /// How a number without a stated range is moved, and in words.
 fn quality_range(key: &str, value: f64, assumed: bool) -> (Move, String) {
     let parts: Vec<&str> = key.split('.').collect();
-    let last = parts.last().copied().unwrap_or("");
     let either = |yes: f64, no: f64| if assumed { yes } else { no };
-    if is_temperature(key, value) {
-        let difference = either(50.0, 10.0);
-        return (Move::Difference(difference), format!("± {difference} K"));
-    }
-    if ANGLES.contains(&last)
-        || (parts.iter().rev().take(2).any(|key| ANGLES.contains(key)) && last == "mean")
-    {
-        let difference = either(20.0, 5.0);
-        return (Move::Difference(difference), format!("± {difference} degrees"));
-    }
+    let by_difference =
+        |difference: f64, unit: &str| (Move::Difference(difference), format!("± {difference} {unit}"));
     let well_known = !key.starts_with("model.") || parts.iter().any(|part| WELL_KNOWN.contains(part));
     // An activation energy stands in an exponent; its pre-exponential factor belongs to it.
-    let factor =
-        if last == "activation_energy" { 1.1 } else { either(if well_known { 1.25 } else { 2.0 }, 1.1) };
-    if SHARES.contains(&last) && value > 0.0 && value < 1.0 {
-        return (Move::Odds(factor), format!("factor {factor} on the odds"));
+    let in_exponent = parts.last() == Some(&"activation_energy");
+    let factor = if in_exponent { 1.1 } else { either(if well_known { 1.25 } else { 2.0 }, 1.1) };
+    match kind_of(key) {
+        QuantityKind::Temperature if value > 100.0 => by_difference(either(50.0, 10.0), "K"),
+        QuantityKind::Angle => by_difference(either(20.0, 5.0), "degrees"),
+        QuantityKind::Share if value > 0.0 && value < 1.0 => {
+            (Move::Odds(factor), format!("factor {factor} on the odds"))
+        }
+        _ => (Move::Factor(factor), format!("factor {factor}")),
     }
-    (Move::Factor(factor), format!("factor {factor}"))
 }

@@ -1,7 +1,7 @@
 //! Fig 14: molten wax on Pyrex.
 
 use nearwall::capture::{DropletNumbers, SPLASH_K};
-use nearwall::material::Molten;
+use nearwall::slag::Molten;
 use nearwall::{Impact, Model};
 use nearwall_lab::report::{Chart, Figure, number};
 

@@ -1,7 +1,7 @@
 //! Section 3.1: what becomes of particles that slag, or molten wax, has caught.
 
 use nearwall::capture::{CharFate, CharOnSlag, Judgement};
-use nearwall::material::Molten;
+use nearwall::slag::Molten;
 use nearwall_lab::report::{Table, number};
 
 use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, StatedMelt, TUBE_SPEED};

@@ -13,8 +13,7 @@ use std::sync::Arc;
 use super::{entries, file_name, tables, time_folders};
 use crate::dataset::{DatasetError, ImpactReader, ImpactRow, PARCEL_COLUMNS};
 use crate::results::RunResults;
-use nearwall::impact::Impact;
-use nearwall::model::ExtraInput;
+use nearwall::impact::{ExtraInput, Impact};
 
 /// The name of a record.
 const RECORD: &str = "impacts.csv";

@@ -3,11 +3,11 @@
 //! The library knows no law for such an input; a [`FittedCurve`](crate::effect::FittedCurve) depends on it. It is a number, or a
 //! word of a list: its value is then the index of the word.
 
-use crate::impact::{EXTRA_INPUTS, INPUTS};
+use super::{EXTRA_INPUTS, INPUTS};
 use crate::input::{InputError, Section, unknown};
 
 /// Columns of data files that are no inputs, and [`OBSERVED_ERROR`] of each input.
-const OBSERVED: [&str; 8] =
+const OBSERVED_COLUMNS: [&str; 8] =
     ["e_n", "e_t", "outcome", "capture_efficiency", "captured", "e_n_err", "e_t_err", "n_impacts"];
 
 /// The end of the name of a standard error.
@@ -99,7 +99,7 @@ impl ExtraInput {
         if of_input(name) {
             return Some("is an input that every model has; remove it, or give this one another name");
         }
-        if OBSERVED.contains(&name) || name.strip_suffix(OBSERVED_ERROR).is_some_and(of_input) {
+        if OBSERVED_COLUMNS.contains(&name) || name.strip_suffix(OBSERVED_ERROR).is_some_and(of_input) {
             return Some("is an observed column of data files; give the input another name");
         }
         let unusable = name.trim() != name || name.is_empty() || name.chars().any(char::is_control);
@@ -147,7 +147,7 @@ impl ExtraInput {
 ///
 /// # Errors
 /// [`InputError`] naming line, column and key.
-pub(super) fn read(top: &Section<'_>) -> Result<Vec<ExtraInput>, InputError> {
+pub(crate) fn read_extra_inputs(top: &Section<'_>) -> Result<Vec<ExtraInput>, InputError> {
     let Some(table) = top.section("inputs")? else { return Ok(Vec::new()) };
     let names = table.keys();
     if names.len() > EXTRA_INPUTS {
