@@ -1,6 +1,7 @@
 //! The content of a model in words, for `nearwall check`.
 
-use super::Model;
+use super::wall::Covering;
+use super::{Model, Wall};
 use crate::deposit::resuspension::PowderAdhesion;
 use crate::deposit::shedding::Strength;
 use crate::law::{Origin, Parameter, describe_values};
@@ -8,7 +9,7 @@ use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
 /// Temperature [K] at which a property that depends on it is shown.
-const ROOM: f64 = 293.15;
+const ROOM_TEMPERATURE: f64 = 293.15;
 
 impl Model {
     /// The content of the model as pairs of a heading and its numbers with units, in the order of the steps of an impact.
@@ -18,57 +19,10 @@ impl Model {
             particle += &format!(", burning to {}", ash.name());
         }
         let mut lines = vec![("particle", particle)];
-        for wall in &self.walls {
-            let mut text = format!("{} of {}", wall.name(), wall.material().name());
-            if let Some(slag) = &wall.slag {
-                text += &format!(", under {}", slag.name());
-            }
-            if let Some((temperature, stated)) = wall.melt.as_ref().and_then(|melt| melt.stiff_below()) {
-                text += &format!(" that is stiff below {temperature:.0} K");
-                text += if stated { "" } else { " (outside the range of Watt's equation)" };
-            }
-            if let Some(powder) = &wall.powder {
-                text += &format!(", covered by {}", powder.name());
-            }
-            if wall.covering.film_thickness > 0.0 {
-                text += &format!(", film {} m", wall.covering.film_thickness);
-            }
-            if wall.covering.coverage > 0.0 {
-                text += &format!(", coverage {}", wall.covering.coverage);
-            }
-            if wall.covering.layer_thickness > 0.0 {
-                text += &format!(", layer {} m", wall.covering.layer_thickness);
-            }
-            if let Some(erosion) = &wall.erosion {
-                text += &format!(", eroded by {}", erosion.describe());
-            }
-            if let Some(Strength { tensile, shear, spread }) = wall.shedding {
-                text += &format!(
-                    ", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}"
-                );
-            }
-            if let Some(PowderAdhesion { work_of_adhesion, reduced }) = wall.resuspension {
-                text += &format!(", powder sticks to it with {work_of_adhesion} J/m2");
-                match reduced {
-                    Some([median, spread]) => text += &format!(", median {median}, spread {spread}"),
-                    None => text += " and the roughness of Biasi et al. 2001",
-                }
-            }
-            lines.push(("wall", text));
-        }
+        lines.extend(self.walls.iter().map(|wall| ("wall", wall.describe())));
         lines.extend(self.extra_inputs.iter().map(|input| ("input", input.describe())));
         lines.push(("normal", self.describe_normal()));
-        lines.push((
-            "tangential",
-            match self.tangential {
-                TangentialLaw::Constant { restitution } => format!("constant, e_t = {restitution}"),
-                TangentialLaw::Sliding { friction } => format!("sliding, friction {friction}"),
-                TangentialLaw::SlidingRolling { friction } => format!("sliding-rolling, friction {friction}"),
-                TangentialLaw::Listed { law, values } => {
-                    listed(law.name, law.parameters, &values, law.origin)
-                }
-            },
-        ));
+        lines.push(("tangential", self.describe_tangential()));
         let capture = self.capture.describe().map_or_else(
             || "below the sticking velocity, and what effects add".to_owned(),
             |criterion| format!("also by {criterion}"),
@@ -92,6 +46,15 @@ impl Model {
         ))
     }
 
+    fn describe_tangential(&self) -> String {
+        match self.tangential {
+            TangentialLaw::Constant { restitution } => format!("constant, e_t = {restitution}"),
+            TangentialLaw::Sliding { friction } => format!("sliding, friction {friction}"),
+            TangentialLaw::SlidingRolling { friction } => format!("sliding-rolling, friction {friction}"),
+            TangentialLaw::Listed { law, values } => listed(law.name, law.parameters, &values, law.origin),
+        }
+    }
+
     fn describe_normal(&self) -> String {
         if let NormalLaw::Constant { restitution } = self.normal {
             return format!("constant, e_n = {restitution}");
@@ -113,12 +76,49 @@ impl Model {
         let Some(property) = self.particle().property("work_of_adhesion") else {
             return "2 sqrt(gamma_p gamma_w)".to_owned();
         };
-        let value = property.at(ROOM).map_or_else(
+        let value = property.at(ROOM_TEMPERATURE).map_or_else(
             |range| format!("known from {} to {} K", range.low, range.high),
-            |work| format!("{work} J/m2 at {ROOM} K"),
+            |work| format!("{work} J/m2 at {ROOM_TEMPERATURE} K"),
         );
         let source = property.source().and_then(|text| text.split(';').next()).unwrap_or("no source given");
         format!("of {}: {value}, {source}", self.particle().name())
+    }
+}
+
+impl Wall {
+    fn describe(&self) -> String {
+        let mut text = format!("{} of {}", self.name, self.material.name());
+        if let Some(slag) = &self.slag {
+            text += &format!(", under {}", slag.name());
+        }
+        if let Some((temperature, stated)) = self.melt.as_ref().and_then(|melt| melt.stiff_below()) {
+            let beyond = if stated { "" } else { " (outside the range of Watt's equation)" };
+            text += &format!(" that is stiff below {temperature:.0} K{beyond}");
+        }
+        if let Some(powder) = &self.powder {
+            text += &format!(", covered by {}", powder.name());
+        }
+        let Covering { layer_thickness, film_thickness, coverage } = self.covering;
+        let covering =
+            [("film", film_thickness, " m"), ("coverage", coverage, ""), ("layer", layer_thickness, " m")];
+        for (what, value, unit) in covering.into_iter().filter(|(_, value, _)| *value > 0.0) {
+            text += &format!(", {what} {value}{unit}");
+        }
+        if let Some(erosion) = &self.erosion {
+            text += &format!(", eroded by {}", erosion.describe());
+        }
+        if let Some(Strength { tensile, shear, spread }) = self.shedding {
+            text +=
+                &format!(", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}");
+        }
+        if let Some(PowderAdhesion { work_of_adhesion, reduced }) = self.resuspension {
+            text += &format!(", powder sticks to it with {work_of_adhesion} J/m2");
+            text += &match reduced {
+                Some([median, spread]) => format!(", median {median}, spread {spread}"),
+                None => " and the roughness of Biasi et al. 2001".to_owned(),
+            };
+        }
+        text
     }
 }
 

@@ -20,7 +20,7 @@ pub struct Expectation {
     pub sticking_probability: f64,
     /// Variances of `e_n` and `e_t` [1] over the draws; 0 for a model without chance.
     pub variances: [f64; 2],
-    /// The regime of a single impact, that of [`Model::resolve`] with the default random numbers.
+    /// The most frequent regime over the draws, at the share of the wall, covered or bare, that the impact more probably meets.
     pub regime: Regime,
     /// Whether a law or a term is used outside the range that it is stated for, in any draw.
     pub outside_range: bool,
@@ -138,16 +138,20 @@ impl Model {
         if lattice.streams.is_empty() && covered.is_none() {
             return Ok(Expectation::of(&single));
         }
+        let likelier = covered.map_or(0.5, |share| if share < 0.5 { 0.0 } else { 1.0 });
         // What is met, as the random number that decides it, and its share.
         let places = covered.map_or([(0.5, 1.0), (0.5, 0.0)], |share| [(0.0, 1.0 - share), (1.0, share)]);
         let rotated = lattice.rotated(0);
-        let (mut all, mut rebounds, mut captured, mut outside_range) =
-            (Sums::default(), Sums::default(), 0.0, false);
+        let (mut all, mut rebounds) = (Sums::default(), Sums::default());
+        let (mut captured, mut outside_range, mut regimes) = (0.0, false, [0.0; Regime::ALL.len()]);
         for draw in 0..lattice.count() {
             for (place, share) in places.into_iter().filter(|(_, share)| *share > 0.0) {
                 let uniform =
                     |wanted| if wanted == stream::COVER { place } else { rotated.uniform(draw, wanted) };
                 let outcome = self.resolve_place_with(wall, impact, uniform)?;
+                if place == likelier {
+                    regimes[outcome.regime as usize] += rotated.weight(draw);
+                }
                 let weight = share * rotated.weight(draw);
                 all.add(weight, &outcome);
                 rebounds.add(weight * (1.0 - outcome.sticking_probability), &outcome);
@@ -161,10 +165,18 @@ impl Model {
             tangential_restitution: means[1],
             sticking_probability: (captured / all.weight).min(1.0),
             variances,
-            regime: single.regime,
+            regime: most_frequent(regimes),
             outside_range,
         })
     }
+}
+
+/// The regime with the largest weight; of equal ones the first.
+fn most_frequent(weights: [f64; Regime::ALL.len()]) -> Regime {
+    let weight = |regime: Regime| weights[regime as usize];
+    Regime::ALL
+        .into_iter()
+        .fold(Regime::NspNsw, |most, one| if weight(one) > weight(most) { one } else { most })
 }
 
 impl Expectation {

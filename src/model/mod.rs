@@ -276,8 +276,20 @@ impl Model {
         impact: &Impact,
         rng: ImpactRng,
     ) -> Result<(Outcome, Vec<TraceEntry>), ImpactError> {
+        self.explain_with(wall, impact, |stream| rng.uniform(stream))
+    }
+
+    /// As [`Model::explain`], with the random numbers of [`Model::resolve_with`].
+    ///
+    /// # Errors
+    /// As [`Model::resolve`].
+    pub fn explain_with(
+        &self,
+        wall: usize,
+        impact: &Impact,
+        uniform: impl Fn(u64) -> f64,
+    ) -> Result<(Outcome, Vec<TraceEntry>), ImpactError> {
         let mut trace = Vec::new();
-        let uniform = |stream| rng.uniform(stream);
         let outcome = self.evaluate(wall, impact, uniform, |term, quantity, value| {
             trace.push(TraceEntry { term, quantity, value });
         })?;

@@ -59,15 +59,10 @@ impl Draws {
             }
         }
         let mean_probability = outcomes.iter().map(|outcome| outcome.sticking_probability).sum::<f64>();
-        let frequency = |regime: Regime| outcomes.iter().filter(|outcome| outcome.regime == regime).count();
-        let first = outcomes[0].regime;
-        let most = Regime::ALL
-            .into_iter()
-            .fold(first, |most, regime| if frequency(regime) > frequency(most) { regime } else { most });
         Ok(Cell {
             restitution,
             sticking_probability: mean_probability / outcomes.len() as f64,
-            regime: most,
+            regime: model.expect(wall, impact, DRAWS_A_CELL)?.regime,
             outside_range: outcomes.iter().any(|outcome| outcome.outside_range),
         })
     }

@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
+use nearwall::effect::stream;
 use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
 use nearwall_lab::atomic_file::{AtomicFile, WriteError};
@@ -86,13 +87,13 @@ fn predict(
     reader: &mut ImpactReader<impl Read + Send>,
     output: &mut impl Write,
 ) -> CommandResult {
-    output.write_all(&header(predictor, reader))?;
+    output.write_all(&header(predictor, reader)?)?;
     let mut notes = RowNotes::default();
     let (mut block, mut next) = (RowBlock::default(), RowBlock::default());
     block.read(reader);
     while block.count > 0 {
         // The next rows are read meanwhile.
-        rayon::join(|| block.predict(predictor), || next.read(reader));
+        rayon::join(|| block.predict(predictor), || next.read(reader)).0?;
         block.write(output, &mut notes)?;
         if let Some(error) = block.fault {
             return Err(error.into());
@@ -107,17 +108,17 @@ fn predict(
 }
 
 /// The names of the columns of the file and of those that are added.
-fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> Vec<u8> {
-    let mut text = Vec::new();
-    write_cells(reader.headers(), &mut text);
+fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> csv::Result<Vec<u8>> {
     let bands: &[&str] = if predictor.has_bands() { &BANDS } else { &[] };
+    let mut header = reader.headers().clone();
     for name in VALUES.iter().chain(&["regime"]).chain(bands) {
         // A column of the file keeps its name.
         let more = if reader.column(name).is_some() { "_predicted" } else { "" };
-        text.extend([",", name, more].into_iter().flat_map(str::bytes));
+        header.push_field(&format!("{name}{more}"));
     }
-    text.push(b'\n');
-    text
+    let mut text = Vec::new();
+    csv::Writer::from_writer(&mut text).write_record(&header)?;
+    Ok(text)
 }
 
 /// Rows that are predicted together, and rows of one task.
@@ -159,10 +160,10 @@ impl RowBlock {
     }
 
     /// Predicts the rows on all cores; the parts have their order.
-    fn predict(&mut self, predictor: &Predictor<'_>) {
+    fn predict(&mut self, predictor: &Predictor<'_>) -> csv::Result<()> {
         let tasks = self.rows[..self.count].par_chunks(ROWS_A_TASK);
         self.parts.resize_with(tasks.len(), PredictedText::default);
-        tasks.zip(&mut self.parts).for_each(|(rows, part)| part.predict(predictor, rows));
+        tasks.zip(&mut self.parts).try_for_each(|(rows, part)| part.predict(predictor, rows))
     }
 
     /// Writes the rows and adds their notes.
@@ -178,7 +179,7 @@ impl RowBlock {
     }
 }
 
-/// PredictedText rows as text, and the notes about them.
+/// Predicted rows as text, and the notes about them.
 #[derive(Default)]
 struct PredictedText {
     text: Vec<u8>,
@@ -187,53 +188,31 @@ struct PredictedText {
 }
 
 impl PredictedText {
-    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(ImpactRow, Option<BadRow>)]) {
+    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(ImpactRow, Option<BadRow>)]) -> csv::Result<()> {
         self.text.clear();
+        let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(&mut self.text);
         for (row, bad) in rows {
             match self.notes.predict(predictor, bad.as_ref().map_or(Ok(row), Err)) {
-                Ok((row, predicted)) => write_row(row, &predicted, &mut self.text),
+                Ok((row, predicted)) => write_row(row, &predicted, &mut writer)?,
                 Err(bad) => self.left_out.push(bad),
             }
         }
+        Ok(writer.flush()?)
     }
 }
 
 /// Writes the cells of a row and its prediction, each number with as few digits as give the same bits when they are read.
-fn write_row(row: &ImpactRow, predicted: &PredictedRow, text: &mut Vec<u8>) {
+fn write_row(row: &ImpactRow, predicted: &PredictedRow, writer: &mut csv::Writer<impl Write>) -> csv::Result<()> {
     let mut digits = zmij::Buffer::new();
-    let mut write_number = |value: f64, text: &mut Vec<u8>| {
-        text.push(b',');
-        text.extend_from_slice(digits.format(value).as_bytes());
-    };
-    write_cells(&row.cells, text);
+    row.cells.iter().try_for_each(|cell| writer.write_field(cell))?;
     for value in predicted.values {
-        write_number(value, text);
+        writer.write_field(digits.format(value))?;
     }
-    text.push(b',');
-    text.extend_from_slice(predicted.regime.as_bytes());
+    writer.write_field(predicted.regime)?;
     for value in predicted.bands.as_flattened() {
-        write_number(*value, text);
+        writer.write_field(digits.format(*value))?;
     }
-    text.push(b'\n');
-}
-
-/// Writes cells, in quotation marks where they have to be.
-fn write_cells(cells: &csv::StringRecord, text: &mut Vec<u8>) {
-    let is_special = |byte: u8| matches!(byte, b',' | b'"' | b'\n' | b'\r');
-    // Most rows need no quotation marks. All bytes are compared, which is faster than to stop at the first.
-    let any_special = cells.as_slice().bytes().fold(false, |found, byte| found | is_special(byte));
-    for (index, cell) in cells.iter().enumerate() {
-        if index > 0 {
-            text.push(b',');
-        }
-        if any_special && cell.bytes().any(is_special) {
-            text.push(b'"');
-            text.extend(cell.replace('"', "\"\"").bytes());
-            text.push(b'"');
-        } else {
-            text.extend_from_slice(cell.as_bytes());
-        }
-    }
+    writer.write_record(None::<&[u8]>)
 }
 
 /// Prints the notes about all rows.
@@ -260,12 +239,15 @@ fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line
             Err(bad) if bad.line == line => return Err(format!("line {line}: {}", bad.reason).into()),
             Ok(row) if row.line == line => {
                 let wall = predictor.wall(&row)?;
-                let (outcome, entries) = model.explain(wall, &row.impact, ImpactRng::default())?;
+                // Of covered and bare wall the share that is met more probably.
+                let uniform =
+                    |wanted| if wanted == stream::COVER { 0.5 } else { ImpactRng::default().uniform(wanted) };
+                let (outcome, entries) = model.explain_with(wall, &row.impact, uniform)?;
+                let regime = predictor.row(&row).map_err(|bad| bad.reason)?.regime;
                 let speeds = model.speeds(wall, &row.impact)?;
                 let mut text = format!(
-                    "wall {}, regime {}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",
+                    "wall {}, regime {regime}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",
                     model.walls()[wall].name(),
-                    outcome.regime.name(),
                     speeds.adhesive,
                     speeds.yielding,
                     speeds.sticking
