@@ -81,7 +81,7 @@ pub fn impact(index: usize) -> [f64; 5] {
     [0.05 + 3.0 * even(10), 3.0 * even(11), 1e-5 + 1e-4 * even(12), 320.0 + 80.0 * even(13), spin]
 }
 
-/// As [`impact`], for [`BONS`]: particles of 1 to 50 µm at 5 to 100 m/s, some of which stick.
+/// As [`impact`], for [`BONS_MODEL`]: particles of 1 to 50 µm at 5 to 100 m/s, some of which stick.
 fn impact_in_turbine(index: usize) -> [f64; 5] {
     let even = |stream| even(index, stream);
     [5.0 + 95.0 * even(10), 100.0 * even(11), 1e-6 + 49e-6 * even(12), 293.15, 0.0]
@@ -129,16 +129,16 @@ pub fn block() -> Block {
 }
 
 /// What the kernel of the floor writes.
-pub type Sink = [[f64; BLOCK]; 3];
+pub type BlockSink = [[f64; BLOCK]; 3];
 
 /// The divisions and square roots of an impact and nothing else: 1/v, w/(w + ...), two along the wall and one of the
 /// logistic, three roots of the normal law.
-pub fn floor(level: Level, block: &Block, sink: &mut Sink) {
+pub fn floor(level: Level, block: &Block, sink: &mut BlockSink) {
     dispatch!(level, simd => floor_with(simd, block, sink));
 }
 
 #[inline(always)]
-fn floor_with<S: Simd>(_: S, block: &Block, sink: &mut Sink) {
+fn floor_with<S: Simd>(_: S, block: &Block, sink: &mut BlockSink) {
     let [v_n, v_t, d, t_p, ..] = &block.inputs;
     for i in 0..BLOCK {
         sink[0][i] = (1.0 / v_n[i]).sqrt() + v_n[i] / d[i];
@@ -148,7 +148,7 @@ fn floor_with<S: Simd>(_: S, block: &Block, sink: &mut Sink) {
 }
 
 /// Ash on a turbine vane after Bons, Prenter & Whitaker (2017).
-const BONS: &str = r#"
+const BONS_MODEL: &str = r#"
 [particle]
 material = "ash"
 [walls.default]
@@ -214,7 +214,7 @@ pub struct HandOutcome {
     pub words: [u32; 2],
 }
 
-/// `Columns` of `handwritten.h`.
+/// `ImpactColumns` of `handwritten.h`.
 #[repr(C)]
 pub struct HandColumns {
     count: usize,
@@ -276,14 +276,14 @@ pub fn wax(own_elementary: bool) -> Side {
 pub fn bons() -> Side {
     let (name, impact) = ("Bons law, C++ -O3 by hand", impact_in_turbine as _);
     let (one, many) = compiled("bons.cpp", &[]);
-    // As in [`BONS`]: [Pa], [1], [Pa], [J/m²], [kg/m³].
+    // As in [`BONS_MODEL`]: [Pa], [1], [Pa], [J/m²], [kg/m³].
     let compliance = |modulus: f64, ratio: f64| (1.0 - ratio * ratio) / modulus;
     let modulus = 1.0 / (compliance(70e9, 0.2) + compliance(200e9, 0.3));
     let (strength, work, density): (f64, f64, f64) = (200e6, 0.8, 2500.0);
     let yielding = strength / (density * modulus).sqrt();
     let adhesive = 3.0 * work / (density * (1.0 - strength / modulus));
     let constants = Constants([yielding, adhesive, 0.1, 1.0 / 7.0, 0.5, 0.3, 0.0], SEED);
-    Side { name, toml: BONS, impact, constants, same_rebound: true, one, many }
+    Side { name, toml: BONS_MODEL, impact, constants, same_rebound: true, one, many }
 }
 
 /// Fouling by molten ash, as in code_saturne, by hand. Only the capture is the same: nearwall's particles bounce less the
@@ -314,7 +314,7 @@ fn wax_constants() -> Constants {
 }
 
 /// Arrays for a batch.
-pub struct Columns {
+pub struct ImpactColumns {
     inputs: [Vec<f64>; 5],
     /// Temperature of the wall and conversion, where they are given.
     slag: Option<[Vec<f64>; 2]>,
@@ -325,7 +325,7 @@ pub struct Columns {
     pub words: [Vec<u32>; 3],
 }
 
-impl Columns {
+impl ImpactColumns {
     /// `count` impacts, repeated from a short list.
     pub fn new(count: usize, impact: fn(usize) -> [f64; 5]) -> Self {
         let list: Vec<[f64; 5]> = (0..1024).map(impact).collect();
@@ -381,9 +381,9 @@ impl Columns {
 
 /// Checks that a batch by nearwall and one by hand say the same: `p_stick` and, where both do, the rebound to 1e-9, and who is
 /// captured.
-pub fn check_agreement(side: &Side, near: &Columns, hand: &Columns) {
+pub fn check_agreement(side: &Side, near: &ImpactColumns, hand: &ImpactColumns) {
     let names = ["e_n", "e_t", "p_stick", "omega"];
-    let captured = |columns: &Columns| columns.words[1].iter().filter(|stuck| **stuck != 0).count();
+    let captured = |columns: &ImpactColumns| columns.words[1].iter().filter(|stuck| **stuck != 0).count();
     let (count, stuck) = (near.words[1].len(), captured(near));
     assert!(0 < stuck && stuck < count, "{}: {stuck} of {count} captured", side.name);
     for i in 0..count {

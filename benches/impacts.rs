@@ -34,7 +34,7 @@ fn main() {
 /// A block in the first-level cache against the divisions and roots alone.
 fn blocks(criterion: &mut Criterion) {
     let (model, block) = (model(), block());
-    let (mut sink, mut outcomes): (Sink, _) = ([[0.0; BLOCK]; 3], Outcomes::default());
+    let (mut sink, mut outcomes): (BlockSink, _) = ([[0.0; BLOCK]; 3], Outcomes::default());
     let mut workspace = Workspace::default();
     let mut group = criterion.benchmark_group("block");
     group.throughput(Throughput::Elements(BLOCK as u64));
@@ -76,7 +76,7 @@ fn calls(criterion: &mut Criterion) {
     let resolve = black_box(nw_resolve as Resolve);
     for (group, side) in SIDES.into_iter().zip(sides()) {
         let model = handle(side.toml);
-        let [mut near, mut hand] = [0; 2].map(|_| Columns::new(CACHED, side.impact));
+        let [mut near, mut hand] = [0; 2].map(|_| ImpactColumns::new(CACHED, side.impact));
         let ((impacts, outcomes), by_hand) = (near.pointers(), hand.by_hand());
         // SAFETY: a live model and columns of one length.
         unsafe {
@@ -131,7 +131,7 @@ fn each_call(resolve: Resolve, model: *const nw_model, impacts: &[nw_impact]) {
 fn slag(criterion: &mut Criterion) {
     let resolve = black_box(nw_resolve as Resolve);
     let (model, wall) = gasifier();
-    let mut columns = Columns::on_slag(CACHED, wall);
+    let mut columns = ImpactColumns::on_slag(CACHED, wall);
     let (impacts, outcomes) = columns.pointers();
     let list: Vec<nw_impact> = (0..1024).map(|index| called_on_slag(index, wall)).collect();
     let mut group = criterion.benchmark_group("slag");
@@ -144,15 +144,15 @@ fn slag(criterion: &mut Criterion) {
 }
 
 /// Sizes of batches, from the cache to beyond it.
-const SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
+const BATCH_SIZES: [usize; 4] = [1_000, 10_000, 100_000, 1_000_000];
 
 /// Batches through the C interface.
 fn batches(criterion: &mut Criterion) {
     let model = handle(MODEL);
     let mut group = criterion.benchmark_group("batch");
     group.sample_size(10);
-    for count in SIZES {
-        let mut columns = Columns::new(count, impact);
+    for count in BATCH_SIZES {
+        let mut columns = ImpactColumns::new(count, impact);
         let (impacts, outcomes) = columns.pointers();
         group.throughput(Throughput::Elements(count as u64));
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
@@ -171,11 +171,11 @@ fn threads(criterion: &mut Criterion) {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let counts = (0..).map(|power| 1 << power).take_while(|count| *count <= cores);
     for count in counts {
-        let mut all: Vec<Columns> = (0..count).map(|_| Columns::new(CACHED, impact)).collect();
+        let mut all: Vec<ImpactColumns> = (0..count).map(|_| ImpactColumns::new(CACHED, impact)).collect();
         let model = handle(MODEL) as usize;
         group.bench_function(BenchmarkId::from_parameter(count), |b| {
             b.iter_custom(|rounds| {
-                let work = |columns: &mut Columns| {
+                let work = |columns: &mut ImpactColumns| {
                     let (impacts, outcomes) = columns.pointers();
                     let start = on_core();
                     for _ in 0..30 * rounds {
@@ -287,7 +287,7 @@ fn rows() {
         let what = format!("wax: block of 128 in the cache, {level}, an impact");
         row(&what, "ns", ours, "its divisions and roots alone", floor);
     }
-    for count in SIZES {
+    for count in BATCH_SIZES {
         let time = median(&format!("batch/{count}"), count);
         alone(&format!("wax: batch of {count}, an impact"), "ns", time);
     }

@@ -14,9 +14,9 @@ use nearwall::model::block::{Block, Outcomes, Workspace};
 use nearwall_benches::*;
 
 /// On the heap, so that what is counted does not move it about.
-type Blocks = Box<(Model, Block, Level, Outcomes, Workspace)>;
+type BlockRun = Box<(Model, Block, Level, Outcomes, Workspace)>;
 
-fn at(name: &str) -> Blocks {
+fn at(name: &str) -> BlockRun {
     let level = levels().into_iter().find(|level| level.0 == name).unwrap().1;
     Box::new((model(), block(), level, Outcomes::default(), Workspace::default()))
 }
@@ -24,7 +24,7 @@ fn at(name: &str) -> Blocks {
 #[library_benchmark]
 #[bench::sse2(args = ("SSE2"), setup = at)]
 #[bench::avx2(args = ("AVX2"), setup = at)]
-fn block_of_128(mut blocks: Blocks) -> Blocks {
+fn block_of_128(mut blocks: BlockRun) -> BlockRun {
     let (model, block, level, outcomes, workspace) = &mut *blocks;
     model.resolve_block_at(*level, 0, black_box(block), SEED, outcomes, workspace).unwrap();
     blocks

@@ -109,14 +109,14 @@ impl Parameter {
 pub const MOST_PARAMETERS: usize = 4;
 
 /// The values of the parameters of a listed law, in their order; the rest is 0.
-pub type Values = [f64; MOST_PARAMETERS];
+pub type ParameterValues = [f64; MOST_PARAMETERS];
 
 /// Reads the parameters of a listed law.
 pub(crate) fn read_values(
     section: &Section<'_>,
     parameters: &'static [Parameter],
-) -> Result<Values, InputError> {
-    let mut values = Values::default();
+) -> Result<ParameterValues, InputError> {
+    let mut values = ParameterValues::default();
     for (value, parameter) in values.iter_mut().zip(parameters) {
         *value = parameter.read(section)?;
     }

@@ -12,7 +12,7 @@ use super::{place, whole};
 const FILE: &str = "c.toml";
 
 /// Cases that are accepted, with their models.
-const WHOLE: [(&str, &str); 3] = [
+const WHOLE_CASE: [(&str, &str); 3] = [
     (
         include_str!("../../tutorials/standalone/waxRig.toml"),
         include_str!("../../tutorials/standalone/waxRig.model.toml"),
@@ -39,7 +39,7 @@ fn in_one_file(case: &str, model: &str) -> String {
 
 /// Any text is refused with its place, or is a case that runs to a page. What only makes a run long is cut short.
 pub fn case(bytes: &[u8]) {
-    let texts: Vec<String> = WHOLE.iter().map(|(case, model)| in_one_file(case, model)).collect();
+    let texts: Vec<String> = WHOLE_CASE.iter().map(|(case, model)| in_one_file(case, model)).collect();
     let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
     let Some(text) = file(&texts, bytes) else { return };
     let text = text.as_ref();

@@ -16,8 +16,8 @@ use super::whole;
 const FILE: &str = "d.csv";
 
 /// Rows and columns of the file's own that a diagnosis gets at most; an average stands for few impacts or is not unfolded.
-const ROWS: usize = 24;
-const COLUMNS: usize = 2;
+const FUZZED_ROWS: usize = 24;
+const FUZZED_COLUMNS: usize = 2;
 const UNFOLDED: f64 = 3.0;
 
 const MODELS: [&str; 3] = [
@@ -42,8 +42,8 @@ pub fn diagnose(bytes: &[u8]) {
     let model = Model::from_toml("m.toml", text_of_model).expect("our own model");
     let walls = WallChoice::new(&model, (choice >= 128).then_some("default")).expect("there is a default");
     let Ok(mut data) = Measurements::read(FILE, text.as_slice(), None, &walls) else { return };
-    data.columns.truncate(COLUMNS);
-    let most = data.rows.iter().map(|row| row.line).nth(ROWS - 1).unwrap_or(u64::MAX);
+    data.columns.truncate(FUZZED_COLUMNS);
+    let most = data.rows.iter().map(|row| row.line).nth(FUZZED_ROWS - 1).unwrap_or(u64::MAX);
     let data = data.without(|row| {
         let long = row.impacts > UNFOLDED && row.impacts <= 1000.0;
         (row.line > most || long).then(|| "more than the fuzzer has time for".to_owned())
@@ -82,7 +82,7 @@ fn cell(bytes: &mut Bytes<'_>, pattern: u8, usual: f64, row: usize) -> String {
 }
 
 /// Columns, with a value that is usual there.
-const NAMES: [(&str, f64); 24] = [
+const COLUMN_NAMES: [(&str, f64); 24] = [
     ("v_n", 1.0),
     ("e_n", 0.2),
     ("e_t", 0.3),
@@ -111,13 +111,13 @@ const NAMES: [(&str, f64); 24] = [
 
 fn table(bytes: &mut Bytes<'_>) -> String {
     let which = bytes.word() & 0x00FF_FFFF | 0b1;
-    let chosen: Vec<(&str, f64, u8)> = NAMES
+    let chosen: Vec<(&str, f64, u8)> = COLUMN_NAMES
         .into_iter()
         .enumerate()
         .filter(|(place, _)| which >> place & 1 == 1)
         .map(|(_, (name, usual))| (name, usual, bytes.byte()))
         .collect();
-    let rows = 7 + bytes.below(ROWS - 6);
+    let rows = 7 + bytes.below(FUZZED_ROWS - 6);
     let mut text = chosen.iter().map(|(name, ..)| *name).collect::<Vec<_>>().join(",");
     let twice = bytes.byte() == 0;
     let mut last = String::new();

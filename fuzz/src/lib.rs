@@ -17,10 +17,10 @@ pub use model::model;
 pub use openfoam::openfoam;
 
 /// Name and function of a target.
-pub type Target = (&'static str, fn(&[u8]));
+pub type FuzzTarget = (&'static str, fn(&[u8]));
 
 /// All targets, named as their folders in `fuzz/corpus`.
-pub const TARGETS: [Target; 6] = [
+pub const TARGETS: [FuzzTarget; 6] = [
     ("model", model),
     ("case", case),
     ("dataset", dataset),

@@ -8,7 +8,7 @@ use super::place;
 const FILE: &str = "m.toml";
 
 /// Models that are accepted, with all laws and effects.
-const WHOLE: [&str; 6] = [
+const WHOLE_MODEL: [&str; 6] = [
     include_str!("../../tutorials/slaggingGasifier/constant/nearWall.toml"),
     include_str!("../../tutorials/standalone/waxRig.model.toml"),
     include_str!("../../tutorials/standalone/tungstenDust.model.toml"),
@@ -19,7 +19,7 @@ const WHOLE: [&str; 6] = [
 
 /// Any text is refused with its place, or is a model that decides every impact or says why not.
 pub fn model(bytes: &[u8]) {
-    let Some(text) = file(&WHOLE, bytes) else { return };
+    let Some(text) = file(&WHOLE_MODEL, bytes) else { return };
     let text = text.as_ref();
     match Model::from_toml(FILE, text) {
         Err(error) => place(&error.to_string(), FILE, text),

@@ -1,6 +1,6 @@
 //! A finished OpenFOAM case as `report` reads it.
 //!
-//! The bytes are the files of a case, each after a zero: a letter selects a file of [`PLACES`], the rest is its text. The
+//! The bytes are the files of a case, each after a zero: a letter selects a file of [`DAMAGED_PLACES`], the rest is its text. The
 //! bytes before the first zero are the table of runs that `report` accepts instead of a case.
 
 use std::path::Path;
@@ -12,7 +12,7 @@ use nearwall_lab::results::{RunResults, WallModel};
 use super::whole;
 
 /// Files of a case, from `a` on.
-const PLACES: [&str; 23] = [
+const DAMAGED_PLACES: [&str; 23] = [
     "constant/polyMesh/boundary",
     "constant/wallInteraction",
     "constant/coalProperties",
@@ -51,11 +51,11 @@ pub fn openfoam(bytes: &[u8]) {
     }
     let case = folder.path().join("case");
     put(&case, "system/controlDict", b"");
-    put(&case, PLACES[0], BOUNDARY.as_bytes());
-    put(&case, PLACES[1], b"patchInteractionModel nearWallInteraction;");
+    put(&case, DAMAGED_PLACES[0], BOUNDARY.as_bytes());
+    put(&case, DAMAGED_PLACES[1], b"patchInteractionModel nearWallInteraction;");
     for part in parts.take(30) {
         if let [place, content @ ..] = part {
-            put(&case, PLACES[usize::from(place.wrapping_sub(b'a')) % PLACES.len()], content);
+            put(&case, DAMAGED_PLACES[usize::from(place.wrapping_sub(b'a')) % DAMAGED_PLACES.len()], content);
         }
     }
     match read(&case) {

@@ -89,7 +89,7 @@ impl FreezingDroplet {
         let driving = capacity * (self.melting_point - self.wall_temperature) / heat;
         let ratio = self.droplet.effusivity() / self.wall.effusivity();
         let (mut low, mut high) = (0.0, LARGEST_GROWTH);
-        for _ in 0..HALVINGS {
+        for _ in 0..ROOT_HALVINGS {
             let middle = 0.5 * (low + high);
             if neumann(middle, ratio) < driving { low = middle } else { high = middle }
         }
@@ -100,7 +100,7 @@ impl FreezingDroplet {
 /// Upper end of the search for `lambda`: at 5 the layer has needed 1e11 times its heat of fusion.
 const LARGEST_GROWTH: f64 = 5.0;
 /// Halvings of that range, down to rounding.
-const HALVINGS: u32 = 55;
+const ROOT_HALVINGS: u32 = 55;
 /// Terms of the series, enough for `lambda` up to [`LARGEST_GROWTH`].
 const TERMS: u32 = 150;
 

@@ -28,7 +28,7 @@ const REFERENCE: Limits =
 
 /// The reference viscosity of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Reference {
+enum ReferenceViscosity {
     /// The same for all [Pa s].
     Constant(f64),
     /// By kinetic energy.
@@ -40,7 +40,7 @@ enum Reference {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscosityCriterion {
     laws: MeltLaws,
-    reference: Reference,
+    reference: ReferenceViscosity,
 }
 
 impl ViscosityCriterion {
@@ -50,17 +50,20 @@ impl ViscosityCriterion {
             let what = "the viscosity [Pa s] at which every impact sticks (literature: 8 to 1e7)";
             section.missing("reference_viscosity", what)
         })?;
-        Ok(Self { laws, reference: Reference::Constant(reference) })
+        Ok(Self { laws, reference: ReferenceViscosity::Constant(reference) })
     }
 
     pub(super) fn read_with_energy(section: &Section<'_>) -> Result<Self, InputError> {
-        Ok(Self { laws: MeltLaws::read(section)?, reference: Reference::Energy(EnergyLaw::read(section)?) })
+        Ok(Self {
+            laws: MeltLaws::read(section)?,
+            reference: ReferenceViscosity::Energy(EnergyLaw::read(section)?),
+        })
     }
 
     pub(super) fn describe(self) -> String {
         let reference = match self.reference {
-            Reference::Constant(reference) => format!("reference_viscosity {reference} Pa s"),
-            Reference::Energy(law) => law.describe(),
+            ReferenceViscosity::Constant(reference) => format!("reference_viscosity {reference} Pa s"),
+            ReferenceViscosity::Energy(law) => law.describe(),
         };
         let Self { laws, .. } = self;
         let (law, solidification) = (laws.describe().unwrap_or_default(), laws.solidification());
@@ -70,8 +73,8 @@ impl ViscosityCriterion {
     /// The model's name in the `[capture]` table.
     pub fn name(self) -> &'static str {
         match self.reference {
-            Reference::Constant(_) => "viscosity",
-            Reference::Energy(_) => "kinetic-energy",
+            ReferenceViscosity::Constant(_) => "viscosity",
+            ReferenceViscosity::Energy(_) => "kinetic-energy",
         }
     }
 
@@ -111,8 +114,8 @@ impl MeltStickiness {
     /// The viscosity [Pa s] up to which this impact sticks.
     fn reference(&self, impact: &Impact) -> f64 {
         match self.criterion.reference {
-            Reference::Constant(reference) => reference,
-            Reference::Energy(law) => {
+            ReferenceViscosity::Constant(reference) => reference,
+            ReferenceViscosity::Energy(law) => {
                 // An unknown density is taken as too large to stick; a material always has one at the nearest temperature.
                 let own = self.particle.density_near(impact.particle_temperature).unwrap_or(f64::INFINITY);
                 law.at(if impact.particle_density > 0.0 { impact.particle_density } else { own }, impact)
@@ -132,13 +135,13 @@ impl MeltStickiness {
     ) {
         let length = block.length.min(BLOCK);
         match self.criterion.reference {
-            Reference::Constant(reference) => dispatch!(level, _simd => {
+            ReferenceViscosity::Constant(reference) => dispatch!(level, _simd => {
                 let (reference, MeltStates { stickiness: sticky, viscosity, .. }) = (reference, &mut *states);
                 for index in 0..length {
                     sticky[index] = stickiness(viscosity[index], reference);
                 }
             }),
-            Reference::Energy(_) => {
+            ReferenceViscosity::Energy(_) => {
                 for index in 0..length {
                     let reference = self.reference(&block.impact(index));
                     states.stickiness[index] = stickiness(states.viscosity[index], reference);

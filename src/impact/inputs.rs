@@ -126,13 +126,13 @@ macro_rules! define_impact {
         )*];
 
         #[allow(non_camel_case_types)]
-        enum Place {
+        enum InputPlace {
             $($field,)*
         }
 
         impl Impact {
-            $(#[doc = concat!("Place of `", stringify!($field), "` in [`INPUTS`].")]
-            pub const $place: usize = Place::$field as usize;)*
+            $(#[doc = concat!("InputPlace of `", stringify!($field), "` in [`INPUTS`].")]
+            pub const $place: usize = InputPlace::$field as usize;)*
         }
 
         impl Impact {

@@ -27,14 +27,14 @@ const fn limits(unit: &'static str, low: f64, high: f64, known: &'static str) ->
 
 macro_rules! define_fields {
     ($($field:ident, $key:literal, $kind:ident, $required:literal, $limits:expr;)*) => {
-        /// A property by its place in [`FIELDS`].
+        /// A property by its place in [`PROPERTY_FIELDS`].
         #[derive(Debug, Clone, Copy)]
         #[allow(dead_code, reason = "some are only read by their key")]
         enum Field {
             $($field,)*
         }
 
-        const FIELDS: [PropertyField; [$($key),*].len()] = [$(
+        const PROPERTY_FIELDS: [PropertyField; [$($key),*].len()] = [$(
             PropertyField { key: $key, kind: QuantityKind::$kind, required: $required, limits: $limits },
         )*];
     };
@@ -70,7 +70,7 @@ const MECHANICAL: [Field; 5] =
 
 /// The kind of a property by its key in files.
 pub fn kind_of(key: &str) -> Option<QuantityKind> {
-    FIELDS.iter().find(|field| field.key == key).map(|field| field.kind)
+    PROPERTY_FIELDS.iter().find(|field| field.key == key).map(|field| field.kind)
 }
 
 /// A solid that a particle or a wall is made of.
@@ -78,7 +78,7 @@ pub fn kind_of(key: &str) -> Option<QuantityKind> {
 pub struct Material {
     name: String,
     about: Option<String>,
-    properties: [Option<Property>; FIELDS.len()],
+    properties: [Option<Property>; PROPERTY_FIELDS.len()],
     composition: Option<Composition>,
 }
 
@@ -123,8 +123,8 @@ impl Material {
     /// # Errors
     /// [`InputError::Fault`] for a missing, unknown or unphysical property.
     pub fn read(name: &str, section: &Section<'_>) -> Result<Self, InputError> {
-        let mut properties = [const { None }; FIELDS.len()];
-        for (field, property) in FIELDS.iter().zip(&mut properties) {
+        let mut properties = [const { None }; PROPERTY_FIELDS.len()];
+        for (field, property) in PROPERTY_FIELDS.iter().zip(&mut properties) {
             *property = Property::read(section, field.key, &field.limits)?;
             if property.is_none() && field.required {
                 return Err(section.missing(field.key, &format!("a value in {}", field.limits.unit)));
@@ -153,13 +153,13 @@ impl Material {
 
     /// A property by its key, for instance `youngs_modulus`.
     pub fn property(&self, key: &str) -> Option<&Property> {
-        let index = FIELDS.iter().position(|field| field.key == key)?;
+        let index = PROPERTY_FIELDS.iter().position(|field| field.key == key)?;
         self.properties[index].as_ref()
     }
 
     /// Its properties with key and unit, in a fixed order.
     pub fn properties(&self) -> impl Iterator<Item = (&'static str, &'static str, &Property)> {
-        let fields = FIELDS.iter().zip(&self.properties);
+        let fields = PROPERTY_FIELDS.iter().zip(&self.properties);
         fields.filter_map(|(field, p)| Some((field.key, field.limits.unit, p.as_ref()?)))
     }
 
@@ -208,7 +208,7 @@ impl Material {
         let found = self.properties[field as usize].as_ref().map_or(Err(nowhere), |p| p.at(temperature));
         found.map_err(|OutOfRange { low, high }| ImpactError::OutOfRange {
             material: self.name.clone(),
-            property: FIELDS[field as usize].key,
+            property: PROPERTY_FIELDS[field as usize].key,
             temperature,
             low,
             high,
@@ -487,7 +487,7 @@ mod tests {
             "1000", "2", "4e5", "0.8",
         ];
         let read = |place: usize, value: f64| {
-            let lines = FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
+            let lines = PROPERTY_FIELDS.iter().zip(usual).enumerate().map(|(at, (field, usual))| {
                 let value = if at == place { format!("{value:e}") } else { usual.to_owned() };
                 format!("{} = {value}\n", field.key)
             });
@@ -496,7 +496,7 @@ mod tests {
         };
         let page = include_str!("../../docs/model-file.md");
         let written = |x: f64| if (0.01..1e3).contains(&x) { x.to_string() } else { format!("{x:e}") };
-        for (place, field) in FIELDS.iter().enumerate() {
+        for (place, field) in PROPERTY_FIELDS.iter().enumerate() {
             let Limits { low, high, .. } = field.limits;
             if low > 0.0 && high.is_finite() {
                 let stated = format!("{} to {} ", written(low), written(high));

@@ -1,10 +1,10 @@
 //! A material property and its dependence on temperature.
 
-use super::table::Table;
+use super::table::PropertyTable;
 use crate::input::{InputError, Limits, Section};
 
 /// Number of steps at which the limits of a formula are checked within its `valid` range.
-const STEPS: u32 = 200;
+const CHECKED_STEPS: u32 = 200;
 
 /// Dependence of a property on temperature.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,7 +12,7 @@ enum Form {
     /// The same number at every temperature.
     Constant(f64),
     /// Linear between the points of a table, unknown beyond its ends.
-    Table(Table),
+    Table(PropertyTable),
     /// `sum c_i (T - T0)^i`.
     Polynomial { coefficients: Vec<f64>, origin: f64 },
     /// `A exp(B / T)`.
@@ -214,7 +214,8 @@ impl Property {
             (Form::Constant(value), _) => vec![(None, *value)],
             (Form::Table(table), _) => table.points().map(|[t, value]| (Some(t), value)).collect(),
             (Form::Polynomial { .. } | Form::Arrhenius { .. }, Some([low, high])) => {
-                let along = (0..STEPS).map(|step| low + (high - low) * (f64::from(step) / f64::from(STEPS)));
+                let along = (0..CHECKED_STEPS)
+                    .map(|step| low + (high - low) * (f64::from(step) / f64::from(CHECKED_STEPS)));
                 along.chain([high]).filter_map(at).collect()
             }
             (_, None) => Vec::new(),
@@ -235,7 +236,7 @@ impl Form {
             if temperatures.windows(2).any(|pair| pair[0] >= pair[1]) || temperatures[0] <= 0.0 {
                 return Err(table.fault("T", "temperatures [K] must be positive and rise"));
             }
-            return Ok(Self::Table(Table::new(&temperatures, &values).ok_or_else(number)?));
+            return Ok(Self::Table(PropertyTable::new(&temperatures, &values).ok_or_else(number)?));
         }
         if let Some(coefficients) = table.numbers("polynomial")? {
             return Ok(Self::Polynomial { coefficients, origin: table.number("T0")?.unwrap_or(0.0) });

@@ -2,15 +2,15 @@
 
 /// Points of a table with rising temperatures, as the straight lines between them.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Table {
-    lines: Vec<Line>,
+pub(super) struct PropertyTable {
+    lines: Vec<TableSegment>,
     /// Temperature [K] and value of the last point.
     last: [f64; 2],
 }
 
 /// The straight line from a point of a table to the next one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Line {
+struct TableSegment {
     /// Temperature [K] of the point.
     from: f64,
     value: f64,
@@ -18,22 +18,22 @@ struct Line {
     slope: f64,
 }
 
-impl Line {
+impl TableSegment {
     #[inline(always)]
     fn at(self, temperature: f64) -> f64 {
         self.value + self.slope * (temperature - self.from)
     }
 }
 
-impl Table {
+impl PropertyTable {
     /// A table of two or more points with rising temperatures [K]; `None` for fewer.
     pub fn new(temperatures: &[f64], values: &[f64]) -> Option<Self> {
         let points: Vec<[f64; 2]> = temperatures.iter().zip(values).map(|(t, v)| [*t, *v]).collect();
         let line = |pair: &[[f64; 2]]| {
             let [[from, value], [to, next]] = [pair[0], pair[1]];
-            Line { from, value, slope: (next - value) / (to - from) }
+            TableSegment { from, value, slope: (next - value) / (to - from) }
         };
-        let lines: Vec<Line> = points.windows(2).map(line).collect();
+        let lines: Vec<TableSegment> = points.windows(2).map(line).collect();
         let last = *points.last()?;
         (!lines.is_empty()).then_some(Self { lines, last })
     }
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn a_table_has_its_points_and_is_linear_between_them() {
-        let table = Table::new(&[300.0, 400.0, 800.0], &[1.0, 3.0, 2.0]).unwrap();
+        let table = PropertyTable::new(&[300.0, 400.0, 800.0], &[1.0, 3.0, 2.0]).unwrap();
         let temperatures = [300.0, 350.0, 400.0, 600.0, 800.0];
         let mut each = [0.0; 5];
         table.each(&temperatures, &mut each);
@@ -82,6 +82,6 @@ mod tests {
         assert_eq!(temperatures.map(|temperature| table.at(temperature)), each);
         assert_eq!(table.range(), [300.0, 800.0]);
         assert_eq!(table.points().collect::<Vec<_>>(), [[300.0, 1.0], [400.0, 3.0], [800.0, 2.0]]);
-        assert_eq!(Table::new(&[300.0], &[1.0]), None);
+        assert_eq!(PropertyTable::new(&[300.0], &[1.0]), None);
     }
 }

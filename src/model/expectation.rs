@@ -27,7 +27,7 @@ pub struct Expectation {
 }
 
 /// Steps of the lattice of draws, one a stream. They are odd, so each stream visits all places.
-const STEPS: [usize; 5] = [1, 3, 5, 7, 9];
+const STREAM_STEPS: [usize; 5] = [1, 3, 5, 7, 9];
 
 /// The random draws over which a model is averaged.
 #[derive(Debug, Clone)]
@@ -40,7 +40,7 @@ pub struct DrawLattice {
 pub struct RotatedLattice<'a> {
     lattice: &'a DrawLattice,
     /// Rotation of each stream, by its number.
-    rotations: [f64; STEPS.len()],
+    rotations: [f64; STREAM_STEPS.len()],
 }
 
 impl DrawLattice {
@@ -62,9 +62,9 @@ impl DrawLattice {
     /// The lattice with the rotation of a key.
     pub fn rotated(&self, key: u64) -> RotatedLattice<'_> {
         let random = ImpactRng::new(0, key);
-        let mut rotations = [0.0; STEPS.len()];
+        let mut rotations = [0.0; STREAM_STEPS.len()];
         for &stream in &self.streams {
-            rotations[stream as usize % STEPS.len()] = random.uniform(stream);
+            rotations[stream as usize % STREAM_STEPS.len()] = random.uniform(stream);
         }
         RotatedLattice { lattice: self, rotations }
     }
@@ -83,8 +83,8 @@ impl RotatedLattice<'_> {
 
     /// The place of a draw, in 0 to 1.
     fn place(&self, draw: usize, stream: u64) -> f64 {
-        let (which, count) = (stream as usize % STEPS.len(), self.lattice.count);
-        let place = ((draw * STEPS[which]) % count) as f64 / count as f64;
+        let (which, count) = (stream as usize % STREAM_STEPS.len(), self.lattice.count);
+        let place = ((draw * STREAM_STEPS[which]) % count) as f64 / count as f64;
         (place + self.rotations[which]).fract()
     }
 }

@@ -7,7 +7,7 @@ use super::evaluation::{
     Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
 };
 use super::tilted_frame::TiltedFrame;
-use super::wall::Place;
+use super::wall::WallPlace;
 use super::{Model, Wall};
 use crate::capture::Stickiness;
 use crate::effect::{CurveTarget, OnMelt, Term, shifted_probability, stream};
@@ -20,7 +20,7 @@ use crate::tangential::{ImpactKinematics, Rebound};
 struct GeneralWall<'a, U, T> {
     model: &'a Model,
     wall: &'a Wall,
-    place: Place,
+    place: WallPlace,
     /// The impact on the wall as a whole, covered or not: fitted corrections depend on it.
     reaching: &'a Impact,
     /// The impact with regard to the mean wall.
@@ -50,9 +50,9 @@ impl Model {
         let met = place_met(wall, &arriving, &uniform);
         let outcome = self.evaluate_place(wall, &arriving, met, &uniform, &mut trace)?;
         let (other, share) = match met {
-            Place::Anywhere => return Ok(outcome),
-            Place::Bare => (Place::Covered, arriving.coverage),
-            Place::Covered => (Place::Bare, 1.0 - arriving.coverage),
+            WallPlace::Anywhere => return Ok(outcome),
+            WallPlace::Bare => (WallPlace::Covered, arriving.coverage),
+            WallPlace::Covered => (WallPlace::Bare, 1.0 - arriving.coverage),
         };
         if share == 0.0 {
             return Ok(outcome);
@@ -102,18 +102,18 @@ impl Model {
         &self,
         wall: &Wall,
         reaching: &Impact,
-        place: Place,
+        place: WallPlace,
         uniform: &impl Fn(u64) -> f64,
         trace: &mut impl FnMut(&'static str, &'static str, f64),
     ) -> Result<Outcome, ImpactError> {
         let at_place;
         let arriving = match place {
-            Place::Anywhere => reaching,
-            Place::Bare => {
+            WallPlace::Anywhere => reaching,
+            WallPlace::Bare => {
                 at_place = Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching };
                 &at_place
             }
-            Place::Covered => {
+            WallPlace::Covered => {
                 at_place = Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching };
                 &at_place
             }
@@ -175,11 +175,11 @@ impl Model {
         &self,
         wall: &Wall,
         impact: &Impact,
-        place: Place,
+        place: WallPlace,
         uniform: &impl Fn(u64) -> f64,
     ) -> Result<Contact, ImpactError> {
         let mut of_materials = wall.contact(&self.particle, impact, place)?;
-        if self.uses_melt && place != Place::Covered {
+        if self.uses_melt && place != WallPlace::Covered {
             of_materials.melt = self.melt_met(wall, impact)?;
         }
         let change = |contact, term: &Term| term.effect().contact(impact, contact, term.chance(uniform));
@@ -213,12 +213,12 @@ impl Model {
         &self,
         wall: &Wall,
         impact: &Impact,
-        place: Place,
+        place: WallPlace,
     ) -> Result<Option<f64>, ImpactError> {
         let Some(criterion) = &self.stickiness else { return Ok(None) };
         // Only the droplet criterion has such rebounds; the viscosity of the melt is computed for them alone.
         let rebound = criterion.droplet_rebound(impact, wall.partner(place))?;
-        let molten = || Ok(place != Place::Covered && self.melt_met(wall, impact)?.is_some());
+        let molten = || Ok(place != WallPlace::Covered && self.melt_met(wall, impact)?.is_some());
         if rebound.is_some() && molten()? { Ok(None) } else { Ok(rebound) }
     }
 
@@ -267,13 +267,13 @@ impl Model {
 }
 
 /// The place that an impact meets.
-fn place_met(wall: &Wall, arriving: &Impact, uniform: &impl Fn(u64) -> f64) -> Place {
+fn place_met(wall: &Wall, arriving: &Impact, uniform: &impl Fn(u64) -> f64) -> WallPlace {
     if arriving.coverage == 0.0 || !wall.is_patchwork(arriving) {
-        Place::Anywhere
+        WallPlace::Anywhere
     } else if uniform(stream::COVER) < 1.0 - arriving.coverage {
-        Place::Bare
+        WallPlace::Bare
     } else {
-        Place::Covered
+        WallPlace::Covered
     }
 }
 
@@ -282,7 +282,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     fn outside_range(&mut self, arriving: &Impact) -> bool {
         let Self { model, wall, place, .. } = self;
-        let melt = wall.melt.as_ref().filter(|_| *place != Place::Covered);
+        let melt = wall.melt.as_ref().filter(|_| *place != WallPlace::Covered);
         !(model
             .stickiness
             .as_ref()
@@ -318,8 +318,8 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             particle = 0.0;
         }
         let wall = match self.place {
-            Place::Covered => 0.0,
-            Place::Anywhere | Place::Bare => self.model.wall_stickiness(self.wall, impact),
+            WallPlace::Covered => 0.0,
+            WallPlace::Anywhere | WallPlace::Bare => self.model.wall_stickiness(self.wall, impact),
         };
         Ok(Stickiness { particle, wall })
     }

@@ -38,8 +38,8 @@ pub use expectation::{DrawLattice, RotatedLattice};
 pub use particle::Particle;
 use prepared_wall::PreparedWall;
 pub use quantity::kind_of;
-use wall::Place;
 pub use wall::Wall;
+use wall::WallPlace;
 pub use wall_heat::{WallCooling, WallHeat, WallHeatError};
 
 /// Everything that decides an impact of a particle on a wall. Immutable after reading.
@@ -212,8 +212,8 @@ impl Model {
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
         let mut impact = *impact;
         let wall = self.at_wall(wall, &mut impact)?;
-        self.contact(wall, &impact, Place::Bare, &|_| 0.5)?;
-        self.contact(wall, &impact, Place::Covered, &|_| 0.5)?;
+        self.contact(wall, &impact, WallPlace::Bare, &|_| 0.5)?;
+        self.contact(wall, &impact, WallPlace::Covered, &|_| 0.5)?;
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
         Ok(())
     }
@@ -323,7 +323,7 @@ impl Model {
     pub fn speeds(&self, wall: usize, impact: &Impact) -> Result<Speeds, ImpactError> {
         let mut impact = *impact;
         let wall = self.at_wall(wall, &mut impact)?;
-        let contact = self.contact(wall, &impact, Place::Anywhere, &|_| 0.5)?;
+        let contact = self.contact(wall, &impact, WallPlace::Anywhere, &|_| 0.5)?;
         Ok(self.normal.speeds_of(&contact, &impact))
     }
 }

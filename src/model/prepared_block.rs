@@ -95,22 +95,25 @@ impl Default for ContactColumns {
     }
 }
 
-/// Evaluates an expression with the constants of a wall in which the compiler knows the variant of the normal law.
+/// Evaluates an expression once for each variant, with the constants of a wall in which the compiler knows the variant.
+macro_rules! in_variants {
+    ($of:expr, $wall:ident => $body:expr; $on:expr; $($variant:pat => { $($field:ident: $value:expr),* })+) => {
+        match $on {
+            $($variant => {
+                let $wall = &WallConstants { $($field: $value,)* ..*$of };
+                $body
+            })+
+        }
+    };
+}
+
+/// Evaluates an expression with the constants of a wall in which the compiler knows the normal law.
 macro_rules! with_normal {
     ($of:expr, $wall:ident => $body:expr) => {
-        match $of.normal {
-            NormalLaw::ThorntonNing => {
-                let $wall = &WallConstants { normal: NormalLaw::ThorntonNing, ..*$of };
-                $body
-            }
-            NormalLaw::Constant { restitution } => {
-                let $wall = &WallConstants { normal: NormalLaw::Constant { restitution }, ..*$of };
-                $body
-            }
-            NormalLaw::PlasticJkr | NormalLaw::Listed { .. } => {
-                let $wall = $of;
-                $body
-            }
+        in_variants! { $of, $wall => $body; $of.normal;
+            NormalLaw::ThorntonNing => { normal: NormalLaw::ThorntonNing }
+            NormalLaw::Constant { restitution } => { normal: NormalLaw::Constant { restitution } }
+            law @ (NormalLaw::PlasticJkr | NormalLaw::Listed { .. }) => { normal: law }
         }
     };
 }
@@ -118,25 +121,11 @@ macro_rules! with_normal {
 /// As [`with_normal`], for the tangential law.
 macro_rules! with_tangential {
     ($of:expr, $wall:ident => $body:expr) => {
-        match $of.tangential {
-            TangentialLaw::Constant { restitution } => {
-                let tangential = TangentialLaw::Constant { restitution };
-                let $wall = &WallConstants { tangential, ..*$of };
-                $body
-            }
-            TangentialLaw::Sliding { friction } => {
-                let $wall = &WallConstants { tangential: TangentialLaw::Sliding { friction }, ..*$of };
-                $body
-            }
-            TangentialLaw::SlidingRolling { friction } => {
-                let tangential = TangentialLaw::SlidingRolling { friction };
-                let $wall = &WallConstants { tangential, ..*$of };
-                $body
-            }
-            TangentialLaw::Listed { .. } => {
-                let $wall = $of;
-                $body
-            }
+        in_variants! { $of, $wall => $body; $of.tangential;
+            TangentialLaw::Constant { restitution } => { tangential: TangentialLaw::Constant { restitution } }
+            TangentialLaw::Sliding { friction } => { tangential: TangentialLaw::Sliding { friction } }
+            TangentialLaw::SlidingRolling { friction } => { tangential: TangentialLaw::SlidingRolling { friction } }
+            law @ TangentialLaw::Listed { .. } => { tangential: law }
         }
     };
 }
@@ -145,23 +134,11 @@ macro_rules! with_tangential {
 /// not computed again.
 macro_rules! with_works {
     ($of:expr, $wall:ident => $body:expr) => {
-        match ($of.has_ash, $of.works) {
-            (true, Some(works)) => {
-                let $wall = &WallConstants { has_ash: true, works: Some(works), ..*$of };
-                $body
-            }
-            (false, Some(works)) => {
-                let $wall = &WallConstants { has_ash: false, works: Some(works), ..*$of };
-                $body
-            }
-            (true, None) => {
-                let $wall = &WallConstants { has_ash: true, works: None, ..*$of };
-                $body
-            }
-            (false, None) => {
-                let $wall = &WallConstants { has_ash: false, works: None, ..*$of };
-                $body
-            }
+        in_variants! { $of, $wall => $body; ($of.has_ash, $of.works);
+            (true, Some(works)) => { has_ash: true, works: Some(works) }
+            (false, Some(works)) => { has_ash: false, works: Some(works) }
+            (true, None) => { has_ash: true, works: None }
+            (false, None) => { has_ash: false, works: None }
         }
     };
 }
@@ -458,10 +435,9 @@ impl<const CONSTANT: bool> Loops<'_, CONSTANT> {
                     steps.adhesion[i] = self.run(i, StepSet::ADHESION, wall, steps, columns).0.adhesion;
                 }
             }
-            if wall.draws {
-                self.normal_with(&WallConstants { draws: true, ..*wall }, steps, columns);
-            } else {
-                self.normal_with(&WallConstants { draws: false, ..*wall }, steps, columns);
+            in_variants! { wall, wall => self.normal_with(wall, steps, columns); wall.draws;
+                true => { draws: true }
+                false => { draws: false }
             }
         });
     }

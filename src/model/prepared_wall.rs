@@ -14,11 +14,12 @@ use std::sync::Arc;
 
 use super::evaluation::{ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate};
 use super::particle::{contact_of, density_of};
-use super::wall::{Adhesion, Covering, Wall};
+use super::wall::{ContactSettings, Covering, Wall};
 use super::{Model, TemperatureRanges};
 use crate::capture::{Combination, Stickiness, StickinessCriterion, WallState};
 use crate::effect::{DryOnMelt, Precomputed, Term, Transition, stream};
 use crate::impact::{INPUTS, Impact, Outcome};
+use crate::law::ParameterValues;
 use crate::material::{Material, Mechanical, Property};
 use crate::normal::{Contact, NormalLaw, ThorntonNingConstants, work_of_adhesion};
 use crate::rng::ImpactRng;
@@ -62,7 +63,7 @@ pub(super) struct WallConstants {
     pub patchwork: bool,
     /// Work of adhesion [J/m²] of char and ash with the bare wall and with powder, where it is the same for all impacts.
     pub works: Option<[[f64; 2]; 2]>,
-    pub adhesion: Adhesion,
+    pub adhesion: ContactSettings,
     /// Surface tension [N/m] of the slag; NaN without slag or where it has none.
     pub surface_tension: f64,
     pub on_melt: Option<DryOnMelt>,
@@ -174,16 +175,14 @@ impl PreparedWall {
         let drawn = coverage > 0.0 && (constants.patchwork || impact.melt_thickness > 0.0);
         let covered = drawn && rng.uniform(stream::COVER) >= 1.0 - coverage;
         let holds = self.terms_hold_for(&impact);
-        let at_place = |covered: bool| {
-            let partner = varying.solids[if covered { 3 } else { 2 }].at(impact.wall_temperature);
-            constants.decide::<false>(&surfaces, covered, partner, holds, &impact, rng)
-        };
-        let outcome = at_place(covered);
+        let partner = |covered: bool| varying.solids[if covered { 3 } else { 2 }].at(impact.wall_temperature);
+        // Twice by name, not by a closure: of the other place only what is used is computed.
+        let outcome = constants.decide::<false>(&surfaces, covered, partner(covered), holds, &impact, rng);
         let share = if covered { 1.0 - coverage } else { coverage };
         if !drawn || share == 0.0 {
             return outcome;
         }
-        let other = at_place(!covered);
+        let other = constants.decide::<false>(&surfaces, !covered, partner(!covered), holds, &impact, rng);
         let [met, elsewhere] = [outcome, other].map(|outcome| outcome.sticking_probability);
         Outcome {
             sticking_probability: both_shares(share, met, elsewhere),
@@ -226,7 +225,7 @@ impl WallConstants {
         for term in &model.terms {
             constants.precompute(term.effect().precompute()?)?;
         }
-        let Adhesion { yield_ratio, set, .. } = constants.adhesion;
+        let ContactSettings { yield_ratio, set, .. } = constants.adhesion;
         let work_of_adhesion = set.unwrap_or(constants.contact.work_of_adhesion);
         constants.contact = Contact { yield_ratio, work_of_adhesion, ..constants.contact };
         constants.thornton_ning = ThorntonNingConstants::new(&constants.contact);
@@ -349,7 +348,7 @@ impl WallConstants {
 #[inline(never)]
 fn call_tangential(
     law: &ListedTangentialLaw,
-    values: crate::law::Values,
+    values: ParameterValues,
     kinematics: ImpactKinematics,
 ) -> Rebound {
     (law.rebound)(&kinematics, &values)
@@ -509,7 +508,7 @@ impl<const CONSTANT: bool> WallSteps for PreparedImpact<'_, CONSTANT> {
         }
         let [char, ash] = &self.surfaces.particle;
         let partner = &self.partner;
-        let Adhesion { yield_ratio, work, set } = self.wall.adhesion;
+        let ContactSettings { yield_ratio, work, set } = self.wall.adhesion;
         let works = match self.wall.works {
             Some([[a, b], [c, d]]) => [if self.covered { c } else { a }, if self.covered { d } else { b }],
             None => [char, ash].map(|solid| work_of_adhesion(solid, partner, work)),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use regex_lite::Regex;
 
-use super::wall::{Adhesion, Covering, Wall};
+use super::wall::{ContactSettings, Covering, Wall};
 use super::{Model, Particle};
 use crate::capture::{Capture, Criterion};
 use crate::deposit::resuspension::PowderAdhesion;
@@ -25,7 +25,7 @@ const LAYER_THICKNESS: Limits =
     Limits { unit: "m", low: 0.0, high: 100.0, known: "no furnace is that large" };
 
 /// The tables of a model file.
-const TABLES: [&str; 9] =
+const MODEL_TABLES: [&str; 9] =
     ["particle", "walls", "normal", "tangential", "capture", "inputs", "effects", "erosion", "materials"];
 
 impl Model {
@@ -39,7 +39,7 @@ impl Model {
     /// [`InputError`] naming line, column and key.
     pub fn read_section(top: &Section<'_>) -> Result<Self, InputError> {
         // A misspelt table name is reported before the errors that follow from it.
-        for key in TABLES {
+        for key in MODEL_TABLES {
             top.has(key);
         }
         top.finish()?;
@@ -108,7 +108,7 @@ fn missing_material(section: &Section<'_>) -> InputError {
     section.missing("material", "a built-in or own material (`nearwall materials` lists them)")
 }
 
-fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputError> {
+fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, ContactSettings), InputError> {
     let law = NormalLaw::read(section)?;
     let yield_ratio = section.number_within("yield_ratio", 1e-6, 1e6)?;
     let work = section.quantity("work_of_adhesion", &WORK_OF_ADHESION)?;
@@ -120,7 +120,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, Adhesion), InputErro
             return Err(section.missing("yield_ratio", what));
         }
     };
-    Ok((law, Adhesion { yield_ratio, work, set: None }))
+    Ok((law, ContactSettings { yield_ratio, work, set: None }))
 }
 
 /// What all walls of a model have in common.
@@ -128,7 +128,7 @@ struct WallReader<'a> {
     library: &'a Library,
     criterion: Option<Criterion>,
     particle: &'a Particle,
-    adhesion: Adhesion,
+    adhesion: ContactSettings,
     /// The law of walls without one of their own.
     erosion: Option<Arc<dyn Erosion>>,
 }
@@ -161,7 +161,7 @@ impl WallReader<'_> {
         };
         let prepared = match (self.particle.is_constant(), material.is_constant()) {
             (true, true) => {
-                let Adhesion { yield_ratio, work, .. } = self.adhesion;
+                let ContactSettings { yield_ratio, work, .. } = self.adhesion;
                 let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
                 Some(Contact::new(&at(self.particle.material())?, &at(&material)?, yield_ratio, work))
             }

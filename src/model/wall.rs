@@ -33,14 +33,14 @@ pub struct Wall {
     pub(super) shedding: Option<Strength>,
     /// How powder sticks to it against the gas, where the model file says so.
     pub(super) resuspension: Option<PowderAdhesion>,
-    pub(super) adhesion: Adhesion,
+    pub(super) adhesion: ContactSettings,
     /// The contact with the particle, where no property depends on temperature.
     pub(super) prepared: Option<Contact>,
 }
 
 /// Keys of the model file that change the contact of the two materials.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Adhesion {
+pub(super) struct ContactSettings {
     /// `c = p_y / sigma_y` [1].
     pub yield_ratio: f64,
     /// Work of adhesion [J/m²] of the particle's material where it is given.
@@ -62,7 +62,7 @@ pub(super) struct Covering {
 
 /// What an impact meets on a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum WallPlace {
     /// The wall as a whole, where bare and covered share do not differ.
     Anywhere,
     /// Bare wall or slag.
@@ -120,9 +120,9 @@ impl Wall {
     }
 
     /// What a dry particle meets at a place.
-    pub(super) fn partner(&self, place: Place) -> &Material {
+    pub(super) fn partner(&self, place: WallPlace) -> &Material {
         match (place, &self.powder) {
-            (Place::Covered, Some(powder)) => powder,
+            (WallPlace::Covered, Some(powder)) => powder,
             _ => &self.material,
         }
     }
@@ -132,10 +132,10 @@ impl Wall {
         &self,
         particle: &Particle,
         impact: &Impact,
-        place: Place,
+        place: WallPlace,
     ) -> Result<Contact, ImpactError> {
         let partner = match (place, &self.powder) {
-            (Place::Covered, Some(powder)) => powder,
+            (WallPlace::Covered, Some(powder)) => powder,
             _ => {
                 if let Some(contact) = self.prepared {
                     let given = impact.particle_density;
@@ -145,7 +145,7 @@ impl Wall {
             }
         };
         let wall = partner.mechanical(impact.wall_temperature)?;
-        let Adhesion { yield_ratio, work, .. } = self.adhesion;
+        let ContactSettings { yield_ratio, work, .. } = self.adhesion;
         particle.contact(impact, &wall, yield_ratio, work)
     }
 

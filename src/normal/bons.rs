@@ -27,7 +27,7 @@
 
 use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
-use crate::law::{FitLimit, Origin, Parameter, Search, Values};
+use crate::law::{FitLimit, Origin, Parameter, ParameterValues, Search};
 
 /// The case of the law, for both restitutions.
 pub(crate) static ORIGIN: Origin = Origin {
@@ -55,7 +55,7 @@ pub(super) static BONS: ListedNormalLaw = ListedNormalLaw {
     sticking_velocity: Some(sticking_velocity),
 };
 
-fn restitution(impact: &Impact, contact: &Contact, values: &Values) -> Option<f64> {
+fn restitution(impact: &Impact, contact: &Contact, values: &ParameterValues) -> Option<f64> {
     let speed = impact.normal_speed;
     let yielding = yield_velocity(contact.limiting_pressure(), contact);
     let squared = elastic_plastic(speed, yielding).powi(2)
@@ -75,20 +75,20 @@ pub(super) fn elastic_plastic(speed: f64, yielding: f64) -> f64 {
 }
 
 /// `2 W V/((l - w_crit) m)` [m²/s²]: the squared speed that adhesion takes per share of the area of contact.
-fn adhesion(diameter: f64, contact: &Contact, _: &Values) -> f64 {
+fn adhesion(diameter: f64, contact: &Contact, _: &ParameterValues) -> f64 {
     let length = 2.0 / 3.0 * diameter;
     let pressed = (contact.limiting_pressure() / contact.reduced_modulus).min(0.5);
     2.0 * contact.work_of_adhesion / (contact.density * length * (1.0 - pressed))
 }
 
 /// Area of contact over `V/(l - w_crit)` [1].
-fn area(deformation: f64, values: &Values) -> f64 {
+fn area(deformation: f64, values: &ParameterValues) -> f64 {
     values[0] + values[1] * deformation.powf(values[2])
 }
 
 /// The slowest speed at which a particle rebounds; infinite where none does. Up to yield the energy grows with `v²` and the
 /// adhesion with at most `v²`; bisection.
-fn sticking_velocity(impact: &Impact, contact: &Contact, values: &Values) -> f64 {
+fn sticking_velocity(impact: &Impact, contact: &Contact, values: &ParameterValues) -> f64 {
     let yielding = yield_velocity(contact.limiting_pressure(), contact);
     let adhesion = adhesion(impact.diameter, contact, values);
     let sticks = |share: f64| (share * yielding).powi(2) <= adhesion * area(share, values);
@@ -112,7 +112,7 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    const DEFAULTS: Values = [0.1, 1.0 / 7.0, 0.5, 0.0];
+    const DEFAULTS: ParameterValues = [0.1, 1.0 / 7.0, 0.5, 0.0];
 
     /// sigma_y = 200 MPa, E_c = 50 GPa, rho = 2500 kg/m³: sqrt(rho E_c) = 1.118034e7, v_y = 17.888544 m/s.
     fn ash(work_of_adhesion: f64) -> Contact {

@@ -27,7 +27,7 @@
 
 use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
-use crate::law::{FitLimit, Origin, Parameter, Search, Values};
+use crate::law::{FitLimit, Origin, Parameter, ParameterValues, Search};
 
 /// The law.
 pub(super) static BRACH_DUNN: ListedNormalLaw = ListedNormalLaw {
@@ -47,7 +47,7 @@ pub(super) static BRACH_DUNN: ListedNormalLaw = ListedNormalLaw {
     sticking_velocity: Some(critical),
 };
 
-fn restitution(impact: &Impact, contact: &Contact, values: &Values) -> Option<f64> {
+fn restitution(impact: &Impact, contact: &Contact, values: &ParameterValues) -> Option<f64> {
     let (speed, critical) = (impact.normal_speed, critical(impact, contact, values));
     if speed <= critical {
         return None;
@@ -58,7 +58,7 @@ fn restitution(impact: &Impact, contact: &Contact, values: &Values) -> Option<f6
     (squared > 0.0).then(|| squared.sqrt())
 }
 
-fn critical(impact: &Impact, contact: &Contact, _: &Values) -> f64 {
+fn critical(impact: &Impact, contact: &Contact, _: &ParameterValues) -> f64 {
     let compliance = 1.0 / (std::f64::consts::PI * contact.reduced_modulus);
     critical_velocity(impact.diameter, contact.density, compliance)
 }
@@ -92,7 +92,7 @@ mod tests {
         assert!((1.0..1.6).contains(&found), "{found}");
     }
 
-    fn e_n(speed: f64, values: Values) -> Option<f64> {
+    fn e_n(speed: f64, values: ParameterValues) -> Option<f64> {
         let contact = Contact { density: 2500.0, reduced_modulus: 5e10, ..Contact::default() };
         let impact = Impact { normal_speed: speed, diameter: 1e-5, ..Impact::default() };
         restitution(&impact, &contact, &values)

@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 use super::brach_dunn::critical_velocity;
 use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
-use crate::law::{FitLimit, Origin, Parameter, QuantityKind, Search, Values};
+use crate::law::{FitLimit, Origin, Parameter, ParameterValues, QuantityKind, Search};
 
 /// Poisson's ratio of particle and wall [1].
 const POISSON_RATIO: f64 = 0.27;
@@ -44,7 +44,7 @@ pub(super) static EL_BATSH: ListedNormalLaw = ListedNormalLaw {
     sticking_velocity: Some(critical),
 };
 
-fn critical(impact: &Impact, contact: &Contact, _: &Values) -> f64 {
+fn critical(impact: &Impact, contact: &Contact, _: &ParameterValues) -> f64 {
     let modulus = 3e20 * (-0.02365 * impact.mean_temperature()).exp();
     let compliance = 2.0 * (1.0 - POISSON_RATIO * POISSON_RATIO) / (PI * modulus);
     critical_velocity(impact.diameter, contact.density, compliance)

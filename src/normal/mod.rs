@@ -23,7 +23,7 @@ pub use thornton_ning::{
 
 use crate::impact::Impact;
 use crate::input::{InputError, Section};
-use crate::law::{Origin, Parameter, QuantityKind, Values, read_values};
+use crate::law::{Origin, Parameter, ParameterValues, QuantityKind, read_values};
 
 /// Every listed law.
 pub static LISTED_LAWS: [&ListedNormalLaw; 6] = [
@@ -48,9 +48,9 @@ pub struct ListedNormalLaw {
     /// Its parameters, at most [`MOST_PARAMETERS`](crate::law::MOST_PARAMETERS).
     pub parameters: &'static [Parameter],
     /// Normal restitution [1] from the values of the parameters; `None` when the particle sticks.
-    pub restitution: fn(&Impact, &Contact, &Values) -> Option<f64>,
+    pub restitution: fn(&Impact, &Contact, &ParameterValues) -> Option<f64>,
     /// Sticking velocity [m/s] at the size and the temperatures of an impact; `None` for a law under which no particle sticks.
-    pub sticking_velocity: Option<fn(&Impact, &Contact, &Values) -> f64>,
+    pub sticking_velocity: Option<fn(&Impact, &Contact, &ParameterValues) -> f64>,
 }
 
 /// Laws are equal when their names are.
@@ -88,7 +88,7 @@ pub enum NormalLaw {
         /// The law.
         law: &'static ListedNormalLaw,
         /// The values of its parameters.
-        values: Values,
+        values: ParameterValues,
     },
 }
 

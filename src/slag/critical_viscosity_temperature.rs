@@ -17,7 +17,7 @@
 //!
 //! # Range and error
 //! Slags of British bituminous ash in Watt and Fereday's range of composition ([`FiveOxides::is_like_british_ash`]; the
-//! range is that of part 1). In addition `S/A` at most [`LARGEST_RATIO`] (assumed): the parabola has its minimum at
+//! range is that of part 1). In addition `S/A` at most [`LARGEST_OXIDE_RATIO`] (assumed): the parabola has its minimum at
 //! `S/A = 2.04` and rises beyond it, by 1380 K at `S/A = 4`, where slags rich in silica crystallise late if at all. The source's
 //! error is not known to us; differences of 50 to 100 K from measured values are common in the literature (assumed).
 
@@ -26,7 +26,7 @@ use super::watt_fereday::FiveOxides;
 
 /// Largest ratio of silica to alumina [1] at which the formula is used without a flag: beyond it the parabola has risen by more than
 /// 100 K above its minimum. Assumed.
-pub const LARGEST_RATIO: f64 = 2.57;
+pub const LARGEST_OXIDE_RATIO: f64 = 2.57;
 
 /// Temperature of critical viscosity [K]; `None` for a composition without `Al2O3`.
 ///
@@ -51,7 +51,7 @@ pub fn watt(composition: &Composition) -> Option<f64> {
 /// Whether the composition is in the range of Watt's formula.
 pub fn watt_holds(composition: &Composition) -> bool {
     FiveOxides::of(composition)
-        .is_some_and(|of| of.is_like_british_ash() && of.silica <= LARGEST_RATIO * of.alumina)
+        .is_some_and(|of| of.is_like_british_ash() && of.silica <= LARGEST_OXIDE_RATIO * of.alumina)
 }
 
 #[cfg(test)]
@@ -97,6 +97,6 @@ mod tests {
         };
         assert!(with(50.0, 20.0) && with(35.0, 30.0) && !with(53.0, 20.0) && !with(28.0, 28.0));
         // The rise above the minimum at 1470/720: 360 (2.57 - 2.0417)² = 100.5 K.
-        assert_relative_eq!(360.0 * (LARGEST_RATIO - 1470.0 / 720.0_f64).powi(2), 100.5, epsilon = 0.1);
+        assert_relative_eq!(360.0 * (LARGEST_OXIDE_RATIO - 1470.0 / 720.0_f64).powi(2), 100.5, epsilon = 0.1);
     }
 }

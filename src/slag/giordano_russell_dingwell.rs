@@ -15,7 +15,7 @@
 //!
 //! # Range and error
 //! Fitted to melts of volcanic rocks between 1e-1 and 1e14 Pa s, for which the source states a root mean square error of
-//! 0.40 in log10 (from memory). Used here without a flag within [`RANGES`] (the ranges of the source's table, from memory),
+//! 0.40 in log10 (from memory). Used here without a flag within [`OXIDE_RANGES`] (the ranges of the source's table, from memory),
 //! with at least [`LEAST_ALKALI`] of `Na2O + K2O` (assumed) and between 1373 and 1980 K, where it was compared: 592
 //! measured melts in that range and thinner than 1e4 Pa s, of 21 references of the collection of Le Losq and Ferraina
 //! (zenodo 13843250; not in this repository). Root mean square error in log10, all references having the same weight: 0.45
@@ -43,7 +43,7 @@ pub static GIORDANO_RUSSELL_DINGWELL: ViscosityLaw = ViscosityLaw {
 };
 
 /// Shares [wt%] of the fitted melts, iron as `FeO`.
-pub const RANGES: [(Oxide, f64, f64); 10] = [
+pub const OXIDE_RANGES: [(Oxide, f64, f64); 10] = [
     (Oxide::SiO2, 41.0, 79.0),
     (Oxide::TiO2, 0.0, 3.0),
     (Oxide::Al2O3, 0.0, 23.0),
@@ -66,7 +66,7 @@ const FERROUS_PER_FERRIC: f64 = 2.0 * 71.844 / 159.687;
 fn fulcher(composition: &Composition) -> Option<[f64; 2]> {
     let moles = |oxide| composition.moles(oxide);
     let iron = moles(Oxide::FeO) + 2.0 * moles(Oxide::Fe2O3);
-    let rest = RANGES.iter().map(|(oxide, ..)| *oxide).filter(|oxide| *oxide != Oxide::FeO);
+    let rest = OXIDE_RANGES.iter().map(|(oxide, ..)| *oxide).filter(|oxide| *oxide != Oxide::FeO);
     let total = iron + rest.map(moles).sum::<f64>();
     let share = |oxide| 100.0 * moles(oxide) / total;
     let (alumina, lime, phosphate) = (share(Oxide::Al2O3), share(Oxide::CaO), share(Oxide::P2O5));
@@ -101,10 +101,10 @@ fn holds_for(composition: &Composition) -> bool {
     let iron = composition.weight_percent(Oxide::FeO)
         + FERROUS_PER_FERRIC * composition.weight_percent(Oxide::Fe2O3);
     let raw = |oxide| if oxide == Oxide::FeO { iron } else { composition.weight_percent(oxide) };
-    let total: f64 = RANGES.iter().map(|(oxide, ..)| raw(*oxide)).sum();
+    let total: f64 = OXIDE_RANGES.iter().map(|(oxide, ..)| raw(*oxide)).sum();
     let share = |oxide| 100.0 * raw(oxide) / total;
     total > 0.0
-        && RANGES.iter().all(|(oxide, low, high)| (*low..=*high).contains(&share(*oxide)))
+        && OXIDE_RANGES.iter().all(|(oxide, low, high)| (*low..=*high).contains(&share(*oxide)))
         && share(Oxide::Na2O) + share(Oxide::K2O) >= LEAST_ALKALI
         && composition.weight_percent(Oxide::B2O3) == 0.0
 }

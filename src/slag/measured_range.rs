@@ -11,10 +11,10 @@ pub const IN_WORDS: &str = "SiO2 30 to 70, Al2O3 9 to 40, CaO up to 50, MgO up t
      TiO2 up to 2.3 and all else together up to 1 wt%, 1523 to 2456 K";
 
 /// Temperatures of the measurements [K].
-pub const TEMPERATURES: [f64; 2] = [1523.0, 2456.5];
+pub const MEASURED_TEMPERATURES: [f64; 2] = [1523.0, 2456.5];
 
 /// Shares [wt%] of the measured slags.
-pub const RANGES: [(Oxide, f64, f64); 6] = [
+pub const MEASURED_OXIDES: [(Oxide, f64, f64); 6] = [
     (Oxide::SiO2, 30.0, 70.0),
     (Oxide::Al2O3, 8.9, 40.0),
     (Oxide::CaO, 0.0, 50.1),
@@ -38,11 +38,11 @@ pub fn temperatures(composition: &Composition) -> Option<[f64; 2]> {
     }
     let share = |oxide| 100.0 * composition.weight_percent(oxide) / melt;
     let iron = share(Oxide::FeO) + share(Oxide::Fe2O3);
-    let listed: f64 = RANGES.iter().map(|(oxide, ..)| share(*oxide)).sum();
-    let within = RANGES.iter().all(|(oxide, low, high)| (*low..=*high).contains(&share(*oxide)))
+    let listed: f64 = MEASURED_OXIDES.iter().map(|(oxide, ..)| share(*oxide)).sum();
+    let within = MEASURED_OXIDES.iter().all(|(oxide, low, high)| (*low..=*high).contains(&share(*oxide)))
         && iron <= MOST_IRON
         && 100.0 - listed - iron <= MOST_OTHER;
-    within.then_some(TEMPERATURES)
+    within.then_some(MEASURED_TEMPERATURES)
 }
 
 #[cfg(test)]

@@ -29,7 +29,7 @@ pub static VISCOSITY_LAWS: [&ViscosityLaw; 4] = [
 ];
 
 /// Ceiling of the exponent: `exp` stays finite (1e304), so a cold slag raises no overflow in a caller that traps it.
-const LARGEST_EXPONENT: f64 = 700.0;
+const LARGEST_VISCOSITY_EXPONENT: f64 = 700.0;
 
 /// The properties of a melt at one temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,10 +82,10 @@ fn from_one_kelvin(temperature: f64) -> f64 {
     if temperature > 1.0 { temperature } else { 1.0 }
 }
 
-/// `exp` with its exponent at most [`LARGEST_EXPONENT`].
+/// `exp` with its exponent at most [`LARGEST_VISCOSITY_EXPONENT`].
 #[inline(always)]
 fn limited_exponential(exponent: f64) -> f64 {
-    exponential(if exponent < LARGEST_EXPONENT { exponent } else { LARGEST_EXPONENT })
+    exponential(if exponent < LARGEST_VISCOSITY_EXPONENT { exponent } else { LARGEST_VISCOSITY_EXPONENT })
 }
 
 /// Laws are equal when their names are.

@@ -38,7 +38,7 @@ const PER_MOLE_PERCENT: [(Oxide, f64); 7] = [
 ];
 
 /// Temperatures [K] at which the value is used without a flag: those of the measurements above.
-pub const TEMPERATURES: [f64; 2] = [1473.15, 1823.15];
+pub const KUCUK_TEMPERATURES: [f64; 2] = [1473.15, 1823.15];
 
 /// Surface tension [N/m]; `None` for a composition with nothing but volatiles.
 ///
@@ -58,13 +58,13 @@ pub fn kucuk(composition: &Composition) -> Option<f64> {
 }
 
 /// Whether the formula is stated for a composition at a temperature [K]: a silicate (at least 30 mol% `SiO2`, assumed) with
-/// at most 10 mol% of the oxides that have no coefficient (`Na2O` apart), within [`TEMPERATURES`].
+/// at most 10 mol% of the oxides that have no coefficient (`Na2O` apart), within [`KUCUK_TEMPERATURES`].
 pub fn holds(composition: &Composition, temperature: f64) -> bool {
     let share = |oxide| 100.0 * composition.mole_fraction(oxide);
     let without: f64 = [Oxide::TiO2, Oxide::P2O5, Oxide::Fe2O3].map(share).iter().sum();
     share(Oxide::SiO2) >= 30.0
         && without <= 10.0
-        && (TEMPERATURES[0]..=TEMPERATURES[1]).contains(&temperature)
+        && (KUCUK_TEMPERATURES[0]..=KUCUK_TEMPERATURES[1]).contains(&temperature)
 }
 
 #[cfg(test)]

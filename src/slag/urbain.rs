@@ -62,7 +62,7 @@ pub static KALMANOVITCH_FRANK: ViscosityLaw = ViscosityLaw {
 
 /// Shares of the three groups of oxides [1]; they add up to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Groups {
+pub struct OxideGroups {
     /// Glass formers, `xg`.
     pub glass_former: f64,
     /// Modifiers, `xm`.
@@ -71,7 +71,7 @@ pub struct Groups {
     pub amphoteric: f64,
 }
 
-impl Groups {
+impl OxideGroups {
     /// The groups of a composition; `None` when it has nothing but volatiles.
     pub fn of(composition: &Composition) -> Option<Self> {
         let (mut former, mut modifier, mut amphoteric) = (0.0, 0.0, 0.0);
@@ -115,7 +115,7 @@ impl Groups {
 /// `slope` and `intercept` give `-ln A = slope B + intercept`, with `A` in poise/K.
 fn weymann(slope: f64, intercept: f64, composition: &Composition) -> Result<[f64; 2], &'static str> {
     const PASCAL_SECOND_PER_POISE: f64 = 0.1;
-    let b = Groups::of(composition).ok_or("it has no oxide that stays in the melt")?.activation();
+    let b = OxideGroups::of(composition).ok_or("it has no oxide that stays in the melt")?.activation();
     Ok([PASCAL_SECOND_PER_POISE * (-(slope * b + intercept)).exp(), 1000.0 * b])
 }
 
@@ -143,7 +143,7 @@ mod tests {
     /// Worked by hand from the equations above.
     #[test]
     fn simple_slag_at_1700_kelvin() {
-        let groups = Groups::of(&simple()).unwrap();
+        let groups = OxideGroups::of(&simple()).unwrap();
         assert_relative_eq!(groups.glass_former, 0.560749331259536, max_relative = 1e-13);
         assert_relative_eq!(groups.modifier, 0.274033075395623, max_relative = 1e-13);
         assert_relative_eq!(groups.amphoteric, 0.16521759334484115, max_relative = 1e-13);
@@ -160,7 +160,7 @@ mod tests {
             "SiO2 45, Al2O3 20, Fe2O3 8, FeO 5, CaO 10, MgO 3, Na2O 1, K2O 2, \
              TiO2 1.5, P2O5 0.5, MnO 0.5, B2O3 1, SO3 7",
         );
-        let groups = Groups::of(&slag).unwrap();
+        let groups = OxideGroups::of(&slag).unwrap();
         assert_relative_eq!(groups.glass_former, 0.5308782787326313, max_relative = 1e-13);
         assert_relative_eq!(
             groups.modifier / (groups.modifier + groups.amphoteric),
@@ -173,11 +173,11 @@ mod tests {
 
     #[test]
     fn silica_needs_no_modifier_share() {
-        let b = |modifier: f64| Groups { glass_former: 1.0, modifier, amphoteric: 0.0 }.activation();
+        let b = |modifier: f64| OxideGroups { glass_former: 1.0, modifier, amphoteric: 0.0 }.activation();
         assert_relative_eq!(b(0.0), 64.1, max_relative = 1e-14);
         assert_relative_eq!(b(1e-300), 64.0764, max_relative = 1e-14);
-        let silica = Groups::of(&oxides("SiO2 100")).unwrap();
-        assert_eq!(silica, Groups { glass_former: 1.0, modifier: 0.0, amphoteric: 0.0 });
+        let silica = OxideGroups::of(&oxides("SiO2 100")).unwrap();
+        assert_eq!(silica, OxideGroups { glass_former: 1.0, modifier: 0.0, amphoteric: 0.0 });
     }
 
     #[test]
@@ -185,8 +185,11 @@ mod tests {
         for i in 0..=100 {
             for j in 0..=100 {
                 let (x, a) = (f64::from(i) / 100.0, f64::from(j) / 100.0);
-                let groups =
-                    Groups { glass_former: x, modifier: (1.0 - x) * a, amphoteric: (1.0 - x) * (1.0 - a) };
+                let groups = OxideGroups {
+                    glass_former: x,
+                    modifier: (1.0 - x) * a,
+                    amphoteric: (1.0 - x) * (1.0 - a),
+                };
                 assert!((9.6..=65.0).contains(&groups.activation()), "xg {x}, a {a}");
             }
         }

@@ -26,7 +26,7 @@ use fearless_simd::Level;
 const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
 
 /// Temperatures [K] for which the law counts as stated; assumed.
-const TEMPERATURES: [f64; 2] = [1423.0, 1873.0];
+const WATT_TEMPERATURES: [f64; 2] = [1423.0, 1873.0];
 
 /// Temperature at which the law has its pole [K].
 const POLE: f64 = 150.0 + 273.15;
@@ -38,7 +38,7 @@ pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
     coefficients: |composition| line(composition).ok_or("it has too little SiO2 and Al2O3"),
     viscosity,
     viscosities,
-    range: |composition| FiveOxides::of(composition)?.is_like_british_ash().then_some(TEMPERATURES),
+    range: |composition| FiveOxides::of(composition)?.is_like_british_ash().then_some(WATT_TEMPERATURES),
 };
 
 /// Shares [wt%] of the five oxides in Watt and Fereday's normalisation: they add up to 100, all iron as `Fe2O3`.

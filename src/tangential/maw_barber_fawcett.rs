@@ -16,7 +16,7 @@
 //! # Solution
 //! `rho` is integrated over the impact: Hertz's contact as a row of springs over the contact radius, each with its own friction (exact
 //! for Hertz and for Cattaneo's and Mindlin's partial slip under any history of loads), over the phase `theta` of
-//! `v = v_n cos(theta)`. A row of `NODES` values of `psi` for one of `ROWS` values of `k` is computed when it is first needed
+//! `v = v_n cos(theta)`. A row of `NODES` values of `psi` for one of `TABLE_ROWS` values of `k` is computed when it is first needed
 //! (1 ms) and kept; between them linear interpolation. Error of `e_t`: below 1e-3 (tests compare with a finer integration; the
 //! independent integration of `validation/run`, "Independent checks", agrees as well).
 //!
@@ -34,7 +34,7 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::{ImpactKinematics, ListedTangentialLaw, Rebound};
-use crate::law::{Origin, Parameter, QuantityKind, Search, Values};
+use crate::law::{Origin, Parameter, ParameterValues, QuantityKind, Search};
 
 /// The law.
 pub(super) static MAW_BARBER_FAWCETT: ListedTangentialLaw = ListedTangentialLaw {
@@ -54,7 +54,7 @@ pub(super) static MAW_BARBER_FAWCETT: ListedTangentialLaw = ListedTangentialLaw 
 const NODES: usize = 49;
 
 /// Values of `k` for which there is a row.
-const ROWS: usize = 17;
+const TABLE_ROWS: usize = 17;
 
 /// The `k` of the first and of the last row: Poisson's ratio one half and minus one.
 const STIFFNESS: [f64; 2] = [2.0 / 3.0, 4.0 / 3.0];
@@ -63,11 +63,11 @@ const STIFFNESS: [f64; 2] = [2.0 / 3.0, 4.0 / 3.0];
 const SPRINGS: usize = 50;
 
 /// Steps over the impact.
-const STEPS: usize = 200;
+const INTEGRATION_STEPS: usize = 200;
 
-static TABLE: [OnceLock<[f64; NODES]>; ROWS] = [const { OnceLock::new() }; ROWS];
+static TABLE: [OnceLock<[f64; NODES]>; TABLE_ROWS] = [const { OnceLock::new() }; TABLE_ROWS];
 
-fn rebound(kinematics: &ImpactKinematics, values: &Values) -> Rebound {
+fn rebound(kinematics: &ImpactKinematics, values: &ParameterValues) -> Rebound {
     let slip = kinematics.slip();
     let sliding = super::sliding::impulse(values[0], kinematics);
     let change = impulse(slip.abs(), sliding, kinematics.stiffness_ratio).copysign(slip);
@@ -90,7 +90,7 @@ fn impulse(slip: f64, sliding: f64, stiffness_ratio: f64) -> f64 {
 /// Share of the slip that the wall takes [1], at `psi/(7k-1)`, 0 to 1.
 fn share(along: f64, stiffness_ratio: f64) -> f64 {
     let [low, high] = STIFFNESS;
-    let (row, above) = place((stiffness_ratio - low) / (high - low), ROWS);
+    let (row, above) = place((stiffness_ratio - low) / (high - low), TABLE_ROWS);
     let (node, past) = place(along, NODES);
     let in_row = |row: usize| {
         let values = TABLE[row].get_or_init(|| tabulate(row));
@@ -115,13 +115,16 @@ fn place(along: f64, nodes: usize) -> (usize, f64) {
 /// One row of the table: `rho` over its value at the end of partial slip [1], so that the law joins gross sliding exactly.
 fn tabulate(row: usize) -> [f64; NODES] {
     let [low, high] = STIFFNESS;
-    let k = low + (high - low) * row as f64 / (ROWS - 1) as f64;
+    let k = low + (high - low) * row as f64 / (TABLE_ROWS - 1) as f64;
     let end = 7.0 * k - 1.0;
     std::array::from_fn(|node| match node {
         // The integral is singular without slip, where `rho` has a limit.
-        0 => integrate::<SPRINGS>(k, 1e-6 * end, STEPS) / share_at_end(k),
+        0 => integrate::<SPRINGS>(k, 1e-6 * end, INTEGRATION_STEPS) / share_at_end(k),
         _ if node == NODES - 1 => 1.0,
-        _ => integrate::<SPRINGS>(k, end * node as f64 / (NODES - 1) as f64, STEPS) / share_at_end(k),
+        _ => {
+            integrate::<SPRINGS>(k, end * node as f64 / (NODES - 1) as f64, INTEGRATION_STEPS)
+                / share_at_end(k)
+        }
     })
 }
 
@@ -173,7 +176,7 @@ mod tests {
     use super::*;
     use approx::{assert_abs_diff_eq, assert_relative_eq};
 
-    const WAX: Values = [0.28, 0.0, 0.0, 0.0];
+    const WAX: ParameterValues = [0.28, 0.0, 0.0, 0.0];
 
     #[test]
     fn angular_momentum_about_the_contact_point_is_kept() {

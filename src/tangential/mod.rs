@@ -16,7 +16,7 @@ pub use sliding_rolling::critical_angle;
 
 use crate::impact::Impact;
 use crate::input::{InputError, Section};
-use crate::law::{Origin, Parameter, QuantityKind, Values, read_values};
+use crate::law::{Origin, Parameter, ParameterValues, QuantityKind, read_values};
 
 /// Every listed law.
 pub static LISTED_LAWS: [&ListedTangentialLaw; 4] = [
@@ -40,7 +40,7 @@ pub struct ListedTangentialLaw {
     /// Its parameters, at most [`MOST_PARAMETERS`](crate::law::MOST_PARAMETERS).
     pub parameters: &'static [Parameter],
     /// Tangential restitution and spin from the values of the parameters.
-    pub rebound: fn(&ImpactKinematics, &Values) -> Rebound,
+    pub rebound: fn(&ImpactKinematics, &ParameterValues) -> Rebound,
 }
 
 /// Laws are equal when their names are.
@@ -122,7 +122,7 @@ pub enum TangentialLaw {
         /// The law.
         law: &'static ListedTangentialLaw,
         /// The values of its parameters.
-        values: Values,
+        values: ParameterValues,
     },
 }
 

@@ -572,7 +572,7 @@ fn the_stated_range_is_that_of_the_table() {
         let slag = SlagViscosity::new(&KALMANOVITCH_FRANK, &row.composition()).unwrap();
         assert!(slag.holds_at(row.temperature), "{} at {} K", row.source, row.temperature);
     }
-    for (oxide, low, high) in measured_range::RANGES {
+    for (oxide, low, high) in measured_range::MEASURED_OXIDES {
         let shares = rows.iter().map(|row| row.share(oxide.name()));
         let most = shares.clone().fold(0.0, f64::max);
         let least = shares.fold(100.0, f64::min);
@@ -581,7 +581,7 @@ fn the_stated_range_is_that_of_the_table() {
     let iron = rows.iter().map(Measured::iron).fold(0.0, f64::max);
     assert!(measured_range::MOST_IRON - iron < 0.2, "{iron}");
     let temperatures = rows.iter().map(|row| row.temperature);
-    let [low, high] = measured_range::TEMPERATURES;
+    let [low, high] = measured_range::MEASURED_TEMPERATURES;
     assert!(temperatures.clone().fold(f64::INFINITY, f64::min) - low < 1.0);
     assert!(high - temperatures.fold(0.0, f64::max) < 1.0);
 }

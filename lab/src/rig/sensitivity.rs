@@ -61,11 +61,11 @@ const NOT_MOVED: [&str; 22] = [
 /// Keys of a distribution that bound it.
 const BOUNDS: [&str; 2] = ["min", "max"];
 /// Times that a range is halved before a number is given up.
-const HALVINGS: usize = 6;
+const RANGE_HALVINGS: usize = 6;
 
 /// A part of the way to an item.
 #[derive(Debug, Clone, PartialEq)]
-enum Step {
+enum KeyStep {
     Key(String),
     Index(usize),
 }
@@ -120,7 +120,7 @@ struct Number {
     /// Dotted key.
     key: String,
     /// The items that hold it: a number, or a list that is moved as a whole.
-    items: Vec<Vec<Step>>,
+    items: Vec<Vec<KeyStep>>,
     /// Its value; `None` for a table, polynomial or list.
     value: Option<f64>,
     how: Move,
@@ -360,7 +360,7 @@ impl SensitivityCase {
         flights: Option<&Flights<'_>>,
     ) -> Result<(f64, Captures), PredictionError> {
         let mut refused = PredictionError::NoParticle(String::new());
-        for halvings in 0..HALVINGS {
+        for halvings in 0..RANGE_HALVINGS {
             let mut document = self.document.clone();
             for place in &number.items {
                 if let Some(item) = item_mut(&mut document, place) {
@@ -416,23 +416,23 @@ fn materials(document: &DocumentMut) -> Vec<String> {
 }
 
 /// The tables of the particles.
-fn injections(document: &DocumentMut) -> Vec<Vec<Step>> {
-    let particles = vec![Step::Key("particles".to_owned())];
+fn injections(document: &DocumentMut) -> Vec<Vec<KeyStep>> {
+    let particles = vec![KeyStep::Key("particles".to_owned())];
     match document.get("particles") {
         Some(Item::ArrayOfTables(tables)) => {
-            let one = |index| particles.iter().cloned().chain([Step::Index(index)]).collect();
+            let one = |index| particles.iter().cloned().chain([KeyStep::Index(index)]).collect();
             (0..tables.len()).map(one).collect()
         }
         _ => vec![particles],
     }
 }
 
-fn item_mut<'a>(document: &'a mut DocumentMut, place: &[Step]) -> Option<&'a mut Item> {
+fn item_mut<'a>(document: &'a mut DocumentMut, place: &[KeyStep]) -> Option<&'a mut Item> {
     let mut item = document.as_item_mut();
     for step in place {
         item = match step {
-            Step::Key(key) => item.get_mut(key.as_str())?,
-            Step::Index(index) => item.get_mut(*index)?,
+            KeyStep::Key(key) => item.get_mut(key.as_str())?,
+            KeyStep::Index(index) => item.get_mut(*index)?,
         };
     }
     Some(item)
@@ -476,18 +476,18 @@ fn numbers(document: &DocumentMut) -> Vec<Number> {
     let mut found = Finder { used: materials(document), source_of_table: None, found: Vec::new() };
     for key in ["model", "particles", "conversion", "gas", "deposit"] {
         if let Some(item) = document.get(key) {
-            found.item(item, &[Step::Key(key.to_owned())], key);
+            found.item(item, &[KeyStep::Key(key.to_owned())], key);
         }
     }
     if let Some(Item::ArrayOfTables(walls)) = document.get("walls") {
         for (index, wall) in walls.iter().enumerate() {
             let name = wall.get("name").and_then(Item::as_str).unwrap_or("?");
             if let Some(item) = wall.get("temperature") {
-                let place = ["walls", "temperature"].map(|key| Step::Key(key.to_owned()));
+                let place = ["walls", "temperature"].map(|key| KeyStep::Key(key.to_owned()));
                 let [walls, temperature] = place;
                 found.item(
                     item,
-                    &[walls, Step::Index(index), temperature],
+                    &[walls, KeyStep::Index(index), temperature],
                     &format!("walls.{name}.temperature"),
                 );
             }
@@ -505,19 +505,19 @@ struct Finder {
 }
 
 impl Finder {
-    fn item(&mut self, item: &Item, place: &[Step], key: &str) {
-        let join = |step: Step| place.iter().cloned().chain([step]).collect::<Vec<_>>();
+    fn item(&mut self, item: &Item, place: &[KeyStep], key: &str) {
+        let join = |step: KeyStep| place.iter().cloned().chain([step]).collect::<Vec<_>>();
         if let Some(tables) = item.as_array_of_tables() {
             for (index, table) in tables.iter().enumerate() {
                 let named = ["name", "kind"].iter().find_map(|key| table.get(key)?.as_str());
                 let key = format!("{key}.{}", named.map_or(index.to_string(), str::to_owned));
-                self.item(&Item::Table(table.clone()), &join(Step::Index(index)), &key);
+                self.item(&Item::Table(table.clone()), &join(KeyStep::Index(index)), &key);
             }
         } else if let Some(list) = item.as_array().filter(|list| list.iter().all(Value::is_inline_table)) {
             for (index, table) in list.iter().enumerate() {
                 let named = table.as_inline_table().and_then(|table| table.get("kind")?.as_str());
                 let key = format!("{key}.{}", named.map_or(index.to_string(), str::to_owned));
-                self.item(&Item::Value(table.clone()), &join(Step::Index(index)), &key);
+                self.item(&Item::Value(table.clone()), &join(KeyStep::Index(index)), &key);
             }
         } else if is_quantity(item) {
             self.quantity(item, place, key);
@@ -532,7 +532,7 @@ impl Finder {
                     || (spread && BOUNDS.contains(&name))
                     || (of_materials && !self.used.iter().any(|used| used == name));
                 if !skipped {
-                    self.item(item, &join(Step::Key(name.to_owned())), &format!("{key}.{name}"));
+                    self.item(item, &join(KeyStep::Key(name.to_owned())), &format!("{key}.{name}"));
                 }
             }
             self.source_of_table = outer;
@@ -542,7 +542,7 @@ impl Finder {
     }
 
     /// Adds a number, or a table with `value`, `polynomial` or `arrhenius`.
-    fn quantity(&mut self, item: &Item, place: &[Step], key: &str) {
+    fn quantity(&mut self, item: &Item, place: &[KeyStep], key: &str) {
         let mut items = Vec::new();
         leaves(item, place, &mut items);
         let Some((first, only)) = items.iter().find_map(|(_, leaf)| first_number(leaf)) else { return };
@@ -598,8 +598,8 @@ fn is_quantity(item: &Item) -> bool {
 }
 
 /// The items that hold the numbers of a quantity.
-fn leaves(item: &Item, place: &[Step], found: &mut Vec<(Vec<Step>, Item)>) {
-    let join = |key: &str| place.iter().cloned().chain([Step::Key(key.to_owned())]).collect::<Vec<_>>();
+fn leaves(item: &Item, place: &[KeyStep], found: &mut Vec<(Vec<KeyStep>, Item)>) {
+    let join = |key: &str| place.iter().cloned().chain([KeyStep::Key(key.to_owned())]).collect::<Vec<_>>();
     if item.as_table_like().is_none() {
         found.push((place.to_vec(), item.clone()));
         return;
@@ -610,7 +610,7 @@ fn leaves(item: &Item, place: &[Step], found: &mut Vec<(Vec<Step>, Item)>) {
         }
     }
     if let Some(factor) = item.get("arrhenius").and_then(|pair| pair.get(0)) {
-        let place: Vec<Step> = join("arrhenius").into_iter().chain([Step::Index(0)]).collect();
+        let place: Vec<KeyStep> = join("arrhenius").into_iter().chain([KeyStep::Index(0)]).collect();
         found.push((place, factor.clone()));
     }
     if let Some(melt) = item.get("melt") {
