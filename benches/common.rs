@@ -33,7 +33,7 @@ width = 6.96
 "#;
 
 /// Seed of the draws, and of the impacts.
-pub const SEED: u64 = 7;
+pub const BENCH_SEED: u64 = 7;
 
 /// The model.
 pub fn model() -> Model {
@@ -71,7 +71,7 @@ pub fn levels() -> Vec<(&'static str, Level)> {
 
 /// An even random number of an impact, one for each `stream`.
 fn even(index: usize, stream: u64) -> f64 {
-    ImpactRng::new(SEED, index as u64).uniform(stream)
+    ImpactRng::new(BENCH_SEED, index as u64).uniform(stream)
 }
 
 /// `v_n`, `v_t` [m/s], `d` [m], `T_p` [K] and `omega` [rad/s] of an impact: all branches of the laws occur.
@@ -100,7 +100,7 @@ fn on_slag(index: usize) -> [f64; 3] {
 
 /// An impact for the C interface.
 pub fn called([v_n, v_t, d, t_p, omega]: [f64; 5]) -> nw_impact {
-    nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: SEED, ..nw_impact::default() }
+    nw_impact { v_n, v_t, d, T_p: t_p, omega, seed: BENCH_SEED, ..nw_impact::default() }
 }
 
 /// An impact of coal char on the slag of [`GASIFIER`].
@@ -282,7 +282,7 @@ pub fn bons() -> Side {
     let (strength, work, density): (f64, f64, f64) = (200e6, 0.8, 2500.0);
     let yielding = strength / (density * modulus).sqrt();
     let adhesive = 3.0 * work / (density * (1.0 - strength / modulus));
-    let constants = Constants([yielding, adhesive, 0.1, 1.0 / 7.0, 0.5, 0.3, 0.0], SEED);
+    let constants = Constants([yielding, adhesive, 0.1, 1.0 / 7.0, 0.5, 0.3, 0.0], BENCH_SEED);
     Side { name, toml: BONS_MODEL, impact, constants, same_rebound: true, one, many }
 }
 
@@ -296,7 +296,7 @@ pub fn fouling() -> Side {
     let [silica, alumina, iron, lime, _] = oxides.map(|share| 100.0 * share / oxides.iter().sum::<f64>());
     let slope = 0.00835 * silica + 0.00601 * alumina - 0.109;
     let intercept = 0.0415 * silica + 0.0192 * alumina + 0.0276 * iron + 0.0160 * lime - 3.92;
-    let constants = Constants([slope, intercept, 1e4, 873.15, 0.0, 0.0, 0.0], SEED);
+    let constants = Constants([slope, intercept, 1e4, 873.15, 0.0, 0.0, 0.0], BENCH_SEED);
     Side { name, toml: FOULING, impact, constants, same_rebound: false, one, many }
 }
 
@@ -310,7 +310,7 @@ fn wax_constants() -> Constants {
     let size = contact.reduced_modulus / (2.0 * contact.work_of_adhesion);
     let adhesive = adhesive_factor.powi(2) * contact.reduced_modulus / contact.density;
     let numbers = [size, adhesive, yield_velocity(&contact), 0.28, contact.stiffness_ratio, 360.1, 6.96];
-    Constants(numbers, SEED)
+    Constants(numbers, BENCH_SEED)
 }
 
 /// Arrays for a batch.
@@ -353,7 +353,7 @@ impl ImpactColumns {
         let [t_w, conversion] = self.slag.as_ref().map_or([null(); 2], |s| s.each_ref().map(|c| c.as_ptr()));
         let impacts = nw_impacts {
             count: self.inputs[0].len(),
-            seed: SEED,
+            seed: BENCH_SEED,
             wall: self.wall,
             v_n,
             v_t,

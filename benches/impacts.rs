@@ -48,7 +48,7 @@ fn blocks(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("resolve", name), |b| {
             b.iter(|| {
                 model
-                    .resolve_block_at(level, 0, black_box(&block), SEED, &mut outcomes, &mut workspace)
+                    .resolve_block_at(level, 0, black_box(&block), BENCH_SEED, &mut outcomes, &mut workspace)
                     .unwrap();
                 black_box(&mut outcomes);
             });

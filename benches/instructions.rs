@@ -26,7 +26,7 @@ fn at(name: &str) -> BlockRun {
 #[bench::avx2(args = ("AVX2"), setup = at)]
 fn block_of_128(mut blocks: BlockRun) -> BlockRun {
     let (model, block, level, outcomes, workspace) = &mut *blocks;
-    model.resolve_block_at(*level, 0, black_box(block), SEED, outcomes, workspace).unwrap();
+    model.resolve_block_at(*level, 0, black_box(block), BENCH_SEED, outcomes, workspace).unwrap();
     blocks
 }
 

@@ -7,7 +7,7 @@ mod inputs;
 
 use std::borrow::Cow;
 
-pub use block::{BLOCK, Block};
+pub use block::{BLOCK, Block, Outcomes};
 pub use extra::{EXTRA_INPUTS, ExtraInputs};
 pub use extra_input::ExtraInput;
 pub(crate) use extra_input::read_extra_inputs;

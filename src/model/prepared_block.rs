@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use fearless_simd::{Level, dispatch};
 
-use super::block::{BLOCK, Block, Outcomes, Workspace};
 use super::evaluation::{ImpactState, NormalRebound, StepSet, both_shares, evaluate};
 use super::prepared_wall::{
     PreparedImpact, PreparedWall, SolidProperties, Surfaces, VaryingContact, WallConstants, mechanical,
@@ -16,7 +15,7 @@ use super::prepared_wall::{
 };
 use crate::capture::{MeltStates, WallState};
 use crate::effect::stream;
-use crate::impact::Impact;
+use crate::impact::{BLOCK, Block, Impact, Outcomes};
 use crate::material::Mechanical;
 use crate::normal::{Contact, NormalLaw};
 use crate::rng::ImpactRng;
@@ -31,9 +30,17 @@ type Reals = [f64; BLOCK];
 /// A column of words as wide as its numbers: 1 for yes, 0 for no.
 type Flags = [u64; BLOCK];
 
+/// Room for the steps between the loops over a block. One serves any number of blocks.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace {
+    steps: StepColumns,
+    /// `None` until a wall needs it.
+    contacts: Option<ContactColumns>,
+}
+
 /// What the steps keep between two loops.
 #[derive(Debug, Clone)]
-pub(super) struct StepColumns {
+struct StepColumns {
     /// Stickiness of the particle.
     stickiness: Reals,
     adhesion: Reals,
@@ -46,7 +53,7 @@ pub(super) struct StepColumns {
 
 /// What a contact that differs between impacts depends on.
 #[derive(Debug, Clone)]
-pub(super) struct ContactColumns {
+struct ContactColumns {
     /// Char, ash, bare wall, powder.
     solids: [SolidColumns; 4],
     /// Whose constant properties `solids` holds.

@@ -21,7 +21,7 @@ pub const VALUES: [&str; 3] = ["e_n", "e_t", "p_stick"];
 pub const BANDS: [&str; 6] = ["e_n_low", "e_n_high", "e_t_low", "e_t_high", "p_stick_low", "p_stick_high"];
 
 /// Draws of what a model draws by chance, for the mean of each row.
-const DRAWS: usize = 64;
+const DRAWS_A_ROW: usize = 64;
 
 /// Predicts the rows of a file.
 pub struct Predictor<'a> {
@@ -47,7 +47,7 @@ pub struct PredictedRow {
 
 /// Why a row cannot be predicted.
 #[derive(Debug, thiserror::Error)]
-enum RowError {
+enum PredictError {
     #[error(transparent)]
     Wall(#[from] WallError),
     #[error(transparent)]
@@ -104,9 +104,9 @@ impl<'a> Predictor<'a> {
         self.predict(row).map_err(|error| BadRow { line: row.line, reason: error.to_string() })
     }
 
-    fn predict(&self, row: &ImpactRow) -> Result<PredictedRow, RowError> {
+    fn predict(&self, row: &ImpactRow) -> Result<PredictedRow, PredictError> {
         let wall = self.wall(row)?;
-        let expect = |model: &Model| model.expect(wall, &row.impact, DRAWS);
+        let expect = |model: &Model| model.expect(wall, &row.impact, DRAWS_A_ROW);
         let mean = expect(self.model)?;
         let drawn = self.drawn.iter().map(|model| expect(model).map(|mean| values(&mean)));
         let drawn: Vec<[f64; 3]> = drawn.collect::<Result<_, _>>()?;
@@ -156,7 +156,7 @@ mod tests {
         }
         for (row, wall) in [(0, 0), (3, 1)] {
             let impact = nearwall::Impact { normal_speed: 1.0, ..nearwall::Impact::default() };
-            let mean = model.expect(wall, &impact, DRAWS).unwrap();
+            let mean = model.expect(wall, &impact, DRAWS_A_ROW).unwrap();
             let predicted = found[row].as_ref().unwrap();
             assert_eq!((predicted.values, predicted.regime), (values(&mean), mean.regime.name()));
             assert!(predicted.bands.is_empty() && !predictor.has_bands());
