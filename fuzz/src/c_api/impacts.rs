@@ -223,47 +223,69 @@ pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {
     }
 }
 
+/// The arrays of up to seven impacts, each there or not, on any address.
+struct BatchArrays {
+    count: usize,
+    columns: [(*const f64, GuardedBuffer); INPUTS.len()],
+    extra: [(*const f64, Vec<f64>); 2],
+    keys: Vec<u64>,
+    walls: Vec<u32>,
+}
+
+impl BatchArrays {
+    fn new(bytes: &mut Bytes<'_>) -> Self {
+        let count = bytes.below(8);
+        let cases: Vec<nw_impact> = (0..count).map(|_| impact(bytes)).collect();
+        let columns = INPUTS.each_ref().map(|input| {
+            let mut buffer = GuardedBuffer::new(bytes, 8 * count);
+            let start: *mut f64 = buffer.start();
+            for (index, case) in cases.iter().enumerate() {
+                // SAFETY: a buffer of `count` numbers.
+                unsafe { start.add(index).write_unaligned((input.value)(&case.to_impact())) };
+            }
+            (buffer.start_or_null::<f64>(bytes).cast_const(), buffer)
+        });
+        let extra = std::array::from_fn(|place| {
+            let values: Vec<f64> = cases.iter().map(|case| case.extra[place]).collect();
+            (if bytes.below(2) == 0 { null() } else { values.as_ptr() }, values)
+        });
+        let keys = cases.iter().map(|case| case.key).collect();
+        let walls = cases.iter().map(|case| case.wall).collect();
+        Self { count, columns, extra, keys, walls }
+    }
+
+    /// The batch of these arrays; its count and its size may be such that it is refused.
+    fn asked(&self, bytes: &mut Bytes<'_>) -> nw_impacts {
+        let right = size_of::<nw_impacts>() as u32;
+        let claimed = match bytes.byte() {
+            0 => usize::MAX,
+            1 => isize::MAX as usize / 8 + 1,
+            2 => usize::MAX / 8,
+            _ => self.count,
+        };
+        let mut asked = nw_impacts {
+            struct_size: if bytes.byte() == 0 { bytes.word() as u32 } else { right },
+            wall: bytes.below(3) as u32,
+            count: claimed,
+            seed: bytes.word(),
+            walls: if bytes.below(2) == 0 { null() } else { self.walls.as_ptr() },
+            key: if bytes.below(2) == 0 { null() } else { self.keys.as_ptr() },
+            ..nw_impacts::default()
+        };
+        for (array, (column, _room)) in asked.columns_mut().into_iter().zip(&self.columns) {
+            *array = *column;
+        }
+        for (array, (column, _values)) in asked.extra.iter_mut().zip(&self.extra) {
+            *array = *column;
+        }
+        asked
+    }
+}
+
 /// Up to seven impacts in arrays, each array there or not, on any address; or a count that is refused.
 pub fn batch(bytes: &mut Bytes<'_>, model: *const nw_model) {
-    let count = bytes.below(8);
-    let cases: Vec<nw_impact> = (0..count).map(|_| impact(bytes)).collect();
-    let columns = INPUTS.each_ref().map(|input| {
-        let mut buffer = GuardedBuffer::new(bytes, 8 * count);
-        let start: *mut f64 = buffer.start();
-        for (index, case) in cases.iter().enumerate() {
-            // SAFETY: a buffer of `count` numbers.
-            unsafe { start.add(index).write_unaligned((input.value)(&case.to_impact())) };
-        }
-        (buffer.start_or_null::<f64>(bytes).cast_const(), buffer)
-    });
-    let extra: [(*const f64, Vec<f64>); 2] = std::array::from_fn(|place| {
-        let values: Vec<f64> = cases.iter().map(|case| case.extra[place]).collect();
-        (if bytes.below(2) == 0 { null() } else { values.as_ptr() }, values)
-    });
-    let keys: Vec<u64> = cases.iter().map(|case| case.key).collect();
-    let walls: Vec<u32> = cases.iter().map(|case| case.wall).collect();
-    let right = size_of::<nw_impacts>() as u32;
-    let claimed = match bytes.byte() {
-        0 => usize::MAX,
-        1 => isize::MAX as usize / 8 + 1,
-        2 => usize::MAX / 8,
-        _ => count,
-    };
-    let mut asked = nw_impacts {
-        struct_size: if bytes.byte() == 0 { bytes.word() as u32 } else { right },
-        wall: bytes.below(3) as u32,
-        count: claimed,
-        seed: bytes.word(),
-        walls: if bytes.below(2) == 0 { null() } else { walls.as_ptr() },
-        key: if bytes.below(2) == 0 { null() } else { keys.as_ptr() },
-        ..nw_impacts::default()
-    };
-    for (array, (column, _room)) in asked.columns_mut().into_iter().zip(&columns) {
-        *array = *column;
-    }
-    for (array, (column, _values)) in asked.extra.iter_mut().zip(&extra) {
-        *array = *column;
-    }
+    let arrays = BatchArrays::new(bytes);
+    let (count, asked) = (arrays.count, arrays.asked(bytes));
     let mut numbers: [GuardedBuffer; 4] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8 * count));
     let mut marks: [GuardedBuffer; 3] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 4 * count));
     let [e_n, e_t, p_stick, omega] = numbers.each_mut().map(|buffer| buffer.start_or_null(bytes));
