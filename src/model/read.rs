@@ -6,7 +6,7 @@ use regex_lite::Regex;
 
 use super::wall::{ContactSettings, Covering, Wall};
 use super::{Model, Particle};
-use crate::capture::{Capture, Criterion};
+use crate::capture::{Capture, Criterion, StickinessCriterion};
 use crate::deposit::resuspension::PowderAdhesion;
 use crate::deposit::shedding::Strength;
 use crate::effect::Term;
@@ -48,10 +48,7 @@ impl Model {
             library = library.with(&own)?;
             own.finish()?;
         }
-        let capture = match top.section("capture")? {
-            Some(section) => finished(section, Capture::read)?,
-            None => Capture::default(),
-        };
+        let capture = optional(top, "capture", Capture::read)?.unwrap_or_default();
         let (particle, stickiness) = finished(top.required_section("particle")?, |section| {
             let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
             let particle = Particle { material, ash: library.named_by(section, "ash")? };
@@ -62,7 +59,7 @@ impl Model {
         })?;
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
-        let erosion = top.section("erosion")?.map(|section| finished(section, erosion::read)).transpose()?;
+        let erosion = optional(top, "erosion", erosion::read)?;
         let criterion = capture.criterion;
         let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;
@@ -102,6 +99,15 @@ fn finished<T>(
     let value = read(&section)?;
     section.finish()?;
     Ok(value)
+}
+
+/// Reads a table that may be absent, and refuses its unknown keys.
+fn optional<T>(
+    section: &Section<'_>,
+    key: &str,
+    read: impl FnOnce(&Section<'_>) -> Result<T, InputError>,
+) -> Result<Option<T>, InputError> {
+    section.section(key)?.map(|table| finished(table, read)).transpose()
 }
 
 fn missing_material(section: &Section<'_>) -> InputError {
@@ -150,34 +156,16 @@ impl WallReader<'_> {
         let material = self.library.named_by(section, "material")?;
         let material = material.ok_or_else(|| missing_material(section))?;
         let slag = self.library.named_by(section, "slag")?;
-        let melt = match (&slag, self.criterion) {
-            (None, _) => None,
-            (Some(slag), criterion) => {
-                let melt =
-                    criterion.map(|criterion| criterion.of_slag(slag, self.particle.melting())).transpose();
-                let melt = melt.map_err(|error| section.fault("slag", error))?.flatten();
-                Some(melt.ok_or_else(|| section.fault("slag", self.without_criterion(slag)))?)
-            }
-        };
-        let prepared = match (self.particle.is_constant(), material.is_constant()) {
-            (true, true) => {
-                let ContactSettings { yield_ratio, work, .. } = self.adhesion;
-                let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
-                Some(Contact::new(&at(self.particle.material())?, &at(&material)?, yield_ratio, work))
-            }
-            _ => None,
-        };
+        let melt = slag.as_ref().map(|slag| self.read_melt(slag, section)).transpose()?;
+        let prepared = self.constant_contact(&material, section)?;
         let coverage = section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0);
-        let resuspension = section
-            .section("resuspension")?
-            .map(|table| finished(table, PowderAdhesion::read))
-            .transpose()?;
+        let resuspension = optional(section, "resuspension", PowderAdhesion::read)?;
         if coverage > 0.0 && resuspension.is_some() {
             let problem = "is powder without a mass, so its grains have no size for `resuspension`; give a layer_thickness instead";
             return Err(section.fault("coverage", problem));
         }
-        let own_erosion =
-            section.section("erosion")?.map(|table| finished(table, erosion::read)).transpose()?;
+        let own_erosion = optional(section, "erosion", erosion::read)?;
+        let thickness = |key: &str| Ok(section.quantity(key, &LAYER_THICKNESS)?.unwrap_or(0.0));
         Ok(Wall {
             name: name.to_owned(),
             pattern: read_pattern(name, section)?,
@@ -186,23 +174,44 @@ impl WallReader<'_> {
             melt,
             powder: self.library.named_by(section, "powder")?,
             covering: Covering {
-                layer_thickness: section.quantity("layer_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
-                film_thickness: section.quantity("film_thickness", &LAYER_THICKNESS)?.unwrap_or(0.0),
+                layer_thickness: thickness("layer_thickness")?,
+                film_thickness: thickness("film_thickness")?,
                 coverage,
             },
             erosion: own_erosion.or_else(|| self.erosion.clone()),
-            shedding: section
-                .section("shedding")?
-                .map(|table| finished(table, Strength::read))
-                .transpose()?,
+            shedding: optional(section, "shedding", Strength::read)?,
             resuspension,
             adhesion: self.adhesion,
             prepared,
         })
     }
-}
 
-impl WallReader<'_> {
+    /// The stickiness of the slag of a wall.
+    fn read_melt(
+        &self,
+        slag: &Material,
+        section: &Section<'_>,
+    ) -> Result<Arc<dyn StickinessCriterion>, InputError> {
+        let of_slag = |criterion: Criterion| criterion.of_slag(slag, self.particle.melting());
+        let melt = self.criterion.map(of_slag).transpose();
+        let melt = melt.map_err(|error| section.fault("slag", error))?.flatten();
+        melt.ok_or_else(|| section.fault("slag", self.without_criterion(slag)))
+    }
+
+    /// The contact of particle and wall, where no property depends on temperature.
+    fn constant_contact(
+        &self,
+        material: &Material,
+        section: &Section<'_>,
+    ) -> Result<Option<Contact>, InputError> {
+        if !self.particle.is_constant() || !material.is_constant() {
+            return Ok(None);
+        }
+        let ContactSettings { yield_ratio, work, .. } = self.adhesion;
+        let at = |m: &Material| m.mechanical(293.15).map_err(|e| section.fault("material", e));
+        Ok(Some(Contact::new(&at(self.particle.material())?, &at(material)?, yield_ratio, work)))
+    }
+
     /// Why there is no criterion for the slag of a wall.
     fn without_criterion(&self, slag: &Material) -> String {
         match self.criterion {
