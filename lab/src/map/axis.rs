@@ -16,6 +16,7 @@ const LOGARITHMIC_RATIO: f64 = 30.0;
 const DEFAULT_TEMPERATURES: [f64; 2] = [273.15, 2000.0];
 
 /// Why a text or a range gives no axis or setting.
+#[expect(missing_docs, reason = "the message of a variant says what its fields are")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum AxisError {
     /// The text lacks the equals sign; with the form that it should have.
@@ -23,12 +24,7 @@ pub enum AxisError {
     Form(&'static str),
     /// The range is not of two or three parts.
     #[error("`{range}`: write LOW:HIGH or LOW:HIGH:POINTS, such as {name}=0.1:30")]
-    Range {
-        /// Name of the input.
-        name: String,
-        /// The text.
-        range: String,
-    },
+    Range { name: String, range: String },
     /// No input has this name; with the nearest known one.
     #[error("{0}")]
     Unknown(String),
@@ -43,22 +39,10 @@ pub enum AxisError {
     Value(#[from] ImpactError),
     /// The range is empty.
     #[error("{name}: the low end {low} is not below the high end {high}")]
-    Empty {
-        /// Name of the input.
-        name: String,
-        /// Its lowest value.
-        low: f64,
-        /// Its highest value.
-        high: f64,
-    },
+    Empty { name: String, low: f64, high: f64 },
     /// The number of points is out of bounds.
     #[error("{name}: {points} points; give 2 to {MOST_POINTS}")]
-    Points {
-        /// Name of the input.
-        name: String,
-        /// Number of points.
-        points: usize,
-    },
+    Points { name: String, points: usize },
 }
 
 /// An input of an impact over a range. As text: `INPUT=LOW:HIGH` or `INPUT=LOW:HIGH:POINTS`.

@@ -4,6 +4,7 @@ use nearwall::impact::ImpactError;
 use nearwall::material::OutOfRange;
 
 /// Why a case cannot be run or a particle cannot be followed.
+#[expect(missing_docs, reason = "the message of a variant says what its fields are")]
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
     /// A model cannot decide an impact, or lacks a property.
@@ -11,12 +12,7 @@ pub enum SimulationError {
     Impact(#[from] ImpactError),
     /// The deposit of a wall cannot be formed.
     #[error("{wall}: {reason}")]
-    Wall {
-        /// Name of the wall.
-        wall: String,
-        /// The reason.
-        reason: String,
-    },
+    Wall { wall: String, reason: String },
     /// A path needs more steps of integration than allowed.
     #[error("the path takes more than {0} integration steps")]
     TooManySteps(usize),
@@ -26,32 +22,18 @@ pub enum SimulationError {
     /// A sweep cannot set the temperature of a cooled wall.
     #[error("the wall `{0}` is cooled, so its temperature cannot be set")]
     CooledWall(String),
-    /// A property of the gas is not known at its temperature.
+    /// A property of the gas is not known at its temperature [K], but in a range [K].
     #[error(
         "gas.{key} is given for {} to {} K, but the gas has {temperature} K in this case; widen the table",
         .known.low, .known.high
     )]
-    GasProperty {
-        /// Key of the property.
-        key: &'static str,
-        /// Temperature of the gas [K].
-        temperature: f64,
-        /// Where the property is known [K].
-        known: OutOfRange,
-    },
-    /// The ash of a particle is larger than the particle.
+    GasProperty { key: &'static str, temperature: f64, known: OutOfRange },
+    /// The ash of a particle is larger than the particle: densities of both [kg/m³], share of the ash [% of mass].
     #[error(
         "ash of {ash_density} kg/m3 does not fit into a particle of {density} kg/m3 with {ash_percent} % ash; \
          raise ash_density"
     )]
-    AshTooLarge {
-        /// Density of the ash [kg/m³].
-        ash_density: f64,
-        /// Density of the unburnt particle [kg/m³].
-        density: f64,
-        /// Share of the ash in its mass [%].
-        ash_percent: f64,
-    },
+    AshTooLarge { ash_density: f64, density: f64, ash_percent: f64 },
     /// A particle melts and no melting point is known.
     #[error("the material `{0}` has no melting_point; add melting_point to the particles")]
     NoMeltingPoint(String),

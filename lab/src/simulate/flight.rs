@@ -4,13 +4,14 @@
 //! dense output.
 
 use differential_equations::error::Error;
-use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
 
 use super::error::SimulationError;
-use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, position, reach};
+use super::motion::{
+    Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, PathSolver, position, reach,
+};
 use super::near_wall::StayTimes;
 use super::surface::Surface;
 
@@ -107,10 +108,10 @@ enum StepAttempt {
     Stiff,
 }
 
-fn try_step<S>(solver: &mut S, motion: &ParticleMotion<'_>) -> Result<StepAttempt, SimulationError>
-where
-    S: OrdinaryNumericalMethod<f64, ParticleState>,
-{
+fn try_step<S: PathSolver>(
+    solver: &mut S,
+    motion: &ParticleMotion<'_>,
+) -> Result<StepAttempt, SimulationError> {
     match solver.step(motion) {
         Ok(_) if matches!(solver.status(), Status::RejectedStep) && solver.h().is_normal() => {
             Ok(StepAttempt::Rejected)
@@ -131,10 +132,7 @@ fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
 }
 
 /// The first contact in the step that the solver has just taken.
-fn contact<S>(solver: &mut S, surfaces: &[Surface], body: &Body) -> Option<FlightEnd>
-where
-    S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
-{
+fn contact<S: PathSolver>(solver: &mut S, surfaces: &[Surface], body: &Body) -> Option<FlightEnd> {
     let (from, to) = (solver.t_prev(), solver.t());
     let (before, after) = (*solver.y_prev(), *solver.y());
     let reach = reach(to - from, &before, &after);
@@ -157,16 +155,13 @@ where
 }
 
 /// The last time and state in front of the surface, when the step leads behind it: at most `near` [m] away.
-fn crossing<S>(
+fn crossing<S: PathSolver>(
     solver: &mut S,
     gap: &impl Fn(&ParticleState) -> f64,
     near: f64,
     [from, to]: [f64; 2],
     [before, after]: [&ParticleState; 2],
-) -> Option<(f64, ParticleState)>
-where
-    S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
-{
+) -> Option<(f64, ParticleState)> {
     let (mut low, mut in_front) = (from, gap(before));
     for place in 1..=PATH_POINTS {
         let high = if place == PATH_POINTS {

@@ -1,6 +1,6 @@
 //! Standalone cases: particles in a prescribed gas hit walls until they are captured or gone.
 //!
-//! A [`Case`] is read from a TOML file. [`run`] draws its particles and follows each through the gas ([`gas`]) with drag
+//! A [`Case`] is read from a TOML file. [`run_once`] draws its particles and follows each through the gas ([`gas`]) with drag
 //! ([`drag`]), weight and heat ([`heating`]); [`nearwall::Model::resolve`] decides every hit. [`crate::results::standalone`]
 //! sums up the [`Trajectory`]s. Particles do not interact with each other and do not act on the gas. A `[deposit]` gives the walls
 //! a memory: the particles are released over a duration, and at the end of each of its steps the captured ones are added to the walls
@@ -56,23 +56,6 @@ use wall_deposits::WallDeposits;
 
 /// Particles that are followed in parallel before their trajectories are handed over in order.
 const BATCH: usize = 4096;
-
-/// Runs a case once, or once for each value of its sweep. `observer` receives each trajectory in order with the swept
-/// value and the number of the particle.
-///
-/// # Errors
-/// Those of `observer`, and a swept value that cannot be set.
-pub fn run<E: From<SimulationError>>(
-    case: &mut Case,
-    mut observer: impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
-) -> Result<(), E> {
-    let Some(sweep) = case.sweep.clone() else { return run_once(case, None, &mut observer).map(drop) };
-    for value in sweep.values {
-        case.set(&sweep.key, value).map_err(E::from)?;
-        run_once(case, Some(value), &mut observer)?;
-    }
-    Ok(())
-}
 
 /// Runs a case as it is; `value` is passed on to the observer. Returns what lies on the walls over time, where they keep it.
 ///

@@ -7,7 +7,8 @@
 
 use std::f64::consts::PI;
 
-use differential_equations::ode::ODE;
+use differential_equations::interpolate::Interpolation;
+use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use nalgebra::{SVector, Vector3};
 
 use super::conversion::CarbonConversion;
@@ -51,6 +52,13 @@ pub fn state(
     state[CONVERSION] = conversion;
     state
 }
+
+/// An integration of [`ParticleMotion`] with dense output.
+pub(super) trait PathSolver:
+    OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>
+{
+}
+impl<S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>> PathSolver for S {}
 
 /// What a particle consists of.
 #[derive(Debug, Clone, Copy, PartialEq)]

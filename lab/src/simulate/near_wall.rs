@@ -5,10 +5,7 @@
 //! compared with that in the whole cross-section. Within a step the path is that of the dense output; where the particle comes
 //! near is found by bisection.
 
-use differential_equations::interpolate::Interpolation;
-use differential_equations::ode::OrdinaryNumericalMethod;
-
-use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleState, position, reach};
+use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleState, PathSolver, position, reach};
 use super::surface::{Surface, SurfaceKind, SurfaceShape};
 
 /// Halvings of the piece of a path on which the particle comes near a wall or leaves it.
@@ -39,15 +36,13 @@ impl StayTimes {
     }
 
     /// Adds the step that the solver has just taken, up to `end`: its time and state.
-    pub(super) fn add<S>(
+    pub(super) fn add<S: PathSolver>(
         &mut self,
         solver: &mut S,
         surfaces: &[Surface],
         body: &Body,
         (to, after): (f64, ParticleState),
-    ) where
-        S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
-    {
+    ) {
         let (from, before) = (solver.t_prev(), *solver.y_prev());
         let mut path = Path { solver, from, to, before, after, places: Vec::new() };
         let reach = reach(to - from, &before, &after);
@@ -68,15 +63,14 @@ impl StayTimes {
                     time.near += duration * overlap(near, inside(one, other));
                 });
             }
-            if let SurfaceShape::Pipe { .. } = surface.shape {
-                let [one, other] = [&before, &after].map(coordinate);
-                if [one, other].iter().all(|z| (begin..=end).contains(z)) {
-                    time.section += to - from;
-                } else if one.min(other) - reach <= end && one.max(other) + reach >= begin {
-                    path.each(|duration, one, other, _| {
-                        time.section += duration * overlap([0.0, 1.0], inside(one, other));
-                    });
-                }
+            let is_pipe = matches!(surface.shape, SurfaceShape::Pipe { .. });
+            let [one, other] = [&before, &after].map(coordinate);
+            if is_pipe && [one, other].iter().all(|z| (begin..=end).contains(z)) {
+                time.section += to - from;
+            } else if is_pipe && one.min(other) - reach <= end && one.max(other) + reach >= begin {
+                path.each(|duration, one, other, _| {
+                    time.section += duration * overlap([0.0, 1.0], inside(one, other));
+                });
             }
         }
     }
@@ -136,10 +130,7 @@ struct Path<'a, S> {
     places: Vec<ParticleState>,
 }
 
-impl<S> Path<'_, S>
-where
-    S: OrdinaryNumericalMethod<f64, ParticleState> + Interpolation<f64, ParticleState>,
-{
+impl<S: PathSolver> Path<'_, S> {
     /// Calls with the duration and both ends of each piece, and with its states from 0 to 1.
     fn each(
         &mut self,

@@ -1,6 +1,6 @@
 //! Expected hits: a particle that a wall catches with a probability flies on with the rest of its weight.
 //!
-//! [`crate::simulate::run`] decides every capture by a random number. For an expectation that is noise, and it makes the result jump
+//! [`crate::simulate::run_once`] decides every capture by a random number. For an expectation that is noise, and it makes the result jump
 //! where a parameter changes. Here a hit with the probability `p` catches the share `p` of what is left of the particle, and `1 - p` flies
 //! on, until almost nothing is left.
 //!

@@ -36,7 +36,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Case> {
 /// First hits of all particles of a case.
 pub(super) fn hits(case: &mut Case) -> Result<Vec<Hit>> {
     let mut first = Vec::new();
-    simulate::run::<String>(case, |_, _, _, life| {
+    simulate::run_once::<String>(case, None, &mut |_, _, _, life| {
         first.extend(life.hits.first().copied());
         Ok(())
     })?;

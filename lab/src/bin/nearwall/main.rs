@@ -17,7 +17,7 @@ use std::path::Path;
 use clap::Parser;
 
 /// Result of a subcommand; the error's text names file, line or key and the remedy.
-type CommandResult = Result<(), Box<dyn std::error::Error>>;
+type CommandResult<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
 /// Defines [`Command`]; a subcommand has a line, with its name and its module, and there `Arguments` and `run`.
 macro_rules! subcommands {

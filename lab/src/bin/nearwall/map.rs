@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
 }
 
 /// The inputs that are the same in all impacts.
-fn fixed_inputs(arguments: &Arguments) -> Result<Impact, Box<dyn std::error::Error>> {
+fn fixed_inputs(arguments: &Arguments) -> CommandResult<Impact> {
     let mut fixed = Impact { normal_speed: 1.0, ..Impact::default() };
     let axes: Vec<&str> = [arguments.x, arguments.y].iter().flatten().map(|axis| axis.input().name).collect();
     if let [x, y] = axes[..]
@@ -93,7 +93,7 @@ fn write(arguments: &Arguments, map: &Map) -> CommandResult {
 }
 
 /// One row for each impact; blank where nothing is decided, and `e_n`, `e_t` where no particle rebounds.
-fn table(map: &Map) -> Result<String, Box<dyn std::error::Error>> {
+fn table(map: &Map) -> CommandResult<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let [x, y] = [map.x.input().name, map.y.input().name];
     writer.write_record([x, y, "e_n", "e_t", "p_stick", "regime", "outside_range"])?;

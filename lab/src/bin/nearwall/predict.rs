@@ -188,7 +188,11 @@ struct PredictedText {
 }
 
 impl PredictedText {
-    fn predict(&mut self, predictor: &Predictor<'_>, rows: &[(ImpactRow, Option<BadRow>)]) -> csv::Result<()> {
+    fn predict(
+        &mut self,
+        predictor: &Predictor<'_>,
+        rows: &[(ImpactRow, Option<BadRow>)],
+    ) -> csv::Result<()> {
         self.text.clear();
         let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(&mut self.text);
         for (row, bad) in rows {
@@ -202,7 +206,11 @@ impl PredictedText {
 }
 
 /// Writes the cells of a row and its prediction, each number with as few digits as give the same bits when they are read.
-fn write_row(row: &ImpactRow, predicted: &PredictedRow, writer: &mut csv::Writer<impl Write>) -> csv::Result<()> {
+fn write_row(
+    row: &ImpactRow,
+    predicted: &PredictedRow,
+    writer: &mut csv::Writer<impl Write>,
+) -> csv::Result<()> {
     let mut digits = zmij::Buffer::new();
     row.cells.iter().try_for_each(|cell| writer.write_field(cell))?;
     for value in predicted.values {

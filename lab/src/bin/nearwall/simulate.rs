@@ -74,11 +74,7 @@ fn summary_of_run(case: &Case, run: &Run) -> String {
 }
 
 /// Runs a case and writes its files into a folder, which is created if it does not exist.
-fn write(
-    case: &mut Case,
-    folder: &Path,
-    draws: Option<&DrawnModels>,
-) -> Result<Vec<Run>, Box<dyn std::error::Error>> {
+fn write(case: &mut Case, folder: &Path, draws: Option<&DrawnModels>) -> CommandResult<Vec<Run>> {
     make_folder(folder)?;
     let open = |name: &str| AtomicFile::new(&folder.join(name), &[]);
     let (impacts, mut json, mut html) = (open("impacts.csv")?, open("summary.json")?, open("report.html")?);
