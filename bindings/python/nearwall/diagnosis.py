@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import pathlib
 from dataclasses import dataclass
 from functools import cached_property
@@ -177,6 +176,6 @@ def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[An
     if not 0 < level < 0.5:
         raise ValueError(f"level {level}: must lie between 0 and 0.5")
     text, extended, page, drawn, notes = compiled().diagnose(
-        model_of(model), source(table), None if columns is None else os.fspath(columns), group, wall, seed, level, draws)
+        model_of(model), source(table), columns, group, wall, seed, level, draws)
     warn(notes)
     return Diagnosis(json.loads(text), extended, page, drawn, text)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from typing import Optional, Union
 
 import numpy
@@ -34,8 +33,7 @@ def predict(table: Table, model: Union[Model, AnyPath], *, wall: Optional[str] =
     For one call without a table, and without copies, use `Model.resolve`; it draws a single outcome of what a model draws by
     chance, `predict` averages.
     """
-    cells, numbers, regimes, left_out, notes = compiled().predict(
-        model_of(model), source(table), wall, None if draws is None else os.fspath(draws))
+    cells, numbers, regimes, left_out, notes = compiled().predict(model_of(model), source(table), wall, draws)
     if left_out:
         shown = "; ".join(f"line {line}: {reason}" for line, reason in left_out[:_SHOWN])
         more = f"; and {len(left_out) - _SHOWN} more" if len(left_out) > _SHOWN else ""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import pathlib
 from dataclasses import dataclass
 from html import escape
@@ -53,8 +52,7 @@ def simulate(case: AnyPath, *, draws: Optional[AnyPath] = None, kind: Optional[s
 
     Raises Error, which names file, line and key. Ctrl-C ends it.
     """
-    text, impacts, columns, deposit, page, notes = compiled().simulate(
-        os.fspath(case), None if draws is None else os.fspath(draws))
+    text, impacts, columns, deposit, page, notes = compiled().simulate(case, draws)
     warn(notes)
     texts = {"impacts.csv": impacts, "summary.json": text, "report.html": page}
     frame = None

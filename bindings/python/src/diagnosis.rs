@@ -1,6 +1,6 @@
 //! `diagnose`: what the command `nearwall diagnose` does with measured impacts.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use nearwall::input::Document;
 use nearwall_lab::diagnose::{ImpactDiagnosis, Options};
@@ -21,7 +21,7 @@ pub fn diagnose(
     py: Python<'_>,
     model: (String, String),
     data: TableSource,
-    columns: Option<String>,
+    columns: Option<PathBuf>,
     group: Option<String>,
     wall: Option<String>,
     seed: u64,
@@ -30,10 +30,9 @@ pub fn diagnose(
 ) -> PyResult<DiagnosisOutput> {
     let (name, text) = model;
     run(py, move |tick| {
-        let columns = columns.as_deref().map(Path::new);
         let options = Options { seed, level, group };
         let document = Document::new(name.as_str(), text);
-        let diagnosis = ImpactDiagnosis::new(document, columns, wall.as_deref(), options)?;
+        let diagnosis = ImpactDiagnosis::new(document, columns.as_deref(), wall.as_deref(), options)?;
         let measured = diagnosis.read(data.name(), data.open()?)?;
         let (diagnosis, extended, drawn) = diagnosis.run(&measured, draws, tick)?;
         let page = diagnosis_page(&diagnosis, &[measured.file, name], &extended)?;

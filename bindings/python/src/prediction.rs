@@ -1,6 +1,6 @@
 //! `predict`: what the command `nearwall predict` adds to a table of impacts.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use nearwall::Model;
 use nearwall_lab::dataset::{BadRow, ImpactReader, ImpactRow};
@@ -32,7 +32,7 @@ pub fn predict(
     model: (String, String),
     data: TableSource,
     wall: Option<String>,
-    draws: Option<String>,
+    draws: Option<PathBuf>,
 ) -> PyResult<ForCaller> {
     let Predictions { cells, numbers, regimes, left_out, notes } =
         run(py, |tick| predict_rows(&model, &data, wall.as_deref(), draws.as_deref(), tick))?;
@@ -48,7 +48,7 @@ fn predict_rows(
     (name, text): &(String, String),
     data: &TableSource,
     wall: Option<&str>,
-    draws: Option<&str>,
+    draws: Option<&Path>,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Predictions, Failure> {
     let model = Model::from_toml(name, text)?;
@@ -56,7 +56,7 @@ fn predict_rows(
     let mut reader = ImpactReader::new(file, data.open()?)?.with_extra_inputs(model.extra_inputs());
     let mut predictor = Predictor::new(&model, wall, &reader)?;
     if let Some(folder) = draws {
-        predictor.read_draws(Path::new(folder))?;
+        predictor.read_draws(folder)?;
     }
     let header = reader.headers().iter().map(str::to_owned);
     let cells = matches!(data, TableSource::File(_)).then(|| TableCells::new(header));

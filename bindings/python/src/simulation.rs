@@ -1,6 +1,6 @@
 //! `simulate`: what the command `nearwall simulate` does with a standalone case.
 
-use std::path::Path;
+use std::path::PathBuf;
 
 use nearwall_lab::report::standalone_page;
 use nearwall_lab::results::standalone::{ImpactRecorder, run as run_case, summary, write_deposits};
@@ -17,11 +17,10 @@ type SimulationOutput =
 
 /// Runs a case file.
 #[pyfunction]
-pub fn simulate(py: Python<'_>, case: String, draws: Option<String>) -> PyResult<SimulationOutput> {
+pub fn simulate(py: Python<'_>, case: PathBuf, draws: Option<PathBuf>) -> PyResult<SimulationOutput> {
     let (json, impacts, deposit, page, notes) = run(py, |tick| {
-        let mut case = Case::from_file(Path::new(&case))?;
-        let draws =
-            draws.map(|folder| DrawnModels::from_folder(Path::new(&folder), &case.model)).transpose()?;
+        let mut case = Case::from_file(&case)?;
+        let draws = draws.map(|folder| DrawnModels::from_folder(&folder, &case.model)).transpose()?;
         let mut recorder = ImpactRecorder::new(Vec::new(), &case)?;
         let mut runs = run_case(&mut case, |case, value, number, trajectory| {
             tick();
