@@ -63,11 +63,7 @@ pub(super) fn fly_timed(
     let (mut now, mut here) = (time, *start);
     let mut steps = 0;
     while now < until {
-        let mut solver = ExplicitRungeKutta::dopri5()
-            .rtol(tolerance)
-            .atol(absolute_tolerances(tolerance, &motion.body))
-            .max_steps(STEP_LIMIT);
-        solver.init(motion, now, until, &here).map_err(|_| SimulationError::NotFinite)?;
+        let mut solver = solver(motion, [now, until], here, tolerance)?;
         loop {
             let left = until - solver.t();
             if left <= 1e-14 * until.abs() {
@@ -97,6 +93,19 @@ pub(super) fn fly_timed(
         }
     }
     Ok(FlightEnd { time: now, state: here, surface: None })
+}
+
+/// An integration from a state at one time to another time.
+fn solver(
+    motion: &ParticleMotion<'_>,
+    [from, until]: [f64; 2],
+    start: ParticleState,
+    tolerance: f64,
+) -> Result<impl PathSolver, SimulationError> {
+    let tolerances = absolute_tolerances(tolerance, &motion.body);
+    let mut solver = ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerances).max_steps(STEP_LIMIT);
+    solver.init(motion, from, until, &start).map_err(|_| SimulationError::NotFinite)?;
+    Ok(solver)
 }
 
 /// What became of a step of the integration.

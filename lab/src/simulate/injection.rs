@@ -119,10 +119,6 @@ impl Injection {
         let needed = |key: &str, what: &str, low: f64, high: f64| {
             Distribution::read(section, key, low, high)?.ok_or_else(|| section.missing(key, what))
         };
-        let count = required_within(section, "count", 1.0, 1e8)?;
-        if count.fract() != 0.0 {
-            return Err(section.fault("count", "a whole number of particles"));
-        }
         let or = |key: &str, low: f64, high: f64, default: Distribution| {
             Distribution::read(section, key, low, high).map(|given| given.unwrap_or(default))
         };
@@ -134,7 +130,7 @@ impl Injection {
             name: section.text("name")?.unwrap_or_else(|| "particles".to_owned()),
             walls: same_walls(section, case_model, model.as_ref())?,
             model,
-            count: count as u64,
+            count: read_count(section)?,
             place: ReleaseShape::read(&section.required_section("position")?)?,
             along: direction(section, "direction")?,
             diameter: needed("diameter", "a diameter [m]", positive, 1.0)?,
@@ -297,6 +293,14 @@ fn same_walls(
         })
     };
     case_model.walls().iter().map(|wall| same(wall.name())).collect()
+}
+
+fn read_count(section: &Section<'_>) -> Result<u64, InputError> {
+    let count = required_within(section, "count", 1.0, 1e8)?;
+    if count.fract() != 0.0 {
+        return Err(section.fault("count", "a whole number of particles"));
+    }
+    Ok(count as u64)
 }
 
 fn read_fusion(section: &Section<'_>, heat_capacity: Option<f64>) -> Result<Option<FusionKeys>, InputError> {
