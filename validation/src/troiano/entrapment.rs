@@ -18,7 +18,7 @@ const BURN: f64 = 5.0;
 const CHAR_FLUX: f64 = 1e7;
 
 /// A liquid wall and the particle that hits it.
-struct Wall {
+struct EntrapmentWall {
     name: &'static str,
     melt: StatedMelt,
     /// Density of the particle [kg/m³].
@@ -26,12 +26,12 @@ struct Wall {
 }
 
 /// Slag with char of 700 to 1000 kg/m³ (assumed), and wax with particles of the same.
-const WALLS: [Wall; 2] = [
-    Wall { name: "coal slag", melt: COAL_SLAG, particle: [700.0, 1000.0] },
-    Wall { name: "molten wax", melt: MOLTEN_WAX, particle: MOLTEN_WAX.density },
+const WALLS: [EntrapmentWall; 2] = [
+    EntrapmentWall { name: "coal slag", melt: COAL_SLAG, particle: [700.0, 1000.0] },
+    EntrapmentWall { name: "molten wax", melt: MOLTEN_WAX, particle: MOLTEN_WAX.density },
 ];
 
-impl Wall {
+impl EntrapmentWall {
     /// Every corner of its ranges, at a contact angle [degrees], speed [m/s] and with the drag or without.
     fn judged(&self, degrees: f64, normal_speed: f64, drag: bool) -> Vec<Judgement> {
         let mut all = Vec::new();
@@ -121,7 +121,7 @@ fn text() -> Vec<String> {
 
 /// The worst corner of each wall's ranges over the contact angle.
 fn corners() -> Table {
-    let row = |(wall, degrees): (&Wall, f64)| {
+    let row = |(wall, degrees): (&EntrapmentWall, f64)| {
         let burial = wall.burial(degrees);
         vec![
             wall.name.to_owned(),
@@ -151,7 +151,7 @@ fn below_one(what: &str, ours: f64) -> Claim {
     Claim::predicted("Sec 3.1", what, Published::Below(1.0), ours)
 }
 
-fn slag(slag: &Wall) -> Vec<Claim> {
+fn slag(slag: &EntrapmentWall) -> Vec<Claim> {
     let burial = slag.burial(90.0);
     vec![
         below_one(
@@ -170,7 +170,7 @@ fn slag(slag: &Wall) -> Vec<Claim> {
     ]
 }
 
-fn wax(wax: &Wall) -> Vec<Claim> {
+fn wax(wax: &EntrapmentWall) -> Vec<Claim> {
     vec![
         below_one(
             "wax: kinetic energy over the work of immersion, 90° to 160° [1]",
