@@ -1,39 +1,97 @@
 //! The page in short, as Markdown: what is kept beside the code and compared with every run.
 
-use crate::claim::Verdict;
+use crate::claim::{Claim, ClaimBasis, Verdict};
 use crate::page::{self, ADVICE};
 use crate::study::SourceStudy;
 
-/// Every statement of every study, without pictures.
+/// Columns of the statements that differ.
+const HEADER: [&str; 4] = ["statement", "source", "here", "reason"];
+
+/// The counts, and every statement that differs or cannot be checked.
 pub fn summary(studies: &[SourceStudy]) -> String {
     let all: usize = studies.iter().map(|study| study.claims().count()).sum();
     let total = |verdict| studies.iter().map(|study| study.count(verdict)).sum::<usize>();
     let mut text = format!(
-        "# Validation\n\nWritten by `validation/run`, which also writes the page with figures, \
-         `target/validation/report.html`. `tests/run` fails when this file and a run differ.\n\nOf {all} \
-         statements {} agree, {} differ and {} cannot be checked. A statement agrees when the library's \
-         number lies within the stated uncertainty, or within half of the last printed digit where none is \
-         stated. \"Fitted\": a parameter was fitted to that number, so agreement proves little.\n",
+        "# Validation\n\nOf {all} statements {} agree, {} differ and {} cannot be checked. `validation/run` \
+         computes them, writes\nthis file (`NEARWALL_BLESS=1`), and all statements with figures on \
+         `target/validation/report.html`.\n`tests/run` fails when this file and a run differ.\n\n\
+         A statement agrees when the library's number lies within the stated uncertainty, or within half of\n\
+         the last printed digit where none is stated. \"Fitted\": a parameter was fitted to that number.\nSP and NSP: \
+         sticky and non-sticky particle; SW and NSW: sticky and non-sticky wall.\n",
         total(Verdict::Agrees),
         total(Verdict::Differs),
         total(Verdict::Unchecked)
     );
     for paragraph in ADVICE {
-        text += &format!("\n{paragraph}\n");
+        text += &format!("\n{}\n", wrapped(paragraph));
     }
     let overview = page::overview(studies);
-    text += &format!("\n{}", rows(&overview.header, &overview.rows));
+    let counts = |cells: &[String]| cells[..4].to_vec();
+    let studies_by_count: Vec<_> = overview.rows.iter().map(|cells| counts(cells)).collect();
+    text += &format!("\n{}", rows(&counts(&overview.header), &studies_by_count));
     for study in studies {
-        text += &format!("\n## {}\n{}\n", study.title, study.source);
-        for part in study.parts.iter().filter(|part| !part.claims.is_empty()) {
-            if !part.heading.is_empty() {
-                text += &format!("\n### {}\n", part.heading);
-            }
-            let claims: Vec<_> = part.claims.iter().map(page::row).collect();
-            text += &format!("\n{}", rows(&page::HEADER, &claims));
-        }
+        text += &misses(study);
     }
     text
+}
+
+/// The statements of a study that differ or cannot be checked; empty if there are none.
+fn misses(study: &SourceStudy) -> String {
+    let with = |verdict| study.claims().filter(move |claim: &&Claim| claim.verdict == verdict);
+    let mut claims: Vec<&Claim> = with(Verdict::Differs).collect();
+    // Statements that differ for one reason stand together.
+    let reasons: Vec<&str> = claims.iter().map(|claim| first_sentence(&claim.why)).collect();
+    claims.sort_by_key(|claim| reasons.iter().position(|reason| *reason == first_sentence(&claim.why)));
+    let mut previous = "";
+    let mut differing = Vec::new();
+    for claim in claims {
+        differing.push(row(claim, previous));
+        previous = &claim.why;
+    }
+    let open: Vec<_> =
+        with(Verdict::Unchecked).map(|claim| format!("{} ({})", claim.what, claim.place)).collect();
+    if differing.is_empty() && open.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        format!("\n## {}\n{}\n\n{}", study.title, wrapped(&study.source), rows(&HEADER, &differing));
+    if !open.is_empty() {
+        text += &format!("\n{}\n", wrapped(&format!("Cannot be checked: {}.", open.join("; "))));
+    }
+    text
+}
+
+/// A statement that differs; `previous` is the reason in the row above.
+fn row(claim: &Claim, previous: &str) -> [String; 4] {
+    let reason = first_sentence(&claim.why);
+    let reason = if reason == first_sentence(previous) { "as above" } else { reason };
+    let fitted = if claim.basis == ClaimBasis::Fitted { " (fitted)" } else { "" };
+    let statement = format!("{}: {}", claim.place, claim.what);
+    [statement, claim.published.clone(), format!("{}{fitted}", claim.ours), reason.to_owned()]
+}
+
+/// The text up to the first full stop before a capital letter or a quotation mark.
+fn first_sentence(text: &str) -> &str {
+    let begins = |rest: &str| rest.starts_with(|c: char| c.is_uppercase() || c == '"');
+    let end = text.match_indices(". ").find(|(at, stop)| begins(&text[at + stop.len()..]));
+    end.map_or(text, |(at, _)| &text[..=at])
+}
+
+/// Lines of at most 100 characters.
+fn wrapped(text: &str) -> String {
+    const WIDTH: usize = 100;
+    let mut lines: Vec<String> = vec![String::new()];
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if line.is_empty() => line.push_str(word),
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines.join("\n")
 }
 
 /// A table in Markdown.
@@ -68,7 +126,13 @@ pub fn alike(one: &str, other: &str) -> bool {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may fail")]
-    use super::alike;
+    use super::{alike, first_sentence};
+
+    #[test]
+    fn a_sentence_ends_before_a_capital_letter() {
+        assert_eq!(first_sentence("See Eq. 3 and 1.5 m/s. Then more."), "See Eq. 3 and 1.5 m/s.");
+        assert_eq!(first_sentence("no stop"), "no stop");
+    }
 
     /// The README's counts of both papers are those of the kept summary.
     #[test]

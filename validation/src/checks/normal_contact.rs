@@ -200,7 +200,7 @@ fn claims(worst: f64) -> Vec<Claim> {
             sticking(NormalLaw::PlasticJkr),
         )
         .because(&format!(
-            "{} % low. The treatment of adhesion after yield differs: here the pressure is limited to p_y \
+            "{} % low: the treatment of adhesion after yield differs. Here the pressure is limited to p_y \
              throughout; the stiffness after yield, as recalled from the paper (not available), gives 1.82. \
              The default law gives {}",
             number((100.0 * (1.0 - sticking(NormalLaw::PlasticJkr) / 1.6)).round()),

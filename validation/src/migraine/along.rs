@@ -273,8 +273,8 @@ fn dissipation(plain: &Model, drawn: &Drawn) -> Result<Vec<Claim>> {
                 along / towards,
             )
             .because(if set.number == 4 {
-                "\"Much less\" is taken as below a third. The oblique set 4 has mostly tangential speed; \
-                 energy transferred to spin is not counted."
+                "The oblique set 4 has mostly tangential speed; energy transferred to spin is not counted. \
+                 \"Much less\" is taken as below a third."
             } else {
                 "\"Much less\" is taken as below a third. The tangential speed is small, so its loss is \
                  small."

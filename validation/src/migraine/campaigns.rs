@@ -406,7 +406,7 @@ fn gain_claim((observable, (errors, gain)): (&CampaignObservable, &CampaignGain)
 fn reason(observable: &CampaignObservable, [low, high]: [f64; 2], low_by: f64) -> String {
     let drawn = format!("5 to 95 % of campaigns: {low:.3} to {high:.3}.");
     match observable.name {
-        "stuck" => format!("Band: 95 % binomial. {drawn} The inputs do not contain what decides capture."),
+        "stuck" => format!("The inputs do not contain what decides capture. Band: 95 % binomial. {drawn}"),
         "mean e_t" => {
             let [least, most] = range(SETS.iter().map(|set| set.e_t));
             let apart = most - least;
@@ -416,8 +416,8 @@ fn reason(observable: &CampaignObservable, [low, high]: [f64; 2], low_by: f64) -
             )
         }
         _ if low_by > 0.05 => format!(
-            "Band: 95 % binomial. {drawn} Low, because oblique-angle lowers part of set 1's agglomerates \
-             below 0.6, so that set 1 needs a larger fraction, and this set has fewer oblique impacts."
+            "The effect oblique-angle lowers part of set 1's agglomerates below 0.6, so that set 1 needs a \
+             larger fraction, and this set has fewer oblique impacts. Band: 95 % binomial. {drawn}"
         ),
         _ => format!("Band: 95 % binomial. {drawn}"),
     }

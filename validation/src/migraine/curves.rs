@@ -132,8 +132,8 @@ fn counts() -> Vec<Claim> {
             100.0 * below as f64 / rebounds as f64,
         )
         .because(
-            "\"~\" is taken as one per cent, as in \"~71 %\" of set 1. Here it means three quarters; the \
-             difference has no consequence.",
+            "Here \"~\" means three quarters; the difference has no consequence. It is taken as one per cent, \
+             as in \"~71 %\" of set 1.",
         ),
     );
     claims
@@ -381,8 +381,8 @@ fn equal_curves() -> Claim {
         !equal.iter().all(|strength| range.contains(strength)),
     )
     .because(
-        "All three lie within the range of sigma_y. The experiment determines p_y; c = 4 holds for \
-         MIGRAINE's sigma_y(T, d) only.",
+        "The experiment determines p_y; c = 4 holds for MIGRAINE's sigma_y(T, d) only. All three lie \
+         within the range of sigma_y.",
     )
 }
 
@@ -400,9 +400,9 @@ fn temperature(plain: &Model) -> Result<Claim> {
         e_n_of_dust_at(plain, COLD)? / e_n_of_dust_at(plain, hot)?,
     )
     .because(&format!(
-        "\"Very small\" is taken as 10 %. Here sigma_y falls from {:.0} to {:.0} MPa between the two \
-         (assumed table), and e_n with it; the paper's statement requires a constant sigma_y above {COLD} K \
-         in MIGRAINE, another reason not to transfer c = {}.",
+        "Here sigma_y falls from {:.0} to {:.0} MPa between the two (assumed table), and e_n with it. The \
+         paper's statement requires a constant sigma_y above {COLD} K in MIGRAINE, another reason not to \
+         transfer c = {}. \"Very small\" is taken as 10 %.",
         strength(COLD)?,
         strength(hot)?,
         RATIO[0]

@@ -332,7 +332,7 @@ fn without_spin(still: &DoubletSample) -> Claim {
         ),
         still.above(PARTING) > published(),
     )
-    .because("Second impacts are included. Even if all dust were doublets, the quarter would not be reached.")
+    .because("Even if all dust were doublets, the quarter would not be reached. Second impacts are included.")
 }
 
 fn by_spin(still: &DoubletSample, spinning: &DoubletSample) -> Claim {
@@ -366,8 +366,8 @@ fn injection(travelled: &DoubletSample, fast: &DoubletSample) -> Claim {
         needed(travelled) < 0.5,
     )
     .because(&format!(
-        "\"A small fraction\" is taken as below half. Rigid, frictionless doublets with the spin that such \
-         hits leave are not sufficient; even at R omega/v_n = {}, from another source (glancing impacts, \
+        "Rigid, frictionless doublets with the spin that such hits leave are not sufficient. \"A small \
+         fraction\" is taken as below half. Even at R omega/v_n = {}, from another source (glancing impacts, \
          plasma), {:.0} % of the rebounds would have to be doublets. The effect agglomerates describes the \
          quarter without explaining it.",
         SPINS_BEFORE[5],

@@ -237,12 +237,14 @@ fn normal_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
     let [(_, _, _, strength), ..] = SOLIDS;
     let [strength, deviation] = strength.map(|pascals| pascals / 1e6);
     Ok(vec![
-        E_N_NEAR_NORMAL.beside(models.plain(STEEP)?.normal_restitution, ClaimBasis::Predicted).because(&format!(
-            "With c = {}, which the paper fitted to Fig. 8. Fig. 6 alone requires c = {:.2}. The deviation \
+        E_N_NEAR_NORMAL.beside(models.plain(STEEP)?.normal_restitution, ClaimBasis::Predicted).because(
+            &format!(
+                "The paper fitted c = {} to Fig. 8, and Fig. 6 alone requires c = {:.2}. The deviation \
              is within the uncertainty of sigma_y = {strength} ± {deviation} MPa (part on speed).",
-            YIELD_RATIO.value,
-            models.yield_ratio()?
-        )),
+                YIELD_RATIO.value,
+                models.yield_ratio()?
+            ),
+        ),
         E_N_NEAR_NORMAL.beside(steep, ClaimBasis::Fitted).because(&format!(
             "c is fitted to it; lift adds {:.1} % at {STEEP}°.",
             100.0 * (steep / models.refined(STEEP, 0.0)?.normal_restitution - 1.0)
@@ -267,9 +269,9 @@ fn air_claims(models: &Models, lift: &Lift) -> Result<Vec<Claim>> {
             lift.at_shallow(),
         )
         .because(&format!(
-            "With the air speed that each angle needs. With four times the air of normal impacts at \
-             {GLANCING}° and {SHALLOW}° alike it is {:.2}. A gain that is proportional to the air along the \
-             wall cannot stop at {GLANCING}°.",
+            "A gain that is proportional to the air along the wall cannot stop at {GLANCING}°. With the air \
+             speed that each angle needs; with four times the air of normal impacts at {GLANCING}° and \
+             {SHALLOW}° alike it is {:.2}.",
             models.refined(SHALLOW, lift.four)?.normal_restitution
         )),
         Claim::derived_statement(

@@ -88,7 +88,7 @@ pub(super) fn part() -> StudyPart {
                 (slid[0] - points[0]).abs()
             )),
             FIT_E_T.beside(points[1], ClaimBasis::Predicted).because(&format!(
-                "As above. With the line f = {} it would be {:.2}: the paper's fit agrees with {} at \
+                "As above; with the line f = {} it would be {:.2}: the paper's fit agrees with {} at \
                  {SHALLOW}°, not with Fig. 7's line.",
                 WAX_FRICTION.value, slid[1], E_T_GLANCING.value
             )),

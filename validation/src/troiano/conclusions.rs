@@ -77,7 +77,7 @@ fn adequate() -> Result<Claim> {
         count == all,
     )
     .because(&format!(
-        "See the parts on targets and angle. {} on all targets, {} at {GLANCING}°; Teflon and steel by \
+        "See the parts on targets and on the angle. Stated: {} on all targets, {} at {GLANCING}°; Teflon and steel by \
          \"negligible influence\". \"Adequate\" is taken as 15 %.",
         E_N_NEAR_NORMAL.value, E_N_GLANCING.value
     )))

@@ -171,9 +171,9 @@ impl DropletResults {
         };
         Ok([
             trend("capture falls with speed at small angles", "\"slightly decreases\"", &shallow, -1.0).because(
-                "For 120 µm. Smaller particles at 0.7 m/s and 15° are below the solid's sticking velocity \
-                 and always stick, which has the stated sign but not the stated cause. Sliding of a molten \
-                 particle along the wall, the paper's cause, is not modelled.",
+                "Sliding of a molten particle along the wall, the paper's cause, is not modelled. Computed \
+                 for 120 µm; smaller particles at 0.7 m/s and 15° are below the solid's sticking velocity \
+                 and always stick, which has the stated sign but not the stated cause.",
             ),
             trend("capture rises with speed at large angles", "\"slightly increased\"", &straight, 1.0)
                 .because("As above."),

@@ -121,8 +121,8 @@ fn sticking(pyrex: &Contact) -> Claim {
         (speeds.sticking / speeds.adhesive - 1.0).abs() < 0.05,
     )
     .because(&format!(
-        "Eq. 4 belongs to an impact that stays elastic (v_s < v_y). Here v_y is {:.0} times less than v_s, \
-         so the loss by yielding adds to adhesion and the sticking velocity grows {:.1} times. No test of \
+        "Here v_y is {:.0} times less than v_s, so the loss by yielding adds to adhesion and the sticking \
+         velocity grows {:.1} times. Eq. 4 belongs to an impact that stays elastic (v_s < v_y). No test of \
          the paper had such low speeds.",
         printed / speeds.yielding,
         speeds.sticking / printed

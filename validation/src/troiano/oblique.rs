@@ -153,8 +153,8 @@ fn rigid_body() -> Claim {
         (low..=high).contains(&CRITICAL_ANGLE.value),
     )
     .because(
-        "A rigid sphere rolls once cot(alpha) < 7 f (1+e_n)/2. Eq. 11 has 7 - 1/k in place of 7: it is the \
-         limit of gross sliding of an elastic sphere. That the data leave the line near 43° to 45° supports \
+        "Eq. 11 is the limit of gross sliding of an elastic sphere, with 7 - 1/k; a rigid sphere rolls once \
+         cot(alpha) < 7 f (1+e_n)/2. That the data leave the line near 43° to 45° supports \
          elastic contact, not rigid-body theory.",
     )
 }

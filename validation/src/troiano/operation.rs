@@ -99,9 +99,8 @@ fn air_flow(operation: &Operation) -> Claim {
         ))
     } else {
         claim.because(&format!(
-            "Plug flow in {:.0} mm. A laminar profile carries particles near the axis up to twice as fast, \
-             which would reach the upper end, and the air that turns aside at the target slows them (last \
-             part), which may reach the lower; the paper counts neither.",
+            "A laminar profile carries particles near the axis up to twice as fast, and the air that turns \
+             aside at the target slows them (last part); the paper counts neither. Plug flow in {:.0} mm.",
             1e3 * TUBE[0]
         ))
     }

@@ -153,8 +153,8 @@ fn chart(hits: &[Hit]) -> Figure {
 fn claims(speed: f64, frames: &Frames) -> Vec<Claim> {
     vec![
         TUBE_SPEED.beside(speed, ClaimBasis::Predicted).because(
-            "At the plate, for 2 m/s at the tube's end. The size of the plate and the flow around it are \
-             not given; a smaller plate decelerates less. If 2 m/s were the tube's value, Figs 12 to 14 \
+            "The size of the plate and the flow around it are not given; a smaller plate decelerates less. \
+             At the plate, for 2 m/s at the tube's end. If 2 m/s were the tube's value, Figs 12 to 14 \
              were measured at lower speeds.",
         ),
         Claim::unchecked(

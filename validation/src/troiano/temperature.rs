@@ -206,9 +206,8 @@ fn flow_claims(flow: &Model) -> Result<Vec<Claim>> {
             70.0,
         )?
         .because(
-            "Capture is taken as the share of the flow test (`flow-test.toml`). The two measure different \
-             things: a wax that flows under its weight in minutes does not necessarily stick in \
-             microseconds.",
+            "A wax that flows under its weight in minutes does not necessarily stick in microseconds. \
+             Capture is taken as the share of the flow test (`flow-test.toml`).",
         ),
         beside(
             "capture at 105 °C if the flow test's share stuck [%]",

@@ -74,7 +74,7 @@ impl TargetVelocities {
             ),
             // v_s goes with W^(5/6).
             "wax" => format!(
-                "{:.0} % more. Two equal solids give W = {work:.2} J/m²; the printed value needs {:.3}, \
+                "{:.0} % more: two equal solids give W = {work:.2} J/m²; the printed value needs {:.3}, \
                  which no input of the paper gives.",
                 100.0 * (ratio - 1.0),
                 work * ratio.powf(-1.2)
