@@ -115,23 +115,25 @@ impl Observation {
         angles().find(|angle| e_t(*angle) < least + 1e-3).unwrap()
     }
 
-    /// Agreement within the interval, otherwise by how much the model misses.
-    fn verdict(&self, ours: Answer) -> String {
+    /// `None` within the interval, otherwise by how much the model misses.
+    fn miss(&self, ours: Answer) -> Option<String> {
         let [low, high] = self.interval();
         if ours[0] <= high && ours[1] >= low {
-            return "agrees".to_owned();
+            return None;
         }
         let nearest = if ours[0] > high { ours[0] } else { ours[1] };
         let (unit, measured) = (self.quantity(), self.measured());
-        match unit {
-            "critical_velocity" if nearest > measured => format!("differs: × {}", short(nearest / measured)),
-            "critical_velocity" => format!("differs: ÷ {}", short(measured / nearest)),
-            _ => format!("differs: {:+}", short_number(nearest - measured)),
-        }
+        Some(match unit {
+            "critical_velocity" if nearest > measured => format!("× {}", short(nearest / measured)),
+            "critical_velocity" => format!("÷ {}", short(measured / nearest)),
+            _ => format!("{:+}", short_number(nearest - measured)),
+        })
     }
 
-    fn line(&self) -> String {
+    /// The page's row of an observation that the model misses; `None` if it agrees.
+    fn line(&self) -> Option<String> {
         let ours = self.ours();
+        let miss = self.miss(ours)?;
         let [low, high] = self.interval();
         let own = if ours[0] == ours[1] {
             short(ours[0])
@@ -145,18 +147,20 @@ impl Observation {
             "exponent" => "power of the diameter",
             other => other,
         };
-        format!(
-            "| {} | {} | {quantity} | {} | {} ({} to {}) | {own} | {} | {} | {} |",
+        let fitted = if self.basis() == "fitted" { ", fitted" } else { "" };
+        Some(format!(
+            "| {} | {}: {quantity}; {} | {} ({} to {}) | {own} | {miss}{fitted} |",
             self.id(),
             self.text(1),
-            self.text(17),
+            self.text(17).trim_end_matches("; no error stated"),
             short(self.measured()),
             short(low),
             short(high),
-            self.verdict(ours),
-            self.text(16),
-            self.text(18)
-        )
+        ))
+    }
+
+    fn basis(&self) -> &str {
+        self.text(16)
     }
 }
 
@@ -267,8 +271,20 @@ fn diameter(row: &Observation) -> f64 {
     if low == high { low } else { ASSUMED_DIAMETER }
 }
 
+/// Mechanisms, in the order of [`needed`].
+const MECHANISMS: [&str; 8] = [
+    "speed with 0.042 J/m², as measured at rest [m/s]",
+    "speed with 0.13 J/m², as measured at rest [m/s]",
+    "W [J/m²]",
+    "W with raised pull-off [J/m²]",
+    "p_y [MPa]",
+    "E [MPa]",
+    "radius of a flat facet over that of the particle [1]",
+    "thickness of a water film [µm]",
+];
+
 /// What each mechanism alone would have to be to explain a row.
-fn mechanism_line(id: &str) -> String {
+fn needed(id: &str) -> [f64; 8] {
     let row = observation(id);
     let (speed, size) = (row.measured(), diameter(&row));
     let reaches = |trial: Trial| trial.critical_velocity(&row, size) < speed;
@@ -286,19 +302,9 @@ fn mechanism_line(id: &str) -> String {
     let steel = library.get("stainless-steel").unwrap().mechanical(row.number(12)).unwrap();
     let mass = 2300.0 * std::f64::consts::PI / 6.0 * size.powi(3);
     let film = 0.5 * mass * speed * speed / (2.0 * std::f64::consts::PI * size * WATER);
-    format!(
-        "| {id} | {} | {} | {} to {} | {} | {} | {} | {} | {} | {} |",
-        short(size * 1e6),
-        short(speed),
-        short(dry[0]),
-        short(dry[1]),
-        short(work("thornton-ning")),
-        short(work(raised)),
-        short(hardness * steel.yield_strength / 1e6),
-        short(softness / 1e6),
-        short(flatness),
-        short(film * 1e6),
-    )
+    let [weak, strong] = dry;
+    let strength = hardness * steel.yield_strength / 1e6;
+    [weak, strong, work("thornton-ning"), work(raised), strength, softness / 1e6, flatness, film * 1e6]
 }
 
 /// Geometric mean over the sources of the geometric mean of the work of adhesion that their rows ask for.
@@ -330,23 +336,41 @@ fn replaced(page: &str, name: &str, fresh: &str) -> String {
 }
 
 fn observations_table() -> String {
-    let head = "| | what | quantity | condition | measured | here | | basis | source |\n|---|---|---|---|---|---|---|---|---|\n";
-    let rows: Vec<String> = observations().iter().map(Observation::line).collect();
-    let agreeing = rows.iter().filter(|row| row.contains("| agrees |")).count();
-    let own: Vec<&String> = rows.iter().filter(|row| row.contains("| predicted |")).collect();
-    let predicted = own.iter().filter(|row| row.contains("| agrees |")).count();
+    let head = "| | observation | measured | here | off by |\n|---|---|---|---|---|\n";
+    let all = observations();
+    let lines: Vec<Option<String>> = all.iter().map(Observation::line).collect();
+    let agreeing: Vec<&Observation> =
+        all.iter().zip(&lines).filter(|(_, line)| line.is_none()).map(|(row, _)| row).collect();
+    let names: Vec<&str> = agreeing.iter().map(|row| row.id()).collect();
+    let unfitted = |row: &&Observation| row.basis() == "predicted";
     format!(
-        "{head}{}\n\n{agreeing} of {} observations agree; of the {} that no number was fitted to, {predicted}.\n",
-        rows.join("\n"),
-        rows.len(),
-        own.len()
+        "{} of {} observations agree ({});\nof the {} that no number was fitted to, {}. The others:\n\n{head}{}\n",
+        agreeing.len(),
+        all.len(),
+        names.join(", "),
+        all.iter().filter(unfitted).count(),
+        agreeing.iter().filter(|row| unfitted(row)).count(),
+        lines.iter().flatten().cloned().collect::<Vec<_>>().join("\n"),
     )
 }
 
 fn mechanisms_table() -> String {
-    let head = "| | d [µm] | measured [m/s] | with measured adhesion [m/s] | W [J/m²] | W, raised pull-off [J/m²] | p_y [MPa] | E [MPa] | flat facet r/R | water film [µm] |\n\
-                |---|---|---|---|---|---|---|---|---|---|\n";
-    let rows: Vec<String> = ROWS.iter().map(|row| mechanism_line(row.0)).collect();
+    let head = "| mechanism alone | fly ash on steel, D3 to D8 | H1 | D1 |\n|---|---|---|---|\n";
+    let answers = ROWS.map(|row| needed(row.0));
+    let (steel, rest) = answers.split_at(6);
+    let line = |(at, name): (usize, &&str)| {
+        let of = |row: &[f64; 8]| row[at];
+        let least = steel.iter().map(of).fold(f64::INFINITY, f64::min);
+        let most = steel.iter().map(of).fold(0.0, f64::max);
+        format!(
+            "| {name} | {} to {} | {} | {} |",
+            short(least),
+            short(most),
+            short(rest[0][at]),
+            short(rest[1][at])
+        )
+    };
+    let rows: Vec<String> = MECHANISMS.iter().enumerate().map(line).collect();
     let (work, [low, high]) = fitted_work();
     format!(
         "{head}{}\n\nGeometric mean over the four sources of fly ash: W = {} J/m²; single rows {} to {}.\n",
