@@ -40,6 +40,7 @@ pub mod rig;
 mod rival;
 mod score_test;
 mod search;
+mod sentences;
 mod shapes;
 mod shared_error;
 mod slip;
@@ -179,7 +180,7 @@ pub fn diagnose_with_draws(
         diagnosis.gain = diagnosis.gains.iter().find(|gain| gain.observable == first).cloned();
         diagnosis.rows.held_out = diagnosis.gains.iter().map(|gain| gain.held_out_rows).max().unwrap_or(0);
     }
-    diagnosis.verdict = verdict::sentences(&diagnosis);
+    diagnosis.verdict = sentences::sentences(&diagnosis);
     if hypothesis.curves.iter().any(|curve| !extend::contains(&extended, curve, &fine)) {
         diagnosis.verdict +=
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";

@@ -1,24 +1,20 @@
-//! Writes the record of a diagnosis and its verdict.
+//! Writes the record of a diagnosis of impacts.
 
 use super::candidate::{Addition, ScoredCandidate};
 use super::choice::CauseChoice;
-use super::constants::{LEAST_CERTAINTY, REFUTED};
+use super::constants::LEAST_CERTAINTY;
 use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::Part;
-use super::record::{
-    Calibration, Diagnosis, Finding, Fit, FitTest, Gain, LargeMisfit, Misfit, NotExamined, Options,
-    ScatterFound, Unexplained,
-};
+use super::record::{Diagnosis, Finding, Fit, Misfit, NotExamined, Options, ScatterFound, Unexplained};
+use super::sentences::is_refuted;
 use nearwall::effect::{EFFECTS, EffectInfo};
 
 /// Largest number of misfits listed.
 const MOST_MISFITS: usize = 12;
-/// With fewer rows the verdict warns that effects may go undetected.
-const WARNED_ROWS: usize = 60;
 /// With fewer rows, causes that cannot be told apart are undecided.
 const UNDECIDED_ROWS: usize = 12;
 /// Share of resamples below which a cause is never named.
@@ -152,129 +148,4 @@ pub(super) fn possible_causes(fit: &Fit, choice: &CauseChoice) -> Vec<String> {
     }
     names.truncate(MOST_UNDECIDED);
     names
-}
-
-/// Whether the base model is refuted by its own errors.
-pub(super) fn is_refuted(fit: &Fit) -> bool {
-    fit.base.against != "structure" && fit.base.p_value.is_some_and(|p| p < REFUTED)
-}
-
-/// The verdict: the result in a few sentences.
-pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
-    let rows = diagnosis.rows.used;
-    let mut text = fit_sentence(&diagnosis.fit);
-    if let Some(rival) = diagnosis.rivals.first().filter(|_| diagnosis.findings.is_empty()) {
-        text += &format!("{} No physics is named before this is checked.", rival.explanation);
-        return text;
-    }
-    let cause = |finding: &Finding| {
-        let name = match finding.cause.strip_prefix("unknown:") {
-            Some(column) => format!("a dependence on {}", column.replace('*', " and ")),
-            None => finding.cause.clone(),
-        };
-        match finding.indistinguishable_from.as_slice() {
-            [] => name,
-            others => format!("{name} (or, as these data cannot tell, {})", others.join(" or ")),
-        }
-    };
-    let causes: Vec<String> = diagnosis.findings.iter().map(cause).collect();
-    let value = |c: &Calibration| format!("{} = {} instead of {}", c.key, c.value, c.from);
-    let values = diagnosis.calibration.iter().map(value).collect::<Vec<_>>().join(", ");
-    text += &match (causes.as_slice(), values.is_empty()) {
-        ([], true) => nothing_found(diagnosis),
-        ([], false) => format!("The data support {values}; no further effect is significant."),
-        ([one], _) => format!("The model lacks {one}."),
-        (several, _) => format!("The model lacks {} effects: {}.", several.len(), several.join(", ")),
-    };
-    if !causes.is_empty() && !values.is_empty() {
-        text += &format!(" The data also support {values}.");
-    }
-    if let Some(finding) = diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
-        text += &format!(
-            " {} is named in only {:.0} % of resampled data sets: take it as a hint.",
-            finding.cause,
-            100.0 * finding.certainty
-        );
-    }
-    if let Some(rival) = diagnosis.rivals.first() {
-        text += &format!(" Check this first: {}", rival.explanation);
-    }
-    text += &diagnosis.gain.as_ref().map_or(String::new(), gain_sentence);
-    if let Some(Unexplained { measured, expected }) = &diagnosis.unexplained_capture {
-        text += &format!(
-            " {:.1} % of the impacts were captured, but the model predicts {:.1} %; no column explains the difference.",
-            100.0 * measured,
-            100.0 * expected
-        );
-    }
-    if let Some(groups) = &diagnosis.groups {
-        text += &format!(
-            " Rows of one {} share an error ({} groups): an effect must be seen beside it.",
-            groups.column, groups.count
-        );
-    }
-    if rows < WARNED_ROWS {
-        text += &format!(" With only {rows} rows, an effect of usual size may go undetected.");
-    }
-    text
-}
-
-/// What the test of fit says of the base model, where there are stated errors or replicates.
-pub(super) fn fit_sentence(fit: &Fit) -> String {
-    let FitTest { against, chi_square, degrees_of_freedom, p_value } = &fit.base;
-    let (Some(chi_square), Some(freedom), Some(p)) = (chi_square, degrees_of_freedom, p_value) else {
-        return String::new();
-    };
-    let against = if *against == "replicates" { "scatter of the replicates" } else { "stated errors" };
-    if *p >= REFUTED {
-        return format!(
-            "The {against} agree with the base model (chi-square {chi_square:.1} for {freedom}). "
-        );
-    }
-    let misfit = |one: &LargeMisfit| format!("line {} by {:+.1}", one.line, one.standard_errors);
-    let misfits: Vec<String> = fit.largest.iter().take(3).map(misfit).collect();
-    let misfits = match misfits.as_slice() {
-        [] => String::new(),
-        some => format!("; the largest misfits in standard errors: {}", some.join(", ")),
-    };
-    format!(
-        "The {against} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by chance once in \
-         {:.0e}{misfits}. ",
-        1.0 / p.max(1e-300)
-    )
-}
-
-/// The verdict without a cause.
-fn nothing_found(diagnosis: &Diagnosis) -> String {
-    let rows = diagnosis.rows.used;
-    if !diagnosis.undecided.is_empty() {
-        let causes = diagnosis.undecided.join(", ");
-        return format!("These data speak against the model, but cannot tell which of {causes}.");
-    }
-    if diagnosis.unexplained_capture.is_some() {
-        return format!(
-            "In {rows} rows no effect is significant, but the model does not reproduce the captures."
-        );
-    }
-    if is_refuted(&diagnosis.fit) {
-        return "No effect of the library and no column carries the misfit: either the stated errors are too small, or the \
-                cause is none of these."
-            .to_owned();
-    }
-    format!("In {rows} rows no deviation from the model is significant.")
-}
-
-fn gain_sentence(gain: &Gain) -> String {
-    let Gain { held_out_rows, observable, rmse_before, rmse_after, ci95, measured, .. } = gain;
-    let errors = format!("the root mean square error in {observable}");
-    if ci95[1] < 1.0 {
-        return format!(
-            " On {held_out_rows} {measured} rows {errors} falls from {rmse_before:.3} to {rmse_after:.3}."
-        );
-    }
-    format!(
-        " On {held_out_rows} {measured} rows {errors} does not fall significantly ({rmse_before:.3} before, \
-         {rmse_after:.3} after); the mean log score of a row is {:.3} before and {:.3} after.",
-        gain.log_score_before, gain.log_score_after
-    )
 }

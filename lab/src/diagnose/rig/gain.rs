@@ -99,8 +99,13 @@ impl HeldOutExperiments {
         score(&own, &|one| !fails[one]) - score(&others, &|one| !fails[one]) - MOST_OF_ONE * failed
     }
 
+    /// The gains in all kinds of readings that enough experiments have.
+    pub fn gains(&self, study: &RigStudy<'_>) -> Vec<Gain> {
+        (0..study.data.kinds.len()).filter_map(|kind| self.gain(study, kind)).collect()
+    }
+
     /// The gain in one kind of readings; `None` where too few experiments have it.
-    pub fn gain(&self, study: &RigStudy<'_>, kind: usize) -> Option<Gain> {
+    fn gain(&self, study: &RigStudy<'_>, kind: usize) -> Option<Gain> {
         let data = &study.data;
         let of_kind = |(index, datum): (usize, &super::noise::Datum)| {
             let [before, after] = self.predicted[index].map(|one| (datum.value - one.value).powi(2));

@@ -11,7 +11,7 @@ use super::super::record::{
     Alternative, Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined,
     Options, Rows,
 };
-use super::super::verdict::{fit_sentence, is_refuted};
+use super::super::sentences::{Words, fit_sentence, found, hint, is_refuted};
 use super::MISFIT;
 use super::addition::{Kind, RigAddition};
 use super::candidates::range;
@@ -157,42 +157,26 @@ impl RigFindings<'_> {
         let base = predict(study.forward, &[])?;
         let model = Model::from_toml("extended.toml", &self.text).map_err(SettingError::from)?;
         let extended = predict_file(study, &model, &choice.additions)?;
+        let parameters = choice.additions.iter().map(|a| a.axes.len()).sum();
         let fit = Fit {
             base: self.fit_test(&base, 0, choice.structure[0]),
-            extended: self.fit_test(
-                &extended,
-                choice.additions.iter().map(|a| a.axes.len()).sum(),
-                choice.structure[1],
-            ),
+            extended: self.fit_test(&extended, parameters, choice.structure[1]),
             largest: self.largest(&base),
         };
-        let named = if self.undecided.is_empty() { choice.rounds.as_slice() } else { &[] };
-        let mut findings: Vec<Finding> = Vec::new();
-        let mut calibration = Vec::new();
-        for (round, addition) in named.iter().zip(&choice.additions) {
-            match self.calibration(round, addition) {
-                Some(one) => calibration.push(one),
-                None => findings.push(self.finding(round, addition)?),
-            }
-        }
-        let gains = held_out.iter().flat_map(|held_out| {
-            (0..study.data.kinds.len()).filter_map(|kind| held_out.gain(study, kind)).collect::<Vec<_>>()
-        });
-        let gains: Vec<_> = gains.collect();
+        let (findings, calibration) = self.found()?;
+        let gains: Vec<_> = held_out.iter().flat_map(|held_out| held_out.gains(study)).collect();
         let first = findings.first().map_or("", |finding| finding.observable);
         let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
-        let used = file.read - file.rejected.len();
         let mut diagnosis = Diagnosis {
             schema: "nearwall.diagnosis/2",
             seed: options.seed,
             level: options.level,
             rows: Rows {
                 read: file.read,
-                used,
+                used: file.read - file.rejected.len(),
                 held_out: gain.as_ref().map_or(0, |gain| gain.held_out_rows),
-                held_out_lines: Vec::new(),
-                selected: None,
                 rejected: file.rejected.clone(),
+                ..Rows::default()
             },
             fit,
             findings,
@@ -204,28 +188,36 @@ impl RigFindings<'_> {
             extended_model: "extended.toml",
             ..Diagnosis::default()
         };
-        diagnosis.verdict =
-            sentences(&diagnosis, &self.not_carried, [study.data.experiments, study.data.readings.len()]);
+        let counts = [study.data.experiments, study.data.readings.len()];
+        diagnosis.verdict = verdict(&diagnosis, &self.not_carried, counts);
         if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
         }
         let scatter = study.data.scatter(&extended, &all);
-        let readings = self.rows(&base, &extended, &scatter);
-        let errors = self.errors(&base, &extended);
-        let notes = file.notes.clone();
-        let next_table = table(&self.next);
-        let Self { text: extended, draws, next, not_carried, .. } = self;
         Ok(RigDiagnosis {
             diagnosis,
-            not_carried,
-            readings,
-            errors,
-            next,
-            next_table,
-            notes,
-            extended,
-            draws,
+            readings: self.rows(&base, &extended, &scatter),
+            errors: self.errors(&base, &extended),
+            next_table: table(&self.next),
+            notes: file.notes.clone(),
+            not_carried: self.not_carried,
+            next: self.next,
+            extended: self.text,
+            draws: self.draws,
         })
+    }
+
+    /// The causes and the changed numbers of the base model; none if they are undecided.
+    fn found(&self) -> Result<(Vec<Finding>, Vec<Calibration>), PredictionError> {
+        let named = if self.undecided.is_empty() { self.choice.rounds.as_slice() } else { &[] };
+        let (mut findings, mut calibration) = (Vec::new(), Vec::new());
+        for (round, addition) in named.iter().zip(&self.choice.additions) {
+            match self.calibration(round, addition) {
+                Some(one) => calibration.push(one),
+                None => findings.push(self.finding(round, addition)?),
+            }
+        }
+        Ok((findings, calibration))
     }
 
     fn fit_test(&self, predicted: &[PredictedReading], parameters: usize, structure: f64) -> FitTest {
@@ -424,62 +416,40 @@ fn explain(finding: &Finding) -> String {
     )
 }
 
+/// The words for a rig.
+const RIG: Words = Words { subject: "wall law", data: "experiments", sets: "sets of experiments" };
+
 /// The verdict: the result in a few sentences.
-fn sentences(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings]: [usize; 2]) -> String {
-    let mut text = fit_sentence(&diagnosis.fit);
-    let cause = |finding: &Finding| {
-        let name = match finding.cause.split_once(':') {
-            Some(("unknown", input)) => format!("a dependence on {input}"),
-            Some(("level", what)) => format!("a shift of {what}"),
-            _ => finding.cause.clone(),
-        };
-        match finding.indistinguishable_from.as_slice() {
-            [] => name,
-            others => format!("{name} (or, as these experiments cannot tell, {})", others.join(" or ")),
+fn verdict(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings]: [usize; 2]) -> String {
+    let nothing = || {
+        if !diagnosis.undecided.is_empty() {
+            let causes = diagnosis.undecided.join(", ");
+            return format!(
+                "These experiments speak against the simulation, but cannot tell which of {causes}."
+            );
         }
-    };
-    let causes: Vec<String> = diagnosis.findings.iter().map(cause).collect();
-    let value = |c: &Calibration| format!("{} = {} instead of {}", c.key, c.value, c.from);
-    let values = diagnosis.calibration.iter().map(value).collect::<Vec<_>>().join(", ");
-    text += &match (causes.as_slice(), values.is_empty()) {
-        ([], true) if !diagnosis.undecided.is_empty() => {
-            format!(
-                "These experiments speak against the simulation, but cannot tell which of {}.",
-                diagnosis.undecided.join(", ")
-            )
+        if is_refuted(&diagnosis.fit) {
+            return "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not at the wall; \
+                    check the gas, the particles' size and speed, and what counts as captured."
+                .to_owned();
         }
-        ([], true) if is_refuted(&diagnosis.fit) => {
-            "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not at the wall; \
-             check the gas, the particles' size and speed, and what counts as captured."
-                .to_owned()
-        }
-        ([], true) => format!(
+        format!(
             "In {experiments} experiments with {readings} readings no deviation from the simulation is significant."
-        ),
-        ([], false) => format!("The data support {values}; no further effect is significant."),
-        ([one], _) => format!("The wall law lacks {one}."),
-        (several, _) => format!("The wall law lacks {} effects: {}.", several.len(), several.join(", ")),
+        )
     };
-    if !causes.is_empty() && !values.is_empty() {
-        text += &format!(" The data also support {values}.");
-    }
+    let mut text = fit_sentence(&diagnosis.fit) + &found(diagnosis, &RIG, nothing);
     if !not_carried.is_empty() {
         text += &format!(
             " {} would explain more of these experiments, but not those that it has not seen: no cause is named for that.",
             not_carried.join(" or ")
         );
     }
-    if let Some(finding) = diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
-        text += &format!(
-            " {} is named in only {:.0} % of resampled sets of experiments: take it as a hint.",
-            finding.cause,
-            100.0 * finding.certainty
-        );
-    }
+    text += &hint(diagnosis, &RIG);
     let left = &diagnosis.fit.extended;
-    if !(causes.is_empty() && values.is_empty())
-        && let (Some(chi_square), Some(freedom), Some(p)) =
-            (left.chi_square, left.degrees_of_freedom, left.p_value)
+    let extends = !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty());
+    if let (Some(chi_square), Some(freedom), Some(p)) =
+        (left.chi_square, left.degrees_of_freedom, left.p_value)
+        && extends
         && p < REFUTED
     {
         text += &format!(
