@@ -5,8 +5,8 @@ use super::gain::evaluate;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::record::{DataView, Finding};
-use crate::dataset::ColumnValues;
-use nearwall::impact::INPUTS;
+use crate::dataset::{ColumnValues, Measurement};
+use nearwall::impact::{INPUTS, Input};
 
 /// Values of the column at which a curve is evaluated.
 const CURVE_POINTS: usize = 80;
@@ -106,6 +106,35 @@ fn parts(covariate: &Covariate, rows: &[usize]) -> Vec<([f64; 2], Vec<usize>)> {
     if parts.len() > 1 { parts } else { Vec::new() }
 }
 
+/// Copies of rows that have a value of the column, for all values of a curve.
+#[derive(Default)]
+struct Copies {
+    copies: Vec<Measurement>,
+    originals: Vec<usize>,
+    values: Vec<f64>,
+    weights: Vec<f64>,
+}
+
+impl Copies {
+    /// Adds copies of the rows nearest to a value of the column, each given with its distance, the nearest first.
+    fn add(&mut self, data: &DataSplit, near: &[(f64, usize)], input: Option<&Input>, value: f64) {
+        let farthest = near.last().map_or(0.0, |(distance, _)| *distance).max(f64::MIN_POSITIVE);
+        for &(distance, row) in near {
+            let mut copy = data.rows[row];
+            if let Some(input) = input {
+                (input.set)(&mut copy.impact, value);
+            }
+            if data.base.check(copy.wall, &copy.impact).is_ok() {
+                self.copies.push(copy);
+                self.originals.push(row);
+                self.values.push(value);
+                // Never zero, because all rows may be equally far.
+                self.weights.push((1.0 - 0.99 * (distance / farthest).powi(3)).powi(3));
+            }
+        }
+    }
+}
+
 /// See [`DataView::curve`].
 fn curve(
     models: [&Hypothesis<'_>; 2],
@@ -125,32 +154,21 @@ fn curve(
     let place = |value: f64| if log { value.ln() } else { value };
     let nearest = (seen.len() / 6).clamp(LEAST_NEAREST, AVERAGED_ROWS).min(seen.len());
 
-    // At every value of the curve, copies of the nearest rows that have this value of the column.
+    let middles = (0..CURVE_POINTS)
+        .map(|step| place(low) + (place(high) - place(low)) * step as f64 / (CURVE_POINTS - 1) as f64);
     let input = INPUTS.iter().find(|input| main.input && input.name == main.name);
-    let (mut copies, mut originals, mut values, mut weights) =
-        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-    for step in 0..CURVE_POINTS {
-        let middle = place(low) + (place(high) - place(low)) * step as f64 / (CURVE_POINTS - 1) as f64;
-        let value = if log { middle.exp() } else { middle }.clamp(low, high);
-        let distance = |row: usize| (place(numbers[row]) - middle).abs();
-        let mut near = seen.clone();
-        near.sort_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-        near.truncate(nearest);
-        let farthest = near.last().map_or(0.0, |&row| distance(row)).max(f64::MIN_POSITIVE);
-        for row in near {
-            let mut copy = data.rows[row];
-            if let Some(input) = input {
-                (input.set)(&mut copy.impact, value);
-            }
-            if data.base.check(copy.wall, &copy.impact).is_ok() {
-                copies.push(copy);
-                originals.push(row);
-                values.push(value);
-                // Never zero, because all rows may be equally far.
-                weights.push((1.0 - 0.99 * (distance(row) / farthest).powi(3)).powi(3));
-            }
+    let Copies { copies, originals, values, weights } = {
+        let mut all = Copies::default();
+        for middle in middles {
+            let value = if log { middle.exp() } else { middle }.clamp(low, high);
+            let mut near: Vec<(f64, usize)> =
+                seen.iter().map(|&row| ((place(numbers[row]) - middle).abs(), row)).collect();
+            near.sort_by(|a, b| a.0.total_cmp(&b.0));
+            near.truncate(nearest);
+            all.add(data, &near, input, value);
         }
-    }
+        all
+    };
     let covariate = |other: &Covariate| {
         let own = other.name == main.name;
         let values = if own { ColumnValues::Numbers(values.clone()) } else { other.values.at(&originals) };

@@ -306,31 +306,11 @@ pub(super) fn add_squares(
         let mut terms = [[0.0; 2]; 2];
         for (which, reading) in readings(row) {
             let expected = one.restitution[which] + offset.restitution[which];
-            let residual = reading.value - expected;
             let variance = variance[which] + one.reach[which].powi(2);
-            let width = deviation(scatter[which], offset, which, reading, row.rebounds, variance);
-            let count = row.rebounds.max(1.0);
-            let (foreign, count) = match reading.error {
-                Some(error) => (error * error + variance / count, 1.0),
-                None => (variance / count, count),
-            };
-            let foreign = foreign + offset.variance[which];
-            // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
-            let own = (scatter[which] * offset.spread).powi(2) / count;
-            let regular = regular(residual, width, offset.gross);
-            let weight = regular * (own / (own + foreign)).powi(2);
-            let limited = limited(offset, which);
-            likelihood *= visible_density(residual, expected, width, &limited);
-            let seen = residual * residual + offset.uncertainty[which];
-            let (square, rows) = match Hidden::of(expected, width, limited.visible_from) {
-                None => (seen, 1.0),
-                Some(hidden) => {
-                    let unseen = hidden.share / (1.0 - hidden.share);
-                    (seen + unseen * hidden.square * width * width, 1.0 + unseen)
-                }
-            };
-            let own_square = (square - rows * foreign) * count / offset.spread.powi(2);
-            terms[which] = [weight * own_square, weight * rows];
+            let (density, term) =
+                own_square(reading, expected, variance, row.rebounds, offset, which, scatter);
+            likelihood *= density;
+            terms[which] = term;
         }
         for (sum, term) in own.iter_mut().flatten().zip(terms.as_flattened()) {
             *sum += likelihood * term;
@@ -342,4 +322,39 @@ pub(super) fn add_squares(
             *sum += own / total;
         }
     }
+}
+
+/// Density of a reading, and the square of its residual that is due to the scatter with its weight.
+fn own_square(
+    reading: &Reading,
+    expected: f64,
+    variance: f64,
+    rebounds: f64,
+    offset: &Offset,
+    which: usize,
+    scatter: Scatter,
+) -> (f64, [f64; 2]) {
+    let residual = reading.value - expected;
+    let width = deviation(scatter[which], offset, which, reading, rebounds, variance);
+    let count = rebounds.max(1.0);
+    let (foreign, count) = match reading.error {
+        Some(error) => (error * error + variance / count, 1.0),
+        None => (variance / count, count),
+    };
+    let foreign = foreign + offset.variance[which];
+    // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
+    let own = (scatter[which] * offset.spread).powi(2) / count;
+    let regular = regular(residual, width, offset.gross);
+    let weight = regular * (own / (own + foreign)).powi(2);
+    let limited = limited(offset, which);
+    let seen = residual * residual + offset.uncertainty[which];
+    let (square, rows) = match Hidden::of(expected, width, limited.visible_from) {
+        None => (seen, 1.0),
+        Some(hidden) => {
+            let unseen = hidden.share / (1.0 - hidden.share);
+            (seen + unseen * hidden.square * width * width, 1.0 + unseen)
+        }
+    };
+    let own_square = (square - rows * foreign) * count / offset.spread.powi(2);
+    (visible_density(residual, expected, width, &limited), [weight * own_square, weight * rows])
 }

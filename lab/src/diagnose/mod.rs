@@ -122,27 +122,19 @@ pub fn diagnose_with_draws(
     draws: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
-    let data = plausible(base, data);
-    let (selected, read) = (data.rows.len(), data.read);
-    let used = selected + data.unselected.rows;
-    if selected < LEAST_ROWS {
-        let reason = |bad: &BadRow| format!("Line {}: {}.", bad.line, bad.reason);
-        let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
-        return Err(DiagnosisError::TooFewRows { used: selected, read, least: LEAST_ROWS, reasons });
-    }
+    let data = usable(base, data)?;
     let groups = GroupColumn::all(&data, options.group.as_deref());
     let task = Task { text, level: options.level, groups: &groups, progress };
     let whole = DataSplit::new(base, &data, &groups);
-    let study = Study::new(&whole, task, options.seed);
+    let mut study = Study::new(&whole, task, options.seed);
     let rivals = rivals(&study, text, options.level);
 
     let fine = study.file.fine();
     let mut hypothesis = study.file.fitted(&fine);
     let mut diagnosis = verdict::record(&hypothesis, &study.choice, options);
     let undecided = verdict::undecided(&diagnosis.findings, &study.choice);
-    let named = rival::decisive(&rivals, diagnosis.findings.len()).is_none() && undecided.is_empty();
-    let study = if named { study } else { study.without_causes() };
-    if !named {
+    if rival::decisive(&rivals, diagnosis.findings.len()).is_some() || !undecided.is_empty() {
+        study = study.without_causes();
         hypothesis = study.file.fitted(&fine);
         diagnosis = verdict::record(&hypothesis, &study.choice, options);
     }
@@ -153,10 +145,8 @@ pub fn diagnose_with_draws(
     diagnosis.undecided = undecided;
 
     let plain = Hypothesis::base(&fine);
-    let held_out_lines = study.unseen_lines(&data);
-    let selected = (selected < used).then_some(selected);
-    let rejected = data.rejected.clone();
-    diagnosis.rows = Rows { read, used, selected, held_out: 0, held_out_lines, rejected };
+    let models = [&plain, &hypothesis];
+    diagnosis.rows = rows(&data, &study);
     diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
     diagnosis.groups = study.choice.groups_found();
     if diagnosis.undecided.is_empty() {
@@ -164,15 +154,11 @@ pub fn diagnose_with_draws(
     }
     diagnosis.misfit = verdict::misfit(&hypothesis, &study.choice.first_round, options.level);
     diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()), &data.unselected);
-    diagnosis.sample = gain::sample(&plain, &hypothesis);
-    diagnosis.sample.views = data_view::views([&plain, &hypothesis], &diagnosis.findings);
-    diagnosis.sample.notes.clone_from(&data.notes);
-    let unextendable = |error: &dyn std::fmt::Display| DiagnosisError::Unextendable(error.to_string());
-    let extended = extend::extended(text, &hypothesis).map_err(|error| unextendable(&error))?;
+    let views = data_view::views(models, &diagnosis.findings);
+    diagnosis.sample = Sample { views, notes: data.notes.clone(), ..gain::sample(&plain, &hypothesis) };
+    let extended = extend::extended(text, &hypothesis).map_err(unextendable)?;
     if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
-        let measured = study
-            .held_out(&data, &whole, task, [&plain, &hypothesis], &extended)
-            .map_err(|error| unextendable(&error))?;
+        let measured = study.held_out(&data, &whole, task, models, &extended).map_err(unextendable)?;
         let noise = |observable| gain::noise_floor(&data, hypothesis.scatter, observable);
         let of = |observable| measured.gain(observable, noise(observable), options.seed);
         diagnosis.gains = Observable::ALL.into_iter().filter_map(of).collect();
@@ -185,8 +171,47 @@ pub fn diagnose_with_draws(
         diagnosis.verdict +=
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
     }
-    let draws = draws::draws(text, &hypothesis, draws, options.seed).map_err(|error| unextendable(&error))?;
+    let draws = draws::draws(text, &hypothesis, draws, options.seed).map_err(unextendable)?;
     Ok((diagnosis, extended, draws))
+}
+
+fn unextendable(error: impl std::fmt::Display) -> DiagnosisError {
+    DiagnosisError::Unextendable(error.to_string())
+}
+
+/// The data without rows that the base model refuses, as at a temperature outside a property's range, and without
+/// implausible rows.
+///
+/// # Errors
+/// [`DiagnosisError::TooFewRows`].
+fn usable(base: &Model, data: &Measurements) -> Result<Measurements, DiagnosisError> {
+    let data = data.without(|row| fault(base, row));
+    if data.rows.len() < LEAST_ROWS {
+        let (used, read) = (data.rows.len(), data.read);
+        let reasons = first_reasons(&data.rejected);
+        return Err(DiagnosisError::TooFewRows { used, read, least: LEAST_ROWS, reasons });
+    }
+    Ok(data)
+}
+
+/// Why the first rows were rejected.
+fn first_reasons(rejected: &[BadRow]) -> String {
+    let reason = |bad: &BadRow| format!("Line {}: {}.", bad.line, bad.reason.trim_end_matches('.'));
+    rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ")
+}
+
+/// Rows read and used.
+fn rows(data: &Measurements, study: &Study) -> Rows {
+    let selected = data.rows.len();
+    let used = selected + data.unselected.rows;
+    Rows {
+        read: data.read,
+        used,
+        selected: (selected < used).then_some(selected),
+        held_out: 0,
+        held_out_lines: study.unseen_lines(data),
+        rejected: data.rejected.clone(),
+    }
 }
 
 /// What beside physics may explain the data; nothing if nothing has to be explained.
@@ -196,12 +221,6 @@ fn rivals(study: &Study, text: &str, level: f64) -> Vec<Rival> {
     }
     let searched = &study.choice.data;
     rival::rivals(&Hypothesis::base(searched), &study.choice.hypothesis(searched), text)
-}
-
-/// The data without rows that the base model refuses, as at a temperature outside a property's range, and without
-/// implausible rows.
-fn plausible(base: &Model, data: &Measurements) -> Measurements {
-    data.without(|row| fault(base, row))
 }
 
 /// Why a row cannot be used with this base model.

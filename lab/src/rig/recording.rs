@@ -342,6 +342,15 @@ impl Recording {
         Ok(account.over(self.injected))
     }
 
+    /// The impact of a parcel that a changed flight may have led elsewhere, and its place; `None` where the wall has no impact.
+    fn arrival(&self, one: &ReplayedImpact, landing: Option<Landing>) -> Option<(Impact, Vector3<f64>)> {
+        let Some(Landing { speeds, shift }) = landing else { return Some((one.impact, one.position)) };
+        let [normal_speed, tangential_speed] = speeds;
+        let position = one.position + shift;
+        let inside = self.flat[one.patch].as_ref().is_none_or(|wall| wall.has(position));
+        inside.then_some((Impact { normal_speed, tangential_speed, ..one.impact }, position))
+    }
+
     /// Decides the impacts of a parcel again and adds its masses [kg] to the account.
     fn replay_parcel(
         &self,
@@ -353,15 +362,10 @@ impl Recording {
         let (mut share, mut doubt) = (1.0, 0.0_f64);
         let mut landing: Option<Landing> = None;
         for (index, one) in self.impacts[parcel.impacts.clone()].iter().enumerate() {
-            let (mut impact, mut position) = (one.impact, one.position);
-            if let Some(Landing { speeds, shift }) = landing {
-                [impact.normal_speed, impact.tangential_speed] = speeds;
-                position += shift;
-                if self.flat[one.patch].as_ref().is_some_and(|wall| !wall.has(position)) {
-                    account.led_away += share * one.mass;
-                    break;
-                }
-            }
+            let Some((impact, position)) = self.arrival(one, landing) else {
+                account.led_away += share * one.mass;
+                break;
+            };
             let outcome = model.resolve(one.wall, &impact, one.random).map_err(|error| {
                 PredictionError::new(&format!("{}:{}", self.file.display(), one.line), &error)
             })?;

@@ -24,6 +24,7 @@ pub use report::{KindErrors, RigDiagnosis, RigRow};
 use toml_edit::InlineTable;
 
 use super::extend::ranges;
+use super::first_reasons;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
 use crate::rig::{CaseText, Forward, PredictionError};
@@ -76,10 +77,7 @@ pub fn diagnose_rig(
     progress: &(dyn Fn() + Sync),
 ) -> Result<RigDiagnosis, RigError> {
     if data.count() < LEAST_READINGS {
-        let reason = |bad: &crate::dataset::BadRow| {
-            format!("Line {}: {}.", bad.line, bad.reason.trim_end_matches('.'))
-        };
-        let reasons = data.rejected.iter().take(3).map(reason).collect::<Vec<_>>().join(" ");
+        let reasons = first_reasons(&data.rejected);
         let usable = data.read - data.rejected.len();
         return Err(RigError::TooFew { usable, read: data.read, reasons });
     }

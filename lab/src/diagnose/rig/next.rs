@@ -13,7 +13,7 @@
 use serde::Serialize;
 
 use super::addition::{RigAddition, moved};
-use super::choice::{RigChoice, RigStudy, Scored};
+use super::choice::{RigChoice, RigRound, RigStudy, Scored};
 use super::posterior::Posterior;
 use super::prediction_table::predict;
 use super::proposals::proposals;
@@ -141,22 +141,10 @@ pub(super) fn next_experiments(
         experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
     let forward = SimulatedRig::new(&cases, PROPOSAL_PARTICLES)?;
     let mut causes = causes(study, choice, whole, posterior)?;
-    let mut by_state: Vec<Vec<f64>> = Vec::new();
-    for cause in &mut causes {
-        let mut possible = Vec::new();
-        for state in std::mem::take(&mut cause.states) {
-            if let Ok(predicted) = predict(&forward, &state) {
-                by_state.push(predicted.iter().map(|one| one.value).collect());
-                possible.push(state);
-            }
-        }
-        cause.states = possible;
-    }
-    causes.retain(|cause| !cause.states.is_empty());
+    let by_state = predict_states(&forward, &mut causes);
     if causes.is_empty() || cases.is_empty() {
         return Ok(Vec::new());
     }
-    let ensemble = Ensemble::new(&causes);
     let mut options = Vec::new();
     for place in 0..cases.len() {
         for (column, (_, usual)) in columns.iter().enumerate() {
@@ -168,29 +156,28 @@ pub(super) fn next_experiments(
             }
         }
     }
-    let mut rows: Vec<NextExperiment> = Vec::new();
-    let mut measured = ensemble.unmeasured();
-    while rows.len() < MOST_PROPOSALS {
-        let before = ensemble.tells(&measured);
-        let with = |one: &Possible| ensemble.with(&measured, one, one.usual.count());
-        let more = |one: &Possible| ensemble.tells(&with(one)) - before;
-        let told: Vec<f64> = options.iter().map(more).collect();
-        let worth: Vec<f64> =
-            options.iter().zip(&told).map(|(one, told)| told + ensemble.pins(one)).collect();
-        let most = |of: &[f64], least: f64| {
-            let best = of.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-            best.filter(|(_, value)| **value > least).map(|(place, _)| &options[place])
-        };
-        let telling = if rows.len() < TELLING { most(&told, LEAST_TOLD) } else { None };
-        let Some(best) = telling.or_else(|| most(&worth, LEAST_WORTH)) else { break };
-        let [place, column] = best.place;
-        let best = Possible { predicted: best.predicted.clone(), left: best.left.clone(), ..*best };
-        measured = with(&best);
-        rows.push(ensemble.row(&best, &causes, cases[place].settings().to_vec(), &columns[column].0.column));
-        options.retain(|one| one.place[0] != place);
-        options.iter_mut().for_each(|one| ensemble.regress(one, &best));
+    let ensemble = Ensemble::new(&causes);
+    let row = |one: &Possible| {
+        let [place, column] = one.place;
+        ensemble.row(one, &causes, cases[place].settings().to_vec(), &columns[column].0.column)
+    };
+    Ok(ensemble.ranked(options).iter().map(row).collect())
+}
+
+/// What each state of each cause predicts for all readings; states that the case refuses are left out, and causes without any.
+fn predict_states(forward: &SimulatedRig<'_>, causes: &mut Vec<Cause>) -> Vec<Vec<f64>> {
+    let mut by_state: Vec<Vec<f64>> = Vec::new();
+    for cause in causes.iter_mut() {
+        cause.states.retain(|state| match predict(forward, state) {
+            Ok(predicted) => {
+                by_state.push(predicted.iter().map(|one| one.value).collect());
+                true
+            }
+            Err(_) => false,
+        });
     }
-    Ok(rows)
+    causes.retain(|cause| !cause.states.is_empty());
+    by_state
 }
 
 /// Errors of readings that stand for a normal distribution, in standard deviations: means of eight parts of it of equal probability.
@@ -372,6 +359,31 @@ impl Ensemble {
         }
     }
 
+    /// The readings most worth making, the best first; of each proposal one. Each is the best one when those above it are measured.
+    fn ranked(&self, mut options: Vec<Possible>) -> Vec<Possible> {
+        let mut ranked: Vec<Possible> = Vec::new();
+        let mut measured = self.unmeasured();
+        while ranked.len() < MOST_PROPOSALS {
+            let before = self.tells(&measured);
+            let with = |one: &Possible| self.with(&measured, one, one.usual.count());
+            let told: Vec<f64> = options.iter().map(|one| self.tells(&with(one)) - before).collect();
+            let worth: Vec<f64> =
+                options.iter().zip(&told).map(|(one, told)| told + self.pins(one)).collect();
+            let most = |of: &[f64], least: f64| {
+                let best = of.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+                best.filter(|(_, value)| **value > least).map(|(place, _)| place)
+            };
+            let telling = if ranked.len() < TELLING { most(&told, LEAST_TOLD) } else { None };
+            let Some(best) = telling.or_else(|| most(&worth, LEAST_WORTH)) else { break };
+            measured = with(&options[best]);
+            let best = options.remove(best);
+            options.retain(|one| one.place[0] != best.place[0]);
+            options.iter_mut().for_each(|one| self.regress(one, &best));
+            ranked.push(best);
+        }
+        ranked
+    }
+
     fn row(
         &self,
         one: &Possible,
@@ -405,45 +417,30 @@ fn causes(
     posterior: &Posterior,
 ) -> Result<Vec<Cause>, PredictionError> {
     let drawn = posterior.draws(STATES[0] - 1, study.seed);
-    let drawn = drawn.iter().map(|at| moved(&choice.additions, at));
-    let nothing = |weight: f64| {
-        let states = std::iter::once(choice.additions.clone()).chain(drawn.clone()).collect();
-        Cause { name: "no further effect".to_owned(), weight, states }
-    };
+    let drawn: Vec<_> = drawn.iter().map(|at| moved(&choice.additions, at)).collect();
+    let fit_and_draws = || std::iter::once(choice.additions.clone()).chain(drawn.clone()).collect();
     let dropped = whole.rounds.get(choice.rounds.len());
-    if choice.rounds.is_empty() || dropped.is_some() {
+    let last = choice.rounds.len().saturating_sub(1);
+    let Some(named) = choice.rounds.last().filter(|_| dropped.is_none()) else {
         // Nothing is named, or not all that explains the file: the best candidates, and none of them.
-        let candidates: Vec<&Scored> = match dropped {
-            Some(round) => std::iter::once(&round.winner).chain(round.rivals(SURVIVES)).collect(),
-            None => choice.hints.iter().filter(|one| !one.addition.is_curve()).collect(),
-        };
-        let candidates = if candidates.is_empty() { choice.hints.iter().collect() } else { candidates };
-        let best = candidates.iter().map(|one| one.gain).fold(0.0, f64::max);
-        let mut all = Vec::new();
-        for one in candidates.into_iter().take(MOST_SURVIVING) {
-            let states = states(study, &choice.additions, one, STATES[1])?;
-            all.push(Cause { name: one.addition.name(), weight: (one.gain - best).exp(), states });
-        }
+        let mut all = unnamed(study, choice, dropped)?;
         // It is not significant, so none of them is as likely as the best one.
-        all.insert(all.len().min(1), nothing(1.0));
+        let name = "no further effect".to_owned();
+        all.insert(all.len().min(1), Cause { name, weight: 1.0, states: fit_and_draws() });
         return Ok(all);
-    }
+    };
+    // Undecided causes are not among the additions.
+    let own = match choice.additions.is_empty() {
+        true => states(study, &[], &named.winner, STATES[0])?,
+        false => fit_and_draws(),
+    };
+    let first = Cause { name: named.winner.addition.name(), weight: 1.0, states: own };
     let mut all = Vec::new();
     for (place, round) in choice.rounds.iter().enumerate().rev() {
-        let last = place + 1 == choice.rounds.len();
         let before: &[RigAddition] = choice.additions.get(..place).unwrap_or_default();
         let after: &[RigAddition] = choice.additions.get(place + 1..).unwrap_or_default();
-        if last {
-            let mut own: Vec<Vec<RigAddition>> = drawn.clone().collect();
-            // Undecided causes are not among the additions.
-            match choice.additions.is_empty() {
-                true => own = states(study, &[], &round.winner, STATES[0])?,
-                false => own.insert(0, choice.additions.clone()),
-            }
-            all.push(Cause { name: round.winner.addition.name(), weight: 1.0, states: own });
-        }
         for other in round.rivals(SURVIVES).take(MOST_SURVIVING) {
-            let states = match last {
+            let states = match place == last {
                 true => states(study, before, other, STATES[1])?,
                 false => vec![[before, std::slice::from_ref(&other.addition), after].concat()],
             };
@@ -451,7 +448,6 @@ fn causes(
             all.push(Cause { name: other.addition.name(), weight, states });
         }
     }
-    let first = all.remove(0);
     all.sort_by(|a, b| b.weight.total_cmp(&a.weight));
     all.truncate(MOST_SURVIVING);
     all.insert(0, first);
@@ -459,6 +455,25 @@ fn causes(
         all.extend(alternatives(choice));
     }
     Ok(all)
+}
+
+/// The best candidates where no cause is named, or where one of the round `dropped` was left out.
+fn unnamed(
+    study: &RigStudy<'_>,
+    choice: &RigChoice,
+    dropped: Option<&RigRound>,
+) -> Result<Vec<Cause>, PredictionError> {
+    let candidates: Vec<&Scored> = match dropped {
+        Some(round) => std::iter::once(&round.winner).chain(round.rivals(SURVIVES)).collect(),
+        None => choice.hints.iter().filter(|one| !one.addition.is_curve()).collect(),
+    };
+    let candidates = if candidates.is_empty() { choice.hints.iter().collect() } else { candidates };
+    let best = candidates.iter().map(|one| one.gain).fold(0.0, f64::max);
+    let cause = |one: &Scored| {
+        let states = states(study, &choice.additions, one, STATES[1])?;
+        Ok(Cause { name: one.addition.name(), weight: (one.gain - best).exp(), states })
+    };
+    candidates.into_iter().take(MOST_SURVIVING).map(cause).collect()
 }
 
 /// Where no rival is left: the last cause's removal, which weighs as little as its gain allows.
@@ -573,14 +588,11 @@ pub(super) fn table(rows: &[NextExperiment]) -> String {
         cells.extend([format!("{:.2}", row.tells_causes), format!("{:.2}", row.pins_numbers)]);
         lines.push(cells);
     }
-    let quote = |cell: &String| {
-        if cell.contains([',', '"', '\n']) {
-            format!("\"{}\"", cell.replace('"', "\"\""))
-        } else {
-            cell.clone()
-        }
-    };
-    lines.iter().map(|cells| cells.iter().map(quote).collect::<Vec<_>>().join(",") + "\n").collect()
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let written = lines.iter().try_for_each(|cells| writer.write_record(cells));
+    // Nothing fails in memory.
+    let bytes = written.ok().and_then(|()| writer.into_inner().ok()).unwrap_or_default();
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 #[cfg(test)]
