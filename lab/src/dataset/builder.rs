@@ -142,7 +142,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Removes the rows that are no longer kept.
+    /// Removes the rows that are not kept.
     fn retain(&mut self, kept: &[bool], unselected: &mut dyn FnMut(Measurement)) {
         self.causes.iter_mut().for_each(|(_, cause)| cause.retain(kept));
         let rows = std::mem::take(&mut self.rows);

@@ -102,14 +102,6 @@ impl RigQuantity {
         !matches!(self, Self::Mean(_) | Self::Quantile(..) | Self::MeanConversion)
     }
 
-    /// Whether it is about what is caught rather than about rebounds.
-    pub fn is_capture(&self) -> bool {
-        matches!(
-            self,
-            Self::Captured | Self::CapturedAlong(_) | Self::CapturedBySize(_) | Self::CaptureEfficiency
-        )
-    }
-
     /// The largest value that it can have [1]; restitution along the wall may exceed 1.
     pub(super) fn largest(&self) -> f64 {
         match self {

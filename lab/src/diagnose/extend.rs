@@ -14,6 +14,9 @@ use nearwall::effect::EffectInfo;
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
+/// What the file gives as the source of an effect.
+const SOURCE: &str = "fitted by nearwall diagnose";
+
 /// The text of the extended model.
 ///
 /// # Errors
@@ -46,12 +49,17 @@ pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String
         let heights = vec![hypothesis.background_capture];
         added.push(fitted_curve(hypothesis.data, &ColumnCurve { form, heights, freedom: 1.0 }));
     }
+    Ok(with_effects(document, added))
+}
+
+/// The text of a model file with more effects.
+pub(super) fn with_effects(mut document: DocumentMut, added: ArrayOfTables) -> String {
     append(&mut document, added);
     let mut text = document.to_string();
     if !text.ends_with('\n') {
         text.push('\n');
     }
-    Ok(text)
+    text
 }
 
 /// Whether a model file with this curve can be read; not if the name of a column cannot be that of an input.
@@ -74,45 +82,52 @@ pub(super) fn contains(text: &str, curve: &ColumnCurve, data: &DataSplit) -> boo
 
 /// A curve, a surface or a level shift as an effect.
 fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
-    let mut table = Table::new();
     let on = match curve.form.observable {
         Observable::Capture => "capture",
         observable => observable.name(),
     };
     let form = if curve.form.multiplicative { "factor" } else { "add" };
-    let list = |values: &[f64]| Value::Array(values.iter().map(|number| rounded(*number)).collect());
     let sides = &curve.form.sides;
-    let names: Vec<String> = curve.form.columns(data);
-    table.insert("kind", value(if sides.is_empty() { "level-shift" } else { "fitted-curve" }));
-    match names.as_slice() {
-        [] => {}
-        [one] => {
-            table.insert("input", value(one));
-        }
-        several => {
-            table.insert("input", value(several.iter().collect::<Array>()));
-        }
-    }
-    table.insert("on", value(on));
-    table.insert("form", value(form));
     let knots: Vec<Value> = sides.iter().map(|(column, basis)| knots(data, *column, basis)).collect();
-    match (sides.as_slice(), knots.as_slice()) {
-        ([(_, _), (_, second)], [one, two]) => {
-            let wide = second.len().max(1);
-            table.insert("knots", value([one.clone(), two.clone()].into_iter().collect::<Array>()));
-            table.insert("values", value(curve.heights.chunks(wide).map(list).collect::<Array>()));
-        }
-        ([_], [one]) => {
-            table.insert("knots", value(one.clone()));
-            table.insert("values", value(list(&curve.heights)));
-        }
-        _ => {
-            table.insert("value", value(rounded(curve.heights.first().copied().unwrap_or(0.0))));
-        }
-    }
-    table.insert("valid", value(valid(data)));
-    table.insert("source", value("fitted by nearwall diagnose"));
+    let wide = sides.last().map_or(1, |(_, basis)| basis.len().max(1));
+    let columns = curve.form.columns(data);
+    curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid(data))
+}
+
+/// A curve, a surface or a level shift on an observable, in a form, over inputs with their knots. The heights of a surface come
+/// with their number along its second input; `valid` are the ranges of the inputs of the fit.
+pub(super) fn curve_effect(
+    [on, form]: [&str; 2],
+    inputs: &[impl AsRef<str>],
+    knots: &[Value],
+    (heights, wide): (&[f64], usize),
+    valid: InlineTable,
+) -> Table {
+    let names: Vec<&str> = inputs.iter().map(AsRef::as_ref).collect();
+    let input = match names.as_slice() {
+        [] => None,
+        [one] => Some(value(*one)),
+        several => Some(value(several.iter().copied().collect::<Array>())),
+    };
+    let kind = if input.is_some() { "fitted-curve" } else { "level-shift" };
+    let mut table = Table::from_iter([("kind", value(kind))]);
+    table.extend(input.map(|input| ("input", input)));
+    table.extend([("on", value(on)), ("form", value(form))]);
+    table.extend(match knots {
+        [] => vec![("value", value(rounded(heights.first().copied().unwrap_or(0.0))))],
+        [one] => vec![("knots", value(one.clone())), ("values", value(list(heights)))],
+        several => vec![
+            ("knots", value(several.iter().cloned().collect::<Array>())),
+            ("values", value(heights.chunks(wide).map(list).collect::<Array>())),
+        ],
+    });
+    table.extend([("valid", value(valid)), ("source", value(SOURCE))]);
     table
+}
+
+/// Numbers with six digits.
+pub(super) fn list(numbers: &[f64]) -> Value {
+    Value::Array(numbers.iter().map(|number| rounded(*number)).collect())
 }
 
 /// The knots of a column of numbers, or its labels.
@@ -152,7 +167,7 @@ fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCu
 }
 
 /// Adds the effects after those of the base, in the notation of the base.
-pub(super) fn append(document: &mut DocumentMut, added: ArrayOfTables) {
+fn append(document: &mut DocumentMut, added: ArrayOfTables) {
     if added.is_empty() {
         return;
     }
@@ -180,7 +195,7 @@ pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable)
         table.insert(name, value(fit));
     }
     table.insert("valid", value(valid));
-    table.insert("source", value("fitted by nearwall diagnose"));
+    table.insert("source", value(SOURCE));
     table
 }
 

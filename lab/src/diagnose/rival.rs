@@ -1,4 +1,4 @@
-//! Rivals of the causes: slips of input and artefacts of measurement, before physics is blamed.
+//! Explanations other than physics: mistakes in the input, and artefacts of measurement.
 //!
 //! A slip is the base model with another reading of the numbers, for instance with the diameter doubled; it has no free parameter.
 //! An artefact is another distribution of the readings about the base model: truncated where the instrument sees nothing, or

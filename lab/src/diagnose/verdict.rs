@@ -12,6 +12,7 @@ use super::part::Part;
 use super::record::{Diagnosis, Finding, Fit, Misfit, NotExamined, Options, ScatterFound, Unexplained};
 use super::sentences::is_refuted;
 use nearwall::effect::{EFFECTS, EffectInfo};
+use nearwall::model::Model;
 
 /// Largest number of misfits listed.
 const MOST_MISFITS: usize = 12;
@@ -88,7 +89,7 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
             e_t: scatter(Observable::TangentialRestitution),
             changes_with: trends.map(|trend| data.covariates[trend.covariate].name.clone()).collect(),
         },
-        not_examined: EFFECTS.iter().filter_map(|effect| not_examined(hypothesis, effect)).collect(),
+        not_examined: not_examined(&data.base, |input| data.range(input), "in the data"),
         unexplained_capture: (hypothesis.background_capture != 0.0).then(|| {
             let [measured, expected] = captured_shares(hypothesis);
             Unexplained { measured, expected }
@@ -98,19 +99,26 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
     }
 }
 
-/// Why an effect was no candidate, if it was none.
-fn not_examined(hypothesis: &Hypothesis<'_>, effect: &'static EffectInfo) -> Option<NotExamined> {
-    let data = hypothesis.data;
-    let cause = effect.id;
-    if data.base.terms().iter().any(|term| term.kind().id == cause) {
-        return Some(NotExamined { cause, reason: "the base model contains it".to_owned() });
-    }
-    if Part::Effect(effect).axes(|input| data.range(input), false).is_some() {
-        return None;
-    }
-    let constant = effect.inputs.iter().copied().filter(|input| data.range(input).is_none());
-    let reason = format!("{} does not vary in the data", constant.collect::<Vec<_>>().join(", "));
-    Some(NotExamined { cause, reason })
+/// Why effects were no candidates: `range` gives the least and largest value of an input that varies, `here` says where it does not.
+pub(super) fn not_examined(
+    base: &Model,
+    range: impl Fn(&str) -> Option<[f64; 2]>,
+    here: &str,
+) -> Vec<NotExamined> {
+    let reason = |effect: &'static EffectInfo| {
+        if base.terms().iter().any(|term| term.kind().id == effect.id) {
+            return Some("the base model contains it".to_owned());
+        }
+        if Part::Effect(effect).axes(&range, false).is_some() {
+            return None;
+        }
+        let constant = effect.inputs.iter().copied().filter(|input| range(input).is_none());
+        Some(format!("{} does not vary {here}", constant.collect::<Vec<_>>().join(", ")))
+    };
+    EFFECTS
+        .into_iter()
+        .filter_map(|effect| Some(NotExamined { cause: effect.id, reason: reason(effect)? }))
+        .collect()
 }
 
 /// Effects that depend on the column of an unknown cause. Few readings do not tell a law from a curve.

@@ -2,7 +2,7 @@
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Table, Value, value};
 
-use super::super::extend::{append, effect};
+use super::super::extend::{curve_effect, effect, list, with_effects};
 use super::super::part::{FittedPart, Part, rounded};
 use super::super::record::Estimate;
 use super::super::search::SearchAxis;
@@ -187,26 +187,10 @@ fn with_term(model: &Model, term: Term) -> Model {
 }
 
 fn curve_table(curve: &FittedCurve, valid: &InlineTable) -> Table {
-    let list = |numbers: &[f64]| Value::Array(numbers.iter().map(|number| rounded(*number)).collect());
-    let mut table = Table::new();
-    table.insert("kind", value(if curve.axes.is_empty() { "level-shift" } else { "fitted-curve" }));
-    for axis in &curve.axes {
-        table.insert("input", value(axis.input.name(&[])));
-    }
-    table.insert("on", value(curve.on.name()));
-    table.insert("form", value(curve.form.name()));
-    match curve.axes.first() {
-        Some(axis) => {
-            table.insert("knots", value(list(&axis.knots)));
-            table.insert("values", value(list(&curve.values)));
-        }
-        None => {
-            table.insert("value", value(rounded(curve.values.first().copied().unwrap_or(0.0))));
-        }
-    }
-    table.insert("valid", value(valid.clone()));
-    table.insert("source", value("fitted by nearwall diagnose"));
-    table
+    let inputs: Vec<&str> = curve.axes.iter().map(|axis| axis.input.name(&[])).collect();
+    let knots: Vec<Value> = curve.axes.iter().map(|axis| list(&axis.knots)).collect();
+    let on = [curve.on.name(), curve.form.name()];
+    curve_effect(on, &inputs, &knots, (&curve.values, 1), valid.clone())
 }
 
 /// The text of a model file with additions. `valid` are the ranges of the inputs of the fit.
@@ -223,12 +207,7 @@ pub(super) fn extended_text(
     for addition in additions {
         addition.write(&mut document, &mut added, valid);
     }
-    append(&mut document, added);
-    let mut text = document.to_string();
-    if !text.ends_with('\n') {
-        text.push('\n');
-    }
-    Ok(text)
+    Ok(with_effects(document, added))
 }
 
 /// A model with all of these.

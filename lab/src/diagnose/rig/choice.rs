@@ -29,7 +29,7 @@ pub(super) const DISTINGUISHABLE_GAIN: f64 = 2.0;
 const BEYOND_LAWS: f64 = 3.0;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
-/// Most other beginnings of a choice that are tried, besides that with numbers that are usually fitted.
+/// Largest number of other first causes that are tried. A start with the numbers that are usually fitted is tried beside them.
 const OTHER_STARTS: usize = 3;
 /// Gain for which a cause is exchanged [nats].
 const EXCHANGED: f64 = 1.5;
@@ -488,7 +488,7 @@ impl<'a> RigStudy<'a> {
     }
 }
 
-/// The beginnings of a choice with the next best law in place of the winner of a round.
+/// For each round a choice that starts with the next best law in place of the winner.
 fn other_starts(choice: &RigChoice) -> Vec<RigChoice> {
     let mut starts = Vec::new();
     for (place, round) in choice.rounds.iter().enumerate() {

@@ -33,7 +33,7 @@ const PROPOSAL_PARTICLES: u64 = 200;
 const ASSUMED_COUNT: f64 = 100.0;
 /// Logarithm of the ratio of likelihoods that decides [nats].
 const DECIDES: f64 = 3.0;
-/// Readings that decide beyond this many usual ones are not worth waiting for.
+/// Largest number of usual readings that a proposal may ask for; beyond it no number is given.
 const MOST_REPEATS: f64 = 100.0;
 /// The first rows only tell causes apart, as long as one is expected to tell so much [nats]: a rival of a small weight is worth little, but
 /// as long as it is there the cause has no name.

@@ -8,10 +8,10 @@ use super::super::finding::sigma;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Alternative, Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined,
-    Options, Rows,
+    Alternative, Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, Options, Rows,
 };
 use super::super::sentences::{Words, fit_sentence, found, hint, is_refuted};
+use super::super::verdict::not_examined;
 use super::MISFIT;
 use super::addition::{Kind, RigAddition};
 use super::candidates::range;
@@ -182,7 +182,11 @@ impl RigFindings<'_> {
             findings,
             undecided: self.undecided.clone(),
             calibration,
-            not_examined: self.not_examined(),
+            not_examined: not_examined(
+                study.forward.base(0),
+                |input| range(study.forward, input),
+                "over the impacts",
+            ),
             gain,
             gains,
             extended_model: "extended.toml",
@@ -329,25 +333,6 @@ impl RigFindings<'_> {
         }
         let most = (0..changes.len()).max_by(|&a, &b| changes[a].total_cmp(&changes[b]));
         Ok(most.map_or("captured", |kind| data.kinds[kind]))
-    }
-
-    fn not_examined(&self) -> Vec<NotExamined> {
-        let forward = self.study.forward;
-        let base = forward.base(0);
-        let reason = |effect: &&'static nearwall::effect::EffectInfo| {
-            if base.terms().iter().any(|term| term.kind().id == effect.id) {
-                return Some("the base model contains it".to_owned());
-            }
-            let constant: Vec<&str> =
-                effect.inputs.iter().copied().filter(|input| range(forward, input).is_none()).collect();
-            let part = Part::Effect(effect);
-            let open = RigAddition::part(part, |input| range(forward, input)).is_some();
-            (!open).then(|| format!("{} does not vary over the impacts", constant.join(", ")))
-        };
-        EFFECTS
-            .iter()
-            .filter_map(|effect| Some(NotExamined { cause: effect.id, reason: reason(effect)? }))
-            .collect()
     }
 
     fn rows(&self, base: &[PredictedReading], extended: &[PredictedReading], scatter: &[f64]) -> Vec<RigRow> {
