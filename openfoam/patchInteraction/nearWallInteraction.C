@@ -193,7 +193,7 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::meetWall
+void Foam::nearWallInteraction<CloudType>::chooseModel
 (
     impactEvent& e,
     const parcelType& p
@@ -229,7 +229,7 @@ void Foam::nearWallInteraction<CloudType>::interact
     bool& keepParticle
 )
 {
-    meetWall(e, p);
+    chooseModel(e, p);
     nw_outcome outcome;
     nw_outcome_init(&outcome);
 

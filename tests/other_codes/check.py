@@ -1,4 +1,6 @@
-"""Computes again, by other means, what the tutorials in other codes have written: `check.py lammps|codeSaturne RUNS TUTORIAL NEARWALL`.
+"""Computes again, by other means, what the tutorials in other codes have written.
+
+    check.py lammps|codeSaturne RUNS TUTORIAL NEARWALL
 
 One line each: ok or FAIL.
 """
@@ -41,7 +43,8 @@ def total(path):
 
 def same_impacts(serial, parallel):
     shared = all(numpy.array_equal(serial[name], parallel[name]) for name in serial)
-    say("impacts on 2 ranks", shared, f"{len(serial['v_n'])} in serial, {len(parallel['v_n'])} on 2 ranks, equal bits: {shared}")
+    say("impacts on 2 ranks", shared,
+        f"{len(serial['v_n'])} in serial, {len(parallel['v_n'])} on 2 ranks, equal bits: {shared}")
 
 
 def both_ranks_are_hit(folder):
@@ -54,7 +57,7 @@ def both_ranks_are_hit(folder):
 
 
 def predicted(name, model, pattern):
-    """`nearwall predict` on the recorded impacts; the draws of the same keys through the Python module; and the mean of the draws."""
+    """`nearwall predict` on the recorded impacts, and the mean of the draws."""
     impacts = read(pattern)
     inputs = [column for column in impacts if column in nearwall.INPUTS]
     with tempfile.TemporaryDirectory() as folder:
@@ -62,16 +65,17 @@ def predicted(name, model, pattern):
             print(",".join(inputs), file=file)
             for row in zip(*(impacts[column] for column in inputs)):
                 print(",".join(repr(float(value)) for value in row), file=file)
-        subprocess.run([command, "predict", "--model", model, f"{folder}/in.csv", "-o", f"{folder}/out.csv"], check=True,
-                       capture_output=True)
+        subprocess.run([command, "predict", "--model", model, f"{folder}/in.csv", "-o", f"{folder}/out.csv"],
+                       check=True, capture_output=True)
         with open(f"{folder}/out.csv") as file:
             rows = list(csv.DictReader(file))
-    off = max(abs(float(row[new]) - found) for new, old in (("e_n", "e_n_found"), ("e_t", "e_t_found"), ("p_stick", "p_found"))
-              for row, found in zip(rows, impacts[old]))
+    pairs = (("e_n", "e_n_found"), ("e_t", "e_t_found"), ("p_stick", "p_found"))
+    off = max(abs(float(row[new]) - found) for new, old in pairs for row, found in zip(rows, impacts[old]))
     say(f"{name}, nearwall predict", off < 1e-12, f"{len(rows)} impacts, e_n, e_t and p_stick off by at most {off:.1e}")
     p, captures = impacts["p_found"], int(impacts["stuck"].sum())
     error = numpy.sqrt((p * (1 - p)).sum())
-    say(f"{name}, draws", abs(captures - p.sum()) <= 4 * error, f"{captures} captured, {p.sum():.1f} ± {error:.1f} expected")
+    say(f"{name}, draws", abs(captures - p.sum()) <= 4 * error,
+        f"{captures} captured, {p.sum():.1f} ± {error:.1f} expected")
     return impacts, inputs
 
 
@@ -80,7 +84,8 @@ def drawn(name, model, impacts, inputs, keys):
     out = nearwall.Model.from_file(model).resolve(seed=1, key=keys, **columns)
     same = numpy.array_equal(out.stuck, impacts["stuck"])
     distinct = len(set(keys.tolist())) == len(keys)
-    say(f"{name}, keys", same and distinct, f"{len(keys)} distinct: {distinct}; the same captures through Python: {same}")
+    say(f"{name}, keys", same and distinct,
+        f"{len(keys)} distinct: {distinct}; the same captures through Python: {same}")
 
 
 def balance(name, totals, parts, released="mass_released"):
@@ -98,11 +103,14 @@ def lammps():
         impacts, final = read(f"{runs}/plate-{ranks}/impacts.*.csv"), read(f"{runs}/plate-{ranks}/final.*.csv")
         counted = (len(impacts["v_n"]), int(impacts["stuck"].sum()))
         by_code = (totals["hits"], totals["captured"])
-        good = counted == by_code == (final["hits"].sum(), (final["type"] == 2).sum()) and len(final["id"]) == totals["released"]
-        say(f"{ranks} ranks, counts", good, f"{counted[0]} hits and {counted[1]} captures; counted by LAMMPS {by_code[0]:.0f} and {by_code[1]:.0f}")
+        at_end = (final["hits"].sum(), (final["type"] == 2).sum())
+        good = counted == by_code == at_end and len(final["id"]) == totals["released"]
+        say(f"{ranks} ranks, counts", good, f"{counted[0]} hits and {counted[1]} captures; counted by LAMMPS "
+            f"{by_code[0]:.0f} and {by_code[1]:.0f}")
         balance(f"{ranks} ranks", totals, ["mass_captured", "mass_flying"])
     impacts, inputs = predicted("serial", model, f"{runs}/plate-1/impacts.*.csv")
-    drawn("serial", model, impacts, inputs, impacts["id"].astype(numpy.uint64) << numpy.uint64(16) | impacts["hit"].astype(numpy.uint64))
+    number, hit = impacts["id"].astype(numpy.uint64), impacts["hit"].astype(numpy.uint64)
+    drawn("serial", model, impacts, inputs, number << numpy.uint64(16) | hit)
 
     # First landing in closed form: fall through gas at rest with drag in proportion to the speed.
     tau, g, box = 0.05, 9.81, 0.2
@@ -149,12 +157,15 @@ def code_saturne():
         good = counted == (totals["hits"], totals["deposited"]) and totals["lost"] == 0
         mass = abs(impacts["mass"][impacts["stuck"] == 1].sum() / totals["mass_walls"] - 1)
         say(f"{name}, counts", good and mass < 1e-12,
-            f"{counted[0]} hits and {counted[1]} captures, {totals['deposited']:.0f} counted by code_saturne; their mass off by {mass:.1e}")
+            f"{counted[0]} hits and {counted[1]} captures, {totals['deposited']:.0f} counted by code_saturne; "
+            f"their mass off by {mass:.1e}")
 
     # Where nothing sticks and nothing is lost, these walls are code_saturne's own, which counts its hits itself.
     ours, own = total(f"{runs}/rebound-1/totals.csv"), total(f"{runs}/ownRebound-1/totals.csv")
-    same = all(ours[name] == own[name] for name in ("released", "left", "airborne", *parts)) and ours["hits"] == own["own_hits"]
-    say("rebound without loss", same, f"{ours['hits']:.0f} hits, {own['own_hits']:.0f} of code_saturne's own wall; all else equal: {same}")
+    same = all(ours[name] == own[name] for name in ("released", "left", "airborne", *parts))
+    same = same and ours["hits"] == own["own_hits"]
+    say("rebound without loss", same,
+        f"{ours['hits']:.0f} hits, {own['own_hits']:.0f} of code_saturne's own wall; all else equal: {same}")
 
     for name in ("nearWall", "elastic"):
         model = f"{tutorial}/DATA/{name}.toml"
@@ -182,12 +193,14 @@ def code_saturne():
     mean, error = numpy.mean(counts, axis=0), numpy.std(counts, axis=0)
     found = total(f"{runs}/fouling-1/totals.csv")
     off = numpy.abs(numpy.array([found["own_hits"], found["fouled"]]) - mean) / error
-    say("code_saturne's fouling", off.max() < 5, f"{found['own_hits']:.0f} hits and {found['fouled']:.0f} captures, {mean[0]:.0f} ± {error[0]:.0f} "
+    say("code_saturne's fouling", off.max() < 5,
+        f"{found['own_hits']:.0f} hits and {found['fouled']:.0f} captures, {mean[0]:.0f} ± {error[0]:.0f} "
         f"and {mean[1]:.0f} ± {error[1]:.0f} expected")
 
     # Flights to the first hit, integrated again with steps of 2 us and the same drag law.
     first = serial["hit"] == 0
-    spread = lambda n, axis, low, high: low + (high - low) * numpy.modf(0.5 + n * 1.1673039782614187 ** -(axis + 1.0))[0]
+    turns = lambda n, axis: 0.5 + n * 1.1673039782614187 ** -(axis + 1.0)
+    spread = lambda n, axis, low, high: low + (high - low) * numpy.modf(turns(n, axis))[0]
     every = spread(numpy.arange(1, 4001.0), 2, 20e-6, 120e-6)
     n = 1.0 + numpy.abs(every[None, :] - serial["d"][first][:, None]).argmin(axis=1)
     slope, speed, d = numpy.radians(spread(n, 0, -60, 60)), spread(n, 1, 3, 15), spread(n, 2, 20e-6, 120e-6)

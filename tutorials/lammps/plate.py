@@ -2,8 +2,9 @@
 
     python3 plate.py nearWall.toml FOLDER            (or: mpirun -np 2 python3 plate.py ...)
 
-Writes to FOLDER impacts.<rank>.csv, in the columns of `nearwall predict`, totals.csv, and release.csv and final.<rank>.csv with every
-particle. LAMMPS numbers its particles: the key of an impact is that number and the count of its hits, on any number of ranks.
+Writes to FOLDER impacts.<rank>.csv, in the columns of `nearwall predict`, totals.csv, and release.csv and
+final.<rank>.csv with every particle. LAMMPS numbers its particles: the key of an impact is that number and the
+count of its hits, on any number of ranks.
 """
 
 import sys
@@ -49,12 +50,13 @@ for line in f"""
 
 # The same particles on any number of ranks: every rank draws all of them, LAMMPS keeps those of its part of the box.
 draw = numpy.random.default_rng(SEED)
-x = numpy.column_stack([draw.uniform(0, BOX, PARTICLES), draw.uniform(0, BOX, PARTICLES), draw.uniform(0.02, 0.1, PARTICLES)])
-v = numpy.column_stack([draw.uniform(-1, 1, PARTICLES), draw.uniform(-1, 1, PARTICLES), draw.uniform(-2, 0, PARTICLES)])
+x = numpy.column_stack([draw.uniform(*ends, PARTICLES) for ends in ((0, BOX), (0, BOX), (0.02, 0.1))])
+v = numpy.column_stack([draw.uniform(*ends, PARTICLES) for ends in ((-1, 1), (-1, 1), (-2, 0))])
 number = numpy.arange(1, PARTICLES + 1)
 lmp.create_atoms(PARTICLES, number.tolist(), [1] * PARTICLES, x.ravel().tolist(), v=v.ravel().tolist())
 if rank == 0:
-    numpy.savetxt(f"{folder}/release.csv", numpy.column_stack([number, x, v]), "%d" + 6 * ",%.17g", header="id,x,y,z,vx,vy,vz", comments="")
+    numpy.savetxt(f"{folder}/release.csv", numpy.column_stack([number, x, v]), "%d" + 6 * ",%.17g",
+                  header="id,x,y,z,vx,vy,vz", comments="")
 
 # Only the group "flying" moves; a captured particle leaves it and stays where it is.
 for line in f"""
@@ -81,7 +83,7 @@ print("v_n,v_t,omega,d,T_p,rho_p,T_w,e_n_found,e_t_found,p_found,stuck,id,hit,ti
 captured_mass = 0.0
 
 
-def meet_the_plate(step):
+def hit_the_plate(step):
     """Lets the particles that crossed the plate in this step hit it, and fly on for the rest of the step."""
     global captured_mass
     arrays = {name: lmp.numpy.extract_atom(name) for name in ("x", "v", "omega", "id", "mask", "type", "i_hits")}
@@ -102,7 +104,8 @@ def meet_the_plate(step):
         axis = numpy.cross(NORMAL, direction)                    # of a spin that rolls forward
         spin = numpy.einsum("ij,ij->i", omega[hit], axis)
         keys = arrays["id"][hit].astype(numpy.uint64) << numpy.uint64(16) | arrays["i_hits"][hit].astype(numpy.uint64)
-        out = model.resolve(v_n, wall=wall, seed=SEED, key=keys, v_t=v_t, omega=spin, d=DIAMETER, T_p=T_P, T_w=T_W, rho_p=DENSITY)
+        out = model.resolve(v_n, wall=wall, seed=SEED, key=keys, v_t=v_t, omega=spin, d=DIAMETER, T_p=T_P,
+                            T_w=T_W, rho_p=DENSITY)
         rebound = out.stuck == 0
         new = out.e_t[:, None] * along + (out.e_n * v_n)[:, None] * NORMAL
         v[hit] = numpy.where(rebound[:, None], new, 0)
@@ -114,16 +117,17 @@ def meet_the_plate(step):
         captured_mass += mass * stays.size
         for n, i in enumerate(hit):
             values = (v_n[n], v_t[n], spin[n], DIAMETER, T_P, DENSITY, T_W, out.e_n[n], out.e_t[n], out.p_stick[n])
-            print(",".join(f"{value:.17g}" for value in values), out.stuck[n], arrays["id"][i], arrays["i_hits"][i], f"{step * STEP:.17g}",
-                  ",".join(f"{value:.17g}" for value in place[n]), sep=",", file=record)
+            print(",".join(f"{value:.17g}" for value in values), out.stuck[n], arrays["id"][i], arrays["i_hits"][i],
+                  ",".join(f"{value:.17g}" for value in (step * STEP, *place[n])), sep=",", file=record)
         arrays["i_hits"][hit] += 1
 
 
-# Particles change ranks every 20 steps; until then a rank keeps those that left its part of the box, which do not need each other.
+# Particles change ranks every 20 steps; until then a rank keeps those that left its part of the box, as they do not
+# need each other.
 lmp.command("neigh_modify every 20 delay 0 check no")
 for step in range(1, STEPS + 1):
     lmp.command(f"run 1 pre {'yes' if step % 20 == 1 else 'no'} post no")
-    meet_the_plate(step)
+    hit_the_plate(step)
 record.close()
 lmp.command("run 0 post no")
 
@@ -133,11 +137,12 @@ for name, group in (("released", "all"), ("flying", "flying")):
     counts[name] = int(lmp.extract_variable(name))
 local = lmp.extract_setting("nlocal")
 columns = [lmp.numpy.extract_atom(name)[:local] for name in ("id", "type", "i_hits", "x")]
-numpy.savetxt(f"{folder}/final.{rank}.csv", numpy.column_stack(columns), "%d,%d,%d,%.17g,%.17g,%.17g", header="id,type,hits,x,y,z", comments="")
+numpy.savetxt(f"{folder}/final.{rank}.csv", numpy.column_stack(columns), "%d,%d,%d,%.17g,%.17g,%.17g",
+              header="id,type,hits,x,y,z", comments="")
 if rank == 0:
     captured = counts["released"] - counts["flying"]
     with open(f"{folder}/totals.csv", "w") as file:
         print("ranks,released,hits,captured,flying,mass_released,mass_captured,mass_flying", file=file)
-        print(ranks, counts["released"], counts["hits"], captured, counts["flying"], counts["released"] * mass, captured * mass,
-              counts["flying"] * mass, sep=",", file=file)
+        print(ranks, counts["released"], counts["hits"], captured, counts["flying"], counts["released"] * mass,
+              captured * mass, counts["flying"] * mass, sep=",", file=file)
 lmp.finalize()                  # MPI too: else mpirun takes a rank that ends for one that died
