@@ -153,8 +153,7 @@ fn the_page_has_the_verdicts() {
         }
     }
     let (sets, names) = (outcomes().len(), expected.join(",\n"));
-    let table =
-        format!("{} of {sets} sets are diagnosed as expected:\n{names}.\n\n{table}", expected.len());
+    let table = format!("{} of {sets} sets are diagnosed as expected:\n{names}.\n\n{table}", expected.len());
     let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/real-measurements.md");
     let text = std::fs::read_to_string(&page).unwrap();
     let (head, rest) = text.split_once(BEGIN).unwrap();
