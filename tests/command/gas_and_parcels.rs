@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use crate::report::{ours, write};
 use nearwall_lab::report::openfoam_page;
-use nearwall_lab::results::gas::{CutCell, GasCut, GasQuantity, ParcelQuantity};
+use nearwall_lab::results::MapCell;
+use nearwall_lab::results::gas::{GasCut, GasQuantity, ParcelQuantity};
 use nearwall_lab::results::openfoam::{self, gas::read_last};
 
 const CLOUD: &str = "kinematicCloud";
@@ -95,8 +96,8 @@ fn every_cell_has_its_own_value() {
         outline.iter().map(|corner| corner[axis]).sum::<f64>() / outline.len() as f64
     };
     for z in [0, 1] {
-        let in_row = |cell: &&CutCell| (middle(&cell.outline, 1) > 0.5) == (z == 1);
-        let mut row: Vec<&CutCell> = gas.cells.iter().filter(in_row).collect();
+        let in_row = |cell: &&MapCell| (middle(&cell.outline, 1) > 0.5) == (z == 1);
+        let mut row: Vec<&MapCell> = gas.cells.iter().filter(in_row).collect();
         row.sort_by(|a, b| middle(&a.outline, 0).total_cmp(&middle(&b.outline, 0)));
         let found: Vec<f64> = row.iter().map(|cell| cell.value).collect();
         assert_eq!(found, [0, 1, 2].map(|x| value(x, z)));

@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use crate::common::browser::{Seen, browse};
 use nearwall_lab::report::openfoam_page;
-use nearwall_lab::results::classes::{Quantity, together};
+use nearwall_lab::results::classes::{ClassQuantity, together};
 use nearwall_lab::results::openfoam::{self, deposit};
 use nearwall_lab::results::{Amount, History, WallModel, WallTotals};
 
@@ -217,7 +217,7 @@ fn distributions_of_a_restarted_run_are_joined() {
     let [slag] = &result.classes[..] else { panic!("one patch") };
     // The rows at 0.6 s belong to a run that was restarted at 0.5 s.
     assert_eq!(times(slag), [1.0]);
-    let classes = together(slag.at(1.0).unwrap(), Quantity::Angle);
+    let classes = together(slag.at(1.0).unwrap(), ClassQuantity::Angle);
     assert_eq!((classes.len(), classes[0].low, classes[0].sums.hits), (1, 60.0, 100.0));
     let [share, low, high] = classes[0].sums.captured().unwrap();
     // Wilson's interval for 60 of 100.

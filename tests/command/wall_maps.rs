@@ -8,7 +8,7 @@ use crate::report::{ours, write};
 use nearwall_lab::report::openfoam_page;
 use nearwall_lab::results::openfoam::{self, surfaces::read_last};
 use nearwall_lab::results::surface::{
-    GRID, PlaneAxis, Quantity, Unrolled, Unrolling, WallFace, WallSurface, shapes, unroll,
+    PlaneAxis, SurfaceQuantity, Unrolled, Unrolling, WALL_GRID, WallFace, WallSurface, shapes, unroll,
 };
 
 const CLOUD: &str = "coalCloud1";
@@ -226,7 +226,7 @@ fn assert_near(found: f64, wanted: f64) {
 }
 
 fn deposit(wall: &WallSurface) -> &[f64] {
-    &wall.quantities.iter().find(|(quantity, _)| *quantity == Quantity::Deposit).unwrap().1
+    &wall.quantities.iter().find(|(quantity, _)| *quantity == SurfaceQuantity::Deposit).unwrap().1
 }
 
 /// Area of the pipe, whose sides are flat [m²], and of each of its rings.
@@ -240,8 +240,8 @@ fn pipe_area() -> [f64; 4] {
 fn a_flat_patch_is_drawn_in_its_plane_with_its_mass() {
     let [_, plate, _] = read(&whole(Format::Ascii));
     assert_eq!((plate.wall.as_str(), plate.time, plate.faces.len()), ("plate", 1.0, 3));
-    let quantities: Vec<Quantity> = plate.quantities.iter().map(|(quantity, _)| *quantity).collect();
-    assert_eq!(quantities, [Quantity::Deposit, Quantity::Temperature]);
+    let quantities: Vec<SurfaceQuantity> = plate.quantities.iter().map(|(quantity, _)| *quantity).collect();
+    assert_eq!(quantities, [SurfaceQuantity::Deposit, SurfaceQuantity::Temperature]);
     assert_near(plate.area(), 0.75);
     // (1 + 2 + 3 + 3*0.25) kg/m² on faces of 0.25 m².
     let mass = 1.6875;
@@ -369,7 +369,7 @@ fn a_grid_of_a_large_wall_keeps_mass_and_mean() {
     let unrolled = unroll(&faces);
     let values: Vec<f64> = faces.iter().map(|face| face.centre[0].powi(2)).collect();
     let cells = shapes(&faces, &unrolled, &values);
-    assert!(cells.len() < GRID[0] * GRID[1], "{} cells", cells.len());
+    assert!(cells.len() < WALL_GRID[0] * WALL_GRID[1], "{} cells", cells.len());
     let sum: f64 = faces.iter().zip(&values).map(|(face, value)| face.area * value).sum();
     assert_near(cells.iter().map(|cell| cell.value * cell.area).sum(), sum);
     assert_near(cells.iter().map(|cell| cell.area).sum(), total_area(&faces));
@@ -465,7 +465,7 @@ fn a_fault_names_the_file_and_the_remedy() {
     let broken = |change: &dyn Fn(&Path)| {
         let folder = whole(Format::Binary(4));
         change(folder.path());
-        read_last(folder.path(), CLOUD).unwrap_err()
+        read_last(folder.path(), CLOUD).unwrap_err().to_string()
     };
     let cut = |name: &'static str, part: f64| {
         move |root: &Path| {
@@ -504,7 +504,7 @@ fn a_fault_names_the_file_and_the_remedy() {
     // All ranks in one file.
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), "processors2/1/x", "");
-    let error = read_last(folder.path(), CLOUD).unwrap_err();
+    let error = read_last(folder.path(), CLOUD).unwrap_err().to_string();
     assert!(error.contains("reconstructPar"), "{error}");
     // Without fields there is nothing to say.
     assert_eq!(read_last(tempfile::tempdir().unwrap().path(), CLOUD), Ok(Vec::new()));

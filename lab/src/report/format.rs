@@ -1,5 +1,9 @@
 //! Numbers as text for a reader.
 
+/// What the names of regimes mean, for captions.
+pub const REGIME_NAMES: &str =
+    "SP, NSP: sticky and non-sticky particle; SW, NSW: sticky and non-sticky wall.";
+
 /// A number with four significant digits, in powers of ten below 0.001 and from 1e6 on; a dash where it is not finite.
 pub fn number(value: f64) -> String {
     if value == 0.0 {

@@ -4,7 +4,7 @@ use super::wilson;
 
 /// The quantity that is divided into classes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ClassQuantity {
     /// Speed relative to the wall [m/s].
     Speed,
     /// Angle from the wall [degrees]: 0 is grazing, 90 is head-on.
@@ -19,7 +19,7 @@ pub struct Class {
     /// The injector's name, or the number of its parcels.
     pub injector: String,
     /// The classed quantity.
-    pub quantity: Quantity,
+    pub quantity: ClassQuantity,
     /// Lower end, which belongs to the class.
     pub low: f64,
     /// Upper end; infinite for the last class.
@@ -77,7 +77,7 @@ impl ClassSums {
 }
 
 /// The classes of a quantity in the order of size, all injectors together.
-pub fn together(classes: &[Class], quantity: Quantity) -> Vec<Class> {
+pub fn together(classes: &[Class], quantity: ClassQuantity) -> Vec<Class> {
     let mut all: Vec<Class> = classes.iter().filter(|class| class.quantity == quantity).cloned().collect();
     all.sort_by(|a, b| a.low.total_cmp(&b.low));
     let mut merged: Vec<Class> = Vec::new();
@@ -93,7 +93,7 @@ pub fn together(classes: &[Class], quantity: Quantity) -> Vec<Class> {
 /// The sum over all classes, of one injector or of all.
 pub fn total(classes: &[Class], injector: Option<&str>) -> ClassSums {
     let mut sums = ClassSums::default();
-    for class in classes.iter().filter(|class| class.quantity == Quantity::Diameter) {
+    for class in classes.iter().filter(|class| class.quantity == ClassQuantity::Diameter) {
         if injector.is_none_or(|injector| class.injector == injector) {
             sums.add(&class.sums);
         }

@@ -6,6 +6,7 @@
 
 pub mod classes;
 pub mod gas;
+mod map_cells;
 pub mod openfoam;
 pub mod standalone;
 mod statistics;
@@ -13,7 +14,8 @@ pub mod surface;
 
 use regex_lite::Regex;
 
-pub use statistics::{Amount, Mass, Moments, bin, share, wilson};
+pub use map_cells::{Grid, MapCell, extent};
+pub use statistics::{Amount, Mass, Moments, bin, range, share, wilson};
 
 use classes::Class;
 use gas::GasCut;

@@ -108,6 +108,11 @@ pub fn bin(value: f64, top: f64, bins: usize) -> usize {
     ((value / top * bins as f64) as usize).min(bins - 1)
 }
 
+/// Smallest and largest of some numbers; infinite without any.
+pub fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
 /// `part / whole`; NaN, which a page shows as "–", when `whole` is not positive.
 pub fn share(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { part / whole } else { f64::NAN }

@@ -5,10 +5,8 @@
 
 mod axis;
 mod bars;
-mod gas;
-mod map;
+mod plane;
 mod scale;
-mod surface;
 mod svg;
 
 use kuva::plot::annotations::ReferenceLine;
@@ -23,10 +21,8 @@ use axis::{all_drawable, drawable, ends, finite, round_step};
 
 pub use axis::round_edges;
 pub use bars::BarChart;
-pub(super) use gas::GasPicture;
-pub use map::FigureMap;
+pub(super) use plane::{COLUMN_WIDTH, LabelledAxis, NO_VALUE, PlanePicture, hatching, swatch};
 pub(super) use scale::{ColourScale, Palette, regime_colour};
-pub(super) use surface::SurfaceMap;
 pub use svg::Figure;
 
 /// Okabe and Ito's colours in an order that keeps neighbours apart; black is left for text.

@@ -4,13 +4,14 @@ use kuva::plot::ColorMap;
 
 use super::super::format::number;
 use super::axis::round_edges;
+use super::plane::NO_VALUE;
 use nearwall::impact::Regime;
 
 /// Number of colours of a scale.
 const LEVELS: f64 = 64.0;
 
 /// Light yellow to dark red: the colours YlOrRd of ColorBrewer (Harrower and Brewer, doi:10.1179/000870403235002042), lightened.
-const HEAT: [[f64; 3]; 6] = [
+const YELLOW_TO_RED: [[f64; 3]; 6] = [
     [255.0, 252.0, 224.0],
     [255.0, 237.0, 160.0],
     [254.0, 204.0, 92.0],
@@ -18,7 +19,7 @@ const HEAT: [[f64; 3]; 6] = [
     [244.0, 110.0, 67.0],
     [222.0, 74.0, 56.0],
 ];
-/// Black by blue to white: fresh coal is dark, ash is light. Every shade stands out from [`HEAT`].
+/// Black by blue to white: fresh coal is dark, ash is light. Every shade stands out from [`YELLOW_TO_RED`].
 const CHAR_TO_ASH: [[f64; 3]; 5] =
     [[0.0, 0.0, 0.0], [8.0, 48.0, 120.0], [33.0, 113.0, 200.0], [120.0, 196.0, 245.0], [255.0, 255.0, 255.0]];
 
@@ -38,7 +39,7 @@ impl Palette {
     fn colour(self, share: f64) -> String {
         match self {
             Self::Cividis => ColorMap::Cividis.map(share),
-            Self::Heat => between(&HEAT, share),
+            Self::Heat => between(&YELLOW_TO_RED, share),
             Self::CharToAsh => between(&CHAR_TO_ASH, share),
         }
     }
@@ -75,6 +76,11 @@ impl ColourScale {
     pub fn colour(&self, value: f64) -> String {
         let share = ((value - self.low) / (self.high - self.low)).clamp(0.0, 1.0);
         self.palette.colour((share * LEVELS).round() / LEVELS)
+    }
+
+    /// The colour of a value, grey for one that is none.
+    pub fn colour_or_grey(&self, value: f64) -> String {
+        if value.is_finite() { self.colour(value) } else { NO_VALUE.to_owned() }
     }
 
     /// The scale as an upright bar with numbers on its right; its upper left corner and its size are in px.

@@ -3,7 +3,7 @@
 mod panel;
 
 use super::chart::{ColourScale, Figure, regime_colour, round_edges};
-use super::format::{number, percent, with_unit};
+use super::format::{REGIME_NAMES, number, percent, with_unit};
 use super::page::{Page, Table};
 use crate::map::{Cell, InputAxis, Map};
 use nearwall::impact::Regime;
@@ -84,12 +84,14 @@ fn regimes(map: &Map) -> Figure {
     };
     let fills = fills(map, |cell| Some(regime_colour(cell.regime).to_owned()));
     let shares = Regime::ALL.into_iter().filter(|regime| share(*regime) > 0.0);
-    let legend: Vec<(&str, String)> = shares
-        .map(|regime| (regime_colour(regime), format!("{} {}", regime.name(), percent(share(regime)))))
+    let legend: Vec<(&str, [String; 2])> = shares
+        .map(|regime| (regime_colour(regime), [regime.name().to_owned(), percent(share(regime))]))
         .collect();
-    let caption = "SP, NSP: sticky and non-sticky particle; SW, NSW: sticky and non-sticky wall, of the share of the wall that \
-        an impact more probably meets (bare or covered). Per cent: share of this map.";
-    let panel = Panel::new(map, "regime", "Regime", fills, caption);
+    let caption = format!(
+        "{REGIME_NAMES} Of the share of the wall that an impact more probably meets (bare or covered). Per cent: share of \
+         this map."
+    );
+    let panel = Panel::new(map, "regime", "Regime", fills, &caption);
     panel
         .with_areas(&map.cells.iter().map(|cell| cell.map(|cell| cell.regime)).collect::<Vec<_>>())
         .figure(&legend, None)

@@ -4,22 +4,20 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use crate::map::{InputAxis, Map};
-use crate::report::chart::{ColourScale, Figure, round_edges};
+use crate::report::chart::{
+    ColourScale, Figure, LabelledAxis, NO_VALUE, PlanePicture, hatching, round_edges, swatch,
+};
 use crate::report::format::number;
 use nearwall::impact::Regime;
 
-/// Size of the drawing and of its plot [px].
-const WIDTH: f64 = 620.0;
-const LEFT: f64 = 78.0;
-const TOP: f64 = 14.0;
-const PLOT: [f64; 2] = [430.0, 330.0];
-/// Height of the axis below the plot, and of a row of the legend [px].
-const BELOW: f64 = 56.0;
-const LEGEND_ROW: f64 = 22.0;
+/// Width of the drawing, and size of its plot [px].
+const PANEL_WIDTH: f64 = 620.0;
+const PANEL_PLOT: [f64; 2] = [430.0, 330.0];
+/// Height of the legend below the axis, and of an entry of that beside the plot [px].
+const LEGEND_BELOW: f64 = 22.0;
+const LEGEND_ENTRY: f64 = 36.0;
 /// Half the size that the name of an area needs [px].
-const NAME: [f64; 2] = [36.0, 11.0];
-/// Colour of cells in which no particle rebounds.
-const GREY: &str = "#9a9a9a";
+const NAME_SIZE: [f64; 2] = [36.0, 11.0];
 
 /// What a cell shows.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,54 +47,74 @@ impl<'a> Panel<'a> {
 
     /// Names the widest place of each regime, where the name fits.
     pub fn with_areas(mut self, regimes: &[Option<Regime>]) -> Self {
-        let inside = |own: Regime| regimes.iter().map(|regime| *regime == Some(own)).collect::<Vec<_>>();
+        let (columns, rows) = (self.map.x.points(), self.map.y.points());
         let size = self.cell_size();
         for regime in Regime::ALL {
-            if let Some(cell) = widest_place(&inside(regime), self.map.x.points(), size) {
-                let [column, row] = self.corner(cell);
-                self.names.push((regime.name(), [column + 0.5 * size[0], row + 0.5 * size[1]]));
+            let inside: Vec<bool> = regimes.iter().map(|other| *other == Some(regime)).collect();
+            if let Some(cell) = widest_place(&inside, columns, size) {
+                let (column, row) = (cell % columns, rows - 1 - cell / columns);
+                let place = [(column as f64 + 0.5) / columns as f64, (row as f64 + 0.5) / rows as f64];
+                self.names.push((regime.name(), place));
             }
         }
         self
     }
 
     /// The figure, with swatches and their meaning beside the plot, or a scale of colours.
-    pub fn figure(self, swatches: &[(&str, String)], scale: Option<&ColourScale>) -> Figure {
+    pub fn figure(self, swatches: &[(&str, [String; 2])], scale: Option<&ColourScale>) -> Figure {
+        let counts = [self.map.x.points(), self.map.y.points()];
+        let ends = counts.map(|count| [0.0, count as f64]);
+        let mut picture = PlanePicture::new([self.id, self.title], ends, PANEL_PLOT);
+        picture.add(&hatching(self.id));
+        picture.paths(&self.outlines(&picture, |cell| match &self.fills[cell] {
+            Fill::Colour(colour) => Some(colour.clone()),
+            Fill::NoRebound => Some(NO_VALUE.to_owned()),
+            Fill::Undecided => None,
+        }));
+        let hatch = format!("url(#{}-hatch)", self.id);
+        picture.paths(&self.outlines(&picture, |cell| {
+            self.map.cells[cell].filter(|cell| cell.outside_range).map(|_| hatch.clone())
+        }));
+        let [across, up] = [&self.map.x, &self.map.y].map(labelled);
+        picture.labelled_axes(&across, &up);
+        for (name, place) in &self.names {
+            let [x, y] = picture.at(*place);
+            picture.add(&format!(
+                "<text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\" \
+                 stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{name}</text>",
+                y + 4.5
+            ));
+        }
+        let [x, y] = picture.beside();
+        for (place, (colour, lines)) in swatches.iter().enumerate() {
+            let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
+            picture.add(&swatch(colour, [x, y + LEGEND_ENTRY * place as f64], &lines));
+        }
+        if let Some(scale) = scale {
+            picture.bar(scale, "", [0.0, PANEL_PLOT[1]]);
+        }
+        let [mut x, bottom] = picture.below();
         let marks = self.marks();
-        let height = TOP + PLOT[1] + BELOW + if marks.is_empty() { 0.0 } else { LEGEND_ROW };
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" role=\"img\" aria-label=\"{}\" \
-             font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" font-size=\"12\" fill=\"black\">",
-            self.title
-        );
-        svg += &self.hatching();
-        svg += &self.cells();
-        svg += &self.axes();
-        svg += &self.area_names();
-        svg += &beside(swatches);
-        svg += &scale.map_or(String::new(), |scale| scale.bar([LEFT + PLOT[0] + 16.0, TOP], [18.0, PLOT[1]]));
-        svg += &legend(&marks, height - 10.0);
-        svg += "</svg>";
-        let Self { id, title, caption, .. } = self;
-        Figure { id: id.to_owned(), title: title.to_owned(), caption: caption.to_owned(), svg }
+        for (fill, text) in &marks {
+            picture.add(&swatch(fill, [x, bottom + 4.0], &[text]));
+            x += 36.0 + 6.5 * text.len() as f64;
+        }
+        let height = bottom + if marks.is_empty() { 0.0 } else { LEGEND_BELOW };
+        picture.figure(self.caption, [PANEL_WIDTH, height], PANEL_WIDTH)
     }
 
     /// Width and height of a cell [px].
     fn cell_size(&self) -> [f64; 2] {
-        [PLOT[0] / self.map.x.points() as f64, PLOT[1] / self.map.y.points() as f64]
-    }
-
-    /// Upper left corner of a cell [px].
-    fn corner(&self, cell: usize) -> [f64; 2] {
-        let (columns, rows) = (self.map.x.points(), self.map.y.points());
-        let [width, height] = self.cell_size();
-        let (column, row) = (cell % columns, rows - 1 - cell / columns);
-        [LEFT + column as f64 * width, TOP + row as f64 * height]
+        [PANEL_PLOT[0] / self.map.x.points() as f64, PANEL_PLOT[1] / self.map.y.points() as f64]
     }
 
     /// The outlines of all cells that `key` gives the same text, joined along rows.
-    fn outlines(&self, key: impl Fn(usize) -> Option<String>) -> BTreeMap<String, String> {
-        let columns = self.map.x.points();
+    fn outlines(
+        &self,
+        picture: &PlanePicture<'_>,
+        key: impl Fn(usize) -> Option<String>,
+    ) -> BTreeMap<String, String> {
+        let (columns, rows) = (self.map.x.points(), self.map.y.points());
         let [width, height] = self.cell_size();
         let mut paths: BTreeMap<String, String> = BTreeMap::new();
         let keys: Vec<Option<String>> = (0..self.fills.len()).map(key).collect();
@@ -105,7 +123,8 @@ impl<'a> Panel<'a> {
             while begin < cells.len() {
                 let length = cells[begin..].iter().take_while(|key| **key == cells[begin]).count();
                 if let Some(key) = &cells[begin] {
-                    let [x, y] = self.corner(row * columns + begin);
+                    let [x, y] =
+                        picture.at([begin as f64 / columns as f64, (rows - 1 - row) as f64 / rows as f64]);
                     let path = paths.entry(key.clone()).or_default();
                     let right = length as f64 * width;
                     // Writing to a text cannot fail.
@@ -117,122 +136,22 @@ impl<'a> Panel<'a> {
         paths
     }
 
-    fn cells(&self) -> String {
-        let colour = |cell: usize| match &self.fills[cell] {
-            Fill::Colour(colour) => Some(colour.clone()),
-            Fill::NoRebound => Some(GREY.to_owned()),
-            Fill::Undecided => None,
-        };
-        let mut svg = "<g shape-rendering=\"crispEdges\">".to_owned();
-        for (colour, path) in self.outlines(colour) {
-            svg += &format!("<path fill=\"{colour}\" d=\"{path}\"/>");
-        }
-        svg += "</g>";
-        let outside =
-            |cell: usize| self.map.cells[cell].filter(|cell| cell.outside_range).map(|_| String::new());
-        for path in self.outlines(outside).values() {
-            svg += &format!("<path fill=\"url(#{}-hatch)\" d=\"{path}\"/>", self.id);
-        }
-        svg
-    }
-
-    /// The pattern of cells outside the stated range: dark and light, to be seen on every colour.
-    fn hatching(&self) -> String {
-        format!(
-            "<defs><pattern id=\"{}-hatch\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\" \
-             patternTransform=\"rotate(45)\"><path d=\"M0 0v8\" stroke=\"#fff\" stroke-width=\"2\" stroke-opacity=\".7\"/>\
-             <path d=\"M1.5 0v8\" stroke=\"#000\" stroke-width=\"1\" stroke-opacity=\".6\"/></pattern></defs>",
-            self.id
-        )
-    }
-
-    fn axes(&self) -> String {
-        let [width, height] = PLOT;
-        let (bottom, [cell_width, cell_height]) = (TOP + height, self.cell_size());
-        let mut svg = format!(
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"black\"/>"
-        );
-        // The first and the last value are in the middle of the outermost cells.
-        for (share, text) in ticks(&self.map.x) {
-            let x = LEFT + 0.5 * cell_width + share * (width - cell_width);
-            let length = if text.is_empty() { 3.0 } else { 6.0 };
-            svg += &format!("<path d=\"M{x:.2} {bottom}v{length}\" stroke=\"black\"/>");
-            svg +=
-                &format!("<text x=\"{x:.2}\" y=\"{}\" text-anchor=\"middle\">{text}</text>", bottom + 20.0);
-        }
-        for (share, text) in ticks(&self.map.y) {
-            let y = bottom - 0.5 * cell_height - share * (height - cell_height);
-            let length = if text.is_empty() { 3.0 } else { 6.0 };
-            svg += &format!("<path d=\"M{LEFT} {y:.2}h-{length}\" stroke=\"black\"/>");
-            let (x, y) = (LEFT - 9.0, y + 4.0);
-            svg += &format!("<text x=\"{x}\" y=\"{y:.2}\" text-anchor=\"end\">{text}</text>");
-        }
-        let (middle, low) = (LEFT + 0.5 * width, bottom + 44.0);
-        svg +=
-            &format!("<text x=\"{middle}\" y=\"{low}\" text-anchor=\"middle\">{}</text>", label(&self.map.x));
-        let middle = TOP + 0.5 * height;
-        svg + &format!(
-            "<text transform=\"translate(16 {middle}) rotate(-90)\" text-anchor=\"middle\">{}</text>",
-            label(&self.map.y)
-        )
-    }
-
-    fn area_names(&self) -> String {
-        let name = |(name, [x, y]): &(&str, [f64; 2])| {
-            format!(
-                "<text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\" stroke=\"white\" \
-                 stroke-width=\"3\" paint-order=\"stroke\">{name}</text>",
-                y + 4.5
-            )
-        };
-        self.names.iter().map(name).collect()
-    }
-
     /// The marks that occur in this panel, with their meaning.
     fn marks(&self) -> Vec<(String, &'static str)> {
-        let mut marks = Vec::new();
-        if self.map.outside_range() > 0 {
-            marks.push((format!("url(#{}-hatch)", self.id), "outside the stated range"));
-        }
-        if self.fills.contains(&Fill::NoRebound) {
-            marks.push((GREY.to_owned(), "no particle rebounds"));
-        }
-        if self.fills.contains(&Fill::Undecided) {
-            marks.push(("white".to_owned(), "not decided"));
-        }
-        marks
+        let marks = [
+            (self.map.outside_range() > 0, format!("url(#{}-hatch)", self.id), "outside the stated range"),
+            (self.fills.contains(&Fill::NoRebound), NO_VALUE.to_owned(), "no particle rebounds"),
+            (self.fills.contains(&Fill::Undecided), "white".to_owned(), "not decided"),
+        ];
+        marks.into_iter().filter(|(occurs, ..)| *occurs).map(|(_, fill, text)| (fill, text)).collect()
     }
 }
 
-/// Swatches right of the plot.
-fn beside(swatches: &[(&str, String)]) -> String {
-    let x = LEFT + PLOT[0] + 10.0;
-    let one = |(place, (colour, text)): (usize, &(&str, String))| {
-        let y = TOP + 4.0 + 20.0 * place as f64;
-        format!(
-            "<rect x=\"{x}\" y=\"{y}\" width=\"11\" height=\"11\" fill=\"{colour}\" stroke=\"black\" stroke-width=\".5\"/>\
-             <text x=\"{}\" y=\"{}\" font-size=\"9.5\">{text}</text>",
-            x + 15.0,
-            y + 9.0
-        )
-    };
-    swatches.iter().enumerate().map(one).collect()
-}
-
-/// Swatches below the axis.
-fn legend(marks: &[(String, &str)], y: f64) -> String {
-    let mut x = LEFT;
-    let mut svg = String::new();
-    for (fill, text) in marks {
-        svg += &format!(
-            "<rect x=\"{x}\" y=\"{}\" width=\"16\" height=\"11\" fill=\"{fill}\" stroke=\"black\" stroke-width=\".5\"/>\
-             <text x=\"{}\" y=\"{y}\" font-size=\"11\">{text}</text>",
-            y - 10.0,
-            x + 21.0
-        );
-        x += 36.0 + 6.5 * text.len() as f64;
-    }
-    svg
+/// An axis with its ticks; the first and the last value are in the middle of the outermost cells.
+fn labelled(axis: &InputAxis) -> LabelledAxis {
+    let cell = 1.0 / axis.points() as f64;
+    let place = |(share, text): (f64, String)| (0.5 * cell + share * (1.0 - cell), text);
+    (label(axis), ticks_of(axis).into_iter().map(place).collect())
 }
 
 /// The name of an axis for a reader, with its unit.
@@ -249,7 +168,7 @@ fn short(value: f64) -> String {
 }
 
 /// Ticks of an axis: the share of its length, and the number; no number at minor ticks.
-fn ticks(axis: &InputAxis) -> Vec<(f64, String)> {
+fn ticks_of(axis: &InputAxis) -> Vec<(f64, String)> {
     let [low, high] = axis.ends();
     let tolerance = 1e-9 * (high - low);
     if !axis.is_logarithmic() {
@@ -299,7 +218,7 @@ fn widest_place(inside: &[bool], columns: usize, [width, height]: [f64; 2]) -> O
     }
     let most = depth.iter().copied().max().filter(|most| *most > 0)?;
     let reach = most as f64 - 0.5;
-    if reach * height < NAME[1] || (2.0 * reach + 1.0) * width < NAME[0] {
+    if reach * height < NAME_SIZE[1] || (2.0 * reach + 1.0) * width < NAME_SIZE[0] {
         return None;
     }
     // Of several such cells, the one nearest to their middle.
@@ -320,7 +239,7 @@ mod tests {
     fn ticks_are_round_numbers_at_their_places() {
         let named = |text: &str| {
             let axis: InputAxis = text.parse().unwrap();
-            let ticks = ticks(&axis).into_iter().filter(|(_, text)| !text.is_empty());
+            let ticks = ticks_of(&axis).into_iter().filter(|(_, text)| !text.is_empty());
             ticks.map(|(share, text)| (format!("{share:.3}"), text)).collect::<Vec<_>>()
         };
         let pairs = |pairs: &[(&str, &str)]| {

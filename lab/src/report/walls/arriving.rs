@@ -3,7 +3,7 @@
 use super::{Comparison, number, percent};
 use crate::report::page::TableColumn;
 use crate::report::{BarChart, Chart, Figure, Table};
-use crate::results::classes::{Class, ClassSums, Quantity, together, total};
+use crate::results::classes::{Class, ClassQuantity, ClassSums, together, total};
 use crate::results::share;
 
 pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
@@ -11,7 +11,7 @@ pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
     let mut walls = Vec::new();
     for (index, wall) in comparison.walls.iter().enumerate() {
         if each(comparison, wall).next().is_some() {
-            for quantity in [Quantity::Speed, Quantity::Angle, Quantity::Diameter] {
+            for quantity in [ClassQuantity::Speed, ClassQuantity::Angle, ClassQuantity::Diameter] {
                 figures.extend(distribution(comparison, index, quantity));
             }
             figures.extend(capture(comparison, index));
@@ -35,12 +35,12 @@ fn each<'a>(
     })
 }
 
-fn distribution(comparison: &Comparison<'_>, index: usize, quantity: Quantity) -> Option<Figure> {
+fn distribution(comparison: &Comparison<'_>, index: usize, quantity: ClassQuantity) -> Option<Figure> {
     let wall = &comparison.walls[index];
     let (name, what, x_label) = match quantity {
-        Quantity::Speed => ("speed", "Impact speed", "speed relative to the wall [m/s]"),
-        Quantity::Angle => ("angle", "Impact angle", "angle from the wall [°]"),
-        Quantity::Diameter => ("size", "Size", "diameter [m]"),
+        ClassQuantity::Speed => ("speed", "Impact speed", "speed relative to the wall [m/s]"),
+        ClassQuantity::Angle => ("angle", "Impact angle", "angle from the wall [°]"),
+        ClassQuantity::Diameter => ("size", "Size", "diameter [m]"),
     };
     let mut chart = Chart::new(&format!("{what} at {wall}"), x_label, "mass in a class [% of what arrives]");
     let mut any = false;
@@ -61,7 +61,7 @@ fn distribution(comparison: &Comparison<'_>, index: usize, quantity: Quantity) -
         chart = captured(&format!("{label}, captured"), |sums| sums.captured_mass, chart);
     }
     let (chart, caption) = match quantity {
-        Quantity::Angle => (
+        ClassQuantity::Angle => (
             chart.x_range(0.0, 90.0),
             "Classes of 5°; 0° is grazing, 90° is head-on. Each arrival of a parcel counts.",
         ),
@@ -77,7 +77,7 @@ fn capture(comparison: &Comparison<'_>, index: usize) -> Option<Figure> {
     let mut any = false;
     for (label, classes) in each(comparison, wall) {
         let (mut points, mut errors) = (Vec::new(), Vec::new());
-        for class in together(classes, Quantity::Diameter) {
+        for class in together(classes, ClassQuantity::Diameter) {
             if let Some([share, low, high]) = class.sums.captured() {
                 let [left, right] = ends(&class);
                 points.push([(left * right).sqrt(), 100.0 * share]);
@@ -143,7 +143,7 @@ pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
 fn ends(class: &Class) -> [f64; 2] {
     let width = 10_f64.powf(0.125);
     match class.quantity {
-        Quantity::Angle => [class.low, class.high],
+        ClassQuantity::Angle => [class.low, class.high],
         _ if class.low == 0.0 => [class.high / width, class.high],
         _ if class.high.is_infinite() => [class.low, class.low * width],
         _ => [class.low, class.high],
@@ -177,7 +177,7 @@ mod tests {
     fn empty_classes_are_drawn_as_empty() {
         let class = |low: f64, high: f64| Class {
             injector: String::new(),
-            quantity: Quantity::Speed,
+            quantity: ClassQuantity::Speed,
             low,
             high,
             sums: ClassSums::default(),

@@ -1,11 +1,10 @@
 //! What is captured: by wall, regime and size, and over time.
 
-use super::{Comparison, RunResults, number, percent, range, spread};
+use super::{Comparison, RunResults, number, percent, spread};
+use crate::report::format::REGIME_NAMES;
 use crate::report::{BarChart, Chart, Figure, Table, round_edges};
-use crate::results::{WallTotals, share};
+use crate::results::{WallTotals, range, share};
 use nearwall::impact::Regime;
-
-const REGIMES: &str = "Sticky particle or not (SP, NSP) on a sticky wall or not (SW, NSW).";
 
 /// Captured mass of each run by wall; a single run with regimes has [`regimes`] instead.
 pub(super) fn by_wall(comparison: &Comparison<'_>) -> Vec<Figure> {
@@ -47,7 +46,7 @@ pub(super) fn regimes(comparison: &Comparison<'_>) -> Vec<Figure> {
         if let Some(bars) = stacked(comparison, run, bars, of, |_| whole) {
             let id =
                 if figures.is_empty() { "regimes".to_owned() } else { format!("regimes-{}", figures.len()) };
-            figures.push(bars.figure(&id, REGIMES));
+            figures.push(bars.figure(&id, REGIME_NAMES));
         }
     }
     figures
@@ -62,7 +61,7 @@ pub(super) fn hit_regimes(comparison: &Comparison<'_>) -> Vec<Figure> {
     let all = |totals: &WallTotals| totals.hits.map_or(f64::NAN, |hits| hits.count as f64);
     let bars = BarChart::new("Regime of the hits", "share of the wall's hits [%]", &comparison.walls);
     let bars = stacked(comparison, run, bars, of, all);
-    bars.map(|bars| bars.figure("hit-regimes", REGIMES)).into_iter().collect()
+    bars.map(|bars| bars.figure("hit-regimes", REGIME_NAMES)).into_iter().collect()
 }
 
 /// Stacked bars of the regimes at each wall as a percentage of `whole`; `None` when all are empty.

@@ -1,13 +1,20 @@
 //! A cut through the gas with the parcels in it, of an OpenFOAM case.
 
-use super::{Comparison, number, range};
-use crate::report::chart::{ColourScale, GasPicture, Palette};
+use super::{Comparison, number};
+use crate::report::chart::{COLUMN_WIDTH, ColourScale, Palette, PlanePicture};
 use crate::report::{Figure, Page};
-use crate::results::RunResults;
-use crate::results::gas::{GasCut, ParcelQuantity, on_grid};
+use crate::results::gas::{GasCut, ParcelQuantity};
+use crate::results::{RunResults, extent, range};
 
 /// Most parcels that are drawn.
 const MOST_DOTS: usize = 5000;
+/// Largest width and height of the plot, and the least of either [px].
+const MOST: [f64; 2] = [400.0, 600.0];
+const LEAST_SIDE: f64 = 24.0;
+/// Largest height of the bars of colours, and least size of the drawing [px].
+const TALLEST_BAR: f64 = 260.0;
+const LEAST_WIDTH: f64 = 470.0;
+const LEAST_HEIGHT: f64 = 190.0;
 
 /// Adds the section of the page: one picture for each run.
 pub(super) fn add_to(comparison: &Comparison<'_>, page: &mut Page) {
@@ -28,28 +35,46 @@ pub(super) fn add_to(comparison: &Comparison<'_>, page: &mut Page) {
 }
 
 fn picture(run: &RunResults, gas: &GasCut, id: &str, title: &str) -> Option<Figure> {
-    let cells = on_grid(&gas.cells);
+    let cells = gas.drawn();
+    let ends = extent(&cells)?;
     let shown = gas.shown();
     let every = shown.len().div_ceil(MOST_DOTS).max(1);
     let dots: Vec<([f64; 2], f64)> = shown.iter().copied().step_by(every).collect();
-    let picture = GasPicture::of(&cells, dots.len())?;
-    let [low, high] = widened(range(cells.iter().map(|cell| cell.value).filter(|value| value.is_finite())));
-    let gas_scale = ColourScale::new(low, high).with(Palette::Heat);
-    let gas_label = format!("{} [{}]", gas.quantity.name(), gas.quantity.unit());
-    let parcel_scale = gas.coloured_by.filter(|_| !dots.is_empty()).map(|quantity| {
-        let [low, high] = match quantity {
-            ParcelQuantity::Conversion => [0.0, 1.0],
-            ParcelQuantity::Temperature => {
-                widened(range(dots.iter().map(|(_, value)| *value).filter(|value| value.is_finite())))
-            }
+    let of = |values: &mut dyn Iterator<Item = f64>| {
+        let [low, high] = widened(range(values.filter(|value| value.is_finite())));
+        ColourScale::new(low, high)
+    };
+    let gas_scale = of(&mut cells.iter().map(|cell| cell.value)).with(Palette::Heat);
+    let parcels = gas.coloured_by.filter(|_| !dots.is_empty()).map(|quantity| {
+        let scale = match quantity {
+            ParcelQuantity::Conversion => ColourScale::new(0.0, 1.0),
+            ParcelQuantity::Temperature => of(&mut dots.iter().map(|(_, value)| *value)),
         };
-        let label = format!("{} [{}]", quantity.name(), quantity.unit());
-        (ColourScale::new(low, high).with(Palette::CharToAsh), label)
+        (scale.with(Palette::CharToAsh), format!("{} [{}]", quantity.name(), quantity.unit()))
     });
-    let caption = caption(run, gas, [cells.len(), shown.len(), every]);
+    // One metre is equally long along both axes, unless the domain is very thin.
+    let [width, height] = ends.map(|[low, high]| high - low);
+    let scale = (MOST[0] / width).min(MOST[1] / height);
+    let size = [width, height].map(|length| (scale * length).max(LEAST_SIDE));
+    let mut picture = PlanePicture::new([id, title], ends, size);
+    let colours: Vec<String> = cells.iter().map(|cell| gas_scale.colour_or_grey(cell.value)).collect();
+    picture.cells(&cells, &colours);
+    picture.outline();
+    picture.dots(&dots, parcels.as_ref().map(|(scale, _)| scale));
     let axes = gas.plane.axes().map(|axis| format!("{} [m]", ["x", "y", "z"][axis]));
-    let parcels = parcel_scale.as_ref().map(|(scale, label)| (scale, label.as_str()));
-    Some(picture.figure([id, title, &caption], &axes, (&gas_scale, &gas_label), &dots, parcels))
+    picture.axes([&axes[0], &axes[1]]);
+    let label = format!("{} [{}]", gas.quantity.name(), gas.quantity.unit());
+    picture.bar(&gas_scale, &label, [0.0, TALLEST_BAR]);
+    let bars = if let Some((scale, label)) = &parcels {
+        picture.bar(scale, label, [1.0, TALLEST_BAR]);
+        2.0
+    } else {
+        1.0
+    };
+    let ([used, _], [_, below]) = (picture.beside(), picture.below());
+    let used = used + bars * COLUMN_WIDTH;
+    let size = [used.max(LEAST_WIDTH), below.max(LEAST_HEIGHT)];
+    Some(picture.figure(&caption(run, gas, [cells.len(), shown.len(), every]), size, used))
 }
 
 /// Ends of a scale that differ: around a single value by a thousandth of it.
@@ -74,7 +99,7 @@ fn caption(run: &RunResults, gas: &GasCut, [cells, near, every]: [usize; 3]) -> 
     }];
     if cells != gas.cells.len() {
         words.push(format!(
-            "The plane cuts {} cells; drawn are the values at the centres of {cells} equal squares.",
+            "The plane cuts {} cells; drawn are the means over {cells} equal rectangles.",
             gas.cells.len()
         ));
     }

@@ -379,11 +379,6 @@ fn labels(runs: &[RunResults]) -> Vec<String> {
     runs.iter().map(label).collect()
 }
 
-/// Smallest and largest of some numbers.
-fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
-    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-}
-
 /// A name as the id of a figure: letters, digits and hyphens.
 fn identifier(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' }).collect()

@@ -1,16 +1,22 @@
 //! Where captured particles lie: along the main axis, on unrolled walls, and seen from the side.
 
 use super::captured::heights;
-use super::{Comparison, identifier, range};
-use crate::report::{Chart, Figure, FigureMap, round_edges};
-use crate::results::{Capture, RunResults, share};
+use super::{Comparison, identifier};
+use crate::report::chart::{ColourScale, PlanePicture};
+use crate::report::format::REGIME_NAMES;
+use crate::report::{Chart, Figure, round_edges};
+use crate::results::{Capture, Grid, RunResults, WallMap, range, share};
 use nearwall::impact::Regime;
 
 /// Bins along the axis.
-const BINS: usize = 40;
+const AXIS_BINS: usize = 40;
 /// From this number of captures on a map shows cells instead of points.
 const POINTS: usize = 300;
-const NAMES: [&str; 3] = ["x", "y", "z"];
+/// Columns and rows of such a map, the size of its plot, and the width of the drawing [px].
+const MAP_CELLS: [usize; 2] = [48, 32];
+const MAP_SIZE: [f64; 2] = [430.0, 290.0];
+const MAP_WIDTH: f64 = 620.0;
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Captured mass along the main axis: by regime along the pipes of a standalone case, else one series for each run.
 pub(super) fn along(comparison: &Comparison<'_>) -> Vec<Figure> {
@@ -23,7 +29,7 @@ pub(super) fn along(comparison: &Comparison<'_>) -> Vec<Figure> {
 
 fn along_pipe(comparison: &Comparison<'_>, run: &RunResults) -> Vec<Figure> {
     let Some(pipe) = &run.pipe else { return Vec::new() };
-    let edges = round_edges(pipe.range[0], pipe.range[1], BINS);
+    let edges = round_edges(pipe.range[0], pipe.range[1], AXIS_BINS);
     let title = "Captured mass along the pipe";
     let mut chart = Chart::new(title, "along the pipe, z [m]", "captured mass [% of injected]");
     let on_pipe = |capture: &&Capture| capture.wall.is_some_and(|wall| pipe.walls.contains(&wall));
@@ -42,8 +48,7 @@ fn along_pipe(comparison: &Comparison<'_>, run: &RunResults) -> Vec<Figure> {
         chart = chart.histogram(regime.name(), &edges, &sums[*regime as usize]);
     }
     let chart = pipe.marks.iter().fold(chart, |chart, (begin, name)| chart.mark_x(*begin, name));
-    let caption = "By regime: sticky particle or not (SP, NSP), sticky wall or not (SW, NSW).";
-    vec![chart.figure("along", caption)]
+    vec![chart.figure("along", &format!("By regime. {REGIME_NAMES}"))]
 }
 
 fn along_axis(comparison: &Comparison<'_>) -> Vec<Figure> {
@@ -53,8 +58,8 @@ fn along_axis(comparison: &Comparison<'_>) -> Vec<Figure> {
     if low >= high {
         return Vec::new();
     }
-    let edges = round_edges(low, high, BINS);
-    let name = NAMES[axis];
+    let edges = round_edges(low, high, AXIS_BINS);
+    let name = AXES[axis];
     let title = format!("Captured mass along {name}, at the last written time");
     let mut chart = Chart::new(&title, &format!("{name} [m]"), "mass [% of injected]");
     for (label, run) in comparison.each() {
@@ -95,22 +100,27 @@ pub(super) fn maps(comparison: &Comparison<'_>) -> Vec<Figure> {
 }
 
 pub(super) fn map_figures(run: &RunResults) -> Vec<Figure> {
-    let figure = |map: &crate::results::WallMap| {
-        let title = format!("Capture on {}", map.wall);
-        let id = format!("map-{}", identifier(&map.wall));
-        if map.places.len() < POINTS {
-            let points: Vec<[f64; 2]> = map.places.iter().map(|(place, _)| *place).collect();
-            let chart = Chart::new(&title, map.axes[0], map.axes[1]).points("", &points);
-            return chart.figure(&id, "One point for each captured particle.");
-        }
-        let cells = FigureMap::of_points(&title, map.axes, map.ranges, [48, 32], map.places.iter().copied());
-        cells.per_area().figure(
-            &id,
-            "captured mass [kg/m²]",
-            "Mass captured per area of wall during the run.",
-        )
-    };
-    run.maps.iter().map(figure).collect()
+    run.maps.iter().map(map_figure).collect()
+}
+
+fn map_figure(map: &WallMap) -> Figure {
+    let title = format!("Capture on {}", map.wall);
+    let id = format!("map-{}", identifier(&map.wall));
+    if map.places.len() < POINTS {
+        let points: Vec<[f64; 2]> = map.places.iter().map(|(place, _)| *place).collect();
+        let chart = Chart::new(&title, map.axes[0], map.axes[1]).points("", &points);
+        return chart.figure(&id, "One point for each captured particle.");
+    }
+    let cells = Grid::new(map.ranges, MAP_CELLS).densities(&map.places);
+    let scale = ColourScale::new(0.0, range(cells.iter().map(|cell| cell.value))[1]);
+    let fills: Vec<String> = cells.iter().map(|cell| scale.colour(cell.value)).collect();
+    let title = format!("{title}: captured mass [kg/m²]");
+    let mut picture = PlanePicture::new([&id, &title], map.ranges, MAP_SIZE);
+    picture.cells(&cells, &fills);
+    picture.axes(map.axes);
+    picture.bar(&scale, "kg/m²", [0.0, MAP_SIZE[1]]);
+    let size = [MAP_WIDTH, picture.below()[1]];
+    picture.figure("Mass captured per area of wall during the run.", size, MAP_WIDTH)
 }
 
 /// Captured parcels along the main axis and around it or, where the wall is not round, from the side. All cases have
@@ -127,11 +137,11 @@ pub(super) fn scatter(comparison: &Comparison<'_>) -> Vec<Figure> {
     let width = |axis: usize| extent(axis)[1] - extent(axis)[0];
     let across = if width(second) > width(first) { second } else { first };
     let round = is_round(&all, axis);
-    let name = NAMES[axis];
+    let name = AXES[axis];
     let (y_label, view) = if round {
         (format!("angle about {name} [°]"), "the wall unrolled")
     } else {
-        (format!("{} [m]", NAMES[across]), "seen from the side")
+        (format!("{} [m]", AXES[across]), "seen from the side")
     };
     let mut figures = Vec::new();
     for (number, (label, run)) in
@@ -184,12 +194,12 @@ fn is_round(places: &[[f64; 3]], axis: usize) -> bool {
     let [first, second] = around(axis);
     let [low, high] = range(places.iter().map(|place| place[axis]));
     let mut sectors = [false; 12];
-    let mut slices: Vec<Vec<f64>> = vec![Vec::new(); BINS];
+    let mut slices: Vec<Vec<f64>> = vec![Vec::new(); AXIS_BINS];
     for place in places {
         let turn = place[second].atan2(place[first]) / std::f64::consts::TAU + 0.5;
         sectors[((12.0 * turn) as usize).min(11)] = true;
-        let slice = (share(place[axis] - low, high - low) * BINS as f64).max(0.0) as usize;
-        slices[slice.min(BINS - 1)].push(place[first].hypot(place[second]));
+        let slice = (share(place[axis] - low, high - low) * AXIS_BINS as f64).max(0.0) as usize;
+        slices[slice.min(AXIS_BINS - 1)].push(place[first].hypot(place[second]));
     }
     let at_one_radius = |radii: &mut Vec<f64>| {
         radii.sort_by(f64::total_cmp);

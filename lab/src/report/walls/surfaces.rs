@@ -1,20 +1,25 @@
 //! What lies on the faces of the walls of an OpenFOAM case, as maps of the unrolled walls.
 
-use super::{Comparison, identifier, number, range};
-use crate::report::chart::{ColourScale, SurfaceMap, regime_colour};
-use crate::report::format::with_unit;
+use super::{Comparison, identifier, number};
+use crate::report::chart::{ColourScale, PlanePicture, hatching, regime_colour, swatch};
+use crate::report::format::{REGIME_NAMES, with_unit};
 use crate::report::{Figure, Page, percent};
-use crate::results::RunResults;
 use crate::results::surface::{
-    GRID, MOST_FACES, PlaneAxis, Quantity, Shape, Unrolled, Unrolling, WallAxis, WallSurface, shapes, unroll,
+    MOST_FACES, PlaneAxis, SurfaceQuantity, Unrolled, Unrolling, WALL_GRID, WallAxis, WallSurface, shapes,
+    unroll,
 };
+use crate::results::{MapCell, RunResults, extent, range};
 use nearwall::impact::Regime;
 
 /// Relative change over a wall up to which a quantity gets a sentence instead of a map [1].
-const LEAST_CHANGE: f64 = 1e-3;
-/// The scale ends at this share of the area that has anything, where the largest value is `FAR` times larger [1].
-const INSIDE: f64 = 0.98;
-const FAR: f64 = 2.5;
+const EVEN: f64 = 1e-3;
+/// The scale ends at this share of the area that has anything, where the largest value is `FAR_ABOVE` times larger [1].
+const SCALE_AREA: f64 = 0.98;
+const FAR_ABOVE: f64 = 2.5;
+/// Width of a drawing and of its plot, and the least height of the plot [px]: one of three figures side by side.
+const MAP_WIDTH: f64 = 420.0;
+const PLOT_WIDTH: f64 = 262.0;
+const LEAST_HEIGHT: f64 = 92.0;
 
 /// Adds the section of the page: one row of maps for each wall.
 pub(super) fn add_to(comparison: &Comparison<'_>, page: &mut Page) {
@@ -42,9 +47,9 @@ fn when(run: &RunResults, wall: &WallSurface) -> String {
 
 /// The maps of a wall, and a sentence for each quantity that is the same everywhere.
 fn add_wall(page: &mut Page, wall: &WallSurface, id: &str) {
-    let is_even = |(_, values): &&(Quantity, Vec<f64>)| {
+    let is_even = |(_, values): &&(SurfaceQuantity, Vec<f64>)| {
         let [low, high] = range(values.iter().copied());
-        high - low <= LEAST_CHANGE * high.abs().max(low.abs())
+        high - low <= EVEN * high.abs().max(low.abs())
     };
     let (even, mapped): (Vec<_>, Vec<_>) = wall.quantities.iter().partition(is_even);
     let unrolled = unroll(&wall.faces);
@@ -58,7 +63,7 @@ fn add_wall(page: &mut Page, wall: &WallSurface, id: &str) {
             words.push("The upright axis is stretched.".to_owned());
         }
         if wall.faces.len() > MOST_FACES {
-            let [columns, rows] = GRID;
+            let [columns, rows] = WALL_GRID;
             words.push(format!("Means over the area in {columns} by {rows} cells."));
         }
     }
@@ -70,11 +75,13 @@ fn add_wall(page: &mut Page, wall: &WallSurface, id: &str) {
 }
 
 /// A quantity that is the same on all faces, in a sentence; none for the thickness of no powder.
-fn everywhere(quantity: Quantity, values: &[f64]) -> Option<String> {
+fn everywhere(quantity: SurfaceQuantity, values: &[f64]) -> Option<String> {
     let value = values.first().copied().unwrap_or(0.0);
     match quantity {
-        Quantity::Deposit | Quantity::Captured if value == 0.0 => Some("Nothing lies on it.".to_owned()),
-        Quantity::Layer if value == 0.0 => None,
+        SurfaceQuantity::Deposit | SurfaceQuantity::Captured if value == 0.0 => {
+            Some("Nothing lies on it.".to_owned())
+        }
+        SurfaceQuantity::Layer if value == 0.0 => None,
         _ => Some(format!("{}: {} everywhere.", quantity.name(), with_unit(value, quantity.unit()))),
     }
 }
@@ -84,18 +91,44 @@ fn map(
     wall: &WallSurface,
     unrolled: &Unrolled,
     id: &str,
-    quantity: Quantity,
+    quantity: SurfaceQuantity,
     values: &[f64],
 ) -> Option<(Figure, bool)> {
-    let shapes = shapes(&wall.faces, unrolled, values);
-    let map = SurfaceMap::of(&shapes)?;
-    let [low, high] = scale_ends(quantity, &shapes);
+    let cells = shapes(&wall.faces, unrolled, values);
+    let [low, high] = scale_ends(quantity, &cells);
+    let scale = ColourScale::new(low, high);
     let title = format!("{} [{}]", quantity.name(), quantity.unit());
     let id = format!("{id}-{}", identifier(quantity.name()));
-    let caption = caption(wall, quantity, values) + &above(&shapes, high);
-    let axes = unrolled.axes.map(axis_label);
-    let figure = map.of_values([&id, &title, &caption], &axes, &ColourScale::new(low, high), quantity.unit());
-    Some((figure, map.is_stretched()))
+    let fills: Vec<String> = cells.iter().map(|cell| scale.colour_or_grey(cell.value)).collect();
+    let (mut map, is_stretched) = picture([&id, &title], unrolled, &cells, &fills)?;
+    map.bar(&scale, quantity.unit(), [0.0, PLOT_WIDTH]);
+    let caption = caption(wall, quantity, values) + &above(&cells, high);
+    Some((finished(map, &caption), is_stretched))
+}
+
+/// A map of the unrolled wall without what is beside it, and whether its upright axis is stretched; `None` for a wall without
+/// an extent.
+fn picture<'a>(
+    texts: [&'a str; 2],
+    unrolled: &Unrolled,
+    cells: &[MapCell],
+    fills: &[String],
+) -> Option<(PlanePicture<'a>, bool)> {
+    let ends = extent(cells)?;
+    let [width, height] = ends.map(|[low, high]| high - low);
+    let proper = PLOT_WIDTH * height / width;
+    let height = proper.clamp(LEAST_HEIGHT, PLOT_WIDTH);
+    let mut map = PlanePicture::new(texts, ends, [PLOT_WIDTH, height]);
+    map.add(&hatching(texts[0]));
+    map.cells(cells, fills);
+    let [across, up] = unrolled.axes.map(axis_label);
+    map.axes([&across, &up]);
+    Some((map, height > 1.001 * proper))
+}
+
+fn finished(map: PlanePicture<'_>, caption: &str) -> Figure {
+    let height = map.below()[1];
+    map.figure(caption, [MAP_WIDTH, height], MAP_WIDTH)
 }
 
 /// Captured mass [kg] by regime.
@@ -121,48 +154,54 @@ fn regimes(wall: &WallSurface, unrolled: &Unrolled, id: &str) -> Option<(Figure,
     }
     let captured = wall.captured.as_ref()?;
     let by_regime = captured.each_ref().map(|values| shapes(&wall.faces, unrolled, values));
-    let colour = |place: usize| {
+    let id = format!("{id}-regime");
+    let fill = |place: usize| {
         let mass = |regime: &Regime| by_regime[*regime as usize][place].value;
         let most = Regime::ALL.into_iter().max_by(|a, b| mass(a).total_cmp(&mass(b)));
-        most.filter(|regime| mass(regime) > 0.0).map(regime_colour)
+        let most = most.filter(|regime| mass(regime) > 0.0).map(regime_colour);
+        most.map_or_else(|| format!("url(#{id}-hatch)"), str::to_owned)
     };
-    let colours: Vec<Option<&str>> = (0..by_regime[0].len()).map(colour).collect();
-    let share = |regime: Regime| percent(masses[regime as usize] / masses.iter().sum::<f64>());
-    let legend: Vec<(&str, [String; 2])> =
-        found().map(|regime| (regime_colour(regime), [regime.name().to_owned(), share(regime)])).collect();
-    let caption = "The regime in which most of the mass on a face was captured, of the parcels in the deposit cloud; per cent \
-                   of their mass. SP, NSP: sticky and non-sticky particle; SW, NSW: wall. Hatched: no such parcel.";
-    let map = SurfaceMap::of(&by_regime[0])?;
-    let texts = [&format!("{id}-regime"), "Regime of capture", caption];
-    Some((map.of_classes(texts, &unrolled.axes.map(axis_label), &colours, &legend), map.is_stretched()))
+    let fills: Vec<String> = (0..by_regime[0].len()).map(fill).collect();
+    let (mut map, is_stretched) = picture([&id, "Regime of capture"], unrolled, &by_regime[0], &fills)?;
+    let [x, y] = map.beside();
+    for (place, regime) in found().enumerate() {
+        let share = percent(masses[regime as usize] / masses.iter().sum::<f64>());
+        let at = [x, y + 36.0 * place as f64];
+        map.add(&swatch(regime_colour(regime), at, &[regime.name(), &share]));
+    }
+    let caption = format!(
+        "The regime in which most of the mass on a face was captured, of the parcels in the deposit cloud; per cent of their \
+         mass. {REGIME_NAMES} Hatched: no such parcel."
+    );
+    Some((finished(map, &caption), is_stretched))
 }
 
 /// The ends of the scale: from zero for what piles up, or nearly so, and without a few far larger values.
-fn scale_ends(quantity: Quantity, shapes: &[Shape]) -> [f64; 2] {
-    let finite = || shapes.iter().filter(|shape| shape.value.is_finite());
-    let [low, high] = range(finite().map(|shape| shape.value));
+fn scale_ends(quantity: SurfaceQuantity, cells: &[MapCell]) -> [f64; 2] {
+    let finite = || cells.iter().filter(|cell| cell.value.is_finite());
+    let [low, high] = range(finite().map(|cell| cell.value));
     let from_low = match quantity {
-        Quantity::Deposit | Quantity::Captured | Quantity::Layer => low < 0.0,
-        Quantity::Temperature => true,
-        Quantity::HeatFlux => low < 0.0 || low > 0.3 * high,
+        SurfaceQuantity::Deposit | SurfaceQuantity::Captured | SurfaceQuantity::Layer => low < 0.0,
+        SurfaceQuantity::Temperature => true,
+        SurfaceQuantity::HeatFlux => low < 0.0 || low > 0.3 * high,
     };
     if from_low {
         return [low, high];
     }
-    let mut lying: Vec<&Shape> = finite().filter(|shape| shape.value > 1e-6 * high).collect();
+    let mut lying: Vec<&MapCell> = finite().filter(|cell| cell.value > 1e-6 * high).collect();
     lying.sort_by(|a, b| a.value.total_cmp(&b.value));
-    let wanted = INSIDE * lying.iter().map(|shape| shape.area).sum::<f64>();
+    let wanted = SCALE_AREA * lying.iter().map(|cell| cell.area).sum::<f64>();
     let mut area = 0.0;
-    let end = lying.iter().find(|shape| {
-        area += shape.area;
+    let end = lying.iter().find(|cell| {
+        area += cell.area;
         area >= wanted
     });
-    let end = end.map_or(high, |shape| shape.value);
-    [0.0, if high > FAR * end { end } else { high }]
+    let end = end.map_or(high, |cell| cell.value);
+    [0.0, if high > FAR_ABOVE * end { end } else { high }]
 }
 
 /// Range, mean and integral.
-fn caption(wall: &WallSurface, quantity: Quantity, values: &[f64]) -> String {
+fn caption(wall: &WallSurface, quantity: SurfaceQuantity, values: &[f64]) -> String {
     let [low, high] = range(values.iter().copied());
     // A film that has drained leaves numbers like 1e-200.
     let low = if low.abs() < 1e-9 * high.abs() { 0.0 } else { low };
@@ -170,21 +209,23 @@ fn caption(wall: &WallSurface, quantity: Quantity, values: &[f64]) -> String {
     let mean = number(sum / wall.area());
     let mut caption = format!("{} to {}, mean {mean} over the area", number(low), with_unit(high, unit));
     match quantity {
-        Quantity::Deposit | Quantity::Captured => caption += &format!("; {} kg in all", number(sum)),
-        Quantity::HeatFlux => caption += &format!("; {} W in all", number(sum)),
-        Quantity::Layer | Quantity::Temperature => {}
+        SurfaceQuantity::Deposit | SurfaceQuantity::Captured => {
+            caption += &format!("; {} kg in all", number(sum))
+        }
+        SurfaceQuantity::HeatFlux => caption += &format!("; {} W in all", number(sum)),
+        SurfaceQuantity::Layer | SurfaceQuantity::Temperature => {}
     }
     caption + "."
 }
 
 /// The share of the area above the scale, which ends at `top`, in a sentence; none without any.
-fn above(shapes: &[Shape], top: f64) -> String {
-    let is_beyond = |shape: &&Shape| shape.value > top * (1.0 + 1e-9);
-    let beyond: f64 = shapes.iter().filter(is_beyond).map(|shape| shape.area).sum();
+fn above(cells: &[MapCell], top: f64) -> String {
+    let is_beyond = |cell: &&MapCell| cell.value > top * (1.0 + 1e-9);
+    let beyond: f64 = cells.iter().filter(is_beyond).map(|cell| cell.area).sum();
     if beyond <= 0.0 {
         return String::new();
     }
-    let whole: f64 = shapes.iter().map(|shape| shape.area).sum();
+    let whole: f64 = cells.iter().map(|cell| cell.area).sum();
     format!(" {} of the area is above the scale.", percent(beyond / whole))
 }
 

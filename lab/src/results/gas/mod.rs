@@ -1,12 +1,17 @@
 //! A cut through the gas with the parcels near it, at one time.
 //!
-//! [`crate::results::openfoam::gas`] reads a [`GasCut`]; [`Plane`] chooses where to cut; [`on_grid`] makes a large cut small.
+//! [`crate::results::openfoam::gas`] reads a [`GasCut`]; [`Plane`] chooses where to cut.
 
-mod grid;
 mod plane;
 
-pub use grid::{GRID_CELLS, on_grid};
+use super::map_cells::{Grid, MapCell, extent};
+
 pub use plane::Plane;
+
+/// About the most squares of a grid, and the most cells that are drawn one by one.
+pub const GAS_CELLS: usize = 20_000;
+/// Share of a square that has to lie in the cut [1].
+const LEAST_SHARE: f64 = 0.5;
 
 /// What colours the gas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,15 +67,6 @@ impl ParcelQuantity {
     }
 }
 
-/// A cell where the plane cuts it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct CutCell {
-    /// Corners in the plane, in turn [m].
-    pub outline: Vec<[f64; 2]>,
-    /// The quantity of the gas.
-    pub value: f64,
-}
-
 /// A parcel in flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlyingParcel {
@@ -92,7 +88,7 @@ pub struct GasCut {
     /// What the values of the cells are.
     pub quantity: GasQuantity,
     /// The cells that the plane cuts.
-    pub cells: Vec<CutCell>,
+    pub cells: Vec<MapCell>,
     /// What the values of the parcels are; `None` where the cloud has neither.
     pub coloured_by: Option<ParcelQuantity>,
     /// All parcels in flight.
@@ -119,12 +115,14 @@ impl GasCut {
 
     /// Area of the cut [m²].
     pub fn area(&self) -> f64 {
-        self.cells.iter().map(|cell| area(&cell.outline)).sum()
+        self.cells.iter().map(|cell| cell.area).sum()
     }
-}
 
-/// Area of a polygon [m²], by the trapezoid formula.
-fn area(outline: &[[f64; 2]]) -> f64 {
-    let next = outline.iter().cycle().skip(1);
-    outline.iter().zip(next).map(|(a, b)| 0.5 * (a[0] - b[0]) * (a[1] + b[1])).sum::<f64>().abs()
+    /// The cells of a picture: those of the cut, or the means in equal squares where there are more than [`GAS_CELLS`].
+    pub fn drawn(&self) -> Vec<MapCell> {
+        match extent(&self.cells).filter(|_| self.cells.len() > GAS_CELLS) {
+            Some(ends) => Grid::of_squares(ends, GAS_CELLS).means(&self.cells, LEAST_SHARE),
+            None => self.cells.clone(),
+        }
+    }
 }

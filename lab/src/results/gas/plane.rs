@@ -3,7 +3,7 @@
 /// The plane is off the middle by this share of the extent, so that no faces of a symmetric mesh lie in it [1].
 const OFF_MIDDLE: f64 = 1e-5;
 /// Extents that differ by less than this share count as equal [1].
-const EQUAL: f64 = 0.01;
+const SAME_EXTENT: f64 = 0.01;
 
 /// A plane normal to a main axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +25,7 @@ impl Plane {
             return None;
         }
         let least = extents.iter().copied().fold(f64::INFINITY, f64::min);
-        let normal = [1, 0, 2].into_iter().find(|axis| extents[*axis] <= least * (1.0 + EQUAL))?;
+        let normal = [1, 0, 2].into_iter().find(|axis| extents[*axis] <= least * (1.0 + SAME_EXTENT))?;
         let [low, high] = ends[normal];
         Some(Self {
             normal,

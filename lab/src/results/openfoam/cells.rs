@@ -1,19 +1,26 @@
-//! The cells of a mesh where a plane cuts them.
+//! The cells of a mesh where a plane cuts them, and the places of parcels in them.
 //!
-//! `polyMesh/owner` and `neighbour` tell which cells a face belongs to. The plane crosses edges of a cell's faces; the crossings,
-//! in turn around their middle, are the corners of the cut. This holds for convex cells.
+//! `polyMesh/owner` and `neighbour` tell which cells a face belongs to. The plane crosses edges of a cell's faces; the
+//! crossings, in turn around their middle, are the corners of the cut. This holds for convex cells.
+//!
+//! OpenFOAM follows a parcel in a tetrahedron of a cell: its centre C, the base point B of one of its faces, and two corners
+//! V, W beside each other on that face. The place is a C + b B + c V + d W with a + b + c + d = 1 (`particle::position`). A
+//! face that belongs to another cell is walked the other way round. The base point is the first corner of the face; on a
+//! face where that would give a tetrahedron turned inside out OpenFOAM takes another one, and the place is off by up to the
+//! size of the face.
 
 use std::collections::BTreeMap;
 
-use super::foam_file::{Entries, FoamFile};
-use super::list_file::TetPlace;
-use super::mesh::{Faces, Mesh};
-use crate::results::gas::Plane;
+use nalgebra::Vector3;
 
-/// Points, faces and cells of a mesh.
-pub(super) struct Cells {
-    /// Places of the points [m].
-    points: Vec<[f64; 3]>,
+use super::foam_file::{FoamError, FoamFile};
+use super::mesh::{Faces, Mesh};
+use super::parcel_lists::TetPlace;
+use crate::results::gas::Plane;
+use crate::results::surface::WallFace;
+
+/// Faces and cells of a mesh.
+pub(super) struct MeshCells {
     faces: Faces,
     /// The cell of each face, and the cell behind each face that lies between two.
     owner: Vec<usize>,
@@ -22,85 +29,84 @@ pub(super) struct Cells {
     pub count: usize,
 }
 
-impl Cells {
+impl MeshCells {
     /// Reads a mesh.
     ///
     /// # Errors
-    /// File, fault and remedy.
-    pub fn read(mesh: &Mesh<'_>) -> Result<Self, String> {
-        let mut file = FoamFile::open(&mesh.path("points"))?;
-        let points = file.list(Entries::Scalars(3))?.all(0).unwrap_or_default();
-        let points: Vec<[f64; 3]> =
-            points.chunks_exact(3).map(|place| [place[0], place[1], place[2]]).collect();
-        let faces = Faces::open(&mesh.path("faces"))?;
-        let owner_path = mesh.path("owner");
-        let mut owner_file = FoamFile::open(&owner_path)?;
-        let owner = owner_file.labels()?;
+    /// [`FoamError`].
+    pub fn read(mesh: &Mesh<'_>) -> Result<Self, FoamError> {
+        let faces = Faces::read(mesh)?;
+        let path = mesh.path("owner");
+        let owner = FoamFile::open(&path)?.labels()?;
         let neighbour = FoamFile::open(&mesh.path("neighbour"))?.labels()?;
         let most = owner.iter().chain(&neighbour).max().copied();
         // Every cell has more than one face: a damaged number must not fill the memory.
         let count = most.and_then(|most| most.checked_add(1)).filter(|count| *count <= owner.len());
         let fits = faces.count() == owner.len()
             && neighbour.len() <= owner.len()
-            && faces.all_labels().iter().all(|label| *label < points.len());
+            && faces.labels.iter().all(|label| *label < faces.points.len());
         match count {
-            Some(count) if fits => Ok(Self { points, faces, owner, neighbour, count }),
-            _ => Err(format!(
-                "{} does not fit to points, faces and neighbour beside it; copy constant/polyMesh again from where the case ran",
-                owner_path.display()
-            )),
+            Some(count) if fits => Ok(Self { faces, owner, neighbour, count }),
+            _ => Err(FoamError::Mesh(format!(
+                "{} does not fit to points, faces and neighbour beside it",
+                path.display()
+            ))),
         }
     }
 
-    /// Widens the ends of a box along each axis [m] to hold all points.
-    pub fn widen(&self, ends: &mut [[f64; 2]; 3]) {
-        for point in &self.points {
-            for (end, place) in ends.iter_mut().zip(point) {
-                *end = [end[0].min(*place), end[1].max(*place)];
-            }
-        }
+    /// The places of all points [m].
+    pub fn points(&self) -> &[[f64; 3]] {
+        &self.faces.points
     }
 
-    /// Corners of a face in turn [m]; `None` without such a face.
-    pub fn outline(&self, face: usize) -> Option<Vec<[f64; 3]>> {
-        Some(self.faces.corners(face)?.iter().map(|point| self.points[*point]).collect())
+    /// The cells of a face.
+    fn cells_of(&self, face: usize) -> impl Iterator<Item = usize> {
+        [self.owner.get(face), self.neighbour.get(face)].into_iter().flatten().copied()
     }
 
-    /// The faces of some cells.
-    pub fn faces_of(&self, cells: impl Iterator<Item = usize>) -> BTreeMap<usize, Vec<usize>> {
-        let mut faces: BTreeMap<usize, Vec<usize>> = cells.map(|cell| (cell, Vec::new())).collect();
-        for (face, owner) in self.owner.iter().enumerate() {
-            for cell in [Some(owner), self.neighbour.get(face)].into_iter().flatten() {
-                if let Some(own) = faces.get_mut(cell) {
-                    own.push(face);
+    /// Places of parcels [m]; `None` when the mesh has no such cell or face.
+    pub fn cartesian(&self, places: &[TetPlace]) -> Option<Vec<[f64; 3]>> {
+        let mut faces: BTreeMap<usize, Vec<WallFace>> =
+            places.iter().map(|place| (place.cell, Vec::new())).collect();
+        for face in 0..self.owner.len() {
+            for cell in self.cells_of(face) {
+                if let Some(own) = faces.get_mut(&cell) {
+                    own.extend(self.faces.outline(face).map(WallFace::new));
                 }
             }
         }
-        faces.retain(|_, own| !own.is_empty());
-        faces
+        let centres: BTreeMap<usize, Vector3<f64>> =
+            faces.iter().filter_map(|(cell, faces)| Some((*cell, centre(faces)?))).collect();
+        let place = |place: &TetPlace| {
+            let [base, left, right] = self.triangle(place)?;
+            let corners = [*centres.get(&place.cell)?, base, left, right];
+            let sum: Vector3<f64> = corners.iter().zip(place.weights).map(|(corner, w)| corner * w).sum();
+            Some(sum.into())
+        };
+        places.iter().map(place).collect()
     }
 
     /// The corners of a tetrahedron on a face of its cell [m]: base point, and two beside each other.
-    pub fn triangle(&self, place: &TetPlace) -> Option<[[f64; 3]; 3]> {
-        let outline = self.outline(place.face).filter(|outline| outline.len() > 2)?;
+    fn triangle(&self, place: &TetPlace) -> Option<[Vector3<f64>; 3]> {
+        let outline = self.faces.outline(place.face).filter(|outline| outline.len() > 2)?;
         let first = place.corner % outline.len();
         let second = (first + 1) % outline.len();
         let is_own = self.owner.get(place.face) == Some(&place.cell);
         let [left, right] = if is_own { [first, second] } else { [second, first] };
-        Some([outline[0], outline[left], outline[right]])
+        Some([0, left, right].map(|corner| outline[corner].into()))
     }
 
     /// The cells that a plane cuts, in their order, and the corners of each cut in the plane [m].
     pub fn cut(&self, plane: &Plane) -> Vec<(usize, Vec<[f64; 2]>)> {
         let mut crossings: BTreeMap<usize, BTreeMap<[usize; 2], [f64; 2]>> = BTreeMap::new();
-        for (face, owner) in self.owner.iter().enumerate() {
+        for face in 0..self.owner.len() {
             let Some(corners) = self.faces.corners(face) else { continue };
             let next = corners.iter().cycle().skip(1);
             for (from, to) in corners.iter().zip(next) {
                 let edge = [*from.min(to), *from.max(to)];
                 let Some(place) = self.crossing(edge, plane) else { continue };
-                for cell in [Some(owner), self.neighbour.get(face)].into_iter().flatten() {
-                    crossings.entry(*cell).or_default().insert(edge, place);
+                for cell in self.cells_of(face) {
+                    crossings.entry(cell).or_default().insert(edge, place);
                 }
             }
         }
@@ -113,7 +119,7 @@ impl Cells {
 
     /// Where an edge crosses a plane [m].
     fn crossing(&self, edge: [usize; 2], plane: &Plane) -> Option<[f64; 2]> {
-        let [from, to] = edge.map(|point| &self.points[point]);
+        let [from, to] = edge.map(|point| &self.faces.points[point]);
         let [before, behind] = [plane.distance(from), plane.distance(to)];
         if (before < 0.0) == (behind < 0.0) {
             return None;
@@ -131,4 +137,17 @@ fn in_turn(mut corners: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let angle = |corner: &[f64; 2]| (corner[1] - middle[1]).atan2(corner[0] - middle[0]);
     corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
     corners
+}
+
+/// Centre of a cell [m] as OpenFOAM defines it: the mean of the centres of pyramids from its faces to the mean of the faces'
+/// centres, by volume. `None` without faces.
+fn centre(faces: &[WallFace]) -> Option<Vector3<f64>> {
+    let middle = faces.iter().map(|face| face.centre).sum::<Vector3<f64>>() / faces.len() as f64;
+    let (mut moment, mut volume) = (Vector3::zeros(), 0.0);
+    for face in faces {
+        let height = face.normal.dot(&(face.centre - middle)).abs();
+        volume += height;
+        moment += height * (0.75 * face.centre + 0.25 * middle);
+    }
+    (!faces.is_empty()).then(|| if volume > 0.0 { moment / volume } else { middle })
 }

@@ -1,37 +1,51 @@
 //! The gas in a plane with the parcels of a cloud near it, at the last written time that has parcels.
 //!
-//! The mesh, `T` or else `U`, and the cloud are read from the case or, when it is decomposed and not reconstructed up to that time,
-//! from the folders of the ranks.
+//! The mesh, `T` or else `U`, and the cloud are read from the case or from the folders of its ranks.
+//!
+//! The conversion of a parcel is 1 - m Y_C / (m_0 Y_C0): the mass m of a particle from its diameter and density (π/6 d³ ρ),
+//! the share Y_C of carbon in it from `YC(s)`, its mass at injection from `mass0`, and the share at injection from the
+//! cloud's properties (`YSolidTot0` and `C` of the solid). OpenFOAM writes `YC(s)` as a share of the whole parcel, not of its
+//! solid. nearWallInteraction computes the same (`carbonConversion` of `openfoam/coupling/cloudTraits.H`).
 
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use super::cells::Cells;
-use super::flying::{self, Flying};
-use super::foam_file::is_written;
-use super::mesh::Mesh;
+use super::cells::MeshCells;
+use super::foam_file::{FoamError, FoamFile, is_written};
+use super::parcel_lists::{ParcelPlaces, numbers, places};
 use super::recorded::Carbon;
-use super::surfaces::{has_collated, ranks};
-use super::{file_name, internal_field, time_folders};
-use crate::results::gas::{CutCell, GasCut, GasQuantity, Plane};
+use super::written_time::{WrittenTime, has_collated};
+use crate::results::gas::{FlyingParcel, GasCut, GasQuantity, ParcelQuantity, Plane};
+use crate::results::{MapCell, range};
 
-/// Largest size of the files `faces` of a mesh that is cut, in all [bytes]: some four million cells, for which reading takes a gigabyte.
+/// Largest size of the files `faces` of a mesh that is cut, in all [bytes]: some four million cells, for which reading takes
+/// a gigabyte.
 const LARGEST_MESH: u64 = 250_000_000;
+/// Carbon of each parcel over its mass [1].
+const CARBON: &str = "YC(s)";
 
 /// Why there is no picture of gas and parcels.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum GasError {
-    /// A file that is damaged or compressed: file, fault and remedy.
+    /// A file that is damaged or compressed.
     #[error("{0}. Until then there is no picture of gas and parcels")]
-    Unreadable(String),
+    Unreadable(#[from] FoamError),
+    /// A file of parcels.
+    #[error(
+        "{0}; run gunzip on it if it is compressed, else copy it again from where the case ran. Until then there is no \
+         picture of gas and parcels"
+    )]
+    Parcels(FoamError),
     /// The fields of all ranks are in one file each.
     #[error(
-        "{0}: the fields of all ranks are in one file each (collated), which are not read; run reconstructPar for a picture of gas and \
-         parcels"
+        "{0}: the fields of all ranks are in one file each (collated), which are not read; run reconstructPar for a picture \
+         of gas and parcels"
     )]
     Collated(String),
     /// The mesh is too large to be cut.
     #[error(
-        "{0}: the mesh is too large for a picture of gas and parcels here; openfoam/paraview/gasWithParcels.py shows it in ParaView"
+        "{0}: the mesh is too large for a picture of gas and parcels here; openfoam/paraview/gasWithParcels.py shows it in \
+         ParaView"
     )]
     TooLarge(String),
 }
@@ -41,107 +55,76 @@ pub enum GasError {
 /// # Errors
 /// Why they cannot be read, for the page.
 pub fn read_last(case: &Path, cloud: &str) -> Result<Option<GasCut>, GasError> {
-    let Some(source) = Source::of(case, cloud) else {
-        return if has_collated(case) {
-            Err(GasError::Collated(case.display().to_string()))
-        } else {
-            Ok(None)
-        };
+    let shown = || case.display().to_string();
+    let has_parcels = |_: f64, folder: &Path| has_places(&folder.join("lagrangian").join(cloud));
+    let source = WrittenTime::last(case, has_parcels)
+        .filter(|source| source.roots.iter().all(|root| is_written(&source.mesh(root).path("owner"))));
+    let Some(source) = source else {
+        return if has_collated(case) { Err(GasError::Collated(shown())) } else { Ok(None) };
     };
-    let Some(quantity) = source.quantity() else { return Ok(None) };
-    if source.size() > LARGEST_MESH {
-        return Err(GasError::TooLarge(case.display().to_string()));
+    let has = |name: &str| source.roots.iter().all(|root| is_written(&source.file(root, name)));
+    let quantity = match (has("T"), has("U")) {
+        (true, _) => GasQuantity::Temperature,
+        (false, true) => GasQuantity::Speed,
+        (false, false) => return Ok(None),
+    };
+    let faces = source.roots.iter().map(|root| source.mesh(root).path("faces"));
+    let size: u64 = faces.filter_map(|path| std::fs::metadata(path).ok()).map(|file| file.len()).sum();
+    if size > LARGEST_MESH {
+        return Err(GasError::TooLarge(shown()));
     }
-    source.read(case, cloud, quantity).map_err(GasError::Unreadable)
+    cut(&source, cloud, quantity, Carbon::of(case, cloud).as_ref())
 }
 
-/// Where the last parcels are: the folder of the case or those of its ranks, and the time.
-struct Source {
-    roots: Vec<PathBuf>,
-    /// Time [s] and the name of its folder.
-    time: f64,
-    folder: String,
+fn cut(
+    source: &WrittenTime,
+    cloud: &str,
+    quantity: GasQuantity,
+    carbon: Option<&Carbon>,
+) -> Result<Option<GasCut>, GasError> {
+    let read = |root: &PathBuf| MeshCells::read(&source.mesh(root));
+    let meshes: Vec<MeshCells> = source.roots.iter().map(read).collect::<Result<_, _>>()?;
+    let points = || meshes.iter().flat_map(MeshCells::points);
+    let ends = [0, 1, 2].map(|axis| range(points().map(|point| point[axis])));
+    let Some(plane) = Plane::through(&ends) else { return Ok(None) };
+    let clouds = source.roots.iter().map(|root| source.file(root, "lagrangian").join(cloud));
+    let clouds: Vec<PathBuf> = clouds.collect();
+    // A rank without parcels may have no files of them.
+    let coloured_by = clouds.iter().find_map(|folder| parcel_quantity(folder, carbon));
+    let (mut cells, mut parcels, mut resting) = (Vec::new(), Vec::new(), 0);
+    for ((root, mesh), folder) in source.roots.iter().zip(&meshes).zip(&clouds) {
+        let values = gas_values(source, root, quantity, mesh.count)?;
+        let own = mesh.cut(&plane).into_iter();
+        cells.extend(own.map(|(cell, outline)| MapCell::new(outline, values[cell])));
+        if has_places(folder) {
+            let all = read_parcels(folder, mesh, coloured_by, carbon)?;
+            let (flying, still): (Vec<_>, Vec<_>) = all.into_iter().partition(|(_, moves)| *moves);
+            parcels.extend(flying.into_iter().map(|(parcel, _)| parcel));
+            resting += still.len();
+        }
+    }
+    let is_flat = cells.len() == meshes.iter().map(|mesh| mesh.count).sum::<usize>();
+    let time = source.time;
+    let cut = GasCut { time, plane, is_flat, quantity, cells, coloured_by, parcels, resting };
+    Ok((!cut.cells.is_empty()).then_some(cut))
 }
 
-impl Source {
-    /// `None` without parcels or mesh.
-    fn of(case: &Path, cloud: &str) -> Option<Self> {
-        let ranks = ranks(case);
-        let whole = last_time(case, cloud);
-        let split = ranks.iter().filter_map(|rank| last_time(rank, cloud)).max_by(|a, b| a.0.total_cmp(&b.0));
-        let newer = |(time, _): &(f64, String)| whole.as_ref().is_none_or(|(other, _)| time > other);
-        let (roots, (time, folder)) = match split.filter(newer) {
-            Some(split) => (ranks, split),
-            None => (vec![case.to_owned()], whole?),
-        };
-        let has_mesh = |root: &PathBuf| is_written(&Mesh { root, time }.path("owner"));
-        roots.iter().all(has_mesh).then_some(Self { roots, time, folder })
-    }
-
-    /// Size of the files `faces` [bytes].
-    fn size(&self) -> u64 {
-        let faces = self.roots.iter().map(|root| Mesh { root, time: self.time }.path("faces"));
-        faces.filter_map(|path| std::fs::metadata(path).ok()).map(|file| file.len()).sum()
-    }
-
-    fn file(&self, root: &Path, name: &str) -> PathBuf {
-        root.join(&self.folder).join(name)
-    }
-
-    /// What can colour the gas.
-    fn quantity(&self) -> Option<GasQuantity> {
-        let has = |name: &str| self.roots.iter().all(|root| is_written(&self.file(root, name)));
-        let speed = || has("U").then_some(GasQuantity::Speed);
-        has("T").then_some(GasQuantity::Temperature).or_else(speed)
-    }
-
-    /// The values of the gas in all cells of the case or of one rank.
-    fn values(&self, root: &Path, quantity: GasQuantity, cells: usize) -> Result<Vec<f64>, String> {
-        match quantity {
-            GasQuantity::Temperature => internal_field::read(&self.file(root, "T"), 1, cells),
-            GasQuantity::Speed => {
-                let parts = internal_field::read(&self.file(root, "U"), 3, cells)?;
-                let speed = |velocity: &[f64]| velocity.iter().map(|part| part * part).sum::<f64>().sqrt();
-                Ok(parts.chunks_exact(3).map(speed).collect())
-            }
-        }
-    }
-
-    fn read(&self, case: &Path, cloud: &str, quantity: GasQuantity) -> Result<Option<GasCut>, String> {
-        let meshes: Result<Vec<Cells>, String> =
-            self.roots.iter().map(|root| Cells::read(&Mesh { root, time: self.time })).collect();
-        let meshes = meshes?;
-        let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-        meshes.iter().for_each(|cells| cells.widen(&mut ends));
-        let Some(plane) = Plane::through(&ends) else { return Ok(None) };
-        let carbon = Carbon::of(case, cloud);
-        let clouds = self.roots.iter().map(|root| self.file(root, "lagrangian").join(cloud));
-        // A rank without parcels may have no files of them.
-        let clouds: Vec<PathBuf> = clouds.collect();
-        let coloured_by = clouds.iter().find_map(|folder| flying::quantity(folder, carbon.as_ref()));
-        let mut cut = GasCut {
-            time: self.time,
-            plane,
-            is_flat: false,
-            quantity,
-            cells: Vec::new(),
-            coloured_by,
-            parcels: Vec::new(),
-            resting: 0,
-        };
-        for ((root, cells), folder) in self.roots.iter().zip(&meshes).zip(&clouds) {
-            let values = self.values(root, quantity, cells.count)?;
-            let own = cells.cut(&plane).into_iter();
-            cut.cells.extend(own.map(|(cell, outline)| CutCell { outline, value: values[cell] }));
-            if has_places(folder) {
-                let Flying { parcels, resting } = flying::read(folder, cells, coloured_by, carbon.as_ref())?;
-                cut.parcels.extend(parcels);
-                cut.resting += resting;
-            }
-        }
-        cut.is_flat = cut.cells.len() == meshes.iter().map(|cells| cells.count).sum::<usize>();
-        Ok((!cut.cells.is_empty()).then_some(cut))
-    }
+/// The values of the gas in all cells of the case or of one rank.
+fn gas_values(
+    source: &WrittenTime,
+    root: &Path,
+    quantity: GasQuantity,
+    cells: usize,
+) -> Result<Vec<f64>, FoamError> {
+    let (name, parts) = match quantity {
+        GasQuantity::Temperature => ("T", 1),
+        GasQuantity::Speed => ("U", 3),
+    };
+    let mut file = FoamFile::open(&source.file(root, name))?;
+    file.seek("internalField")?;
+    let values = file.field_values(parts, cells, "cells")?;
+    let speed = |velocity: &[f64]| velocity.iter().map(|part| part * part).sum::<f64>().sqrt();
+    Ok(if parts == 3 { values.chunks_exact(3).map(speed).collect() } else { values })
 }
 
 /// Whether a folder holds places of parcels.
@@ -149,9 +132,52 @@ fn has_places(folder: &Path) -> bool {
     ["positions", "coordinates"].iter().any(|name| is_written(&folder.join(name)))
 }
 
-/// The last time of a folder with parcels: time [s] and name.
-fn last_time(root: &Path, cloud: &str) -> Option<(f64, String)> {
-    let has_parcels = |folder: &Path| has_places(&folder.join("lagrangian").join(cloud));
-    let (time, folder) = time_folders(root).into_iter().rev().find(|(_, folder)| has_parcels(folder))?;
-    Some((time, file_name(&folder).to_owned()))
+/// What the parcels in a folder can be coloured by; `None` where they have neither carbon nor temperature.
+fn parcel_quantity(folder: &Path, carbon: Option<&Carbon>) -> Option<ParcelQuantity> {
+    let has = |name: &str| is_written(&folder.join(name));
+    if carbon.is_some() && has(CARBON) && has("mass0") {
+        return Some(ParcelQuantity::Conversion);
+    }
+    has("T").then_some(ParcelQuantity::Temperature)
+}
+
+/// The parcels in a folder `lagrangian/<cloud>`, and whether each moves.
+fn read_parcels(
+    folder: &Path,
+    cells: &MeshCells,
+    quantity: Option<ParcelQuantity>,
+    carbon: Option<&Carbon>,
+) -> Result<Vec<(FlyingParcel, bool)>, GasError> {
+    let positions = match places(folder).map_err(GasError::Parcels)? {
+        ParcelPlaces::Cartesian(places) => places,
+        ParcelPlaces::Barycentric(places) => {
+            cells.cartesian(&places).ok_or_else(|| FoamError::NoCell(folder.display().to_string()))?
+        }
+    };
+    let count = positions.len();
+    let list = |name: &str| {
+        let values = numbers(folder, name, count).map_err(GasError::Parcels)?;
+        if values.len() == count {
+            return Ok(values);
+        }
+        let path = folder.join(name).display().to_string();
+        Err(GasError::Parcels(FoamError::Parcels(path, values.len(), count)))
+    };
+    let values = match (quantity, carbon) {
+        (Some(ParcelQuantity::Conversion), Some(carbon)) => {
+            let (diameters, densities, fresh) = (list("d")?, list("rho")?, list("mass0")?);
+            let shares = list(CARBON)?;
+            let conversion = |parcel: usize| {
+                let mass = PI / 6.0 * diameters[parcel].powi(3) * densities[parcel];
+                carbon.conversion_of(fresh[parcel], mass * shares[parcel])
+            };
+            (0..count).map(conversion).collect()
+        }
+        (Some(ParcelQuantity::Temperature), _) => list("T")?,
+        _ => vec![f64::NAN; count],
+    };
+    // Not every cloud writes whether a parcel moves.
+    let active = if is_written(&folder.join("active")) { list("active")? } else { vec![1.0; count] };
+    let parcels = positions.into_iter().zip(values).zip(active);
+    Ok(parcels.map(|((position, value), active)| (FlyingParcel { position, value }, active != 0.0)).collect())
 }

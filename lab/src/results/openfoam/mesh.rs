@@ -1,10 +1,11 @@
-//! The patches of a mesh: `polyMesh/boundary`, and the outlines of their faces from `faces` and `points`.
+//! The mesh of a case: its patches (`polyMesh/boundary`), and the outlines of its faces (`faces` and `points`).
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::foam_file::{Entries, FoamFile, is_written};
+use super::foam_file::{FoamError, FoamFile, is_written};
 use super::time_folders;
+use crate::results::surface::WallFace;
 
 /// The faces of a patch in the list of all faces.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,9 +16,6 @@ pub(super) struct Patch {
     pub start: usize,
     pub faces: usize,
 }
-
-/// The corners of a face [m].
-pub(super) type Outline = Vec<[f64; 3]>;
 
 /// The mesh of a case, or of one rank of a decomposed case, at a time.
 pub(super) struct Mesh<'a> {
@@ -39,13 +37,10 @@ impl Mesh<'_> {
     /// The patches, without those between ranks.
     ///
     /// # Errors
-    /// File, fault and remedy.
-    pub fn patches(&self) -> Result<Vec<Patch>, String> {
-        let mut file = FoamFile::open(&self.path("boundary"))?;
-        let count = file.count()?;
-        file.expect("(")?;
-        let patches: Result<Vec<Patch>, String> = (0..count).map(|_| patch(&mut file)).collect();
-        let mut patches = patches?;
+    /// [`FoamError`].
+    pub fn patches(&self) -> Result<Vec<Patch>, FoamError> {
+        let boundary = self.path("boundary");
+        let mut patches = patches_in(&boundary)?;
         patches.retain(|patch| !patch.kind.starts_with("processor"));
         // Every face takes more than a byte: a damaged number must not fill the memory.
         let path = self.path("faces");
@@ -53,51 +48,53 @@ impl Mesh<'_> {
             FoamFile::open(&path)?;
         }
         let most = path.metadata().map_or(0, |data| data.len());
-        let fits = |patch: &Patch| patch.start.checked_add(patch.faces).is_some_and(|end| end as u64 <= most);
-        if let Some(patch) = patches.iter().find(|patch| !fits(patch)) {
-            return Err(file.fault(&format!(
-                "says that {} has more faces than {}",
-                patch.name,
+        let fits =
+            |patch: &&Patch| patch.start.checked_add(patch.faces).is_some_and(|end| end as u64 <= most);
+        match patches.iter().find(|patch| !fits(patch)) {
+            Some(Patch { name, .. }) => Err(FoamError::Mesh(format!(
+                "{} says that {name} has more faces than {}",
+                boundary.display(),
                 path.display()
-            )));
+            ))),
+            None => Ok(patches),
         }
-        Ok(patches)
     }
 
-    /// The outlines of the faces of some patches, by their names.
+    /// The faces of some patches, by their names.
     ///
     /// # Errors
-    /// File, fault and remedy.
-    pub fn outlines(&self, patches: &[&Patch]) -> Result<BTreeMap<String, Vec<Outline>>, String> {
-        let mut file = FoamFile::open(&self.path("points"))?;
-        let points = file.list(Entries::Scalars(3))?.all(0).unwrap_or_default();
-        let path = self.path("faces");
-        let faces = Faces::open(&path)?;
-        let point = |label: usize| -> Option<[f64; 3]> {
-            let from = label.checked_mul(3)?;
-            points.get(from..from.checked_add(3)?)?.try_into().ok()
-        };
-        let mut outlines = BTreeMap::new();
-        for patch in patches {
-            let corners = |face: usize| faces.corners(face)?.iter().map(|label| point(*label)).collect();
-            let own: Option<Vec<Outline>> =
-                (0..patch.faces).map(|face| corners(patch.start + face)).collect();
-            let own = own.ok_or_else(|| {
-                format!(
-                    "{}: faces of patch {} are absent or have corners that `points` does not have; copy constant/polyMesh \
-                     again from where the case ran",
-                    path.display(),
+    /// [`FoamError`].
+    pub fn wall_faces(&self, patches: &[&Patch]) -> Result<BTreeMap<String, Vec<WallFace>>, FoamError> {
+        let faces = Faces::read(self)?;
+        let of = |patch: &&Patch| {
+            let face = |face: usize| faces.outline(patch.start + face).map(WallFace::new);
+            let own: Option<Vec<WallFace>> = (0..patch.faces).map(face).collect();
+            let absent = || {
+                FoamError::Mesh(format!(
+                    "{}: faces of patch {} are absent or have corners that `points` does not have",
+                    self.path("faces").display(),
                     patch.name
-                )
-            })?;
-            outlines.insert(patch.name.clone(), own);
-        }
-        Ok(outlines)
+                ))
+            };
+            Ok((patch.name.clone(), own.ok_or_else(absent)?))
+        };
+        patches.iter().map(of).collect()
     }
 }
 
+/// The patches of a file `boundary`.
+///
+/// # Errors
+/// [`FoamError`].
+pub(super) fn patches_in(path: &Path) -> Result<Vec<Patch>, FoamError> {
+    let mut file = FoamFile::open(path)?;
+    let count = file.count()?;
+    file.expect("(")?;
+    (0..count).map(|_| patch(&mut file)).collect()
+}
+
 /// `name { type wall; nFaces 2; startFace 7; }`
-fn patch(file: &mut FoamFile) -> Result<Patch, String> {
+fn patch(file: &mut FoamFile) -> Result<Patch, FoamError> {
     let mut patch = Patch { name: file.some_word()?, kind: String::new(), start: 0, faces: 0 };
     file.expect("{")?;
     loop {
@@ -115,24 +112,28 @@ fn patch(file: &mut FoamFile) -> Result<Patch, String> {
     }
 }
 
-/// Labels of the corners of all faces, one face after the other.
+/// The corners of all faces.
 pub(super) struct Faces {
-    /// Where each face begins, and the end of the last one.
+    /// Places of the points [m].
+    pub points: Vec<[f64; 3]>,
+    /// Where each face begins in `labels`, and the end of the last one.
     starts: Vec<usize>,
-    labels: Vec<usize>,
+    /// Labels of the corners, one face after the other.
+    pub labels: Vec<usize>,
 }
 
 impl Faces {
-    /// ASCII: a list of lists. Binary: the starts of the faces, and the labels of all.
+    /// Reads `points` and `faces`. In ASCII the latter is a list of lists, in binary the starts of the faces and all labels.
     ///
     /// # Errors
-    /// File, fault and remedy.
-    pub(super) fn open(path: &Path) -> Result<Self, String> {
-        let mut file = FoamFile::open(path)?;
+    /// [`FoamError`].
+    pub fn read(mesh: &Mesh<'_>) -> Result<Self, FoamError> {
+        let points = FoamFile::open(&mesh.path("points"))?.vectors()?;
+        let mut file = FoamFile::open(&mesh.path("faces"))?;
         if file.is_binary() {
-            return Ok(Self { starts: file.labels()?, labels: file.labels()? });
+            return Ok(Self { points, starts: file.labels()?, labels: file.labels()? });
         }
-        let mut faces = Self { starts: vec![0], labels: Vec::new() };
+        let mut faces = Self { points, starts: vec![0], labels: Vec::new() };
         let count = file.count()?;
         file.expect("(")?;
         for _ in 0..count {
@@ -143,17 +144,17 @@ impl Faces {
     }
 
     /// Number of faces.
-    pub(super) fn count(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
-    /// Labels of the corners of all faces.
-    pub(super) fn all_labels(&self) -> &[usize] {
-        &self.labels
+    /// Labels of the corners of a face.
+    pub fn corners(&self, face: usize) -> Option<&[usize]> {
+        self.labels.get(*self.starts.get(face)?..*self.starts.get(face + 1)?)
     }
 
-    /// Labels of the corners of a face.
-    pub(super) fn corners(&self, face: usize) -> Option<&[usize]> {
-        self.labels.get(*self.starts.get(face)?..*self.starts.get(face + 1)?)
+    /// Corners of a face in turn [m]; `None` without such a face or corner.
+    pub fn outline(&self, face: usize) -> Option<Vec<[f64; 3]>> {
+        self.corners(face)?.iter().map(|point| self.points.get(*point).copied()).collect()
     }
 }

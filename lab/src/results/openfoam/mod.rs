@@ -5,29 +5,28 @@
 //! parcels of the last written time ([`parcels`]), its fields on the walls ([`surfaces`]), and the gas with the parcels in it
 //! ([`gas`]). [`impact_history`] reads the impacts of each parcel. What is missing is listed in [`RunResults::missing`].
 
-mod barycentric;
-mod boundary_field;
 mod cells;
 pub mod deposit;
-mod flying;
 mod foam_file;
 pub mod gas;
 pub mod impact_history;
-mod internal_field;
-mod list_file;
 pub mod log;
 mod mesh;
+mod parcel_lists;
 pub mod parcels;
 pub mod recorded;
 pub mod surfaces;
 pub mod table;
 pub mod tables;
+mod written_time;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::surface::add_regimes;
 use super::{BalanceLine, RunResults, WallModel, common_time};
+
+pub use foam_file::FoamError;
 
 /// A folder that holds no case.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -145,10 +144,36 @@ fn complete(folder: &Path, mut results: RunResults, until: f64) -> RunResults {
         let stuck = properties.as_deref().and_then(|text| entry(text, "stuck"));
         results.stuck = Some(stuck.unwrap_or("keep").to_owned());
     }
-    results.wall_patches = wall_patches(folder);
-    let carbon = recorded::Carbon::of(folder, &cloud);
+    let patches = mesh::patches_in(&folder.join("constant/polyMesh/boundary")).unwrap_or_default();
+    let walls = patches.into_iter().filter(|patch| patch.kind == "wall");
+    results.wall_patches = walls.map(|patch| patch.name).collect();
+    add_arrivals(folder, &mut results, until);
+    match parcels::read_last(folder, &cloud) {
+        Ok(captures) => results.captures = captures,
+        Err(error) => results.missing.push(error.to_string()),
+    }
+    match surfaces::read_last(folder, &cloud) {
+        Ok(surfaces) => results.surfaces = surfaces,
+        Err(error) => results.missing.push(error.to_string()),
+    }
+    add_regimes(&mut results.surfaces, &results.captures);
+    match gas::read_last(folder, &cloud) {
+        Ok(gas) => results.gas = gas,
+        Err(error) => results.missing.push(error.to_string()),
+    }
+    if results.injected.is_empty() {
+        let note = "neither tables nor logs give the injected mass, so shares of it are unknown";
+        results.missing.push(note.to_owned());
+    }
+    complete_balance(&mut results);
+    results
+}
+
+/// Adds the recorded arrivals.
+fn add_arrivals(folder: &Path, results: &mut RunResults, until: f64) {
+    let carbon = recorded::Carbon::of(folder, &results.cloud);
     results.has_carbon = carbon.is_some();
-    results.arrivals = recorded::read_all(folder, &cloud, carbon.as_ref(), until);
+    results.arrivals = recorded::read_all(folder, &results.cloud, carbon.as_ref(), until);
     let counted =
         results.walls.iter().any(|wall| wall.rows.last().is_some_and(|(_, row)| row.hits.is_some()));
     if results.arrivals.is_empty() {
@@ -161,27 +186,6 @@ fn complete(folder: &Path, mut results: RunResults, until: f64) -> RunResults {
             "the cloud's properties name no solid carbon, so the conversion of arriving parcels is unknown";
         results.missing.push(note.to_owned());
     }
-    match parcels::read_last(folder, &cloud) {
-        Ok(captures) => results.captures = captures,
-        Err(reason) => results.missing.push(reason),
-    }
-    match surfaces::read_last(folder, &cloud) {
-        Ok(mut surfaces) => {
-            add_regimes(&mut surfaces, &results.captures);
-            results.surfaces = surfaces;
-        }
-        Err(reason) => results.missing.push(reason),
-    }
-    match gas::read_last(folder, &cloud) {
-        Ok(gas) => results.gas = gas,
-        Err(reason) => results.missing.push(reason.to_string()),
-    }
-    if results.injected.is_empty() {
-        let note = "neither tables nor logs give the injected mass, so shares of it are unknown";
-        results.missing.push(note.to_owned());
-    }
-    complete_balance(&mut results);
-    results
 }
 
 /// Adds to the balance the captured mass and, for a stock model, the injected and the escaped mass.
@@ -234,18 +238,6 @@ fn is_steady(folder: &Path, cloud: &str) -> bool {
 fn entry<'a>(text: &'a str, key: &str) -> Option<&'a str> {
     let mut words = text.split_whitespace().skip_while(|word| *word != key).skip(1);
     words.next().map(|word| word.trim_end_matches(';')).filter(|word| !word.is_empty())
-}
-
-/// The patches of type `wall` in `constant/polyMesh/boundary`.
-fn wall_patches(folder: &Path) -> Vec<String> {
-    let text = std::fs::read_to_string(folder.join("constant/polyMesh/boundary")).unwrap_or_default();
-    let body = text.split_once('(').map_or("", |(_, body)| body);
-    let wall = |entry: &str| {
-        let (name, content) = entry.split_once('{')?;
-        let kind = content.split_whitespace().skip_while(|word| *word != "type").nth(1)?;
-        (kind.trim_end_matches(';') == "wall").then(|| name.trim().to_owned())
-    };
-    body.split('}').filter_map(wall).collect()
 }
 
 /// Sub-folders whose names are times, in the order of time.

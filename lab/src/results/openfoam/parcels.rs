@@ -8,38 +8,44 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use super::super::Capture;
-use super::list_file::{numbers, positions};
+use super::foam_file::FoamError;
+use super::parcel_lists::{numbers, positions};
 use super::time_folders;
 use nearwall::impact::Regime;
+
+/// Why the places of captured parcels are unknown.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ParcelError {
+    /// No written time has parcels of this cloud; the second text is a hint at the remedy.
+    #[error("no parcels of {0} at a written time{1}, so the places of captured parcels are unknown")]
+    NoParcels(String, &'static str),
+    /// A file that cannot be read.
+    #[error("{0}, so the places of captured parcels are unknown")]
+    Unreadable(#[from] FoamError),
+}
 
 /// Reads the parcels that lie still at the last time that has any parcels, in the cloud or in its deposit.
 ///
 /// # Errors
 /// Why they cannot be read, for the page.
-pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Capture>, String> {
-    let folders = time_folders(case).into_iter().rev().map(|(_, time)| {
+pub fn read_last(case: &Path, cloud: &str) -> Result<Vec<Capture>, ParcelError> {
+    let mut folders = time_folders(case).into_iter().rev().map(|(_, time)| {
         let lagrangian = time.join("lagrangian");
         (lagrangian.join(cloud), lagrangian.join(format!("{cloud}Deposit")))
     });
-    let Some((own, deposit)) = folders.into_iter().find(|(own, deposit)| own.is_dir() || deposit.is_dir())
-    else {
+    let Some((own, deposit)) = folders.find(|(own, deposit)| own.is_dir() || deposit.is_dir()) else {
         let hint = if case.join("processor0").is_dir() { " (run reconstructPar)" } else { "" };
-        return Err(format!(
-            "no parcels of {cloud} at a written time{hint}, so the places of captured parcels are unknown"
-        ));
+        return Err(ParcelError::NoParcels(cloud.to_owned(), hint));
     };
     // OpenFOAM writes no folder for a cloud that is empty
-    let read = || -> Result<Vec<Capture>, String> {
-        let mut parcels = if own.is_dir() { read_cloud(&own)? } else { Vec::new() };
-        if deposit.is_dir() {
-            parcels.extend(read_deposit(&deposit)?);
-        }
-        Ok(parcels)
-    };
-    read().map_err(|reason| format!("{reason}, so the places of captured parcels are unknown"))
+    let mut parcels = if own.is_dir() { read_cloud(&own)? } else { Vec::new() };
+    if deposit.is_dir() {
+        parcels.extend(read_deposit(&deposit)?);
+    }
+    Ok(parcels)
 }
 
-fn read_cloud(folder: &Path) -> Result<Vec<Capture>, String> {
+fn read_cloud(folder: &Path) -> Result<Vec<Capture>, FoamError> {
     let positions = positions(folder)?;
     let numbers = |name: &str| numbers(folder, name, positions.len());
     let (active, diameters, densities) = (numbers("active")?, numbers("d")?, numbers("rho")?);
@@ -53,7 +59,7 @@ fn read_cloud(folder: &Path) -> Result<Vec<Capture>, String> {
     Ok(parcels.collect())
 }
 
-fn read_deposit(folder: &Path) -> Result<Vec<Capture>, String> {
+fn read_deposit(folder: &Path) -> Result<Vec<Capture>, FoamError> {
     let positions = positions(folder)?;
     let numbers = |name: &str| numbers(folder, name, positions.len());
     let (diameters, masses) = (numbers("d")?, numbers("mass")?);
@@ -63,11 +69,11 @@ fn read_deposit(folder: &Path) -> Result<Vec<Capture>, String> {
         Regime::ALL.into_iter().find(|regime| regimes.get(index) == Some(&f64::from(*regime as u8)))
     };
     let parcels = positions.iter().zip(diameters).zip(masses).enumerate();
-    let parcel = |(index, ((position, diameter), mass)): (usize, ((&[f64; 3], f64), f64))| Capture {
+    let parcels = parcels.map(|(index, ((position, diameter), mass))| Capture {
         regime: regime(index),
         ..capture(*position, mass, diameter)
-    };
-    Ok(parcels.map(parcel).collect())
+    });
+    Ok(parcels.collect())
 }
 
 fn capture(position: [f64; 3], mass: f64, diameter: f64) -> Capture {

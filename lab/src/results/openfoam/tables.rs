@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::super::classes::{Class, ClassSums, Quantity};
+use super::super::classes::{Class, ClassQuantity, ClassSums};
 use super::super::{Amount, History, Moments, WallTotals};
 use super::deposit::{self, DepositState};
 use super::table::{TableRow, histories};
@@ -20,8 +20,11 @@ const FLUX: &str = ".flux.dat";
 const STAY: &str = ".nearWall.dat";
 
 /// The quantities of a table of classes.
-const QUANTITIES: [(&str, Quantity); 3] =
-    [("speed_m_s", Quantity::Speed), ("angle_deg", Quantity::Angle), ("diameter_m", Quantity::Diameter)];
+const QUANTITIES: [(&str, ClassQuantity); 3] = [
+    ("speed_m_s", ClassQuantity::Speed),
+    ("angle_deg", ClassQuantity::Angle),
+    ("diameter_m", ClassQuantity::Diameter),
+];
 
 /// Lines of the balance and the columns that each sums.
 const BALANCE_LINES: [(&str, &[&str]); 6] = [
@@ -168,10 +171,10 @@ mod tests {
         assert_eq!(history.rows.len(), 1);
         assert!(history.at(0.05).is_none());
         let classes = history.at(9.0).unwrap();
-        let speed = together(classes, Quantity::Speed);
+        let speed = together(classes, ClassQuantity::Speed);
         assert_eq!((classes.len(), speed.len()), (3, 2));
         assert_eq!((speed[0].sums.hits, speed[0].sums.captured_particles), (6.0, 10.0));
         assert!((speed[0].sums.mass - 6e-9).abs() < 1e-20 && speed[1].high.is_infinite());
-        assert!(together(classes, Quantity::Angle).is_empty());
+        assert!(together(classes, ClassQuantity::Angle).is_empty());
     }
 }

@@ -1,20 +1,26 @@
 //! What lies on the faces of a wall, and the wall unrolled into a plane.
 //!
-//! [`crate::results::openfoam`] reads a [`WallSurface`]; [`unroll()`] lays its faces into a plane; [`Shape`]s are what a map
-//! of one quantity draws.
+//! [`crate::results::openfoam`] reads a [`WallSurface`]; [`unroll()`] lays its faces into a plane; [`shapes`] makes the cells
+//! of a map of one quantity.
 
-mod axis;
 mod nearest;
-mod shapes;
 mod unroll;
 
+use nalgebra::Vector3;
+
+use super::map_cells::{Grid, MapCell, extent};
+
 pub(super) use nearest::add_regimes;
-pub use shapes::{GRID, MOST_FACES, Shape, shapes};
 pub use unroll::{PlaneAxis, Unrolled, Unrolling, WallAxis, unroll};
+
+/// A wall with more faces is drawn as a grid.
+pub const MOST_FACES: usize = 4000;
+/// Columns and rows of the grid.
+pub const WALL_GRID: [usize; 2] = [100, 60];
 
 /// A quantity on the faces of a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub enum SurfaceQuantity {
     /// Molten mass and powder per area [kg/m²], of a wall with memory.
     Deposit,
     /// Mass captured per area since the start [kg/m²], of a wall without memory.
@@ -27,7 +33,7 @@ pub enum Quantity {
     HeatFlux,
 }
 
-impl Quantity {
+impl SurfaceQuantity {
     /// Name for a reader.
     pub fn name(self) -> &'static str {
         match self {
@@ -54,11 +60,11 @@ impl Quantity {
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallFace {
     /// Its corners in turn [m].
-    pub corners: Vec<[f64; 3]>,
+    pub corners: Vec<Vector3<f64>>,
     /// Its centre [m].
-    pub centre: [f64; 3],
+    pub centre: Vector3<f64>,
     /// Its normal times its area [m²].
-    pub normal: [f64; 3],
+    pub normal: Vector3<f64>,
     /// Its area [m²].
     pub area: f64,
 }
@@ -66,23 +72,17 @@ pub struct WallFace {
 impl WallFace {
     /// The face with these corners [m]. Its area is that of OpenFOAM: the length of the sum of its triangles' normals.
     pub fn new(corners: Vec<[f64; 3]>) -> Self {
-        let count = corners.len().max(1) as f64;
-        let middle: [f64; 3] =
-            std::array::from_fn(|i| corners.iter().map(|corner| corner[i]).sum::<f64>() / count);
-        let (mut normal, mut moment, mut weight) = ([0.0; 3], [0.0; 3], 0.0);
-        for (place, corner) in corners.iter().enumerate() {
-            let next = &corners[(place + 1) % corners.len()];
-            let part =
-                axis::cross(axis::from_to(&middle, corner), axis::from_to(&middle, next)).map(|x| 0.5 * x);
-            let area = axis::length(part);
-            weight += area;
-            for i in 0..3 {
-                normal[i] += part[i];
-                moment[i] += area * (middle[i] + corner[i] + next[i]) / 3.0;
-            }
+        let corners: Vec<Vector3<f64>> = corners.into_iter().map(Vector3::from).collect();
+        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len().max(1) as f64;
+        let (mut normal, mut moment, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+        for (corner, next) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            let part = 0.5 * (corner - middle).cross(&(next - middle));
+            weight += part.norm();
+            normal += part;
+            moment += part.norm() * (middle + corner + next) / 3.0;
         }
-        let centre = if weight > 0.0 { moment.map(|sum| sum / weight) } else { middle };
-        Self { corners, centre, normal, area: axis::length(normal) }
+        let centre = if weight > 0.0 { moment / weight } else { middle };
+        Self { corners, centre, normal, area: normal.norm() }
     }
 }
 
@@ -96,7 +96,7 @@ pub struct WallSurface {
     /// Its faces.
     pub faces: Vec<WallFace>,
     /// Quantities and their values on each face.
-    pub quantities: Vec<(Quantity, Vec<f64>)>,
+    pub quantities: Vec<(SurfaceQuantity, Vec<f64>)>,
     /// Mass per area [kg/m²] of the captured parcels that lie on each face, by the regime of their capture in the order of
     /// [`nearwall::impact::Regime::ALL`]; `None` where the source does not tell it.
     pub captured: Option<[Vec<f64>; 4]>,
@@ -111,5 +111,20 @@ impl WallSurface {
     /// Integral of values over the area [their unit times m²].
     pub fn integral(&self, values: &[f64]) -> f64 {
         self.faces.iter().zip(values).map(|(face, value)| face.area * value).sum()
+    }
+}
+
+/// The cells of a map: one for each face, or those of a grid where there are too many.
+pub fn shapes(faces: &[WallFace], unrolled: &Unrolled, values: &[f64]) -> Vec<MapCell> {
+    let each = faces.iter().zip(&unrolled.outlines).zip(values);
+    let cell = |((face, outline), value): ((&WallFace, &Vec<[f64; 2]>), &f64)| MapCell {
+        outline: outline.clone(),
+        area: face.area,
+        value: *value,
+    };
+    let cells: Vec<MapCell> = each.map(cell).collect();
+    match extent(&cells).filter(|_| cells.len() > MOST_FACES) {
+        Some(ends) => Grid::new(ends, WALL_GRID).means(&cells, 0.0),
+        None => cells,
     }
 }
