@@ -6,7 +6,7 @@ use super::chart::Figure;
 
 /// One section of a page. All text is plain; the template escapes it.
 #[derive(Debug, Clone, PartialEq)]
-enum Section {
+enum PagePart {
     Heading(String),
     Subheading(String),
     Lead(String),
@@ -97,7 +97,7 @@ pub type TableColumn<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 #[template(path = "page.html")]
 pub struct Page {
     title: String,
-    sections: Vec<Section>,
+    sections: Vec<PagePart>,
     foot: String,
     version: &'static str,
 }
@@ -111,42 +111,42 @@ impl Page {
 
     /// Adds a heading.
     pub fn heading(&mut self, text: impl Into<String>) {
-        self.sections.push(Section::Heading(text.into()));
+        self.sections.push(PagePart::Heading(text.into()));
     }
 
     /// Adds a heading of the second level.
     pub fn subheading(&mut self, text: impl Into<String>) {
-        self.sections.push(Section::Subheading(text.into()));
+        self.sections.push(PagePart::Subheading(text.into()));
     }
 
     /// Adds a paragraph in larger print that opens a page or a part.
     pub fn lead(&mut self, text: impl Into<String>) {
-        self.sections.push(Section::Lead(text.into()));
+        self.sections.push(PagePart::Lead(text.into()));
     }
 
     /// Adds a paragraph.
     pub fn text(&mut self, text: impl Into<String>) {
-        self.sections.push(Section::Text(text.into()));
+        self.sections.push(PagePart::Text(text.into()));
     }
 
     /// Adds a paragraph in small print.
     pub fn note(&mut self, text: impl Into<String>) {
-        self.sections.push(Section::Note(text.into()));
+        self.sections.push(PagePart::Note(text.into()));
     }
 
     /// Adds the main result in a box, one paragraph per sentence.
     pub fn verdict(&mut self, sentences: Vec<String>) {
-        self.sections.push(Section::Verdict(sentences));
+        self.sections.push(PagePart::Verdict(sentences));
     }
 
     /// Adds a box.
     pub fn callout(&mut self, callout: Callout) {
-        self.sections.push(Section::Boxed(callout));
+        self.sections.push(PagePart::Boxed(callout));
     }
 
     /// Adds commands or the text of a file.
     pub fn code(&mut self, text: impl Into<String>) {
-        self.sections.push(Section::Code(text.into()));
+        self.sections.push(PagePart::Code(text.into()));
     }
 
     /// Adds figures, two or more side by side where the window is wide enough; without figures adds nothing.
@@ -162,18 +162,18 @@ impl Page {
     fn grid(&mut self, figures: impl IntoIterator<Item = Figure>, style: &'static str) {
         let figures: Vec<Figure> = figures.into_iter().collect();
         if !figures.is_empty() {
-            self.sections.push(Section::Figures(figures, style));
+            self.sections.push(PagePart::Figures(figures, style));
         }
     }
 
     /// Adds a table.
     pub fn table(&mut self, table: Table) {
-        self.sections.push(Section::Table(table));
+        self.sections.push(PagePart::Table(table));
     }
 
     /// Adds a table whose first column shows the status of each row in colour.
     pub fn marked(&mut self, table: Table, status: Vec<RowStatus>) {
-        self.sections.push(Section::Marked(table, status));
+        self.sections.push(PagePart::Marked(table, status));
     }
 
     /// Sets the last line, for instance how to make the page again.

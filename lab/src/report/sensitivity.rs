@@ -5,7 +5,7 @@ use crate::rig::sensitivity::{NumberEffect, Quality, Sensitivity};
 
 /// Numbers in a figure and in the table.
 const SHOWN: usize = 15;
-const LISTED: usize = 60;
+const LISTED_NUMBERS: usize = 60;
 
 /// Makes the page.
 ///
@@ -20,8 +20,13 @@ pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
     let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
     page.figures((0..walls.len()).filter_map(|wall| figure(found, wall)));
     page.heading("The numbers");
-    let rows: Vec<(usize, &NumberEffect)> =
-        found.numbers.iter().enumerate().filter(|(_, effect)| effect.largest > 0.0).take(LISTED).collect();
+    let rows: Vec<(usize, &NumberEffect)> = found
+        .numbers
+        .iter()
+        .enumerate()
+        .filter(|(_, effect)| effect.largest > 0.0)
+        .take(LISTED_NUMBERS)
+        .collect();
     let mut header =
         ["rank", "number", "range", "source", "low", "value", "high"].map(str::to_owned).to_vec();
     header.extend(walls.iter().map(|wall| format!("captured at {}: low, as it is, high", wall.wall)));

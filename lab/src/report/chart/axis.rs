@@ -8,14 +8,14 @@ use super::super::format::number;
 
 /// Larger numbers are not drawn and smaller ones are drawn as zero: steps, ranges and powers of the plotting crate's axes
 /// would overflow, and a tick for each power of ten up to infinity would fill the memory.
-const FARTHEST: f64 = 1e100;
-const NEAREST: f64 = 1e-100;
+const MOST_DRAWN: f64 = 1e100;
+const LEAST_DRAWN: f64 = 1e-100;
 
 /// The number as it can be drawn.
 pub(super) fn drawable(value: f64) -> Option<f64> {
     match value.abs() {
-        size if size < NEAREST => Some(0.0),
-        size => (size <= FARTHEST).then_some(value),
+        size if size < LEAST_DRAWN => Some(0.0),
+        size => (size <= MOST_DRAWN).then_some(value),
     }
 }
 

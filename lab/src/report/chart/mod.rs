@@ -29,7 +29,7 @@ pub use svg::Figure;
 const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8A8A8A"];
 /// Colour of single readings behind other series: pale, but visible on paper.
 const CLOUD: &str = "#a6a6a6";
-const MARKERS: [MarkerShape; 7] = [
+const MARKER_SHAPES: [MarkerShape; 7] = [
     MarkerShape::Circle,
     MarkerShape::Square,
     MarkerShape::Triangle,
@@ -302,7 +302,7 @@ impl Chart {
 
     fn next_marker(&mut self) -> MarkerStyle {
         let (colour, place) = self.next();
-        (colour, MARKERS[place % MARKERS.len()])
+        (colour, MARKER_SHAPES[place % MARKER_SHAPES.len()])
     }
 
     fn next(&mut self) -> (&'static str, usize) {

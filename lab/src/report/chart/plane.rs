@@ -15,7 +15,7 @@ const BELOW: f64 = 46.0;
 const BESIDE: f64 = 14.0;
 const BAR_WIDTH: f64 = 14.0;
 /// Length of an axis for a number [px].
-const TICK_SPACE: [f64; 2] = [60.0, 40.0];
+const TICK_SPACE: [f64; 2] = [50.0, 40.0];
 /// Least and largest radius of a dot, and the width of its outline [px].
 const DOT_RADIUS: [f64; 2] = [0.7, 1.9];
 const DOT_OUTLINE: f64 = 0.3;
@@ -48,6 +48,11 @@ impl<'a> PlanePicture<'a> {
     /// Left of the plot and below its axis [px].
     pub fn below(&self) -> [f64; 2] {
         [LEFT, TOP + self.size[1] + BELOW]
+    }
+
+    /// Height of the plot [px].
+    pub fn height(&self) -> f64 {
+        self.size[1]
     }
 
     /// Place in the drawing [px].
@@ -138,23 +143,27 @@ impl<'a> PlanePicture<'a> {
         self.svg += "</g>";
     }
 
-    /// Adds both axes with round numbers.
-    pub fn axes(&mut self, labels: [&str; 2]) {
+    /// Adds both axes with round numbers, and a frame around the plot if wanted.
+    pub fn axes(&mut self, labels: [&str; 2], is_framed: bool) {
         let [across, up] = [0, 1].map(|axis| {
             let [low, high] = self.ends[axis];
             let count = (self.size[axis] / TICK_SPACE[axis]) as usize;
             (labels[axis].to_owned(), ticks(low, high, count.max(2)))
         });
-        self.labelled_axes(&across, &up);
+        self.labelled_axes(&across, &up, is_framed);
     }
 
-    /// Adds both axes with a frame around the plot.
-    pub fn labelled_axes(&mut self, across: &LabelledAxis, up: &LabelledAxis) {
+    /// The same with these ticks.
+    pub fn labelled_axes(&mut self, across: &LabelledAxis, up: &LabelledAxis, is_framed: bool) {
         let [width, height] = self.size;
         let bottom = TOP + height;
-        let mut svg = format!(
-            "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" stroke=\"black\"/>"
-        );
+        let mut svg = String::new();
+        if is_framed {
+            svg = format!(
+                "<rect x=\"{LEFT}\" y=\"{TOP}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" \
+                 stroke=\"black\"/>"
+            );
+        }
         let length = |text: &str| if text.is_empty() { 3.0 } else { 5.0 };
         for (share, text) in &across.1 {
             let x = LEFT + width * share;
@@ -170,12 +179,11 @@ impl<'a> PlanePicture<'a> {
         self.svg += &(svg + &upright([13.0, TOP + 0.5 * height], &up.0));
     }
 
-    /// Adds a bar of colours, at most so tall [px], as the first or a later one beside the plot: a unit stands above it, a
-    /// longer label upright beside it.
-    pub fn bar(&mut self, scale: &ColourScale, label: &str, [place, tallest]: [f64; 2]) {
+    /// Adds a bar of colours of a height [px], the first or a later one beside the plot: a unit stands above it, a longer
+    /// label upright beside it.
+    pub fn bar(&mut self, scale: &ColourScale, label: &str, place: usize, height: f64) {
         let [x, y] = self.beside();
-        let x = x + COLUMN_WIDTH * place;
-        let height = self.size[1].clamp(LEAST_BAR.min(tallest), tallest);
+        let x = x + COLUMN_WIDTH * place as f64;
         self.svg += &scale.bar([x, y], [BAR_WIDTH, height]);
         self.svg += &match label.contains(' ') {
             true => upright([x + 73.0, y + 0.5 * height], label),
@@ -198,9 +206,8 @@ impl<'a> PlanePicture<'a> {
     }
 }
 
-/// Width of a bar of colours with its numbers and an upright label, and least height of the bar [px].
+/// Width of a bar of colours with its numbers and an upright label [px].
 pub(in crate::report) const COLUMN_WIDTH: f64 = 98.0;
-const LEAST_BAR: f64 = 150.0;
 
 /// A text at a place [px].
 pub(in crate::report) fn text_at([x, y]: [f64; 2], anchor: &str, text: &str) -> String {

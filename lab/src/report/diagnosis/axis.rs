@@ -10,10 +10,10 @@ pub(super) const DISTINCT: usize = 12;
 const WORDS: usize = 16;
 const LETTERS: usize = 16;
 /// Positive numbers get a logarithmic axis when nine tenths of the rows span more than this factor.
-const LOG_SPAN: f64 = 30.0;
+const LOGARITHMIC_SPAN: f64 = 30.0;
 
 /// A column along the x axis.
-pub(in crate::report) struct Axis<'a> {
+pub(in crate::report) struct ColumnAxis<'a> {
     pub name: &'a str,
     unit: &'a str,
     place: usize,
@@ -27,7 +27,7 @@ enum Scale {
     Words { labels: Vec<String>, label_of: Vec<Option<usize>> },
 }
 
-impl<'a> Axis<'a> {
+impl<'a> ColumnAxis<'a> {
     /// The axis of a column; `None` where the sample does not vary in it.
     pub fn new(sample: &'a Sample, column: &str) -> Option<Self> {
         let place = sample.columns.iter().position(|(name, _)| name == column)?;
@@ -114,7 +114,7 @@ fn of_numbers(mut cells: Vec<f64>) -> Option<Scale> {
     cells.sort_by(f64::total_cmp);
     let (low, high) = (*cells.first()?, *cells.last()?);
     let beyond = cells.len() / 20;
-    let log = low > 0.0 && cells[cells.len() - 1 - beyond] > LOG_SPAN * cells[beyond];
+    let log = low > 0.0 && cells[cells.len() - 1 - beyond] > LOGARITHMIC_SPAN * cells[beyond];
     let few = cells.chunk_by(|a, b| a == b).count() <= DISTINCT;
     (low < high).then_some(Scale::Numbers { low, high, log, few })
 }

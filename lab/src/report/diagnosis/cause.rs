@@ -3,7 +3,7 @@
 use super::super::chart::Figure;
 use super::super::format::{by_chance, listed, number, whole_percent};
 use super::super::page::{Page, Table};
-use super::axis::Axis;
+use super::axis::ColumnAxis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
 use super::{cause_title, curve, spread, usage};
 use crate::diagnose::{Alternative, CauseSurface, Diagnosis, Estimate, Finding};
@@ -182,7 +182,7 @@ fn before_and_after(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Optio
     let sample = &diagnosis.sample;
     let own = finding.variables.iter().map(String::as_str);
     let all = own.chain(["v_n"]).chain(sample.columns.iter().map(|(name, _)| name.as_str()));
-    let column = { all }.find(|column| Axis::new(sample, column).is_some())?;
+    let column = { all }.find(|column| ColumnAxis::new(sample, column).is_some())?;
     let heading = format!("Residuals of {} against {column}, before and after", title(finding.observable));
     let models = [(BASE, "base"), (EXTENDED, "extended")];
     residuals(sample, [finding.observable, column], &models, [&format!("cause-{id}"), &heading])

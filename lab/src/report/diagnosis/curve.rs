@@ -1,7 +1,7 @@
 //! The fitted curve over a column that no effect explains, with the rows that it was fitted to.
 
 use super::super::chart::Figure;
-use super::axis::Axis;
+use super::axis::ColumnAxis;
 use super::plot::{EXTENDED, Means, Window, title, triple};
 use crate::diagnose::{CauseCurve, Diagnosis, Finding};
 
@@ -13,7 +13,7 @@ pub(super) fn figure(
     id: &str,
 ) -> Option<Figure> {
     let sample = &diagnosis.sample;
-    let axis = Axis::new(sample, finding.variables.first()?)?;
+    let axis = ColumnAxis::new(sample, finding.variables.first()?)?;
     let bends = shape.at.iter().zip(&shape.adds);
     let mut bends: Vec<[f64; 2]> =
         bends.filter_map(|(at, adds)| Some([axis.find(sample, at)?, *adds])).collect();

@@ -2,15 +2,15 @@
 
 use super::super::chart::Figure;
 use super::super::page::Page;
-use super::axis::Axis;
+use super::axis::ColumnAxis;
 use super::plot::{
-    BASE, EXTENDED, FEW, Means, OBSERVABLES, PlotRow, Window, agreement, identifier, share_axis,
+    BASE, EXTENDED, FEW_DRAWN, Means, OBSERVABLES, PlotRow, Window, agreement, identifier, share_axis,
     stated_error, title, triple,
 };
 use crate::diagnose::{DataView, Diagnosis, Sample, SampleRow};
 
 /// Relative difference below which both models are the same.
-const SAME: f64 = 1e-9;
+const SAME_MODELS: f64 = 1e-9;
 
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     let sample = &diagnosis.sample;
@@ -18,10 +18,10 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     for observable in OBSERVABLES {
         let views: Vec<&DataView> =
             sample.views.iter().filter(|view| view.observable == observable).collect();
-        let selections: Vec<Selection<'_>> =
-            views.iter().filter_map(|view| Selection::new(sample, view)).collect();
+        let selections: Vec<SelectedRows<'_>> =
+            views.iter().filter_map(|view| SelectedRows::new(sample, view)).collect();
         // All figures of an observable have the same y axis.
-        let Some(window) = selections.first().map(Selection::window) else { continue };
+        let Some(window) = selections.first().map(SelectedRows::window) else { continue };
         let figures =
             selections.iter().enumerate().map(|(place, selection)| selection.figure(&window, place));
         let mut figures = figures.collect::<Vec<Figure>>().into_iter();
@@ -48,21 +48,21 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
 }
 
 /// A view with the rows that it selects.
-struct Selection<'a> {
+struct SelectedRows<'a> {
     view: &'a DataView,
-    axis: Axis<'a>,
+    axis: ColumnAxis<'a>,
     /// The column that selects the rows, and its range.
-    second: Option<(Axis<'a>, [f64; 2])>,
+    second: Option<(ColumnAxis<'a>, [f64; 2])>,
     rows: Vec<PlotRow>,
     few: bool,
 }
 
-impl<'a> Selection<'a> {
+impl<'a> SelectedRows<'a> {
     /// `None` where there is nothing to show.
     fn new(sample: &'a Sample, view: &'a DataView) -> Option<Self> {
-        let axis = Axis::new(sample, &view.column)?;
+        let axis = ColumnAxis::new(sample, &view.column)?;
         let second = match &view.within {
-            Some((column, range)) => Some((Axis::new(sample, column)?, *range)),
+            Some((column, range)) => Some((ColumnAxis::new(sample, column)?, *range)),
             None => None,
         };
         let selected = |row: &SampleRow| {
@@ -72,7 +72,7 @@ impl<'a> Selection<'a> {
             Some((axis.at(row)?, stated_error(row, view.observable), triple(row, view.observable)?))
         };
         let rows: Vec<_> = sample.rows.iter().filter_map(selected).collect();
-        let few = rows.len() <= FEW && view.observable != "outcome";
+        let few = rows.len() <= FEW_DRAWN && view.observable != "outcome";
         (!rows.is_empty()).then_some(Self { view, axis, second, rows, few })
     }
 
@@ -119,7 +119,7 @@ impl<'a> Selection<'a> {
         let (mut chart, note) = window.draw(chart, "single rows", &self.cloud());
         chart = if capture { share_axis(chart) } else { chart };
         let numbers = view.curve.iter().chain(self.rows.iter().map(|(_, _, numbers)| numbers));
-        let both = { numbers }.any(|[_, base, extended]| (extended - base).abs() > SAME * base.abs());
+        let both = { numbers }.any(|[_, base, extended]| (extended - base).abs() > SAME_MODELS * base.abs());
         let models = [(BASE, "base"), (EXTENDED, "extended")];
         let models = &models[..if both { 2 } else { 1 }];
         for (which, name) in models {

@@ -5,13 +5,13 @@ use super::super::page::{Callout, Page, RowStatus, Table};
 use crate::diagnose::{Diagnosis, FitTest, LargeMisfit};
 
 /// A model whose misfit is less likely than this does not fit.
-const REFUTED: f64 = 0.01;
+const REFUTED_BELOW: f64 = 0.01;
 /// Misfits that are smaller than those of all but this share of data sets are too small for the stated errors.
-const TOO_GOOD: f64 = 0.999;
+pub(in crate::report) const TOO_GOOD: f64 = 0.999;
 /// Most rows listed.
-const LISTED: usize = 8;
+const LISTED_MISFITS: usize = 8;
 /// Points beyond this many of their stated errors are off, whatever a test says.
-const FAR: f64 = 3.0;
+const FAR_ERRORS: f64 = 3.0;
 
 /// Adds the box, if the fit was tested.
 pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
@@ -50,7 +50,7 @@ pub(super) fn base_is_refuted(diagnosis: &Diagnosis) -> bool {
 }
 
 pub(in crate::report) fn refuted(test: &FitTest) -> bool {
-    test.p_value.is_some_and(|p| p < REFUTED)
+    test.p_value.is_some_and(|p| p < REFUTED_BELOW)
 }
 
 fn most_points_are_far(diagnosis: &Diagnosis) -> bool {
@@ -65,7 +65,7 @@ fn far_points(diagnosis: &Diagnosis) -> Option<(usize, usize)> {
         let ([measured, base, _], error) = ((*numbers)?, error?);
         Some((measured - base).abs() / error)
     });
-    let (far, near): (Vec<f64>, Vec<f64>) = deviations.partition(|deviation| *deviation > FAR);
+    let (far, near): (Vec<f64>, Vec<f64>) = deviations.partition(|deviation| *deviation > FAR_ERRORS);
     let all = far.len() + near.len();
     (all > 0).then_some((far.len(), all))
 }
@@ -162,7 +162,7 @@ fn largest(rows: &[LargeMisfit]) -> Option<Table> {
         ]
     };
     let header = ["line", "observable", "measured [1]", "base model [1]", "off by [standard errors]"];
-    let rows: Vec<_> = rows.iter().take(LISTED).map(row).collect();
+    let rows: Vec<_> = rows.iter().take(LISTED_MISFITS).map(row).collect();
     let caption = "The largest misfits of the base model; the header of the data file is line 1.";
     (!rows.is_empty()).then(|| Table::new(caption, 2, &header, rows))
 }

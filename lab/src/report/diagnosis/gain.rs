@@ -4,17 +4,18 @@ use super::super::chart::{Chart, ErrorBars, Figure};
 use super::super::format::{number, whole_percent};
 use super::super::page::{Page, Table};
 use super::plot::{
-    BASE, EXTENDED, FEW, OBSERVABLES, PlotRow, identifier, share_axis, span, stated_error, title, triple,
+    BASE, EXTENDED, FEW_DRAWN, OBSERVABLES, PlotRow, identifier, share_axis, span, stated_error, title,
+    triple,
 };
 use crate::diagnose::{Diagnosis, Gain};
 
 /// Most parts of the probability of capture, and fewest rows of each.
 const CAPTURE_BINS: usize = 8;
-const ROWS_A_BIN: usize = 10;
+const ROWS_A_PART: usize = 10;
 /// Largest share of the rows beyond each end of an axis.
-const BEYOND: f64 = 0.004;
+const BEYOND_PARITY: f64 = 0.004;
 /// Least number of held-out rows in a figure of measured against predicted values.
-const LEAST_POINTS: usize = 3;
+const LEAST_HELD_OUT: usize = 3;
 /// An error up to this many noise floors is noise.
 const AT_THE_FLOOR: f64 = 1.1;
 /// Name of the line on which measured and predicted values agree.
@@ -132,7 +133,7 @@ fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
         .filter(|(_, _, numbers)| numbers[EXTENDED].is_finite())
         .collect();
     let changed = rows.iter().any(|(_, _, numbers)| numbers[BASE] != numbers[EXTENDED]);
-    if rows.len() < LEAST_POINTS || (!changed && !diagnosis.gains.is_empty()) {
+    if rows.len() < LEAST_HELD_OUT || (!changed && !diagnosis.gains.is_empty()) {
         return Vec::new();
     }
     let models = [(BASE, "base model"), (EXTENDED, "extended model")];
@@ -143,7 +144,7 @@ fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
     }
     let mut all: Vec<f64> = rows.iter().flat_map(|(_, _, numbers)| *numbers).collect();
     all.sort_by(f64::total_cmp);
-    let beyond = (BEYOND * all.len() as f64) as usize;
+    let beyond = (BEYOND_PARITY * all.len() as f64) as usize;
     let edges = span(all[beyond], all[all.len() - 1 - beyond], 6);
     // Once more, so that both axes get the same steps.
     let edges = span(edges[0], edges[edges.len() - 1], 6);
@@ -196,7 +197,7 @@ impl Parity<'_> {
         .x_range(low, high)
         .y_range(low - touch, high + touch)
         .y_step(edges[1] - edges[0]);
-        let bars = points.len() <= FEW && errors.iter().any(|(error, _)| *error > 0.0);
+        let bars = points.len() <= FEW_DRAWN && errors.iter().any(|(error, _)| *error > 0.0);
         let chart =
             if bars { chart.points_with_errors(kind, &points, &errors) } else { chart.points(kind, &points) };
         let bars = if bars { " Bars are the stated standard errors." } else { "" };
@@ -216,7 +217,7 @@ impl Parity<'_> {
 fn calibration(rows: &[PlotRow], which: usize) -> (Vec<[f64; 2]>, ErrorBars) {
     let mut sorted: Vec<[f64; 2]> = rows.iter().map(|(_, _, numbers)| [numbers[which], numbers[0]]).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let most = (sorted.len() / CAPTURE_BINS).max(ROWS_A_BIN).min(sorted.len().max(1));
+    let most = (sorted.len() / CAPTURE_BINS).max(ROWS_A_PART).min(sorted.len().max(1));
     let mean = |part: &[[f64; 2]], of: usize| part.iter().map(|p| p[of]).sum::<f64>() / part.len() as f64;
     let one = |part: &[[f64; 2]]| {
         let (x, y) = (mean(part, 0), mean(part, 1));

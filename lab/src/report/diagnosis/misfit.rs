@@ -7,7 +7,7 @@ use super::plot::{BASE, OBSERVABLES, identifier, residuals, title, triple};
 use crate::diagnose::{Diagnosis, Misfit};
 
 /// Most figures.
-const FIGURES: usize = 8;
+const MISFIT_FIGURES: usize = 8;
 /// Figures where no column stands out.
 const FEWEST_FIGURES: usize = 4;
 
@@ -32,7 +32,7 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
         let heading = format!("Residuals of {} against {column}", title(observable));
         residuals(sample, [observable, column], &[(BASE, "base")], [&id, &heading])
     });
-    page.figures(figures.take(FIGURES));
+    page.figures(figures.take(MISFIT_FIGURES));
     if sample.rows.len() < diagnosis.rows.used {
         let (shown, used) = (sample.rows.len(), diagnosis.rows.used);
         page.note(format!("The figures of this page show {shown} of the {used} used rows."));
@@ -81,7 +81,7 @@ fn pairs(diagnosis: &Diagnosis) -> Vec<(&str, &'static str)> {
     let others = worst.chain(misfit).map(|one| (one.column.as_str(), one.observable));
     let mut chosen: Vec<(&str, &'static str)> = Vec::new();
     for pair in of_causes.chain(others) {
-        if !chosen.contains(&pair) && chosen.len() < FIGURES {
+        if !chosen.contains(&pair) && chosen.len() < MISFIT_FIGURES {
             chosen.push(pair);
         }
     }

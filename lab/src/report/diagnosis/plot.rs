@@ -2,20 +2,20 @@
 
 use super::super::chart::{Chart, ErrorBars, Figure, round_edges};
 use super::super::format::whole_percent;
-use super::axis::{Axis, DISTINCT};
+use super::axis::{ColumnAxis, DISTINCT};
 use crate::diagnose::{Sample, SampleRow};
 
 /// Up to this many rows each is drawn with its own error bar; more are drawn as a cloud with running means.
-pub(in crate::report) const FEW: usize = 40;
+pub(in crate::report) const FEW_DRAWN: usize = 40;
 /// Most running means along an axis.
-const BINS: usize = 12;
+const MOST_MEANS: usize = 12;
 const ROWS_A_VALUE: usize = 4;
 /// Fewest rows of a running mean, where there are enough.
 const ROWS_A_BIN: usize = 12;
 /// Least probability of a capture or a rebound in an expected error.
 const RARE: f64 = 0.005;
 /// Largest share of the points beyond each end of an axis.
-const BEYOND: f64 = 0.005;
+const BEYOND_WINDOW: f64 = 0.005;
 
 /// Place of each model's value in a row's three numbers; the measured value is at 0.
 pub(super) const BASE: usize = 1;
@@ -56,7 +56,7 @@ pub(in crate::report) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
     round_edges(low - room, high + room, count)
 }
 
-/// Measured minus model over a column. Up to [`FEW`] rows with stated errors are drawn with their own error bars; others as
+/// Measured minus model over a column. Up to [`FEW_DRAWN`] rows with stated errors are drawn with their own error bars; others as
 /// a cloud of the base model's rows with means for each of `models`.
 pub(super) fn residuals(
     sample: &Sample,
@@ -64,7 +64,7 @@ pub(super) fn residuals(
     models: &[(usize, &str)],
     [id, heading]: [&str; 2],
 ) -> Option<Figure> {
-    let axis = Axis::new(sample, column)?;
+    let axis = ColumnAxis::new(sample, column)?;
     let rows = sample.rows.iter().filter_map(|row| {
         let numbers = triple(row, observable)?;
         Some((axis.at(row)?, stated_error(row, observable), numbers))
@@ -79,7 +79,7 @@ pub(super) fn residuals(
     };
     let chart = axis.chart(heading, &label);
     let stated = rows.iter().filter(|(_, error, _)| *error > 0.0).count();
-    let (chart, caption) = if rows.len() <= FEW && 2 * stated > rows.len() {
+    let (chart, caption) = if rows.len() <= FEW_DRAWN && 2 * stated > rows.len() {
         single_residuals(chart, &rows, models)
     } else {
         mean_residuals(chart, &rows, models, observable, axis.has_words())
@@ -200,7 +200,7 @@ impl Means {
         sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
         let groups: Vec<&[[f64; 2]]> = sorted.chunk_by(|a, b| a[0] == b[0]).collect();
         let few = groups.len() <= DISTINCT && sorted.len() >= ROWS_A_VALUE * groups.len();
-        let most = (sorted.len() / BINS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1);
+        let most = (sorted.len() / MOST_MEANS).max(ROWS_A_BIN).min(sorted.len() / 3).max(1);
         let most = if words || few { 1 } else { most };
         let mut means = Self::default();
         let (mut from, mut to) = (0, 0);
@@ -271,7 +271,7 @@ impl Window {
     pub fn new(points: &[[f64; 2]], always: impl Iterator<Item = f64>) -> Self {
         let mut sorted: Vec<f64> = points.iter().map(|point| point[1]).collect();
         sorted.sort_by(f64::total_cmp);
-        let beyond = (BEYOND * sorted.len() as f64) as usize;
+        let beyond = (BEYOND_WINDOW * sorted.len() as f64) as usize;
         let ends = [sorted.get(beyond), sorted.get(sorted.len().saturating_sub(1 + beyond))];
         let reach = |[low, high]: [f64; 2], y: f64| [low.min(y), high.max(y)];
         let nothing = [f64::INFINITY, f64::NEG_INFINITY];
@@ -315,7 +315,7 @@ mod tests {
         let points: Vec<[f64; 2]> =
             (0..100).map(|i| [f64::from(i), if i % 2 == 0 { 1.0 } else { 3.0 }]).collect();
         let found = Means::new(&points, false);
-        assert!((6..=BINS).contains(&found.points.len()), "{}", found.points.len());
+        assert!((6..=MOST_MEANS).contains(&found.points.len()), "{}", found.points.len());
         assert!(found.points.iter().all(|mean| (mean[1] - 2.0).abs() < 0.2));
         // 0.5 sqrt(n/(n-1)) 2 / sqrt(n): a spread of 1 over some 12 rows.
         assert!(found.errors.iter().all(|(below, above)| below == above && (0.2..0.4).contains(below)));

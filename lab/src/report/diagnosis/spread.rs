@@ -6,7 +6,7 @@ use super::plot::{BASE, span, triple};
 use crate::diagnose::{Diagnosis, Finding};
 
 /// Bins of a histogram, about.
-const BINS: usize = 30;
+const HISTOGRAM_BINS: usize = 30;
 
 /// Histograms of the values and of the residuals of the base model.
 pub(super) fn figures(diagnosis: &Diagnosis, finding: &Finding, id: &str) -> Vec<Figure> {
@@ -79,7 +79,7 @@ fn deviation(values: &[f64]) -> f64 {
 fn edges(mut values: Vec<f64>) -> Vec<f64> {
     values.sort_by(f64::total_cmp);
     let beyond = values.len() / 400;
-    span(values[beyond], values[values.len() - 1 - beyond], BINS)
+    span(values[beyond], values[values.len() - 1 - beyond], HISTOGRAM_BINS)
 }
 
 /// Shares [%] of the values between edges.

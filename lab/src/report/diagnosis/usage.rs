@@ -120,7 +120,7 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
 }
 
 /// An input that the model file declares.
-pub(in crate::report) struct ExtraInput {
+pub(in crate::report) struct DeclaredInput {
     name: String,
     /// Its default as it is written in the file; empty where it has none.
     default: String,
@@ -129,12 +129,12 @@ pub(in crate::report) struct ExtraInput {
 }
 
 /// The tables `[inputs.NAME]` of a model file.
-pub(in crate::report) fn extra_inputs(model: &str) -> Vec<ExtraInput> {
+pub(in crate::report) fn extra_inputs(model: &str) -> Vec<DeclaredInput> {
     let Ok(document) = model.parse::<DocumentMut>() else { return Vec::new() };
     let written = |value: &Value| value.clone().decorated("", "").to_string();
     let input = |(name, item): (&str, &Item)| {
         let labels = item.get("labels").and_then(Item::as_array);
-        ExtraInput {
+        DeclaredInput {
             name: name.to_owned(),
             default: item.get("default").and_then(Item::as_value).map_or(String::new(), written),
             labels: labels.into_iter().flatten().map(written).collect(),
@@ -145,7 +145,7 @@ pub(in crate::report) fn extra_inputs(model: &str) -> Vec<ExtraInput> {
 }
 
 /// What `predict` needs beside the inputs that every model has.
-fn inputs_of_rows(inputs: &[ExtraInput]) -> String {
+fn inputs_of_rows(inputs: &[DeclaredInput]) -> String {
     let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
     let mut text = format!(
         "The model depends on {}, which the library does not know: impacts.csv needs a column of that name for each.",
@@ -161,14 +161,14 @@ fn inputs_of_rows(inputs: &[ExtraInput]) -> String {
 }
 
 /// The lines that put a model file into an OpenFOAM case.
-pub(in crate::report) fn openfoam(inputs: &[ExtraInput]) -> String {
+pub(in crate::report) fn openfoam(inputs: &[DeclaredInput]) -> String {
     let mut text = "libs (\"libnearWallInteraction.so\");              // system/controlDict\n\n\
                     patchInteractionModel nearWallInteraction;       // constant/<cloud>Properties, subModels\n\
                     nearWallInteractionCoeffs\n{\n    model \"<constant>/nearWall.toml\";\n"
         .to_owned();
     if !inputs.is_empty() {
         text += "    extraInputs                                  // the values of this case\n    {\n";
-        for ExtraInput { name, default, labels } in inputs {
+        for DeclaredInput { name, default, labels } in inputs {
             let value = if default.is_empty() { labels.first().map_or("0", String::as_str) } else { default };
             text += &format!("        {} {value};", keyword(name));
             if !labels.is_empty() {

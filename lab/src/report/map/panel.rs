@@ -76,7 +76,7 @@ impl<'a> Panel<'a> {
             self.map.cells[cell].filter(|cell| cell.outside_range).map(|_| hatch.clone())
         }));
         let [across, up] = [&self.map.x, &self.map.y].map(labelled);
-        picture.labelled_axes(&across, &up);
+        picture.labelled_axes(&across, &up, true);
         for (name, place) in &self.names {
             let [x, y] = picture.at(*place);
             picture.add(&format!(
@@ -91,7 +91,7 @@ impl<'a> Panel<'a> {
             picture.add(&swatch(colour, [x, y + LEGEND_ENTRY * place as f64], &lines));
         }
         if let Some(scale) = scale {
-            picture.bar(scale, "", [0.0, PANEL_PLOT[1]]);
+            picture.bar(scale, "", 0, PANEL_PLOT[1]);
         }
         let [mut x, bottom] = picture.below();
         let marks = self.marks();

@@ -1,14 +1,11 @@
 //! The box "Does the simulation fit?".
 
-use super::super::diagnosis::fit::{extends, refuted, two_digits};
+use super::super::diagnosis::fit::{TOO_GOOD, extends, refuted, two_digits};
 use super::super::format::{by_chance, number};
 use super::super::page::{Callout, Page, RowStatus, Table};
 use super::words;
 use crate::diagnose::rig::RigDiagnosis;
 use crate::diagnose::{FitTest, LargeMisfit};
-
-/// Misfits that are smaller than those of all but this share of data sets are too small for the stated errors.
-const TOO_GOOD: f64 = 0.999;
 
 pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     let fit = &found.diagnosis.fit;

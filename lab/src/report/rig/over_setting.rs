@@ -11,12 +11,12 @@ use crate::dataset::RigQuantity;
 use crate::diagnose::rig::{RigDiagnosis, RigRow};
 
 /// Most figures.
-const FIGURES: usize = 8;
+const SETTING_FIGURES: usize = 8;
 /// Fewest bins of a profile.
-const BINS: usize = 3;
+const PROFILE_BINS: usize = 3;
 
 /// A figure with what decides whether it is shown.
-struct Candidate {
+struct RatedFigure {
     kind: &'static str,
     misfit: f64,
     figure: Figure,
@@ -30,8 +30,8 @@ pub(super) fn figures(
 ) -> Vec<Figure> {
     let models = models(extends(&found.diagnosis));
     let bins = groups(found.readings.iter().filter(|row| bin(row).is_some()), profile_name);
-    let (full, few): (Vec<_>, Vec<_>) = bins.into_iter().partition(|(_, rows)| rows.len() >= BINS);
-    let mut all: Vec<Candidate> =
+    let (full, few): (Vec<_>, Vec<_>) = bins.into_iter().partition(|(_, rows)| rows.len() >= PROFILE_BINS);
+    let mut all: Vec<RatedFigure> =
         full.iter().filter_map(|(name, rows)| profile(name, rows, &models)).collect();
     let single = found.readings.iter().filter(|row| bin(row).is_none());
     let single = single.chain(few.iter().flat_map(|(_, rows)| rows.iter().copied()));
@@ -54,7 +54,7 @@ pub(super) fn figures(
 }
 
 /// The worst figure of each kind, then the worst of the others, in the order of the data.
-fn chosen(all: Vec<Candidate>) -> Vec<Figure> {
+fn chosen(all: Vec<RatedFigure>) -> Vec<Figure> {
     let worst = |place: usize| {
         let one = &all[place];
         let same = all.iter().enumerate().filter(|(_, other)| other.kind == one.kind);
@@ -64,7 +64,7 @@ fn chosen(all: Vec<Candidate>) -> Vec<Figure> {
     };
     let mut order: Vec<usize> = (0..all.len()).collect();
     order.sort_by(|&a, &b| worst(b).cmp(&worst(a)).then(all[b].misfit.total_cmp(&all[a].misfit)));
-    order.truncate(FIGURES);
+    order.truncate(SETTING_FIGURES);
     let shown = all.into_iter().enumerate().filter(|(place, _)| order.contains(place));
     shown.map(|(_, candidate)| candidate.figure).collect()
 }
@@ -95,7 +95,7 @@ fn over_setting(
     rows: &[&RigRow],
     models: &[ModelValue],
     in_case: &dyn Fn(&str) -> Option<f64>,
-) -> Option<Candidate> {
+) -> Option<RatedFigure> {
     let placed = Placed::new(rows, in_case);
     let over = placed.setting.as_deref().unwrap_or("the experiments");
     let (quantity, _) = words::axis(column);
@@ -111,7 +111,7 @@ fn over_setting(
     };
     let caption = format!("{} readings{what}{}{}", rows.len(), bars(rows), missed(rows, models));
     let figure = chart.figure(&format!("over-{}", identifier(column)), &caption);
-    Some(Candidate { kind: kind(column), misfit: misfit(rows), figure })
+    Some(RatedFigure { kind: kind(column), misfit: misfit(rows), figure })
 }
 
 /// The middle of a bin [m], and whether it is one of sizes.
@@ -131,7 +131,7 @@ fn profile_name(row: &RigRow) -> String {
 }
 
 /// The mass along a wall or by size in one experiment.
-fn profile(name: &str, rows: &[&RigRow], models: &[ModelValue]) -> Option<Candidate> {
+fn profile(name: &str, rows: &[&RigRow], models: &[ModelValue]) -> Option<RatedFigure> {
     let first = rows.first()?;
     let (by_size, wall) = (bin(first)?.1, words::axis(&first.observable).1);
     let (over, place) =
@@ -149,5 +149,5 @@ fn profile(name: &str, rows: &[&RigRow], models: &[ModelValue]) -> Option<Candid
         missed(rows, models)
     );
     let figure = chart.figure(&format!("profile-{}", identifier(name)), &caption);
-    Some(Candidate { kind: "captured", misfit: misfit(rows), figure })
+    Some(RatedFigure { kind: "captured", misfit: misfit(rows), figure })
 }

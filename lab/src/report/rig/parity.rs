@@ -3,14 +3,14 @@
 use super::super::chart::{Chart, ErrorBars, Figure};
 use super::super::diagnosis::fit::extends;
 use super::super::diagnosis::gain::AGREE;
-use super::super::diagnosis::plot::{FEW, identifier, span};
+use super::super::diagnosis::plot::{FEW_DRAWN, identifier, span};
 use super::series::{ModelValue, bar, bars, models};
 use super::words;
 use crate::dataset::RigQuantity;
 use crate::diagnose::rig::{RigDiagnosis, RigRow};
 
 /// Fewest readings of a kind with a figure of its own.
-const LEAST: usize = 3;
+const LEAST_READINGS: usize = 3;
 
 /// A figure for each kind of readings, and one for the kinds with few.
 pub(super) fn figures(found: &RigDiagnosis) -> Vec<Figure> {
@@ -21,7 +21,7 @@ pub(super) fn figures(found: &RigDiagnosis) -> Vec<Figure> {
         let own: Vec<&RigRow> =
             found.readings.iter().filter(|row| kind(row) == Some(errors.observable)).collect();
         match own.len() {
-            count if count >= LEAST => {
+            count if count >= LEAST_READINGS => {
                 figures.extend(figure(found, &own, words::kind(errors.observable), errors.observable));
             }
             _ => others.extend(own),
@@ -72,7 +72,7 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
             (below.min(at[1] - low), above.min(high - at[1]))
         };
         let errors: ErrorBars = points.iter().zip(errors).map(inside).collect();
-        chart = if rows.len() <= FEW {
+        chart = if rows.len() <= FEW_DRAWN {
             chart.points_with_errors(name, points, &errors)
         } else {
             chart.points(name, points)

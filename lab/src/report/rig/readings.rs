@@ -6,7 +6,7 @@ use super::super::page::{Page, Table};
 use crate::diagnose::rig::{RigDiagnosis, RigRow};
 
 /// Most readings listed.
-const LISTED: usize = 500;
+const LISTED_READINGS: usize = 500;
 
 /// Number of experiments.
 pub(super) fn experiments(found: &RigDiagnosis) -> usize {
@@ -22,7 +22,7 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     let held_out = extended && found.readings.iter().any(|row| row.held_out.is_some());
     let columns = 5 + usize::from(extended) + usize::from(held_out);
     let mut last = "";
-    let rows = found.readings.iter().take(LISTED).map(|row| {
+    let rows = found.readings.iter().take(LISTED_READINGS).map(|row| {
         let first = row.experiment != last;
         last = &row.experiment;
         let mut cells = cells(row, first);
@@ -47,8 +47,11 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
         }
     };
     page.table(Table::new(caption, 3, &header[..columns], rows));
-    if found.readings.len() > LISTED {
-        page.text(format!("… and {} more; diagnosis.json lists them all.", found.readings.len() - LISTED));
+    if found.readings.len() > LISTED_READINGS {
+        page.text(format!(
+            "… and {} more; diagnosis.json lists them all.",
+            found.readings.len() - LISTED_READINGS
+        ));
     }
 }
 

@@ -1,7 +1,7 @@
 //! Measured values of readings with the values of both models, as points, lines and sentences.
 
 use super::super::chart::{Chart, ErrorBars};
-use super::super::diagnosis::plot::{FEW, Window, share_axis};
+use super::super::diagnosis::plot::{FEW_DRAWN, Window, share_axis};
 use super::setting::Placed;
 use crate::dataset::RigQuantity;
 use crate::diagnose::rig::RigRow;
@@ -19,7 +19,7 @@ pub(super) fn models(extended: bool) -> Vec<ModelValue> {
 }
 
 /// The largest value of a share [1].
-const WHOLE: f64 = 1.0;
+const WHOLE_SHARE: f64 = 1.0;
 /// Shares beyond this have an axis from 0 to 1.
 const LARGE_SHARE: f64 = 0.8;
 
@@ -29,7 +29,7 @@ fn is_share(row: &RigRow) -> bool {
 
 /// Length of the error bar of a reading; it ends at zero, and that of a share at one.
 pub(super) fn bar(row: &RigRow) -> (f64, f64) {
-    let most = if is_share(row) { (WHOLE - row.measured).max(0.0) } else { f64::INFINITY };
+    let most = if is_share(row) { (WHOLE_SHARE - row.measured).max(0.0) } else { f64::INFINITY };
     (row.error.min(row.measured), row.error.min(most))
 }
 
@@ -43,7 +43,7 @@ pub(super) fn draw(chart: Chart, placed: &Placed<'_>, models: &[ModelValue], lin
     let measured: Vec<[f64; 2]> = all.iter().map(|(x, row)| [*x, row.measured]).collect();
     // Many bars would hide the readings.
     let bars: ErrorBars =
-        all.iter().map(|(_, row)| if all.len() <= FEW { bar(row) } else { (0.0, 0.0) }).collect();
+        all.iter().map(|(_, row)| if all.len() <= FEW_DRAWN { bar(row) } else { (0.0, 0.0) }).collect();
     let ends = measured.iter().zip(&bars).flat_map(|(at, bar)| [at[1] - bar.0, at[1] + bar.1]);
     let of = |value: fn(&RigRow) -> Option<f64>| {
         all.iter().filter_map(|(x, row)| Some([*x, value(row)?])).collect::<Vec<[f64; 2]>>()
@@ -65,7 +65,7 @@ pub(super) fn draw(chart: Chart, placed: &Placed<'_>, models: &[ModelValue], lin
 
 /// What the error bars are.
 pub(super) fn bars(rows: &[&RigRow]) -> &'static str {
-    if rows.len() <= FEW { " Bars are standard errors." } else { "" }
+    if rows.len() <= FEW_DRAWN { " Bars are standard errors." } else { "" }
 }
 
 /// How many readings each model misses.

@@ -1,11 +1,11 @@
 //! Settings of experiments as x axes.
 
-use super::super::diagnosis::axis::Axis;
+use super::super::diagnosis::axis::ColumnAxis;
 use crate::diagnose::rig::RigRow;
 use crate::diagnose::{Sample, SampleRow};
 
 /// Fewest values of a setting that is an x axis; with fewer the experiments stand side by side.
-const VALUES: usize = 3;
+const LEAST_VALUES: usize = 3;
 /// Most experiments side by side; more are numbered.
 const SIDE_BY_SIDE: usize = 16;
 
@@ -74,8 +74,8 @@ impl<'a> Placed<'a> {
     }
 
     /// The axis; `None` where there is one place only.
-    pub fn axis(&self) -> Option<Axis<'_>> {
-        Axis::new(&self.sample, &self.name)
+    pub fn axis(&self) -> Option<ColumnAxis<'_>> {
+        ColumnAxis::new(&self.sample, &self.name)
     }
 }
 
@@ -128,7 +128,7 @@ fn varied(rows: &[&RigRow], in_case: &dyn Fn(&str) -> Option<f64>) -> Option<Str
         sorted.dedup();
         sorted.len()
     };
-    let most = known.iter().map(|(_, numbers)| count(numbers)).max().filter(|most| *most >= VALUES)?;
+    let most = known.iter().map(|(_, numbers)| count(numbers)).max().filter(|most| *most >= LEAST_VALUES)?;
     let change = |row: &&RigRow| Some(row.extended? - row.base?);
     let changes: Vec<f64> = rows.iter().map(|row| change(row).unwrap_or(0.0)).collect();
     let changed = changes.iter().any(|change| change.abs() > 1e-12);

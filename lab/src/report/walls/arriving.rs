@@ -1,12 +1,12 @@
 //! What arrives at each wall by speed, angle and size, which part of it is captured, and its kinetic energy.
 
-use super::{Comparison, number, percent};
+use super::{RunComparison, number, percent};
 use crate::report::page::TableColumn;
 use crate::report::{BarChart, Chart, Figure, Table};
 use crate::results::classes::{Class, ClassQuantity, ClassSums, together, total};
 use crate::results::share;
 
-pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let mut figures = Vec::new();
     let mut walls = Vec::new();
     for (index, wall) in comparison.walls.iter().enumerate() {
@@ -26,7 +26,7 @@ pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
 
 /// The cases with classes at a wall.
 fn each<'a>(
-    comparison: &'a Comparison<'_>,
+    comparison: &'a RunComparison<'_>,
     wall: &'a str,
 ) -> impl Iterator<Item = (&'a String, &'a [Class])> {
     comparison.each().filter_map(move |(label, run)| {
@@ -35,7 +35,7 @@ fn each<'a>(
     })
 }
 
-fn distribution(comparison: &Comparison<'_>, index: usize, quantity: ClassQuantity) -> Option<Figure> {
+fn distribution(comparison: &RunComparison<'_>, index: usize, quantity: ClassQuantity) -> Option<Figure> {
     let wall = &comparison.walls[index];
     let (name, what, x_label) = match quantity {
         ClassQuantity::Speed => ("speed", "Impact speed", "speed relative to the wall [m/s]"),
@@ -70,7 +70,7 @@ fn distribution(comparison: &Comparison<'_>, index: usize, quantity: ClassQuanti
     any.then(|| chart.figure(&format!("{name}-{index}"), caption))
 }
 
-fn capture(comparison: &Comparison<'_>, index: usize) -> Option<Figure> {
+fn capture(comparison: &RunComparison<'_>, index: usize) -> Option<Figure> {
     let wall = &comparison.walls[index];
     let title = format!("Captured by size at {wall}");
     let mut chart = Chart::new(&title, "diameter [m]", "captured of the arriving particles [%]");
@@ -92,7 +92,7 @@ fn capture(comparison: &Comparison<'_>, index: usize) -> Option<Figure> {
     any.then(|| chart.log_x().y_range(0.0, 100.0).figure(&format!("capture-{index}"), caption))
 }
 
-fn energy(comparison: &Comparison<'_>, walls: &[String]) -> Figure {
+fn energy(comparison: &RunComparison<'_>, walls: &[String]) -> Figure {
     let title = "Kinetic energy after the hits";
     let mut bars = BarChart::new(title, "of the kinetic energy before [%]", walls);
     for (label, run) in comparison.each() {
@@ -109,7 +109,7 @@ fn energy(comparison: &Comparison<'_>, walls: &[String]) -> Figure {
 }
 
 /// One row for each case, wall and injector.
-pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
+pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
     let mut items = Vec::new();
     for wall in &comparison.walls {
         for (label, classes) in each(comparison, wall) {

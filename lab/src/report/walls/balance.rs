@@ -1,10 +1,10 @@
 //! The mass balance.
 
-use super::{Comparison, Table, number, percent};
+use super::{RunComparison, Table, number, percent};
 use crate::results::{BalanceLine, share};
 
 /// One row for each line of a balance. A single run shows counts and shares, several runs their masses side by side.
-pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
+pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
     let mut names: Vec<&str> = Vec::new();
     for line in comparison.runs.iter().flat_map(|run| &run.balance) {
         if !names.contains(&line.what.as_str()) {

@@ -1,13 +1,13 @@
 //! What is captured: by wall, regime and size, and over time.
 
-use super::{Comparison, RunResults, number, percent, spread};
+use super::{RunComparison, RunResults, number, percent, spread};
 use crate::report::format::REGIME_NAMES;
 use crate::report::{BarChart, Chart, Figure, Table, round_edges};
 use crate::results::{WallTotals, range, share};
 use nearwall::impact::Regime;
 
 /// Captured mass of each run by wall; a single run with regimes has [`regimes`] instead.
-pub(super) fn by_wall(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn by_wall(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let time = comparison.time;
     let known = |run: &RunResults| {
         comparison.walls.iter().any(|wall| run.totals(wall, time).is_some_and(|t| t.regimes.is_some()))
@@ -31,7 +31,7 @@ pub(super) fn by_wall(comparison: &Comparison<'_>) -> Vec<Figure> {
 }
 
 /// Captured mass by wall and regime, one figure for each run with regimes.
-pub(super) fn regimes(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn regimes(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let mut figures = Vec::new();
     for (label, run) in comparison.each().filter(|(_, run)| run.is_ours()) {
         let of =
@@ -53,7 +53,7 @@ pub(super) fn regimes(comparison: &Comparison<'_>) -> Vec<Figure> {
 }
 
 /// Hits of a single run by wall and regime.
-pub(super) fn hit_regimes(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn hit_regimes(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let [run] = comparison.runs else { return Vec::new() };
     let of = |totals: &WallTotals, regime: Regime| {
         totals.regime_hits.map_or(0.0, |hits| hits[regime as usize] as f64)
@@ -66,7 +66,7 @@ pub(super) fn hit_regimes(comparison: &Comparison<'_>) -> Vec<Figure> {
 
 /// Stacked bars of the regimes at each wall as a percentage of `whole`; `None` when all are empty.
 fn stacked(
-    comparison: &Comparison<'_>,
+    comparison: &RunComparison<'_>,
     run: &RunResults,
     bars: BarChart,
     of: impl Fn(&WallTotals, Regime) -> f64,
@@ -86,7 +86,7 @@ fn stacked(
 }
 
 /// Captured mass over time.
-pub(super) fn history(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn history(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let mut chart = Chart::new("Captured mass over time", comparison.clock(), "mass at capture [kg]");
     let mut any = false;
     for (label, run) in comparison.each() {
@@ -108,7 +108,7 @@ pub(super) fn thinned<T>(items: &[T]) -> impl Iterator<Item = &T> {
 }
 
 /// Captured mass by diameter, unless the arrivals are classed by diameter.
-pub(super) fn sizes(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn sizes(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let diameters =
         comparison.runs.iter().flat_map(|run| &run.captures).map(|capture| 1e6 * capture.diameter);
     let [low, high] = range(diameters);
@@ -137,7 +137,7 @@ pub(super) fn heights(edges: &[f64], points: impl Iterator<Item = (f64, f64)>, w
     heights
 }
 
-pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
+pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
     let caption = format!(
         "{}. Counts are of particles, or of parcels in OpenFOAM; masses are those at the hit; mean \
          ± standard deviation.",

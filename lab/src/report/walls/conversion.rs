@@ -1,11 +1,11 @@
 //! Carbon conversion of what is captured and of what arrives.
 
-use super::Comparison;
+use super::RunComparison;
 use crate::report::{Chart, Figure};
 use crate::results::{ByConversion, CONVERSION_BINS, share};
 
 /// Captured mass by conversion at capture.
-pub(super) fn captured(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn captured(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let single = comparison.is_single();
     let quantity = if single { "captured mass [% of injected]" } else { "share of the captured mass [%]" };
     let chart = chart("Carbon conversion at capture", quantity);
@@ -18,7 +18,7 @@ pub(super) fn captured(comparison: &Comparison<'_>) -> Vec<Figure> {
 }
 
 /// Mass of recorded arrivals by conversion.
-pub(super) fn arriving(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn arriving(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let chart = chart("Carbon conversion of arrivals", "share of the arriving mass [%]");
     let caption =
         ["arriving", "All recorded arrivals at walls; a parcel that rebounds may arrive many times."];

@@ -1,6 +1,6 @@
 //! What lies on walls that keep a deposit, over time.
 
-use super::Comparison;
+use super::RunComparison;
 use super::captured::thinned;
 use crate::report::{Chart, Figure};
 use crate::results::History;
@@ -9,7 +9,7 @@ use crate::results::openfoam::deposit::{DepositState, value};
 /// Relative change of a column over time from which on it is drawn [1].
 const LEAST_CHANGE: f64 = 1e-3;
 
-pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let all = comparison.each().flat_map(|(label, run)| run.deposits.iter().map(move |wall| (label, wall)));
     let walls: Vec<(&String, &History<DepositState>)> = all.filter(|(_, wall)| is_something(wall)).collect();
     // A single run needs no name.

@@ -1,6 +1,6 @@
 //! A cut through the gas with the parcels in it, of an OpenFOAM case.
 
-use super::{Comparison, number};
+use super::{RunComparison, number};
 use crate::report::chart::{COLUMN_WIDTH, ColourScale, Palette, PlanePicture};
 use crate::report::{Figure, Page};
 use crate::results::gas::{GasCut, ParcelQuantity};
@@ -11,13 +11,13 @@ const MOST_DOTS: usize = 5000;
 /// Largest width and height of the plot, and the least of either [px].
 const MOST: [f64; 2] = [400.0, 600.0];
 const LEAST_SIDE: f64 = 24.0;
-/// Largest height of the bars of colours, and least size of the drawing [px].
-const TALLEST_BAR: f64 = 260.0;
+/// Least and largest height of the bars of colours, and least size of the drawing [px].
+const BAR_HEIGHT: [f64; 2] = [150.0, 260.0];
 const LEAST_WIDTH: f64 = 470.0;
 const LEAST_HEIGHT: f64 = 190.0;
 
 /// Adds the section of the page: one picture for each run.
-pub(super) fn add_to(comparison: &Comparison<'_>, page: &mut Page) {
+pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
     let picture = |(place, (label, run)): (usize, (&String, &RunResults))| {
         let cloud = &run.cloud;
         let title = if comparison.is_single() { cloud.clone() } else { format!("{cloud}, {label}") };
@@ -62,11 +62,12 @@ fn picture(run: &RunResults, gas: &GasCut, id: &str, title: &str) -> Option<Figu
     picture.outline();
     picture.dots(&dots, parcels.as_ref().map(|(scale, _)| scale));
     let axes = gas.plane.axes().map(|axis| format!("{} [m]", ["x", "y", "z"][axis]));
-    picture.axes([&axes[0], &axes[1]]);
+    picture.axes([&axes[0], &axes[1]], false);
     let label = format!("{} [{}]", gas.quantity.name(), gas.quantity.unit());
-    picture.bar(&gas_scale, &label, [0.0, TALLEST_BAR]);
+    let bar = size[1].clamp(BAR_HEIGHT[0], BAR_HEIGHT[1]);
+    picture.bar(&gas_scale, &label, 0, bar);
     let bars = if let Some((scale, label)) = &parcels {
-        picture.bar(scale, label, [1.0, TALLEST_BAR]);
+        picture.bar(scale, label, 1, bar);
         2.0
     } else {
         1.0

@@ -1,9 +1,9 @@
 //! What is captured of each injection, in a case with several.
 
-use super::{Comparison, Table, number, percent};
+use super::{RunComparison, Table, number, percent};
 use crate::results::share;
 
-pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
+pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
     let [run] = comparison.runs else { return None };
     let header =
         ["injection", "particles", "mass [kg]", "captured particles", "captured mass [kg]", "captured mass"];

@@ -42,9 +42,9 @@ const LAST_SECTIONS: [PageSection; 2] =
     [("Which injection is captured", &[], injections::table), ("Balance", &[], balance::table)];
 
 type PageSection =
-    (&'static str, &'static [fn(&Comparison<'_>) -> Vec<Figure>], fn(&Comparison<'_>) -> Option<Table>);
+    (&'static str, &'static [fn(&RunComparison<'_>) -> Vec<Figure>], fn(&RunComparison<'_>) -> Option<Table>);
 
-fn nothing(_: &Comparison<'_>) -> Option<Table> {
+fn nothing(_: &RunComparison<'_>) -> Option<Table> {
     None
 }
 
@@ -53,7 +53,7 @@ fn nothing(_: &Comparison<'_>) -> Option<Table> {
 /// # Errors
 /// When the template cannot be filled.
 pub fn openfoam_page(runs: &[RunResults]) -> Result<String, askama::Error> {
-    let comparison = Comparison::new(runs);
+    let comparison = RunComparison::new(runs);
     let mut page = Page::new(&verdict::title(&comparison));
     page.lead(verdict::lead(&comparison));
     comparison.add_to(&mut page);
@@ -84,7 +84,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
         (Some(sweep), _) => sweep::add_to(&mut page, case, sweep, runs),
         (None, [run]) => {
             let results = [run.results(case)];
-            Comparison::new(&results).add_to(&mut page);
+            RunComparison::new(&results).add_to(&mut page);
         }
         _ => {}
     }
@@ -148,7 +148,7 @@ fn bands(case: &Case, runs: &[Run]) -> Option<Table> {
 }
 
 /// Runs side by side, with the walls and the time at which they are compared.
-struct Comparison<'a> {
+struct RunComparison<'a> {
     runs: &'a [RunResults],
     labels: Vec<String>,
     walls: Vec<String>,
@@ -163,7 +163,7 @@ struct Series<'a> {
     walls: Vec<&'a str>,
 }
 
-impl<'a> Comparison<'a> {
+impl<'a> RunComparison<'a> {
     fn new(runs: &'a [RunResults]) -> Self {
         let time = common_time(runs.iter());
         let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), time };
@@ -303,7 +303,7 @@ impl<'a> Comparison<'a> {
 
     /// A table with a row for each run and wall. A column without any value is left out, as is the run's name where
     /// there is one run only.
-    fn wall_table(&self, caption: &str, columns: &[Column]) -> Option<Table> {
+    fn wall_table(&self, caption: &str, columns: &[WallColumn]) -> Option<Table> {
         let places: Vec<(&String, &RunResults, &String)> = self
             .each()
             .flat_map(|(label, run)| self.walls.iter().map(move |wall| (label, run, wall)))
@@ -333,7 +333,7 @@ impl<'a> Comparison<'a> {
 }
 
 /// Head of a column, and its value for a run and a wall.
-type Column = (&'static str, fn(&Comparison<'_>, &RunResults, &str) -> Option<String>);
+type WallColumn = (&'static str, fn(&RunComparison<'_>, &RunResults, &str) -> Option<String>);
 
 /// Explains why far more particles are captured in the end than at their first hit.
 fn page_later_captures(page: &mut Page, run: &RunResults) {

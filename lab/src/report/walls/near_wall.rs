@@ -1,15 +1,15 @@
 //! How long particles stay near the walls, and how densely: the dense-dispersed phase of Troiano et al.
 
-use super::{Comparison, RunResults, number, spread};
+use super::{RunComparison, RunResults, number, spread};
 use crate::report::{BarChart, Figure, Table};
 use crate::results::NearWall;
 
-fn near<'a>(comparison: &Comparison<'_>, run: &'a RunResults, wall: &str) -> Option<&'a NearWall> {
+fn near<'a>(comparison: &RunComparison<'_>, run: &'a RunResults, wall: &str) -> Option<&'a NearWall> {
     run.totals(wall, comparison.time)?.near_wall.as_ref()
 }
 
 /// Concentration near each pipe wall over that in its cross-section.
-pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let [run] = comparison.runs else { return Vec::new() };
     let ratios = |wall: &String| near(comparison, run, wall)?.concentration();
     let walls = comparison
@@ -32,7 +32,7 @@ pub(super) fn figures(comparison: &Comparison<'_>) -> Vec<Figure> {
     vec![chart.figure("near-wall", caption)]
 }
 
-pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
+pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
     let distances =
         comparison.runs.iter().flat_map(|run| &run.walls).filter_map(|wall| wall.at(comparison.time));
     let distance = distances.filter_map(|totals| totals.near_wall).map(|near| near.distance).next()?;

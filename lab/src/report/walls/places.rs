@@ -1,7 +1,7 @@
 //! Where captured particles lie: along the main axis, on unrolled walls, and seen from the side.
 
 use super::captured::heights;
-use super::{Comparison, identifier};
+use super::{RunComparison, identifier};
 use crate::report::chart::{ColourScale, PlanePicture};
 use crate::report::format::REGIME_NAMES;
 use crate::report::{Chart, Figure, round_edges};
@@ -19,7 +19,7 @@ const MAP_WIDTH: f64 = 620.0;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Captured mass along the main axis: by regime along the pipes of a standalone case, else one series for each run.
-pub(super) fn along(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn along(comparison: &RunComparison<'_>) -> Vec<Figure> {
     match comparison.runs {
         [run] if run.pipe.is_some() => along_pipe(comparison, run),
         runs if runs.iter().all(|run| run.maps.is_empty()) => along_axis(comparison),
@@ -27,7 +27,7 @@ pub(super) fn along(comparison: &Comparison<'_>) -> Vec<Figure> {
     }
 }
 
-fn along_pipe(comparison: &Comparison<'_>, run: &RunResults) -> Vec<Figure> {
+fn along_pipe(comparison: &RunComparison<'_>, run: &RunResults) -> Vec<Figure> {
     let Some(pipe) = &run.pipe else { return Vec::new() };
     let edges = round_edges(pipe.range[0], pipe.range[1], AXIS_BINS);
     let title = "Captured mass along the pipe";
@@ -51,7 +51,7 @@ fn along_pipe(comparison: &Comparison<'_>, run: &RunResults) -> Vec<Figure> {
     vec![chart.figure("along", &format!("By regime. {REGIME_NAMES}"))]
 }
 
-fn along_axis(comparison: &Comparison<'_>) -> Vec<Figure> {
+fn along_axis(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let axis = main_axis(comparison.runs);
     let place = |capture: &Capture| capture.position[axis];
     let [low, high] = range(comparison.runs.iter().flat_map(|run| &run.captures).map(place));
@@ -95,7 +95,7 @@ fn fate(label: &str, run: &RunResults) -> Option<String> {
 }
 
 /// Captures on each wall that can be unrolled.
-pub(super) fn maps(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn maps(comparison: &RunComparison<'_>) -> Vec<Figure> {
     comparison.runs.iter().flat_map(map_figures).collect()
 }
 
@@ -117,15 +117,15 @@ fn map_figure(map: &WallMap) -> Figure {
     let title = format!("{title}: captured mass [kg/m²]");
     let mut picture = PlanePicture::new([&id, &title], map.ranges, MAP_SIZE);
     picture.cells(&cells, &fills);
-    picture.axes(map.axes);
-    picture.bar(&scale, "kg/m²", [0.0, MAP_SIZE[1]]);
+    picture.axes(map.axes, true);
+    picture.bar(&scale, "kg/m²", 0, MAP_SIZE[1]);
     let size = [MAP_WIDTH, picture.below()[1]];
     picture.figure("Mass captured per area of wall during the run.", size, MAP_WIDTH)
 }
 
 /// Captured parcels along the main axis and around it or, where the wall is not round, from the side. All cases have
 /// the same axes.
-pub(super) fn scatter(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn scatter(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let all: Vec<[f64; 3]> =
         comparison.runs.iter().flat_map(|run| &run.captures).map(|capture| capture.position).collect();
     if all.is_empty() || comparison.runs.iter().any(|run| !run.maps.is_empty()) {

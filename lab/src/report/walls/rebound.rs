@@ -1,20 +1,20 @@
 //! Rebounds: restitution, impact speed and angle.
 
-use super::{Comparison, percent, spread};
+use super::{RunComparison, percent, spread};
 use crate::report::{Chart, Figure, Table};
 use crate::results::share;
 use crate::results::standalone::RESTITUTION_STEP;
 
-pub(super) fn normal(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn normal(comparison: &RunComparison<'_>) -> Vec<Figure> {
     restitution(comparison, 0, "normal-restitution", ["Normal restitution e_n", "e_n [1]"])
 }
 
-pub(super) fn tangential(comparison: &Comparison<'_>) -> Vec<Figure> {
+pub(super) fn tangential(comparison: &RunComparison<'_>) -> Vec<Figure> {
     restitution(comparison, 1, "tangential-restitution", ["Tangential restitution e_t", "e_t [1]"])
 }
 
 fn restitution(
-    comparison: &Comparison<'_>,
+    comparison: &RunComparison<'_>,
     which: usize,
     id: &str,
     [title, label]: [&str; 2],
@@ -35,7 +35,7 @@ fn restitution(
     })
 }
 
-pub(super) fn table(comparison: &Comparison<'_>) -> Option<Table> {
+pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
     let caption = "Mean ± standard deviation. Outside validity: hits beyond the range that a property or a fitted term is \
                    stated for.";
     comparison.wall_table(

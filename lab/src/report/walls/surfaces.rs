@@ -1,6 +1,6 @@
 //! What lies on the faces of the walls of an OpenFOAM case, as maps of the unrolled walls.
 
-use super::{Comparison, identifier, number};
+use super::{RunComparison, identifier, number};
 use crate::report::chart::{ColourScale, PlanePicture, hatching, regime_colour, swatch};
 use crate::report::format::{REGIME_NAMES, with_unit};
 use crate::report::{Figure, Page, percent};
@@ -22,7 +22,7 @@ const PLOT_WIDTH: f64 = 262.0;
 const LEAST_HEIGHT: f64 = 92.0;
 
 /// Adds the section of the page: one row of maps for each wall.
-pub(super) fn add_to(comparison: &Comparison<'_>, page: &mut Page) {
+pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
     if comparison.runs.iter().all(|run| run.surfaces.is_empty()) {
         return;
     }
@@ -101,7 +101,7 @@ fn map(
     let id = format!("{id}-{}", identifier(quantity.name()));
     let fills: Vec<String> = cells.iter().map(|cell| scale.colour_or_grey(cell.value)).collect();
     let (mut map, is_stretched) = picture([&id, &title], unrolled, &cells, &fills)?;
-    map.bar(&scale, quantity.unit(), [0.0, PLOT_WIDTH]);
+    map.bar(&scale, quantity.unit(), 0, map.height());
     let caption = caption(wall, quantity, values) + &above(&cells, high);
     Some((finished(map, &caption), is_stretched))
 }
@@ -122,7 +122,7 @@ fn picture<'a>(
     map.add(&hatching(texts[0]));
     map.cells(cells, fills);
     let [across, up] = unrolled.axes.map(axis_label);
-    map.axes([&across, &up]);
+    map.axes([&across, &up], true);
     Some((map, height > 1.001 * proper))
 }
 

@@ -1,20 +1,20 @@
 //! The title and the sentences at the top of the page.
 
-use super::{Comparison, RunResults, WallModel, number, percent};
+use super::{RunComparison, RunResults, WallModel, number, percent};
 use crate::results::{ByConversion, share};
 use nearwall::impact::Regime;
 
 /// Conversion below which carbon still covers the ash of captured char (Troiano et al.: threshold 0.88 to 0.90).
 const RAW: f64 = 0.8;
 
-pub(super) fn title(comparison: &Comparison<'_>) -> String {
+pub(super) fn title(comparison: &RunComparison<'_>) -> String {
     match comparison.labels.as_slice() {
         [one] => format!("Wall hits in {one}"),
         several => format!("Wall hits: {}", several.join(", ")),
     }
 }
 
-pub(super) fn lead(comparison: &Comparison<'_>) -> String {
+pub(super) fn lead(comparison: &RunComparison<'_>) -> String {
     let models = comparison.each().map(|(label, run)| {
         let model = match &run.wall_model {
             WallModel::Nearwall => "the impact model of nearwall (nearWallInteraction)",
@@ -29,7 +29,7 @@ pub(super) fn lead(comparison: &Comparison<'_>) -> String {
 }
 
 /// At most four sentences, however many runs there are.
-pub(super) fn lines(comparison: &Comparison<'_>) -> Vec<String> {
+pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
     let own = || comparison.each().filter(|(_, run)| run.is_ours());
     let mut lines = Vec::new();
     if let [run] = comparison.runs {
@@ -75,7 +75,7 @@ pub(super) fn lines(comparison: &Comparison<'_>) -> Vec<String> {
     lines
 }
 
-fn single(comparison: &Comparison<'_>, run: &RunResults) -> String {
+fn single(comparison: &RunComparison<'_>, run: &RunResults) -> String {
     let injected = comparison.injected(run);
     let part = |starts: &str| {
         let lines = run.balance.iter().filter(|line| line.what.starts_with(starts));
@@ -90,7 +90,7 @@ fn single(comparison: &Comparison<'_>, run: &RunResults) -> String {
 }
 
 /// The wall that captures most.
-fn busiest(comparison: &Comparison<'_>, run: &RunResults) -> Option<String> {
+fn busiest(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String> {
     let mass = |wall: &String| run.captured(wall, comparison.time).map_or(0.0, |amount| amount.mass());
     let wall = comparison.walls.iter().max_by(|a, b| mass(a).total_cmp(&mass(b)))?;
     let totals = comparison.totals(run, wall)?;
@@ -111,7 +111,7 @@ fn busiest(comparison: &Comparison<'_>, run: &RunResults) -> Option<String> {
 }
 
 /// The regime with most captured mass at some walls, and its share [1].
-fn main_regime(comparison: &Comparison<'_>, run: &RunResults, walls: &[String]) -> Option<(Regime, f64)> {
+fn main_regime(comparison: &RunComparison<'_>, run: &RunResults, walls: &[String]) -> Option<(Regime, f64)> {
     let mut masses = [0.0; 4];
     for regimes in walls.iter().filter_map(|wall| comparison.totals(run, wall)?.regimes) {
         masses.iter_mut().zip(regimes).for_each(|(sum, amount)| *sum += amount.mass());
@@ -123,7 +123,7 @@ fn main_regime(comparison: &Comparison<'_>, run: &RunResults, walls: &[String]) 
 }
 
 /// What stock models do with the same cloud at walls where our model captures a part of what arrives.
-fn beside_stock(comparison: &Comparison<'_>, own_label: &str, ours: &RunResults) -> Option<String> {
+fn beside_stock(comparison: &RunComparison<'_>, own_label: &str, ours: &RunResults) -> Option<String> {
     let time = comparison.time;
     let part = |wall: &String| {
         let arriving = ours.arrived(wall, time).filter(|(hits, _)| hits.mass() > 0.0)?.0.mass();

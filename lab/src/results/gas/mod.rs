@@ -1,12 +1,12 @@
 //! A cut through the gas with the parcels near it, at one time.
 //!
-//! [`crate::results::openfoam::gas`] reads a [`GasCut`]; [`Plane`] chooses where to cut.
+//! [`crate::results::openfoam::gas`] reads a [`GasCut`]; [`CutPlane`] chooses where to cut.
 
 mod plane;
 
 use super::map_cells::{Grid, MapCell, extent};
 
-pub use plane::Plane;
+pub use plane::CutPlane;
 
 /// About the most squares of a grid, and the most cells that are drawn one by one.
 pub const GAS_CELLS: usize = 20_000;
@@ -82,7 +82,7 @@ pub struct GasCut {
     /// Time [s], or number of iterations.
     pub time: f64,
     /// Where the mesh is cut.
-    pub plane: Plane,
+    pub plane: CutPlane,
     /// Whether the plane cuts every cell: the mesh is one cell thick.
     pub is_flat: bool,
     /// What the values of the cells are.

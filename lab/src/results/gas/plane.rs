@@ -7,7 +7,7 @@ const SAME_EXTENT: f64 = 0.01;
 
 /// A plane normal to a main axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
+pub struct CutPlane {
     /// Number of the axis that is normal to it: 0 is x.
     pub normal: usize,
     /// Where it cuts that axis [m].
@@ -16,7 +16,7 @@ pub struct Plane {
     pub extent: f64,
 }
 
-impl Plane {
+impl CutPlane {
     /// The plane through the middle of a box, whose ends are in m. Of equal extents it takes y, then x,
     /// then z: in a round vertical vessel the plane is normal to y. `None` for a box without an extent.
     pub fn through(ends: &[[f64; 2]; 3]) -> Option<Self> {
@@ -71,13 +71,13 @@ mod tests {
 
     #[test]
     fn the_plane_is_normal_to_the_least_extent() {
-        let plane = |ends| Plane::through(&ends).unwrap();
+        let plane = |ends| CutPlane::through(&ends).unwrap();
         let vessel = plane([[-0.2, 0.2], [-0.2, 0.2], [-1.45, 0.0]]);
         assert_eq!((vessel.normal, vessel.axes(), vessel.words().as_str()), (1, [0, 2], "y = 0 m"));
         let tube = plane([[0.0, 1.0], [0.0, 2.0], [0.001, 0.003]]);
         assert_eq!((tube.normal, tube.words().as_str()), (2, "z = 0.002 m"));
         assert_eq!(plane([[0.0, 1.0], [2.0, 5.0], [0.0, 9.0]]).words(), "x = 0.5 m");
-        assert_eq!(Plane::through(&[[0.0, 1.0], [f64::INFINITY, 0.0], [0.0, 1.0]]), None);
-        assert_eq!(Plane::through(&[[0.0, 0.0], [0.0, 1.0], [0.0, 1.0]]), None);
+        assert_eq!(CutPlane::through(&[[0.0, 1.0], [f64::INFINITY, 0.0], [0.0, 1.0]]), None);
+        assert_eq!(CutPlane::through(&[[0.0, 0.0], [0.0, 1.0], [0.0, 1.0]]), None);
     }
 }

@@ -16,7 +16,7 @@ use nalgebra::Vector3;
 use super::foam_file::{FoamError, FoamFile};
 use super::mesh::{Faces, Mesh};
 use super::parcel_lists::TetPlace;
-use crate::results::gas::Plane;
+use crate::results::gas::CutPlane;
 use crate::results::surface::WallFace;
 
 /// Faces and cells of a mesh.
@@ -97,7 +97,7 @@ impl MeshCells {
     }
 
     /// The cells that a plane cuts, in their order, and the corners of each cut in the plane [m].
-    pub fn cut(&self, plane: &Plane) -> Vec<(usize, Vec<[f64; 2]>)> {
+    pub fn cut(&self, plane: &CutPlane) -> Vec<(usize, Vec<[f64; 2]>)> {
         let mut crossings: BTreeMap<usize, BTreeMap<[usize; 2], [f64; 2]>> = BTreeMap::new();
         for face in 0..self.owner.len() {
             let Some(corners) = self.faces.corners(face) else { continue };
@@ -118,7 +118,7 @@ impl MeshCells {
     }
 
     /// Where an edge crosses a plane [m].
-    fn crossing(&self, edge: [usize; 2], plane: &Plane) -> Option<[f64; 2]> {
+    fn crossing(&self, edge: [usize; 2], plane: &CutPlane) -> Option<[f64; 2]> {
         let [from, to] = edge.map(|point| &self.faces.points[point]);
         let [before, behind] = [plane.distance(from), plane.distance(to)];
         if (before < 0.0) == (behind < 0.0) {

@@ -15,7 +15,7 @@ use super::foam_file::{FoamError, FoamFile, is_written};
 use super::parcel_lists::{ParcelPlaces, numbers, places};
 use super::recorded::Carbon;
 use super::written_time::{WrittenTime, has_collated};
-use crate::results::gas::{FlyingParcel, GasCut, GasQuantity, ParcelQuantity, Plane};
+use crate::results::gas::{CutPlane, FlyingParcel, GasCut, GasQuantity, ParcelQuantity};
 use crate::results::{MapCell, range};
 
 /// Largest size of the files `faces` of a mesh that is cut, in all [bytes]: some four million cells, for which reading takes
@@ -86,7 +86,7 @@ fn cut(
     let meshes: Vec<MeshCells> = source.roots.iter().map(read).collect::<Result<_, _>>()?;
     let points = || meshes.iter().flat_map(MeshCells::points);
     let ends = [0, 1, 2].map(|axis| range(points().map(|point| point[axis])));
-    let Some(plane) = Plane::through(&ends) else { return Ok(None) };
+    let Some(plane) = CutPlane::through(&ends) else { return Ok(None) };
     let clouds = source.roots.iter().map(|root| source.file(root, "lagrangian").join(cloud));
     let clouds: Vec<PathBuf> = clouds.collect();
     // A rank without parcels may have no files of them.

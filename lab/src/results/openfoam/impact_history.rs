@@ -19,7 +19,7 @@ use nearwall::impact::{ExtraInput, Impact};
 const RECORD: &str = "impacts.csv";
 
 /// Folders below which each cloud has its own, seen from the case and from `postProcessing`.
-const TABLES: [&str; 2] = ["postProcessing/nearWallInteraction", "nearWallInteraction"];
+const RECORD_FOLDERS: [&str; 2] = ["postProcessing/nearWallInteraction", "nearWallInteraction"];
 
 /// Why the histories of a case cannot be read or replayed.
 #[derive(Debug, thiserror::Error)]
@@ -268,7 +268,7 @@ pub fn read(
     let (one_in, header_line) = preface(source).map_err(unreadable)?;
     let source = BufReader::new(File::open(&file).map_err(unreadable)?);
     let mut reader = ImpactReader::new(&shown, source)?.with_extra_inputs(extra_inputs);
-    let columns = Columns::of(&reader, &file, header_line)?;
+    let columns = RecordColumns::of(&reader, &file, header_line)?;
     let mut names = Names::default();
     let mut parcels: BTreeMap<ParcelId, Vec<RecordedImpact>> = BTreeMap::new();
     let mut row = ImpactRow::default();
@@ -340,7 +340,7 @@ pub fn find(place: &Path, cloud: Option<&str>) -> Result<PathBuf, HistoryError> 
             _ => Ok(file),
         };
     }
-    let folders = TABLES.map(|below| place.join(below)).into_iter().find(|folder| folder.is_dir());
+    let folders = RECORD_FOLDERS.map(|below| place.join(below)).into_iter().find(|folder| folder.is_dir());
     let clouds = entries(folders.as_deref().unwrap_or(place), Path::is_dir).into_iter();
     let mut records: Vec<(String, PathBuf)> =
         clouds.filter_map(|folder| Some((file_name(&folder).to_owned(), newest(&folder)?))).collect();
@@ -362,7 +362,7 @@ fn newest(cloud: &Path) -> Option<PathBuf> {
 }
 
 /// The columns of a record beside the inputs.
-struct Columns {
+struct RecordColumns {
     identity: [usize; PARCEL_COLUMNS.len()],
     time: usize,
     position: [usize; 3],
@@ -374,7 +374,7 @@ struct Columns {
     restitution: [usize; 2],
 }
 
-impl Columns {
+impl RecordColumns {
     fn of<R: std::io::Read>(
         reader: &ImpactReader<R>,
         file: &Path,
@@ -520,7 +520,7 @@ mod tests {
         }
 
         fn with(self, cloud: &str, start: &str, name: &str, text: &str) -> Self {
-            let folder = self.path().join(TABLES[0]).join(cloud).join(start);
+            let folder = self.path().join(RECORD_FOLDERS[0]).join(cloud).join(start);
             std::fs::create_dir_all(&folder).unwrap();
             std::fs::write(folder.join(name), text).unwrap();
             self
@@ -581,7 +581,7 @@ mod tests {
     #[test]
     fn a_record_is_found_from_every_folder_around_it() {
         let case = Case::new().recorded("0", "all", &ROWS[..1]).recorded("0.1", "all", &ROWS).tables();
-        let tables = case.path().join(TABLES[0]);
+        let tables = case.path().join(RECORD_FOLDERS[0]);
         for place in
             [case.path().into(), case.path().join("postProcessing"), tables.clone(), tables.join("cloud")]
         {

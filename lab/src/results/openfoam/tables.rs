@@ -14,7 +14,7 @@ use nearwall::impact::Regime;
 const TIME: &str = "time_s";
 /// Endings of the other tables beside `<patch>.dat`.
 const BALANCE: &str = "balance.dat";
-const CLASSES: &str = ".distributions.dat";
+const CLASS_TABLE: &str = ".distributions.dat";
 const DEPOSIT: &str = ".wall.dat";
 const FLUX: &str = ".flux.dat";
 const STAY: &str = ".nearWall.dat";
@@ -38,8 +38,8 @@ const BALANCE_LINES: [(&str, &[&str]); 6] = [
 
 /// Fills in what the tables in a cloud's folder state.
 pub(super) fn read_into(results: &mut RunResults, folder: &Path) {
-    results.walls = histories(folder, ".dat", &[BALANCE, CLASSES, DEPOSIT, FLUX, STAY], wall_totals);
-    results.classes = histories(folder, CLASSES, &[], class).into_iter().map(by_time).collect();
+    results.walls = histories(folder, ".dat", &[BALANCE, CLASS_TABLE, DEPOSIT, FLUX, STAY], wall_totals);
+    results.classes = histories(folder, CLASS_TABLE, &[], class).into_iter().map(by_time).collect();
     results.deposits = histories(folder, DEPOSIT, &[], deposit_state);
     let balance = histories(folder, BALANCE, &[], |row| {
         let line = |(what, columns): &(&str, &[&str])| BalanceLine {
@@ -68,7 +68,7 @@ pub(super) fn injected_parcels(folder: &Path) -> Option<u64> {
 
 /// Impacts at all patches that the model refused.
 pub(super) fn unusable(folder: &Path) -> u64 {
-    let patches = histories(folder, ".dat", &[BALANCE, CLASSES, DEPOSIT, FLUX, STAY], |row| {
+    let patches = histories(folder, ".dat", &[BALANCE, CLASS_TABLE, DEPOSIT, FLUX, STAY], |row| {
         Some((row.number(TIME)?, row.number("unusable")?))
     });
     patches.iter().filter_map(|patch| patch.rows.last()).map(|(_, count)| *count as u64).sum()

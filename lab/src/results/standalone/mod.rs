@@ -9,7 +9,7 @@ mod totals;
 pub use deposits::write as write_deposits;
 pub use impacts::ImpactRecorder;
 pub use summary::{Summary, summary};
-pub use totals::{Ends, RESTITUTION_STEP, RunTotals};
+pub use totals::{ParticleEnds, RESTITUTION_STEP, RunTotals};
 
 use crate::results::RunResults;
 use crate::rig::CaptureBand;

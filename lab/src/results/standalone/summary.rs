@@ -3,7 +3,7 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-use super::{Ends, Run};
+use super::{ParticleEnds, Run};
 use crate::results::{Amount, Moments, NearWall, WallTotals};
 use crate::simulate::{BinHistory, Case, WallHistory, sweep_unit};
 use nearwall::impact::Regime;
@@ -70,7 +70,7 @@ impl Serialize for RunSummary<'_> {
     }
 }
 
-fn serialize_ends<M: SerializeMap>(object: &mut M, ends: &Ends) -> Result<(), M::Error> {
+fn serialize_ends<M: SerializeMap>(object: &mut M, ends: &ParticleEnds) -> Result<(), M::Error> {
     object.serialize_entry("injected", &ends.injected)?;
     object.serialize_entry("stuck", &ends.captured)?;
     object.serialize_entry("escaped", &ends.escaped)?;
@@ -84,7 +84,7 @@ fn serialize_ends<M: SerializeMap>(object: &mut M, ends: &Ends) -> Result<(), M:
 
 struct InjectionSummary<'a> {
     name: &'a str,
-    ends: &'a Ends,
+    ends: &'a ParticleEnds,
 }
 
 impl Serialize for InjectionSummary<'_> {

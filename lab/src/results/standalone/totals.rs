@@ -87,7 +87,7 @@ impl NearWall {
 
 /// How particles ended.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Ends {
+pub struct ParticleEnds {
     /// Particles that started.
     pub injected: Amount,
     /// Mass that reacted away during the flights [kg].
@@ -104,7 +104,7 @@ pub struct Ends {
     pub unusable: Amount,
 }
 
-impl Ends {
+impl ParticleEnds {
     fn add(&mut self, trajectory: &Trajectory) {
         let [before, after] = trajectory.mass;
         self.injected.add(before);
@@ -131,9 +131,9 @@ impl Ends {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunTotals {
     /// How all particles ended.
-    pub ends: Ends,
+    pub ends: ParticleEnds,
     /// How those of each injection ended, in the order of the case.
-    pub injections: Vec<Ends>,
+    pub injections: Vec<ParticleEnds>,
     /// Why the first unusable particle could not be used.
     pub first_trouble: Option<String>,
     /// Index of each wall's surface, and its totals.
@@ -148,7 +148,8 @@ pub struct RunTotals {
 
 impl RunTotals {
     pub(super) fn new(case: &Case) -> Self {
-        let mut totals = Self { injections: vec![Ends::default(); case.injections.len()], ..Self::default() };
+        let mut totals =
+            Self { injections: vec![ParticleEnds::default(); case.injections.len()], ..Self::default() };
         for (index, surface) in case.surfaces.iter().enumerate() {
             match surface.kind {
                 SurfaceKind::Wall { .. } => {
