@@ -4,7 +4,7 @@ use super::{Chart, Figure, Page, RowStatus, Table, number, percent};
 use crate::rig::sensitivity::{NumberEffect, Quality, Sensitivity};
 
 /// Numbers in a figure and in the table.
-const SHOWN: usize = 15;
+const SHOWN_NUMBERS: usize = 15;
 const LISTED_NUMBERS: usize = 60;
 
 /// Makes the page.
@@ -71,7 +71,7 @@ pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
 
 /// Captured share at both ends of the ranges, by rank.
 fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
-    let shown = &found.numbers[..found.numbers.len().min(SHOWN)];
+    let shown = &found.numbers[..found.numbers.len().min(SHOWN_NUMBERS)];
     let base = shown.first()?.walls.get(wall)?;
     let of = |share: fn(&crate::rig::sensitivity::WallEffect) -> f64| -> Vec<[f64; 2]> {
         let point = |(rank, effect): (usize, &NumberEffect)| {

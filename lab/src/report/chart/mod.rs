@@ -21,8 +21,8 @@ use axis::{all_drawable, drawable, ends, finite, round_step};
 
 pub use axis::round_edges;
 pub use bars::BarChart;
-pub(super) use plane::{COLUMN_WIDTH, LabelledAxis, NO_VALUE, PlanePicture, hatching, swatch};
-pub(super) use scale::{ColourScale, Palette, regime_colour};
+pub(super) use plane::{COLUMN_WIDTH, LabelledAxis, PlanePicture, hatching, swatch};
+pub(super) use scale::{ColourScale, NO_VALUE, Palette, regime_colour};
 pub use svg::Figure;
 
 /// Okabe and Ito's colours in an order that keeps neighbours apart; black is left for text.

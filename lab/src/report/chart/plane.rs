@@ -19,9 +19,6 @@ const TICK_SPACE: [f64; 2] = [50.0, 40.0];
 /// Least and largest radius of a dot, and the width of its outline [px].
 const DOT_RADIUS: [f64; 2] = [0.7, 1.9];
 const DOT_OUTLINE: f64 = 0.3;
-/// Colour of a cell without a value.
-pub(in crate::report) const NO_VALUE: &str = "#9a9a9a";
-
 /// The label of an axis and its ticks: the share of its length, and the number, which minor ticks have not.
 pub(in crate::report) type LabelledAxis = (String, Vec<(f64, String)>);
 
@@ -93,7 +90,7 @@ impl<'a> PlanePicture<'a> {
                 // Writing to a text cannot fail.
                 let _ = write!(path, "{}{x:.1} {y:.1}", if place == 0 { "M" } else { " " });
             }
-            path.push('z');
+            *path += "z";
         }
         self.paths(&paths);
     }

@@ -4,7 +4,6 @@ use kuva::plot::ColorMap;
 
 use super::super::format::number;
 use super::axis::round_edges;
-use super::plane::NO_VALUE;
 use nearwall::impact::Regime;
 
 /// Number of colours of a scale.
@@ -22,6 +21,9 @@ const YELLOW_TO_RED: [[f64; 3]; 6] = [
 /// Black by blue to white: fresh coal is dark, ash is light. Every shade stands out from [`YELLOW_TO_RED`].
 const CHAR_TO_ASH: [[f64; 3]; 5] =
     [[0.0, 0.0, 0.0], [8.0, 48.0, 120.0], [33.0, 113.0, 200.0], [120.0, 196.0, 245.0], [255.0, 255.0, 255.0]];
+
+/// Colour of a cell without a value.
+pub(in crate::report) const NO_VALUE: &str = "#9a9a9a";
 
 /// The colours of a scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,7 +7,7 @@ use super::readings::short;
 use crate::diagnose::rig::{NextExperiment, RigDiagnosis};
 
 /// Factors beyond this are not written out.
-const LARGEST_FACTOR: f64 = 1000.0;
+const LARGEST_SHOWN: f64 = 1000.0;
 
 /// Adds the proposed experiments, if there are any.
 pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
@@ -58,9 +58,9 @@ fn row(place: usize, next: &NextExperiment) -> Vec<String> {
 
 /// The factor with this logarithm.
 fn factor(logarithm: f64) -> String {
-    if logarithm < LARGEST_FACTOR.ln() {
+    if logarithm < LARGEST_SHOWN.ln() {
         format!("{:.1}", logarithm.exp())
     } else {
-        format!("> {LARGEST_FACTOR}")
+        format!("> {LARGEST_SHOWN}")
     }
 }

@@ -10,7 +10,7 @@ use crate::dataset::RigQuantity;
 use crate::diagnose::rig::{RigDiagnosis, RigRow};
 
 /// Fewest readings of a kind with a figure of its own.
-const LEAST_READINGS: usize = 3;
+const LEAST_OF_A_KIND: usize = 3;
 
 /// A figure for each kind of readings, and one for the kinds with few.
 pub(super) fn figures(found: &RigDiagnosis) -> Vec<Figure> {
@@ -21,7 +21,7 @@ pub(super) fn figures(found: &RigDiagnosis) -> Vec<Figure> {
         let own: Vec<&RigRow> =
             found.readings.iter().filter(|row| kind(row) == Some(errors.observable)).collect();
         match own.len() {
-            count if count >= LEAST_READINGS => {
+            count if count >= LEAST_OF_A_KIND => {
                 figures.extend(figure(found, &own, words::kind(errors.observable), errors.observable));
             }
             _ => others.extend(own),
@@ -56,10 +56,7 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
     if low > high {
         return None;
     }
-    // Room for the markers at the ends, but none beyond zero and one where no value is there.
-    let room = 0.04 * (high - low);
-    let edges = span((low - room).max(0.0), (high + room).min(high.max(1.0)), 6);
-    let edges = span(edges[0].max(0.0), edges[edges.len() - 1], 6);
+    let edges = edges(low, high);
     let (low, high) = (edges[0], edges[edges.len() - 1]);
     let touch = 1e-9 * (high - low);
     let mut chart =
@@ -78,13 +75,7 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
             chart.points(name, points)
         };
     }
-    let seen = match (models.len() > 1, held_out) {
-        (false, _) => "",
-        (true, true) => {
-            " The extended model's values are those of a model chosen and fitted without the experiment, so they are true predictions."
-        }
-        (true, false) => " The extended model was fitted to these readings, so the figure flatters it.",
-    };
+    let seen = seen(models.len() > 1, held_out);
     let caption = format!(
         "{} reading{}. The closer to the line, the better the prediction.{}{seen}",
         rows.len(),
@@ -93,4 +84,23 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
     );
     let chart = chart.line(AGREE, &[[low, low], [high, high]]);
     Some(chart.figure(&format!("parity-{}", identifier(id)), &caption))
+}
+
+/// Edges of both axes: room for the markers at the ends, but none beyond zero and one where no value is there.
+fn edges(low: f64, high: f64) -> Vec<f64> {
+    let room = 0.04 * (high - low);
+    let edges = span((low - room).max(0.0), (high + room).min(high.max(1.0)), 6);
+    span(edges[0].max(0.0), edges[edges.len() - 1], 6)
+}
+
+/// What the extended model knew of the readings.
+fn seen(extended: bool, held_out: bool) -> &'static str {
+    match (extended, held_out) {
+        (false, _) => "",
+        (true, true) => {
+            " The extended model's values are those of a model chosen and fitted without the experiment, so they are true \
+             predictions."
+        }
+        (true, false) => " The extended model was fitted to these readings, so the figure flatters it.",
+    }
 }

@@ -14,7 +14,7 @@ const LEAST_SIDE: f64 = 24.0;
 /// Least and largest height of the bars of colours, and least size of the drawing [px].
 const BAR_HEIGHT: [f64; 2] = [150.0, 260.0];
 const LEAST_WIDTH: f64 = 470.0;
-const LEAST_HEIGHT: f64 = 190.0;
+const LEAST_GAS_HEIGHT: f64 = 190.0;
 
 /// Adds the section of the page: one picture for each run.
 pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
@@ -74,7 +74,7 @@ fn picture(run: &RunResults, gas: &GasCut, id: &str, title: &str) -> Option<Figu
     };
     let ([used, _], [_, below]) = (picture.beside(), picture.below());
     let used = used + bars * COLUMN_WIDTH;
-    let size = [used.max(LEAST_WIDTH), below.max(LEAST_HEIGHT)];
+    let size = [used.max(LEAST_WIDTH), below.max(LEAST_GAS_HEIGHT)];
     Some(picture.figure(&caption(run, gas, [cells.len(), shown.len(), every]), size, used))
 }
 

@@ -15,7 +15,7 @@ const POINTS: usize = 300;
 /// Columns and rows of such a map, the size of its plot, and the width of the drawing [px].
 const MAP_CELLS: [usize; 2] = [48, 32];
 const MAP_SIZE: [f64; 2] = [430.0, 290.0];
-const MAP_WIDTH: f64 = 620.0;
+const CAPTURE_MAP_WIDTH: f64 = 620.0;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Captured mass along the main axis: by regime along the pipes of a standalone case, else one series for each run.
@@ -119,8 +119,8 @@ fn map_figure(map: &WallMap) -> Figure {
     picture.cells(&cells, &fills);
     picture.axes(map.axes, true);
     picture.bar(&scale, "kg/m²", 0, MAP_SIZE[1]);
-    let size = [MAP_WIDTH, picture.below()[1]];
-    picture.figure("Mass captured per area of wall during the run.", size, MAP_WIDTH)
+    let size = [CAPTURE_MAP_WIDTH, picture.below()[1]];
+    picture.figure("Mass captured per area of wall during the run.", size, CAPTURE_MAP_WIDTH)
 }
 
 /// Captured parcels along the main axis and around it or, where the wall is not round, from the side. All cases have

@@ -17,9 +17,9 @@ const EVEN: f64 = 1e-3;
 const SCALE_AREA: f64 = 0.98;
 const FAR_ABOVE: f64 = 2.5;
 /// Width of a drawing and of its plot, and the least height of the plot [px]: one of three figures side by side.
-const MAP_WIDTH: f64 = 420.0;
+const SURFACE_WIDTH: f64 = 420.0;
 const PLOT_WIDTH: f64 = 262.0;
-const LEAST_HEIGHT: f64 = 92.0;
+const LEAST_MAP_HEIGHT: f64 = 92.0;
 
 /// Adds the section of the page: one row of maps for each wall.
 pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
@@ -117,7 +117,7 @@ fn picture<'a>(
     let ends = extent(cells)?;
     let [width, height] = ends.map(|[low, high]| high - low);
     let proper = PLOT_WIDTH * height / width;
-    let height = proper.clamp(LEAST_HEIGHT, PLOT_WIDTH);
+    let height = proper.clamp(LEAST_MAP_HEIGHT, PLOT_WIDTH);
     let mut map = PlanePicture::new(texts, ends, [PLOT_WIDTH, height]);
     map.add(&hatching(texts[0]));
     map.cells(cells, fills);
@@ -128,7 +128,7 @@ fn picture<'a>(
 
 fn finished(map: PlanePicture<'_>, caption: &str) -> Figure {
     let height = map.below()[1];
-    map.figure(caption, [MAP_WIDTH, height], MAP_WIDTH)
+    map.figure(caption, [SURFACE_WIDTH, height], SURFACE_WIDTH)
 }
 
 /// Captured mass [kg] by regime.

@@ -17,7 +17,7 @@ struct SweepAxis {
 
 impl SweepAxis {
     fn of(key: &str) -> Self {
-        let words = key.trim_end_matches("_deg").replace('_', " ");
+        let words = key.trim_end_matches("_deg").replace("_", " ");
         match sweep_unit(key) {
             "K" => Self { label: format!("{words} [°C]"), shown: |value| value - 273.15 },
             "m" => Self { label: format!("{words} [µm]"), shown: |value| 1e6 * value },

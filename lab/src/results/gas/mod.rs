@@ -11,7 +11,7 @@ pub use plane::CutPlane;
 /// About the most squares of a grid, and the most cells that are drawn one by one.
 pub const GAS_CELLS: usize = 20_000;
 /// Share of a square that has to lie in the cut [1].
-const LEAST_SHARE: f64 = 0.5;
+const LEAST_COVERED: f64 = 0.5;
 
 /// What colours the gas.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,7 +121,7 @@ impl GasCut {
     /// The cells of a picture: those of the cut, or the means in equal squares where there are more than [`GAS_CELLS`].
     pub fn drawn(&self) -> Vec<MapCell> {
         match extent(&self.cells).filter(|_| self.cells.len() > GAS_CELLS) {
-            Some(ends) => Grid::of_squares(ends, GAS_CELLS).means(&self.cells, LEAST_SHARE),
+            Some(ends) => Grid::of_squares(ends, GAS_CELLS).means(&self.cells, LEAST_COVERED),
             None => self.cells.clone(),
         }
     }
