@@ -97,11 +97,11 @@ impl<'a> PlanePicture<'a> {
 
     /// Outlines all that is drawn so far, by a wider copy in black under it.
     pub fn outline(&mut self) {
-        let id = self.id;
+        let crisp = " shape-rendering=\"crispEdges\"";
+        let (id, cells) = (self.id, self.svg.replace(crisp, ""));
         self.svg = format!(
-            "<defs><g id=\"{id}-cells\">{}</g></defs><use href=\"#{id}-cells\" stroke=\"#222\" stroke-width=\"2\" \
-             stroke-linejoin=\"round\"/><use href=\"#{id}-cells\"/>",
-            self.svg
+            "<defs><g id=\"{id}-cells\">{cells}</g></defs><use href=\"#{id}-cells\" stroke=\"#222\" stroke-width=\"2\" \
+             stroke-linejoin=\"round\"/><use href=\"#{id}-cells\"{crisp}/>"
         );
     }
 
