@@ -5,7 +5,7 @@ use crate::page::{self, ADVICE};
 use crate::study::SourceStudy;
 
 /// Columns of the statements that differ.
-const HEADER: [&str; 4] = ["statement", "source", "here", "reason"];
+const SUMMARY_HEADER: [&str; 4] = ["statement", "source", "here", "reason"];
 
 /// The counts, and every statement that differs or cannot be checked.
 pub fn summary(studies: &[SourceStudy]) -> String {
@@ -54,7 +54,7 @@ fn misses(study: &SourceStudy) -> String {
         return String::new();
     }
     let mut text =
-        format!("\n## {}\n{}\n\n{}", study.title, wrapped(&study.source), rows(&HEADER, &differing));
+        format!("\n## {}\n{}\n\n{}", study.title, wrapped(&study.source), rows(&SUMMARY_HEADER, &differing));
     if !open.is_empty() {
         text += &format!("\n{}\n", wrapped(&format!("Cannot be checked: {}.", open.join("; "))));
     }

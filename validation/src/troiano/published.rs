@@ -79,7 +79,7 @@ pub const E_N_SYRUP: StatedNumber = stated(
 pub const CAPTURE_70: StatedNumber = stated("Fig 12", "capture at 70 °C, \"around\" [%]", 8.0, 1.0);
 pub const CAPTURE_105: StatedNumber = stated("Fig 12", "capture at 105 °C [%]", 93.0, 0.5);
 /// Impacts a point, at the least.
-pub const IMPACTS: f64 = 50.0;
+pub const IMPACTS_A_POINT: f64 = 50.0;
 /// Capture of molten wax [%] lies above this (Fig. 14).
 pub const CAPTURE_120: f64 = 85.0;
 /// Melting range of the wax [°C] (section 3.1).

@@ -4,7 +4,8 @@ use nearwall::{Impact, Model, Outcome};
 use nearwall_lab::report::{Chart, Figure};
 
 use super::published::{
-    CAPTURE_70, CAPTURE_105, CHAR_CONVERSION, E_N_MEAN, FLOW_TEST, IMPACTS, MELTING, STEEP, TUBE_SPEED,
+    CAPTURE_70, CAPTURE_105, CHAR_CONVERSION, E_N_MEAN, FLOW_TEST, IMPACTS_A_POINT, MELTING, STEEP,
+    TUBE_SPEED,
 };
 use super::{Result, arriving, decide, model, passes};
 use crate::steps::{even, through};
@@ -50,7 +51,7 @@ fn corners([low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
 
 /// Standard error of a capture [1] by counting.
 fn counting_error(share: f64) -> f64 {
-    (share * (1.0 - share) / IMPACTS).sqrt()
+    (share * (1.0 - share) / IMPACTS_A_POINT).sqrt()
 }
 
 /// Temperature [°C] at which half of the impacts stick.
@@ -96,7 +97,7 @@ fn error_text() -> String {
         [share - errors[place], share + errors[place]]
     }));
     format!(
-        "With {IMPACTS} impacts a point, the least that the paper states, the two captures are {} ± {:.0} \
+        "With {IMPACTS_A_POINT} impacts a point, the least that the paper states, the two captures are {} ± {:.0} \
          and {} ± {:.0} % by counting alone. Their corners put the half at {:.0} to {:.0} °C and the width \
          between {:.1} and {:.1} K.",
         stated[0],
