@@ -39,6 +39,9 @@
 // Length of the arrays `extra`: a model file declares at most this many inputs.
 #define NW_EXTRA_INPUTS 8
 
+// Number of processes that change a deposit.
+#define NW_PROCESSES 4
+
 // Bit of `flags`: a property or a fitted term was used outside its stated range.
 #define NW_OUTSIDE_VALID_RANGE 1
 
@@ -268,6 +271,44 @@ typedef struct nw_deposit_source {
   // Mass times carbon conversion [kg/m2].
   double converted;
 } nw_deposit_source;
+
+// What surrounds a piece of wall with a deposit. Fill it with `nw_deposit_surroundings_init`, then set what there is.
+typedef struct nw_deposit_surroundings {
+  // `sizeof(nw_deposit_surroundings)`.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Share of voids in fresh powder [1].
+  double voidage;
+  // `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not known, and nothing melts or sinters.
+  double wall_temperature;
+  // `powder_temperature` of `nw_deposit_heat` [K].
+  double powder_temperature;
+  // Density of the gas at the wall [kg/m3]; needed where it shears the wall.
+  double gas_density;
+  // Its kinematic viscosity [m2/s]; needed where it shears the wall.
+  double kinematic_viscosity;
+  // Shear stress of the gas down the slope of the wall [Pa].
+  double shear_down;
+  // Shear stress of the gas across the slope [Pa].
+  double shear_across;
+  // Component of gravity away from the wall [m/s2], negative where it presses the deposit on.
+  double gravity_outward;
+  // Component of gravity along the wall [m/s2], not negative.
+  double gravity_along;
+  // Rank of this piece of wall from the weakest, 0, to below 1, the strongest [1]; a piece keeps its rank.
+  double draw;
+} nw_deposit_surroundings;
+
+// Mass that a deposit lost in a time step.
+typedef struct nw_deposit_losses {
+  // `sizeof(nw_deposit_losses)`.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Mass by process [kg/m2]; `nw_process_loss` names the entries. 0 for a process that conserves mass.
+  double mass[NW_PROCESSES];
+} nw_deposit_losses;
 
 // Success.
 #define NW_OK 0
@@ -502,47 +543,6 @@ nw_status nw_deposit_heat(const struct nw_model *model,
                           const struct nw_wall_cooling *cooling,
                           struct nw_wall_heat *heat);
 
-// Lets a deposit age for a `duration` [s] at temperatures from `nw_deposit_heat`: powder that is hotter than it melts becomes melt,
-// the rest sinters. Mass is conserved.
-//
-// # Safety
-// `model` is a loaded model; `heat` and `deposit` begin with their `struct_size`.
-nw_status nw_deposit_age(const struct nw_model *model,
-                         double voidage,
-                         const struct nw_wall_heat *heat,
-                         double duration,
-                         struct nw_deposit *deposit);
-
-// Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Strengths are those of the table
-// `shedding` of the wall in the model file; without one nothing falls. `gravity_outward` is the component of gravity away from the
-// wall [m/s2], negative where it presses the deposit on; `gravity_along` that along the wall, not negative; the shear stress of the
-// gas [Pa] is given down the slope and across it. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the
-// strongest; a place keeps its draw.
-//
-// # Safety
-// `model` is a loaded model; `deposit` begins with its `struct_size`.
-nw_status nw_deposit_shed(const struct nw_model *model,
-                          double gravity_outward,
-                          double gravity_along,
-                          double shear_down,
-                          double shear_across,
-                          double draw,
-                          struct nw_deposit *deposit);
-
-// Lets the gas at a wall carry powder away for a `duration` [s] (Reeks & Hall 2001). `voidage` is the share of voids in fresh powder [1];
-// `density` [kg/m3] and `kinematic_viscosity` [m2/s] are those of the gas, `friction_velocity` [m/s] is the root of shear stress over
-// density, 0 or more. The adhesion is that of the table `resuspension` of the wall in the model file; without one nothing leaves.
-//
-// # Safety
-// `model` is a loaded model; `deposit` begins with its `struct_size`.
-nw_status nw_deposit_resuspend(const struct nw_model *model,
-                               double voidage,
-                               double density,
-                               double kinematic_viscosity,
-                               double friction_velocity,
-                               double duration,
-                               struct nw_deposit *deposit);
-
 // Initialises a deposit: its size, wall 0, a bare wall.
 //
 // # Safety
@@ -666,6 +666,47 @@ nw_status nw_extra_input_value(const struct nw_model *model,
                                double *value,
                                char *message,
                                size_t message_size);
+
+// Initialises surroundings: their size and zeros, so that nothing is known but that the gas is calm.
+//
+// # Safety
+// `surroundings` can be written.
+nw_status nw_deposit_surroundings_init(struct nw_deposit_surroundings *surroundings);
+
+// Initialises losses for `nw_deposit_advance`: their size and zeros.
+//
+// # Safety
+// `losses` can be written.
+nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
+
+// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts becomes melt, the rest sinters; the gas
+// carries loose powder away (table `resuspension` of the wall in the model file); what the wall cannot hold falls off (table `shedding`).
+// `losses` receives the mass that each process took. Add the particles captured in the step first, with `nw_deposit_add`.
+//
+// # Safety
+// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`.
+nw_status nw_deposit_advance(const struct nw_model *model,
+                             const struct nw_deposit_surroundings *surroundings,
+                             double duration,
+                             struct nw_deposit *deposit,
+                             struct nw_deposit_losses *losses);
+
+// Finds the processes that act on a wall of the model: bit `i` of `processes` is set where process `i` does. Melting and sintering act
+// on every wall whose temperatures are known, the others where the model file has a table of their name.
+//
+// # Safety
+// `model` is a loaded model, `processes` can be written.
+nw_status nw_wall_processes(const struct nw_model *model,
+                            uint32_t wall,
+                            uint32_t *processes);
+
+// Returns the name of a process, for instance `resuspension`, as a static string; processes act in the order of their index. Null
+// from `NW_PROCESSES` on.
+const char *nw_process_name(uint32_t process);
+
+// Returns how tables name the mass that a process takes, for instance `resuspended`, as a static string: empty for a process that
+// conserves mass, null from `NW_PROCESSES` on.
+const char *nw_process_loss(uint32_t process);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -173,6 +173,35 @@ inline nw_wall_heat make_wall_heat() {
     return heat;
 }
 
+// What surrounds a deposit, for model::advance, with a share `voidage` of voids in fresh powder.
+inline nw_deposit_surroundings make_deposit_surroundings(double voidage) {
+    nw_deposit_surroundings surroundings;
+    detail::check(nw_deposit_surroundings_init(&surroundings), std::string("nw_deposit_surroundings_init"));
+    surroundings.voidage = voidage;
+    return surroundings;
+}
+
+// Mass that a deposit lost in a step, for model::advance.
+inline nw_deposit_losses make_deposit_losses() {
+    nw_deposit_losses losses;
+    detail::check(nw_deposit_losses_init(&losses), std::string("nw_deposit_losses_init"));
+    return losses;
+}
+
+// A process that changes a deposit: its name, and how tables name the mass that it takes, empty if it takes none.
+struct process {
+    std::string name, loss;
+};
+
+// All processes, in the order of nw_deposit_losses.mass.
+inline std::vector<process> processes() {
+    std::vector<process> found;
+    for (std::uint32_t i = 0; i < NW_PROCESSES; ++i) {
+        found.push_back(process{nw_process_name(i), nw_process_loss(i)});
+    }
+    return found;
+}
+
 // Which input of an impact is probably in another unit; empty if none is. A temperature in degrees Celsius above 150 is not seen.
 inline std::string unlikely(const nw_impact& impact) {
     detail::message m;
@@ -340,23 +369,17 @@ public:
         return nw_deposit_heat(raw_, &deposit, voidage, &cooling, &found);
     }
 
-    // Lets a deposit melt and sinter for a `duration` [s] at such temperatures; no exceptions.
-    nw_status age(double voidage, const nw_wall_heat& heat, double duration, nw_deposit& deposit) const noexcept {
-        return nw_deposit_age(raw_, voidage, &heat, duration, &deposit);
+    // Advances a deposit by a step of a `duration` [s] and sets what each process took from it; no exceptions.
+    nw_status advance(const nw_deposit_surroundings& surroundings, double duration, nw_deposit& deposit,
+                      nw_deposit_losses& losses) const noexcept {
+        return nw_deposit_advance(raw_, &surroundings, duration, &deposit, &losses);
     }
 
-    // Lets what the wall cannot hold fall off, under gravity [m/s2] away from it and along it and the shear of the gas [Pa] down
-    // the slope and across; `draw` ranks the place from the weakest, 0, to the strongest, 1; no exceptions.
-    nw_status shed(double gravity_outward, double gravity_along, double shear_down, double shear_across, double draw,
-                   nw_deposit& deposit) const noexcept {
-        return nw_deposit_shed(raw_, gravity_outward, gravity_along, shear_down, shear_across, draw, &deposit);
-    }
-
-    // Lets the gas at the wall carry powder away for a `duration` [s]: its density [kg/m3], kinematic viscosity [m2/s] and friction
-    // velocity [m/s]; `voidage` is the share of voids in fresh powder; no exceptions.
-    nw_status resuspend(double voidage, double density, double kinematic_viscosity, double friction_velocity,
-                        double duration, nw_deposit& deposit) const noexcept {
-        return nw_deposit_resuspend(raw_, voidage, density, kinematic_viscosity, friction_velocity, duration, &deposit);
+    // Processes that act on a wall, one bit for each of processes(); throws for an unknown wall.
+    std::uint32_t wall_processes(std::uint32_t wall) const {
+        std::uint32_t found = 0;
+        detail::check(nw_wall_processes(raw_, wall, &found), std::string("nw_wall_processes"));
+        return found;
     }
 
     // Mean speed [m/s] at which the melt of a deposit runs down a wall of `T_w` [K]; no exceptions.

@@ -26,6 +26,7 @@ module nearwall
   ! GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
   integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 1
   integer(c_int32_t), parameter :: NW_EXTRA_INPUTS = 8
+  integer(c_int32_t), parameter :: NW_PROCESSES = 4
   integer(c_int32_t), parameter :: NW_OUTSIDE_VALID_RANGE = 1
   integer(c_int32_t), parameter :: NW_OK = 0
   integer(c_int32_t), parameter :: NW_NULL_POINTER = 1
@@ -158,6 +159,27 @@ module nearwall
     real(c_double) :: buried
     real(c_double) :: converted
   end type nw_deposit_source
+
+  type, bind(c) :: nw_deposit_surroundings
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: reserved
+    real(c_double) :: voidage
+    real(c_double) :: wall_temperature
+    real(c_double) :: powder_temperature
+    real(c_double) :: gas_density
+    real(c_double) :: kinematic_viscosity
+    real(c_double) :: shear_down
+    real(c_double) :: shear_across
+    real(c_double) :: gravity_outward
+    real(c_double) :: gravity_along
+    real(c_double) :: draw
+  end type nw_deposit_surroundings
+
+  type, bind(c) :: nw_deposit_losses
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: reserved
+    real(c_double) :: mass(NW_PROCESSES)
+  end type nw_deposit_losses
 
   interface
     function nw_abi_version() bind(c)
@@ -329,40 +351,6 @@ module nearwall
       integer(c_int32_t) :: nw_deposit_heat
     end function nw_deposit_heat
 
-    function nw_deposit_age(model, voidage, heat, duration, deposit) bind(c)
-      import
-      type(c_ptr), value :: model
-      real(c_double), value :: voidage
-      type(nw_wall_heat), intent(in) :: heat
-      real(c_double), value :: duration
-      type(nw_deposit), intent(inout) :: deposit
-      integer(c_int32_t) :: nw_deposit_age
-    end function nw_deposit_age
-
-    function nw_deposit_shed(model, gravity_outward, gravity_along, shear_down, shear_across, draw, deposit) bind(c)
-      import
-      type(c_ptr), value :: model
-      real(c_double), value :: gravity_outward
-      real(c_double), value :: gravity_along
-      real(c_double), value :: shear_down
-      real(c_double), value :: shear_across
-      real(c_double), value :: draw
-      type(nw_deposit), intent(inout) :: deposit
-      integer(c_int32_t) :: nw_deposit_shed
-    end function nw_deposit_shed
-
-    function nw_deposit_resuspend(model, voidage, density, kinematic_viscosity, friction_velocity, duration, deposit) bind(c)
-      import
-      type(c_ptr), value :: model
-      real(c_double), value :: voidage
-      real(c_double), value :: density
-      real(c_double), value :: kinematic_viscosity
-      real(c_double), value :: friction_velocity
-      real(c_double), value :: duration
-      type(nw_deposit), intent(inout) :: deposit
-      integer(c_int32_t) :: nw_deposit_resuspend
-    end function nw_deposit_resuspend
-
     function nw_deposit_init(deposit) bind(c)
       import
       type(nw_deposit), intent(inout) :: deposit
@@ -474,6 +462,48 @@ module nearwall
       integer(c_size_t), value :: message_size
       integer(c_int32_t) :: nw_extra_input_value
     end function nw_extra_input_value
+
+    function nw_deposit_surroundings_init(surroundings) bind(c)
+      import
+      type(nw_deposit_surroundings), intent(inout) :: surroundings
+      integer(c_int32_t) :: nw_deposit_surroundings_init
+    end function nw_deposit_surroundings_init
+
+    function nw_deposit_losses_init(losses) bind(c)
+      import
+      type(nw_deposit_losses), intent(inout) :: losses
+      integer(c_int32_t) :: nw_deposit_losses_init
+    end function nw_deposit_losses_init
+
+    function nw_deposit_advance(model, surroundings, duration, deposit, losses) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_deposit_surroundings), intent(in) :: surroundings
+      real(c_double), value :: duration
+      type(nw_deposit), intent(inout) :: deposit
+      type(nw_deposit_losses), intent(inout) :: losses
+      integer(c_int32_t) :: nw_deposit_advance
+    end function nw_deposit_advance
+
+    function nw_wall_processes(model, wall, processes) bind(c)
+      import
+      type(c_ptr), value :: model
+      integer(c_int32_t), value :: wall
+      integer(c_int32_t), intent(inout) :: processes
+      integer(c_int32_t) :: nw_wall_processes
+    end function nw_wall_processes
+
+    function nw_process_name(process) bind(c)
+      import
+      integer(c_int32_t), value :: process
+      type(c_ptr) :: nw_process_name
+    end function nw_process_name
+
+    function nw_process_loss(process) bind(c)
+      import
+      integer(c_int32_t), value :: process
+      type(c_ptr) :: nw_process_loss
+    end function nw_process_loss
 
   end interface
   ! END GENERATED

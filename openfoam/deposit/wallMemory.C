@@ -5,10 +5,9 @@
 #include "dictionaryChecks.H"
 #include "impactKey.H"
 #include "mathematicalConstants.H"
-#include "nearWallDepositTemperatureFvPatchScalarField.H"
 #include "surfaceFields.H"
 #include "versionCompat.H"
-#include "wallHitFields.H"
+#include "wallCooling.H"
 
 namespace Foam { namespace nearWall {
     defineTypeNameAndDebug(wallMemory, 0);
@@ -19,18 +18,6 @@ namespace
 
 using namespace Foam;
 using namespace Foam::nearWall;
-
-//- Rise of a surface's temperature in a step above which the log warns [K]
-const scalar largestSoundRise = 5;
-
-
-//- Names of the terms, in their order: keys of a restart and columns
-const wordList termNames
-({
-    "initial_kg", "arrived_kg", "drained_kg", "from_other_patches_kg",
-    "shed_kg", "resuspended_kg"
-});
-
 
 //- A film needs the viscosity of the melt on one of the walls
 void requireViscosity
@@ -62,104 +49,121 @@ void requireViscosity
 }
 
 
-//- What a row has the mean and the largest value of
-enum faceQuantity
+scalar readVoidage(const dictionary& dict)
 {
-    moltenOf, powderOf, layerOf, coverageOf, wallTOf, heatFluxOf, nQuantities
-};
-
-const char* const quantityNames[] =
-{
-    "molten", "powder", "layer_thickness", "coverage", "wall_temperature",
-    "heat_flux"
-};
-
-const char* const quantityUnits[] =
-{
-    "_kg_m2", "_kg_m2", "_m", "", "_K", "_W_m2"
-};
-
-
-struct largerOf
-{
-    void operator()(scalar& x, const scalar y) const
-    {
-        x = max(x, y);
-    }
-};
-
-
-//- Sums and largest values over the faces of all patches and all ranks, in
-//  one exchange each: a reduction for each number would cost the latency of
-//  the network some twenty times a patch
-struct faceSums
-{
-    //- For each patch: area, mass of converted deposit, each quantity by area
-    static const label perPatch = 2 + nQuantities;
-
-    List<scalar> sums;
-    List<scalar> largest;
-
-    //- `rise` is the largest one on this rank, kept behind the quantities
-    faceSums(const label nPatches, const scalar rise)
-    :
-        sums(nPatches*perPatch, Zero),
-        largest(nPatches*nQuantities + 1, Zero)
-    {
-        largest.last() = rise;
-    }
-
-    //- Known on the master
-    scalar rise() const { return largest.last(); }
-
-    void add
+    return readChecked<scalar>
     (
-        const label i,
-        const scalarField& area,
-        const scalarField& conversion,
-        const std::vector<const scalarField*>& values
-    )
-    {
-        scalar* const sum = &sums[i*perPatch];
-        sum[0] = Foam::sum(area);
-        sum[1] = Foam::sum
-        (
-            (*values[moltenOf] + *values[powderOf])*area*conversion
-        );
-        for (label q = 0; q < nQuantities; ++q)
-        {
-            sum[2 + q] = Foam::sum(*values[q]*area);
-            scalar& most = largest[i*nQuantities + q];
-            for (const scalar x : *values[q]) most = max(most, x);
-        }
-    }
+        dict, "voidage", 0.5, [](scalar v) { return v >= 0 && v < 1; },
+        "from 0 to below 1"
+    );
+}
 
-    void overRanks()
-    {
-        sumOverRanks(sums);
-        Pstream::listCombineGather(largest, largerOf());
-    }
 
-    scalar converted(const label i) const { return sums[i*perPatch + 1]; }
+scalar readAcceleration(const dictionary& dict)
+{
+    return readChecked<scalar>
+    (
+        dict, "acceleration", 1, [](scalar a) { return a >= 1; }, "1 or more"
+    );
+}
 
-    scalar integral(const label i, const label q) const
-    {
-        return sums[i*perPatch + 2 + q];
-    }
 
-    scalar mean(const label i, const label q) const
+//- Patches for which the wall model decides
+labelList patchesWithModel(const List<patchRule>& rules)
+{
+    labelList found;
+    forAll(rules, patchi)
     {
-        return integral(i, q)/max(sums[i*perPatch], VSMALL);
+        if (rules[patchi].type == patchRule::interact) found.append(patchi);
     }
+    return found;
+}
 
-    //- Known on the master, which writes
-    scalar maximum(const label i, const label q) const
+//- Does a process that is wanted act on a wall of the model?
+template<class Wanted>
+bool acts
+(
+    const nearwall::model& model,
+    const std::uint32_t wall,
+    const Wanted& wanted
+)
+{
+    const std::vector<nearwall::process> all(nearwall::processes());
+    const std::uint32_t acting = model.wall_processes(wall);
+    for (std::size_t k = 0; k < all.size(); ++k)
     {
-        return largest[i*nQuantities + q];
+        if ((acting >> k & 1) && wanted(all[k])) return true;
     }
-};
+    return false;
+}
+
+
+bool takesMass(const nearwall::process& process)
+{
+    return !process.loss.empty();
+}
 
 } // End anonymous namespace
+
+
+//- What surrounds the deposit on each face of a patch
+class Foam::nearWall::wallMemory::patchSurroundings
+{
+    const wallMemory& memory_;
+    const vectorField& Sf_;
+    const vectorField& centres_;
+
+    //- The gas; empty where no process takes mass from the wall
+    scalarField density_;
+    scalarField viscosity_;
+    vectorField stress_;
+
+public:
+
+    patchSurroundings(const wallMemory& memory, const label patchi)
+    :
+        memory_(memory),
+        Sf_(memory.mesh_.Sf().boundaryField()[patchi]),
+        centres_(memory.mesh_.Cf().boundaryField()[patchi])
+    {
+        if (!acts(*memory.model_, memory.rules_[patchi].wall, takesMass)) return;
+
+        density_ = memory.shear_.density(patchi);
+        viscosity_ = memory.shear_.kinematicViscosity(patchi);
+        stress_ = memory.shear_.stress(patchi);
+    }
+
+    //- Does the gas or gravity take mass from the faces?
+    bool losesMass() const { return stress_.size() > 0; }
+
+    nw_deposit_surroundings at(const label facei) const
+    {
+        nw_deposit_surroundings found
+        (
+            nearwall::make_deposit_surroundings(memory_.voidage_)
+        );
+        if (!losesMass()) return found;
+
+        // Into the gas
+        const vector n(-Sf_[facei]/mag(Sf_[facei]));
+        const vector& gravity = memory_.gravity_;
+        found.gravity_outward = gravity & n;
+        const vector slope(gravity - found.gravity_outward*n);
+        found.gravity_along = mag(slope);
+
+        const vector down(slope/max(found.gravity_along, VSMALL));
+        found.gas_density = density_[facei];
+        found.kinematic_viscosity = viscosity_[facei];
+        found.shear_down = stress_[facei] & down;
+        found.shear_across = mag(stress_[facei] - found.shear_down*down);
+
+        // The place ranks the same on any ranks and after any restart
+        impactKey place;
+        place.add(centres_[facei], memory_.mesh_.bounds().mag());
+        found.draw = scalar(place.value() >> 11)/9007199254740992.0;
+        return found;
+    }
+};
 
 
 Foam::nearWall::wallMemory::wallMemory
@@ -189,84 +193,32 @@ Foam::nearWall::wallMemory::wallMemory
     mesh_(mesh),
     rules_(rules),
     model_(model),
-    voidage_
-    (
-        readChecked<scalar>
-        (
-            dict, "voidage", 0.5, [](scalar v) { return v >= 0 && v < 1; },
-            "from 0 to below 1"
-        )
-    ),
-    acceleration_
-    (
-        readChecked<scalar>
-        (
-            dict, "acceleration", 1, [](scalar a) { return a >= 1; },
-            "1 or more"
-        )
-    ),
+    voidage_(readVoidage(dict)),
+    acceleration_(readAcceleration(dict)),
     gravity_(gravity),
     shear_(shear),
-    molten_(readWallField(mesh, cloudName + ":moltenMass", dimMass/dimArea)),
-    powder_(readWallField(mesh, cloudName + ":powderMass", dimMass/dimArea)),
-    layer_(readWallField(mesh, cloudName + ":layerThickness", dimLength)),
-    cover_(readWallField(mesh, cloudName + ":coverArea", dimless)),
-    coverage_(readWallField(mesh, cloudName + ":coverage", dimless)),
-    conversion_(readWallField(mesh, cloudName + ":depositConversion", dimless)),
-    temperature_
-    (
-        readWallField(mesh, cloudName + ":wallTemperature", dimTemperature)
-    ),
+    patches_(patchesWithModel(rules)),
+    fields_(initialFields(cloudName)),
+    balance_(mesh, patches_, fields_, saved, folder),
     resistance_(rules.size()),
     captured_(rules.size())
 {
     refuseUnknownKeys(dict, wordList({"voidage", "film", "acceleration"}), "memory");
-
-    forAll(rules, patchi)
-    {
-        if (rules[patchi].type == patchRule::interact) patches_.append(patchi);
-    }
-    setCooled(cloudName);
+    checkCooled();
     for (const label patchi : patches_)
     {
-        if (resuspended_ || !canResuspend(patchi)) continue;
-
-        resuspended_.reset
+        captured_[patchi].setSize
         (
-            new volScalarField
-            (
-                readWallField(mesh, cloudName + ":resuspendedShare", dimless)
-            )
+            patchesOf(mesh)[patchi].size(), nearwall::make_deposit_source()
         );
+        fields_.setCoverage(patchi);
     }
-    setInitial();
-
-    added_.resize(patches_.size());
-    forAll(patches_, i)
-    {
-        const label patchi = patches_[i];
-        const polyPatch& pp = patchesOf(mesh)[patchi];
-        const word& name = pp.name();
-        captured_[patchi].setSize(pp.size(), nearwall::make_deposit_source());
-        sums_.append
-        (
-            runningTotals(termNames, saved.subOrEmptyDict(name), name)
-        );
-        if (!saved.found(name))
-        {
-            const scalarField& area = mesh.magSf().boundaryField()[patchi];
-            const scalarField& molten = molten_.boundaryField()[patchi];
-            const scalarField& powder = powder_.boundaryField()[patchi];
-            addToSum(i, initial, sum((molten + powder)*area));
-        }
-        tables_.emplace_back(folder/(name + ".wall.dat"));
-        setCoverage(patchi);
-    }
-
     if (readOr<Switch>(dict, "film", Switch(false)))
     {
         requireViscosity(dict, *model, rules, patches_);
-        film_.reset(new wallFilm(mesh, patches_, model, gravity));
+        List<std::uint32_t> walls(rules.size());
+        forAll(rules, patchi) walls[patchi] = rules[patchi].wall;
+        film_.reset(new wallFilm(mesh, patches_, walls, model, gravity));
     }
     Info<< "    nearWallInteraction, memory of the walls: voidage " << voidage_
         << ", film " << (film_ ? "yes" : "no") << nl;
@@ -307,25 +259,55 @@ const Foam::nearWall::wallMemory* Foam::nearWall::wallMemory::find
 }
 
 
-const Foam::nearWallDepositTemperatureFvPatchScalarField*
-Foam::nearWall::wallMemory::condition(const label patchi) const
+const Foam::nearWall::wallCooling* Foam::nearWall::wallMemory::condition
+(
+    const label patchi
+) const
 {
     const patchRule& rule = rules_[patchi];
     if (!mesh_.foundObject<volScalarField>(rule.temperatureField)) return nullptr;
 
-    return dynamic_cast<const nearWallDepositTemperatureFvPatchScalarField*>
-    (
-        &rule.temperatureOn(mesh_, patchi)
-    );
+    return dynamic_cast<const wallCooling*>(&rule.temperatureOn(mesh_, patchi));
 }
 
 
-void Foam::nearWall::wallMemory::setCooled(const word& cloudName)
+bool Foam::nearWall::wallMemory::anyCooled() const
 {
-    bool any = false;
     for (const label patchi : patches_)
     {
-        if (cooled(patchi)) any = true;
+        if (cooled(patchi)) return true;
+    }
+    return false;
+}
+
+
+bool Foam::nearWall::wallMemory::anyProcess(const char* const name) const
+{
+    const auto isNamed =
+        [name](const nearwall::process& process) { return process.name == name; };
+    for (const label patchi : patches_)
+    {
+        if (acts(*model_, rules_[patchi].wall, isNamed)) return true;
+    }
+    return false;
+}
+
+
+void Foam::nearWall::wallMemory::checkCooled()
+{
+    for (const label patchi : patches_)
+    {
+        if (cooled(patchi))
+        {
+            resistance_[patchi].setSize(patchesOf(mesh_)[patchi].size(), -1);
+            nw_deposit all(nearwall::make_deposit(rules_[patchi].wall));
+            all.molten = all.powder = all.cover = 1;
+            all.solid = 1e-3;
+            nw_wall_cooling cooling(nearwall::make_wall_cooling());
+            cooling.coolant_temperature = cooling.gas_temperature = 1000;
+            cooling.wall_resistance = cooling.gas_coefficient = 1;
+            heatUnder(all, patchi, cooling);
+        }
         else if (condition(patchi))
         {
             Info<< "    nearWallInteraction, warning: patch "
@@ -334,38 +316,6 @@ void Foam::nearWall::wallMemory::setCooled(const word& cloudName)
                 << " number of wallTemperature; write wallTemperature field;"
                 << nl;
         }
-    }
-    if (!any) return;
-
-    closed_.reset
-    (
-        new volScalarField
-        (
-            readWallField(mesh_, cloudName + ":closedVoids", dimLength)
-        )
-    );
-    heatFlux_.reset
-    (
-        new volScalarField
-        (
-            readWallField
-            (
-                mesh_, cloudName + ":wallHeatFlux", dimPower/dimArea
-            )
-        )
-    );
-    for (const label patchi : patches_)
-    {
-        if (!cooled(patchi)) continue;
-
-        resistance_[patchi].setSize(patchesOf(mesh_)[patchi].size(), -1);
-        nw_deposit all(nearwall::make_deposit(rules_[patchi].wall));
-        all.molten = all.powder = all.cover = 1;
-        all.solid = 1e-3;
-        nw_wall_cooling cooling(nearwall::make_wall_cooling());
-        cooling.coolant_temperature = cooling.gas_temperature = 1000;
-        cooling.wall_resistance = cooling.gas_coefficient = 1;
-        heatUnder(all, patchi, cooling);
     }
 }
 
@@ -392,103 +342,28 @@ nw_wall_heat Foam::nearWall::wallMemory::heatUnder
 }
 
 
-nw_deposit Foam::nearWall::wallMemory::deposit
+Foam::nearWall::depositFields Foam::nearWall::wallMemory::initialFields
 (
-    const label patchi,
-    const label facei
+    const word& cloudName
 ) const
 {
-    nw_deposit d(nearwall::make_deposit(rules_[patchi].wall));
-    d.molten = molten_.boundaryField()[patchi][facei];
-    d.powder = powder_.boundaryField()[patchi][facei];
-    if (closed_) d.closed = closed_->boundaryField()[patchi][facei];
-    d.solid =
-        (layer_.boundaryField()[patchi][facei] + d.closed)*(1 - voidage_);
-    d.cover = cover_.boundaryField()[patchi][facei];
-    d.conversion = conversion_.boundaryField()[patchi][facei];
-    if (resuspended_) d.resuspended = resuspended_->boundaryField()[patchi][facei];
-    return d;
-}
-
-
-void Foam::nearWall::wallMemory::setDeposit
-(
-    const label patchi,
-    const label facei,
-    const nw_deposit& d
-)
-{
-    molten_.boundaryFieldRef()[patchi][facei] = d.molten;
-    powder_.boundaryFieldRef()[patchi][facei] = d.powder;
-    layer_.boundaryFieldRef()[patchi][facei] =
-        d.solid/(1 - voidage_) - d.closed;
-    if (closed_) closed_->boundaryFieldRef()[patchi][facei] = d.closed;
-    cover_.boundaryFieldRef()[patchi][facei] = d.cover;
-    conversion_.boundaryFieldRef()[patchi][facei] = d.conversion;
-    if (resuspended_)
-    {
-        resuspended_->boundaryFieldRef()[patchi][facei] = d.resuspended;
-    }
-}
-
-
-void Foam::nearWall::wallMemory::setInitial()
-{
-    std::vector<volScalarField*> fields
-    ({
-        &molten_, &powder_, &layer_, &cover_, &conversion_
-    });
-    if (resuspended_) fields.push_back(resuspended_.get());
-    bool given = false;
-    for (volScalarField* const field : fields)
-    {
-        given = field->headerOk() || given;
-    }
-    if (!onAnyRank(given))
+    depositFields fields
+    (
+        mesh_, cloudName, voidage_, anyCooled(), anyProcess("resuspension")
+    );
+    if (!fields.given())
     {
         for (const label patchi : patches_)
         {
-            const std::uint32_t wall = rules_[patchi].wall;
-            const nw_deposit d(model_->initial_deposit(wall, voidage_));
-            forAll(patchesOf(mesh_)[patchi], facei)
-            {
-                setDeposit(patchi, facei, d);
-            }
+            const nw_deposit d
+            (
+                model_->initial_deposit(rules_[patchi].wall, voidage_)
+            );
+            forAll(patchesOf(mesh_)[patchi], facei) fields.set(patchi, facei, d);
         }
     }
-
-    for (const volScalarField* const field : fields)
-    {
-        const bool isShare =
-            field == &conversion_ || field == resuspended_.get();
-        const scalar most = isShare ? 1 : GREAT;
-        for (const label patchi : patches_)
-        {
-            for (const scalar x : field->boundaryField()[patchi])
-            {
-                if (x >= 0 && x <= most) continue;
-
-                FatalErrorInFunction
-                    << "Field " << field->name() << " of time "
-                    << timeName(mesh_.time()) << " is " << x << " on patch '"
-                    << patchesOf(mesh_)[patchi].name()
-                    << "'; it must be from 0 to " << most << "."
-                    << exit(FatalError);
-            }
-        }
-    }
-}
-
-
-void Foam::nearWall::wallMemory::addToSum
-(
-    const label i,
-    const term t,
-    const scalar mass
-)
-{
-    const scalar added = added_[i][t].add(mass);
-    sums_[i].add(t, added - sums_[i].added()[t]);
+    fields.check(patches_);
+    return fields;
 }
 
 
@@ -558,205 +433,96 @@ void Foam::nearWall::wallMemory::require
 }
 
 
-void Foam::nearWall::wallMemory::addSources(const label i)
-{
-    const label patchi = patches_[i];
-    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-    List<nw_deposit_source>& faces = captured_[patchi];
-    scalar mass = 0;
-    forAll(faces, facei)
-    {
-        if (!faces[facei].count) continue;
-
-        nw_deposit d(deposit(patchi, facei));
-        const nw_status status = nearwall::add(faces[facei], d);
-        require(status, patchi, "grow");
-        setDeposit(patchi, facei, d);
-        mass += (faces[facei].molten + faces[facei].powder)*area[facei];
-        nw_deposit_source_init(&faces[facei]);
-    }
-    addToSum(i, arrived, mass);
-}
-
-
 void Foam::nearWall::wallMemory::setTemperature(const label patchi)
 {
     const patchRule& rule = rules_[patchi];
-    scalarField& T = temperature_.boundaryFieldRef()[patchi];
+    scalarField& T = fields_.on(depositFields::temperature, patchi);
     if (rule.temperatureFromField) T = rule.temperatureOn(mesh_, patchi);
     else T = rule.temperature;
 }
 
 
-void Foam::nearWall::wallMemory::setCoverage(const label patchi)
-{
-    const scalarField& cover = cover_.boundaryField()[patchi];
-    scalarField& coverage = coverage_.boundaryFieldRef()[patchi];
-    forAll(cover, facei)
-    {
-        coverage[facei] = -std::expm1(-cover[facei]);
-    }
-}
-
-
-void Foam::nearWall::wallMemory::flow(const scalar duration)
-{
-    List<filmPatch> film(patches_.size());
-    forAll(patches_, i)
-    {
-        const label patchi = patches_[i];
-        film[i].wall = rules_[patchi].wall;
-        film[i].area = mesh_.magSf().boundaryField()[patchi];
-        film[i].T = temperature_.boundaryField()[patchi];
-        film[i].heatFlux =
-            heatFlux_
-          ? scalarField(heatFlux_->boundaryField()[patchi])
-          : scalarField(film[i].T.size(), Zero);
-        film[i].molten = molten_.boundaryField()[patchi];
-        film[i].solid = powder_.boundaryField()[patchi];
-        film[i].conversion = conversion_.boundaryField()[patchi];
-    }
-    film_->flow(film, duration);
-    forAll(patches_, i)
-    {
-        const label patchi = patches_[i];
-        scalarField& molten = molten_.boundaryFieldRef()[patchi];
-        molten = film[i].molten;
-        scalarField& conversion = conversion_.boundaryFieldRef()[patchi];
-        conversion = film[i].conversion;
-        addToSum(i, drained, film[i].drained);
-        addToSum(i, fromOthers, film[i].fromOthers);
-    }
-}
-
-
-void Foam::nearWall::wallMemory::age
+nw_wall_heat Foam::nearWall::wallMemory::recordHeat
 (
+    const nw_deposit& d,
     const label patchi,
-    const scalar duration
+    const label facei,
+    const nw_wall_cooling& cooling
 )
 {
-    const nearWallDepositTemperatureFvPatchScalarField* const T = cooled(patchi);
-    if (!T) return;
+    const nw_wall_heat found(heatUnder(d, patchi, cooling));
+    fields_.on(depositFields::heatFlux, patchi)[facei] = found.heat_flux;
 
-    const scalarField gas(T->voidConductivity());
-    scalarField& flux = heatFlux_->boundaryFieldRef()[patchi];
-    scalarField& resistance = resistance_[patchi];
-    forAll(flux, facei)
-    {
-        nw_deposit d(deposit(patchi, facei));
-        const nw_wall_heat found
-        (
-            heatUnder(d, patchi, T->cooling(facei, gas[facei]))
-        );
-        flux[facei] = found.heat_flux;
-        const scalar rise =
-            flux[facei]*(found.deposit_resistance - resistance[facei]);
-        if (resistance[facei] >= 0) largestRise_ = max(largestRise_, mag(rise));
-        resistance[facei] = found.deposit_resistance;
-        if (d.powder <= 0) continue;
-
-        require(model_->age(voidage_, found, duration, d), patchi, "age");
-        setDeposit(patchi, facei, d);
-    }
+    scalar& resistance = resistance_[patchi][facei];
+    const scalar rise =
+        found.heat_flux*(found.deposit_resistance - resistance);
+    if (resistance >= 0) largestRise_ = max(largestRise_, mag(rise));
+    resistance = found.deposit_resistance;
+    return found;
 }
 
 
-bool Foam::nearWall::wallMemory::canResuspend(const label patchi) const
-{
-    // Grains of 10 um in a storm
-    nw_deposit loose(nearwall::make_deposit(rules_[patchi].wall));
-    loose.powder = 1e-3;
-    loose.solid = 1e-6;
-    loose.cover = 0.15;
-    const nw_status status =
-        model_->resuspend(voidage_, 1, 1e-5, 1000, 1, loose);
-    return status == NW_OK && loose.powder < 1e-3;
-}
-
-
-void Foam::nearWall::wallMemory::resuspendFrom
+Foam::scalar Foam::nearWall::wallMemory::addCaptured
 (
-    const label i,
-    const scalar duration
+    nw_deposit& d,
+    const label patchi,
+    const label facei
 )
+{
+    nw_deposit_source& captured = captured_[patchi][facei];
+    if (!captured.count) return 0;
+
+    require(nearwall::add(captured, d), patchi, "grow");
+    const scalar mass = captured.molten + captured.powder;
+    nw_deposit_source_init(&captured);
+    return mass;
+}
+
+
+void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
 {
     const label patchi = patches_[i];
-    if (!canResuspend(patchi)) return;
-
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-    const scalarField& rho = shear_.density(patchi);
-    const scalarField nu(shear_.kinematicViscosity(patchi));
-    const scalarField uTau(sqrt(mag(shear_.stress(patchi))/rho));
-    scalar mass = 0;
+    const wallCooling* const cooling = cooled(patchi);
+    const scalarField voids
+    (
+        cooling ? cooling->voidConductivity() : tmp<scalarField>(new scalarField)
+    );
+    const patchSurroundings surroundings(*this, patchi);
+
+    scalar arrived = 0;
+    nw_deposit_losses lost(nearwall::make_deposit_losses());
+    nw_deposit_losses here(nearwall::make_deposit_losses());
     forAll(area, facei)
     {
         nw_deposit d(deposit(patchi, facei));
-        const scalar before = d.powder;
-        if (before <= 0) continue;
+        const scalar captured = addCaptured(d, patchi, facei);
+        arrived += captured*area[facei];
 
-        const nw_status status = model_->resuspend
-        (
-            voidage_, rho[facei], nu[facei], uTau[facei], duration, d
-        );
-        require(status, patchi, "be carried away by the gas");
-        mass += (before - d.powder)*area[facei];
-        setDeposit(patchi, facei, d);
+        nw_wall_heat heat(nearwall::make_wall_heat());
+        if (cooling)
+        {
+            heat =
+                recordHeat(d, patchi, facei, cooling->cooling(facei, voids[facei]));
+        }
+        if (d.molten + d.powder > 0 && (cooling || surroundings.losesMass()))
+        {
+            nw_deposit_surroundings around(surroundings.at(facei));
+            around.wall_temperature = heat.wall_temperature;
+            around.powder_temperature = heat.powder_temperature;
+            require(model_->advance(around, duration, d, here), patchi, "advance");
+            for (label k = 0; k < NW_PROCESSES; ++k)
+            {
+                lost.mass[k] += here.mass[k]*area[facei];
+            }
+        }
+        else if (captured <= 0) continue;
+
+        fields_.set(patchi, facei, d);
     }
-    addToSum(i, resuspended, mass);
-}
-
-
-bool Foam::nearWall::wallMemory::canShed(const label patchi) const
-{
-    nw_deposit heavy(nearwall::make_deposit(rules_[patchi].wall));
-    heavy.molten = 1;
-    const scalar huge = 1e100;
-    return
-        model_->shed(huge, huge, 0, 0, 0, heavy) == NW_OK && heavy.molten == 0;
-}
-
-
-void Foam::nearWall::wallMemory::shedFrom(const label i)
-{
-    const label patchi = patches_[i];
-    if (!canShed(patchi)) return;
-
-    const vectorField& Sf = mesh_.Sf().boundaryField()[patchi];
-    const vectorField& centres = mesh_.Cf().boundaryField()[patchi];
-    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-    const vectorField stress(shear_.stress(patchi));
-    scalar mass = 0;
-    forAll(centres, facei)
-    {
-        nw_deposit d(deposit(patchi, facei));
-        const scalar before = d.molten + d.powder;
-        if (before <= 0) continue;
-
-        // Into the gas
-        const vector n(-Sf[facei]/area[facei]);
-        const scalar outward = gravity_ & n;
-        const vector slope(gravity_ - outward*n);
-        const scalar along = mag(slope);
-        const vector down(slope/max(along, VSMALL));
-        const scalar shearDown = stress[facei] & down;
-        const scalar shearAcross = mag(stress[facei] - shearDown*down);
-
-        // The place ranks the same on any ranks and after any restart
-        impactKey place;
-        place.add(centres[facei], mesh_.bounds().mag());
-        const scalar draw = scalar(place.value() >> 11)/9007199254740992.0;
-        const nw_status status =
-            model_->shed(outward, along, shearDown, shearAcross, draw, d);
-        require(status, patchi, "fall off");
-
-        const scalar after = d.molten + d.powder;
-        if (after >= before) continue;
-
-        mass += (before - after)*area[facei];
-        setDeposit(patchi, facei, d);
-    }
-    addToSum(i, shed, mass);
+    balance_.add(i, wallBalance::arrived, arrived);
+    balance_.addLosses(i, lost);
+    fields_.setCoverage(patchi);
 }
 
 
@@ -768,29 +534,23 @@ void Foam::nearWall::wallMemory::finishStep(const scalar duration)
             << "The mesh moves or changes, and walls cannot remember a deposit"
             << " on such a mesh. Remove the key 'memory'." << exit(FatalError);
     }
-    forAll(patches_, i) setTemperature(patches_[i]);
+    for (const label patchi : patches_) setTemperature(patchi);
 
     // What was captured in this step flows in the next one. So a steady film is
     // that of the flow alone.
-    if (film_) flow(acceleration_*duration);
-    forAll(patches_, i)
+    if (film_)
     {
-        addSources(i);
-        age(patches_[i], acceleration_*duration);
-        resuspendFrom(i, acceleration_*duration);
-        shedFrom(i);
-        setCoverage(patches_[i]);
+        const List<wallFilm::passage> passed
+        (
+            film_->flow(fields_, acceleration_*duration)
+        );
+        forAll(patches_, i)
+        {
+            balance_.add(i, wallBalance::drained, passed[i].drained);
+            balance_.add(i, wallBalance::fromOthers, passed[i].fromOthers);
+        }
     }
-}
-
-
-void Foam::nearWall::wallMemory::reportRise(Ostream& os, const scalar rise)
-{
-    if (rise <= largestSoundRise) return;
-
-    os  << "    nearWallInteraction, warning: the deposit grew so much in this"
-        << " step that the surface of a face changes by some " << rise
-        << " K; take shorter steps or less acceleration" << nl;
+    forAll(patches_, i) advance(i, acceleration_*duration);
 }
 
 
@@ -802,77 +562,11 @@ void Foam::nearWall::wallMemory::report
     const bool writeRow
 )
 {
-    faceSums faces(patches_.size(), largestRise_);
+    boolList isCooled(patches_.size());
+    forAll(patches_, i) isCooled[i] = cooled(patches_[i]) != nullptr;
+    balance_.report
+    (
+        os, fields_, totals, largestRise_, isCooled, bool(film_), time, writeRow
+    );
     largestRise_ = 0;
-    forAll(patches_, i)
-    {
-        const label patchi = patches_[i];
-        const scalarField none(patchesOf(mesh_)[patchi].size(), Zero);
-        faces.add
-        (
-            i,
-            mesh_.magSf().boundaryField()[patchi],
-            conversion_.boundaryField()[patchi],
-            {
-                &molten_.boundaryField()[patchi],
-                &powder_.boundaryField()[patchi],
-                &layer_.boundaryField()[patchi],
-                &coverage_.boundaryField()[patchi],
-                &temperature_.boundaryField()[patchi],
-                heatFlux_ ? &heatFlux_->boundaryField()[patchi] : &none
-            }
-        );
-    }
-    faces.overRanks();
-    reportRise(os, faces.rise());
-
-    forAll(patches_, i)
-    {
-        const scalar moltenMass = faces.integral(i, moltenOf);
-        const scalar powderMass = faces.integral(i, powderOf);
-        const scalarList& t = totals[i];
-        const scalar in = t[initial] + t[arrived];
-        const scalar deposited = moltenMass + powderMass;
-        const scalar rest =
-            in + t[fromOthers] - t[drained] - t[shed] - t[resuspended]
-          - deposited;
-        const scalar all = max(in, in + t[fromOthers]);
-        if (in > 0 || deposited > 0)
-        {
-            os  << "        " << sums_[i].name() << ", memory: molten "
-                << moltenMass << " kg, powder " << powderMass
-                << " kg, coverage " << faces.mean(i, coverageOf);
-            if (film_) os << ", drained " << t[drained] << " kg";
-            if (t[shed] > 0) os << ", shed " << t[shed] << " kg";
-            if (t[resuspended] > 0)
-            {
-                os << ", resuspended " << t[resuspended] << " kg";
-            }
-            os  << nl;
-        }
-        if (!writeRow) continue;
-
-        tableRow row;
-        const auto addMeanAndMax = [&](const label q)
-        {
-            const std::string name(quantityNames[q]);
-            row.add(name + "_mean" + quantityUnits[q], faces.mean(i, q));
-            row.add(name + "_max" + quantityUnits[q], faces.maximum(i, q));
-        };
-        row.add("time_s", time);
-        for (label k = 0; k < shed; ++k) row.add(termNames[k], t[k]);
-        row.add("molten_kg", moltenMass);
-        row.add("powder_kg", powderMass);
-        row.add("residual", all > 0 ? rest/all : 0);
-        for (const faceQuantity q : {moltenOf, powderOf, layerOf, coverageOf})
-        {
-            addMeanAndMax(q);
-        }
-        const scalar converted = faces.converted(i);
-        row.add("conversion_mean", deposited > 0 ? converted/deposited : 0);
-        addMeanAndMax(wallTOf);
-        for (const term k : {shed, resuspended}) row.add(termNames[k], t[k]);
-        if (cooled(patches_[i])) addMeanAndMax(heatFluxOf);
-        tables_[i].write(row);
-    }
 }

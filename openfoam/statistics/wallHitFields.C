@@ -3,30 +3,7 @@
 
 #include "wallHitFields.H"
 #include "surfaceFields.H"
-#include "versionCompat.H"
-
-Foam::volScalarField Foam::nearWall::readWallField
-(
-    const fvMesh& mesh,
-    const word& name,
-    const dimensionSet& dimensions
-)
-{
-    return volScalarField
-    (
-        IOobject
-        (
-            name,
-            nearWall::timeName(mesh.time()),
-            mesh,
-            IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE
-        ),
-        mesh,
-        dimensionedScalar("zero", dimensions, 0)
-    );
-}
-
+#include "wallField.H"
 
 Foam::nearWall::wallHitFields::wallHitFields
 (

@@ -1,12 +1,10 @@
-//! A wall under its deposit: temperatures, ageing, shedding, and what the gas carries away.
+//! Temperatures of a wall under its deposit.
 #![allow(non_camel_case_types)]
 
 use super::boundary::{guarded_status, initialise, reader, sized};
 use super::deposit::nw_deposit;
 use super::types::{NW_BAD_STATE, nw_model, nw_status, zero_by_default};
 use crate::deposit::conduction::{Coolant, HotSide};
-use crate::deposit::resuspension::WallGas;
-use crate::deposit::shedding::Load;
 use crate::model::{WallCooling, WallHeat};
 
 /// What cools and heats a wall. Fill it with `nw_wall_cooling_init`, then set what there is.
@@ -97,12 +95,6 @@ impl nw_wall_cooling {
 }
 
 impl nw_wall_heat {
-    fn to_heat(self) -> WallHeat {
-        let Self { surface_temperature, wall_temperature, powder_temperature, heat_flux, .. } = self;
-        let deposit_resistance = self.deposit_resistance;
-        WallHeat { surface_temperature, wall_temperature, powder_temperature, heat_flux, deposit_resistance }
-    }
-
     fn with(self, heat: &WallHeat) -> Self {
         let WallHeat { surface_temperature, wall_temperature, powder_temperature, .. } = *heat;
         let WallHeat { heat_flux, deposit_resistance, .. } = *heat;
@@ -167,7 +159,7 @@ pub unsafe extern "C" fn nw_deposit_heat(
         }
         let (wall, deposit) = (deposit.wall as usize, deposit.sound()?.to_deposit());
         let after = before.with(&model.inner().wall_heat(wall, &deposit, voidage, &cooling)?);
-        // As `nw_deposit_age` accepts them: an infinite resistance leaves no temperature below it.
+        // As `nw_deposit_advance` accepts them: an infinite resistance leaves no temperature below it.
         let found = [after.surface_temperature, after.wall_temperature, after.powder_temperature];
         let others = after.heat_flux.is_finite() && after.deposit_resistance.is_finite();
         if !(found.into_iter().all(is_positive) && others) {
@@ -178,103 +170,4 @@ pub unsafe extern "C" fn nw_deposit_heat(
         Ok(())
     };
     guarded_status(conduct)
-}
-
-/// Lets a deposit age for a `duration` [s] at temperatures from `nw_deposit_heat`: powder that is hotter than it melts becomes melt,
-/// the rest sinters. Mass is conserved.
-///
-/// # Safety
-/// `model` is a loaded model; `heat` and `deposit` begin with their `struct_size`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_age(
-    model: *const nw_model,
-    voidage: f64,
-    heat: *const nw_wall_heat,
-    duration: f64,
-    deposit: *mut nw_deposit,
-) -> nw_status {
-    let age = || {
-        // SAFETY: the caller's promises.
-        let (model, heat, before) = unsafe { (reader(model)?, sized(heat)?, sized(deposit.cast_const())?) };
-        let heat = heat.to_heat();
-        let temperatures = is_positive(heat.wall_temperature) && is_positive(heat.powder_temperature);
-        let lasts = duration.is_finite() && duration >= 0.0;
-        if !(temperatures && lasts && (0.0..1.0).contains(&voidage)) {
-            return Err(NW_BAD_STATE);
-        }
-        let aged = model.inner().aged(&before.sound()?.to_deposit(), voidage, &heat, duration);
-        let after = before.with(&aged).sound()?;
-        // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(after) };
-        Ok(())
-    };
-    guarded_status(age)
-}
-
-/// Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Strengths are those of the table
-/// `shedding` of the wall in the model file; without one nothing falls. `gravity_outward` is the component of gravity away from the
-/// wall [m/s2], negative where it presses the deposit on; `gravity_along` that along the wall, not negative; the shear stress of the
-/// gas [Pa] is given down the slope and across it. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the
-/// strongest; a place keeps its draw.
-///
-/// # Safety
-/// `model` is a loaded model; `deposit` begins with its `struct_size`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_shed(
-    model: *const nw_model,
-    gravity_outward: f64,
-    gravity_along: f64,
-    shear_down: f64,
-    shear_across: f64,
-    draw: f64,
-    deposit: *mut nw_deposit,
-) -> nw_status {
-    let shed = || {
-        // SAFETY: the caller's promises.
-        let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
-        let finite = [gravity_outward, gravity_along, shear_down, shear_across].map(f64::is_finite);
-        if finite.contains(&false) || gravity_along < 0.0 || !(0.0..1.0).contains(&draw) {
-            return Err(NW_BAD_STATE);
-        }
-        let load = Load { gravity_outward, gravity_along, gas_shear: [shear_down, shear_across] };
-        let held = model.inner().shed(before.wall as usize, &before.sound()?.to_deposit(), &load, draw)?;
-        // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(before.with(&held)) };
-        Ok(())
-    };
-    guarded_status(shed)
-}
-
-/// Lets the gas at a wall carry powder away for a `duration` [s] (Reeks & Hall 2001). `voidage` is the share of voids in fresh powder [1];
-/// `density` [kg/m3] and `kinematic_viscosity` [m2/s] are those of the gas, `friction_velocity` [m/s] is the root of shear stress over
-/// density, 0 or more. The adhesion is that of the table `resuspension` of the wall in the model file; without one nothing leaves.
-///
-/// # Safety
-/// `model` is a loaded model; `deposit` begins with its `struct_size`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn nw_deposit_resuspend(
-    model: *const nw_model,
-    voidage: f64,
-    density: f64,
-    kinematic_viscosity: f64,
-    friction_velocity: f64,
-    duration: f64,
-    deposit: *mut nw_deposit,
-) -> nw_status {
-    let resuspend = || {
-        // SAFETY: the caller's promises.
-        let (model, before) = unsafe { (reader(model)?, sized(deposit.cast_const())?) };
-        let zero_or_more = [friction_velocity, duration].map(|number| number.is_finite() && number >= 0.0);
-        if !(is_positive(density) && is_positive(kinematic_viscosity)) || zero_or_more.contains(&false) {
-            return Err(NW_BAD_STATE);
-        }
-        let gas = WallGas { density, kinematic_viscosity, friction_velocity };
-        let (wall, given) = (before.wall as usize, before.sound()?.to_deposit());
-        let left = model.inner().resuspended(wall, &given, voidage, &gas, duration)?;
-        let after = before.with(&left).sound()?;
-        // SAFETY: checked just above.
-        unsafe { deposit.write_unaligned(after) };
-        Ok(())
-    };
-    guarded_status(resuspend)
 }

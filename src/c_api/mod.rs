@@ -13,6 +13,7 @@ mod cooled_wall;
 mod deposit;
 mod extra;
 mod impact;
+mod processes;
 mod types;
 
 use std::ffi::{CStr, c_char};
@@ -31,6 +32,7 @@ pub use cooled_wall::*;
 pub use deposit::*;
 pub use extra::*;
 pub use impact::*;
+pub use processes::*;
 use types::status_text;
 pub use types::*;
 

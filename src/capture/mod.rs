@@ -7,7 +7,6 @@
 //! meets one of the two, so `P = c P_covered + (1 - c) P_bare`: the covered share stands outside both probabilities, and a
 //! particle that only slag can hold is held with a probability of at most `1 - c`.
 
-mod char_on_slag;
 mod criterion;
 pub mod drop_freezing;
 pub mod drop_rebound;
@@ -15,12 +14,11 @@ mod droplet;
 mod kinetic_energy;
 mod melt;
 mod melt_fraction;
+mod rebound_from_slag;
 mod solidification;
 mod stickiness;
 mod viscosity;
 
-pub(crate) use char_on_slag::rebound_from_slag;
-pub use char_on_slag::{CharFate, CharOnSlag, Judgement, char_coverage, holding_force, submerging_work};
 pub(crate) use criterion::CAPTURE_KINDS;
 pub use criterion::{Capture, Criterion, MeltStates, StickinessCriterion, Unsuitable, WallState};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
@@ -28,6 +26,7 @@ pub use kinetic_energy::{critical_viscosity, kinetic_energy};
 pub use melt_fraction::{
     FLOWS_FROM, MeltFractionCriterion, MeltFractionStickiness, STICKY_FROM, melt_fraction_stickiness,
 };
+pub(crate) use rebound_from_slag::rebound_from_slag;
 pub use solidification::Solidification;
 pub use stickiness::{Combination, Stickiness};
 pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};

@@ -19,7 +19,7 @@ use super::Deposit;
 
 /// What burns in the powder of a piece of wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Burning {
+pub struct PowderBurning {
     /// Combustible mass in the powder, `C` [kg/m²].
     pub combustible: f64,
     /// Share of it that is left after the step, `r` [1].
@@ -37,8 +37,8 @@ pub struct Burning {
 /// The deposit after the step. In the mean conversion, powder that shrinks counts with `1 - (1 - X) r`, powder that is left beside
 /// melting ash with `X`, and that ash with 1.
 #[must_use]
-pub fn after(deposit: &Deposit, burning: &Burning) -> Deposit {
-    let Burning { combustible, left, conversion, diameter_exponent, ash_density, ash_melts } = *burning;
+pub fn after(deposit: &Deposit, burning: &PowderBurning) -> Deposit {
+    let PowderBurning { combustible, left, conversion, diameter_exponent, ash_density, ash_melts } = *burning;
     let combustible = combustible.min(deposit.powder);
     if combustible <= 0.0 || left >= 1.0 {
         return *deposit;
@@ -88,7 +88,7 @@ mod tests {
         Deposit { molten: 0.3, conversion: 0.3 / (deposit.mass() + 0.3), ..deposit }
     }
 
-    const BURNING: Burning = Burning {
+    const BURNING: PowderBurning = PowderBurning {
         combustible: 1.8e-3,
         left: 0.25,
         conversion: 0.0,
@@ -100,19 +100,19 @@ mod tests {
     #[test]
     fn carbon_leaves_and_ash_stays() {
         for ash_melts in [false, true] {
-            let deposit = after(&char(), &Burning { ash_melts, ..BURNING });
+            let deposit = after(&char(), &PowderBurning { ash_melts, ..BURNING });
             assert_relative_eq!(deposit.mass(), char().mass() - 0.75 * 1.8e-3, max_relative = 1e-14);
             assert!(deposit.cover < char().cover && deposit.solid < char().solid);
         }
-        assert_eq!(after(&char(), &Burning { left: 1.0, ..BURNING }), char());
-        assert_eq!(after(&char(), &Burning { combustible: 0.0, ..BURNING }), char());
+        assert_eq!(after(&char(), &PowderBurning { left: 1.0, ..BURNING }), char());
+        assert_eq!(after(&char(), &PowderBurning { combustible: 0.0, ..BURNING }), char());
     }
 
     /// Equal spheres: their number does not change, so the projected area goes as the square of the diameter.
     #[test]
     fn on_a_cold_wall_equal_spheres_shrink_to_dense_ash() {
         let number = CHAR.mass / (CHAR.density * std::f64::consts::PI / 6.0 * CHAR.diameter.powi(3));
-        let burnt_out = after(&char(), &Burning { left: 0.0, ..BURNING });
+        let burnt_out = after(&char(), &PowderBurning { left: 0.0, ..BURNING });
         let diameter = (0.2e-3 / number / 2400.0 * 6.0 / std::f64::consts::PI).cbrt();
         assert_relative_eq!(
             burnt_out.cover,
@@ -125,12 +125,12 @@ mod tests {
 
     #[test]
     fn on_a_slagging_wall_the_cover_decays_with_the_carbon() {
-        let melting = Burning { ash_melts: true, ..BURNING };
+        let melting = PowderBurning { ash_melts: true, ..BURNING };
         let deposit = after(&char(), &melting);
         assert_relative_eq!(deposit.cover, 0.25 * char().cover, max_relative = 1e-14);
         assert_relative_eq!(deposit.powder, 0.25 * char().powder, max_relative = 1e-12);
         assert_relative_eq!(deposit.molten, 0.3 + 0.75 * 0.2e-3, max_relative = 1e-14);
-        let gone = after(&char(), &Burning { left: 0.0, ..melting });
+        let gone = after(&char(), &PowderBurning { left: 0.0, ..melting });
         assert_eq!((gone.solid, gone.cover), (0.0, 0.0));
         assert!(gone.powder.abs() < 1e-18);
     }
@@ -141,7 +141,7 @@ mod tests {
         let shrunk = after(&char(), &BURNING);
         let mean = (0.3 + shrunk.powder * 0.75) / (0.3 + shrunk.powder);
         assert_relative_eq!(shrunk.conversion, mean, max_relative = 1e-12);
-        let melted = after(&char(), &Burning { ash_melts: true, ..BURNING });
+        let melted = after(&char(), &PowderBurning { ash_melts: true, ..BURNING });
         assert_relative_eq!(melted.conversion, melted.molten / melted.mass(), max_relative = 1e-12);
     }
 
@@ -149,10 +149,10 @@ mod tests {
     #[test]
     fn the_length_of_a_step_does_not_count() {
         for ash_melts in [false, true] {
-            let whole = after(&char(), &Burning { left: 0.09, ash_melts, ..BURNING });
-            let first = Burning { left: 0.3, ash_melts, ..BURNING };
+            let whole = after(&char(), &PowderBurning { left: 0.09, ash_melts, ..BURNING });
+            let first = PowderBurning { left: 0.3, ash_melts, ..BURNING };
             let half = after(&char(), &first);
-            let twice = after(&half, &Burning { combustible: 0.3 * BURNING.combustible, ..first });
+            let twice = after(&half, &PowderBurning { combustible: 0.3 * BURNING.combustible, ..first });
             assert_relative_eq!(twice.mass(), whole.mass(), max_relative = 1e-14);
             assert_relative_eq!(twice.powder, whole.powder, max_relative = 1e-12);
             assert_relative_eq!(twice.solid, whole.solid, max_relative = 1e-12);

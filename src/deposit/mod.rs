@@ -5,28 +5,30 @@
 //! of the particles. [`Model::apply_deposit`] sets the inputs of an impact from the deposit.
 //!
 //! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
-//! droplet, or char that encloses its ash. Its carbon burns off, it sinters and melts where the solver asks for it ([`burn_off`],
-//! [`Model::sintered`], [`Model::melting_share`]: `simulate` does, the last two on cooled walls); it falls off and the gas carries it away
-//! where the model file says so ([`Model::shed`], [`Model::resuspended`]). Melt on a wall that cools later is stiff by
-//! its viscosity.
+//! droplet, or char that encloses its ash. Its carbon burns off where the solver asks for it ([`burn_off`]; `simulate` does).
+//! [`Model::advance`] lets a deposit melt, sinter, leave with the gas and fall off over a time step, by the table
+//! [`PROCESSES`]. Melt on a wall that cools later is stiff by its viscosity.
 //!
 //! [`Model::add_captured`]: crate::Model::add_captured
 //! [`Model::apply_deposit`]: crate::Model::apply_deposit
-//! [`Model::sintered`]: crate::Model::sintered
-//! [`Model::melting_share`]: crate::Model::melting_share
-//! [`Model::shed`]: crate::Model::shed
-//! [`Model::resuspended`]: crate::Model::resuspended
+//! [`Model::advance`]: crate::Model::advance
 
 pub mod burn_off;
 pub mod conduction;
 pub mod conductivity;
 pub mod cover;
+pub(crate) mod layers;
+mod melting;
+pub mod process;
 pub mod resuspension;
-pub mod shedding;
-pub mod sintering;
+mod shedding;
+pub(crate) mod sintering;
+mod wall_processes;
 pub mod wetting;
 
 use crate::slag::Molten;
+pub use process::{ProcessInfo, Surroundings, WallGas};
+pub use wall_processes::{Losses, PROCESS_COUNT, PROCESSES, WallProcesses};
 
 /// Properties of the melt on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,7 +131,7 @@ impl Deposit {
             return self;
         }
         let all = self.cover + arrivals.cover;
-        let cover = cover::after(self.cover, arrivals.cover, arrivals.buried).min(all);
+        let cover = layers::grown_cover(self.cover, arrivals.cover, arrivals.buried);
         let left = if all > 0.0 { cover / all } else { 1.0 };
         let powder = self.powder + arrivals.powder;
         let conversion = (self.mass() * self.conversion + arrivals.converted) / mass;

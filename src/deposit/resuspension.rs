@@ -29,7 +29,7 @@
 //! sintering, which needs a larger `W`, and layers of several particles.
 //!
 //! Agreement with the measured fraction that remains after 1 s of alumina spheres on polished steel (Reeks & Hall, as read off
-//! their figure by the first program), with [`Adhesion::biasi`], `W` = 0.56 J/m² and air: rms difference 0.07 for 10 µm (34 points) and
+//! their figure by the first program), with [`AdhesionDistribution::biasi`], `W` = 0.56 J/m² and air: rms difference 0.07 for 10 µm (34 points) and
 //! 0.11 for 20 µm (39). Below 1 m/s, where most leave, 0.11 and 0.15: the measured curve of 10 µm is steeper, and half have left at
 //! some 0.7 m/s against 0.92 computed. The gas is not certain: the later version of the first program takes air (1.181 kg/m³,
 //! 1.539e-5 m²/s) as a correction of hot helium (1.92 kg/m³, 1.96e-5 m²/s), which would give 0.06 and 0.10, half at 0.73 m/s.
@@ -53,8 +53,23 @@ use statrs::function::erf::erfc;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::LazyLock;
 
+use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings, own_table};
 use super::{Deposit, sintering};
 use crate::input::{InputError, Section};
+
+pub(super) const INFO: ProcessInfo = ProcessInfo {
+    name: "resuspension",
+    loss: Some("resuspended"),
+    read: |wall| {
+        let process = own_table(wall, "resuspension", PowderAdhesion::read)?;
+        if process.is_some() && wall.number("coverage")?.is_some_and(|coverage| coverage > 0.0) {
+            let problem = "is powder without a mass, so its grains have no size for `resuspension`; \
+                           give a layer_thickness instead";
+            return Err(wall.fault("coverage", problem));
+        }
+        Ok(process)
+    },
+};
 
 /// Largest radius in wall units, `r u*/nu` [1]: a diameter of 5, the thickness of the viscous sublayer.
 pub const LARGEST_RADIUS_PLUS: f64 = 2.5;
@@ -65,7 +80,7 @@ pub const LEVER_RATIO: f64 = 100.0;
 /// Standard deviation of the fluctuating force over the mean force [1].
 pub const FLUCTUATION_RATIO: f64 = 0.2;
 
-/// Largest radius [m] for [`Adhesion::biasi`]: of the larger spheres above. The fit itself reaches a median of 0 at 35 µm.
+/// Largest radius [m] for [`AdhesionDistribution::biasi`]: of the larger spheres above. The fit itself reaches a median of 0 at 35 µm.
 pub const LARGEST_FITTED_RADIUS: f64 = 10e-6;
 
 /// Neck over radius `x/r` [1] above which powder is bonded; assumed. Such a neck of a solid that bears 10 MPa holds 3e-7 N on a
@@ -78,21 +93,19 @@ const NEGLIGIBLE: f64 = 1e-12;
 /// `x` below which the rate constant equals the burst frequency, `exp(-x²/2) = Phi(x)`.
 const CAP: f64 = 0.728_600_1;
 /// `x` above which no particle leaves: at 10 the rate constant is 2e-22 of the burst frequency.
-const LAST: f64 = 10.0;
+const LAST_DEVIATION: f64 = 10.0;
 /// Classes of adhesion between the two.
-const CLASSES: usize = 64;
+const ADHESION_CLASSES: usize = 64;
 /// Their middles in `x`, and the rate constants there over the burst frequency [1].
-static RELATIVE_RATES: LazyLock<[f64; CLASSES]> = LazyLock::new(|| {
-    std::array::from_fn(|i| relative_rate(CAP + (LAST - CAP) * (i as f64 + 0.5) / CLASSES as f64))
+static RELATIVE_RATES: LazyLock<[f64; ADHESION_CLASSES]> = LazyLock::new(|| {
+    std::array::from_fn(|i| {
+        relative_rate(CAP + (LAST_DEVIATION - CAP) * (i as f64 + 0.5) / ADHESION_CLASSES as f64)
+    })
 });
 /// Search for an equivalent time: range of the logarithm of time times burst frequency. Between 1e-17 and 1e22.
 const LOG_TIMES: (f64, f64) = (-40.0, 50.0);
 /// Most steps of a search; a Newton step that leaves the bracket is replaced by a halving.
-const MOST_STEPS: usize = 100;
-/// Friction velocities [m/s] between which [`Conditions::critical_friction_velocity`] searches.
-const FRICTION_VELOCITIES: (f64, f64) = (1e-4, 1e4);
-/// Halvings of that range, down to rounding.
-const HALVINGS: usize = 60;
+const MOST_SEARCH_STEPS: usize = 100;
 
 /// Pull-off force [N] of a smooth sphere of a radius [m] from a flat wall with a work of adhesion [J/m²] (JKR).
 pub fn jkr_force(radius: f64, work_of_adhesion: f64) -> f64 {
@@ -105,9 +118,9 @@ fn biasi(radius: f64) -> [f64; 2] {
     [0.016 - 0.0023 * micrometres.powf(0.545), 1.8 + 0.136 * micrometres.powf(1.4)]
 }
 
-/// Adhesion of particles of one size to a rough wall: log-normal.
+/// AdhesionDistribution of particles of one size to a rough wall: log-normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Adhesion {
+pub struct AdhesionDistribution {
     /// Force of the smooth contact, `F_a` [N].
     pub smooth_force: f64,
     /// Median of `f'`, the force over that of the smooth contact [1].
@@ -116,7 +129,7 @@ pub struct Adhesion {
     pub spread: f64,
 }
 
-impl Adhesion {
+impl AdhesionDistribution {
     /// Correlations of Biasi et al. 2001 (J. Aerosol Sci. 32, 1175): median `0.016 - 0.0023 r^0.545`, spread
     /// `1.8 + 0.136 r^1.4` with the radius `r` in µm. The same in the first and third program above; the paper was not read.
     /// `None` for radii [m] above [`LARGEST_FITTED_RADIUS`] (assumed; the range of the fit was not found) and not above 0.
@@ -138,23 +151,20 @@ impl Adhesion {
 pub struct PowderAdhesion {
     /// Work of adhesion `W` [J/m²].
     pub work_of_adhesion: f64,
-    /// Median and geometric spread of `f'` [both 1]; `None` for [`Adhesion::biasi`].
+    /// Median and geometric spread of `f'` [both 1]; `None` for [`AdhesionDistribution::biasi`].
     pub reduced: Option<[f64; 2]>,
 }
 
 impl PowderAdhesion {
-    /// The adhesion of particles of a radius [m]. *Assumed* beyond the range of [`Adhesion::biasi`]: its numbers at the end of it.
-    pub fn of(&self, radius: f64) -> Adhesion {
+    /// The adhesion of particles of a radius [m]. *Assumed* beyond the range of [`AdhesionDistribution::biasi`]: its numbers at the end of it.
+    pub fn of(&self, radius: f64) -> AdhesionDistribution {
         let smooth_force = jkr_force(radius, self.work_of_adhesion);
         let [median, spread] = self.reduced.unwrap_or_else(|| biasi(radius.min(LARGEST_FITTED_RADIUS)));
-        Adhesion { smooth_force, median, spread }
+        AdhesionDistribution { smooth_force, median, spread }
     }
 
     /// Reads the table.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] for a number that is missing or has no meaning.
-    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let work_of_adhesion = section
             .number_within("work_of_adhesion", f64::MIN_POSITIVE, 1e3)?
             .ok_or_else(|| section.missing("work_of_adhesion", "[J/m2], of a smooth contact"))?;
@@ -176,44 +186,44 @@ impl PowderAdhesion {
     }
 }
 
-/// The gas at a wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallGas {
-    /// Density [kg/m³].
-    pub density: f64,
-    /// Kinematic viscosity `nu` [m²/s].
-    pub kinematic_viscosity: f64,
-    /// Friction velocity `u*` [m/s].
-    pub friction_velocity: f64,
-}
+impl Process for PowderAdhesion {
+    /// The gas carries powder away.
+    fn after(
+        &self,
+        deposit: &Deposit,
+        _powder: &dyn PowderMaterial,
+        surroundings: &Surroundings,
+        duration: f64,
+    ) -> Deposit {
+        let (voidage, gas) = (surroundings.voidage, &surroundings.gas);
+        let radius = 0.5 * deposit.powder_diameter();
+        let bonded = sintering::neck_of_porosity(deposit.porosity(voidage), voidage) > BONDED_NECK;
+        if radius <= 0.0 || bonded || deposit.molten > 0.0 || gas.is_calm() {
+            return *deposit;
+        }
+        let conditions = Conditions {
+            radius,
+            adhesion: self.of(radius),
+            gas_density: gas.density,
+            kinematic_viscosity: gas.kinematic_viscosity,
+            friction_velocity: gas.friction_velocity(),
+        };
+        if conditions.share_that_leaves() < NEGLIGIBLE {
+            return *deposit;
+        }
+        let before = 1.0 - deposit.resuspended;
+        let left = conditions.release().advance(before, duration / deposit.cover.max(1.0));
+        if left < before { deposit.blown(1.0 - left / before) } else { *deposit }
+    }
 
-/// The deposit after a time [s] in which the gas carried powder away; fresh powder has a `voidage` [1].
-#[must_use]
-pub fn after(
-    deposit: &Deposit,
-    voidage: f64,
-    adhesion: &PowderAdhesion,
-    gas: &WallGas,
-    time: f64,
-) -> Deposit {
-    let radius = 0.5 * deposit.powder_diameter();
-    let bonded = sintering::neck_of_porosity(deposit.porosity(voidage), voidage) > BONDED_NECK;
-    if radius <= 0.0 || bonded || deposit.molten > 0.0 {
-        return *deposit;
+    fn describe(&self) -> String {
+        let work = self.work_of_adhesion;
+        let roughness = match self.reduced {
+            Some([median, spread]) => format!(", median {median}, spread {spread}"),
+            None => " and the roughness of Biasi et al. 2001".to_owned(),
+        };
+        format!(", powder sticks to it with {work} J/m2{roughness}")
     }
-    let conditions = Conditions {
-        radius,
-        adhesion: adhesion.of(radius),
-        gas_density: gas.density,
-        kinematic_viscosity: gas.kinematic_viscosity,
-        friction_velocity: gas.friction_velocity,
-    };
-    if conditions.share_that_leaves() < NEGLIGIBLE {
-        return *deposit;
-    }
-    let before = 1.0 - deposit.resuspended;
-    let left = conditions.release().advance(before, time / deposit.cover.max(1.0));
-    if left < before { deposit.blown(1.0 - left / before) } else { *deposit }
 }
 
 /// Particles of one size on a wall under turbulent gas.
@@ -222,7 +232,7 @@ pub struct Conditions {
     /// Radius of the particles [m].
     pub radius: f64,
     /// Their adhesion.
-    pub adhesion: Adhesion,
+    pub adhesion: AdhesionDistribution,
     /// Density of the gas [kg/m³].
     pub gas_density: f64,
     /// Kinematic viscosity of the gas [m²/s].
@@ -235,11 +245,6 @@ impl Conditions {
     /// Radius in wall units, `r u*/nu` [1].
     pub fn radius_plus(&self) -> f64 {
         self.radius * self.friction_velocity / self.kinematic_viscosity
-    }
-
-    /// Whether the particles lie within the viscous sublayer.
-    pub fn in_range(&self) -> bool {
-        self.radius_plus() <= LARGEST_RADIUS_PLUS
     }
 
     /// `rho nu²` [N], the unit of force of the near-wall flow.
@@ -278,16 +283,16 @@ impl Conditions {
 
     /// Share [1] of particles that ever leave.
     fn share_that_leaves(&self) -> f64 {
-        self.adhesion.share_below(self.mean_force() * (1.0 + FLUCTUATION_RATIO * LAST))
+        self.adhesion.share_below(self.mean_force() * (1.0 + FLUCTUATION_RATIO * LAST_DEVIATION))
     }
 
     /// Shares and rate constants by classes of adhesion. It serves every face and time step under these conditions.
     pub fn release(&self) -> Release {
         let (mean, frequency) = (self.mean_force(), self.burst_frequency());
-        let step = (LAST - CAP) / CLASSES as f64;
+        let step = (LAST_DEVIATION - CAP) / ADHESION_CLASSES as f64;
         let below = |x: f64| self.adhesion.share_below(mean * (1.0 + FLUCTUATION_RATIO * x));
         let mut lower = below(CAP);
-        let mut classes = [(0.0, 0.0); CLASSES + 1];
+        let mut classes = [(0.0, 0.0); ADHESION_CLASSES + 1];
         classes[0] = (lower, frequency);
         for (i, (class, rate)) in classes[1..].iter_mut().zip(RELATIVE_RATES.iter()).enumerate() {
             let upper = below(CAP + step * (i + 1) as f64);
@@ -301,28 +306,13 @@ impl Conditions {
     pub fn fraction_remaining(&self, time: f64) -> f64 {
         self.release().fraction_remaining(time)
     }
-
-    /// Friction velocity [m/s] at which this fraction [1] (0.5 for half) remains after a time [s]; that of `self` is not used. `None`
-    /// where there is none between 1e-4 and 1e4 m/s. Check [`Conditions::in_range`] with it.
-    pub fn critical_friction_velocity(&self, fraction: f64, time: f64) -> Option<f64> {
-        let remaining = |u: f64| Self { friction_velocity: u, ..*self }.fraction_remaining(time);
-        let (mut low, mut high) = FRICTION_VELOCITIES;
-        if !(remaining(low) > fraction && remaining(high) < fraction) {
-            return None;
-        }
-        for _ in 0..HALVINGS {
-            let middle = (low * high).sqrt();
-            if remaining(middle) > fraction { low = middle } else { high = middle }
-        }
-        Some((low * high).sqrt())
-    }
 }
 
 /// Release of particles under constant conditions: a sum of exponential decays.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Release {
     /// Share [1] and rate constant [1/s] by class of adhesion, the weakest first.
-    classes: [(f64, f64); CLASSES + 1],
+    classes: [(f64, f64); ADHESION_CLASSES + 1],
     /// Share [1] that never leaves.
     staying: f64,
     /// Burst frequency [1/s].
@@ -335,12 +325,8 @@ impl Release {
         self.at(time).0
     }
 
-    /// Share of all that landed that leaves per time [1/s] after a time [s]: `-dR/dt`.
-    pub fn release_rate(&self, time: f64) -> f64 {
-        self.at(time).1
-    }
-
-    /// Both, with one exponential a class.
+    /// Fraction [1] that remains after a time [s], and the share of all that landed that then leaves
+    /// per time [1/s], with one exponential a class.
     fn at(&self, time: f64) -> (f64, f64) {
         self.classes.iter().fold((self.staying, 0.0), |(left, leaving), (share, rate)| {
             let still = share * (-rate * time).exp();
@@ -361,7 +347,7 @@ impl Release {
             return f64::INFINITY;
         }
         let mut guess = 0.0;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MOST_SEARCH_STEPS {
             let (remaining, leaving) = self.at(time(guess));
             let excess = remaining - fraction;
             if excess > 0.0 {
@@ -399,14 +385,15 @@ pub(super) fn normal_below(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deposit::{CapturedParticles, DepositSource};
+    use crate::deposit::process::testing::Stiff;
+    use crate::deposit::{CapturedParticles, DepositSource, WallGas};
     use approx::assert_relative_eq;
 
     /// Air at room temperature and 0.56 J/m², as `discrete-rocknroll` takes them for runs of Reeks & Hall.
     fn alumina(radius: f64, friction_velocity: f64) -> Conditions {
         Conditions {
             radius,
-            adhesion: Adhesion::biasi(radius, 0.56).unwrap(),
+            adhesion: AdhesionDistribution::biasi(radius, 0.56).unwrap(),
             gas_density: 1.181,
             kinematic_viscosity: 1.539e-5,
             friction_velocity,
@@ -414,7 +401,7 @@ mod tests {
     }
 
     /// Integral over the log-normal by the midpoint rule, over `ln f'` instead of the classes of [`Release`].
-    fn integrated(adhesion: &Adhesion, exponent: impl Fn(f64) -> f64) -> f64 {
+    fn integrated(adhesion: &AdhesionDistribution, exponent: impl Fn(f64) -> f64) -> f64 {
         let (steps, end) = (20_000, 8.0);
         let width = 2.0 * end / f64::from(steps);
         let weight = |z: f64| width * (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
@@ -449,7 +436,7 @@ mod tests {
         assert_relative_eq!((-0.5 * CAP * CAP).exp(), normal_below(CAP), max_relative = 1e-6);
         // The lift hardly counts within the range.
         let last = alumina(10e-6, LARGEST_RADIUS_PLUS * 1.539e-5 / 10e-6);
-        assert!(last.in_range() && 0.5 * last.lift() < 0.01 * last.mean_force());
+        assert!(0.5 * last.lift() < 0.01 * last.mean_force());
         assert_relative_eq!(jkr_force(5e-6, 0.56), 1.319_469e-5, max_relative = 1e-6);
     }
 
@@ -462,7 +449,7 @@ mod tests {
         assert!(alumina(5e-6, 20.0).fraction_remaining(1.0) < 1e-5);
         assert_eq!(alumina(5e-6, 1.0).fraction_remaining(0.0), 1.0);
         for radius in [0.0, -1e-6, 11e-6, f64::NAN] {
-            assert!(Adhesion::biasi(radius, 0.56).is_none());
+            assert!(AdhesionDistribution::biasi(radius, 0.56).is_none());
         }
         let fractions: Vec<_> =
             (1..80).map(|i| alumina(10e-6, 0.1 * f64::from(i)).fraction_remaining(1.0)).collect();
@@ -486,9 +473,9 @@ mod tests {
     #[test]
     fn equal_bonds_decay_exponentially() {
         let mut c = alumina(5e-6, 1.0);
-        let x = CAP + (LAST - CAP) / CLASSES as f64 * 40.5;
+        let x = CAP + (LAST_DEVIATION - CAP) / ADHESION_CLASSES as f64 * 40.5;
         let force = c.mean_force() * (1.0 + FLUCTUATION_RATIO * x);
-        c.adhesion = Adhesion { smooth_force: force, median: 1.0, spread: 1.000_01 };
+        c.adhesion = AdhesionDistribution { smooth_force: force, median: 1.0, spread: 1.000_01 };
         for time in [0.1, 1.0, 10.0] {
             assert_relative_eq!(
                 c.fraction_remaining(time),
@@ -508,7 +495,7 @@ mod tests {
             .map(|i| {
                 let weight = if i == 0 || i == steps { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
                 let time = (start + width * f64::from(i)).exp();
-                weight * time * release.release_rate(time) * width / 3.0
+                weight * time * release.at(time).1 * width / 3.0
             })
             .sum();
         let left = release.fraction_remaining(start.exp()) - release.fraction_remaining(end.exp());
@@ -559,20 +546,27 @@ mod tests {
     }
 
     /// Air that shears alumina off at 0.8 m/s, as in [`alumina`].
-    fn gas() -> (PowderAdhesion, WallGas) {
+    fn gas() -> WallGas {
         let Conditions { gas_density, kinematic_viscosity, friction_velocity, .. } = alumina(5e-6, 0.8);
+        let shear = [0.6, 0.8].map(|part| part * gas_density * friction_velocity.powi(2));
+        WallGas { density: gas_density, kinematic_viscosity, shear }
+    }
+
+    /// The deposit after a time [s] in that gas.
+    fn after(deposit: &Deposit, gas: &WallGas, time: f64) -> Deposit {
         let adhesion = PowderAdhesion { work_of_adhesion: 0.56, reduced: None };
-        (adhesion, WallGas { density: gas_density, kinematic_viscosity, friction_velocity })
+        let surroundings = Surroundings { voidage: 0.5, gas: *gas, ..Default::default() };
+        adhesion.after(deposit, &Stiff, &surroundings, time)
     }
 
     /// Particles that land at a constant rate: each cohort has its own age, the deposit has none.
     #[test]
     fn steady_landing_agrees_with_the_sum_of_cohorts() {
         let release = alumina(5e-6, 0.8).release();
-        let (adhesion, gas) = gas();
+        let gas = gas();
         let (mut deposit, mut worst, mut last) = (Deposit::default(), 0.0_f64, 0.0);
         for count in 1..200 {
-            deposit = after(&deposit.with(&landed(1e-5)), 0.5, &adhesion, &gas, 0.5);
+            deposit = after(&deposit.with(&landed(1e-5)), &gas, 0.5);
             assert!(deposit.cover < 1.0);
             let cohorts: f64 =
                 (1..=count).map(|age| 1e-5 * release.fraction_remaining(0.5 * f64::from(age))).sum();
@@ -586,9 +580,9 @@ mod tests {
     /// A thin deposit follows the law, and all of its sizes shrink together; of a thick one each particle waits its turn; melt and necks hold.
     #[test]
     fn deposits_lose_open_and_loose_powder() {
-        let (adhesion, gas) = gas();
+        let gas = gas();
         let thin = Deposit::default().with(&landed(1e-3));
-        let blown = after(&thin, 0.5, &adhesion, &gas, 10.0);
+        let blown = after(&thin, &gas, 10.0);
         let left = alumina(5e-6, 0.8).fraction_remaining(10.0);
         assert_relative_eq!(blown.powder, 1e-3 * left, max_relative = 1e-9);
         assert_relative_eq!(blown.resuspended, 1.0 - left, max_relative = 1e-9);
@@ -599,29 +593,26 @@ mod tests {
             max_relative = 1e-9
         );
         // In two steps the same, and fresh powder is not taken for old.
-        let twice = after(&after(&thin, 0.5, &adhesion, &gas, 4.0), 0.5, &adhesion, &gas, 6.0);
+        let twice = after(&after(&thin, &gas, 4.0), &gas, 6.0);
         assert_relative_eq!(twice.powder, blown.powder, max_relative = 1e-9);
         assert_relative_eq!(blown.with(&landed(1e-3)).resuspended, (1.0 - left) / 2.0, max_relative = 1e-9);
         // 1.5 m/(rho d) = 15 layers: after 150 s as one layer after 10 s.
-        let thick = after(&Deposit::default().with(&landed(0.1)), 0.5, &adhesion, &gas, 150.0);
+        let thick = after(&Deposit::default().with(&landed(0.1)), &gas, 150.0);
         assert_relative_eq!(thick.powder, 0.1 * left, max_relative = 1e-9);
         let wet = Deposit { molten: 1e-6, ..thin };
-        assert_eq!(after(&wet, 0.5, &adhesion, &gas, 10.0), wet);
+        assert_eq!(after(&wet, &gas, 10.0), wet);
         let bonded = thin.sintered(0.5, 0.499);
-        assert_eq!(after(&bonded, 0.5, &adhesion, &gas, 10.0), bonded);
-        let calm = WallGas { friction_velocity: 0.0, ..gas };
-        assert_eq!(after(&thin, 0.5, &adhesion, &calm, 10.0), thin);
-        assert_eq!(after(&Deposit::default(), 0.5, &adhesion, &gas, 10.0), Deposit::default());
+        assert_eq!(after(&bonded, &gas, 10.0), bonded);
+        let calm = WallGas { shear: [0.0; 2], ..gas };
+        assert_eq!(after(&thin, &calm, 10.0), thin);
+        assert_eq!(after(&Deposit::default(), &gas, 10.0), Deposit::default());
     }
 
+    /// A separate script that integrates over the log-normal gave half at 0.9224 m/s. Measured, run 10: 0.52 at 0.70, 0.21 at 0.95
+    /// m/s.
     #[test]
-    fn the_critical_friction_velocity_leaves_the_fraction() {
-        let c = alumina(5e-6, f64::NAN);
-        let u = c.critical_friction_velocity(0.5, 1.0).unwrap();
-        assert_relative_eq!(alumina(5e-6, u).fraction_remaining(1.0), 0.5, max_relative = 1e-9);
-        // A separate script that integrates over the log-normal gave 0.9224. Measured, run 10: 0.52 at 0.70, 0.21 at 0.95 m/s.
-        assert_relative_eq!(u, 0.9224, max_relative = 1e-3);
-        assert!(c.critical_friction_velocity(0.5, 3600.0).unwrap() < u);
-        assert!(c.critical_friction_velocity(1.0, 1.0).is_none());
+    fn half_remains_at_the_critical_friction_velocity() {
+        let [below, above] = [0.9215, 0.9233].map(|u| alumina(5e-6, u).fraction_remaining(1.0));
+        assert!(above < 0.5 && below > 0.5, "{below} {above}");
     }
 }

@@ -23,44 +23,62 @@
 //!
 //! Range: thickness small against the radius of the wall. No function fails; a strength of 0 breaks under any load.
 
+use super::Deposit;
+use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings, own_table};
 use super::resuspension::normal_below;
 use crate::input::{InputError, Section};
 
-/// Plane within a deposit, or between it and the wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Plane {
-    /// Mass of the deposit outside of it [kg/m²].
-    pub outside: f64,
-    /// Tensile strength [Pa].
-    pub tensile_strength: f64,
-    /// Shear strength [Pa].
-    pub shear_strength: f64,
-}
+pub(super) const INFO: ProcessInfo = ProcessInfo {
+    name: "shedding",
+    loss: Some("shed"),
+    read: |wall| own_table(wall, "shedding", Strength::read),
+};
 
 /// Strength with which a deposit holds to a wall: a `shedding` table of the model file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Strength {
+struct Strength {
     /// Tensile strength [Pa], median over the places of the wall.
-    pub tensile: f64,
+    tensile: f64,
     /// Shear strength [Pa], likewise.
-    pub shear: f64,
+    shear: f64,
     /// Geometric spread from place to place, at least 1 [1].
-    pub spread: f64,
+    spread: f64,
+}
+
+impl Process for Strength {
+    /// The whole deposit falls off a place, or nothing.
+    fn after(
+        &self,
+        deposit: &Deposit,
+        _powder: &dyn PowderMaterial,
+        surroundings: &Surroundings,
+        _duration: f64,
+    ) -> Deposit {
+        if self.breaks(deposit.mass(), surroundings) { Deposit::default() } else { *deposit }
+    }
+
+    fn describe(&self) -> String {
+        let Self { tensile, shear, spread } = self;
+        format!(", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}")
+    }
 }
 
 impl Strength {
-    /// Whether a deposit of a mass [kg/m²] falls off the wall at a place, which `draw` [1] between 0 and 1 ranks from the weakest to the
-    /// strongest. A place keeps its draw, so that the result does not depend on the length of time steps.
-    pub fn breaks(&self, mass: f64, load: &Load, draw: f64) -> bool {
-        let plane = Plane { outside: mass, tensile_strength: self.tensile, shear_strength: self.shear };
-        mass > 0.0 && shed_share(load.utilisation(&plane), self.spread) > draw
+    /// Whether a deposit of a mass [kg/m²] falls off a place of the wall.
+    fn breaks(&self, mass: f64, surroundings: &Surroundings) -> bool {
+        mass > 0.0 && shed_share(self.utilisation(mass, surroundings), self.spread) > surroundings.draw
+    }
+
+    /// Utilisation `U` [1] of the median strength by a deposit of a mass [kg/m²].
+    fn utilisation(&self, mass: f64, surroundings: &Surroundings) -> f64 {
+        let [down, across] = surroundings.gas.shear;
+        let tension = mass * surroundings.gravity_outward.max(0.0);
+        let shear = (mass * surroundings.gravity_along + down).hypot(across);
+        ratio(tension, self.tensile).hypot(ratio(shear, self.shear))
     }
 
     /// Reads the table.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] for a number that is missing or has no meaning.
-    pub(crate) fn read(section: &Section<'_>) -> Result<Self, InputError> {
+    fn read(section: &Section<'_>) -> Result<Self, InputError> {
         let strength = |key: &str| {
             let given = section.number_within(key, 0.0, f64::INFINITY)?;
             given.ok_or_else(|| section.missing(key, "[Pa]"))
@@ -70,65 +88,9 @@ impl Strength {
     }
 }
 
-/// Gravity and gas shear on a wall.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Load {
-    /// Gravity outward from the wall [m/s²], negative where it presses the deposit on.
-    pub gravity_outward: f64,
-    /// Gravity along the wall [m/s²], not negative.
-    pub gravity_along: f64,
-    /// Shear stress of the gas [Pa] down the slope and across it.
-    pub gas_shear: [f64; 2],
-}
-
-impl Load {
-    /// Load on a wall at an angle [rad] from the horizontal, from 0 (floor) to pi (ceiling), with gravity [m/s²].
-    pub fn on_slope(angle: f64, gravity: f64, gas_shear: [f64; 2]) -> Self {
-        let (sine, cosine) = angle.sin_cos();
-        Self { gravity_outward: -gravity * cosine, gravity_along: gravity * sine, gas_shear }
-    }
-
-    /// Utilisation `U` [1] of a plane: it breaks at 1.
-    pub fn utilisation(&self, plane: &Plane) -> f64 {
-        let [down, across] = self.gas_shear;
-        let tension = plane.outside * self.gravity_outward.max(0.0);
-        let shear = (plane.outside * self.gravity_along + down).hypot(across);
-        ratio(tension, plane.tensile_strength).hypot(ratio(shear, plane.shear_strength))
-    }
-
-    /// Index and utilisation of the plane with the greatest one; the outer one of equals, planes given from the wall outward.
-    /// `None` without planes.
-    pub fn weakest(&self, planes: &[Plane]) -> Option<(usize, f64)> {
-        let used = planes.iter().map(|plane| self.utilisation(plane)).enumerate();
-        used.max_by(|(_, one), (_, other)| one.total_cmp(other))
-    }
-
-    /// Mass outside [kg/m²] at which a plane of these strengths breaks: 0 where the gas alone does it, infinite where weight cannot.
-    /// Solves `U = 1`, quadratic in the mass.
-    pub fn critical_mass(&self, tensile_strength: f64, shear_strength: f64) -> f64 {
-        let [down, across] = self.gas_shear.map(|shear| ratio(shear, shear_strength));
-        let along = ratio(self.gravity_along, shear_strength);
-        let outward = ratio(self.gravity_outward.max(0.0), tensile_strength);
-        let squares = outward * outward + along * along;
-        let (half, left) = (along * down, 1.0 - down * down - across * across);
-        if left <= 0.0 {
-            0.0
-        } else if squares == 0.0 {
-            f64::INFINITY
-        } else if squares.is_infinite() {
-            0.0
-        } else if half > 0.0 {
-            // The same root without a difference of nearly equal numbers.
-            left / (half + (half * half + squares * left).sqrt())
-        } else {
-            ((half * half + squares * left).sqrt() - half) / squares
-        }
-    }
-}
-
-/// Share of the wall [1] whose deposit is shed at a utilisation [1], with a geometric spread [1] of the strength from place to place;
-/// a spread of 1 sheds all or nothing.
-pub fn shed_share(utilisation: f64, spread: f64) -> f64 {
+/// Share of the wall [1] whose deposit is shed at a utilisation [1], with a geometric spread [1] of the
+/// strength from place to place; a spread of 1 sheds all or nothing.
+fn shed_share(utilisation: f64, spread: f64) -> f64 {
     if spread <= 1.0 {
         return f64::from(u8::from(utilisation >= 1.0));
     }
@@ -142,22 +104,26 @@ fn ratio(stress: f64, strength: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::process::WallGas;
     use super::*;
     use approx::assert_relative_eq;
     use std::f64::consts::{FRAC_PI_2, PI};
 
     const G: f64 = 9.81;
     const CALM: [f64; 2] = [0.0, 0.0];
+    const STRENGTH: Strength = Strength { tensile: 200.0, shear: 100.0, spread: 1.0 };
 
-    fn plane(outside: f64) -> Plane {
-        Plane { outside, tensile_strength: 200.0, shear_strength: 100.0 }
+    /// On a wall at an angle [rad] from the horizontal, from 0 (floor) to pi (ceiling).
+    fn on_slope(angle: f64, shear: [f64; 2]) -> Surroundings {
+        let (sine, cosine) = angle.sin_cos();
+        let gas = WallGas { density: 1.0, kinematic_viscosity: 1e-5, shear };
+        Surroundings { gas, gravity_outward: -G * cosine, gravity_along: G * sine, ..Default::default() }
     }
 
     /// Hanging weight per area over strength: on a ceiling all tension, on a vertical wall all shear, on a floor nothing.
     #[test]
     fn weight_alone_by_hand() {
-        let layer = plane(1500.0 * 0.01);
-        let used = |angle: f64| Load::on_slope(angle, G, CALM).utilisation(&layer);
+        let used = |angle: f64| STRENGTH.utilisation(1500.0 * 0.01, &on_slope(angle, CALM));
         assert_relative_eq!(used(PI), 147.15 / 200.0, max_relative = 1e-12);
         assert_relative_eq!(used(FRAC_PI_2), 147.15 / 100.0, max_relative = 1e-12);
         assert_eq!(used(0.0), 0.0);
@@ -168,52 +134,26 @@ mod tests {
     /// Of many places with a spread of strengths, the share that theory states loses its deposit, and again the same ones.
     #[test]
     fn places_keep_their_strength() {
-        let strength = Strength { tensile: 200.0, shear: 100.0, spread: 2.0 };
-        let load = Load::on_slope(FRAC_PI_2, G, CALM);
+        let strength = Strength { spread: 2.0, ..STRENGTH };
+        let at = |draw: f64| Surroundings { draw, ..on_slope(FRAC_PI_2, CALM) };
         let mass = 50.0 / G;
-        let broken =
-            (0..1000).filter(|place| strength.breaks(mass, &load, (f64::from(*place) + 0.5) / 1000.0));
+        let broken = (0..1000).filter(|place| strength.breaks(mass, &at((f64::from(*place) + 0.5) / 1000.0)));
         // Half of the median strength, a spread of 2: Phi(-1) = 0.1587.
         assert_eq!(broken.count(), 159);
-        let even = Strength { spread: 1.0, ..strength };
-        assert!(!even.breaks(99.9 / G, &load, 0.0) && even.breaks(100.1 / G, &load, 0.999));
-        assert!(!even.breaks(0.0, &load, 0.0));
+        assert!(!STRENGTH.breaks(99.9 / G, &at(0.0)) && STRENGTH.breaks(100.1 / G, &at(0.999)));
+        assert!(!STRENGTH.breaks(0.0, &at(0.0)));
     }
 
     #[test]
     fn gas_shear_adds_as_a_vector() {
-        let wall = |shear| Load::on_slope(FRAC_PI_2, G, shear).utilisation(&plane(3.0 / G));
+        let wall = |shear| STRENGTH.utilisation(3.0 / G, &on_slope(FRAC_PI_2, shear));
         assert_relative_eq!(wall([1.0, 3.0]), 0.05, max_relative = 1e-12);
         assert!(wall([-3.0, 0.0]) < 1e-12);
         // On a floor only the gas acts: 1 kg/m³ at u* = 10 m/s reaches 100 Pa.
-        assert_relative_eq!(Load::on_slope(0.0, G, [0.0, 100.0]).utilisation(&plane(5.0)), 1.0);
-    }
-
-    #[test]
-    fn the_critical_mass_just_breaks() {
-        for angle in [0.1, 1.0, FRAC_PI_2, 2.0, 3.0, PI] {
-            for shear in [CALM, [30.0, 0.0], [-60.0, 20.0], [99.0, 10.0]] {
-                let load = Load::on_slope(angle, G, shear);
-                let mass = load.critical_mass(200.0, 100.0);
-                assert!(mass.is_finite() && mass > 0.0);
-                assert_relative_eq!(load.utilisation(&plane(mass)), 1.0, max_relative = 1e-9);
-            }
-        }
-        assert_eq!(Load::on_slope(1.0, G, [80.0, 80.0]).critical_mass(200.0, 100.0), 0.0);
-        assert_eq!(Load::on_slope(0.0, G, [10.0, 0.0]).critical_mass(200.0, 100.0), f64::INFINITY);
-        assert_eq!(Load::on_slope(1.0, G, CALM).critical_mass(200.0, 0.0), 0.0);
-    }
-
-    /// A sintered layer on a powder on the wall: the most loaded plane is not the one that breaks.
-    #[test]
-    fn the_weakest_plane_breaks() {
-        let wall = Plane { outside: 12.0, tensile_strength: 1e4, shear_strength: 1e4 };
-        let powder = Plane { outside: 10.0, tensile_strength: 50.0, shear_strength: 50.0 };
-        let load = Load::on_slope(FRAC_PI_2, G, CALM);
-        let (index, used) = load.weakest(&[wall, powder]).unwrap();
-        assert_eq!(index, 1);
-        assert_relative_eq!(used, 98.1 / 50.0, max_relative = 1e-12);
-        assert!(load.weakest(&[]).is_none());
+        assert_relative_eq!(STRENGTH.utilisation(5.0, &on_slope(0.0, [0.0, 100.0])), 1.0);
+        // Without strength any load breaks it, and none does not.
+        let none = Strength { shear: 0.0, ..STRENGTH };
+        assert!(none.breaks(1e-9, &on_slope(1.0, CALM)) && !none.breaks(1e9, &on_slope(0.0, CALM)));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Viscous sintering of a deposit: necks, densification and strength.
+//! Viscous sintering of a deposit: necks and densification.
 //!
 //! With the reduced time `s = gamma t/(mu r)` ([`reduced_time`]), which is summed over steps of any length:
 //!
@@ -12,8 +12,7 @@
 //! relative density [1], `p` porosity [1], `a_0` radius of the pores [m]. The change of law at 0.8 and the rule for `a_0` are
 //! those of the model of clusters (Prado, Zanotto & Müller, J. Non-Cryst. Solids 279 (2001) 169), for one particle size. Read were
 //! abstracts and two codes that write the factors 3/2, 3/8 and 3/2 and the rule; Eshelby's correction of Frenkel's balance gives 1 for the
-//! first 3/2 (not re-read). All three are closed forms of `s`: two half steps are one step, and the rate is
-//! [`densification_rate`].
+//! first 3/2 (not re-read). All three are closed forms of `s`: two half steps are one step.
 //!
 //! Below a residual porosity (0.03 by default) nothing shrinks: pores are isolated and keep their gas. Measured: 0.01 to 0.03
 //! in volcanic glass (Wadsworth et al., Earth Planet. Sci. Lett. 525 (2019) 115726), 0.02 to 0.05 in obsidian (Gardner et al., Bull.
@@ -25,44 +24,62 @@
 //! (`rho_0` below 0.5) are an extrapolation. Neglected: crystals, which stop sintering (give an infinite viscosity), load, and the
 //! spread of sizes: fine particles sinter first, by `1/r`.
 //! Errors: the rate is as uncertain as `1/mu`, so a factor of 2 to 10 for an ash; by shape a factor of 2 more.
-//!
-//! **Strength** of the cold layer, of two kinds: by porosity ([`strength_of_porosity`]), `sigma_0 exp(-b p)`, Ryshkewitch (J. Am. Ceram.
-//! Soc. 36 (1953) 65) and Duckworth (ibid. 68), `b` 4 to 8; by necks ([`strength_of_neck`]), `sigma_0 (x/r)² N/2`, German
-//! ("Strength evolution in debinding and sintering", 2003), with `N` contacts of a particle, for `x/r` up to 0.5. Both
-//! were read in other works' summaries. Below the onset of sintering ash pellets gained no strength within hours; glassy bonds carry them
-//! after cooling, and crystallisation weakens them again (Tangsathitkulchai & Austin, Fuel 64 (1985) 86, abstract).
+
+use std::sync::Arc;
+
+use super::Deposit;
+use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings};
+
+pub(super) const INFO: ProcessInfo =
+    ProcessInfo { name: "sintering", loss: None, read: |_| Ok(Some(Arc::new(Sintering))) };
 
 /// Relative density [1] at which the pores close.
 const CLOSED: f64 = 0.8;
 /// Residual porosity [1] of isolated pores, unless another is given.
-pub const RESIDUAL_POROSITY: f64 = 0.03;
-/// Neck ratio [1] up to which strength grows with the necks.
-const WIDEST_NECK: f64 = 0.5;
+const RESIDUAL_POROSITY: f64 = 0.03;
+
+#[derive(Debug)]
+struct Sintering;
+
+impl Process for Sintering {
+    /// All powder sinters at the mean of the temperatures of its two sides.
+    fn after(
+        &self,
+        deposit: &Deposit,
+        powder: &dyn PowderMaterial,
+        surroundings: &Surroundings,
+        duration: f64,
+    ) -> Deposit {
+        let Some([cold, hot]) = surroundings.powder_sides else { return *deposit };
+        let radius = 0.5 * deposit.powder_diameter();
+        let Some([viscosity, tension]) = powder.sintering(0.5 * (cold + hot)).filter(|_| radius > 0.0) else {
+            return *deposit;
+        };
+        let time = reduced_time(duration, tension, viscosity, radius);
+        let voidage = surroundings.voidage;
+        deposit.sintered(voidage, porosity(deposit.porosity(voidage), &Packing::new(voidage), time))
+    }
+}
 
 /// Packing of a powder, and the porosity at which its sintering ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Packing {
+struct Packing {
     /// Porosity of the fresh powder [1], above 0 and below 1.
-    pub porosity: f64,
+    porosity: f64,
     /// Residual porosity [1].
-    pub residual: f64,
+    residual: f64,
 }
 
 impl Packing {
     /// A packing of a porosity [1] with the usual residual porosity.
-    pub fn new(porosity: f64) -> Self {
+    fn new(porosity: f64) -> Self {
         Self { porosity, residual: RESIDUAL_POROSITY }
     }
 }
 
 /// Reduced time `gamma t/(mu r)` [1] of a time [s]; 0 for an infinite viscosity.
-pub fn reduced_time(time: f64, surface_tension: f64, viscosity: f64, radius: f64) -> f64 {
+fn reduced_time(time: f64, surface_tension: f64, viscosity: f64, radius: f64) -> f64 {
     surface_tension * time / (viscosity * radius)
-}
-
-/// Neck ratio `x/r` [1] after a reduced time [1], from a neck ratio before it; at most 1.
-pub fn neck(before: f64, reduced_time: f64) -> f64 {
-    (before * before + 1.5 * reduced_time).sqrt().min(1.0)
 }
 
 /// Neck ratio `x/r` [1] of a powder that sintered from a packing to a porosity [both 1]: necks of the height `x²/(4 r)`
@@ -72,7 +89,7 @@ pub fn neck_of_porosity(porosity: f64, packing_porosity: f64) -> f64 {
 }
 
 /// Porosity [1] after a reduced time [1], from a porosity before it; the time must not be NaN.
-pub fn porosity(before: f64, packing: &Packing, reduced_time: f64) -> f64 {
+fn porosity(before: f64, packing: &Packing, reduced_time: f64) -> f64 {
     if before <= packing.residual {
         return before;
     }
@@ -84,18 +101,6 @@ pub fn porosity(before: f64, packing: &Packing, reduced_time: f64) -> f64 {
         before.min(1.0 - CLOSED) * (-closed_rate(packing.porosity) * (reduced_time - left)).exp()
     };
     after.max(packing.residual)
-}
-
-/// Rate `dp/ds` [1] of the porosity over the reduced time; `dp/dt` [1/s] is this times `gamma/(mu r)`.
-pub fn densification_rate(porosity: f64, packing: &Packing) -> f64 {
-    let dense = 1.0 - porosity;
-    if porosity <= packing.residual {
-        0.0
-    } else if dense < CLOSED {
-        -1.125 * dense / (1.0 - shrinkage(porosity, packing.porosity))
-    } else {
-        -closed_rate(packing.porosity) * porosity
-    }
 }
 
 /// Linear shrinkage `1 - (rho_0/rho)^(1/3)` [1].
@@ -119,21 +124,25 @@ fn closed_rate(packing_porosity: f64) -> f64 {
     excess.ln_1p() / closing_time(packing_porosity, packing_porosity)
 }
 
-/// Strength [Pa] of a layer of a porosity [1] from that of the solid [Pa] and the exponent `b` [1].
-pub fn strength_of_porosity(solid: f64, exponent: f64, porosity: f64) -> f64 {
-    solid * (-exponent * porosity).exp()
-}
-
-/// Strength [Pa] of a layer by its necks, from that of the solid [Pa], the neck ratio [1] and the contacts of a particle; at most
-/// that of the solid.
-pub fn strength_of_neck(solid: f64, neck: f64, contacts: f64) -> f64 {
-    solid * (0.5 * contacts * neck.min(WIDEST_NECK).powi(2)).min(1.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+
+    /// Rate `dp/ds` [1] of the porosity over the reduced time, from the laws in differential form.
+    fn densification_rate(porosity: f64, packing: &Packing) -> f64 {
+        let dense = 1.0 - porosity;
+        if dense < CLOSED {
+            -1.125 * dense / (1.0 - shrinkage(porosity, packing.porosity))
+        } else {
+            -closed_rate(packing.porosity) * porosity
+        }
+    }
+
+    /// Neck ratio `x/r` [1] after a reduced time [1], by Frenkel.
+    fn neck(reduced_time: f64) -> f64 {
+        (1.5 * reduced_time).sqrt()
+    }
 
     const PACKINGS: [f64; 7] = [0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 0.95];
 
@@ -142,19 +151,14 @@ mod tests {
         // By hand: 0.4·60/(1e8·1e-5) = 0.024.
         let s = reduced_time(60.0, 0.4, 1e8, 1e-5);
         assert_relative_eq!(s, 0.024, max_relative = 1e-14);
-        assert_relative_eq!(
-            neck(0.0, s).powi(2),
-            3.0 * 0.4 * 60.0 / (2.0 * 1e-5 * 1e8),
-            max_relative = 1e-14
-        );
+        assert_relative_eq!(neck(s).powi(2), 3.0 * 0.4 * 60.0 / (2.0 * 1e-5 * 1e8), max_relative = 1e-14);
         let packing = Packing::new(0.4);
         let dense = 1.0 - porosity(0.4, &packing, s);
         assert_relative_eq!(dense, 0.6 / (1.0 - 3.0 * s / 8.0).powi(3), max_relative = 1e-14);
         // Both by the same necks.
-        assert_relative_eq!(neck_of_porosity(1.0 - dense, 0.4), neck(0.0, s), max_relative = 1e-12);
+        assert_relative_eq!(neck_of_porosity(1.0 - dense, 0.4), neck(s), max_relative = 1e-12);
         assert_eq!(neck_of_porosity(0.4, 0.4), 0.0);
         assert_eq!(neck_of_porosity(0.5, 0.4), 0.0);
-        assert_eq!(neck(0.3, 1e9), 1.0);
         // Stiff: nothing happens.
         assert_eq!(reduced_time(1e9, 0.4, f64::INFINITY, 1e-5), 0.0);
         assert_eq!(porosity(0.4, &packing, 0.0), 0.4);
@@ -190,8 +194,6 @@ mod tests {
                     let many = (0..parts).fold(packing.porosity, |p, _| porosity(p, &packing, part));
                     assert_relative_eq!(one, many, max_relative = 1e-11);
                 }
-                let halves = neck(neck(0.0, 0.5 * whole), 0.5 * whole);
-                assert_relative_eq!(halves, neck(0.0, whole), max_relative = 1e-14);
             }
         }
     }
@@ -214,7 +216,6 @@ mod tests {
             }
             assert_eq!(porosity(packing.porosity, &packing, 1e9), RESIDUAL_POROSITY);
             assert_eq!(porosity(packing.porosity, &packing, f64::INFINITY), RESIDUAL_POROSITY);
-            assert_eq!(densification_rate(RESIDUAL_POROSITY, &packing), 0.0);
             assert_eq!(porosity(0.01, &packing, 1.0), 0.01);
         }
     }
@@ -234,23 +235,5 @@ mod tests {
             0.121,
             max_relative = 5e-3
         );
-    }
-
-    #[test]
-    fn strength_grows_with_density_and_necks() {
-        assert_eq!(strength_of_porosity(80e6, 4.0, 0.0), 80e6);
-        assert_relative_eq!(
-            strength_of_porosity(80e6, 4.0, 0.4),
-            80e6 * (-1.6_f64).exp(),
-            max_relative = 1e-14
-        );
-        assert_eq!(strength_of_neck(80e6, 0.0, 6.0), 0.0);
-        assert_relative_eq!(strength_of_neck(80e6, 0.1, 6.0), 80e6 * 0.03, max_relative = 1e-14);
-        assert_eq!(strength_of_neck(80e6, 1.0, 12.0), 80e6);
-        // The two laws meet within a factor of 3 for a sintered packing: p = 0.3 from 0.4.
-        let by_necks = strength_of_neck(80e6, neck_of_porosity(0.3, 0.4), 6.0);
-        let by_porosity = strength_of_porosity(80e6, 4.0, 0.3);
-        println!("by necks {by_necks:.3e}, by porosity {by_porosity:.3e} Pa");
-        assert!((by_necks / by_porosity).ln().abs() < 3.0_f64.ln());
     }
 }

@@ -1,12 +1,12 @@
 //! `dry-on-melt`: a dry particle on molten slag sinks, is held by surface tension, or bounces.
 //!
-//! The energy of the impact against viscosity and surface tension decides, as in [`CharOnSlag::restitution`]: drag over one
+//! The energy of the impact against viscosity and surface tension decides, as `src/capture/rebound_from_slag.rs` derives it: drag over one
 //! diameter in and one out brakes the particle; it is held when what is left does not pull it out of the surface, `pi R²
 //! sigma (1 + cos theta)²`, and it sinks when what is left on the way in submerges it. Otherwise it leaves with `e_n =
 //! sqrt(v_out² - 2 W/m)/v_n`. On a melt of more than some 0.1 Pa s drag holds every particle below 0.1 mm.
 //!
 //! `theta` [degrees] contact angle of the melt on the particle, measured through the melt; slag on char is said to be
-//! between 90 and 160 (assumed; see `char_on_slag.rs`). The stickiness `P_s` of the slag stays the probability that it acts
+//! between 90 and 160 (assumed; see there). The stickiness `P_s` of the slag stays the probability that it acts
 //! as a liquid in this impact; where it does not, the particle rebounds from it as from a solid. The melt's viscosity,
 //! density and surface tension are those of the wall's slag, or of the melt that earlier particles left, at the wall's
 //! temperature; a melt without a surface tension has no such law. The particle's own stickiness and the wall's

@@ -3,14 +3,12 @@
 use super::Model;
 use super::wall::Wall;
 use crate::capture::Stickiness;
-use crate::deposit::resuspension::{self, WallGas};
-use crate::deposit::shedding::Load;
-use crate::deposit::{CapturedParticles, Deposit, DepositSource, WallMelt, cover, wetting};
+use crate::deposit::process::PowderMaterial;
+use crate::deposit::{
+    CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, wetting,
+};
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
-
-/// Halvings of a layer in search of the depth at which powder melts.
-const BISECTIONS: u32 = 50;
 
 impl Model {
     /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²], with the particle's `density`
@@ -144,64 +142,22 @@ impl Model {
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
-    /// The deposit after what the wall cannot hold has fallen off a place, ranked by `draw` ([`Strength::breaks`]): nothing, or all of it.
-    /// A wall without a `shedding` table in the model file lets nothing fall.
+    /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each process took from it [kg/m²], by
+    /// the table [`PROCESSES`](crate::deposit::PROCESSES).
     ///
     /// # Errors
-    /// [`ImpactError`] for an unknown wall.
-    ///
-    /// [`Strength::breaks`]: crate::deposit::shedding::Strength::breaks
-    pub fn shed(
+    /// [`ImpactError`] for surroundings or a duration without physical meaning, or an unknown wall.
+    pub fn advance(
         &self,
         wall: usize,
         deposit: &Deposit,
-        load: &Load,
-        draw: f64,
-    ) -> Result<Deposit, ImpactError> {
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let falls = wall.shedding.is_some_and(|strength| strength.breaks(deposit.mass(), load, draw));
-        Ok(if falls { Deposit::default() } else { *deposit })
-    }
-
-    /// The deposit after a time [s] in which the gas at the wall carried powder away ([`resuspension::after`]). A wall without a `resuspension`
-    /// table in the model file loses nothing to it.
-    ///
-    /// # Errors
-    /// [`ImpactError`] for a voidage without physical meaning or an unknown wall.
-    pub fn resuspended(
-        &self,
-        wall: usize,
-        deposit: &Deposit,
-        voidage: f64,
-        gas: &WallGas,
+        surroundings: &Surroundings,
         duration: f64,
-    ) -> Result<Deposit, ImpactError> {
-        check_voidage(voidage)?;
+    ) -> Result<(Deposit, Losses), ImpactError> {
+        surroundings.check()?;
+        at_least_zero("duration", duration)?;
         let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let blown = |adhesion| resuspension::after(deposit, voidage, &adhesion, gas, duration);
-        Ok(wall.resuspension.map_or(*deposit, blown))
-    }
-
-    /// Share of powder [1] that is hotter than it melts, in a layer with these temperatures [K] of its cold and its hot side and a straight line
-    /// in between. Powder melts where its stickiness at a temperature reaches [`Stickiness::THRESHOLD`], as captured particles do.
-    pub fn melting_share(&self, conversion: f64, cold: f64, hot: f64) -> f64 {
-        let melts = |temperature: f64| {
-            let impact = Impact { wall_temperature: temperature, ..Impact::default() };
-            self.stickiness_depends_on_temperature()
-                && self.stickiness_as_melt(&impact, conversion) >= Stickiness::THRESHOLD
-        };
-        if !melts(hot) {
-            return 0.0;
-        }
-        if melts(cold) {
-            return 1.0;
-        }
-        let [mut low, mut high] = [0.0, 1.0];
-        for _ in 0..BISECTIONS {
-            let depth = 0.5 * (low + high);
-            if melts(cold + depth * (hot - cold)) { high = depth } else { low = depth }
-        }
-        1.0 - high
+        Ok(wall.processes.advance(deposit, self, surroundings, duration))
     }
 
     /// Whether the stickiness of the particles depends on their temperature.
@@ -211,6 +167,21 @@ impl Model {
             sticky && term.kind().inputs.contains(&"T_p")
         };
         self.stickiness.is_some() || self.terms.iter().any(depends)
+    }
+}
+
+impl PowderMaterial for Model {
+    /// Where its stickiness reaches [`Stickiness::THRESHOLD`], as captured particles do.
+    fn melts(&self, conversion: f64, temperature: f64) -> bool {
+        let impact = Impact { wall_temperature: temperature, ..Impact::default() };
+        self.stickiness_depends_on_temperature()
+            && self.stickiness_as_melt(&impact, conversion) >= Stickiness::THRESHOLD
+    }
+
+    /// Those of the particles' melt.
+    fn sintering(&self, temperature: f64) -> Option<[f64; 2]> {
+        let viscosity = self.stickiness.as_ref()?.glass_viscosity(temperature);
+        Some([viscosity, self.particle.melting().surface_tension_near(temperature)?])
     }
 }
 

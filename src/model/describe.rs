@@ -2,8 +2,6 @@
 
 use super::wall::Covering;
 use super::{Model, Wall};
-use crate::deposit::resuspension::PowderAdhesion;
-use crate::deposit::shedding::Strength;
 use crate::law::{Origin, Parameter, describe_values};
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
@@ -107,17 +105,7 @@ impl Wall {
         if let Some(erosion) = &self.erosion {
             text += &format!(", eroded by {}", erosion.describe());
         }
-        if let Some(Strength { tensile, shear, spread }) = self.shedding {
-            text +=
-                &format!(", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}");
-        }
-        if let Some(PowderAdhesion { work_of_adhesion, reduced }) = self.resuspension {
-            text += &format!(", powder sticks to it with {work_of_adhesion} J/m2");
-            text += &match reduced {
-                Some([median, spread]) => format!(", median {median}, spread {spread}"),
-                None => " and the roughness of Biasi et al. 2001".to_owned(),
-            };
-        }
+        text += &self.processes.describe();
         text
     }
 }

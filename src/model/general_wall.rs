@@ -10,6 +10,7 @@ use super::tilted_frame::TiltedFrame;
 use super::wall::WallPlace;
 use super::{Model, Wall};
 use crate::capture::Stickiness;
+use crate::deposit::layers;
 use crate::effect::{CurveTarget, OnMelt, Term, shifted_probability, stream};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
@@ -110,11 +111,11 @@ impl Model {
         let arriving = match place {
             WallPlace::Anywhere => reaching,
             WallPlace::Bare => {
-                at_place = Impact { coverage: 0.0, layer_thickness: 0.0, ..*reaching };
+                at_place = layers::bare(reaching);
                 &at_place
             }
             WallPlace::Covered => {
-                at_place = Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..*reaching };
+                at_place = layers::covered(reaching);
                 &at_place
             }
         };

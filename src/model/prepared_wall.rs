@@ -17,6 +17,7 @@ use super::particle::{contact_of, density_of};
 use super::wall::{ContactSettings, Covering, Wall};
 use super::{Model, TemperatureRanges};
 use crate::capture::{Combination, Stickiness, StickinessCriterion, WallState};
+use crate::deposit::layers;
 use crate::effect::{DryOnMelt, Precomputed, Term, Transition, stream};
 use crate::impact::{INPUTS, Impact, Outcome};
 use crate::law::ParameterValues;
@@ -318,9 +319,9 @@ impl WallConstants {
         self.covering.apply(&mut impact);
         let patchwork = self.patchwork || impact.melt_thickness > 0.0;
         if covered {
-            Impact { coverage: 1.0, film_thickness: 0.0, melt_thickness: 0.0, ..impact }
+            layers::covered(&impact)
         } else if patchwork && impact.coverage > 0.0 {
-            Impact { coverage: 0.0, layer_thickness: 0.0, ..impact }
+            layers::bare(&impact)
         } else {
             impact
         }

@@ -7,8 +7,7 @@ use regex_lite::Regex;
 use super::wall::{ContactSettings, Covering, Wall};
 use super::{Model, Particle};
 use crate::capture::{Capture, Criterion, StickinessCriterion};
-use crate::deposit::resuspension::PowderAdhesion;
-use crate::deposit::shedding::Strength;
+use crate::deposit::WallProcesses;
 use crate::effect::Term;
 use crate::erosion::{self, Erosion};
 use crate::impact::read_extra_inputs;
@@ -159,11 +158,7 @@ impl WallReader<'_> {
         let melt = slag.as_ref().map(|slag| self.read_melt(slag, section)).transpose()?;
         let prepared = self.constant_contact(&material, section)?;
         let coverage = section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0);
-        let resuspension = optional(section, "resuspension", PowderAdhesion::read)?;
-        if coverage > 0.0 && resuspension.is_some() {
-            let problem = "is powder without a mass, so its grains have no size for `resuspension`; give a layer_thickness instead";
-            return Err(section.fault("coverage", problem));
-        }
+        let processes = WallProcesses::read(section)?;
         let own_erosion = optional(section, "erosion", erosion::read)?;
         let thickness = |key: &str| Ok(section.quantity(key, &LAYER_THICKNESS)?.unwrap_or(0.0));
         Ok(Wall {
@@ -179,8 +174,7 @@ impl WallReader<'_> {
                 coverage,
             },
             erosion: own_erosion.or_else(|| self.erosion.clone()),
-            shedding: optional(section, "shedding", Strength::read)?,
-            resuspension,
+            processes,
             adhesion: self.adhesion,
             prepared,
         })

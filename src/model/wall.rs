@@ -6,9 +6,7 @@ use regex_lite::Regex;
 
 use super::particle::Particle;
 use crate::capture::StickinessCriterion;
-use crate::deposit::cover;
-use crate::deposit::resuspension::PowderAdhesion;
-use crate::deposit::shedding::Strength;
+use crate::deposit::{ProcessInfo, WallProcesses, cover};
 use crate::erosion::Erosion;
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
@@ -29,10 +27,8 @@ pub struct Wall {
     pub(super) covering: Covering,
     /// How impacts erode it, where the model file says so.
     pub(super) erosion: Option<Arc<dyn Erosion>>,
-    /// How strongly deposits hold to it, where the model file says so.
-    pub(super) shedding: Option<Strength>,
-    /// How powder sticks to it against the gas, where the model file says so.
-    pub(super) resuspension: Option<PowderAdhesion>,
+    /// What changes a deposit on it over time.
+    pub(super) processes: WallProcesses,
     pub(super) adhesion: ContactSettings,
     /// The contact with the particle, where no property depends on temperature.
     pub(super) prepared: Option<Contact>,
@@ -99,14 +95,9 @@ impl Wall {
         &self.material
     }
 
-    /// Whether the model file says how strongly deposits hold to it.
-    pub fn sheds(&self) -> bool {
-        self.shedding.is_some()
-    }
-
-    /// Whether the model file says how it loses deposits.
-    pub fn loses_deposits(&self) -> bool {
-        self.sheds() || self.resuspension.is_some()
+    /// The processes that change a deposit on it, with their places in [`PROCESSES`](crate::deposit::PROCESSES).
+    pub fn processes(&self) -> impl Iterator<Item = (usize, &'static ProcessInfo)> {
+        self.processes.acting()
     }
 
     /// Whether the name of the wall is a regular expression that matches the whole of `patch`.

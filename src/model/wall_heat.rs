@@ -1,22 +1,21 @@
 //! Heat through a wall and what lies on it: the surface temperature that the next impact meets.
 //!
-//! From the coolant outwards: the wall, powder with its voids, melt. Melt flows above the temperature of critical viscosity, so it
-//! ends up outside of the colder powder (*assumed*; powder that covers a melt as islands is the cover of an impact, and no layer). Steady
-//! conduction: a deposit of 5 mm follows the gas within a minute, and grows over hours.
+//! From the coolant outwards: the wall, powder with its voids and melt, in the order of `src/deposit/layers.rs`. Steady conduction:
+//! a deposit of 5 mm follows the gas within a minute, and grows over hours.
 
 use super::Model;
-use crate::deposit::conduction::{self, ConductionError, Coolant, HotSide, Layer};
+use crate::deposit::conduction::{self, ConductingLayer, ConductionError, Coolant, HotSide};
 use crate::deposit::conductivity::{self, Phases};
-use crate::deposit::{Deposit, WallMelt, sintering};
+use crate::deposit::{Deposit, WallMelt, layers, sintering};
 use crate::impact::ImpactError;
 use crate::material::Material;
-use crate::slag::{film, layer};
+use crate::slag::film;
 
 /// Rounds in which conductivities and temperatures are made to agree, and the change of temperature [K] at which they do.
 const MOST_ROUNDS: u32 = 50;
 const AGREED: f64 = 1e-9;
 /// Emissivity of grains whose material has none [1]; assumed.
-const EMISSIVITY: f64 = 0.8;
+const GRAIN_EMISSIVITY: f64 = 0.8;
 
 /// A cooled wall, and what heats it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +59,13 @@ pub enum WallHeatError {
     Conduction(#[from] ConductionError),
 }
 
+impl WallHeat {
+    /// Temperatures [K] of the cold and the hot side of the powder.
+    pub fn powder_sides(&self) -> [f64; 2] {
+        [self.wall_temperature, self.powder_temperature]
+    }
+}
+
 impl Model {
     /// Steady temperatures of a wall with a deposit whose fresh powder has a `voidage` [1].
     ///
@@ -75,7 +81,7 @@ impl Model {
         super::deposit::check_voidage(voidage)?;
         let melted = self.melt_material(self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?);
         let grains = self.particle.melting();
-        let bare = Layer { thickness: cooling.wall_resistance, conductivity: 1.0, heat_capacity: 0.0 };
+        let bare = ConductingLayer { thickness: cooling.wall_resistance, conductivity: 1.0 };
         let [thickness, porosity] = [deposit.layer_thickness(voidage), deposit.porosity(voidage)];
 
         let mut surface = cooling.hot.gas_temperature;
@@ -88,27 +94,29 @@ impl Model {
                 radiative: conductivity::radiative(
                     mean,
                     deposit.powder_diameter(),
-                    grains.emissivity_near(mean).unwrap_or(EMISSIVITY),
+                    grains.emissivity_near(mean).unwrap_or(GRAIN_EMISSIVITY),
                 ),
             };
             let neck = sintering::neck_of_porosity(porosity, voidage);
             let powder =
-                Layer { thickness, conductivity: conductivity::deposit(porosity, neck, &phases), ..bare };
+                ConductingLayer { thickness, conductivity: conductivity::deposit(porosity, neck, &phases) };
             let melt = match deposit.molten {
-                0.0 => Layer { thickness: 0.0, ..bare },
-                mass => Layer {
+                0.0 => ConductingLayer { thickness: 0.0, ..bare },
+                mass => ConductingLayer {
                     thickness: mass / melted.density_near(surface)?,
                     conductivity: conductivity_of(melted, surface)?,
-                    ..bare
                 },
             };
-            let steady = conduction::steady(&[bare, powder, melt], &cooling.coolant, &cooling.hot)?;
+            let [inner, outer] = layers::outwards(powder, melt);
+            let steady = conduction::steady(&[bare, inner, outer], &cooling.coolant, &cooling.hot)?;
             let change = (steady.surface_temperature - surface).abs();
             surface = steady.surface_temperature;
+            let cold_sides = [steady.cold_sides[1], steady.cold_sides[2]];
+            let [wall_temperature, powder_temperature] = layers::powder_sides(cold_sides, surface);
             found = Some(WallHeat {
                 surface_temperature: surface,
-                wall_temperature: steady.cold_sides[1],
-                powder_temperature: steady.cold_sides[2],
+                wall_temperature,
+                powder_temperature,
                 heat_flux: steady.heat_flux,
                 deposit_resistance: powder.resistance() + melt.resistance(),
             });
@@ -145,30 +153,13 @@ impl Model {
         let viscosity =
             |temperature: f64| self.melt(wall, temperature).map_or(f64::INFINITY, |melt| melt.viscosity);
         let temperatures = [bottom, surface_temperature];
-        Ok(layer::mean_velocity(thickness, temperatures, at_surface.density, gravity_along, viscosity))
-    }
-
-    /// The deposit after a time [s] at these temperatures: powder that is hotter than it melts has become melt, the rest has sintered.
-    pub fn aged(&self, deposit: &Deposit, voidage: f64, heat: &WallHeat, duration: f64) -> Deposit {
-        let WallHeat { wall_temperature, powder_temperature, .. } = *heat;
-        let share = self.melting_share(deposit.conversion, wall_temperature, powder_temperature);
-        let mean = 0.5 * (wall_temperature + powder_temperature);
-        self.sintered(&deposit.melted(share), voidage, mean, duration)
-    }
-
-    /// The deposit after its powder sintered for a time [s] at a temperature [K], by the viscosity and surface tension of the particles' melt;
-    /// as it is where the model has none.
-    pub fn sintered(&self, deposit: &Deposit, voidage: f64, temperature: f64, duration: f64) -> Deposit {
-        let radius = 0.5 * deposit.powder_diameter();
-        let viscosity = self.stickiness.as_ref().map(|criterion| criterion.glass_viscosity(temperature));
-        let tension = self.particle.melting().surface_tension_near(temperature);
-        let (Some(viscosity), Some(tension), true) = (viscosity, tension, radius > 0.0) else {
-            return *deposit;
-        };
-        let time = sintering::reduced_time(duration, tension, viscosity, radius);
-        let packing = sintering::Packing::new(voidage);
-        let porosity = sintering::porosity(deposit.porosity(voidage), &packing, time);
-        deposit.sintered(voidage, porosity)
+        Ok(film::mean_velocity_of_layers(
+            thickness,
+            temperatures,
+            at_surface.density,
+            gravity_along,
+            viscosity,
+        ))
     }
 }
 

@@ -9,7 +9,6 @@ pub mod critical_viscosity_temperature;
 pub mod crystal_load;
 pub mod film;
 pub mod giordano_russell_dingwell;
-pub mod layer;
 pub mod measured_range;
 pub mod surface_tension;
 pub mod urbain;

@@ -132,7 +132,8 @@ def compare_deposit(impacts, output, *others):
     falls = sintered = melted = blown = 0
     lying, gone = [initial, initial / 2300], 0.0
     for number, (stuck, _, coverage, _, molten, powder, solid, cover, conversion, velocity, *cooled) in enumerate(rows):
-        closed, resuspended, surface, under, outside, flux, resistance = cooled
+        closed, resuspended, surface, under, outside, flux, resistance, *conserved, taken_away, fallen = cooled
+        assert conserved == [0, 0] and (number % 4 == 3 or fallen == 0), f"impact {number}: {cooled}"
         mass += stuck * (1 + number % 7) / 1024
         carbon += stuck * (1 + number % 7) / 1024 * (0.5 if number % 2 else 1)
         assert 0 <= coverage <= 1 and 0 <= resuspended <= 1
@@ -141,11 +142,12 @@ def compare_deposit(impacts, output, *others):
             assert molten == 0 and 0 < kept < 1, f"impact {number}: {resuspended!r} of the powder has left"
             for one, another in zip((powder, solid), lying):
                 assert abs(one / (another * kept) - 1) < 1e-12, f"impact {number}: {one!r} of {another!r} is left"
+            assert abs(taken_away / (lying[0] - powder) - 1) < 1e-9, f"impact {number}: {taken_away!r} kg/m2 left"
             mass -= lying[0] - powder
             carbon -= (lying[0] - powder) * conversion
             blown += 1
         elif number % 4 != 3:
-            assert ([powder, solid], resuspended) == (lying, gone), f"impact {number}: {powder!r} kg/m2"
+            assert ([powder, solid], resuspended, taken_away) == (lying, gone, 0), f"impact {number}: {powder!r} kg/m2"
         if number % 4 == 3:
             gas = 4000 if number % 64 == 63 else 1500
             given = 300 * (gas - surface) + 0.8 * (4e5 - 5.670374419e-8 * surface**4)
@@ -154,9 +156,13 @@ def compare_deposit(impacts, output, *others):
             assert 600 < under <= outside <= surface < gas and resistance > 0, f"impact {number}: {cooled}"
             sintered += 0 < closed < 0.6 * solid
             melted += molten > 0 and powder < rows[number - 1][5]
+            # The gas acts before the weight; it takes powder of the mean conversion.
+            carbon *= 1 - taken_away / mass if mass else 1
+            mass -= taken_away
         if number % 4 == 3 and math.hypot(mass * 9.81 + 0.5, 0.25) >= 10:
             assert (molten, conversion, closed, resuspended) == (0,) * 4 and abs(powder / initial - 1) < 1e-12, \
                 f"impact {number}: the wall holds {mass!r} kg/m2"
+            assert abs(fallen / mass - 1) < 1e-12, f"impact {number}: {fallen!r} kg/m2 fell off of {mass!r}"
             mass, carbon, falls = initial, 0.0, falls + 1
         elif number % 4 == 3 and mass > 0:
             assert abs((molten + powder) / mass - 1) < 1e-12, f"impact {number}: {molten + powder!r} kg/m2 lie there of {mass!r}"

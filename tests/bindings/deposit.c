@@ -2,8 +2,9 @@
  * Takes a model and a table of impacts as the examples do; a step is four rows. Prints for each row whether the particle is
  * captured, the deposit at the impact (layer, coverage, melt) and after it (molten, powder, solid, cover, conversion), the
  * speed of the film, the void volume that sintering closed, the share of the powder that the gas carried away, and the wall of
- * the last step (temperatures of surface, wall and powder, heat flux, resistance of the deposit). At the end of a step the deposit
- * ages for a second and may fall off; a bare wall gets its initial deposit. After every other impact the gas may carry powder away. */
+ * the last step (temperatures of surface, wall and powder, heat flux, resistance of the deposit), and the mass that each process
+ * took after the impact. At the end of a step all processes act for a second; a bare wall gets its initial deposit. After every
+ * other impact the gas may carry powder away. */
 #include <nearwall.h>
 
 #include <stdio.h>
@@ -24,6 +25,9 @@ int main(int argc, char **argv) {
     nw_deposit_source source;
     nw_wall_cooling cooling;
     nw_wall_heat heat;
+    nw_deposit_surroundings around;
+    nw_deposit_losses losses;
+    unsigned process;
     double velocity = 0;
     FILE *table;
 
@@ -45,6 +49,7 @@ int main(int argc, char **argv) {
     cooling.emissivity = 0.8;
     cooling.irradiation = 4e5;
     must(nw_wall_heat_init(&heat));
+    must(nw_deposit_losses_init(&losses));
     impact.wall = deposit.wall;
     impact.seed = 1;
     for (; fscanf(table, "%lf,%lf,%lf,%lf,%lf", &impact.v_n, &impact.v_t, &impact.d, &impact.T_p, &impact.T_w) == 5;
@@ -58,18 +63,32 @@ int main(int argc, char **argv) {
             must(nw_deposit_source_init(&source));
             cooling.gas_temperature = impact.key % 64 == 63 ? 4000 : 1500;
             must(nw_deposit_heat(model, &deposit, 0.4, &cooling, &heat));
-            must(nw_deposit_age(model, 0.4, &heat, 1, &deposit));
-            must(nw_deposit_shed(model, 0, 9.81, 0.5, 0.25, 0.5, &deposit));
-            if (deposit.molten + deposit.powder <= 0) must(nw_deposit_initial(model, 0.4, &deposit));
-        } else {
-            must(nw_deposit_resuspend(model, 0.4, 0.25, 2.5e-4, 0.25 * (double)(1 + impact.key % 5), 1, &deposit));
         }
+        must(nw_deposit_surroundings_init(&around));
+        around.voidage = 0.4;
+        around.gas_density = 0.25;
+        around.kinematic_viscosity = 2.5e-4;
+        if (impact.key % 4 == 3) {
+            around.wall_temperature = heat.wall_temperature;
+            around.powder_temperature = heat.powder_temperature;
+            around.gravity_along = 9.81;
+            around.shear_down = 0.5;
+            around.shear_across = 0.25;
+            around.draw = 0.5;
+        } else {
+            const double friction_velocity = 0.25 * (double)(1 + impact.key % 5);
+            around.shear_down = 0.25 * friction_velocity * friction_velocity;
+        }
+        must(nw_deposit_advance(model, &around, 1, &deposit, &losses));
+        if (impact.key % 4 == 3 && deposit.molten + deposit.powder <= 0) must(nw_deposit_initial(model, 0.4, &deposit));
         must(nw_film_velocity(model, &deposit, impact.T_w, 9.81, &velocity));
         printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", (unsigned)outcome.stuck, impact.layer_thickness,
                impact.coverage, impact.melt_thickness, deposit.molten, deposit.powder, deposit.solid, deposit.cover,
                deposit.conversion, velocity);
-        printf(" %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n", deposit.closed, deposit.resuspended, heat.surface_temperature,
+        printf(" %.17g %.17g %.17g %.17g %.17g %.17g %.17g", deposit.closed, deposit.resuspended, heat.surface_temperature,
                heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance);
+        for (process = 0; process < NW_PROCESSES; ++process) printf(" %.17g", losses.mass[process]);
+        printf("\n");
     }
     fclose(table);
     nw_model_free(model);

@@ -10,6 +10,8 @@ program deposit_test
   type(nw_deposit_source) :: source
   type(nw_wall_cooling) :: cooling
   type(nw_wall_heat) :: heat
+  type(nw_deposit_surroundings) :: around
+  type(nw_deposit_losses) :: losses
   real(c_double) :: velocity
   character(len=1024) :: path
   character(len=512) :: message
@@ -31,6 +33,7 @@ program deposit_test
   cooling%emissivity = 0.8d0
   cooling%irradiation = 4d5
   call must(nw_wall_heat_init(heat))
+  call must(nw_deposit_losses_init(losses))
   impact%wall = deposit%wall
   impact%seed = 1
   call get_command_argument(2, path)
@@ -49,18 +52,29 @@ program deposit_test
       call must(nw_deposit_source_init(source))
       cooling%gas_temperature = merge(4000.0d0, 1500.0d0, modulo(impact%key, 64_c_int64_t) == 63)
       call must(nw_deposit_heat(model, deposit, 0.4d0, cooling, heat))
-      call must(nw_deposit_age(model, 0.4d0, heat, 1.0d0, deposit))
-      call must(nw_deposit_shed(model, 0.0d0, 9.81d0, 0.5d0, 0.25d0, 0.5d0, deposit))
-      if (deposit%molten + deposit%powder <= 0) call must(nw_deposit_initial(model, 0.4d0, deposit))
-    else
-      call must(nw_deposit_resuspend(model, 0.4d0, 0.25d0, 2.5d-4, &
-        0.25d0*real(1 + modulo(impact%key, 5_c_int64_t), c_double), 1.0d0, deposit))
     end if
+    call must(nw_deposit_surroundings_init(around))
+    around%voidage = 0.4d0
+    around%gas_density = 0.25d0
+    around%kinematic_viscosity = 2.5d-4
+    if (modulo(impact%key, 4_c_int64_t) == 3) then
+      around%wall_temperature = heat%wall_temperature
+      around%powder_temperature = heat%powder_temperature
+      around%gravity_along = 9.81d0
+      around%shear_down = 0.5d0
+      around%shear_across = 0.25d0
+      around%draw = 0.5d0
+    else
+      around%shear_down = 0.25d0*(0.25d0*real(1 + modulo(impact%key, 5_c_int64_t), c_double))**2
+    end if
+    call must(nw_deposit_advance(model, around, 1.0d0, deposit, losses))
+    if (modulo(impact%key, 4_c_int64_t) == 3 .and. deposit%molten + deposit%powder <= 0) &
+      call must(nw_deposit_initial(model, 0.4d0, deposit))
     call must(nw_film_velocity(model, deposit, impact%T_w, 9.81d0, velocity))
-    print '(i0, 16(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
+    print '(i0, 20(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
       deposit%molten, deposit%powder, deposit%solid, deposit%cover, deposit%conversion, velocity, &
       deposit%closed, deposit%resuspended, heat%surface_temperature, heat%wall_temperature, heat%powder_temperature, &
-      heat%heat_flux, heat%deposit_resistance
+      heat%heat_flux, heat%deposit_resistance, losses%mass
     impact%key = impact%key + 1
   end do
   close (unit)

@@ -22,13 +22,16 @@ for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimit
         source = nearwall.DepositSource()
         cooling.gas_temperature = 4000.0 if row % 64 == 63 else 1500.0
         heat = model.heat(deposit, 0.4, cooling)
-        model.age_deposit(deposit, 0.4, heat, 1.0)
-        model.shed_deposit(deposit, 0.5, gravity_along=9.81, shear_down=0.5, shear_across=0.25)
-        if deposit.molten + deposit.powder <= 0:
-            deposit = model.initial_deposit(deposit.wall, 0.4)
+        around = nearwall.DepositSurroundings(0.4, heat, gas_density=0.25, kinematic_viscosity=2.5e-4, gravity_along=9.81,
+                                              shear_down=0.5, shear_across=0.25, draw=0.5)
     else:
-        model.resuspend_deposit(deposit, 0.4, 0.25, 2.5e-4, friction_velocity=0.25 * (1 + row % 5), duration=1.0)
+        around = nearwall.DepositSurroundings(0.4, gas_density=0.25, kinematic_viscosity=2.5e-4,
+                                              shear_down=0.25 * (0.25 * (1 + row % 5))**2)
+    losses = model.advance_deposit(deposit, around, 1.0)
+    if row % 4 == 3 and deposit.molten + deposit.powder <= 0:
+        deposit = model.initial_deposit(deposit.wall, 0.4)
     velocity = model.film_velocity(deposit, T_w, 9.81)
     print(out.stuck[0], *(f"{number:.17g}" for number in (
         met["layer_thickness"], met["coverage"], met["melt_thickness"], deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.conversion, velocity,
-        deposit.closed, deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance)))
+        deposit.closed, deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance,
+        0.0, 0.0, losses["resuspended"], losses["shed"])))

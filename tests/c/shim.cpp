@@ -121,12 +121,30 @@ int deposit(const nearwall::model& model) {
     REQUIRE(model.heat(deposit, 0.5, cooling, heat) == NW_OK && std::fabs(heat.wall_temperature - 600) < 1e-9);
     REQUIRE(std::fabs(heat.heat_flux * (heat.deposit_resistance + 0.01) - 1000) < 1e-9);
     const nw_deposit before = deposit;
-    REQUIRE(model.age(0.5, heat, 60, deposit) == NW_OK && deposit.powder == before.powder);
-    REQUIRE(model.shed(0, 9.81, 0, 0, 0.5, deposit) == NW_OK && deposit.powder == before.powder);
-    REQUIRE(model.shed(0, 9.81, 0, 0, 1, deposit) == NW_BAD_STATE);
+    nw_deposit_surroundings around = nearwall::make_deposit_surroundings(0.5);
+    nw_deposit_losses losses = nearwall::make_deposit_losses();
+    around.wall_temperature = heat.wall_temperature;
+    around.powder_temperature = heat.powder_temperature;
+    around.gravity_along = 9.81;
+    around.draw = 0.5;
+    REQUIRE(model.advance(around, 60, deposit, losses) == NW_OK && deposit.powder == before.powder);
+    around.draw = 1;
+    REQUIRE(model.advance(around, 60, deposit, losses) == NW_BAD_STATE);
     // This model has no table of adhesion.
-    REQUIRE(model.resuspend(0.5, 1.2, 1.5e-5, 100, 60, deposit) == NW_OK && deposit.powder == before.powder);
-    REQUIRE(deposit.resuspended == 0 && model.resuspend(0.5, 0, 1.5e-5, 100, 60, deposit) == NW_BAD_STATE);
+    around = nearwall::make_deposit_surroundings(0.5);
+    around.gas_density = 1.2;
+    around.kinematic_viscosity = 1.5e-5;
+    around.shear_down = 12000;
+    REQUIRE(model.advance(around, 60, deposit, losses) == NW_OK && deposit.powder == before.powder);
+    around.gas_density = 0;
+    REQUIRE(deposit.resuspended == 0 && model.advance(around, 60, deposit, losses) == NW_BAD_STATE);
+    const std::vector<nearwall::process> all = nearwall::processes();
+    std::string names;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        REQUIRE(losses.mass[i] == 0);
+        if (model.wall_processes(impact.wall) >> i & 1) names += all[i].name + " ";
+    }
+    REQUIRE(names == "melting sintering " && all[2].loss == "resuspended" && all[0].loss.empty());
     return 0;
 }
 

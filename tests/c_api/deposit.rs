@@ -5,8 +5,7 @@ use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
 use nearwall::deposit::conduction::{Coolant, HotSide};
-use nearwall::deposit::resuspension::WallGas;
-use nearwall::deposit::{Deposit, DepositSource};
+use nearwall::deposit::{Deposit, DepositSource, Losses, PROCESSES, Surroundings, WallGas};
 use nearwall::model::{WallCooling, WallHeat};
 use nearwall::{Impact, Model};
 
@@ -321,14 +320,36 @@ fn heat(
     Err(status)
 }
 
-/// The deposit afterwards with `Ok`, the status with `Err`, and then it is as before.
-fn changed(deposit: &nw_deposit, call: impl FnOnce(*mut nw_deposit) -> i32) -> Result<nw_deposit, i32> {
-    let mut after = *deposit;
-    let status = call(&raw mut after);
+fn surroundings_in_rust(around: &nw_deposit_surroundings) -> Surroundings {
+    let nw_deposit_surroundings { voidage, wall_temperature, powder_temperature, .. } = *around;
+    let nw_deposit_surroundings { gas_density: density, kinematic_viscosity, .. } = *around;
+    let nw_deposit_surroundings { gravity_outward, gravity_along, draw, .. } = *around;
+    Surroundings {
+        voidage,
+        powder_sides: (wall_temperature > 0.0).then_some([wall_temperature, powder_temperature]),
+        gas: WallGas { density, kinematic_viscosity, shear: [around.shear_down, around.shear_across] },
+        gravity_outward,
+        gravity_along,
+        draw,
+    }
+}
+
+/// The deposit afterwards and the losses with `Ok`, the status with `Err`, and then both are as before.
+fn advance(
+    calls: &Calls,
+    model: *const nw_model,
+    deposit: &nw_deposit,
+    around: *const nw_deposit_surroundings,
+    duration: f64,
+) -> Result<(nw_deposit, Losses), i32> {
+    let (mut after, mut losses) = (*deposit, nw_deposit_losses { mass: [-1.0; 4], ..Default::default() });
+    let status =
+        unsafe { (calls.nw_deposit_advance)(model, around, duration, &raw mut after, &raw mut losses) };
     if status == NW_OK {
-        return Ok(after);
+        return Ok((after, losses.mass));
     }
     assert_eq!(format!("{after:?}"), format!("{deposit:?}"), "written on failure");
+    assert_eq!(losses.mass, [-1.0; 4], "written on failure");
     Err(status)
 }
 
@@ -381,12 +402,17 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
         assert!((taken - given).abs() < 1e-9 * scale && (given - found.heat_flux).abs() < 1e-9 * scale);
 
         let duration = 10_f64.powf(uniform(13, 0.0, 6.0));
-        let aged = changed(&deposit, |to| unsafe {
-            (calls.nw_deposit_age)(model, voidage, &raw const found, duration, to)
-        });
-        let aged = aged.unwrap();
-        let expected = rust.aged(&deposit_in_rust(&deposit), voidage, &heat_in_rust(&found), duration);
-        assert_eq!((deposit_in_rust(&aged), aged.wall), (expected, deposit.wall));
+        let around = nw_deposit_surroundings {
+            voidage,
+            wall_temperature: found.wall_temperature,
+            powder_temperature: found.powder_temperature,
+            ..Default::default()
+        };
+        let (aged, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
+        let expected =
+            rust.advance(wall, &deposit_in_rust(&deposit), &surroundings_in_rust(&around), duration);
+        assert_eq!((deposit_in_rust(&aged), aged.wall), (expected.unwrap().0, deposit.wall));
+        assert_eq!(losses, [0.0; 4]);
         near(aged.molten + aged.powder, deposit.molten + deposit.powder);
         melted += usize::from(aged.molten > deposit.molten);
         // Not by rounding alone.
@@ -449,8 +475,13 @@ fn a_deposit_ages() {
         ..nw_deposit::default()
     };
     let age = |wall_temperature, powder_temperature, duration| {
-        let heat = nw_wall_heat { wall_temperature, powder_temperature, ..nw_wall_heat::default() };
-        changed(&deposit, |to| unsafe { (calls.nw_deposit_age)(model, 0.4, &raw const heat, duration, to) })
+        let around = nw_deposit_surroundings {
+            voidage: 0.4,
+            wall_temperature,
+            powder_temperature,
+            ..Default::default()
+        };
+        advance(&calls, model, &deposit, &around, duration).map(|(after, _)| after)
     };
     for unchanged in [age(900.0, 1100.0, 0.0), age(300.0, 350.0, 3600.0)] {
         let nw_deposit { closed, .. } = unchanged.unwrap();
@@ -489,11 +520,20 @@ fn a_deposit_falls_off() {
             closed: mass / 1e4,
             ..nw_deposit::default()
         };
-        let after = changed(&deposit, |to| unsafe {
-            (calls.nw_deposit_shed)(model, outward, along, down, across, draw, to)
-        });
-        let after = format!("{:?}", after.unwrap());
+        let around = nw_deposit_surroundings {
+            gas_density: 1.2,
+            kinematic_viscosity: 1.5e-5,
+            shear_down: down,
+            shear_across: across,
+            gravity_outward: outward,
+            gravity_along: along,
+            draw,
+            ..Default::default()
+        };
+        let (after, losses) = advance(&calls, model, &deposit, &around, 60.0).unwrap();
+        let after = format!("{after:?}");
         let is_held = after == format!("{deposit:?}");
+        assert_eq!(losses, [0.0, 0.0, 0.0, if is_held { 0.0 } else { deposit.molten + deposit.powder }]);
         assert!(is_held || after == format!("{:?}", nw_deposit { wall, ..nw_deposit::default() }), "{after}");
         is_held
     };
@@ -552,21 +592,22 @@ fn the_gas_carries_away_as_in_the_rust_library() {
             ..nw_deposit::default()
         };
         for step in 0..2 {
-            let gas = WallGas {
-                density: power(10 + step, -1.0, 1.0),
+            let friction_velocity = if draw.uniform(30) < 0.05 { 0.0 } else { power(40 + step, -2.0, 1.0) };
+            let gas_density = power(10 + step, -1.0, 1.0);
+            let around = nw_deposit_surroundings {
+                voidage,
+                gas_density,
                 kinematic_viscosity: power(20 + step, -6.0, -3.0),
-                friction_velocity: if draw.uniform(30) < 0.05 { 0.0 } else { power(40 + step, -2.0, 1.0) },
+                shear_down: 0.6 * gas_density * friction_velocity * friction_velocity,
+                shear_across: -0.8 * gas_density * friction_velocity * friction_velocity,
+                ..Default::default()
             };
             let duration = if draw.uniform(50) < 0.05 { 0.0 } else { power(60 + step, -3.0, 5.0) };
-            let expected =
-                rust.resuspended(wall as usize, &deposit_in_rust(&deposit), voidage, &gas, duration).unwrap();
-            let WallGas { density, kinematic_viscosity, friction_velocity } = gas;
-            let after = changed(&deposit, |to| unsafe {
-                let resuspend = calls.nw_deposit_resuspend;
-                resuspend(model, voidage, density, kinematic_viscosity, friction_velocity, duration, to)
-            })
-            .unwrap();
-            assert_eq!(deposit_in_rust(&after), expected);
+            let before = deposit_in_rust(&deposit);
+            let expected = rust.advance(wall as usize, &before, &surroundings_in_rust(&around), duration);
+            let (after, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
+            assert_eq!((deposit_in_rust(&after), losses), expected.unwrap());
+            assert_eq!(losses, [0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
             assert_eq!((after.wall, after.molten), (wall, deposit.molten));
             if format!("{after:?}") == format!("{deposit:?}") {
                 kept += i32::from(wall > 0);
@@ -694,11 +735,29 @@ fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
     calls.free(model);
 }
 
+/// Each number of the surroundings, with values that are refused.
+type Numbers = [(fn(&mut nw_deposit_surroundings) -> &mut f64, &'static [f64]); 10];
+const NO_NUMBERS: &[f64] = &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+const NOT_POSITIVE: &[f64] = &[0.0, -1.0, f64::NAN, f64::INFINITY];
+const NO_SHARES: &[f64] = &[-0.1, 1.0, f64::NAN, f64::INFINITY];
+const REFUSED: Numbers = [
+    (|around| &mut around.voidage, NO_SHARES),
+    (|around| &mut around.wall_temperature, NOT_POSITIVE),
+    (|around| &mut around.powder_temperature, NOT_POSITIVE),
+    (|around| &mut around.gas_density, NOT_POSITIVE),
+    (|around| &mut around.kinematic_viscosity, NOT_POSITIVE),
+    (|around| &mut around.shear_down, NO_NUMBERS),
+    (|around| &mut around.shear_across, NO_NUMBERS),
+    (|around| &mut around.gravity_outward, NO_NUMBERS),
+    (|around| &mut around.gravity_along, &[-1.0, f64::NAN, f64::INFINITY]),
+    (|around| &mut around.draw, NO_SHARES),
+];
+
 #[test]
-fn ageing_and_shedding_that_cannot_be_are_refused_and_nothing_written() {
+fn a_step_that_cannot_be_is_refused_and_nothing_written() {
     let calls = Calls::load();
-    let model = calls
-        .parse(&format!("{EVERY_REGIME}\n[walls.slag.shedding]\ntensile_strength = 0\nshear_strength = 0\n"));
+    let tables = "[walls.slag.shedding]\ntensile_strength = 0\nshear_strength = 0\n";
+    let model = calls.parse(&format!("{EVERY_REGIME}\n{ADHESION}{tables}"));
     let deposit = nw_deposit {
         wall: 1,
         molten: 1.0,
@@ -708,129 +767,133 @@ fn ageing_and_shedding_that_cannot_be_are_refused_and_nothing_written() {
         conversion: 1.0,
         ..nw_deposit::default()
     };
-    let hot =
-        nw_wall_heat { wall_temperature: 1200.0, powder_temperature: 1700.0, ..nw_wall_heat::default() };
-    let age = |model, deposit: &nw_deposit, voidage, heat: *const nw_wall_heat, duration| {
-        changed(deposit, |to| unsafe { (calls.nw_deposit_age)(model, voidage, heat, duration, to) })
-            .map(|_| ())
+    let around = nw_deposit_surroundings {
+        voidage: 0.4,
+        wall_temperature: 1200.0,
+        powder_temperature: 1700.0,
+        gas_density: 1.2,
+        kinematic_viscosity: 1.5e-5,
+        shear_down: 4.8,
+        gravity_along: 9.81,
+        draw: 0.5,
+        ..Default::default()
     };
-    assert_eq!(age(model, &deposit, 0.4, &hot, 60.0), Ok(()));
-    for voidage in [-0.1, 1.0, f64::NAN] {
-        assert_eq!(age(model, &deposit, voidage, &hot, 60.0), Err(NW_BAD_STATE));
-    }
-    for duration in [-1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(age(model, &deposit, 0.4, &hot, duration), Err(NW_BAD_STATE));
-    }
-    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        let wall = nw_wall_heat { wall_temperature: bad, ..hot };
-        assert_eq!(age(model, &deposit, 0.4, &wall, 60.0), Err(NW_BAD_STATE));
-        let powder = nw_wall_heat { powder_temperature: bad, ..hot };
-        assert_eq!(age(model, &deposit, 0.4, &powder, 60.0), Err(NW_BAD_STATE));
-    }
-    let old = nw_wall_heat { struct_size: 40, ..hot };
-    assert_eq!(age(model, &deposit, 0.4, &old, 60.0), Err(NW_STRUCT_SIZE));
-    assert_eq!(age(null(), &deposit, 0.4, &hot, 60.0), Err(NW_NULL_POINTER));
-    assert_eq!(age(model, &deposit, 0.4, null(), 60.0), Err(NW_NULL_POINTER));
-    // What melts makes more than there can be.
-    let huge = nw_deposit { molten: f64::MAX, powder: f64::MAX, ..deposit };
-    assert_eq!(age(model, &huge, 0.4, &hot, 60.0), Err(NW_BAD_STATE));
-
-    let shed = |model, deposit: &nw_deposit, loads: [f64; 4], draw| {
-        let [outward, along, down, across] = loads;
-        changed(deposit, |to| unsafe {
-            (calls.nw_deposit_shed)(model, outward, along, down, across, draw, to)
-        })
-        .map(|_| ())
+    let step = |deposit: &nw_deposit, around: &nw_deposit_surroundings, duration| {
+        advance(&calls, model, deposit, around, duration).map(|_| ())
     };
-    let calm = [0.0, 9.81, 0.0, 0.0];
-    assert_eq!(shed(model, &deposit, calm, 0.5), Ok(()));
-    for draw in [-0.1, 1.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(shed(model, &deposit, calm, draw), Err(NW_BAD_STATE));
-    }
-    for index in 0..4 {
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let mut loads = calm;
-            loads[index] = bad;
-            assert_eq!(shed(model, &deposit, loads, 0.5), Err(NW_BAD_STATE));
+    for wall in [0, 1] {
+        // Also where no table asks for the number.
+        let deposit = nw_deposit { wall, ..deposit };
+        assert_eq!(step(&deposit, &around, 60.0), Ok(()));
+        for (index, (number, values)) in REFUSED.into_iter().enumerate() {
+            for value in values {
+                let mut around = around;
+                *number(&mut around) = *value;
+                assert_eq!(step(&deposit, &around, 60.0), Err(NW_BAD_STATE), "number {index}: {value}");
+            }
+        }
+        for duration in [-1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(step(&deposit, &around, duration), Err(NW_BAD_STATE));
         }
     }
-    assert_eq!(shed(model, &deposit, [0.0, -1.0, 0.0, 0.0], 0.5), Err(NW_BAD_STATE));
-    assert_eq!(shed(null(), &deposit, calm, 0.5), Err(NW_NULL_POINTER));
-    let nowhere = nw_deposit { wall: 77, ..deposit };
-    assert_eq!(shed(model, &nowhere, calm, 0.5), Err(NW_UNKNOWN_WALL));
-
-    for bad in [
-        nw_deposit { closed: f64::NAN, ..deposit },
-        nw_deposit { powder: -1.0, ..deposit },
-        nw_deposit { conversion: 2.0, ..deposit },
+    for (bad, status) in [
+        (nw_deposit { closed: f64::NAN, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { powder: -1.0, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { conversion: 2.0, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { resuspended: -0.1, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { resuspended: 1.1, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { resuspended: f64::NAN, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { wall: 77, ..deposit }, NW_UNKNOWN_WALL),
+        (nw_deposit { struct_size: 48, ..deposit }, NW_STRUCT_SIZE),
+        (nw_deposit { struct_size: 0, ..deposit }, NW_STRUCT_SIZE),
+        // What melts makes more than there can be.
+        (nw_deposit { wall: 0, molten: f64::MAX, powder: f64::MAX, ..deposit }, NW_BAD_STATE),
     ] {
-        assert_eq!(age(model, &bad, 0.4, &hot, 60.0), Err(NW_BAD_STATE));
-        assert_eq!(shed(model, &bad, calm, 0.5), Err(NW_BAD_STATE));
+        assert_eq!(step(&bad, &around, 60.0), Err(status), "{bad:?}");
     }
-    let old = nw_deposit { struct_size: 48, ..deposit };
-    assert_eq!(age(model, &old, 0.4, &hot, 60.0), Err(NW_STRUCT_SIZE));
-    assert_eq!(shed(model, &old, calm, 0.5), Err(NW_STRUCT_SIZE));
+    let old = nw_deposit_surroundings { struct_size: 8, ..around };
+    assert_eq!(step(&deposit, &old, 60.0), Err(NW_STRUCT_SIZE));
+    assert_eq!(advance(&calls, null(), &deposit, &around, 60.0).map(|_| ()), Err(NW_NULL_POINTER));
+    assert_eq!(advance(&calls, model, &deposit, null(), 60.0).map(|_| ()), Err(NW_NULL_POINTER));
     unsafe {
-        let status = (calls.nw_deposit_age)(model, 0.4, &raw const hot, 60.0, null_mut());
-        assert_eq!(status, NW_NULL_POINTER);
-        assert_eq!((calls.nw_deposit_shed)(model, 0.0, 9.81, 0.0, 0.0, 0.5, null_mut()), NW_NULL_POINTER);
+        let (mut kept, mut losses) = (deposit, nw_deposit_losses::default());
+        let mut ask = |to: *mut nw_deposit, size: u32, is_null: bool| {
+            losses.struct_size = size;
+            let lost = if is_null { null_mut() } else { &raw mut losses };
+            (calls.nw_deposit_advance)(model, &raw const around, 60.0, to, lost)
+        };
+        let size = size_of::<nw_deposit_losses>() as u32;
+        assert_eq!(ask(null_mut(), size, false), NW_NULL_POINTER);
+        assert_eq!(ask(&raw mut kept, size, true), NW_NULL_POINTER);
+        assert_eq!(ask(&raw mut kept, 8, false), NW_STRUCT_SIZE);
+        assert_eq!(format!("{kept:?}"), format!("{deposit:?}"));
+        assert_eq!((calls.nw_deposit_surroundings_init)(null_mut()), NW_NULL_POINTER);
+        assert_eq!((calls.nw_deposit_losses_init)(null_mut()), NW_NULL_POINTER);
+        let mut initial = around;
+        assert_eq!((calls.nw_deposit_surroundings_init)(&raw mut initial), NW_OK);
+        assert_eq!(format!("{initial:?}"), format!("{:?}", nw_deposit_surroundings::default()));
+        losses.mass = [9.0; 4];
+        assert_eq!((calls.nw_deposit_losses_init)(&raw mut losses), NW_OK);
+        assert_eq!(losses.mass, [0.0; 4]);
     }
     calls.free(model);
 }
 
+/// A calm gas, no time, and a wall without the table: nothing leaves.
 #[test]
-fn gas_that_cannot_be_is_refused_and_nothing_written() {
+fn without_wind_time_or_a_table_powder_stays() {
     let calls = Calls::load();
     let model = calls.parse(&format!("{EVERY_REGIME}\n{ADHESION}"));
     let deposit = nw_deposit { wall: 1, powder: 2.3e-3, solid: 1e-6, cover: 0.05, ..nw_deposit::default() };
-    let resuspend = |model, deposit: &nw_deposit, numbers: [f64; 5]| {
-        let [voidage, density, viscosity, friction_velocity, duration] = numbers;
-        changed(deposit, |to| unsafe {
-            let resuspend = calls.nw_deposit_resuspend;
-            resuspend(model, voidage, density, viscosity, friction_velocity, duration, to)
-        })
+    let wind = nw_deposit_surroundings {
+        voidage: 0.4,
+        gas_density: 1.2,
+        kinematic_viscosity: 1.5e-5,
+        shear_down: 4.8,
+        ..Default::default()
     };
-    let wind = [0.4, 1.2, 1.5e-5, 2.0, 60.0];
-    let left = resuspend(model, &deposit, wind).unwrap();
+    let (left, losses) = advance(&calls, model, &deposit, &wind, 60.0).unwrap();
     assert!(left.powder < deposit.powder && left.resuspended > 0.0, "{left:?}");
-    // A calm gas, no time, and a wall without the table.
-    for (index, wall) in [(3, 1), (4, 1), (3, 0), (4, 0)] {
-        let (mut calm, deposit) = (wind, nw_deposit { wall, ..deposit });
-        calm[index] = 0.0;
-        for numbers in [calm, if wall == 0 { wind } else { calm }] {
-            let unchanged = resuspend(model, &deposit, numbers).unwrap();
-            assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
-        }
-    }
-    for wall in [0, 1] {
+    assert_eq!(losses, [0.0, 0.0, deposit.powder - left.powder, 0.0]);
+    let calm = nw_deposit_surroundings { shear_down: 0.0, ..wind };
+    let unknown = nw_deposit_surroundings { gas_density: 0.0, kinematic_viscosity: 0.0, ..calm };
+    for (wall, around, duration) in
+        [(1, calm, 60.0), (1, unknown, 60.0), (1, wind, 0.0), (0, wind, 60.0), (0, calm, 0.0)]
+    {
         let deposit = nw_deposit { wall, ..deposit };
-        for index in 0..5 {
-            let mut bad = vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0];
-            bad.extend((index == 0).then_some(1.0));
-            bad.extend((index == 1 || index == 2).then_some(0.0));
-            for number in bad {
-                let mut numbers = wind;
-                numbers[index] = number;
-                let status = resuspend(model, &deposit, numbers).map(|_| ());
-                assert_eq!(status, Err(NW_BAD_STATE), "number {index}: {number}");
-            }
-        }
+        let (unchanged, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
+        assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
+        assert_eq!(losses, [0.0; 4]);
     }
-    for (bad, status) in [
-        (nw_deposit { resuspended: -0.1, ..deposit }, NW_BAD_STATE),
-        (nw_deposit { resuspended: 1.1, ..deposit }, NW_BAD_STATE),
-        (nw_deposit { resuspended: f64::NAN, ..deposit }, NW_BAD_STATE),
-        (nw_deposit { powder: -1.0, ..deposit }, NW_BAD_STATE),
-        (nw_deposit { closed: f64::NAN, ..deposit }, NW_BAD_STATE),
-        (nw_deposit { wall: 77, ..deposit }, NW_UNKNOWN_WALL),
-        (nw_deposit { struct_size: 56, ..deposit }, NW_STRUCT_SIZE),
-        (nw_deposit { struct_size: 0, ..deposit }, NW_STRUCT_SIZE),
-    ] {
-        assert_eq!(resuspend(model, &bad, wind).map(|_| ()), Err(status), "{bad:?}");
+    calls.free(model);
+}
+
+/// The table of processes as C sees it, and which of them act where.
+#[test]
+fn processes_have_names_and_walls() {
+    let calls = Calls::load();
+    let model = calls.parse(&format!(
+        "{EVERY_REGIME}\n{ADHESION}[walls.slag.shedding]\ntensile_strength = 1\nshear_strength = 1\n"
+    ));
+    let text = |found| calls.text(found);
+    for (index, process) in (0..).zip(PROCESSES) {
+        assert_eq!(text(unsafe { (calls.nw_process_name)(index) }), process.name);
+        assert_eq!(text(unsafe { (calls.nw_process_loss)(index) }), process.loss.unwrap_or(""));
     }
-    assert_eq!(resuspend(null(), &deposit, wind).map(|_| ()), Err(NW_NULL_POINTER));
-    let status = unsafe { (calls.nw_deposit_resuspend)(model, 0.4, 1.2, 1.5e-5, 2.0, 60.0, null_mut()) };
-    assert_eq!(status, NW_NULL_POINTER);
+    let beyond = NW_PROCESSES as u32;
+    assert!(unsafe {
+        (calls.nw_process_name)(beyond).is_null() && (calls.nw_process_loss)(beyond).is_null()
+    });
+    let acting = |model, wall| {
+        let mut bits = 77;
+        let status = unsafe { (calls.nw_wall_processes)(model, wall, &raw mut bits) };
+        (status, bits)
+    };
+    // Melting and sintering everywhere.
+    assert_eq!([0, 1, 2].map(|wall| acting(model, wall)), [0b0011, 0b1111, 0b0111].map(|bits| (NW_OK, bits)));
+    assert_eq!(acting(model, 77), (NW_UNKNOWN_WALL, 77));
+    assert_eq!(acting(null(), 0), (NW_NULL_POINTER, 77));
+    assert_eq!(unsafe { (calls.nw_wall_processes)(model, 0, null_mut()) }, NW_NULL_POINTER);
     calls.free(model);
 }
 

@@ -25,9 +25,6 @@ macro_rules! for_each_function {
             nw_wall_cooling_init: unsafe extern "C" fn(*mut nw_wall_cooling) -> i32,
             nw_wall_heat_init: unsafe extern "C" fn(*mut nw_wall_heat) -> i32,
             nw_deposit_heat: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *const nw_wall_cooling, *mut nw_wall_heat) -> i32,
-            nw_deposit_age: unsafe extern "C" fn(*const nw_model, f64, *const nw_wall_heat, f64, *mut nw_deposit) -> i32,
-            nw_deposit_shed: unsafe extern "C" fn(*const nw_model, f64, f64, f64, f64, f64, *mut nw_deposit) -> i32,
-            nw_deposit_resuspend: unsafe extern "C" fn(*const nw_model, f64, f64, f64, f64, f64, *mut nw_deposit) -> i32,
             nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
             nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,
             nw_deposit_source_init: unsafe extern "C" fn(*mut nw_deposit_source) -> i32,
@@ -41,6 +38,12 @@ macro_rules! for_each_function {
             nw_extra_input_default: unsafe extern "C" fn(*const nw_model, u32, *mut f64) -> i32,
             nw_extra_input_word: unsafe extern "C" fn(*const nw_model, u32, u32, *mut c_char, usize) -> i32,
             nw_extra_input_value: unsafe extern "C" fn(*const nw_model, u32, *const c_char, *mut f64, *mut c_char, usize) -> i32,
+            nw_deposit_surroundings_init: unsafe extern "C" fn(*mut nw_deposit_surroundings) -> i32,
+            nw_deposit_losses_init: unsafe extern "C" fn(*mut nw_deposit_losses) -> i32,
+            nw_deposit_advance: unsafe extern "C" fn(*const nw_model, *const nw_deposit_surroundings, f64, *mut nw_deposit, *mut nw_deposit_losses) -> i32,
+            nw_wall_processes: unsafe extern "C" fn(*const nw_model, u32, *mut u32) -> i32,
+            nw_process_name: unsafe extern "C" fn(u32) -> *const c_char,
+            nw_process_loss: unsafe extern "C" fn(u32) -> *const c_char,
         }
     };
 }
@@ -56,6 +59,8 @@ macro_rules! for_each_struct {
             nw_wall_heat { struct_size reserved surface_temperature wall_temperature powder_temperature heat_flux deposit_resistance }
             nw_deposit { struct_size wall molten powder solid cover conversion closed resuspended }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
+            nw_deposit_surroundings { struct_size reserved voidage wall_temperature powder_temperature gas_density kinematic_viscosity shear_down shear_across gravity_outward gravity_along draw }
+            nw_deposit_losses { struct_size reserved mass }
         }
     };
 }
@@ -65,6 +70,7 @@ macro_rules! for_each_number {
         $define! {
             NW_ABI_VERSION
             NW_EXTRA_INPUTS
+            NW_PROCESSES
             NW_OUTSIDE_VALID_RANGE
             NW_OK
             NW_NULL_POINTER

@@ -2,7 +2,7 @@
 #![allow(dead_code, reason = "each test uses its part")]
 #![allow(clippy::unwrap_used, reason = "clippy.toml's leave for tests does not reach their helpers")]
 
-use nearwall::deposit::resuspension::{Adhesion, Conditions};
+use nearwall::deposit::resuspension::{AdhesionDistribution, Conditions};
 
 const TABLE: &str = include_str!("../data/resuspension_measured.csv");
 
@@ -36,7 +36,7 @@ pub fn alumina(diameter: u32, friction_velocity: f64) -> Conditions {
     let radius = 0.5e-6 * f64::from(diameter);
     Conditions {
         radius,
-        adhesion: Adhesion::biasi(radius, 0.56).unwrap(),
+        adhesion: AdhesionDistribution::biasi(radius, 0.56).unwrap(),
         gas_density: 1.181,
         kinematic_viscosity: 1.539e-5,
         friction_velocity,

@@ -14,8 +14,8 @@ from . import openfoam
 from .diagnosis import Diagnosis, Finding, Gain, Parameter, diagnose
 from .library import (ABI_VERSION, BAD_STATE, EXTRA_INPUTS, FILE, INPUTS, MODEL, NO_CONDUCTIVITY, NOT_UTF8, NSP_NSW, NSP_SW,
                       NULL_POINTER, OK, OUT_OF_RANGE, OUTSIDE_VALID_RANGE, PANIC, REGIMES, SP_NSW, SP_SW, STRUCT_SIZE,
-                      UNKNOWN_INPUT, UNKNOWN_WALL, VERSION, Deposit, DepositSource, Error, Model, Outcomes, Speeds,
-                      TemperatureRanges, WallCooling, WallHeat, key_of_values, unlikely)
+                      UNKNOWN_INPUT, UNKNOWN_WALL, VERSION, Deposit, DepositSource, DepositSurroundings, Error, Model,
+                      Outcomes, Speeds, TemperatureRanges, WallCooling, WallHeat, key_of_values, unlikely)
 from .materials import Material, Property, materials
 from .prediction import predict
 from .simulation import Simulation, simulate
@@ -25,6 +25,6 @@ __version__ = VERSION
 __all__ = [
     "ABI_VERSION", "BAD_STATE", "EXTRA_INPUTS", "FILE", "INPUTS", "MODEL", "NOT_UTF8", "NO_CONDUCTIVITY", "NSP_NSW", "NSP_SW",
     "NULL_POINTER", "OK", "OUTSIDE_VALID_RANGE", "OUT_OF_RANGE", "PANIC", "REGIMES", "SP_NSW", "SP_SW", "STRUCT_SIZE",
-    "UNKNOWN_INPUT", "UNKNOWN_WALL", "VERSION", "Deposit", "DepositSource", "Diagnosis", "Error", "Finding", "Gain", "Material",
-    "Model", "Outcomes", "Parameter", "Property", "Simulation", "Speeds", "TemperatureRanges", "WallCooling", "WallHeat",
+    "UNKNOWN_INPUT", "UNKNOWN_WALL", "VERSION", "Deposit", "DepositSource", "DepositSurroundings", "Diagnosis", "Error", "Finding",
+    "Gain", "Material", "Model", "Outcomes", "Parameter", "Property", "Simulation", "Speeds", "TemperatureRanges", "WallCooling", "WallHeat",
     "diagnose", "key_of_values", "materials", "openfoam", "predict", "simulate", "unlikely"]

@@ -23,6 +23,7 @@ Input = Union[float, NDArray[numpy.float64]]
 # GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
 ABI_VERSION = 1
 EXTRA_INPUTS = 8
+PROCESSES = 4
 OUTSIDE_VALID_RANGE = 1
 OK = 0
 NULL_POINTER = 1
@@ -106,6 +107,19 @@ class nw_deposit_source(Structure):
         ("solid", c_double), ("cover", c_double), ("buried", c_double), ("converted", c_double)]
 
 
+class nw_deposit_surroundings(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("voidage", c_double),
+        ("wall_temperature", c_double), ("powder_temperature", c_double), ("gas_density", c_double),
+        ("kinematic_viscosity", c_double), ("shear_down", c_double), ("shear_across", c_double),
+        ("gravity_outward", c_double), ("gravity_along", c_double), ("draw", c_double)]
+
+
+class nw_deposit_losses(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES)]
+
+
 # Result and arguments of every function.
 FUNCTIONS = {
     "nw_abi_version": (c_uint32, []),
@@ -130,9 +144,6 @@ FUNCTIONS = {
     "nw_wall_cooling_init": (c_int32, [POINTER(nw_wall_cooling)]),
     "nw_wall_heat_init": (c_int32, [POINTER(nw_wall_heat)]),
     "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
-    "nw_deposit_age": (c_int32, [c_void_p, c_double, POINTER(nw_wall_heat), c_double, POINTER(nw_deposit)]),
-    "nw_deposit_shed": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double, POINTER(nw_deposit)]),
-    "nw_deposit_resuspend": (c_int32, [c_void_p, c_double, c_double, c_double, c_double, c_double, POINTER(nw_deposit)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
     "nw_deposit_source_init": (c_int32, [POINTER(nw_deposit_source)]),
@@ -146,6 +157,12 @@ FUNCTIONS = {
     "nw_extra_input_default": (c_int32, [c_void_p, c_uint32, POINTER(c_double)]),
     "nw_extra_input_word": (c_int32, [c_void_p, c_uint32, c_uint32, c_char_p, c_size_t]),
     "nw_extra_input_value": (c_int32, [c_void_p, c_uint32, c_char_p, POINTER(c_double), c_char_p, c_size_t]),
+    "nw_deposit_surroundings_init": (c_int32, [POINTER(nw_deposit_surroundings)]),
+    "nw_deposit_losses_init": (c_int32, [POINTER(nw_deposit_losses)]),
+    "nw_deposit_advance": (c_int32, [c_void_p, POINTER(nw_deposit_surroundings), c_double, POINTER(nw_deposit), POINTER(nw_deposit_losses)]),
+    "nw_wall_processes": (c_int32, [c_void_p, c_uint32, POINTER(c_uint32)]),
+    "nw_process_name": (c_char_p, [c_uint32]),
+    "nw_process_loss": (c_char_p, [c_uint32]),
 }
 # END GENERATED
 
@@ -223,12 +240,16 @@ class WallCooling(nw_wall_cooling):
     def __init__(self, coolant_temperature: float, gas_temperature: float, **others: float) -> None:
         super().__init__()
         _check(_library.nw_wall_cooling_init(byref(self)))
-        unknown = set(others) - {name for name, kind in nw_wall_cooling._fields_ if kind is c_double}
-        if unknown:
-            raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
-        self.coolant_temperature, self.gas_temperature = coolant_temperature, gas_temperature
-        for name, value in others.items():
-            setattr(self, name, value)
+        _set_numbers(self, {"coolant_temperature": coolant_temperature, "gas_temperature": gas_temperature, **others})
+
+
+def _set_numbers(struct: Structure, numbers: Dict[str, float]) -> None:
+    """Sets numbers of a struct by name."""
+    unknown = set(numbers) - {name for name, kind, *_ in struct._fields_ if kind is c_double}
+    if unknown:
+        raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
+    for name, value in numbers.items():
+        setattr(struct, name, value)
 
 
 class WallHeat(nw_wall_heat):
@@ -239,6 +260,20 @@ class WallHeat(nw_wall_heat):
     def __init__(self) -> None:
         super().__init__()
         _check(_library.nw_wall_heat_init(byref(self)))
+
+
+class DepositSurroundings(nw_deposit_surroundings):
+    """What surrounds a piece of wall with a deposit, with the share `voidage` of voids in fresh powder [1] and the WallHeat
+    `heat` of a cooled wall, without which nothing melts or sinters. Further, 0 unless given: the gas's gas_density [kg/m3],
+    kinematic_viscosity [m2/s], shear_down the slope and shear_across it [Pa]; gravity_outward from the wall and gravity_along
+    it [m/s2]; draw, the rank of this piece of wall from the weakest, 0, to below 1. A piece keeps its draw."""
+
+    def __init__(self, voidage: float, heat: Optional[WallHeat] = None, **others: float) -> None:
+        super().__init__()
+        _check(_library.nw_deposit_surroundings_init(byref(self)))
+        if heat is not None:
+            self.wall_temperature, self.powder_temperature = heat.wall_temperature, heat.powder_temperature
+        _set_numbers(self, {"voidage": voidage, **others})
 
 
 def _load() -> Any:
@@ -530,26 +565,19 @@ class Model:
         _check(_library.nw_deposit_heat(self._handle, byref(deposit), voidage, byref(cooling), byref(found)))
         return found
 
-    def age_deposit(self, deposit: Deposit, voidage: float, heat: WallHeat, duration: float) -> None:
-        """Lets a deposit age for a `duration` [s] at the temperatures of `heat`: powder that is hotter than it melts becomes
-        melt, the rest sinters. Mass is conserved."""
-        _check(_library.nw_deposit_age(self._handle, voidage, byref(heat), duration, byref(deposit)))
+    def advance_deposit(self, deposit: Deposit, surroundings: DepositSurroundings, duration: float) -> Dict[str, float]:
+        """Advances a deposit by a step of a `duration` [s]: powder that is hotter than it melts becomes melt, the rest sinters,
+        the gas carries loose powder away, and what the wall cannot hold falls off. Returns the mass [kg/m2] that left by each
+        process, as `resuspended` and `shed`. The last two act on walls with a table `resuspension` or `shedding` in the model
+        file. Raises Error, and leaves the deposit as it is, where a number has no meaning or the model has no such wall."""
+        losses = nw_deposit_losses()
+        _check(_library.nw_deposit_losses_init(byref(losses)))
+        _check(_library.nw_deposit_advance(self._handle, byref(surroundings), duration, byref(deposit), byref(losses)))
+        names = [_library.nw_process_loss(index).decode() for index in range(PROCESSES)]
+        return {name: mass for name, mass in zip(names, losses.mass) if name}
 
-    def shed_deposit(self, deposit: Deposit, draw: float, gravity_outward: float = 0.0, gravity_along: float = 0.0,
-                     shear_down: float = 0.0, shear_across: float = 0.0) -> None:
-        """Lets what its wall cannot hold fall off: the deposit is bare afterwards, or unchanged. Gravity away from the wall
-        (negative where it presses the deposit on) and along it is in m/s2, the shear stress of the gas down the slope and
-        across it in Pa. `draw`, from 0 to below 1, ranks this place of the wall from the weakest to the strongest; a place
-        keeps its draw. From a wall without a table `shedding` in the model file nothing falls."""
-        _check(_library.nw_deposit_shed(self._handle, gravity_outward, gravity_along, shear_down, shear_across, draw,
-                                        byref(deposit)))
-
-    def resuspend_deposit(self, deposit: Deposit, voidage: float, density: float, kinematic_viscosity: float,
-                          friction_velocity: float, duration: float) -> None:
-        """Lets the gas at the wall carry powder away for a `duration` [s]; `voidage` is the share of voids in fresh powder [1].
-        The gas has a `density` [kg/m3], a `kinematic_viscosity` [m2/s] and a `friction_velocity` [m/s], the root of shear stress
-        over density. Melt and bonded powder stay. A wall without a table `resuspension` in the model file loses nothing.
-        Raises Error, and leaves the deposit as it is, where density or viscosity are not above 0, friction velocity or duration
-        are negative, a number is not finite, or the model has no such wall."""
-        _check(_library.nw_deposit_resuspend(self._handle, voidage, density, kinematic_viscosity, friction_velocity, duration,
-                                             byref(deposit)))
+    def wall_processes(self, wall: int = 0) -> List[str]:
+        """Names of the processes that change a deposit on a wall, in the order in which they act."""
+        found = c_uint32()
+        _check(_library.nw_wall_processes(self._handle, _index("wall", wall, 32), byref(found)))
+        return [_library.nw_process_name(index).decode() for index in range(PROCESSES) if found.value >> index & 1]

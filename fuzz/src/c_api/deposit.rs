@@ -10,25 +10,24 @@ use super::impacts::impact;
 
 /// What a code keeps of a piece of wall.
 #[derive(Default)]
-pub struct Wall {
+pub struct KeptWall {
     deposit: nw_deposit,
     arrivals: nw_deposit_source,
     heat: nw_wall_heat,
 }
 
-impl Wall {
+impl KeptWall {
     pub fn call(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let model = if bytes.byte() == 0 { null() } else { model };
-        match bytes.byte() % 10 {
+        match bytes.byte() % 9 {
             0 => begin(bytes),
             1 => self.start(bytes, model),
             2 => self.add_captured(bytes, model),
             3 => self.add(bytes),
             4 => self.apply_deposit(bytes, model),
             6 => self.heat(bytes, model),
-            7 => self.age(bytes, model),
-            8 => self.shed(bytes, model),
-            9 => self.resuspend(bytes, model),
+            7 => self.advance(bytes, model),
+            8 => ask(bytes, model),
             _ => self.flow(bytes, model),
         }
     }
@@ -174,64 +173,73 @@ impl Wall {
         self.heat = after;
     }
 
-    fn age(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
-        let voidage = share(bytes);
+    fn advance(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let duration = if bytes.below(2) == 0 { 60.0 } else { bytes.number() };
-        let heat = self.temperatures(bytes);
-        let mut asked = GuardedBuffer::holding(bytes, heat);
-        let from: *const nw_wall_heat = asked.start_or_null(bytes);
+        let around = self.surroundings(bytes);
+        let mut asked = GuardedBuffer::holding(bytes, around);
+        let from: *const nw_deposit_surroundings = asked.start_or_null(bytes);
+        let mut lost = nw_deposit_losses { mass: [-1.0; NW_PROCESSES], ..Default::default() };
+        if bytes.byte() == 0 {
+            lost.struct_size = bytes.word() as u32;
+        }
+        let mut losses = GuardedBuffer::holding(bytes, lost);
+        let kept = losses.bytes.clone();
+        let taken: *mut nw_deposit_losses = losses.start_or_null(bytes);
         let before = self.deposit(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: each is null or what it should be.
-            unsafe { nw_deposit_age(model, voidage, from, duration, to) }
+            unsafe { nw_deposit_advance(model, from, duration, to, taken) }
         });
         asked.assert_guard_intact();
-        let Some(after) = status else { return };
+        losses.assert_guard_intact();
+        let Some(after) = status else {
+            assert!(losses.bytes == kept, "written on failure");
+            return;
+        };
         sound(&after);
-        alike(0.5 * before.molten + 0.5 * before.powder, 0.5 * after.molten + 0.5 * after.powder);
-        assert!(after.wall == before.wall && after.molten >= before.molten, "{after:?} of {before:?}");
-        assert!(after.powder <= before.powder && after.solid <= before.solid, "{after:?} of {before:?}");
+        // SAFETY: not null, or the call would have been refused; still the losses.
+        let lost = unsafe { taken.read_unaligned() };
+        assert!(lost.mass.iter().all(|mass| *mass >= 0.0), "{lost:?} of {before:?}");
+        let gone: f64 = lost.mass.iter().map(|mass| 0.5 * mass).sum();
+        alike(0.5 * before.molten + 0.5 * before.powder, 0.5 * after.molten + 0.5 * after.powder + gone);
+        assert!(after.wall == before.wall && after.powder <= before.powder, "{after:?} of {before:?}");
+        assert!(after.solid <= before.solid && after.cover <= before.cover, "{after:?} of {before:?}");
         self.deposit = after;
     }
 
-    fn shed(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
-        let draw = share(bytes);
-        let loads = [0; 4].map(|_| if bytes.below(2) == 0 { 9.81 } else { bytes.number() });
-        let [outward, along, down, across] = loads;
-        let before = self.deposit(bytes);
-        let status = changed(bytes, before, |to| {
-            // SAFETY: null or what it should be.
-            unsafe { nw_deposit_shed(model, outward, along, down, across, draw, to) }
-        });
-        let Some(after) = status else { return };
-        sound(&after);
-        let bare = nw_deposit { wall: before.wall, ..nw_deposit::default() };
-        let is = |other: &nw_deposit| format!("{after:?}") == format!("{other:?}");
-        assert!(is(&before) || is(&bare), "{after:?} is left of {before:?}");
-        self.deposit = after;
-    }
-
-    fn resuspend(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
-        let voidage = share(bytes);
-        let ordinary = [1.2, 1.5e-5, 2.0, 60.0];
-        let gas = ordinary.map(|number| if bytes.below(2) == 0 { number } else { bytes.number() });
-        let [density, viscosity, friction_velocity, duration] = gas;
-        let before = self.deposit(bytes);
-        let status = changed(bytes, before, |to| {
-            // SAFETY: null or what it should be.
-            unsafe {
-                nw_deposit_resuspend(model, voidage, density, viscosity, friction_velocity, duration, to)
+    /// Surroundings at the wall's own temperatures, or hostile ones.
+    fn surroundings(&self, bytes: &mut Bytes<'_>) -> nw_deposit_surroundings {
+        let mut around = nw_deposit_surroundings {
+            voidage: share(bytes),
+            wall_temperature: self.heat.wall_temperature,
+            powder_temperature: self.heat.powder_temperature,
+            gas_density: 1.2,
+            kinematic_viscosity: 1.5e-5,
+            shear_down: 4.8,
+            gravity_along: 9.81,
+            draw: share(bytes),
+            ..Default::default()
+        };
+        let which = u16::from_le_bytes([bytes.byte(), bytes.byte()]);
+        let fields = [
+            &mut around.wall_temperature,
+            &mut around.powder_temperature,
+            &mut around.gas_density,
+            &mut around.kinematic_viscosity,
+            &mut around.shear_down,
+            &mut around.shear_across,
+            &mut around.gravity_outward,
+            &mut around.gravity_along,
+        ];
+        for (bit, field) in fields.into_iter().enumerate() {
+            if which >> bit & 1 == 1 {
+                *field = bytes.number();
             }
-        });
-        let Some(after) = status else { return };
-        sound(&after);
-        let sizes = |of: &nw_deposit| [of.powder, of.solid, of.cover, of.closed];
-        let grown = sizes(&after).iter().zip(sizes(&before)).any(|(now, then)| *now > then);
-        assert!(!grown && after.resuspended >= before.resuspended, "{after:?} of {before:?}");
-        let [powder, solid, cover, closed] = sizes(&before);
-        let rest = nw_deposit { powder, solid, cover, closed, resuspended: before.resuspended, ..after };
-        assert_eq!(format!("{rest:?}"), format!("{before:?}"));
-        self.deposit = after;
+        }
+        if which >> 14 == 3 {
+            around.struct_size = bytes.word() as u32;
+        }
+        around
     }
 
     /// The wall's own temperatures, or hostile ones.
@@ -352,6 +360,23 @@ fn cooling(bytes: &mut Bytes<'_>) -> nw_wall_cooling {
     cooling
 }
 
+/// Which processes act on a wall, and the names of one.
+fn ask(bytes: &mut Bytes<'_>, model: *const nw_model) {
+    let wall = bytes.below(4) as u32;
+    let mut buffer = GuardedBuffer::new(bytes, 4);
+    let to = buffer.start_or_null(bytes);
+    // SAFETY: each is null or what it should be.
+    let status = unsafe { nw_wall_processes(model, wall, to) };
+    known(status);
+    buffer.assert_guard_intact();
+    if status != NW_OK {
+        buffer.assert_untouched();
+    }
+    let process = bytes.word() as u32;
+    let unknown = process as usize >= NW_PROCESSES;
+    assert!(nw_process_name(process).is_null() == unknown && nw_process_loss(process).is_null() == unknown);
+}
+
 fn begin(bytes: &mut Bytes<'_>) {
     let mut deposit = GuardedBuffer::new(bytes, size_of::<nw_deposit>());
     let mut arrivals = GuardedBuffer::new(bytes, size_of::<nw_deposit_source>());
@@ -359,6 +384,9 @@ fn begin(bytes: &mut Bytes<'_>) {
     let mut heat = GuardedBuffer::new(bytes, size_of::<nw_wall_heat>());
     let (to_deposit, to_arrivals) = (deposit.start_or_null(bytes), arrivals.start_or_null(bytes));
     let (to_cooling, to_heat) = (cooling.start_or_null(bytes), heat.start_or_null(bytes));
+    let mut around = GuardedBuffer::new(bytes, size_of::<nw_deposit_surroundings>());
+    let mut losses = GuardedBuffer::new(bytes, size_of::<nw_deposit_losses>());
+    let (to_around, to_losses) = (around.start_or_null(bytes), losses.start_or_null(bytes));
     // SAFETY: each is null or a buffer large enough for what is written.
     let found = unsafe {
         [
@@ -366,9 +394,11 @@ fn begin(bytes: &mut Bytes<'_>) {
             nw_deposit_source_init(to_arrivals),
             nw_wall_cooling_init(to_cooling),
             nw_wall_heat_init(to_heat),
+            nw_deposit_surroundings_init(to_around),
+            nw_deposit_losses_init(to_losses),
         ]
     };
-    for (buffer, status) in [deposit, arrivals, cooling, heat].iter().zip(found) {
+    for (buffer, status) in [deposit, arrivals, cooling, heat, around, losses].iter().zip(found) {
         known(status);
         buffer.assert_guard_intact();
         if status != NW_OK {

@@ -29,7 +29,7 @@ const MODELS: [&str; 4] = [
 pub fn c_api(bytes: &[u8]) {
     let mut bytes = Bytes(bytes);
     let mut model = parsed(MODELS[bytes.below(MODELS.len())]);
-    let mut wall = deposit::Wall::default();
+    let mut wall = deposit::KeptWall::default();
     let mut steps = 0;
     while !bytes.is_empty() && steps < 100 {
         steps += 1;

@@ -14,7 +14,7 @@ use super::linear_profile::LinearProfile;
 use super::surface::{Surface, SurfaceKind, SurfaceShape};
 use nearwall::impact::ImpactError;
 use nearwall::input::{Document, InputError, Section};
-use nearwall::model::Model;
+use nearwall::model::{Model, Wall};
 
 /// Number of low bits of the key of random draws that count the hits of a particle.
 pub(super) const HIT_BITS: u32 = 24;
@@ -169,6 +169,7 @@ impl Case {
     /// Checks that a cooled wall has a deposit, and that gravity does not point across a pipe that sheds its deposit.
     fn check_walls(&self, top: &Section<'_>, run: &Section<'_>) -> Result<(), InputError> {
         let sideways = self.gravity.xy().norm() > 0.0;
+        let sheds = |wall: &Wall| wall.processes().any(|(_, process)| process.name == "shedding");
         for Surface { name, shape, kind } in &self.surfaces {
             let SurfaceKind::Wall { model, cooling, .. } = kind else { continue };
             if cooling.is_some() && self.deposit.is_none() {
@@ -178,7 +179,7 @@ impl Case {
                 return Err(top.fault("walls", problem));
             }
             let is_pipe = matches!(shape, SurfaceShape::Pipe { .. });
-            if is_pipe && sideways && self.deposit.is_some() && self.model.walls()[*model].sheds() {
+            if is_pipe && sideways && self.deposit.is_some() && sheds(&self.model.walls()[*model]) {
                 let problem = format!(
                     "pulls across the pipe `{name}`, whose bins go all around it and cannot tell above from below; \
                      a wall with `shedding` needs a pipe along gravity, or the shape \"plane\""

@@ -21,7 +21,6 @@ mod geometry;
 pub mod heating;
 mod injection;
 mod linear_profile;
-mod losses;
 mod motion;
 mod near_wall;
 mod shrinkage;
@@ -29,6 +28,7 @@ mod surface;
 mod tracker;
 mod trajectory;
 mod wall_deposits;
+mod wall_surroundings;
 mod weighted;
 
 pub use case::{Case, SWEEP_KEYS, Sweep, SweepReference, sweep_unit};

@@ -3,8 +3,8 @@
 //! The particles of each injection are released evenly over the duration of the feed. The duration has equal steps.
 //! Particles that are released in a step meet the walls as they were at its beginning; at its end the captured ones are
 //! added ([`nearwall::Model::add_captured`], [`Deposit::with`]) and the carbon of the powder burns for the length of the step,
-//! by the case's law of conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over the step. Then the gas
-//! carries loose powder away, and what the wall cannot hold falls off ([`super::losses`]).
+//! by the case's law of conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over the step. Then the processes
+//! of [`nearwall::deposit::PROCESSES`] act ([`nearwall::Model::advance`]).
 //! So the flight has to be short against a step, and what one step adds has to be small. The sums go in the order of the
 //! particles, so that they do not depend on the number of threads. A wall has equal bins along a pipe, or rings of equal
 //! width on a disc; each is one [`Deposit`].
@@ -14,11 +14,11 @@ use nalgebra::Vector3;
 use super::case::Case;
 use super::deposit_settings::DepositSettings;
 use super::error::SimulationError;
-use super::losses;
 use super::shrinkage::ASH_DENSITY;
 use super::surface::{Surface, SurfaceKind, SurfaceShape};
 use super::trajectory::{Fate, Trajectory};
-use nearwall::deposit::{Deposit, DepositSource, burn_off};
+use super::wall_surroundings::surroundings;
+use nearwall::deposit::{Deposit, DepositSource, Losses, burn_off};
 use nearwall::impact::{Impact, ImpactError};
 use nearwall::model::{Model, WallHeat};
 
@@ -54,10 +54,8 @@ pub struct BinHistory {
     pub arrived: Vec<f64>,
     /// Mass that burnt away up to then [kg].
     pub burnt: Vec<f64>,
-    /// Mass that the gas carried away up to then [kg].
-    pub resuspended: Vec<f64>,
-    /// Mass that fell off up to then [kg].
-    pub shed: Vec<f64>,
+    /// Mass that each process took up to then [kg], in the order of [`nearwall::deposit::PROCESSES`].
+    pub lost: Vec<Losses>,
     /// The deposit then.
     pub states: Vec<Deposit>,
     /// Temperatures then, of a cooled wall.
@@ -81,16 +79,15 @@ struct Bin {
     /// Of the captured powder in this step.
     powder_source: PowderCarbon,
     /// What came and went in this step.
-    step: Step,
+    step: BinStep,
 }
 
 /// Mass that came to a bin and left it in a step [kg/m²].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct Step {
+struct BinStep {
     caught: f64,
     burnt: f64,
-    resuspended: f64,
-    shed: f64,
+    lost: Losses,
 }
 
 /// Combustible matter in the powder per area of wall.
@@ -168,8 +165,7 @@ impl WallDeposits {
                 let middle = surface.shape.point_at(bin.middle());
                 let met = bin.temperature().unwrap_or_else(|| temperature.at(&middle));
                 bin.step.burnt = bin.end_step(case, *model, met, duration)?;
-                bin.densify(case, voidage, duration);
-                bin.lose(case, surface, number, voidage, duration)
+                bin.advance(case, surface, number, voidage, duration)
                     .map_err(SimulationError::at_wall(&surface.name))?;
                 bin.history.record(bin.deposit, &std::mem::take(&mut bin.step));
                 bin.record_heat(case, surface, voidage)?;
@@ -239,18 +235,8 @@ impl Bin {
         Ok(())
     }
 
-    /// Lets the powder on a cooled wall sinter and melt for a step [s] at its present temperatures.
-    fn densify(&mut self, case: &Case, voidage: f64, duration: f64) {
-        let Some(heat) = self.history.heat.last() else { return };
-        let powder = self.deposit.powder;
-        self.deposit = case.model.aged(&self.deposit, voidage, heat, duration);
-        // What melted takes its carbon along.
-        let kept = if powder > 0.0 { self.deposit.powder / powder } else { 1.0 };
-        self.powder = self.powder.times(kept);
-    }
-
-    /// Lets the gas carry powder away for a step [s], and what the wall cannot hold fall.
-    fn lose(
+    /// Lets the processes act for a step [s], on a cooled wall at its present temperatures.
+    fn advance(
         &mut self,
         case: &Case,
         surface: &Surface,
@@ -258,14 +244,15 @@ impl Bin {
         voidage: f64,
         duration: f64,
     ) -> Result<(), ImpactError> {
+        let SurfaceKind::Wall { model: wall, friction_velocity, .. } = surface.kind else { return Ok(()) };
         let place = surface.shape.point_at(self.middle());
-        let before = self.deposit;
-        let [blown, left] = losses::after(case, surface, &place, number, &before, voidage, duration)?;
-        self.step.resuspended = before.mass() - blown.mass();
-        self.step.shed = blown.mass() - left.mass();
-        let kept = if before.powder > 0.0 { left.powder / before.powder } else { 1.0 };
+        let sides = self.history.heat.last().map(WallHeat::powder_sides);
+        let around = surroundings(case, surface, friction_velocity, &place, number, voidage, sides);
+        let before = self.deposit.powder;
+        (self.deposit, self.step.lost) = case.model.advance(wall, &self.deposit, &around, duration)?;
+        // What melts or leaves takes its carbon along.
+        let kept = if before > 0.0 { self.deposit.powder / before } else { 1.0 };
         self.powder = self.powder.times(kept);
-        self.deposit = left;
         Ok(())
     }
 
@@ -285,7 +272,7 @@ impl Bin {
         }
         let conversion = 1.0 - carbon.left / carbon.unburnt;
         let left = (1.0 - law.after(temperature, conversion, duration)) / (1.0 - conversion);
-        let burning = burn_off::Burning {
+        let burning = burn_off::PowderBurning {
             combustible: carbon.left,
             left,
             conversion,
@@ -333,17 +320,14 @@ impl PowderCarbon {
 
 impl BinHistory {
     /// Adds a state after a step.
-    fn record(&mut self, deposit: Deposit, step: &Step) {
-        let Step { caught, burnt, resuspended, shed } = *step;
-        let sums = [
-            (&mut self.arrived, caught),
-            (&mut self.burnt, burnt),
-            (&mut self.resuspended, resuspended),
-            (&mut self.shed, shed),
-        ];
-        for (sum, more) in sums {
+    fn record(&mut self, deposit: Deposit, step: &BinStep) {
+        let BinStep { caught, burnt, lost } = *step;
+        for (sum, more) in [(&mut self.arrived, caught), (&mut self.burnt, burnt)] {
             sum.push(sum.last().copied().unwrap_or(0.0) + more * self.area);
         }
+        let mut sums = self.lost.last().copied().unwrap_or_default();
+        sums.iter_mut().zip(lost).for_each(|(sum, more)| *sum += more * self.area);
+        self.lost.push(sums);
         self.states.push(deposit);
     }
 }
@@ -360,19 +344,18 @@ fn bins(shape: &SurfaceShape, count: usize, deposit: Deposit) -> Vec<Bin> {
             area,
             arrived: vec![],
             burnt: vec![],
-            resuspended: vec![],
-            shed: vec![],
+            lost: vec![],
             states: vec![],
             heat: vec![],
         };
-        history.record(deposit, &Step::default());
+        history.record(deposit, &BinStep::default());
         Bin {
             history,
             deposit,
             source: DepositSource::default(),
             powder: PowderCarbon::default(),
             powder_source: PowderCarbon::default(),
-            step: Step::default(),
+            step: BinStep::default(),
         }
     };
     (0..count).map(bin).collect()

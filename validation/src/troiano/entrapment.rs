@@ -1,9 +1,9 @@
 //! Section 3.1: what becomes of particles that slag, or molten wax, has caught.
 
-use nearwall::capture::{CharFate, CharOnSlag, Judgement};
 use nearwall::slag::Molten;
 use nearwall_lab::report::{Table, number};
 
+use super::char_on_slag::{CharFate, CharOnSlag, Judgement};
 use super::published::{COAL_SLAG, FEED, MOLTEN_WAX, StatedMelt, TUBE_SPEED};
 use crate::steps::{even, range};
 use crate::study::table;

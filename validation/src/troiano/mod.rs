@@ -4,6 +4,7 @@
 
 mod angle;
 mod best_fit;
+mod char_on_slag;
 mod conclusions;
 mod droplets;
 mod entrapment;

@@ -7,6 +7,7 @@ use super::impacts::text;
 use crate::results::History;
 use crate::results::openfoam::deposit::{COLUMNS, DepositState};
 use crate::simulate::{BinHistory, Case, WallHistory};
+use nearwall::deposit::PROCESSES;
 use nearwall::model::{Wall, WallHeat};
 
 const HEADER: [&str; 14] = [
@@ -29,8 +30,10 @@ const HEADER: [&str; 14] = [
 /// Further columns of a case with a cooled wall; blank for walls of a given temperature.
 const HEAT_HEADER: [&str; 3] = ["porosity", "surface_temperature_K", "heat_flux_W_m2"];
 
-/// Further columns of a case with a wall that loses deposits.
-const LOSS_HEADER: [&str; 2] = ["resuspended_kg", "shed_kg"];
+/// Further columns of a case with a wall that loses deposits: the place of each process in [`PROCESSES`] and the name of its loss.
+fn losses() -> impl Iterator<Item = (usize, &'static str)> {
+    PROCESSES.iter().enumerate().filter_map(|(place, process)| Some((place, process.loss?)))
+}
 
 /// Writes the table: one row for each time, wall and bin, and for each value of a sweep. Masses in kg are of the bin.
 ///
@@ -47,13 +50,11 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
             .any(|bin| !bin.heat.is_empty())
     };
     let heat = if runs.iter().any(cooled) { HEAT_HEADER.len() } else { 0 };
-    let loses = case.model.walls().iter().any(Wall::loses_deposits);
-    let losses = if loses { LOSS_HEADER.len() } else { 0 };
-    let header = HEADER
-        .into_iter()
-        .chain(HEAT_HEADER.into_iter().take(heat))
-        .chain(LOSS_HEADER.into_iter().take(losses));
-    writer.write_record(header.map(str::to_owned).chain(swept))?;
+    let loses = |wall: &Wall| wall.processes().any(|(_, process)| process.loss.is_some());
+    let lost: Vec<_> = if case.model.walls().iter().any(loses) { losses().collect() } else { Vec::new() };
+    let header = HEADER.into_iter().chain(HEAT_HEADER.into_iter().take(heat)).map(str::to_owned);
+    let header = header.chain(lost.iter().map(|(_, loss)| format!("{loss}_kg")));
+    writer.write_record(header.chain(swept))?;
     let Some(settings) = case.deposit else { return into_sink(writer) };
     for run in runs {
         let walls = || run.deposits.iter().flat_map(|deposits| &deposits.walls);
@@ -63,8 +64,7 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
                 let name = case.surfaces[wall.surface].name.clone();
                 let cells = row(bin, step, settings.voidage).map(text);
                 let heat = heat_row(bin, step, settings.voidage).into_iter().take(heat);
-                let losses =
-                    [&bin.resuspended, &bin.shed].map(|mass| text(mass[step])).into_iter().take(losses);
+                let losses = lost.iter().map(|(place, _)| text(bin.lost[step][*place]));
                 let cells = [text(time), name].into_iter().chain(cells).chain(heat).chain(losses);
                 let cells = cells.chain(run.value.map(text));
                 writer.write_record(cells)?;
@@ -129,8 +129,6 @@ fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
     COLUMNS.map(|column| match column {
         "initial_kg" => sum(&|bin| bin.states[0].mass() * bin.area),
         "arrived_kg" => sum(&|bin| bin.arrived[step]),
-        "resuspended_kg" => sum(&|bin| bin.resuspended[step]),
-        "shed_kg" => sum(&|bin| bin.shed[step]),
         "molten_kg" => sum(&|bin| bin.states[step].molten * bin.area),
         "powder_kg" => sum(&|bin| bin.states[step].powder * bin.area),
         "coverage_mean" => sum(&|bin| coverage(bin) * bin.area) / area,
@@ -142,6 +140,8 @@ fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
         "heat_flux_mean_W_m2" => sum(&|bin| flux(bin) * bin.area) / area,
         "heat_flux_max_W_m2" => largest(&flux),
         // Nothing drains in a standalone case.
-        _ => 0.0,
+        _ => losses()
+            .find(|(_, loss)| column.strip_suffix("_kg") == Some(loss))
+            .map_or(0.0, |(place, _)| sum(&|bin| bin.lost[step][place])),
     })
 }

@@ -14,14 +14,11 @@
 //! char has burned off or the layer has carried it away. Assumed: slag does not lift the char; a particle that rises with the
 //! surface is buried later or never.
 //!
-//! *Rebound* ([`CharOnSlag::restitution`]): the same drag acts on the way out. What is left there must pull the sphere out of the surface, where
-//! it rests, which takes `W_out = pi R² sigma (1 + cos theta)²`, the free energy `-F` of the rest position.
-//!
 //! *Segregation*: it stays on the surface and burns there. *Segregation–coverage*: so much char lies there that the next one
 //! hits char rather than slag: with `N = n pi d²/4 t` (`n` char particles a second and area [1/(m² s)], `t` [s] their stay)
 //! the char on the wall has the projected area `A = N exp(-A)`, because char that hits char is not held, and covers the share
 //! `1 - exp(-A)` of [`cover::share`]. The limit is a share of one half, as for
-//! [`Stickiness::THRESHOLD`](super::Stickiness::THRESHOLD). A simulation of falling discs (in the tests) gives 0.47 at `N = 1` where this says 0.43.
+//! [`Stickiness::THRESHOLD`](nearwall::capture::Stickiness::THRESHOLD). A simulation of falling discs (in the tests) gives 0.47 at `N = 1` where this says 0.43.
 //!
 //! Symbols: `d` [m], `rho_c` [kg/m³], `v_n` [m/s] and `m` [kg] of the char; `sigma` [N/m], `mu` [Pa s] and `rho_s` [kg/m³] of the
 //! slag. Valid for smooth spheres that are small against the capillary
@@ -31,14 +28,11 @@
 //! The result depends strongly on `theta`, which is poorly known: slag is called highly non-wetting on char (AIChE J. 62 (2016) 659, abstract),
 //! and wets graphite poorly at first, better as it reacts (Mater. Chem. Phys. 2009, a Mn-Ti-silicate slag, abstract).
 //! 90 to 160° is assumed.
-//!
-//! [`Model::resolve`](crate::Model::resolve) does not use this file. The covered share is its input `coverage`, which
-//! [`Judgement::coverage`] can provide.
 
 use std::f64::consts::PI;
 
-use crate::deposit::cover;
-use crate::slag::Molten;
+use nearwall::deposit::cover;
+use nearwall::slag::Molten;
 
 /// A char particle and the slag it has reached. All finite and positive unless said.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,31 +101,6 @@ pub fn holding_force(diameter: f64, surface_tension: f64, contact_angle: f64) ->
     PI / 2.0 * diameter * surface_tension * (1.0 - contact_angle.cos())
 }
 
-/// [`CharOnSlag::restitution`], 0 for char that stays: from the char's diameter [m], density [kg/m³] and speed towards the slag [m/s], the
-/// slag's viscosity [Pa s] and surface tension [N/m], and the cosine of the contact angle [1]. Without branches, for vectors.
-#[inline(always)]
-pub(crate) fn rebound_from_slag(
-    [diameter, density, normal_speed]: [f64; 3],
-    [viscosity, surface_tension]: [f64; 2],
-    cosine: f64,
-) -> f64 {
-    // Speeds: drag along one diameter takes `18 mu/(rho d)`, a work `pi R² sigma x²` leaves `v² - 3 sigma x²/(rho d)`.
-    let size = 1.0 / (density * diameter);
-    let drag = 18.0 * viscosity * size;
-    let squared = |part: f64| 3.0 * surface_tension * (part * part) * size;
-    let inwards = at_least_zero(normal_speed - drag);
-    let outwards = at_least_zero(2.0 * inwards - normal_speed);
-    let left = outwards * outwards - squared(1.0 + cosine);
-    let leaves = (inwards * inwards < squared(1.0 - cosine)) & (left > 0.0);
-    let e_n = at_least_zero(left).sqrt() / normal_speed;
-    if leaves { e_n } else { 0.0 }
-}
-
-#[inline(always)]
-fn at_least_zero(speed: f64) -> f64 {
-    if speed > 0.0 { speed } else { 0.0 }
-}
-
 /// Share of a wall that char covers [1], `1 - exp(-A)` with `A exp(A) = N`, from the area `N` [1] that would arrive within one stay.
 pub fn char_coverage(arriving: f64) -> f64 {
     if arriving.is_infinite() {
@@ -159,32 +128,6 @@ impl CharOnSlag {
     /// Speed [m/s] left after one diameter of Stokes' drag in the slag.
     pub fn speed_left(&self) -> f64 {
         (self.normal_speed - 18.0 * self.slag.viscosity / (self.density * self.diameter)).max(0.0)
-    }
-
-    /// Char of a diameter [m], a density [kg/m³] and a speed towards the slag [m/s], alone on a vertical wall; its contact angle is 120°.
-    pub fn new(diameter: f64, density: f64, normal_speed: f64, slag: Molten) -> Self {
-        Self {
-            diameter,
-            density,
-            normal_speed,
-            slag,
-            contact_angle: 2.0 / 3.0 * PI,
-            gravity: 0.0,
-            slag_flux: 0.0,
-            char_flux: 0.0,
-            burn_time: f64::INFINITY,
-            drain_time: f64::INFINITY,
-        }
-    }
-
-    /// Normal restitution [1] of char that leaves the slag again; `None` when it sinks or surface tension holds it.
-    pub fn restitution(&self) -> Option<f64> {
-        let e_n = rebound_from_slag(
-            [self.diameter, self.density, self.normal_speed],
-            [self.slag.viscosity, self.slag.surface_tension],
-            self.contact_angle.cos(),
-        );
-        (e_n > 0.0).then_some(e_n)
     }
 
     /// Fresh slag [kg/m²] that buries it, as high as the char stands out.
@@ -219,8 +162,8 @@ impl CharOnSlag {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ImpactRng;
     use approx::assert_relative_eq;
+    use nearwall::ImpactRng;
 
     const DEGREE: f64 = PI / 180.0;
 

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "depositFields.H"
+#include "versionCompat.H"
+#include "wallField.H"
+
+const std::vector<Foam::nearWall::depositFields::faceField>&
+Foam::nearWall::depositFields::table()
+{
+    typedef nw_deposit d;
+    const dimensionSet areal(dimMass/dimArea);
+
+    // The member solid is kept as the thickness of the layer
+    static const std::vector<faceField> rows
+    ({
+        {"moltenMass", areal, always, &d::molten, GREAT, "molten", "_kg_m2"},
+        {"powderMass", areal, always, &d::powder, GREAT, "powder", "_kg_m2"},
+        {"closedVoids", dimLength, onCooledWalls, &d::closed, GREAT, nullptr, nullptr},
+        {"layerThickness", dimLength, always, &d::solid, GREAT, "layer_thickness", "_m"},
+        {"coverArea", dimless, always, &d::cover, GREAT, nullptr, nullptr},
+        {"depositConversion", dimless, always, &d::conversion, 1, nullptr, nullptr},
+        {
+            "resuspendedShare", dimless, whereGasCarriesAway, &d::resuspended, 1,
+            nullptr, nullptr
+        },
+        {"coverage", dimless, always, nullptr, 1, "coverage", ""},
+        {
+            "wallTemperature", dimTemperature, always, nullptr, GREAT,
+            "wall_temperature", "_K"
+        },
+        {
+            "wallHeatFlux", dimPower/dimArea, onCooledWalls, nullptr, GREAT,
+            "heat_flux", "_W_m2"
+        }
+    });
+    return rows;
+}
+
+
+Foam::nearWall::depositFields::depositFields
+(
+    const fvMesh& mesh,
+    const word& cloudName,
+    const scalar voidage,
+    const bool cooled,
+    const bool carriesAway
+)
+:
+    voidage_(voidage)
+{
+    const bool exists[] = {true, cooled, carriesAway};
+    for (label f = 0; f < nFields; ++f)
+    {
+        const faceField& row = table()[f];
+        if (!exists[row.present]) continue;
+
+        const word name(cloudName + ":" + row.name);
+        fields_[f].reset
+        (
+            new volScalarField(readWallField(mesh, name, row.dimensions))
+        );
+    }
+}
+
+
+bool Foam::nearWall::depositFields::given() const
+{
+    bool found = false;
+    for (label f = 0; f < nFields; ++f)
+    {
+        if (!table()[f].member || !fields_[f]) continue;
+
+        found = fields_[f]->headerOk() || found;
+    }
+    return onAnyRank(found);
+}
+
+
+void Foam::nearWall::depositFields::check(const labelList& patches) const
+{
+    for (label f = 0; f < nFields; ++f)
+    {
+        const faceField& row = table()[f];
+        if (!row.member || !fields_[f]) continue;
+
+        const volScalarField& values = *fields_[f];
+        for (const label patchi : patches)
+        {
+            for (const scalar x : values.boundaryField()[patchi])
+            {
+                if (x >= 0 && x <= row.most) continue;
+
+                FatalErrorInFunction
+                    << "Field " << values.name() << " of time "
+                    << timeName(values.time()) << " is " << x << " on patch '"
+                    << patchesOf(values.mesh())[patchi].name()
+                    << "'; it must be from 0 to " << row.most << "."
+                    << exit(FatalError);
+            }
+        }
+    }
+}
+
+
+nw_deposit Foam::nearWall::depositFields::deposit
+(
+    const std::uint32_t wall,
+    const label patchi,
+    const label facei
+) const
+{
+    nw_deposit d(nearwall::make_deposit(wall));
+    for (label f = 0; f < nFields; ++f)
+    {
+        double nw_deposit::* const member = table()[f].member;
+        if (member && fields_[f])
+        {
+            d.*member = fields_[f]->boundaryField()[patchi][facei];
+        }
+    }
+    d.solid = (d.solid + d.closed)*(1 - voidage_);
+    return d;
+}
+
+
+void Foam::nearWall::depositFields::set
+(
+    const label patchi,
+    const label facei,
+    const nw_deposit& d
+)
+{
+    nw_deposit kept(d);
+    kept.solid = d.solid/(1 - voidage_) - d.closed;
+    for (label f = 0; f < nFields; ++f)
+    {
+        double nw_deposit::* const member = table()[f].member;
+        if (member && fields_[f])
+        {
+            fields_[f]->boundaryFieldRef()[patchi][facei] = kept.*member;
+        }
+    }
+}
+
+
+void Foam::nearWall::depositFields::setCoverage(const label patchi)
+{
+    const scalarField& area = on(cover, patchi);
+    scalarField& covered = on(coverage, patchi);
+    forAll(area, facei) covered[facei] = -std::expm1(-area[facei]);
+}

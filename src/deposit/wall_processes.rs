@@ -1,0 +1,74 @@
+//! Processes that change a deposit over a time step: the table [`PROCESSES`], in the order in which they
+//! act.
+//!
+//! A process is one file in `src/deposit/` with a [`ProcessInfo`], and one line of the table. The model
+//! file, the columns of `simulate` and OpenFOAM, and the C interface follow from the table.
+//!
+//! The end of a time step, for every code that keeps deposits:
+//!
+//! 1. The film flows with the deposit of the start of the step. It couples pieces of wall, so the code
+//!    that has the mesh moves it ([`Model::film_velocity`](crate::Model::film_velocity)); all processes
+//!    here see one piece of wall.
+//! 2. Captured particles are added ([`Deposit::with`]). Where powder burns, it does so while they arrive
+//!    ([`super::burn_off`]).
+//! 3. The processes of the table act in their order ([`Model::advance`](crate::Model::advance)).
+
+use super::process::{PowderMaterial, ProcessInfo, Surroundings, WallProcess};
+use super::{Deposit, melting, resuspension, shedding, sintering};
+use crate::input::{InputError, Section};
+
+/// All processes, in the order in which they act.
+pub const PROCESSES: &[&ProcessInfo] =
+    &[&melting::INFO, &sintering::INFO, &resuspension::INFO, &shedding::INFO];
+
+/// Number of processes.
+pub const PROCESS_COUNT: usize = PROCESSES.len();
+
+/// Mass that each process took from a piece of wall [kg/m²], in the order of [`PROCESSES`].
+pub type Losses = [f64; PROCESS_COUNT];
+
+/// The processes that act on one wall.
+#[derive(Debug, Clone)]
+pub struct WallProcesses([WallProcess; PROCESS_COUNT]);
+
+impl WallProcesses {
+    /// Reads them from the table of a wall.
+    pub(crate) fn read(wall: &Section<'_>) -> Result<Self, InputError> {
+        let mut found = [const { None }; PROCESS_COUNT];
+        for (process, info) in found.iter_mut().zip(PROCESSES) {
+            *process = (info.read)(wall)?;
+        }
+        Ok(Self(found))
+    }
+
+    /// Their entries in [`PROCESSES`], with their places there.
+    pub fn acting(&self) -> impl Iterator<Item = (usize, &'static ProcessInfo)> {
+        let all = self.0.iter().zip(PROCESSES).enumerate();
+        all.filter_map(|(place, (process, info))| process.as_ref().map(|_| (place, *info)))
+    }
+
+    /// Their numbers in words, in their order.
+    pub(crate) fn describe(&self) -> String {
+        self.0.iter().flatten().map(|process| process.describe()).collect()
+    }
+
+    /// The deposit after a time step [s], and what each process took from it.
+    pub(crate) fn advance(
+        &self,
+        deposit: &Deposit,
+        powder: &dyn PowderMaterial,
+        surroundings: &Surroundings,
+        duration: f64,
+    ) -> (Deposit, Losses) {
+        let (mut now, mut losses) = (*deposit, Losses::default());
+        for ((process, info), loss) in self.0.iter().zip(PROCESSES).zip(&mut losses) {
+            let Some(process) = process else { continue };
+            let next = process.after(&now, powder, surroundings, duration);
+            if info.loss.is_some() {
+                *loss = now.mass() - next.mass();
+            }
+            now = next;
+        }
+        (now, losses)
+    }
+}
