@@ -1,6 +1,7 @@
-// The model of Bons, Prenter & Whitaker (2017) as a gas solver codes it (FLEXI, for one, has such a model), written here from the
-// equations at the head of src/normal/bons.rs and src/tangential/bons.rs: an elastic–plastic cylinder with adhesion, and friction
-// that weakens towards head-on. Nothing is checked and the constants are ready.
+// The model of Bons, Prenter & Whitaker (2017) as a gas solver codes it (FLEXI, for one, has such a
+// model), written here from the equations at the head of src/normal/bons.rs and
+// src/tangential/bons.rs: an elastic–plastic cylinder with adhesion, and friction that weakens
+// towards head-on. Nothing is checked and the constants are ready.
 #include "handwritten.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-//! Common parts of the benchmarks: models, their impacts, the lower limit set by the divider of a processor, and the same models
-//! written by hand in C++.
+//! Common parts of the benchmarks: models, their impacts, the lower limit set by the divider of a
+//! processor, and the same models written by hand in C++.
 #![allow(unsafe_code, reason = "calls C")]
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a benchmark may fail")]
 
@@ -173,7 +173,8 @@ yield_strength = 900e6
 surface_energy = 0.5
 "#;
 
-/// Fly ash that sticks with the probability critical viscosity over viscosity after Watt & Fereday, and else loses no speed.
+/// Fly ash that sticks with the probability critical viscosity over viscosity after Watt & Fereday,
+/// and else loses no speed.
 const FOULING: &str = r#"
 [particle]
 material = "fly-ash"
@@ -286,8 +287,8 @@ pub fn bons() -> Side {
     Side { name, toml: BONS_MODEL, impact, constants, same_rebound: true, one, many }
 }
 
-/// Fouling by molten ash, as in code_saturne, by hand. Only the capture is the same: nearwall's particles bounce less the
-/// stickier they are, `e_n (1 - p_stick)`.
+/// Fouling by molten ash, as in code_saturne, by hand. Only the capture is the same: nearwall's
+/// particles bounce less the stickier they are, `e_n (1 - p_stick)`.
 pub fn fouling() -> Side {
     let (name, impact) = ("code_saturne's fouling, C++ -O3 by hand", impact_of_ash as _);
     let (one, many) = compiled("fouling.cpp", &[]);
@@ -379,8 +380,8 @@ impl ImpactColumns {
     }
 }
 
-/// Checks that a batch by nearwall and one by hand say the same: `p_stick` and, where both do, the rebound to 1e-9, and who is
-/// captured.
+/// Checks that a batch by nearwall and one by hand say the same: `p_stick` and, where both do, the
+/// rebound to 1e-9, and who is captured.
 pub fn check_agreement(side: &Side, near: &ImpactColumns, hand: &ImpactColumns) {
     let names = ["e_n", "e_t", "p_stick", "omega"];
     let captured = |columns: &ImpactColumns| columns.words[1].iter().filter(|stuck| **stuck != 0).count();

@@ -1,6 +1,6 @@
-// Fouling by molten ash as code_saturne has it, written here from the equations: the viscosity of Watt & Fereday (1969), a probability
-// of sticking of critical viscosity over viscosity, one draw; what does not stick is reflected without loss. Nothing is checked and
-// the constants are ready.
+// Fouling by molten ash as code_saturne has it, written here from the equations: the viscosity of
+// Watt & Fereday (1969), a probability of sticking of critical viscosity over viscosity, one draw;
+// what does not stick is reflected without loss. Nothing is checked and the constants are ready.
 #include "handwritten.h"
 
 #include <cmath>

@@ -1,6 +1,7 @@
-// The wax impact of benches/common.rs as one would write it into a solver by hand: Thornton & Ning, sliding and rolling,
-// capture by melting, one draw. Nothing is checked and the constants are ready. Compiled with -O3 by the benchmark, once with the C
-// library's exponential and cube root, and once (-DOWN_ELEMENTARY) with those of src/vector_math.rs.
+// The wax impact of benches/common.rs as one would write it into a solver by hand: Thornton & Ning,
+// sliding and rolling, capture by melting, one draw. Nothing is checked and the constants are
+// ready. Compiled with -O3 by the benchmark, once with the C library's exponential and cube root,
+// and once (-DOWN_ELEMENTARY) with those of src/vector_math.rs.
 #include "handwritten.h"
 
 #include <cmath>

@@ -70,7 +70,8 @@ fn sides() -> [Side; 4] {
     [wax(false), wax(true), bons(), fouling()]
 }
 
-/// One call and a batch through the C interface, its floating-point guard and its checks included, against C++ that has neither.
+/// One call and a batch through the C interface, its floating-point guard and its checks included,
+/// against C++ that has neither.
 fn calls(criterion: &mut Criterion) {
     // A pointer, as a solver has it: nothing is inlined.
     let resolve = black_box(nw_resolve as Resolve);
@@ -127,7 +128,8 @@ fn each_call(resolve: Resolve, model: *const nw_model, impacts: &[nw_impact]) {
     }
 }
 
-/// Coal char on slag: calls and a batch. Both shares of the wall are decided, with the properties at the temperatures of each impact.
+/// Coal char on slag: calls and a batch. Both shares of the wall are decided, with the properties
+/// at the temperatures of each impact.
 fn slag(criterion: &mut Criterion) {
     let resolve = black_box(nw_resolve as Resolve);
     let (model, wall) = gasifier();
@@ -219,8 +221,8 @@ fn contact(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Wax of 75 µm on Pyrex at 1 m/s with little adhesion (0.01 J/m², so that both rebound): for the integration, and for models
-/// with the plain law and with the one whose pull-off yielding raises.
+/// Wax of 75 µm on Pyrex at 1 m/s with little adhesion (0.01 J/m², so that both rebound): for the
+/// integration, and for models with the plain law and with the one whose pull-off yielding raises.
 fn followed() -> (normal_contact::ContactImpact, [Model; 2], Impact) {
     let library = nearwall::material::Library::built_in().unwrap();
     let solid = |name: &str| library.get(name).unwrap().mechanical(293.15).unwrap();

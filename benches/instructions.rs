@@ -1,5 +1,5 @@
-//! Instructions, counted under valgrind: the same on every run, whatever else the machine does. Valgrind knows AVX2 but not
-//! AVX-512.
+//! Instructions, counted under valgrind: the same on every run, whatever else the machine does.
+//! Valgrind knows AVX2 but not AVX-512.
 #![allow(unsafe_code, reason = "calls C")]
 #![allow(clippy::unwrap_used, reason = "a benchmark may fail")]
 #![allow(missing_docs, reason = "gungraun's functions")]

@@ -86,7 +86,7 @@ typedef struct nw_impact {
   double coverage;
   // Thickness of the powder layer on the wall [m], not negative.
   double layer_thickness;
-  // Thickness of a liquid film [m] that the caller states, not negative; `liquid-film` uses it, or the melt if thicker.
+  // Thickness of a liquid film [m], not negative; `liquid-film` uses it, or the melt if thicker.
   double film_thickness;
   // Thickness of the melt in the deposit of earlier particles [m], not negative.
   double melt_thickness;
@@ -116,9 +116,9 @@ typedef struct nw_outcome {
   double omega;
 } nw_outcome;
 
-// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array means the value that
-// `nw_impact_init` sets, and for `key` the index of the entry: with a null `key`, change `seed` in every call, or
-// each call repeats the draws.
+// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array
+// means the value that `nw_impact_init` sets, and for `key` the index of the entry:
+// with a null `key`, change `seed` in every call, or each call repeats the draws.
 typedef struct nw_impacts {
   // `sizeof(nw_impacts)`.
   uint32_t struct_size;
@@ -154,7 +154,7 @@ typedef struct nw_impacts {
   const double *coverage;
   // Thickness of the powder layer on the wall [m], not negative.
   const double *layer_thickness;
-  // Thickness of a liquid film [m] that the caller states, not negative; `liquid-film` uses it, or the melt if thicker.
+  // Thickness of a liquid film [m], not negative; `liquid-film` uses it, or the melt if thicker.
   const double *film_thickness;
   // Thickness of the melt in the deposit of earlier particles [m], not negative.
   const double *melt_thickness;
@@ -199,8 +199,9 @@ typedef struct nw_wall_cooling {
   double wall_resistance;
   // Temperature of the gas [K], positive.
   double gas_temperature;
-  // Heat transfer coefficient of the gas [W/(m2 K)], not negative: in a flow solver the conductivity of the gas over the
-  // distance between wall and cell. Infinite where the temperature of the surface is known: it is `gas_temperature`.
+  // Heat transfer coefficient of the gas [W/(m2 K)], not negative: in a flow solver the
+  // conductivity of the gas over the distance between wall and cell. Infinite where the
+  // temperature of the surface is known: it is `gas_temperature`.
   double gas_coefficient;
   // Emissivity of the surface [1], 0 to 1.
   double emissivity;
@@ -252,7 +253,8 @@ typedef struct nw_deposit {
   double resuspended;
 } nw_deposit;
 
-// Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
+// Sum of the particles that a piece of wall captured in a step, per wall area.
+// `nw_deposit_source_init` makes an empty sum.
 typedef struct nw_deposit_source {
   // `sizeof(nw_deposit_source)`.
   uint32_t struct_size;
@@ -280,7 +282,8 @@ typedef struct nw_deposit_surroundings {
   uint32_t reserved;
   // Share of voids in fresh powder [1].
   double voidage;
-  // `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not known, and nothing melts or sinters.
+  // `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not
+  // known, and nothing melts or sinters.
   double wall_temperature;
   // `powder_temperature` of `nw_deposit_heat` [K].
   double powder_temperature;
@@ -433,36 +436,36 @@ nw_status nw_resolve(const struct nw_model *model,
                      const struct nw_impact *impact,
                      struct nw_outcome *outcome);
 
-// Says why an impact cannot be decided: the status of `nw_resolve`, and in `message` (may be null) the input and its value, or the
-// material, property, temperature and range: at most `message_size` bytes with the closing zero. `NW_OK` if it can be decided.
+// Says why an impact cannot be decided: the status of `nw_resolve`, and in `message` (may be null)
+// the input and its value, or the material, property, temperature and range: at most
+// `message_size` bytes with the closing zero. `NW_OK` if it can be decided.
 //
 // # Safety
-// `model` is a loaded model; `impact` begins with its `struct_size`; `message` has room for `message_size` bytes or is null.
+// `model` is a loaded model; `impact` begins with its `struct_size`; `message` has room for
+// `message_size` bytes or is null.
 nw_status nw_explain(const struct nw_model *model,
                      const struct nw_impact *impact,
                      char *message,
                      size_t message_size);
 
-// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees Celsius?), a diameter above 5 cm.
-// `text` receives at most `text_size` bytes with the closing zero, an empty text if nothing is unlikely. Call it for the first
-// impacts of a run: a temperature in degrees Celsius above 150 cannot be told from one in kelvin.
+// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees
+// Celsius?), a diameter above 5 cm. `text` receives at most `text_size` bytes with the closing
+// zero, an empty text if nothing is unlikely. Call it for the first impacts of a run: a
+// temperature in degrees Celsius above 150 cannot be told from one in kelvin.
 //
 // # Safety
 // `impact` begins with its `struct_size`, `text` has room for `text_size` bytes.
-nw_status nw_unlikely(const struct nw_impact *impact,
-                      char *text,
-                      size_t text_size);
+nw_status nw_unlikely(const struct nw_impact *impact, char *text, size_t text_size);
 
-// Computes a key for an impact of a code that does not number its particles, from `count` values that tell this impact from all
-// others on any number of ranks, such as place and time of the particle's release, its diameter, and the number of its hits.
-// Equal values have equal keys, -0 equals 0. `NW_BAD_STATE` if `count` is 0 or a value is not finite. The key is XXH64 with seed 0
+// Computes a key for an impact of a code that does not number its particles, from `count` values
+// that tell this impact from all others on any number of ranks, such as place and time of the
+// particle's release, its diameter, and the number of its hits. Equal values have equal keys, -0
+// equals 0. `NW_BAD_STATE` if `count` is 0 or a value is not finite. The key is XXH64 with seed 0
 // of the values' bytes, the lowest first.
 //
 // # Safety
 // `values` has `count` entries, `key` can be written.
-nw_status nw_key_of_values(const double *values,
-                           size_t count,
-                           uint64_t *key);
+nw_status nw_key_of_values(const double *values, size_t count, uint64_t *key);
 
 // Computes the adhesive, yield and sticking velocity [m/s] of an impact's particle and wall, with random draws at
 // their median. They depend on the diameter, the temperatures, and the inputs of effects on the contact. Outputs may
@@ -484,8 +487,9 @@ nw_status nw_particle_density(const struct nw_model *model,
                               const struct nw_impact *impact,
                               double *density);
 
-// Computes the volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one; 0 if the model
-// file gives the wall no erosion law. Independent of what becomes of the particles.
+// Computes the volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like
+// this one; 0 if the model file gives the wall no erosion law. Independent of what becomes of the
+// particles.
 //
 // # Safety
 // `model` is a loaded model, `impact` begins with its `struct_size`, `volume` can be written.
@@ -519,8 +523,8 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            const struct nw_outcomes *outcomes,
                            size_t *first_bad);
 
-// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m K) for the gas in the voids
-// (air at room temperature), zeros. Both temperatures must be set.
+// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
+// K) for the gas in the voids (air at room temperature), zeros. Both temperatures must be set.
 //
 // # Safety
 // `cooling` can be written.
@@ -532,8 +536,9 @@ nw_status nw_wall_cooling_init(struct nw_wall_cooling *cooling);
 // `heat` can be written.
 nw_status nw_wall_heat_init(struct nw_wall_heat *heat);
 
-// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in fresh powder [1]. The
-// surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY` if a layer's material has none.
+// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in
+// fresh powder [1]. The surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY`
+// if a layer's material has none.
 //
 // # Safety
 // `model` is a loaded model; `deposit`, `cooling` and `heat` begin with their `struct_size`.
@@ -564,9 +569,10 @@ nw_status nw_deposit_initial(const struct nw_model *model,
 // `source` can be written.
 nw_status nw_deposit_source_init(struct nw_deposit_source *source);
 
-// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts as molten if it is
-// sticky at the temperature of the wall, as powder otherwise. The order of particles affects the sums only by rounding.
-// Sources of several threads or ranks are summed field by field (`count` too) before one `nw_deposit_add`.
+// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts
+// as molten if it is sticky at the temperature of the wall, as powder otherwise. The order of
+// particles affects the sums only by rounding. Sources of several threads or ranks are summed
+// field by field (`count` too) before one `nw_deposit_add`.
 //
 // # Safety
 // `model` is a loaded model; `impact` and `source` begin with their `struct_size`.
@@ -583,8 +589,8 @@ nw_status nw_deposit_source_add(const struct nw_model *model,
 nw_status nw_deposit_add(const struct nw_deposit_source *source,
                          struct nw_deposit *deposit);
 
-// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage` is the share of voids
-// in the powder [1]. The wall is that of the impact.
+// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage`
+// is the share of voids in the powder [1]. The wall is that of the impact.
 //
 // # Safety
 // `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
@@ -605,8 +611,9 @@ nw_status nw_film_velocity(const struct nw_model *model,
                            double gravity_along,
                            double *velocity);
 
-// As `nw_film_velocity`, for melt through which heat flows to a cooled wall: its surface has `T_surface` [K], and it is colder and
-// stiffer below, by the `heat_flux` [W/m2] of `nw_deposit_heat` over the conductivity of the melt. `NW_NO_CONDUCTIVITY` if the melt has none.
+// As `nw_film_velocity`, for melt through which heat flows to a cooled wall: its surface has
+// `T_surface` [K], and it is colder and stiffer below, by the `heat_flux` [W/m2] of
+// `nw_deposit_heat` over the conductivity of the melt. `NW_NO_CONDUCTIVITY` if the melt has none.
 //
 // # Safety
 // `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.
@@ -679,9 +686,11 @@ nw_status nw_deposit_surroundings_init(struct nw_deposit_surroundings *surroundi
 // `losses` can be written.
 nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
 
-// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts becomes melt, the rest sinters; the gas
-// carries loose powder away (table `resuspension` of the wall in the model file); what the wall cannot hold falls off (table `shedding`).
-// `losses` receives the mass that each process took. Add the particles captured in the step first, with `nw_deposit_add`.
+// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts
+// becomes melt, the rest sinters; the gas carries loose powder away (table `resuspension` of the
+// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
+// receives the mass that each process took. Add the particles captured in the step first, with
+// `nw_deposit_add`.
 //
 // # Safety
 // `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`.
@@ -691,21 +700,20 @@ nw_status nw_deposit_advance(const struct nw_model *model,
                              struct nw_deposit *deposit,
                              struct nw_deposit_losses *losses);
 
-// Finds the processes that act on a wall of the model: bit `i` of `processes` is set where process `i` does. Melting and sintering act
-// on every wall whose temperatures are known, the others where the model file has a table of their name.
+// Finds the processes that act on a wall of the model: bit `i` of `processes` is set where process
+// `i` does. Melting and sintering act on every wall whose temperatures are known, the others where
+// the model file has a table of their name.
 //
 // # Safety
 // `model` is a loaded model, `processes` can be written.
-nw_status nw_wall_processes(const struct nw_model *model,
-                            uint32_t wall,
-                            uint32_t *processes);
+nw_status nw_wall_processes(const struct nw_model *model, uint32_t wall, uint32_t *processes);
 
-// Returns the name of a process, for instance `resuspension`, as a static string; processes act in the order of their index. Null
-// from `NW_PROCESSES` on.
+// Returns the name of a process, for instance `resuspension`, as a static string; processes act in
+// the order of their index. Null from `NW_PROCESSES` on.
 const char *nw_process_name(uint32_t process);
 
-// Returns how tables name the mass that a process takes, for instance `resuspended`, as a static string: empty for a process that
-// conserves mass, null from `NW_PROCESSES` on.
+// Returns how tables name the mass that a process takes, for instance `resuspended`, as a static
+// string: empty for a process that conserves mass, null from `NW_PROCESSES` on.
 const char *nw_process_loss(uint32_t process);
 
 #ifdef __cplusplus

@@ -202,15 +202,16 @@ inline std::vector<process> processes() {
     return found;
 }
 
-// Which input of an impact is probably in another unit; empty if none is. A temperature in degrees Celsius above 150 is not seen.
+// Which input of an impact is probably in another unit; empty if none is. A temperature in degrees
+// Celsius above 150 is not seen.
 inline std::string unlikely(const nw_impact& impact) {
     detail::message m;
     detail::check(nw_unlikely(&impact, m.text, sizeof(m.text)), std::string("nw_unlikely"));
     return m.text;
 }
 
-// A key from `count` values that tell an impact from all others on any number of ranks, for codes that do not number their
-// particles; throws if there are none or one is not finite.
+// A key from `count` values that tell an impact from all others on any number of ranks, for codes
+// that do not number their particles; throws if there are none or one is not finite.
 inline std::uint64_t key_of_values(const double* values, std::size_t count) {
     std::uint64_t key = 0;
     detail::check(nw_key_of_values(values, count, &key), std::string("nw_key_of_values"));
@@ -351,8 +352,8 @@ public:
         return deposit;
     }
 
-    // Sets the thicknesses and the coverage of an impact on a deposit, with a share `voidage` of voids in the powder; no
-    // exceptions.
+    // Sets the thicknesses and the coverage of an impact on a deposit, with a share `voidage` of
+    // voids in the powder; no exceptions.
     nw_status apply_deposit(const nw_deposit& deposit, double voidage, nw_impact& impact) const noexcept {
         return nw_deposit_apply(raw_, &deposit, voidage, &impact);
     }
@@ -363,7 +364,8 @@ public:
         return nw_deposit_source_add(raw_, &impact, mass, density, &source);
     }
 
-    // The steady temperatures of a wall under a deposit, with a share `voidage` of voids in fresh powder; no exceptions.
+    // The steady temperatures of a wall under a deposit, with a share `voidage` of voids in fresh
+    // powder; no exceptions.
     nw_status heat(const nw_deposit& deposit, double voidage, const nw_wall_cooling& cooling,
                    nw_wall_heat& found) const noexcept {
         return nw_deposit_heat(raw_, &deposit, voidage, &cooling, &found);

@@ -410,7 +410,8 @@ impl<'a> Section<'a> {
         self.fault(key, format!("missing; add {what} named `{key}` to {place}"))
     }
 
-    /// The converted value of `key`, `None` when the key is absent; an error naming the `expected` type where `convert` fails.
+    /// The converted value of `key`, `None` when the key is absent; an error naming the `expected`
+    /// type where `convert` fails.
     fn converted<T>(
         &self,
         key: &str,

@@ -1,14 +1,15 @@
 //! A key for impacts of codes that do not number their particles.
 //!
-//! Random draws depend on a seed and a key ([`crate::rng`]). A code without particle numbers makes the key from values that
-//! tell one impact from all others and do not depend on ranks, such as the place and time at which a particle was released,
-//! its diameter, and the number of its hits.
+//! Random draws depend on a seed and a key ([`crate::rng`]). A code without particle numbers makes
+//! the key from values that tell one impact from all others and do not depend on ranks, such as the
+//! place and time at which a particle was released, its diameter, and the number of its hits.
 
-/// The key of the values: equal values have equal keys, other values practically always have other keys. `None` if there is
-/// no value or one is not finite.
+/// The key of the values: equal values have equal keys, other values practically always have other
+/// keys. `None` if there is no value or one is not finite.
 ///
-/// The key is XXH64 (Y. Collet, "xxHash fast digest algorithm", specification 0.1.1) with seed 0 of the values' bytes, the
-/// lowest first, with 0 for -0. Among n keys two are equal with a probability of n²/2⁶⁵: 3e-8 for a million impacts.
+/// The key is XXH64 (Y. Collet, "xxHash fast digest algorithm", specification 0.1.1) with seed 0 of
+/// the values' bytes, the lowest first, with 0 for -0. Among n keys two are equal with a
+/// probability of n²/2⁶⁵: 3e-8 for a million impacts.
 pub fn key_of_values(values: impl ExactSizeIterator<Item = f64>) -> Option<u64> {
     let count = values.len();
     // Adding 0 turns -0 into 0.
@@ -89,8 +90,9 @@ mod tests {
         assert_ne!(key(&[0.0, 1.0]), key(&[1.0, 0.0]));
     }
 
-    /// Keys of places on a grid, which differ in few bits, fill 256 classes evenly in their lowest and highest byte: chi-square
-    /// with 255 degrees of freedom lies between 178 and 350 in all but 1 of 10,000 cases.
+    /// Keys of places on a grid, which differ in few bits, fill 256 classes evenly in their lowest
+    /// and highest byte: chi-square with 255 degrees of freedom lies between 178 and 350 in all but
+    /// 1 of 10,000 cases.
     #[test]
     fn keys_of_a_grid_are_uniform_and_distinct() {
         let grid = (0..100_000).map(|n| [f64::from(n % 100) * 1e-3, f64::from(n / 100) * 1e-4, 75e-6]);

@@ -27,8 +27,8 @@ pub struct Parameter {
     pub kind: QuantityKind,
     /// Smallest and largest value that makes sense.
     pub bounds: (f64, f64),
-    /// Value where the model file does not give it, and which a fit leaves unless another one is worth it; `None` for a parameter that
-    /// every fit searches.
+    /// Value where the model file does not give it, and which a fit leaves unless another one is
+    /// worth it; `None` for a parameter that every fit searches.
     pub default: Option<f64>,
     /// Value where the model file does not give it, of a parameter that every fit searches; `None` for a required one.
     pub absent: Option<f64>,

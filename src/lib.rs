@@ -1,8 +1,8 @@
 //! What happens when a particle hits a wall.
 //!
-//! Codes that follow particles through a gas describe a wall impact with two constants. Real particles stick, rebound, slide
-//! or roll, depending on speed, angle, size, temperature, melting, carbon conversion and the deposit on the wall. This crate
-//! decides an impact from physics:
+//! Codes that follow particles through a gas describe a wall impact with two constants. Real
+//! particles stick, rebound, slide or roll, depending on speed, angle, size, temperature, melting,
+//! carbon conversion and the deposit on the wall. This crate decides an impact from physics:
 //!
 //! ```
 //! use nearwall::{ImpactRng, Impact, Model};
@@ -26,30 +26,33 @@
 //! ```
 //!
 //! # An impact, step by step
-//! All callers (OpenFOAM, the C library, the command) go through [`Model::resolve`]. It runs these steps; none looks back:
+//! All callers (OpenFOAM, the C library, the command) go through [`Model::resolve`]. It runs these
+//! steps; none looks back:
 //!
-//! 1. [`impact`]: the caller's [`Impact`] holds speeds, size, temperatures and what lies on the wall. The wall adds the powder
-//!    and the covering of its entry in the model file.
+//! 1. [`impact`]: the caller's [`Impact`] holds speeds, size, temperatures and what lies on the
+//!    wall. The wall adds the powder and the covering of its entry in the model file.
 //! 2. [`material`]: the properties of particle and wall at their temperatures give the contact
 //!    ([`Contact`](normal::Contact)). Effects may change it, and may tilt the wall locally.
 //! 3. [`capture`]: how sticky the particle and the wall are, from viscosity ([`slag`]), melting or conversion.
-//! 4. [`normal`]: the normal law gives `e_n`, or says that adhesion holds the particle. Effects change `e_n`; a sticky particle
-//!    loses part of it.
+//! 4. [`normal`]: the normal law gives `e_n`, or says that adhesion holds the particle. Effects
+//!    change `e_n`; a sticky particle loses part of it.
 //! 5. [`tangential`]: the tangential law gives `e_t` and the spin. Effects change them.
 //! 6. [`capture`] again: the probability of capture.
-//! 7. Fitted corrections ([`effect::FittedCurve`]) of `e_n`, `e_t` and the probability, where a model has them; then the random draw
-//!    ([`rng`]) decides whether the particle stays.
+//! 7. Fitted corrections ([`effect::FittedCurve`]) of `e_n`, `e_t` and the probability, where a
+//!    model has them; then the random draw ([`rng`]) decides whether the particle stays.
 //! 8. [`Outcome`]: `e_n`, `e_t`, spin, probability, regime, and whether a law was used outside its stated range.
 //!
-//! An [`effect`] is a named, removable term that acts on some of these steps. `src/model/evaluation.rs` holds the order.
+//! An [`effect`] is a named, removable term that acts on some of these steps.
+//! `src/model/evaluation.rs` holds the order.
 //!
 //! # Around an impact
-//! [`input`] reads TOML files with errors that name line and key. [`law`] has what laws by name share: parameters, source and
-//! range. A [`deposit`] is what earlier particles left on a piece of wall; a code may keep one for each face and pass it to later
-//! impacts. [`erosion`] sums what impacts remove of a wall. [`c_api`] is the C interface.
+//! [`input`] reads TOML files with errors that name line and key. [`law`] has what laws by name
+//! share: parameters, source and range. A [`deposit`] is what earlier particles left on a piece of
+//! wall; a code may keep one for each face and pass it to later impacts. [`erosion`] sums what
+//! impacts remove of a wall. [`c_api`] is the C interface.
 //!
-//! The crate `nearwall-lab` (folder `lab`) has everything around the library: measurements, standalone cases, diagnosis, pages
-//! and the command `nearwall`.
+//! The crate `nearwall-lab` (folder `lab`) has everything around the library: measurements,
+//! standalone cases, diagnosis, pages and the command `nearwall`.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]

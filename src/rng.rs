@@ -1,9 +1,9 @@
 //! Random numbers as a pure function of seed, key and stream number.
 //!
-//! Philox4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten
-//! rounds scramble a 128-bit counter under a 64-bit key. The generator has no state, so an impact draws the same number on
-//! any thread, rank or restart. It is not taken from a crate: its bits are part of the contract of the C library and must
-//! not change with a dependency.
+//! Philox4x32-10 (Salmon, Moraes, Dror, Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC
+//! 2011): ten rounds scramble a 128-bit counter under a 64-bit key. The generator has no state, so
+//! an impact draws the same number on any thread, rank or restart. It is not taken from a crate:
+//! its bits are part of the contract of the C library and must not change with a dependency.
 
 /// The random numbers of one impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -27,8 +27,8 @@ impl ImpactRng {
             [low(self.key), high(self.key), low(stream), high(stream)],
             [low(self.seed), high(self.seed)],
         );
-        // The upper 53 bits `n` of both words give `(n + 1/2) / 2^53`. Integers are converted through the last bits of 2^84 and
-        // 2^52, which vector instructions can do.
+        // The upper 53 bits `n` of both words give `(n + 1/2) / 2^53`. Integers are converted
+        // through the last bits of 2^84 and 2^52, which vector instructions can do.
         let upper = f64::from_bits(TWO_84.to_bits() | a >> 11) - (TWO_84 + TWO_52);
         let lower = f64::from_bits(TWO_52.to_bits() | (a << 21 & 0xFFFF_FFFF) | b >> 11);
         ((upper + lower) + 0.5) * (1.0 / (1u64 << 53) as f64)

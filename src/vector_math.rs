@@ -5,7 +5,8 @@
 
 /// `exp(x)`, with `x` clamped to -708 to 709, where the result is a normal number. Relative error below 3e-16.
 ///
-/// `x = n ln 2 + r` with `|r| <= ln 2 / 2`, then Taylor's series to `r^13`, whose remainder is 4e-18, in pairs (Estrin).
+/// `x = n ln 2 + r` with `|r| <= ln 2 / 2`, then Taylor's series to `r^13`, whose remainder is
+/// 4e-18, in pairs (Estrin).
 #[inline(always)]
 pub(crate) fn exponential(x: f64) -> f64 {
     /// Adding it to a small number leaves the nearest integer in the last bits.
@@ -41,8 +42,9 @@ const INVERSE_FACTORIALS: [f64; 14] = {
 
 /// `x^(-1/3)` for positive `x`, clamped to 1e-300 to 1e300. Relative error below 3e-16.
 ///
-/// A seed from the bits with an error of 3.5 %, then two steps of Householder's method of fourth order: with `h = 1 - x y³`,
-/// `y (1 - h)^(-1/3) = y (1 + h/3 + 2h²/9 + 14h³/81 + ...)`, which leave 1e-5 and then rounding.
+/// A seed from the bits with an error of 3.5 %, then two steps of Householder's method of fourth
+/// order: with `h = 1 - x y³`, `y (1 - h)^(-1/3) = y (1 + h/3 + 2h²/9 + 14h³/81 + ...)`, which
+/// leave 1e-5 and then rounding.
 #[inline(always)]
 pub(crate) fn inverse_cube_root(x: f64) -> f64 {
     /// Upper half of a double whose exponent is 4/3 of the bias, adjusted for the least error (3.4 %, by a search).

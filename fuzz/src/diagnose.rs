@@ -1,7 +1,8 @@
 //! A readable data set through a whole diagnosis.
 //!
-//! The bytes are the file; or, if they begin with one of 0xF8 to 0xFF, as no UTF-8 text does, they describe a table: its
-//! columns, the course of each, and extreme numbers. A short table of few columns keeps one diagnosis cheap.
+//! The bytes are the file; or, if they begin with one of 0xF8 to 0xFF, as no UTF-8 text does, they
+//! describe a table: its columns, the course of each, and extreme numbers. A short table of few
+//! columns keeps one diagnosis cheap.
 
 use std::fmt::Write as _;
 
@@ -15,7 +16,8 @@ use super::whole;
 
 const FILE: &str = "d.csv";
 
-/// Rows and columns of the file's own that a diagnosis gets at most; an average stands for few impacts or is not unfolded.
+/// Rows and columns of the file's own that a diagnosis gets at most; an average stands for few
+/// impacts or is not unfolded.
 const FUZZED_ROWS: usize = 24;
 const FUZZED_COLUMNS: usize = 2;
 const UNFOLDED: f64 = 3.0;

@@ -1,5 +1,6 @@
-//! The fuzz targets. Each takes any bytes and panics if nearwall violates one of its guarantees. The fuzzer (`fuzz/run`) and
-//! the replay of its corpus (`tests/library/corpus.rs`) call the same functions.
+//! The fuzz targets. Each takes any bytes and panics if nearwall violates one of its guarantees.
+//! The fuzzer (`fuzz/run`) and the replay of its corpus (`tests/library/corpus.rs`) call the same
+//! functions.
 
 mod bytes;
 mod c_api;

@@ -1,7 +1,8 @@
 //! A finished OpenFOAM case as `report` reads it.
 //!
-//! The bytes are the files of a case, each after a zero: a letter selects a file of [`DAMAGED_PLACES`], the rest is its text. The
-//! bytes before the first zero are the table of runs that `report` accepts instead of a case.
+//! The bytes are the files of a case, each after a zero: a letter selects a file of
+//! [`DAMAGED_PLACES`], the rest is its text. The bytes before the first zero are the table of runs
+//! that `report` accepts instead of a case.
 
 use std::path::Path;
 

@@ -1,10 +1,12 @@
-//! Everything around an impact: what laboratories measure, what rigs catch, and pages that show it. The command `nearwall`
-//! is one binary of this crate. Impacts themselves are decided by the library [`nearwall`], through its public functions.
+//! Everything around an impact: what laboratories measure, what rigs catch, and pages that show it.
+//! The command `nearwall` is one binary of this crate. Impacts themselves are decided by the
+//! library [`nearwall`], through its public functions.
 //!
 //! # The rooms, in the order in which data walk
 //! 1. [`dataset`] reads tables of measured impacts and of readings of a rig.
-//! 2. [`predict`] adds predictions to a table of impacts; [`map`] shows a model over two inputs; [`simulate`] follows particles in
-//!    a prescribed gas flow; [`rig`] predicts what a whole rig measures.
+//! 2. [`predict`] adds predictions to a table of impacts; [`map`] shows a model over two inputs;
+//!    [`simulate`] follows particles in a prescribed gas flow; [`rig`] predicts what a whole rig
+//!    measures.
 //! 3. [`results`] reads what `simulate` and OpenFOAM wrote.
 //! 4. [`diagnose`] finds what a model lacks, from impacts or from readings of a rig.
 //! 5. [`report`] draws the pages.

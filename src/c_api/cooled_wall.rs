@@ -23,8 +23,9 @@ pub struct nw_wall_cooling {
     pub wall_resistance: f64,
     /// Temperature of the gas [K], positive.
     pub gas_temperature: f64,
-    /// Heat transfer coefficient of the gas [W/(m2 K)], not negative: in a flow solver the conductivity of the gas over the
-    /// distance between wall and cell. Infinite where the temperature of the surface is known: it is `gas_temperature`.
+    /// Heat transfer coefficient of the gas [W/(m2 K)], not negative: in a flow solver the
+    /// conductivity of the gas over the distance between wall and cell. Infinite where the
+    /// temperature of the surface is known: it is `gas_temperature`.
     pub gas_coefficient: f64,
     /// Emissivity of the surface [1], 0 to 1.
     pub emissivity: f64,
@@ -113,8 +114,8 @@ fn is_positive(number: f64) -> bool {
     number.is_finite() && number > 0.0
 }
 
-/// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m K) for the gas in the voids
-/// (air at room temperature), zeros. Both temperatures must be set.
+/// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
+/// K) for the gas in the voids (air at room temperature), zeros. Both temperatures must be set.
 ///
 /// # Safety
 /// `cooling` can be written.
@@ -134,8 +135,9 @@ pub unsafe extern "C" fn nw_wall_heat_init(heat: *mut nw_wall_heat) -> nw_status
     unsafe { initialise(heat) }
 }
 
-/// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in fresh powder [1]. The
-/// surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY` if a layer's material has none.
+/// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in
+/// fresh powder [1]. The surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY`
+/// if a layer's material has none.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit`, `cooling` and `heat` begin with their `struct_size`.

@@ -30,7 +30,8 @@ pub struct nw_deposit {
     pub resuspended: f64,
 }
 
-/// Sum of the particles that a piece of wall captured in a step, per wall area. `nw_deposit_source_init` makes an empty sum.
+/// Sum of the particles that a piece of wall captured in a step, per wall area.
+/// `nw_deposit_source_init` makes an empty sum.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct nw_deposit_source {
@@ -144,9 +145,10 @@ pub unsafe extern "C" fn nw_deposit_source_init(source: *mut nw_deposit_source) 
     unsafe { initialise(source) }
 }
 
-/// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts as molten if it is
-/// sticky at the temperature of the wall, as powder otherwise. The order of particles affects the sums only by rounding.
-/// Sources of several threads or ranks are summed field by field (`count` too) before one `nw_deposit_add`.
+/// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts
+/// as molten if it is sticky at the temperature of the wall, as powder otherwise. The order of
+/// particles affects the sums only by rounding. Sources of several threads or ranks are summed
+/// field by field (`count` too) before one `nw_deposit_add`.
 ///
 /// # Safety
 /// `model` is a loaded model; `impact` and `source` begin with their `struct_size`.
@@ -192,8 +194,8 @@ pub unsafe extern "C" fn nw_deposit_add(
     guarded_status(add)
 }
 
-/// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage` is the share of voids
-/// in the powder [1]. The wall is that of the impact.
+/// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage`
+/// is the share of voids in the powder [1]. The wall is that of the impact.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
@@ -245,8 +247,9 @@ pub unsafe extern "C" fn nw_film_velocity(
     unsafe { nw_cooled_film_velocity(model, deposit, T_w, 0.0, gravity_along, velocity) }
 }
 
-/// As `nw_film_velocity`, for melt through which heat flows to a cooled wall: its surface has `T_surface` [K], and it is colder and
-/// stiffer below, by the `heat_flux` [W/m2] of `nw_deposit_heat` over the conductivity of the melt. `NW_NO_CONDUCTIVITY` if the melt has none.
+/// As `nw_film_velocity`, for melt through which heat flows to a cooled wall: its surface has
+/// `T_surface` [K], and it is colder and stiffer below, by the `heat_flux` [W/m2] of
+/// `nw_deposit_heat` over the conductivity of the melt. `NW_NO_CONDUCTIVITY` if the melt has none.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` begins with its `struct_size`; `velocity` can be written.

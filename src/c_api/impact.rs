@@ -45,9 +45,9 @@ macro_rules! define_structs {
                 pub extra: [f64; NW_EXTRA_INPUTS],
             }
 
-            /// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array means the value that
-            /// `nw_impact_init` sets, and for `key` the index of the entry: with a null `key`, change `seed` in every call, or
-            /// each call repeats the draws.
+            /// Arrays of impacts, each with `count` entries. Only `v_n` is required; a null array
+            /// means the value that `nw_impact_init` sets, and for `key` the index of the entry:
+            /// with a null `key`, change `seed` in every call, or each call repeats the draws.
             #[repr(C)]
             #[derive(Debug, Clone, Copy)]
             #[allow(non_snake_case)]

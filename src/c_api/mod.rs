@@ -227,11 +227,13 @@ pub unsafe extern "C" fn nw_resolve(
     guarded_status(resolve)
 }
 
-/// Says why an impact cannot be decided: the status of `nw_resolve`, and in `message` (may be null) the input and its value, or the
-/// material, property, temperature and range: at most `message_size` bytes with the closing zero. `NW_OK` if it can be decided.
+/// Says why an impact cannot be decided: the status of `nw_resolve`, and in `message` (may be null)
+/// the input and its value, or the material, property, temperature and range: at most
+/// `message_size` bytes with the closing zero. `NW_OK` if it can be decided.
 ///
 /// # Safety
-/// `model` is a loaded model; `impact` begins with its `struct_size`; `message` has room for `message_size` bytes or is null.
+/// `model` is a loaded model; `impact` begins with its `struct_size`; `message` has room for
+/// `message_size` bytes or is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_explain(
     model: *const nw_model,
@@ -252,9 +254,10 @@ pub unsafe extern "C" fn nw_explain(
     unsafe { report(guarded(explain), message, message_size) }
 }
 
-/// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees Celsius?), a diameter above 5 cm.
-/// `text` receives at most `text_size` bytes with the closing zero, an empty text if nothing is unlikely. Call it for the first
-/// impacts of a run: a temperature in degrees Celsius above 150 cannot be told from one in kelvin.
+/// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees
+/// Celsius?), a diameter above 5 cm. `text` receives at most `text_size` bytes with the closing
+/// zero, an empty text if nothing is unlikely. Call it for the first impacts of a run: a
+/// temperature in degrees Celsius above 150 cannot be told from one in kelvin.
 ///
 /// # Safety
 /// `impact` begins with its `struct_size`, `text` has room for `text_size` bytes.
@@ -278,9 +281,10 @@ pub unsafe extern "C" fn nw_unlikely(
     guarded_status(found)
 }
 
-/// Computes a key for an impact of a code that does not number its particles, from `count` values that tell this impact from all
-/// others on any number of ranks, such as place and time of the particle's release, its diameter, and the number of its hits.
-/// Equal values have equal keys, -0 equals 0. `NW_BAD_STATE` if `count` is 0 or a value is not finite. The key is XXH64 with seed 0
+/// Computes a key for an impact of a code that does not number its particles, from `count` values
+/// that tell this impact from all others on any number of ranks, such as place and time of the
+/// particle's release, its diameter, and the number of its hits. Equal values have equal keys, -0
+/// equals 0. `NW_BAD_STATE` if `count` is 0 or a value is not finite. The key is XXH64 with seed 0
 /// of the values' bytes, the lowest first.
 ///
 /// # Safety
@@ -359,8 +363,9 @@ pub unsafe extern "C" fn nw_particle_density(
     guarded_status(found)
 }
 
-/// Computes the volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one; 0 if the model
-/// file gives the wall no erosion law. Independent of what becomes of the particles.
+/// Computes the volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like
+/// this one; 0 if the model file gives the wall no erosion law. Independent of what becomes of the
+/// particles.
 ///
 /// # Safety
 /// `model` is a loaded model, `impact` begins with its `struct_size`, `volume` can be written.

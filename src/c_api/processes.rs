@@ -24,7 +24,8 @@ pub struct nw_deposit_surroundings {
     pub reserved: u32,
     /// Share of voids in fresh powder [1].
     pub voidage: f64,
-    /// `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not known, and nothing melts or sinters.
+    /// `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not
+    /// known, and nothing melts or sinters.
     pub wall_temperature: f64,
     /// `powder_temperature` of `nw_deposit_heat` [K].
     pub powder_temperature: f64,
@@ -98,9 +99,11 @@ pub unsafe extern "C" fn nw_deposit_losses_init(losses: *mut nw_deposit_losses) 
     unsafe { initialise(losses) }
 }
 
-/// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts becomes melt, the rest sinters; the gas
-/// carries loose powder away (table `resuspension` of the wall in the model file); what the wall cannot hold falls off (table `shedding`).
-/// `losses` receives the mass that each process took. Add the particles captured in the step first, with `nw_deposit_add`.
+/// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts
+/// becomes melt, the rest sinters; the gas carries loose powder away (table `resuspension` of the
+/// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
+/// receives the mass that each process took. Add the particles captured in the step first, with
+/// `nw_deposit_add`.
 ///
 /// # Safety
 /// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`.
@@ -133,8 +136,9 @@ pub unsafe extern "C" fn nw_deposit_advance(
     guarded_status(advance)
 }
 
-/// Finds the processes that act on a wall of the model: bit `i` of `processes` is set where process `i` does. Melting and sintering act
-/// on every wall whose temperatures are known, the others where the model file has a table of their name.
+/// Finds the processes that act on a wall of the model: bit `i` of `processes` is set where process
+/// `i` does. Melting and sintering act on every wall whose temperatures are known, the others where
+/// the model file has a table of their name.
 ///
 /// # Safety
 /// `model` is a loaded model, `processes` can be written.
@@ -168,15 +172,15 @@ static PROCESS_NAMES: LazyLock<[[CString; 2]; NW_PROCESSES]> = LazyLock::new(|| 
     })
 });
 
-/// Returns the name of a process, for instance `resuspension`, as a static string; processes act in the order of their index. Null
-/// from `NW_PROCESSES` on.
+/// Returns the name of a process, for instance `resuspension`, as a static string; processes act in
+/// the order of their index. Null from `NW_PROCESSES` on.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_process_name(process: u32) -> *const c_char {
     PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[name, _]| name.as_ptr())
 }
 
-/// Returns how tables name the mass that a process takes, for instance `resuspended`, as a static string: empty for a process that
-/// conserves mass, null from `NW_PROCESSES` on.
+/// Returns how tables name the mass that a process takes, for instance `resuspended`, as a static
+/// string: empty for a process that conserves mass, null from `NW_PROCESSES` on.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_process_loss(process: u32) -> *const c_char {
     PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[_, loss]| loss.as_ptr())

@@ -1,8 +1,8 @@
 //! The `[capture]` table: the criterion for the stickiness of a melt, and how particle and wall combine.
 //!
-//! A criterion applies to the particle at its own temperature, and to the melt on a wall at the wall's: to the slag that the model file
-//! puts there and to what molten particles left. `droplet` applies to particles alone: a deposit has no speed and is sticky when it
-//! is molten.
+//! A criterion applies to the particle at its own temperature, and to the melt on a wall at the
+//! wall's: to the slag that the model file puts there and to what molten particles left. `droplet`
+//! applies to particles alone: a deposit has no speed and is sticky when it is molten.
 
 use std::sync::Arc;
 
@@ -124,8 +124,8 @@ impl Criterion {
         }
     }
 
-    /// The criterion for slag of a material on a wall that particles of the material `particle` meet; `None` when it does not apply to
-    /// that slag.
+    /// The criterion for slag of a material on a wall that particles of the material `particle`
+    /// meet; `None` when it does not apply to that slag.
     ///
     /// # Errors
     /// As [`Criterion::of_particle`].
@@ -193,8 +193,9 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// [`ImpactError::OutOfRange`] where a required property is not known.
     fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError>;
 
-    /// Stickiness [1] of the material on a wall, at the wall's temperature, where it had time to crystallise. Outside a table the
-    /// value at its nearest end, or 0 where that is colder. By the droplet criterion it is 1 above the melting point and 0 below.
+    /// Stickiness [1] of the material on a wall, at the wall's temperature, where it had time to
+    /// crystallise. Outside a table the value at its nearest end, or 0 where that is colder. By the
+    /// droplet criterion it is 1 above the melting point and 0 below.
     fn on_wall(&self, impact: &Impact) -> f64;
 
     /// [`Self::on_wall`], [`Self::film_viscosity`] and [`Self::holds_on_wall`] of one impact.
@@ -228,18 +229,19 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
         }
     }
 
-    /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is frozen, too stiff to flow, or below a
-    /// measured table, and that at the end of the table above it.
+    /// Viscosity [Pa s] of the material on a wall at a temperature [K]: infinite where it is
+    /// frozen, too stiff to flow, or below a measured table, and that at the end of the table above
+    /// it.
     fn film_viscosity(&self, temperature: f64) -> f64;
 
-    /// Viscosity [Pa s] at a temperature [K] of what has not crystallised, as quenched particles that sinter: infinite where it is not
-    /// known.
+    /// Viscosity [Pa s] at a temperature [K] of what has not crystallised, as quenched particles
+    /// that sinter: infinite where it is not known.
     fn glass_viscosity(&self, _temperature: f64) -> f64 {
         f64::INFINITY
     }
 
-    /// Normal restitution [1] of a droplet that bounces whole from a wall of this material; `None` for one that does not, and for
-    /// what is not a droplet.
+    /// Normal restitution [1] of a droplet that bounces whole from a wall of this material; `None`
+    /// for one that does not, and for what is not a droplet.
     ///
     /// # Errors
     /// As [`StickinessCriterion::in_flight`].
@@ -247,8 +249,8 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
         Ok(None)
     }
 
-    /// Temperature [K] below which the material is stiff on a wall, and whether the law for that is stated for it; `None` for one
-    /// without such a temperature.
+    /// Temperature [K] below which the material is stiff on a wall, and whether the law for that is
+    /// stated for it; `None` for one without such a temperature.
     fn stiff_below(&self) -> Option<(f64, bool)> {
         None
     }

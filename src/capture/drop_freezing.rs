@@ -1,25 +1,30 @@
 //! Freezing of a droplet on a colder wall: it is arrested when it is solid before it can recoil.
 //!
-//! Where the melt touches the wall both take at once the contact temperature
-//! `T_c = (e_p T_p + e_w T_w)/(e_p + e_w)`, `e = sqrt(k rho c)` the effusivity [J/(m² K s^½)] of droplet and wall. Below the melting
-//! point `T_m` a solid layer grows from the wall as `2 lambda sqrt(a t)`, `a = k/(rho c)` [m²/s] of the droplet, where
-//! `sqrt(pi) lambda exp(lambda²) (erf(lambda) + e_p/e_w) = c (T_m - T_w)/L'` (Neumann's solution on a conducting wall; Carslaw & Jaeger,
-//! Conduction of Heat in Solids, derived again here) with `L' = L + c (T_p - T_m)`: the superheat counts as heat of fusion
-//! (*assumed*). The disc of the maximum spread `xi` is `h = 2 d/(3 xi²)` high and solid after `t_f = h²/(4 a lambda²)`. The droplet is
-//! arrested when `T_c < T_m` and `t_f` is below the contact time of a bouncing drop, `2.6 sqrt(rho R³/sigma)`.
+//! Where the melt touches the wall both take at once the contact temperature `T_c = (e_p T_p + e_w
+//! T_w)/(e_p + e_w)`, `e = sqrt(k rho c)` the effusivity [J/(m² K s^½)] of droplet and wall. Below
+//! the melting point `T_m` a solid layer grows from the wall as `2 lambda sqrt(a t)`, `a = k/(rho
+//! c)` [m²/s] of the droplet, where `sqrt(pi) lambda exp(lambda²) (erf(lambda) + e_p/e_w) = c
+//! (T_m - T_w)/L'` (Neumann's solution on a conducting wall; Carslaw & Jaeger, Conduction of Heat in
+//! Solids, derived again here) with `L' = L + c (T_p - T_m)`: the superheat counts as heat of
+//! fusion (*assumed*). The disc of the maximum spread `xi` is `h = 2 d/(3 xi²)` high and solid
+//! after `t_f = h²/(4 a lambda²)`. The droplet is arrested when `T_c < T_m` and `t_f` is below the
+//! contact time of a bouncing drop, `2.6 sqrt(rho R³/sigma)`.
 //!
-//! `k` conductivity [W/(m K)], `rho` density [kg/m³], `c` heat capacity [J/(kg K)], `L` heat of fusion [J/kg], `T_p` droplet, `T_w` wall
-//! [K], `d` diameter [m]. The comparison of freezing with spreading is usual for thermal spraying (Madejski, Int. J. Heat Mass
-//! Transfer 19 (1976) 1009, not re-read).
+//! `k` conductivity [W/(m K)], `rho` density [kg/m³], `c` heat capacity [J/(kg K)], `L` heat of
+//! fusion [J/kg], `T_p` droplet, `T_w` wall [K], `d` diameter [m]. The comparison of freezing with
+//! spreading is usual for thermal spraying (Madejski, Int. J. Heat Mass Transfer 19 (1976) 1009,
+//! not re-read).
 //!
-//! Observed: molten molybdenum above 2900 K on tungsten below 1000 K flattened, froze at the wall and began to recoil; the front
-//! caught up after some oscillations; all 13 impacts stuck (MIGRAINE dust study, Fig 7b and set 6). For 14 µm at 5 m/s the formula
-//! gives freezing within half of a contact time, by properties of the solid metals as commonly tabulated (not re-read).
+//! Observed: molten molybdenum above 2900 K on tungsten below 1000 K flattened, froze at the wall
+//! and began to recoil; the front caught up after some oscillations; all 13 impacts stuck (MIGRAINE
+//! dust study, Fig 7b and set 6). For 14 µm at 5 m/s the formula gives freezing within half of a
+//! contact time, by properties of the solid metals as commonly tabulated (not re-read).
 //!
-//! *Assumed*: perfect thermal contact (a thermal contact resistance of 1e-6 m² K/W would dominate for drops below some
-//! micrometres), the same properties in the solid and in the melt, a wall thick against `sqrt(a t)`, freezing that does not
-//! slow the spreading, and that a frozen disc stays: thermal stress may detach it. A glass has no heat of fusion and no melting
-//! point; the criterion is not for slags.
+//! *Assumed*: perfect thermal contact (a thermal contact resistance of 1e-6 m² K/W would dominate
+//! for drops below some micrometres), the same properties in the solid and in the melt, a wall
+//! thick against `sqrt(a t)`, freezing that does not slow the spreading, and that a frozen disc
+//! stays: thermal stress may detach it. A glass has no heat of fusion and no melting point; the
+//! criterion is not for slags.
 
 /// Thermal properties of a droplet or a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,8 +127,9 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Molybdenum droplet on tungsten: conductivity 85 and 118 W/(m K), heat capacity 400 and 148 J/(kg K) near the temperatures
-    /// of the impact, heat of fusion 3.9e5 J/kg, as commonly tabulated (not re-read).
+    /// Molybdenum droplet on tungsten: conductivity 85 and 118 W/(m K), heat capacity 400 and 148
+    /// J/(kg K) near the temperatures of the impact, heat of fusion 3.9e5 J/kg, as commonly
+    /// tabulated (not re-read).
     const MOLYBDENUM_ON_TUNGSTEN: FreezingDroplet = FreezingDroplet {
         droplet: ThermalProperties { density: 9330.0, heat_capacity: 400.0, conductivity: 85.0 },
         wall: ThermalProperties { density: 19000.0, heat_capacity: 148.0, conductivity: 118.0 },
@@ -156,8 +162,9 @@ mod tests {
         assert!((0.4..0.7).contains(&share), "{share}");
     }
 
-    /// Conduction by finite differences in wall and drop, with the heat of fusion in the enthalpy of each cell: the front has
-    /// passed the height after the freezing time. Drop at its melting point, as in Neumann's solution.
+    /// Conduction by finite differences in wall and drop, with the heat of fusion in the enthalpy
+    /// of each cell: the front has passed the height after the freezing time. Drop at its melting
+    /// point, as in Neumann's solution.
     #[test]
     fn the_freezing_time_is_that_of_conduction_with_an_enthalpy() {
         let case = FreezingDroplet { temperature: 2896.0, ..MOLYBDENUM_ON_TUNGSTEN };

@@ -1,29 +1,36 @@
 //! Rebound of a droplet by energy balance on spreading (Mao, Kuhn & Tran 1997).
 //!
-//! A droplet that does not splash spreads to a disc of diameter `xi d`, where
-//! `(1/4 (1 - cos theta) + 0.2 We^0.83/Re^0.33) xi³ - (We/12 + 1) xi + 2/3 = 0` (its largest root), and recoils. In units of
-//! its surface energy `pi d² sigma`, what is left of the disc's surface energy beyond that of a sphere and the loss of recoiling is
-//! `E = 1/4 xi² (1 - cos theta) - 0.12 xi^2.3 (1 - cos theta)^0.63 + 2/(3 xi) - 1`. It leaves the wall when `E > 0`.
+//! A droplet that does not splash spreads to a disc of diameter `xi d`, where `(1/4 (1 - cos
+//! theta) + 0.2 We^0.83/Re^0.33) xi³ - (We/12 + 1) xi + 2/3 = 0` (its largest root), and recoils. In units
+//! of its surface energy `pi d² sigma`, what is left of the disc's surface energy beyond that of a
+//! sphere and the loss of recoiling is `E = 1/4 xi² (1 - cos theta) - 0.12 xi^2.3 (1 - cos
+//! theta)^0.63 + 2/(3 xi) - 1`. It leaves the wall when `E > 0`.
 //!
-//! `We = rho v_n² d/sigma`, `Re = rho v_n d/mu` (see [`DropletNumbers`](super::DropletNumbers)), `theta` contact angle of the melt on
-//! the wall [rad], 0 (wets) to pi. The first equation is the energy balance of a sphere (kinetic `We/12`, surface 1) and a flat disc of
-//! equal volume (base `xi²/4 (1 - cos theta)`, rim `2/(3 xi)`), less a fitted viscous loss.
+//! `We = rho v_n² d/sigma`, `Re = rho v_n d/mu` (see [`DropletNumbers`](super::DropletNumbers)),
+//! `theta` contact angle of the melt on the wall [rad], 0 (wets) to pi. The first equation is the
+//! energy balance of a sphere (kinetic `We/12`, surface 1) and a flat disc of equal volume (base
+//! `xi²/4 (1 - cos theta)`, rim `2/(3 xi)`), less a fitted viscous loss.
 //!
-//! The balance was derived again here; the fitted numbers 0.2, 0.83, 0.33, 0.12, 2.3 and 0.63 are those of Mao, Kuhn & Tran, AIChE J.
-//! 43 (1997) 2169, **not re-read and without a second source**. Their case: drops of some millimetres of water and sucrose
-//! solutions at 0.5 to 6 m/s on glass, steel and paraffin wax, contact angles of some 30 to 120° (from memory). In agreement with other
-//! work: water on wax (97°) rebounds and on glass (37°) not; aqueous drops of 30 to 50 µm on Teflon begin to bounce at up to 6 m/s
-//! (McLauchlan et al., arXiv 2503.22527, abstract), where `E` is -0.07 at 115° and becomes positive at 7.9 m/s.
+//! The balance was derived again here; the fitted numbers 0.2, 0.83, 0.33, 0.12, 2.3 and 0.63 are
+//! those of Mao, Kuhn & Tran, AIChE J. 43 (1997) 2169, **not re-read and without a second source**.
+//! Their case: drops of some millimetres of water and sucrose solutions at 0.5 to 6 m/s on glass,
+//! steel and paraffin wax, contact angles of some 30 to 120° (from memory). In agreement with other
+//! work: water on wax (97°) rebounds and on glass (37°) not; aqueous drops of 30 to 50 µm on Teflon
+//! begin to bounce at up to 6 m/s (McLauchlan et al., arXiv 2503.22527, abstract), where `E` is
+//! -0.07 at 115° and becomes positive at 7.9 m/s.
 //!
-//! Restitution: if all of `E` becomes motion, `e_n = sqrt(12 E/We)`, from `m (e_n v_n)²/2 = pi d² sigma E`. It is an upper bound
-//! (*assumed* to hold), as a drop that leaves still oscillates, and is below 1 by the energy balance.
+//! Restitution: if all of `E` becomes motion, `e_n = sqrt(12 E/We)`, from `m (e_n v_n)²/2 = pi d²
+//! sigma E`. It is an upper bound (*assumed* to hold), as a drop that leaves still oscillates, and
+//! is below 1 by the energy balance.
 //!
-//! Neglected: a receding contact angle smaller than the static one (it pins), roughness, gas under the drop, freezing (see
-//! [`freezing`](super::drop_freezing)). The equation has no root with `xi >= 1` for slow drops (`We` below some 1) on walls that are hardly
-//! wetted (above 109°), which in truth bounce, and for very viscous ones, which hardly spread: they count as deposited.
+//! Neglected: a receding contact angle smaller than the static one (it pins), roughness, gas under
+//! the drop, freezing (see [`freezing`](super::drop_freezing)). The equation has no root with
+//! `xi >= 1` for slow drops (`We` below some 1) on walls that are hardly wetted (above 109°), which in
+//! truth bounce, and for very viscous ones, which hardly spread: they count as deposited.
 
-/// Largest diameter of the disc over that of the droplet, `xi` [1], from Weber and Reynolds number [1] and the contact angle [rad];
-/// `None` where the energy balance has no solution that is wider than the droplet.
+/// Largest diameter of the disc over that of the droplet, `xi` [1], from Weber and Reynolds number
+/// [1] and the contact angle [rad]; `None` where the energy balance has no solution that is wider
+/// than the droplet.
 pub fn maximum_spread(weber: f64, reynolds: f64, contact_angle: f64) -> Option<f64> {
     let surface = 0.25 * (1.0 - contact_angle.cos());
     let cubic = surface + 0.2 * weber.powf(0.83) / reynolds.powf(0.33);
@@ -35,24 +42,26 @@ pub fn maximum_spread(weber: f64, reynolds: f64, contact_angle: f64) -> Option<f
     (spread >= 1.0).then_some(spread)
 }
 
-/// Energy left for a rebound over the surface energy of the droplet, `E` [1], from the spread `xi` [1] and the contact angle [rad].
+/// Energy left for a rebound over the surface energy of the droplet, `E` [1], from the spread `xi`
+/// [1] and the contact angle [rad].
 pub fn excess_rebound_energy(spread: f64, contact_angle: f64) -> f64 {
     let unwetted = 1.0 - contact_angle.cos();
     let recoil_loss = 0.12 * spread.powf(2.3) * unwetted.powf(0.63);
     0.25 * spread * spread * unwetted - recoil_loss + 2.0 / (3.0 * spread) - 1.0
 }
 
-/// Normal restitution `e_n` [1] of a droplet that rebounds; `None` for one that stays. Weber and Reynolds number [1], contact angle
-/// [rad].
+/// Normal restitution `e_n` [1] of a droplet that rebounds; `None` for one that stays. Weber and
+/// Reynolds number [1], contact angle [rad].
 pub fn droplet_restitution(weber: f64, reynolds: f64, contact_angle: f64) -> Option<f64> {
     let spread = maximum_spread(weber, reynolds, contact_angle)?;
     let excess = excess_rebound_energy(spread, contact_angle);
     (excess > 0.0).then(|| (12.0 * excess / weber).sqrt().min(1.0))
 }
 
-/// Longest time [s] that a drop of low viscosity stays on a wall from which it bounces, `2.6 sqrt(rho R³/sigma)` (Richard, Clanet &
-/// Quéré, Nature 417 (2002) 811, not re-read), close to the period of a free drop's slowest oscillation, `pi/sqrt(2) sqrt(rho
-/// R³/sigma)` (Rayleigh). From density [kg/m³], surface tension [N/m] and diameter [m].
+/// Longest time [s] that a drop of low viscosity stays on a wall from which it bounces, `2.6
+/// sqrt(rho R³/sigma)` (Richard, Clanet & Quéré, Nature 417 (2002) 811, not re-read), close to the
+/// period of a free drop's slowest oscillation, `pi/sqrt(2) sqrt(rho R³/sigma)` (Rayleigh). From
+/// density [kg/m³], surface tension [N/m] and diameter [m].
 pub fn contact_time(density: f64, surface_tension: f64, diameter: f64) -> f64 {
     2.6 * (density * (0.5 * diameter).powi(3) / surface_tension).sqrt()
 }

@@ -1,36 +1,43 @@
 //! Droplet criterion: a molten particle is deposited when it does not splash (Mundo, Sommerfeld & Tropea 1995).
 //!
-//! `We = rho v_n² d/sigma`, `Re = rho v_n d/mu`, `K = We^½ Re^¼ = Oh Re^1.25` with `Oh = We^½/Re`. Up to `K_cr` all of the
-//! droplet stays, above it a share of its mass splashes. `rho` density [kg/m³], `sigma` surface tension [N/m] and `mu` viscosity
-//! [Pa s] of the melt at the particle's own temperature, `v_n` speed towards the wall [m/s], `d` diameter [m]. A particle is a
-//! droplet when it is hotter than the `melting_point` of its material; a solid one is not sticky.
+//! `We = rho v_n² d/sigma`, `Re = rho v_n d/mu`, `K = We^½ Re^¼ = Oh Re^1.25` with `Oh = We^½/Re`.
+//! Up to `K_cr` all of the droplet stays, above it a share of its mass splashes. `rho` density
+//! [kg/m³], `sigma` surface tension [N/m] and `mu` viscosity [Pa s] of the melt at the particle's
+//! own temperature, `v_n` speed towards the wall [m/s], `d` diameter [m]. A particle is a droplet
+//! when it is hotter than the `melting_point` of its material; a solid one is not sticky.
 //!
-//! Ash and slag: the viscosity follows from the composition by the `law` of the `[capture]` table and the surface
-//! tension from the composition ([`crate::slag::surface_tension`]), if the material has none of its own. An
-//! ash in flight is quenched glass: without a `melting_point` it is a droplet from [`WORKING_VISCOSITY`] down. That is the working
-//! point of glass makers, 1e4 poise; and a glass of shear modulus `G` = 3e10 Pa flows within the 1e-7 s of an elastic contact (50 µm at
-//! some metres a second, Hertz) when `mu/G` is shorter, below 3e3 Pa s (*assumed* as the bound). What is stiffer has stickiness 0 here;
-//! the criteria `viscosity` and `kinetic-energy` are made for it.
+//! Ash and slag: the viscosity follows from the composition by the `law` of the `[capture]` table
+//! and the surface tension from the composition ([`crate::slag::surface_tension`]), if the material
+//! has none of its own. An ash in flight is quenched glass: without a `melting_point` it is a
+//! droplet from [`WORKING_VISCOSITY`] down. That is the working point of glass makers, 1e4 poise;
+//! and a glass of shear modulus `G` = 3e10 Pa flows within the 1e-7 s of an elastic contact (50 µm
+//! at some metres a second, Hertz) when `mu/G` is shorter, below 3e3 Pa s (*assumed* as the bound).
+//! What is stiffer has stickiness 0 here; the criteria `viscosity` and `kinetic-energy` are made
+//! for it.
 //!
-//! `K_cr = 57.7` and the normal speed in `K`: Mundo et al., Int. J. Multiphase Flow 21 (1995) 151 (not re-read), drops of 60 to
-//! 150 µm at 12 to 18 m/s.
+//! `K_cr = 57.7` and the normal speed in `K`: Mundo et al., Int. J. Multiphase Flow 21 (1995) 151
+//! (not re-read), drops of 60 to 150 µm at 12 to 18 m/s.
 //!
-//! Splashed share of the mass: `min(0.75, 1.8e-4 (K² - K_cr²))`, after O'Rourke & Amsden, SAE 2000-01-0271 (not re-read). They
-//! write `E² = We/(h/d + Re^-½)` with the film's thickness `h`, which is `K²` on a dry wall, and `E_cr = 57.7`; the share meets
-//! its bound at their `E² = 7500`. Solvers cannot split a parcel, so the deposited share is taken as the probability that all
-//! of it stays (assumed).
+//! Splashed share of the mass: `min(0.75, 1.8e-4 (K² - K_cr²))`, after O'Rourke & Amsden, SAE
+//! 2000-01-0271 (not re-read). They write `E² = We/(h/d + Re^-½)` with the film's thickness `h`,
+//! which is `K²` on a dry wall, and `E_cr = 57.7`; the share meets its bound at their `E² = 7500`.
+//! Solvers cannot split a parcel, so the deposited share is taken as the probability that all of it
+//! stays (assumed).
 //!
-//! Valid for dry walls. `K_cr` is not universal: water drops of 12 to 100 µm at up to 100 m/s did not splash at all (Visser
-//! et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the highest speed): in such cases use a larger `splash_K`.
-//! Roughness promotes prompt splashing: use a smaller one. Neglected: a liquid film; the gas, without which drops splash less (arXiv
+//! Valid for dry walls. `K_cr` is not universal: water drops of 12 to 100 µm at up to 100 m/s did
+//! not splash at all (Visser et al., arXiv 1206.1574, abstract; `K` is 240 for the smallest at the
+//! highest speed): in such cases use a larger `splash_K`. Roughness promotes prompt splashing: use
+//! a smaller one. Neglected: a liquid film; the gas, without which drops splash less (arXiv
 //! 1203.2718, abstract, as for roughness).
 //!
-//! Rebound: with a `contact_angle` of the melt on the wall [degrees] a droplet that does not splash leaves whole where the energy balance
-//! on spreading says so ([`drop_rebound`](super::drop_rebound)), and with that restitution; aqueous drops of 30 to 50 µm do so on Teflon
-//! above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). It stays if it freezes before it can recoil
-//! ([`drop_freezing`](super::drop_freezing)), which is judged where the droplet has `melting_point`, `heat_capacity`,
-//! `thermal_conductivity` and `heat_of_fusion`, and the wall `heat_capacity` and `thermal_conductivity`. Without a contact angle all
-//! that does not splash counts as deposited; on a molten wall too, where drops merge.
+//! Rebound: with a `contact_angle` of the melt on the wall [degrees] a droplet that does not splash
+//! leaves whole where the energy balance on spreading says so
+//! ([`drop_rebound`](super::drop_rebound)), and with that restitution; aqueous drops of 30 to 50 µm
+//! do so on Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). It
+//! stays if it freezes before it can recoil ([`drop_freezing`](super::drop_freezing)), which is
+//! judged where the droplet has `melting_point`, `heat_capacity`, `thermal_conductivity` and
+//! `heat_of_fusion`, and the wall `heat_capacity` and `thermal_conductivity`. Without a contact
+//! angle all that does not splash counts as deposited; on a molten wall too, where drops merge.
 
 use super::drop_freezing::{FreezingDroplet, ThermalProperties};
 use super::drop_rebound::{contact_time, droplet_restitution, maximum_spread};

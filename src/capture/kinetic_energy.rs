@@ -1,17 +1,19 @@
-//! Kinetic-energy criterion: the viscosity at which an impact sticks falls with its kinetic energy (Srinivasachar, Helble & Boni
-//! 1990).
+//! Kinetic-energy criterion: the viscosity at which an impact sticks falls with its kinetic energy
+//! (Srinivasachar, Helble & Boni 1990).
 //!
-//! `P = min(1, mu_ref/mu(T))` with `mu_ref = A (E/1 J)^-n`, `E = pi/12 rho d³ v_n²`. `mu` viscosity of the melt [Pa s] at its own
-//! temperature, `rho` density [kg/m³] and `d` diameter [m] of the particle, `v_n` speed towards the wall [m/s], `A` [Pa s] and `n` [1].
-//! A faster or larger particle needs a thinner melt. Both directions of impact: the particle's own melt at `T_p`, and slag on a wall
-//! at `T_w` for the kinetic energy of the particle that meets it.
+//! `P = min(1, mu_ref/mu(T))` with `mu_ref = A (E/1 J)^-n`, `E = pi/12 rho d³ v_n²`. `mu` viscosity
+//! of the melt [Pa s] at its own temperature, `rho` density [kg/m³] and `d` diameter [m] of the
+//! particle, `v_n` speed towards the wall [m/s], `A` [Pa s] and `n` [1]. A faster or larger
+//! particle needs a thinner melt. Both directions of impact: the particle's own melt at `T_p`, and
+//! slag on a wall at `T_w` for the kinetic energy of the particle that meets it.
 //!
-//! `A = 5e-12 Pa s` and `n = 1.78`: after Srinivasachar et al., Symp. (Int.) Combust. 23 (1990) 1305, from memory; **no second
-//! source was found**, so give `coefficient` and `exponent` if you have the paper. They say 9.0e4 Pa s for 50 µm at 3 m/s
-//! (2500 kg/m³), within the 8 to 1e7 Pa s of the literature; their power is steep: ten times the speed takes 3.6 decades.
-//! *Assumed*: that `E` is that of the speed towards the wall, and Walsh's proportion in place of a step at `mu_ref`.
-//! Valid for silicate ash above its critical viscosity temperature and for energies near those measured, some 1e-11 to 1e-8 J
-//! (5 to 65 µm at 1 to 10 m/s; not re-read).
+//! `A = 5e-12 Pa s` and `n = 1.78`: after Srinivasachar et al., Symp. (Int.) Combust. 23 (1990)
+//! 1305, from memory; **no second source was found**, so give `coefficient` and `exponent` if you
+//! have the paper. They say 9.0e4 Pa s for 50 µm at 3 m/s (2500 kg/m³), within the 8 to 1e7 Pa s of
+//! the literature; their power is steep: ten times the speed takes 3.6 decades. *Assumed*: that `E`
+//! is that of the speed towards the wall, and Walsh's proportion in place of a step at `mu_ref`.
+//! Valid for silicate ash above its critical viscosity temperature and for energies near those
+//! measured, some 1e-11 to 1e-8 J (5 to 65 µm at 1 to 10 m/s; not re-read).
 
 use std::f64::consts::PI;
 
@@ -55,7 +57,8 @@ impl EnergyLaw {
     }
 }
 
-/// Kinetic energy [J] of a sphere's motion towards the wall, `pi/12 rho d³ v_n²`, from density [kg/m³], diameter [m] and speed [m/s].
+/// Kinetic energy [J] of a sphere's motion towards the wall, `pi/12 rho d³ v_n²`, from density
+/// [kg/m³], diameter [m] and speed [m/s].
 pub fn kinetic_energy(density: f64, diameter: f64, normal_speed: f64) -> f64 {
     PI / 12.0 * density * diameter.powi(3) * normal_speed * normal_speed
 }

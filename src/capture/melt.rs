@@ -1,4 +1,5 @@
-//! The viscosity of a melt: a material's own, or by a law from its composition; on a wall it stiffens as it crystallises.
+//! The viscosity of a melt: a material's own, or by a law from its composition; on a wall it
+//! stiffens as it crystallises.
 
 use fearless_simd::{Level, dispatch};
 
@@ -44,11 +45,12 @@ impl MeltLaws {
         self.solidification.name()
     }
 
-    /// The melt of a material; `None` for one with neither a viscosity of its own nor a composition and a law. Its own viscosity
-    /// has priority.
+    /// The melt of a material; `None` for one with neither a viscosity of its own nor a composition
+    /// and a law. Its own viscosity has priority.
     ///
     /// # Errors
-    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what `solidification` needs.
+    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what
+    /// `solidification` needs.
     pub fn prepare(self, material: &Material) -> Result<Option<Melt>, Unsuitable> {
         let viscosity = match (material.property("viscosity"), self.law, material.composition()) {
             (Some(_), _, _) => MeltViscosity::Given(Box::new(material.clone())),
@@ -86,8 +88,8 @@ impl Melt {
         }
     }
 
-    /// Viscosity [Pa s] on a wall at a temperature [K]: infinite where it is stiff or below a measured table, and that at the end of
-    /// the table above it.
+    /// Viscosity [Pa s] on a wall at a temperature [K]: infinite where it is stiff or below a
+    /// measured table, and that at the end of the table above it.
     pub fn film_viscosity(&self, temperature: f64) -> f64 {
         let [low, high] = self.known_range();
         let known = (temperature >= low).then(|| self.viscosity(temperature.min(high)).ok());
@@ -156,14 +158,15 @@ impl Melt {
         }
     }
 
-    /// Whether the viscosity is stated for the material at a temperature [K]; a material's own is within [`Self::known_range`].
+    /// Whether the viscosity is stated for the material at a temperature [K]; a material's own is
+    /// within [`Self::known_range`].
     pub fn holds_in_flight(&self, temperature: f64) -> bool {
         let [low, high] = self.stated_range();
         (low..=high).contains(&temperature)
     }
 
-    /// Temperature [K] below which it is stiff on a wall, and whether the law for that is stated for the material; `None` for a
-    /// liquid at every temperature.
+    /// Temperature [K] below which it is stiff on a wall, and whether the law for that is stated
+    /// for the material; `None` for a liquid at every temperature.
     pub fn stiff_below(&self) -> Option<(f64, bool)> {
         self.stiffening.stiff_below().map(|temperature| (temperature, self.stiffening.holds()))
     }

@@ -1,19 +1,24 @@
-//! Melt-fraction criterion: a partly molten particle is sticky between the share of liquid at which it begins to stick and that
-//! at which it flows (Backman, Hupa & Uppstu 1987; Mueller et al. 2005).
+//! Melt-fraction criterion: a partly molten particle is sticky between the share of liquid at which
+//! it begins to stick and that at which it flows (Backman, Hupa & Uppstu 1987; Mueller et al.
+//! 2005).
 //!
-//! `P = (f - f_0)/(f_1 - f_0)`, within 0 and 1. `f` share of liquid in the mass [1] at the temperature of what is judged, `f_0`
-//! (`sticky_from`) share below which nothing sticks, `f_1` (`flows_from`) share from which everything does; 0.15 and 0.70 unless
-//! given. With `f_0 = f_1` it is a step.
+//! `P = (f - f_0)/(f_1 - f_0)`, within 0 and 1. `f` share of liquid in the mass [1] at the
+//! temperature of what is judged, `f_0` (`sticky_from`) share below which nothing sticks, `f_1`
+//! (`flows_from`) share from which everything does; 0.15 and 0.70 unless given. With `f_0 = f_1` it
+//! is a step.
 //!
-//! 15 %: Troiano et al. give nearly 15 % of the mass as the criterion for synthetic and alkali-rich ash (their references 21 and
-//! 22). 15 and 70 %: deposits of alkali salts in recovery boilers (Backman, Hupa & Uppstu, Tappi J. 70 (1987) 123) and the model of
-//! Mueller et al., Proc. Combust. Inst. 30 (2005) 2991, for alkali-rich fly ash (neither re-read). *Assumed*, as sources differ or were not read:
-//! the straight line in between. Some works count all above 15 % as sticky, which is `flows_from = 0.15`.
+//! 15 %: Troiano et al. give nearly 15 % of the mass as the criterion for synthetic and alkali-rich
+//! ash (their references 21 and 22). 15 and 70 %: deposits of alkali salts in recovery boilers
+//! (Backman, Hupa & Uppstu, Tappi J. 70 (1987) 123) and the model of Mueller et al., Proc. Combust.
+//! Inst. 30 (2005) 2991, for alkali-rich fly ash (neither re-read). *Assumed*, as sources differ or
+//! were not read: the straight line in between. Some works count all above 15 % as sticky, which is
+//! `flows_from = 0.15`.
 //!
-//! Valid for salts and alkali-rich ash of biomass, waste and black liquor, whose melt is thin and whose melting range is wide.
-//! A silicate ash softens as a glass: use the viscosity criterion. Above 70 % a layer on the wall runs off; a particle that
-//! arrives still sticks. Neglected: the speed of the impact (sticking temperature falls with size and with liquid content,
-//! Tran et al., abstract).
+//! Valid for salts and alkali-rich ash of biomass, waste and black liquor, whose melt is thin and
+//! whose melting range is wide. A silicate ash softens as a glass: use the viscosity criterion.
+//! Above 70 % a layer on the wall runs off; a particle that arrives still sticks. Neglected: the
+//! speed of the impact (sticking temperature falls with size and with liquid content, Tran et al.,
+//! abstract).
 
 use super::StickinessCriterion;
 use crate::impact::{Impact, ImpactError};
@@ -25,7 +30,8 @@ pub const STICKY_FROM: f64 = 0.15;
 /// Share of liquid [1] from which an ash flows.
 pub const FLOWS_FROM: f64 = 0.70;
 
-/// Probability of sticking [1] from the share of liquid and the shares at which sticking begins and is complete [all 1].
+/// Probability of sticking [1] from the share of liquid and the shares at which sticking begins and
+/// is complete [all 1].
 ///
 /// ```
 /// use nearwall::capture::{FLOWS_FROM, STICKY_FROM, melt_fraction_stickiness};

@@ -1,11 +1,13 @@
 //! Capture: whether a particle stays on the wall. One criterion a file.
 //!
-//! Either of two mechanisms captures a particle: adhesion holds one that is too slow (see the normal law), or particle or
-//! wall are sticky (melting, conversion, viscosity, a droplet that does not splash).
+//! Either of two mechanisms captures a particle: adhesion holds one that is too slow (see the
+//! normal law), or particle or wall are sticky (melting, conversion, viscosity, a droplet that does
+//! not splash).
 //!
-//! A wall is a patchwork: the share `c` is covered by powder or char that is not sticky, the share `1 - c` is bare. An impact
-//! meets one of the two, so `P = c P_covered + (1 - c) P_bare`: the covered share stands outside both probabilities, and a
-//! particle that only slag can hold is held with a probability of at most `1 - c`.
+//! A wall is a patchwork: the share `c` is covered by powder or char that is not sticky, the share
+//! `1 - c` is bare. An impact meets one of the two, so `P = c P_covered + (1 - c) P_bare`: the
+//! covered share stands outside both probabilities, and a particle that only slag can hold is held
+//! with a probability of at most `1 - c`.
 
 mod criterion;
 pub mod drop_freezing;

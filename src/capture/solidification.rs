@@ -1,12 +1,13 @@
 //! When slag on a wall stops being a Newtonian liquid.
 //!
-//! Slag that lies on a wall has time to crystallise. Below the temperature of critical viscosity `T_cv` it is stiff: its viscosity is
-//! taken as infinite, it holds no dry particle and does not flow. A droplet in flight is quenched glass instead, so its viscosity
-//! law goes on below `T_cv`.
+//! Slag that lies on a wall has time to crystallise. Below the temperature of critical viscosity
+//! `T_cv` it is stiff: its viscosity is taken as infinite, it holds no dry particle and does not
+//! flow. A droplet in flight is quenched glass instead, so its viscosity law goes on below `T_cv`.
 //!
 //! `[capture] solidification`:
-//! - `"watt"` (default): the material's `critical_viscosity_temperature` [K] where it is given, else Watt's equation for its
-//!   composition ([`crate::slag::critical_viscosity_temperature`]); a material with neither stays liquid.
+//! - `"watt"` (default): the material's `critical_viscosity_temperature` [K] where it is given,
+//!   else Watt's equation for its composition ([`crate::slag::critical_viscosity_temperature`]); a
+//!   material with neither stays liquid.
 //! - `"crystal-load"`: crystals thicken the slag between the material's `liquidus` and `solidus` [K]
 //!   ([`crate::slag::crystal_load`]).
 //! - `"none"`: a liquid at every temperature.
@@ -116,8 +117,8 @@ impl Stiffening {
         }
     }
 
-    /// Changes each entry by [`Self::factor`], its temperature [K] and its value before. The law is matched outside the loop, which the
-    /// compiler turns into vector instructions.
+    /// Changes each entry by [`Self::factor`], its temperature [K] and its value before. The law is
+    /// matched outside the loop, which the compiler turns into vector instructions.
     #[inline(always)]
     pub fn for_each<T: Copy>(self, temperatures: &[f64], out: &mut [T], change: impl Fn(f64, f64, T) -> T) {
         match self {

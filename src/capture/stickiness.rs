@@ -1,14 +1,15 @@
 //! The stickiness of particle and bare wall, and the probability that one of them holds the particle.
 //!
-//! `walsh` (default), a union: `P = P_p + (1 - P_p) P_s - k_e (1 - P_p)(1 - P_s)`, not below 0. `P_p` stickiness of the particle [1],
-//! `P_s` of the bare wall [1], `k_e` erosion of the deposit by dry particles [1], 0 unless given.
-//! Source: P. M. Walsh, A. N. Sayre, D. O. Loehden, L. S. Monroe, J. M. Beér, A. F. Sarofim, Prog. Energy Combust. Sci. 16 (1990)
-//! 327–345 (not re-read).
+//! `walsh` (default), a union: `P = P_p + (1 - P_p) P_s - k_e (1 - P_p)(1 - P_s)`, not below 0.
+//! `P_p` stickiness of the particle [1], `P_s` of the bare wall [1], `k_e` erosion of the deposit
+//! by dry particles [1], 0 unless given. Source: P. M. Walsh, A. N. Sayre, D. O. Loehden, L. S.
+//! Monroe, J. M. Beér, A. F. Sarofim, Prog. Energy Combust. Sci. 16 (1990) 327–345 (not re-read).
 //!
-//! `uintah`: `P = (P_p + sqrt(P_p² + 4 (1 - P_p) P_s)) / 2`, the form in an open solver for slagging gasifiers. It lifts a stiff slag: `P_s` =
-//! 0.22 gives 0.47 for a dry particle.
+//! `uintah`: `P = (P_p + sqrt(P_p² + 4 (1 - P_p) P_s)) / 2`, the form in an open solver for
+//! slagging gasifiers. It lifts a stiff slag: `P_s` = 0.22 gives 0.47 for a dry particle.
 //!
-//! Both give 1 for `P_p = 1` or `P_s = 1`, and `P_p` for a wall that is not sticky (`k_e = 0`). Neither knows the speed.
+//! Both give 1 for `P_p = 1` or `P_s = 1`, and `P_p` for a wall that is not sticky (`k_e = 0`).
+//! Neither knows the speed.
 
 use crate::input::{InputError, Section};
 

@@ -1,9 +1,10 @@
 //! Viscosity criterion: a melt thinner than a reference viscosity sticks (Walsh et al. 1990).
 //!
-//! `P = min(1, mu_ref / mu(T))`, with `mu` the viscosity of ash or slag [Pa s] at its own temperature and `mu_ref` the
-//! viscosity [Pa s] at and below which every impact sticks. The literature's `mu_ref` spans 8 to 1e7 Pa s: it has no
-//! default. Valid for glassy silicate melts; on a wall, where a melt has time to crystallise, it is stiff below its temperature of
-//! critical viscosity ([`super::Solidification`]). It does not include residual carbon (see the effect
+//! `P = min(1, mu_ref / mu(T))`, with `mu` the viscosity of ash or slag [Pa s] at its own
+//! temperature and `mu_ref` the viscosity [Pa s] at and below which every impact sticks. The
+//! literature's `mu_ref` spans 8 to 1e7 Pa s: it has no default. Valid for glassy silicate melts;
+//! on a wall, where a melt has time to crystallise, it is stiff below its temperature of critical
+//! viscosity ([`super::Solidification`]). It does not include residual carbon (see the effect
 //! `conversion-transition`).
 
 use fearless_simd::{Level, dispatch};
@@ -35,8 +36,8 @@ enum ReferenceViscosity {
     Energy(EnergyLaw),
 }
 
-/// The criterion of viscosity of a `[capture]` table: with a constant reference (`viscosity`), or with one that falls with the kinetic
-/// energy (`kinetic-energy`).
+/// The criterion of viscosity of a `[capture]` table: with a constant reference (`viscosity`), or
+/// with one that falls with the kinetic energy (`kinetic-energy`).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViscosityCriterion {
     laws: MeltLaws,
@@ -78,11 +79,13 @@ impl ViscosityCriterion {
         }
     }
 
-    /// The criterion for a melt that meets or carries particles of the material `particle`; `None` for one with neither a viscosity of its
-    /// own nor an oxide composition. Its own viscosity has priority.
+    /// The criterion for a melt that meets or carries particles of the material `particle`; `None`
+    /// for one with neither a viscosity of its own nor an oxide composition. Its own viscosity has
+    /// priority.
     ///
     /// # Errors
-    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what `solidification` needs.
+    /// [`Unsuitable`] when the law cannot be applied to the composition, or the material lacks what
+    /// `solidification` needs.
     pub fn prepare(
         self,
         material: &Material,
@@ -116,7 +119,8 @@ impl MeltStickiness {
         match self.criterion.reference {
             ReferenceViscosity::Constant(reference) => reference,
             ReferenceViscosity::Energy(law) => {
-                // An unknown density is taken as too large to stick; a material always has one at the nearest temperature.
+                // An unknown density is taken as too large to stick; a material always has one at
+                // the nearest temperature.
                 let own = self.particle.density_near(impact.particle_temperature).unwrap_or(f64::INFINITY);
                 law.at(if impact.particle_density > 0.0 { impact.particle_density } else { own }, impact)
             }

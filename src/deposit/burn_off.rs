@@ -1,19 +1,22 @@
 //! Covering char that burns off a wall.
 //!
-//! Powder of mass `P` [kg/m²], volume of its particles `V` [m³/m²] and projected area `A` [1] contains combustible matter `C`
-//! [kg/m²]. Over a time step the law of carbon conversion at the temperature of the wall leaves the share `r` of it (first order:
-//! `r = exp(-k(T_w) dt)`); the mass `C (1 - r)` goes into the gas. What becomes of the ash depends on the wall:
+//! Powder of mass `P` [kg/m²], volume of its particles `V` [m³/m²] and projected area `A` [1]
+//! contains combustible matter `C` [kg/m²]. Over a time step the law of carbon conversion at the
+//! temperature of the wall leaves the share `r` of it (first order: `r = exp(-k(T_w) dt)`); the
+//! mass `C (1 - r)` goes into the gas. What becomes of the ash depends on the wall:
 //!
 //! | ash at the temperature of the wall | powder after the step | to the melt |
 //! |---|---|---|
 //! | solid: particles shrink | `P - C (1 - r)`; `V' = V_ash + (V - V_ash) r^(3a)`; `A (V'/V)^(2/3)` | – |
 //! | molten: particles are used up one by one | `r P`, `r V`, `r A` | `(P - C) (1 - r)` |
 //!
-//! with `V_ash = (P - C)/rho_ash` and the exponent `a` of the particles in flight. The first row is the particle's own law of
-//! shrinkage for every mixture of conversions, exact for particles of one size and conversion. The second is exact for particles whose
-//! burn-out times are distributed exponentially: the ash of the carbon that is gone joins the melt. *Assumed*: that the powder burns
-//! through its whole thickness, as fast as a particle in the gas at the temperature of the wall, and that melt does not
-//! burn. No source gives a law for the cover; both rows conserve carbon and ash.
+//! with `V_ash = (P - C)/rho_ash` and the exponent `a` of the particles in flight. The first row is
+//! the particle's own law of shrinkage for every mixture of conversions, exact for particles of one
+//! size and conversion. The second is exact for particles whose burn-out times are distributed
+//! exponentially: the ash of the carbon that is gone joins the melt. *Assumed*: that the powder
+//! burns through its whole thickness, as fast as a particle in the gas at the temperature of the
+//! wall, and that melt does not burn. No source gives a law for the cover; both rows conserve
+//! carbon and ash.
 
 use super::Deposit;
 
@@ -34,8 +37,8 @@ pub struct PowderBurning {
     pub ash_melts: bool,
 }
 
-/// The deposit after the step. In the mean conversion, powder that shrinks counts with `1 - (1 - X) r`, powder that is left beside
-/// melting ash with `X`, and that ash with 1.
+/// The deposit after the step. In the mean conversion, powder that shrinks counts with `1 - (1 - X)
+/// r`, powder that is left beside melting ash with `X`, and that ash with 1.
 #[must_use]
 pub fn after(deposit: &Deposit, burning: &PowderBurning) -> Deposit {
     let PowderBurning { combustible, left, conversion, diameter_exponent, ash_density, ash_melts } = *burning;

@@ -6,10 +6,11 @@
 //!
 //! and both are equal at one surface temperature `T_s` only, since the first rises with it and the second falls.
 //!
-//! `q` heat flux into the wall [W/m²], `T_s T_c T_g` temperatures of surface, coolant and gas [K], `delta` thickness [m], `k` conductivity
-//! [W/(m K)], `h_c h` heat transfer coefficients of coolant and gas [W/(m² K)], `epsilon` emissivity of the surface [1], `G`
-//! irradiation [W/m²], `sigma` the Stefan–Boltzmann constant, `q_p` what particles bring [W/m²]. Valid for grey opaque surfaces and layers
-//! thin against the curvature of the wall.
+//! `q` heat flux into the wall [W/m²], `T_s T_c T_g` temperatures of surface, coolant and gas [K],
+//! `delta` thickness [m], `k` conductivity [W/(m K)], `h_c h` heat transfer coefficients of coolant
+//! and gas [W/(m² K)], `epsilon` emissivity of the surface [1], `G` irradiation [W/m²], `sigma` the
+//! Stefan–Boltzmann constant, `q_p` what particles bring [W/m²]. Valid for grey opaque surfaces and
+//! layers thin against the curvature of the wall.
 //!
 //! Source: Incropera et al., Fundamentals of Heat and Mass Transfer, chapter 3 (not re-read); the tests
 //! hold it against resistances in series.
@@ -43,8 +44,8 @@ impl ConductingLayer {
 pub struct Coolant {
     /// Temperature, `T_c` [K].
     pub temperature: f64,
-    /// Heat transfer coefficient, `h_c` [W/(m² K)]; infinite where the back of the wall has the temperature of the coolant, 0 for
-    /// a wall without heat loss.
+    /// Heat transfer coefficient, `h_c` [W/(m² K)]; infinite where the back of the wall has the
+    /// temperature of the coolant, 0 for a wall without heat loss.
     pub coefficient: f64,
 }
 
@@ -53,7 +54,8 @@ pub struct Coolant {
 pub struct HotSide {
     /// Temperature of the gas, `T_g` [K].
     pub gas_temperature: f64,
-    /// Heat transfer coefficient of the gas, `h` [W/(m² K)]; infinite for [`steady`] where the temperature of the surface is known.
+    /// Heat transfer coefficient of the gas, `h` [W/(m² K)]; infinite for [`steady`] where the
+    /// temperature of the surface is known.
     pub coefficient: f64,
     /// Emissivity of the surface, `epsilon` [1].
     pub emissivity: f64,
@@ -101,8 +103,8 @@ pub struct SteadyWall {
     pub cold_sides: Vec<f64>,
 }
 
-/// Steady state of `layers`, from the coolant to the gas. With an infinite heat transfer coefficient of the gas the surface has its
-/// temperature, and the flux is what the layers conduct.
+/// Steady state of `layers`, from the coolant to the gas. With an infinite heat transfer
+/// coefficient of the gas the surface has its temperature, and the flux is what the layers conduct.
 ///
 /// # Errors
 /// [`ConductionError`].

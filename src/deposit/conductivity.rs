@@ -1,41 +1,50 @@
 //! Effective thermal conductivity of a deposit layer, from loose powder to dense slag.
 //!
-//! **Loose powder** ([`packed_bed`]), after Zehner, Bauer and Schlünder (VDI Heat Atlas, section D6.3), with `p` the porosity [1],
-//! `k_p = k_s/k_g`, `k_r = 4 sigma T³ d/((2/epsilon - 1) k_g)` and `B = 1.25 ((1-p)/p)^(10/9)` for spheres:
+//! **Loose powder** ([`packed_bed`]), after Zehner, Bauer and Schlünder (VDI Heat Atlas, section
+//! D6.3), with `p` the porosity [1], `k_p = k_s/k_g`, `k_r = 4 sigma T³ d/((2/epsilon - 1) k_g)`
+//! and `B = 1.25 ((1-p)/p)^(10/9)` for spheres:
 //!
 //! `k/k_g = (1 - sqrt(1-p)) (1 + p k_r) + sqrt(1-p) k_c`, `k_c = k_p + k_p k_r/(B K) - (k_p/K)² (K-1) S(M)`,
 //!
 //! `K = k_p + k_r`, `M = 1 - B/K`, `S(M) = 2 (M - M²/2 + (1-M) ln(1-M))/M³`.
 //!
-//! This is the published expression in a form without the differences that cancel where `B` approaches `K` (a test compares
-//! both). `k_s`, `k_g` conductivities of solid and gas [W/(m K)], `sigma` the Stefan–Boltzmann constant, `T` temperature [K], `d`
-//! diameter of the particles [m], `epsilon` their emissivity [1]. The contacts are points and the gas is dense (mean free path far
-//! below `d`). The expression was read in two codes that cite the atlas; with spheres of `k_p` 8 to 1200 and porosities down to
-//! 0.2 it agrees with measurements (Kandula, abstract). With spheres of 2.5 to 13.5 mm at 350 to 1300 K it agrees when hot and
-//! overpredicts when cool (J. Heat Transfer 116 (1994) 829, abstract).
+//! This is the published expression in a form without the differences that cancel where `B`
+//! approaches `K` (a test compares both). `k_s`, `k_g` conductivities of solid and gas [W/(m K)],
+//! `sigma` the Stefan–Boltzmann constant, `T` temperature [K], `d` diameter of the particles [m],
+//! `epsilon` their emissivity [1]. The contacts are points and the gas is dense (mean free path far
+//! below `d`). The expression was read in two codes that cite the atlas; with spheres of `k_p` 8 to
+//! 1200 and porosities down to 0.2 it agrees with measurements (Kandula, abstract). With spheres of
+//! 2.5 to 13.5 mm at 350 to 1300 K it agrees when hot and overpredicts when cool (J. Heat Transfer
+//! 116 (1994) 829, abstract).
 //!
-//! **Dense layer with closed pores** ([`closed_pores`]), Maxwell–Eucken with gas of `k_v = k_g (1 + p k_r)` in the pores:
+//! **Dense layer with closed pores** ([`closed_pores`]), Maxwell–Eucken with gas of `k_v = k_g (1 +
+//! p k_r)` in the pores:
 //!
 //! `k = k_s (2 k_s + k_v - 2 p (k_s - k_v))/(2 k_s + k_v + p (k_s - k_v))`,
 //!
 //! which is also the upper bound of Hashin and Shtrikman (J. Appl. Phys. 33 (1962) 3125).
 //!
-//! **In between** ([`deposit`]): `k = k_loose + (x/r) (k_dense - k_loose)`, with the neck ratio `x/r` of the sintered particles
-//! ([`sintering::neck_of_porosity`](super::sintering::neck_of_porosity)). It is 0 in fresh powder, and at `p = 0` both laws give `k_s`. The
-//! weight is *assumed*: the conductance of a narrow neck is proportional to its radius (`2 k_s x`, cubic packing: `k = k_s x/r`), of
-//! which the rule gives about half. The rise comes early in sintering and levels off, as Robinson et al. measured (Energy &
-//! Fuels 15 (2001) 75, abstract).
+//! **In between** ([`deposit`]): `k = k_loose + (x/r) (k_dense - k_loose)`, with the neck ratio
+//! `x/r` of the sintered particles
+//! ([`sintering::neck_of_porosity`](super::sintering::neck_of_porosity)). It is 0 in fresh powder,
+//! and at `p = 0` both laws give `k_s`. The weight is *assumed*: the conductance of a narrow neck
+//! is proportional to its radius (`2 k_s x`, cubic packing: `k = k_s x/r`), of which the rule gives
+//! about half. The rise comes early in sintering and levels off, as Robinson et al. measured
+//! (Energy & Fuels 15 (2001) 75, abstract).
 //!
-//! The result lies between the two bounds of Hashin and Shtrikman. The packed bed's law falls below the lower one for `k_p` up to
-//! some 15, and above a porosity of some 0.85 for the 20 to 30 of ash in hot gas; it is raised to the bound there. Above a
-//! porosity of 0.9, where `B` and the radiation term lose their meaning, the packed bed is interpolated linearly in `p` to the
-//! pore alone.
+//! The result lies between the two bounds of Hashin and Shtrikman. The packed bed's law falls below
+//! the lower one for `k_p` up to some 15, and above a porosity of some 0.85 for the 20 to 30 of ash
+//! in hot gas; it is raised to the bound there. Above a porosity of 0.9, where `B` and the
+//! radiation term lose their meaning, the packed bed is interpolated linearly in `p` to the pore
+//! alone.
 //!
-//! Errors: Robinson et al. measured 0.14 ± 0.03 W/(m K) in loose deposits (Energy & Fuels 15 (2001) 66, abstract), here 0.08 to 0.22
-//! for assumed porosities of 0.8 to 0.6 (test): a factor of 1.7 either way, chiefly by the porosity. Their deposit lies
-//! midway between the series and the parallel arrangement; if that is meant on a logarithmic scale, its porosity is near 0.8, and
-//! the law gives 0.10, too little. Sintered layers: expect a factor of 2, as cracks and layers count. Rezaei et al. (Fuel 79 (2000)
-//! 1697) and Zbogar et al. (Prog. Energy Combust. Sci. 31 (2005) 371) compare such laws with ashes; neither could be read.
+//! Errors: Robinson et al. measured 0.14 ± 0.03 W/(m K) in loose deposits (Energy & Fuels 15 (2001)
+//! 66, abstract), here 0.08 to 0.22 for assumed porosities of 0.8 to 0.6 (test): a factor of 1.7
+//! either way, chiefly by the porosity. Their deposit lies midway between the series and the
+//! parallel arrangement; if that is meant on a logarithmic scale, its porosity is near 0.8, and the
+//! law gives 0.10, too little. Sintered layers: expect a factor of 2, as cracks and layers count.
+//! Rezaei et al. (Fuel 79 (2000) 1697) and Zbogar et al. (Prog. Energy Combust. Sci. 31 (2005) 371)
+//! compare such laws with ashes; neither could be read.
 
 use super::conduction::STEFAN_BOLTZMANN;
 
@@ -55,8 +64,8 @@ pub struct Phases {
     pub radiative: f64,
 }
 
-/// Conductivity [W/(m K)] of radiation across the voids between particles of a diameter [m] and an emissivity [1] at a temperature
-/// [K]: `4 sigma T³ d/(2/epsilon - 1)`.
+/// Conductivity [W/(m K)] of radiation across the voids between particles of a diameter [m] and an
+/// emissivity [1] at a temperature [K]: `4 sigma T³ d/(2/epsilon - 1)`.
 pub fn radiative(temperature: f64, diameter: f64, emissivity: f64) -> f64 {
     4.0 * STEFAN_BOLTZMANN * temperature.powi(3) * diameter * emissivity / (2.0 - emissivity)
 }
@@ -117,7 +126,8 @@ fn zehner_bauer_schluender(porosity: f64, phases: &Phases) -> f64 {
     phases.gas * ((1.0 - grains) * (1.0 + porosity * radiative) + grains * core)
 }
 
-/// `2 (m - m²/2 + (1-m) ln(1-m))/m³`, by its Taylor series `sum of 2 m^(k-3)/(k (k-1))` from `k = 3` where that cancels.
+/// `2 (m - m²/2 + (1-m) ln(1-m))/m³`, by its Taylor series `sum of 2 m^(k-3)/(k (k-1))` from `k =
+/// 3` where that cancels.
 fn series(m: f64) -> f64 {
     if m.abs() < 0.05 {
         let term = |k: i32| 2.0 * m.powi(k - 3) / f64::from(k * (k - 1));
@@ -218,9 +228,10 @@ mod tests {
         assert!(rise > 0.0 && rise < 0.06, "{rise}");
     }
 
-    /// Robinson, Buckley and Baxter, Energy & Fuels 15 (2001) 66 (abstract): 0.14 ± 0.03 W/(m K), the mean of loose, unsintered
-    /// deposits, about midway between the theoretical limits. Porosity, gas temperature and ash are not in the abstract: 0.6 to 0.8,
-    /// 0.05 to 0.065 W/(m K) (air of 650 to 950 K) and 1 to 2 W/(m K) are assumed.
+    /// Robinson, Buckley and Baxter, Energy & Fuels 15 (2001) 66 (abstract): 0.14 ± 0.03 W/(m K),
+    /// the mean of loose, unsintered deposits, about midway between the theoretical limits.
+    /// Porosity, gas temperature and ash are not in the abstract: 0.6 to 0.8, 0.05 to 0.065 W/(m K)
+    /// (air of 650 to 950 K) and 1 to 2 W/(m K) are assumed.
     #[test]
     fn loose_deposits_as_measured() {
         let mut within = 0;
@@ -240,9 +251,9 @@ mod tests {
         assert!(all[0] > 0.08 && all[11] < 0.22, "{all:?}");
     }
 
-    /// Energy and Buildings 81 (2014) 262 (abstract): foamed and sintered fly ash of 86.3 to 94.5 % porosity; the lowest
-    /// conductivity is 0.0511 W/(m K), with the least solid. Which porosity belongs to it is not in the abstract: the highest is
-    /// assumed, with air of 0.026 W/(m K).
+    /// Energy and Buildings 81 (2014) 262 (abstract): foamed and sintered fly ash of 86.3 to 94.5 %
+    /// porosity; the lowest conductivity is 0.0511 W/(m K), with the least solid. Which porosity
+    /// belongs to it is not in the abstract: the highest is assumed, with air of 0.026 W/(m K).
     #[test]
     fn foamed_fly_ash_as_measured() {
         let foam = Phases { solid: 1.4, gas: 0.026, radiative: 0.0 };
@@ -251,7 +262,8 @@ mod tests {
         assert!(loose < 0.0511 && 0.0511 < dense);
     }
 
-    /// Robinson et al., Energy & Fuels 15 (2001) 75 (abstract): the first sintering raises the conductivity, later sintering little.
+    /// Robinson et al., Energy & Fuels 15 (2001) 75 (abstract): the first sintering raises the
+    /// conductivity, later sintering little.
     #[test]
     fn the_first_sintering_counts_most() {
         let at = |porosity: f64| deposit(porosity, sintering::neck_of_porosity(porosity, 0.6), &ASH);

@@ -1,15 +1,17 @@
 //! Share of a wall that non-sticky particles cover: random landing and burial.
 //!
-//! `c = 1 - exp(-A)`, with `c` the covered share [1] and `A` the projected area of the particles per area of wall [1]: each
-//! lands at a random place, overlaps included (a Poisson process of discs). Molten particles bury what they hit: over a
-//! step in which a projected area `a` of powder and `b` of melt arrive, evenly mixed, `dA = a ds - b c(A) ds` for `s` from 0
-//! to 1, so with `x = a - b`
+//! `c = 1 - exp(-A)`, with `c` the covered share [1] and `A` the projected area of the particles
+//! per area of wall [1]: each lands at a random place, overlaps included (a Poisson process of
+//! discs). Molten particles bury what they hit: over a step in which a projected area `a` of powder
+//! and `b` of melt arrive, evenly mixed, `dA = a ds - b c(A) ds` for `s` from 0 to 1, so with `x =
+//! a - b`
 //!
 //! `A(1) = ln(exp(A + x) + b (exp(x) - 1)/x)`.
 //!
-//! A thin cover (`A << 1`) decays as `exp(-b)`, by a factor e for each particle height (`2 d/3`, volume over projected area) of
-//! fresh melt; a thick one disappears particle for particle. *Assumed*: that melt covers its own projected area, and that char
-//! does not float up through melt, sink into it or drift together. Segregation and coverage: Troiano et al., section 1 and
+//! A thin cover (`A << 1`) decays as `exp(-b)`, by a factor e for each particle height (`2 d/3`,
+//! volume over projected area) of fresh melt; a thick one disappears particle for particle.
+//! *Assumed*: that melt covers its own projected area, and that char does not float up through
+//! melt, sink into it or drift together. Segregation and coverage: Troiano et al., section 1 and
 //! the regimes they cite; they give no law.
 
 /// Covered share [1] by a projected area of particles per area of wall [1].
@@ -17,8 +19,8 @@ pub fn share(cover: f64) -> f64 {
     -(-cover).exp_m1()
 }
 
-/// Projected area per area of wall [1] of an evenly spread layer of a thickness [m] of grains of a diameter [m]: `3 h (1 - voidage)/(2 d)`,
-/// with half of the layer voids (*assumed*).
+/// Projected area per area of wall [1] of an evenly spread layer of a thickness [m] of grains of a
+/// diameter [m]: `3 h (1 - voidage)/(2 d)`, with half of the layer voids (*assumed*).
 pub fn of_layer(thickness: f64, diameter: f64) -> f64 {
     1.5 * thickness * (1.0 - VOIDAGE) / diameter
 }
@@ -26,7 +28,8 @@ pub fn of_layer(thickness: f64, diameter: f64) -> f64 {
 /// Share of voids in a layer that is given by its thickness alone [1].
 const VOIDAGE: f64 = 0.5;
 
-/// Projected area [1] after `landed` of powder and `buried` of melt [both 1] have arrived on `before` [1], evenly mixed.
+/// Projected area [1] after `landed` of powder and `buried` of melt [both 1] have arrived on
+/// `before` [1], evenly mixed.
 pub fn after(before: f64, landed: f64, buried: f64) -> f64 {
     if buried <= 0.0 {
         return before + landed;

@@ -1,13 +1,15 @@
 //! The deposit: what earlier particles left on a piece of wall, and its growth.
 //!
-//! A solver keeps one [`Deposit`] for each piece of wall. Within a time step it sums captured particles in a [`DepositSource`]
-//! ([`Model::add_captured`]) and adds the sum at the end of the step ([`Deposit::with`]); the sum does not depend on the order
-//! of the particles. [`Model::apply_deposit`] sets the inputs of an impact from the deposit.
+//! A solver keeps one [`Deposit`] for each piece of wall. Within a time step it sums captured
+//! particles in a [`DepositSource`] ([`Model::add_captured`]) and adds the sum at the end of the
+//! step ([`Deposit::with`]); the sum does not depend on the order of the particles.
+//! [`Model::apply_deposit`] sets the inputs of an impact from the deposit.
 //!
-//! A particle that stays is **molten** when it is sticky at the temperature of the wall, and **powder** otherwise: a frozen
-//! droplet, or char that encloses its ash. Its carbon burns off where the solver asks for it ([`burn_off`]; `simulate` does).
-//! [`Model::advance`] lets a deposit melt, sinter, leave with the gas and fall off over a time step, by the table
-//! [`PROCESSES`]. Melt on a wall that cools later is stiff by its viscosity.
+//! A particle that stays is **molten** when it is sticky at the temperature of the wall, and
+//! **powder** otherwise: a frozen droplet, or char that encloses its ash. Its carbon burns off
+//! where the solver asks for it ([`burn_off`]; `simulate` does). [`Model::advance`] lets a deposit
+//! melt, sinter, leave with the gas and fall off over a time step, by the table [`PROCESSES`]. Melt
+//! on a wall that cools later is stiff by its viscosity.
 //!
 //! [`Model::add_captured`]: crate::Model::add_captured
 //! [`Model::apply_deposit`]: crate::Model::apply_deposit
@@ -101,8 +103,8 @@ pub struct CapturedParticles {
 }
 
 impl DepositSource {
-    /// The sum with further particles. Spheres of diameter `d`, density `rho` and mass `m` on an area have a projected area of
-    /// `3 m/(2 rho d)` on it.
+    /// The sum with further particles. Spheres of diameter `d`, density `rho` and mass `m` on an
+    /// area have a projected area of `3 m/(2 rho d)` on it.
     #[must_use]
     pub fn with(self, arrival: &CapturedParticles) -> Self {
         let CapturedParticles { mass, density, diameter, conversion, molten } = *arrival;
@@ -156,8 +158,9 @@ impl Deposit {
         cover::share(self.cover)
     }
 
-    /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it: 0.5 is a usual assumption, between
-    /// 0.4 of a dense random packing and the higher values of loose cohesive powder.
+    /// Thickness of the powder [m], evenly spread, with `voidage` [1] the share of voids in it: 0.5
+    /// is a usual assumption, between 0.4 of a dense random packing and the higher values of loose
+    /// cohesive powder.
     pub fn layer_thickness(&self, voidage: f64) -> f64 {
         (self.solid / (1.0 - voidage) - self.closed).max(self.solid)
     }

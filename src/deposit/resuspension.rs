@@ -1,53 +1,69 @@
 //! Resuspension of dry particles from a wall by turbulent gas: the quasi-static moment balance of Reeks & Hall 2001
 //! (J. Aerosol Sci. 32, 1), known as Rock'n'Roll.
 //!
-//! A particle rests on two asperities a distance `a` apart and rocks about one of them. It leaves when the couple of drag and lift
-//! exceeds that of adhesion. Couples divided by `a` are forces:
+//! A particle rests on two asperities a distance `a` apart and rocks about one of them. It leaves
+//! when the couple of drag and lift exceeds that of adhesion. Couples divided by `a` are forces:
 //!
-//! - mean `F = F_L/2 + (r/a) F_D`, lift `F_L = 20.9 rho nu² (r u*/nu)^2.31`, drag `F_D = 32 rho nu² (r u*/nu)²`, `r/a` = 100
+//! - mean `F = F_L/2 + (r/a) F_D`, lift `F_L = 20.9 rho nu² (r u*/nu)^2.31`, drag `F_D = 32 rho nu²
+//!   (r u*/nu)²`, `r/a` = 100
 //! - fluctuation, normally distributed: standard deviation `s = 0.2 F`
-//! - rate constant at the adhesion `f`: `p = n exp(-x²/2)/Phi(x)`, at most `n`, with `x = (f - F)/s` and `n = 0.00658 u*²/nu`
-//! - adhesion `f = f' F_a`, `F_a = (3/2) pi W r` (JKR, smooth contact), `f'` log-normal with a median and a geometric spread
+//! - rate constant at the adhesion `f`: `p = n exp(-x²/2)/Phi(x)`, at most `n`, with `x = (f -
+//!   F)/s` and `n = 0.00658 u*²/nu`
+//! - adhesion `f = f' F_a`, `F_a = (3/2) pi W r` (JKR, smooth contact), `f'` log-normal with a
+//!   median and a geometric spread
 //! - fraction that remains after `t` under constant conditions: `R(t) = integral of phi(f') exp(-p t) df'`
 //!
-//! `r` radius [m], `u*` friction velocity [m/s], `rho` and `nu` density [kg/m³] and kinematic viscosity [m²/s] of the gas,
-//! `W` work of adhesion [J/m²], `Phi` the standard normal distribution, `phi` the density of `f'`.
+//! `r` radius [m], `u*` friction velocity [m/s], `rho` and `nu` density [kg/m³] and kinematic
+//! viscosity [m²/s] of the gas, `W` work of adhesion [J/m²], `Phi` the standard normal
+//! distribution, `phi` the density of `f'`.
 //!
-//! Sources read: the abstract of Reeks & Hall (tangential adhesion about 1/100 of the normal one), not their full text. The
-//! formulas and numbers were compared in three programs that cite it:
+//! Sources read: the abstract of Reeks & Hall (tangential adhesion about 1/100 of the normal one),
+//! not their full text. The formulas and numbers were compared in three programs that cite it:
 //!
-//! - `discrete-rocknroll` (V. Bourgin, Paris-Saclay): all of them, with 10.45 · 300 for 3200 in `F`, 2 % less. A later version has 32 in
-//!   the drag and takes `s = 0.366 F`.
-//! - `Fennec` (A. Wiechert, Georgia Tech): all of them; `r/a` is an input, and the adhesion is given by arithmetic moments.
+//! - `discrete-rocknroll` (V. Bourgin, Paris-Saclay): all of them, with 10.45 · 300 for 3200 in
+//!   `F`, 2 % less. A later version has 32 in the drag and takes `s = 0.366 F`.
+//! - `Fennec` (A. Wiechert, Georgia Tech): all of them; `r/a` is an input, and the adhesion is
+//!   given by arithmetic moments.
 //! - a study of graphite dust without a name: all of them with 10.45 · 300, except the limit of `p` at `n`.
 //!
 //! The drag is O'Neill's on a sphere that touches a wall in a linear shear flow (a test derives it).
 //!
-//! Range: isolated spheres of at most a monolayer, within the viscous sublayer: diameter below 5 wall units, `r u*/nu` up to
-//! [`LARGEST_RADIUS_PLUS`]; assumed, it is also the limit that the first program draws. The law of the lift is one of larger spheres, but
-//! the lift is less than 1 % of `F` here. Not modelled: weight (assumed small against adhesion), resonance, collisions, humidity, charge,
-//! sintering, which needs a larger `W`, and layers of several particles.
+//! Range: isolated spheres of at most a monolayer, within the viscous sublayer: diameter below 5
+//! wall units, `r u*/nu` up to [`LARGEST_RADIUS_PLUS`]; assumed, it is also the limit that the
+//! first program draws. The law of the lift is one of larger spheres, but the lift is less than 1 %
+//! of `F` here. Not modelled: weight (assumed small against adhesion), resonance, collisions,
+//! humidity, charge, sintering, which needs a larger `W`, and layers of several particles.
 //!
-//! Agreement with the measured fraction that remains after 1 s of alumina spheres on polished steel (Reeks & Hall, as read off
-//! their figure by the first program), with [`AdhesionDistribution::biasi`], `W` = 0.56 J/m² and air: rms difference 0.07 for 10 µm (34 points) and
-//! 0.11 for 20 µm (39). Below 1 m/s, where most leave, 0.11 and 0.15: the measured curve of 10 µm is steeper, and half have left at
-//! some 0.7 m/s against 0.92 computed. The gas is not certain: the later version of the first program takes air (1.181 kg/m³,
-//! 1.539e-5 m²/s) as a correction of hot helium (1.92 kg/m³, 1.96e-5 m²/s), which would give 0.06 and 0.10, half at 0.73 m/s.
-//! `tests/library/resuspension.rs` and the validation page have the points. This is no blind test, for Biasi et al. fitted resuspension data, those of Reeks & Hall probably among them (assumed).
+//! Agreement with the measured fraction that remains after 1 s of alumina spheres on polished steel
+//! (Reeks & Hall, as read off their figure by the first program), with
+//! [`AdhesionDistribution::biasi`], `W` = 0.56 J/m² and air: rms difference 0.07 for 10 µm (34
+//! points) and 0.11 for 20 µm (39). Below 1 m/s, where most leave, 0.11 and 0.15: the measured
+//! curve of 10 µm is steeper, and half have left at some 0.7 m/s against 0.92 computed. The gas is
+//! not certain: the later version of the first program takes air (1.181 kg/m³, 1.539e-5 m²/s) as a
+//! correction of hot helium (1.92 kg/m³, 1.96e-5 m²/s), which would give 0.06 and 0.10, half at
+//! 0.73 m/s. `tests/library/resuspension.rs` and the validation page have the points. This is no
+//! blind test, for Biasi et al. fitted resuspension data, those of Reeks & Hall probably among them
+//! (assumed).
 //!
 //! # Deposits
 //!
-//! A [`Deposit`] stores one number for the past, the share of its powder that has left, and no distribution. [`Release::advance`] replaces
-//! that past by the time under the present conditions that would leave the same share, and goes on from there. This is exact under
-//! constant conditions for less than one layer; of more, the cover is that at the start of the step. Otherwise it assumes that the weakest bonds break first, which holds nearly, for `p` falls from `n` to
-//! nothing within a factor of 2 of `f`. After a change between 0.3 and 1.2 m/s the error of the fraction is below 0.01
-//! in the tests. Old and fresh powder count as one population, which keeps up to 0.025 of what landed too much under steady landing.
+//! A [`Deposit`] stores one number for the past, the share of its powder that has left, and no
+//! distribution. [`Release::advance`] replaces that past by the time under the present conditions
+//! that would leave the same share, and goes on from there. This is exact under constant conditions
+//! for less than one layer; of more, the cover is that at the start of the step. Otherwise it
+//! assumes that the weakest bonds break first, which holds nearly, for `p` falls from `n` to
+//! nothing within a factor of 2 of `f`. After a change between 0.3 and 1.2 m/s the error of the
+//! fraction is below 0.01 in the tests. Old and fresh powder count as one population, which keeps
+//! up to 0.025 of what landed too much under steady landing.
 //!
-//! *Assumed* for deposits, beyond the law: all particles have the mean diameter by volume over area; of powder that would cover the wall `A`
-//! times, each particle lies open for the share `1/A` of the time; powder on a piece of wall with any melt, or with necks of more than [`BONDED_NECK`] of
-//! its radius, is bonded and stays; the law also acts outside its range, with spheres beyond the sublayer, and where the flow is laminar.
+//! *Assumed* for deposits, beyond the law: all particles have the mean diameter by volume over
+//! area; of powder that would cover the wall `A` times, each particle lies open for the share `1/A`
+//! of the time; powder on a piece of wall with any melt, or with necks of more than [`BONDED_NECK`]
+//! of its radius, is bonded and stays; the law also acts outside its range, with spheres beyond the
+//! sublayer, and where the flow is laminar.
 //!
-//! No function fails. Inputs that are not positive numbers (a friction velocity of 0 is allowed) give NaN or no release.
+//! No function fails. Inputs that are not positive numbers (a friction velocity of 0 is allowed)
+//! give NaN or no release.
 
 use statrs::function::erf::erfc;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
@@ -80,11 +96,13 @@ pub const LEVER_RATIO: f64 = 100.0;
 /// Standard deviation of the fluctuating force over the mean force [1].
 pub const FLUCTUATION_RATIO: f64 = 0.2;
 
-/// Largest radius [m] for [`AdhesionDistribution::biasi`]: of the larger spheres above. The fit itself reaches a median of 0 at 35 µm.
+/// Largest radius [m] for [`AdhesionDistribution::biasi`]: of the larger spheres above. The fit
+/// itself reaches a median of 0 at 35 µm.
 pub const LARGEST_FITTED_RADIUS: f64 = 10e-6;
 
-/// Neck over radius `x/r` [1] above which powder is bonded; assumed. Such a neck of a solid that bears 10 MPa holds 3e-7 N on a
-/// radius of 10 µm, more than the 2e-7 N of the median of dry adhesion (0.56 J/m²).
+/// Neck over radius `x/r` [1] above which powder is bonded; assumed. Such a neck of a solid that
+/// bears 10 MPa holds 3e-7 N on a radius of 10 µm, more than the 2e-7 N of the median of dry
+/// adhesion (0.56 J/m²).
 pub const BONDED_NECK: f64 = 0.01;
 
 /// Share [1] of particles too small to follow: where fewer can leave, nothing does.
@@ -130,9 +148,10 @@ pub struct AdhesionDistribution {
 }
 
 impl AdhesionDistribution {
-    /// Correlations of Biasi et al. 2001 (J. Aerosol Sci. 32, 1175): median `0.016 - 0.0023 r^0.545`, spread
-    /// `1.8 + 0.136 r^1.4` with the radius `r` in µm. The same in the first and third program above; the paper was not read.
-    /// `None` for radii [m] above [`LARGEST_FITTED_RADIUS`] (assumed; the range of the fit was not found) and not above 0.
+    /// Correlations of Biasi et al. 2001 (J. Aerosol Sci. 32, 1175): median `0.016 - 0.0023
+    /// r^0.545`, spread `1.8 + 0.136 r^1.4` with the radius `r` in µm. The same in the first and
+    /// third program above; the paper was not read. `None` for radii [m] above
+    /// [`LARGEST_FITTED_RADIUS`] (assumed; the range of the fit was not found) and not above 0.
     pub fn biasi(radius: f64, work_of_adhesion: f64) -> Option<Self> {
         let [median, spread] = biasi(radius);
         let adhesion = Self { smooth_force: jkr_force(radius, work_of_adhesion), median, spread };
@@ -156,7 +175,8 @@ pub struct PowderAdhesion {
 }
 
 impl PowderAdhesion {
-    /// The adhesion of particles of a radius [m]. *Assumed* beyond the range of [`AdhesionDistribution::biasi`]: its numbers at the end of it.
+    /// The adhesion of particles of a radius [m]. *Assumed* beyond the range of
+    /// [`AdhesionDistribution::biasi`]: its numbers at the end of it.
     pub fn of(&self, radius: f64) -> AdhesionDistribution {
         let smooth_force = jkr_force(radius, self.work_of_adhesion);
         let [median, spread] = self.reduced.unwrap_or_else(|| biasi(radius.min(LARGEST_FITTED_RADIUS)));
@@ -423,8 +443,8 @@ mod tests {
         assert_relative_eq!(c.drag(), 1.7009 * 6.0 * PI * viscosity * c.radius * speed, max_relative = 2e-3);
     }
 
-    /// By hand for 10 µm at 1 m/s: `r+` 0.324886, `rho nu²` 2.79722e-10 N, mean 9.469e-8 N, `n` 427.55 1/s; at `f = 1.6 F`, three
-    /// deviations, `exp(-4.5)/0.998650 = 0.011124` of `n`.
+    /// By hand for 10 µm at 1 m/s: `r+` 0.324886, `rho nu²` 2.79722e-10 N, mean 9.469e-8 N, `n`
+    /// 427.55 1/s; at `f = 1.6 F`, three deviations, `exp(-4.5)/0.998650 = 0.011124` of `n`.
     #[test]
     fn rates_by_hand() {
         let c = alumina(5e-6, 1.0);
@@ -577,7 +597,8 @@ mod tests {
         assert!(worst < 0.025 && last > 0.0);
     }
 
-    /// A thin deposit follows the law, and all of its sizes shrink together; of a thick one each particle waits its turn; melt and necks hold.
+    /// A thin deposit follows the law, and all of its sizes shrink together; of a thick one each
+    /// particle waits its turn; melt and necks hold.
     #[test]
     fn deposits_lose_open_and_loose_powder() {
         let gas = gas();
@@ -608,8 +629,8 @@ mod tests {
         assert_eq!(after(&Deposit::default(), &gas, 10.0), Deposit::default());
     }
 
-    /// A separate script that integrates over the log-normal gave half at 0.9224 m/s. Measured, run 10: 0.52 at 0.70, 0.21 at 0.95
-    /// m/s.
+    /// A separate script that integrates over the log-normal gave half at 0.9224 m/s. Measured, run
+    /// 10: 0.52 at 0.70, 0.21 at 0.95 m/s.
     #[test]
     fn half_remains_at_the_critical_friction_velocity() {
         let [below, above] = [0.9215, 0.9233].map(|u| alumina(5e-6, u).fraction_remaining(1.0));

@@ -4,22 +4,28 @@
 //!
 //! - `sigma = -M g cos(beta)` where positive (an overhang), else 0; `tau² = (M g sin(beta) + tau_d)² + tau_c²`
 //! - utilisation `U = sqrt((sigma/S_t)² + (tau/S_s)²)`; the plane breaks at `U >= 1`
-//! - strengths that scatter by a common log-normal factor of median 1 and geometric spread `s`: the share `Phi(ln U/ln s)` is shed
+//! - strengths that scatter by a common log-normal factor of median 1 and geometric spread `s`: the
+//!   share `Phi(ln U/ln s)` is shed
 //!
-//! `M` [kg/m²], `g` gravity [m/s²], `beta` angle of the wall from the horizontal (0 a floor that bears the deposit, pi/2 a vertical
-//! wall, pi a ceiling), `tau_d` and `tau_c` shear of the gas [Pa] down the slope and across, of magnitude `rho u*²`, `S_t` tensile
-//! and `S_s` shear strength of the plane [Pa], `Phi` the standard normal distribution. Forces balance on a thin layer. *Assumed*: the
-//! quadratic combination, as for adhesive joints; no friction under pressure; that one factor scatters both strengths; that all
-//! outside of the broken plane falls at once; no peeling from edges, thermal stress, sootblowing or momentum of particles.
+//! `M` [kg/m²], `g` gravity [m/s²], `beta` angle of the wall from the horizontal (0 a floor that
+//! bears the deposit, pi/2 a vertical wall, pi a ceiling), `tau_d` and `tau_c` shear of the gas
+//! [Pa] down the slope and across, of magnitude `rho u*²`, `S_t` tensile and `S_s` shear strength
+//! of the plane [Pa], `Phi` the standard normal distribution. Forces balance on a thin layer.
+//! *Assumed*: the quadratic combination, as for adhesive joints; no friction under pressure; that
+//! one factor scatters both strengths; that all outside of the broken plane falls at once; no
+//! peeling from edges, thermal stress, sootblowing or momentum of particles.
 //!
-//! Why a share: "A simple model of the adhesive failure of a layer: cohesive effects" (abstract read) computes that a thick, cohesive
-//! cake leaves as a whole at a threshold below its mean strength, and a thin one in part, by the distribution of its adhesion. So
-//! `s = 1` is for thick deposits, with a strength below the mean of measured ones.
+//! Why a share: "A simple model of the adhesive failure of a layer: cohesive effects" (abstract
+//! read) computes that a thick, cohesive cake leaves as a whole at a threshold below its mean
+//! strength, and a thin one in part, by the distribution of its adhesion. So `s = 1` is for thick
+//! deposits, with a strength below the mean of measured ones.
 //!
-//! No strength is built in. Measurements were found only in words: McCollor et al. (force to remove coal ash deposits), "Adhesion
-//! strength of biomass ash deposits" (DTU 2016: shear strength on superheater tubes depends on temperature, composition, time and
-//! steel) and Naganuma et al. 2013 (adhesion to alloys rises with time and alkali); the abstracts give no number. For scale: 10 mm of
-//! a deposit of 1500 kg/m³ load a wall with 147 Pa, and gas of 1 kg/m³ at `u*` = 1 m/s with 1 Pa.
+//! No strength is built in. Measurements were found only in words: McCollor et al. (force to remove
+//! coal ash deposits), "Adhesion strength of biomass ash deposits" (DTU 2016: shear strength on
+//! superheater tubes depends on temperature, composition, time and steel) and Naganuma et al. 2013
+//! (adhesion to alloys rises with time and alkali); the abstracts give no number. For scale: 10 mm
+//! of a deposit of 1500 kg/m³ load a wall with 147 Pa, and gas of 1 kg/m³ at `u*` = 1 m/s with 1
+//! Pa.
 //!
 //! Range: thickness small against the radius of the wall. No function fails; a strength of 0 breaks under any load.
 
@@ -120,7 +126,8 @@ mod tests {
         Surroundings { gas, gravity_outward: -G * cosine, gravity_along: G * sine, ..Default::default() }
     }
 
-    /// Hanging weight per area over strength: on a ceiling all tension, on a vertical wall all shear, on a floor nothing.
+    /// Hanging weight per area over strength: on a ceiling all tension, on a vertical wall all
+    /// shear, on a floor nothing.
     #[test]
     fn weight_alone_by_hand() {
         let used = |angle: f64| STRENGTH.utilisation(1500.0 * 0.01, &on_slope(angle, CALM));
@@ -131,7 +138,8 @@ mod tests {
         assert_relative_eq!(used(0.75 * PI), 1.353_320_f64.sqrt(), max_relative = 1e-6);
     }
 
-    /// Of many places with a spread of strengths, the share that theory states loses its deposit, and again the same ones.
+    /// Of many places with a spread of strengths, the share that theory states loses its deposit,
+    /// and again the same ones.
     #[test]
     fn places_keep_their_strength() {
         let strength = Strength { spread: 2.0, ..STRENGTH };

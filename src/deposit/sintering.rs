@@ -4,26 +4,32 @@
 //!
 //! - necks, Frenkel (J. Phys. USSR 9 (1945) 385): `(x/r)² = (3/2) s`;
 //! - open pores, Frenkel's shrinkage `1 - (rho_0/rho)^(1/3) = (3/8) s`, from the packing `rho_0` to `rho` = 0.8;
-//! - closed pores, Mackenzie & Shuttleworth (Proc. Phys. Soc. B 62 (1949) 833): `1 - rho = 0.2 exp(-(3/2) (r/a_0) (s - s_c))`,
-//!   with `s_c` the time at which `rho` = 0.8, and `a_0` such that the same exponential leads from the packing at `s = 0` to
-//!   `rho` = 0.8 at `s_c`: `(3/2) r/a_0 = ln((1 - rho_0)/0.2)/s_c`.
+//! - closed pores, Mackenzie & Shuttleworth (Proc. Phys. Soc. B 62 (1949) 833): `1 - rho = 0.2
+//!   exp(-(3/2) (r/a_0) (s - s_c))`, with `s_c` the time at which `rho` = 0.8, and `a_0` such that
+//!   the same exponential leads from the packing at `s = 0` to `rho` = 0.8 at `s_c`: `(3/2) r/a_0 =
+//!   ln((1 - rho_0)/0.2)/s_c`.
 //!
-//! `gamma` surface tension [N/m], `mu` viscosity [Pa s], `r` radius of the particles [m], `x` radius of the neck [m], `rho = 1 - p`
-//! relative density [1], `p` porosity [1], `a_0` radius of the pores [m]. The change of law at 0.8 and the rule for `a_0` are
-//! those of the model of clusters (Prado, Zanotto & Müller, J. Non-Cryst. Solids 279 (2001) 169), for one particle size. Read were
-//! abstracts and two codes that write the factors 3/2, 3/8 and 3/2 and the rule; Eshelby's correction of Frenkel's balance gives 1 for the
-//! first 3/2 (not re-read). All three are closed forms of `s`: two half steps are one step.
+//! `gamma` surface tension [N/m], `mu` viscosity [Pa s], `r` radius of the particles [m], `x`
+//! radius of the neck [m], `rho = 1 - p` relative density [1], `p` porosity [1], `a_0` radius of
+//! the pores [m]. The change of law at 0.8 and the rule for `a_0` are those of the model of
+//! clusters (Prado, Zanotto & Müller, J. Non-Cryst. Solids 279 (2001) 169), for one particle size.
+//! Read were abstracts and two codes that write the factors 3/2, 3/8 and 3/2 and the rule;
+//! Eshelby's correction of Frenkel's balance gives 1 for the first 3/2 (not re-read). All three are
+//! closed forms of `s`: two half steps are one step.
 //!
-//! Below a residual porosity (0.03 by default) nothing shrinks: pores are isolated and keep their gas. Measured: 0.01 to 0.03
-//! in volcanic glass (Wadsworth et al., Earth Planet. Sci. Lett. 525 (2019) 115726), 0.02 to 0.05 in obsidian (Gardner et al., Bull.
-//! Volcanol. 80 (2018) 23; both abstracts).
+//! Below a residual porosity (0.03 by default) nothing shrinks: pores are isolated and keep their
+//! gas. Measured: 0.01 to 0.03 in volcanic glass (Wadsworth et al., Earth Planet. Sci. Lett. 525
+//! (2019) 115726), 0.02 to 0.05 in obsidian (Gardner et al., Bull. Volcanol. 80 (2018) 23; both
+//! abstracts).
 //!
-//! Valid for spheres of one size that flow as a Newtonian liquid by their own surface tension; `x/r` up to some 0.3 and
-//! shrinkage up to some 0.1 for Frenkel's law. A powder of cordierite glass followed it until it was almost dense (Giess et al.,
-//! abstract); the change at 0.8 makes such a powder slower: `rho` = 0.88 when Frenkel's law would make it dense. Looser packings
-//! (`rho_0` below 0.5) are an extrapolation. Neglected: crystals, which stop sintering (give an infinite viscosity), load, and the
-//! spread of sizes: fine particles sinter first, by `1/r`.
-//! Errors: the rate is as uncertain as `1/mu`, so a factor of 2 to 10 for an ash; by shape a factor of 2 more.
+//! Valid for spheres of one size that flow as a Newtonian liquid by their own surface tension;
+//! `x/r` up to some 0.3 and shrinkage up to some 0.1 for Frenkel's law. A powder of cordierite
+//! glass followed it until it was almost dense (Giess et al., abstract); the change at 0.8 makes
+//! such a powder slower: `rho` = 0.88 when Frenkel's law would make it dense. Looser packings
+//! (`rho_0` below 0.5) are an extrapolation. Neglected: crystals, which stop sintering (give an
+//! infinite viscosity), load, and the spread of sizes: fine particles sinter first, by `1/r`.
+//! Errors: the rate is as uncertain as `1/mu`, so a factor of 2 to 10 for an ash; by shape a factor
+//! of 2 more.
 
 use std::sync::Arc;
 
@@ -114,8 +120,8 @@ fn closing_time(porosity: f64, packing_porosity: f64) -> f64 {
     (rest / 0.375).max(0.0)
 }
 
-/// Decay `(3/2) r/a_0` [1] of closed pores over the reduced time. A powder packed as densely as closed pores has the limit
-/// for that packing, 4.5.
+/// Decay `(3/2) r/a_0` [1] of closed pores over the reduced time. A powder packed as densely as
+/// closed pores has the limit for that packing, 4.5.
 fn closed_rate(packing_porosity: f64) -> f64 {
     let excess = packing_porosity / (1.0 - CLOSED) - 1.0;
     if excess < 1e-6 {
@@ -220,9 +226,10 @@ mod tests {
         }
     }
 
-    /// No measured curve with its viscosity could be read. Giess et al. (abstract): pressed cordierite glass followed Frenkel's
-    /// law until it was almost dense, and shrank to full density by 0.12 along the axis and 0.17 across, which is a
-    /// packing of 0.88·0.83² = 0.606. Here Frenkel's law ends at a shrinkage of 0.088, after 58 % of the way in length, and the
+    /// No measured curve with its viscosity could be read. Giess et al. (abstract): pressed
+    /// cordierite glass followed Frenkel's law until it was almost dense, and shrank to full
+    /// density by 0.12 along the axis and 0.17 across, which is a packing of 0.88·0.83² = 0.606.
+    /// Here Frenkel's law ends at a shrinkage of 0.088, after 58 % of the way in length, and the
     /// powder reaches 0.88 when Frenkel's law would make it dense: slower than measured.
     #[test]
     fn a_glass_powder_shrinks_as_far_as_its_packing_allows() {

@@ -1,8 +1,9 @@
 //! Share of a wall that melt wets: droplets spread at random places.
 //!
-//! `w = 1 - exp(-6 h/d)`, with `h` the thickness of the melt, evenly spread [m], and `d` the diameter of a droplet [m]. Droplets
-//! that spread to `s` times their diameter cover `pi s² d²/4` each, so `3 s² h/(2 d)` of the wall, overlaps counted; *assumed*
-//! `s = 2` (molten metal and slag are reported between 1.5 and 5, by speed and viscosity), which gives the 6. The arriving
+//! `w = 1 - exp(-6 h/d)`, with `h` the thickness of the melt, evenly spread [m], and `d` the
+//! diameter of a droplet [m]. Droplets that spread to `s` times their diameter cover `pi s² d²/4`
+//! each, so `3 s² h/(2 d)` of the wall, overlaps counted; *assumed* `s = 2` (molten metal and slag
+//! are reported between 1.5 and 5, by speed and viscosity), which gives the 6. The arriving
 //! particle represents the earlier ones. 45 % of the wall is wet under `h = d/10`.
 
 /// Wetted share of the wall [1] under melt of a thickness [m], left by particles of a diameter [m].

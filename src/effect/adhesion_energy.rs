@@ -3,9 +3,10 @@
 //! `W -> work_of_adhesion` [J/m²], in place of `2 sqrt(gamma_1 gamma_2)` or of the model's own `work_of_adhesion`. The
 //! adhesive velocity is proportional to `W^(5/6)`. It overrides changes of `W` by effects before it in the file.
 //!
-//! Observed with tungsten on steel: 0.13 J/m² measured, far below the value of clean metals; oxide, gas and roughness separate
-//! the solids. Valid with `thornton-ning`, whose adhesion is that of JKR: for contacts soft and wide against the range of the
-//! surface forces. Slow impacts determine it; fast ones do not.
+//! Observed with tungsten on steel: 0.13 J/m² measured, far below the value of clean metals; oxide,
+//! gas and roughness separate the solids. Valid with `thornton-ning`, whose adhesion is that of
+//! JKR: for contacts soft and wide against the range of the surface forces. Slow impacts determine
+//! it; fast ones do not.
 
 use super::{Effect, EffectInfo, Parameter, Precomputed, Search};
 use crate::impact::Impact;

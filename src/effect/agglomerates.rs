@@ -1,14 +1,15 @@
 //! `agglomerates`: a fraction of the particles are clusters, which rebound with little loss.
 //!
-//! With the probability `fraction` [1] `e_n` is drawn anew, uniformly around `restitution` [1] with the standard deviation
-//! `spread` [1]: `e_n -> restitution + sqrt(12) spread (u - 1/2)`, clamped to 0 to 1.5; otherwise `e_n` is unchanged. Particles held by
-//! adhesion stay held.
+//! With the probability `fraction` [1] `e_n` is drawn anew, uniformly around `restitution` [1] with
+//! the standard deviation `spread` [1]: `e_n -> restitution + sqrt(12) spread (u - 1/2)`, clamped
+//! to 0 to 1.5; otherwise `e_n` is unchanged. Particles held by adhesion stay held.
 //!
-//! Observed with tungsten dust on tungsten at near-normal incidence: about 25 % of the rebounds lose little (`e_n` above 0.6)
-//! and lie off the Thornton–Ning curve that the other 75 % follow; doublets in the deposit suggest agglomerates, besides
-//! nanometre roughness and spin (MIGRAINE dust study). Assumed: the draw is uniform and independent of speed and size.
-//! Valid for a population, not for one particle. One draw, stream `stream::AGGLOMERATES`: below `fraction` the particle is an
-//! agglomerate, and the draw over `fraction`, `u`, sets its rebound.
+//! Observed with tungsten dust on tungsten at near-normal incidence: about 25 % of the rebounds
+//! lose little (`e_n` above 0.6) and lie off the Thornton–Ning curve that the other 75 % follow;
+//! doublets in the deposit suggest agglomerates, besides nanometre roughness and spin (MIGRAINE
+//! dust study). Assumed: the draw is uniform and independent of speed and size. Valid for a
+//! population, not for one particle. One draw, stream `stream::AGGLOMERATES`: below `fraction` the
+//! particle is an agglomerate, and the draw over `fraction`, `u`, sets its rebound.
 
 use super::{Effect, EffectInfo, Parameter, QuantityKind, Search, stream};
 use crate::impact::Impact;

@@ -1,16 +1,20 @@
 //! `conversion-decline`: past a carbon conversion, sticky ash is caught less and less.
 //!
-//! The particle's stickiness, as the capture criterion and the other effects give it, is multiplied by 1 up to `X_c = peak`, and
-//! by `1 - (1 - residual) (X_c - peak)/(1 - peak)` above, which ends at `residual` for `X_c = 1`. `X_c` carbon conversion [1]
-//! (a burnt-out particle has 1), `peak` [1] the conversion at which most is caught, `residual` [1] the share of the stickiness left
-//! at full conversion. Without a criterion or another effect that makes particles sticky it does nothing.
+//! The particle's stickiness, as the capture criterion and the other effects give it, is multiplied
+//! by 1 up to `X_c = peak`, and by `1 - (1 - residual) (X_c - peak)/(1 - peak)` above, which ends
+//! at `residual` for `X_c = 1`. `X_c` carbon conversion [1] (a burnt-out particle has 1), `peak`
+//! [1] the conversion at which most is caught, `residual` [1] the share of the stickiness left at
+//! full conversion. Without a criterion or another effect that makes particles sticky it does
+//! nothing.
 //!
-//! Observed: on a deposition probe in burning coal the collection efficiency rises sharply to a maximum as the burnout
-//! approaches a critical value, and decreases slightly beyond (Bool & Johnson, in the introduction of Troiano et al.). The rise is
-//! the effect `conversion-transition`; this is the fall. *Assumed*: the straight line and both numbers, which Troiano does not
-//! give. A likely cause is the collapse of the porous char to a denser, smaller and smoother particle in the char-slag transition
-//! (Li & Whitty, in Troiano et al.; the mechanism not re-read). If the density and the diameter of the impact already follow the
-//! conversion, part of the fall is in them: fit `residual` together with them. Valid from `peak` on, for one coal.
+//! Observed: on a deposition probe in burning coal the collection efficiency rises sharply to a
+//! maximum as the burnout approaches a critical value, and decreases slightly beyond (Bool &
+//! Johnson, in the introduction of Troiano et al.). The rise is the effect `conversion-transition`;
+//! this is the fall. *Assumed*: the straight line and both numbers, which Troiano does not give. A
+//! likely cause is the collapse of the porous char to a denser, smaller and smoother particle in
+//! the char-slag transition (Li & Whitty, in Troiano et al.; the mechanism not re-read). If the
+//! density and the diameter of the impact already follow the conversion, part of the fall is in
+//! them: fit `residual` together with them. Valid from `peak` on, for one coal.
 //!
 //! The deposit that has formed is judged without it: melt that lies on the wall no longer has to be caught.
 

@@ -1,13 +1,15 @@
 //! `conversion-transition`: char becomes sticky once most of its carbon is gone.
 //!
-//! Capture rises with the particle's stickiness, and `e_n` falls to `e_n (1 - softening S)`; `softening` is 0 unless given.
-//! `S = (1 + (2^(1/a) - 1) exp((X_50 - X_c) / width))^-a`; with the default asymmetry `a` = 1 the
-//! logistic `1 / (1 + exp((X_50 - X_c) / width))`: below the threshold the refractory carbon encloses
-//! the molten ash, beyond it the ash encloses the remaining carbon. `X_c` carbon conversion [1], `X_50` threshold [1],
-//! `width` [1]. With `melting-transition` a particle needs both to stick, so the two are multiplied.
+//! Capture rises with the particle's stickiness, and `e_n` falls to `e_n (1 - softening S)`;
+//! `softening` is 0 unless given. `S = (1 + (2^(1/a) - 1) exp((X_50 - X_c) / width))^-a`; with the
+//! default asymmetry `a` = 1 the logistic `1 / (1 + exp((X_50 - X_c) / width))`: below the
+//! threshold the refractory carbon encloses the molten ash, beyond it the ash encloses the
+//! remaining carbon. `X_c` carbon conversion [1], `X_50` threshold [1], `width` [1]. With
+//! `melting-transition` a particle needs both to stick, so the two are multiplied.
 //!
-//! Observed with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise lies at a conversion of
-//! 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c = 1`.
+//! Observed with coal on a deposition plate (Li et al., in Troiano et al., Fig 12): the sharp rise
+//! lies at a conversion of 0.88 to 0.90. Valid for one coal; particles without carbon have `X_c =
+//! 1`.
 
 use super::transition::{ASYMMETRY, Variable, transition};
 use super::{EffectInfo, Parameter, QuantityKind, Search};

@@ -1,9 +1,11 @@
 //! `dry-on-melt`: a dry particle on molten slag sinks, is held by surface tension, or bounces.
 //!
-//! The energy of the impact against viscosity and surface tension decides, as `src/capture/rebound_from_slag.rs` derives it: drag over one
-//! diameter in and one out brakes the particle; it is held when what is left does not pull it out of the surface, `pi R²
-//! sigma (1 + cos theta)²`, and it sinks when what is left on the way in submerges it. Otherwise it leaves with `e_n =
-//! sqrt(v_out² - 2 W/m)/v_n`. On a melt of more than some 0.1 Pa s drag holds every particle below 0.1 mm.
+//! The energy of the impact against viscosity and surface tension decides, as
+//! `src/capture/rebound_from_slag.rs` derives it: drag over one diameter in and one out brakes the
+//! particle; it is held when what is left does not pull it out of the surface, `pi R² sigma (1 +
+//! cos theta)²`, and it sinks when what is left on the way in submerges it. Otherwise it leaves
+//! with `e_n = sqrt(v_out² - 2 W/m)/v_n`. On a melt of more than some 0.1 Pa s drag holds every
+//! particle below 0.1 mm.
 //!
 //! `theta` [degrees] contact angle of the melt on the particle, measured through the melt; slag on char is said to be
 //! between 90 and 160 (assumed; see there). The stickiness `P_s` of the slag stays the probability that it acts
@@ -37,8 +39,8 @@ pub struct DryOnMelt {
 }
 
 impl DryOnMelt {
-    /// Normal restitution [1] of a particle of a density [kg/m³] on melt of a viscosity [Pa s] and a surface tension [N/m]; 0 when it
-    /// stays. Without branches, for vectors.
+    /// Normal restitution [1] of a particle of a density [kg/m³] on melt of a viscosity [Pa s] and
+    /// a surface tension [N/m]; 0 when it stays. Without branches, for vectors.
     #[inline(always)]
     pub(crate) fn rebound(&self, impact: &Impact, density: f64, viscosity: f64, surface_tension: f64) -> f64 {
         rebound_from_slag(
@@ -78,8 +80,9 @@ mod tests {
         (INFO.build)(&[contact_angle]).on_melt(&impact, &contact)
     }
 
-    /// Drag on slag of 1 Pa s takes 18/(700 * 75e-6) = 343 m/s each way. Without drag, by hand for 75 µm and 120 degrees: submerging takes
-    /// v² = 3 sigma (1.5)²/(rho d) = 70.7 m²/s², 8.41 m/s; detaching a ninth of that, 7.86 m²/s², 2.80 m/s.
+    /// Drag on slag of 1 Pa s takes 18/(700 * 75e-6) = 343 m/s each way. Without drag, by hand for
+    /// 75 µm and 120 degrees: submerging takes v² = 3 sigma (1.5)²/(rho d) = 70.7 m²/s², 8.41 m/s;
+    /// detaching a ninth of that, 7.86 m²/s², 2.80 m/s.
     #[test]
     fn viscous_slag_holds_and_thin_slag_lets_go() {
         assert_eq!(on_melt(1.0, 100.0, 120.0), Some(OnMelt::Held));

@@ -1,14 +1,16 @@
 //! `fitted-curve` and `level-shift`: corrections that a fit found without a law for them.
 //!
-//! A curve gives a value `f` over one input: linear between its knots, constant beyond the first and the last. A surface does so over
-//! two inputs, bilinear. A level shift has the same `f` for every impact. After all laws and effects, in the order of the file,
-//! `e_n -> e_n + f` and `e_t -> e_t + f` (`add`), or `e_n -> e_n (1 + f)` and `e_t -> e_t (1 + f)` (`factor`); then `e_n` is at least
+//! A curve gives a value `f` over one input: linear between its knots, constant beyond the first
+//! and the last. A surface does so over two inputs, bilinear. A level shift has the same `f` for
+//! every impact. After all laws and effects, in the order of the file, `e_n -> e_n + f` and `e_t ->
+//! e_t + f` (`add`), or `e_n -> e_n (1 + f)` and `e_t -> e_t (1 + f)` (`factor`); then `e_n` is at
+//! least
 //! 0. On capture, `f` of all terms is added to the log odds of the probability `p` [1]: `b = 0.005 + 0.99 p`,
 //! `p -> clamp((logistic(logit(b) + f) - 0.005)/0.99, 0, 1)`. So 0 changes nothing, and 0 and 1 can be moved.
 //!
-//! `f` is a pure number [1]; knots have the unit of their input. No physics: the values hold for the data of the fit (`valid`). An
-//! input of words has a value for each word, and none between them; a word without a value, and a word that is not stated, leave the
-//! impact unchanged.
+//! `f` is a pure number [1]; knots have the unit of their input. No physics: the values hold for
+//! the data of the fit (`valid`). An input of words has a value for each word, and none between
+//! them; a word without a value, and a word that is not stated, leave the impact unchanged.
 
 use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::{ExtraInput, INPUTS, Impact};
@@ -127,7 +129,8 @@ pub struct CurveAxis {
 }
 
 impl CurveAxis {
-    /// The knot at or below an impact, and the share [1] of the next knot; `None` where the axis has no value for the impact.
+    /// The knot at or below an impact, and the share [1] of the next knot; `None` where the axis
+    /// has no value for the impact.
     fn place(&self, impact: &Impact) -> Option<(usize, f64)> {
         let value = self.input.value(impact);
         if let CurveInput::Label(_) = self.input {
@@ -154,8 +157,8 @@ pub struct FittedCurve {
     pub form: CurveForm,
     /// Its inputs.
     pub axes: Vec<CurveAxis>,
-    /// The value [1] at each combination of knots; that of the last axis changes first. A curve with another number of values corrects
-    /// nothing.
+    /// The value [1] at each combination of knots; that of the last axis changes first. A curve
+    /// with another number of values corrects nothing.
     pub values: Vec<f64>,
 }
 

@@ -1,13 +1,15 @@
 //! `gas-lift`: a strong flow of gas along the wall raises `e_n` of glancing impacts.
 //!
-//! `e_n -> e_n (1 + b v_gas cos(alpha))` with `b` the `strength` [s/m], `v_gas` the speed of the gas along the wall [m/s]
-//! and `alpha` counted from the surface, so `cos(alpha) = v_t/v`: no effect head-on, the full effect at grazing incidence.
+//! `e_n -> e_n (1 + b v_gas cos(alpha))` with `b` the `strength` [s/m], `v_gas` the speed of the
+//! gas along the wall [m/s] and `alpha` counted from the surface, so `cos(alpha) = v_t/v`: no
+//! effect head-on, the full effect at grazing incidence.
 //!
-//! The form is assumed, a straight line through two observations: wax at `v_n = 1 m/s` had `e_n` 0.41 at 35° against 0.28
-//! near normal, where the air that drove it flowed four times as fast (Troiano et al., Fig 6, who name lift as the likely
-//! cause and give no gas speed at the wall). They give `b v_gas` = 0.57 at 35°. Valid within the fitted gas speeds; the
-//! result does not exceed 1, so that lift alone returns no more speed than came in. Where the solver resolves the boundary
-//! layer, its drag and lift may already contain part of this effect.
+//! The form is assumed, a straight line through two observations: wax at `v_n = 1 m/s` had `e_n`
+//! 0.41 at 35° against 0.28 near normal, where the air that drove it flowed four times as fast
+//! (Troiano et al., Fig 6, who name lift as the likely cause and give no gas speed at the wall).
+//! They give `b v_gas` = 0.57 at 35°. Valid within the fitted gas speeds; the result does not
+//! exceed 1, so that lift alone returns no more speed than came in. Where the solver resolves the
+//! boundary layer, its drag and lift may already contain part of this effect.
 
 use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;

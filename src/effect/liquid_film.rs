@@ -1,19 +1,21 @@
 //! `liquid-film`: a liquid film on the wall slows the particle on approach and on rebound.
 //!
-//! `e_n -> e_n (1 - St_c/St)`, and the particle is held where `St <= St_c`, with `St = rho d v_n/(9 mu)` and `St_c = (1 +
-//! 1/e_n) ln(h/h_a)` for a film thicker than `h_a`, 0 otherwise. `rho` particle density [kg/m³], `d` diameter [m], `mu` the
-//! film's `viscosity` [Pa s], `h` its thickness [m], `h_a` the `asperity` [m] at which the solids touch, `e_n` the dry
-//! restitution.
+//! `e_n -> e_n (1 - St_c/St)`, and the particle is held where `St <= St_c`, with `St = rho d v_n/(9
+//! mu)` and `St_c = (1 + 1/e_n) ln(h/h_a)` for a film thicker than `h_a`, 0 otherwise. `rho`
+//! particle density [kg/m³], `d` diameter [m], `mu` the film's `viscosity` [Pa s], `h` its
+//! thickness [m], `h_a` the `asperity` [m] at which the solids touch, `e_n` the dry restitution.
 //!
-//! Derived from the lubrication force `6 pi mu R² v/x` on a sphere at a distance `x` from a plane: crossing the film costs
-//! `9 mu/(rho d) ln(h/h_a)` of speed, once each way. The critical Stokes number is that of Ennis, Tardos & Pfeffer (Powder
-//! Technology 65 (1991) 257) for granules; Davis, Rager & Good (J. Fluid Mech. 468 (2002) 107) measured spheres on a wetted
-//! plane and observed the same law. Meant for walls covered with slag.
+//! Derived from the lubrication force `6 pi mu R² v/x` on a sphere at a distance `x` from a plane:
+//! crossing the film costs `9 mu/(rho d) ln(h/h_a)` of speed, once each way. The critical Stokes
+//! number is that of Ennis, Tardos & Pfeffer (Powder Technology 65 (1991) 257) for granules; Davis,
+//! Rager & Good (J. Fluid Mech. 468 (2002) 107) measured spheres on a wetted plane and observed the
+//! same law. Meant for walls covered with slag.
 //!
-//! Valid for films thin against `d` and slow flow within them; it neglects capillary and inertial forces, cavitation on
-//! rebound and deformation by the pressure of the film, which lowers `St_c`. The film is the caller's `film_thickness`, or
-//! the melt of earlier particles where that is thicker; without a `viscosity` its viscosity is that of the slag at the
-//! wall's temperature. Under a powder layer the film does not act (Troiano et al., Fig 10, found powder on syrup like
+//! Valid for films thin against `d` and slow flow within them; it neglects capillary and inertial
+//! forces, cavitation on rebound and deformation by the pressure of the film, which lowers `St_c`.
+//! The film is the caller's `film_thickness`, or the melt of earlier particles where that is
+//! thicker; without a `viscosity` its viscosity is that of the slag at the wall's temperature.
+//! Under a powder layer the film does not act (Troiano et al., Fig 10, found powder on syrup like
 //! powder on a dry target).
 
 use super::{Effect, EffectInfo, Parameter, Search};
@@ -90,8 +92,8 @@ mod tests {
         effect.normal_restitution(&impact, &wax_on_pyrex(), DRY, 0.0)
     }
 
-    /// Newton's law with the lubrication force, integrated through a film of 10 µm and out of it again (Heun's method in the
-    /// logarithm of the distance); wax, 1000 kg/m³.
+    /// Newton's law with the lubrication force, integrated through a film of 10 µm and out of it
+    /// again (Heun's method in the logarithm of the distance); wax, 1000 kg/m³.
     fn by_integration(viscosity: f64, speed: f64) -> f64 {
         let radius = 50e-6;
         let mass = 1000.0 * 4.0 / 3.0 * PI * f64::powi(radius, 3);

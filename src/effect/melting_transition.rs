@@ -6,9 +6,10 @@
 //! `T_50` [K] is the particle temperature at which half of head-on impacts stick, `width` [K] the sharpness.
 //! Valid around the melting range of one material.
 //!
-//! Observed with wax on Pyrex (Troiano et al., Figs 12 and 13): capture practically 0 below 50 °C, 8 % at 70 °C and 93 % at
-//! 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce. The flow test of the same wax (1, 50 and 70 %
-//! at 65, 71.1 and 74.6 °C) is sharper and lies lower: a particle sticks later than the wax starts to flow.
+//! Observed with wax on Pyrex (Troiano et al., Figs 12 and 13): capture practically 0 below 50 °C,
+//! 8 % at 70 °C and 93 % at 105 °C, which `T_50 = 360.1 K` (87 °C) and `width = 6.96 K` reproduce.
+//! The flow test of the same wax (1, 50 and 70 % at 65, 71.1 and 74.6 °C) is sharper and lies
+//! lower: a particle sticks later than the wax starts to flow.
 
 use super::transition::{ASYMMETRY, Variable, transition};
 use super::{EffectInfo, Parameter, QuantityKind, Search};

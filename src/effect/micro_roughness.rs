@@ -1,15 +1,18 @@
 //! `micro-roughness`: a particle hits a randomly tilted part of the wall.
 //!
-//! The wall is tilted towards the particle by `delta = sigma z` [rad], `sigma` the `angle` [rad] and `z` a standard normal
-//! number truncated to tilts that the particle can hit: `delta > -alpha` (from the outer side; `alpha` is the angle of the
-//! path from the mean surface) and `delta < pi/2` (no overhangs). The laws then act in the local frame, and `e_n` and `e_t` are
-//! turned back to the mean wall (`src/model/tilted_frame.rs`), where `e_n` may exceed 1.
+//! The wall is tilted towards the particle by `delta = sigma z` [rad], `sigma` the `angle` [rad]
+//! and `z` a standard normal number truncated to tilts that the particle can hit: `delta > -alpha`
+//! (from the outer side; `alpha` is the angle of the path from the mean surface) and `delta < pi/2`
+//! (no overhangs). The laws then act in the local frame, and `e_n` and `e_t` are turned back to the
+//! mean wall (`src/model/tilted_frame.rs`), where `e_n` may exceed 1.
 //!
-//! That the geometry of an impact is drawn at random follows the MIGRAINE dust study; a normal distribution of the tilt is
-//! the model of Sommerfeld & Huber (1999) for rough channels. Observed as scatter at glancing angles and as `e_n` above 1.
-//! Limits: tilts lie in the plane of the impact, so no particle is deflected sideways; and tilts within the bounds are not
-//! weighted by how often a path meets them (no shadow weighting). At glancing angles the mean tilt is above 0 by the
-//! truncation alone. Valid for facets wide against the contact and narrow against the flight between two hits. One draw, stream `stream::MICRO_ROUGHNESS`.
+//! That the geometry of an impact is drawn at random follows the MIGRAINE dust study; a normal
+//! distribution of the tilt is the model of Sommerfeld & Huber (1999) for rough channels. Observed
+//! as scatter at glancing angles and as `e_n` above 1. Limits: tilts lie in the plane of the
+//! impact, so no particle is deflected sideways; and tilts within the bounds are not weighted by
+//! how often a path meets them (no shadow weighting). At glancing angles the mean tilt is above 0
+//! by the truncation alone. Valid for facets wide against the contact and narrow against the flight
+//! between two hits. One draw, stream `stream::MICRO_ROUGHNESS`.
 
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 

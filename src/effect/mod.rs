@@ -1,7 +1,7 @@
 //! Effects: named, removable terms that change the results of the laws. One effect a file.
 //!
-//! A new effect is one file with an [`EffectInfo`] and one line in [`EFFECTS`]; the model file, the C library and OpenFOAM then
-//! know it, and tests demand its line in the documents.
+//! A new effect is one file with an [`EffectInfo`] and one line in [`EFFECTS`]; the model file, the
+//! C library and OpenFOAM then know it, and tests demand its line in the documents.
 
 mod adhesion_energy;
 mod agglomerates;
@@ -82,8 +82,8 @@ pub mod stream {
 
 /// A named term of a model. Each method belongs to one step of an impact; an effect overrides those on which it acts.
 ///
-/// `chance` is a uniform random number in (0, 1), drawn for each impact and each effect with an [`EffectInfo::stream`]; other
-/// effects receive zero.
+/// `chance` is a uniform random number in (0, 1), drawn for each impact and each effect with an
+/// [`EffectInfo::stream`]; other effects receive zero.
 pub trait Effect: Send + Sync + std::fmt::Debug {
     /// Tilt of the local wall towards the particle [rad]; tilts of several effects add.
     fn tilt(&self, _impact: &Impact, _chance: f64) -> f64 {
@@ -95,7 +95,8 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         contact
     }
 
-    /// Stickiness of the particle, 0 to 1; that of several effects is multiplied. `None` for an effect that does not act on it.
+    /// Stickiness of the particle, 0 to 1; that of several effects is multiplied. `None` for an
+    /// effect that does not act on it.
     fn particle_stickiness(&self, _impact: &Impact) -> Option<f64> {
         None
     }
@@ -110,8 +111,8 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         0.0
     }
 
-    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the wall. `contact` is that of
-    /// the normal law.
+    /// Changes the normal restitution `e_n` [1] of a particle that rebounds; `None` holds it on the
+    /// wall. `contact` is that of the normal law.
     fn normal_restitution(
         &self,
         _impact: &Impact,
@@ -137,7 +138,8 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         None
     }
 
-    /// What the effect corrects after all laws and effects, in the last step of an impact; `None` for an effect that is a law.
+    /// What the effect corrects after all laws and effects, in the last step of an impact; `None`
+    /// for an effect that is a law.
     fn correction(&self) -> Option<&FittedCurve> {
         None
     }

@@ -3,9 +3,10 @@
 //! `W -> W (1 - s u)` with `u` drawn uniformly from 0 to 1 and `s` the `spread` [1]: the work of adhesion lies between
 //! `1 - s` and 1 times that of two smooth solids (JKR). The mean falls by `s/2`.
 //!
-//! That adhesion is drawn at random follows the MIGRAINE dust study, which names reduced adhesion on nanometre roughness as one
-//! cause of the scatter of `e_n` at low speed; the uniform distribution is assumed. Valid with `thornton-ning` at speeds where
-//! adhesion matters. The height of the asperities does not enter; `spread` represents it. One draw, stream
+//! That adhesion is drawn at random follows the MIGRAINE dust study, which names reduced adhesion
+//! on nanometre roughness as one cause of the scatter of `e_n` at low speed; the uniform
+//! distribution is assumed. Valid with `thornton-ning` at speeds where adhesion matters. The height
+//! of the asperities does not enter; `spread` represents it. One draw, stream
 //! `stream::NANO_ROUGHNESS`.
 
 use super::{Effect, EffectInfo, Parameter, Search, stream};

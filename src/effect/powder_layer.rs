@@ -3,10 +3,10 @@
 //! `e_n -> e_n (r + (1-r) exp(-h/h0))`, with `h` the thickness of the layer [m], `h0` [m] the thickness over
 //! which the loss builds up, and `r` [1] the share of `e_n` left by a thick layer.
 //!
-//! Observed with wax at 84° from the surface (Troiano et al., Fig 10): `e_n` 0.28 on the bare target, 0.10 under 0.25 mm and
-//! 0.07 under 1.4 mm of wax powder, the same on a dry target as on syrup. The law is exact at `h = 0`; the other two points
-//! give `h0 = 0.128 mm` and `r = 0.25`. The form is assumed and untested. Valid for wax powder up to 1.4 mm, near-normal
-//! impacts.
+//! Observed with wax at 84° from the surface (Troiano et al., Fig 10): `e_n` 0.28 on the bare
+//! target, 0.10 under 0.25 mm and 0.07 under 1.4 mm of wax powder, the same on a dry target as on
+//! syrup. The law is exact at `h = 0`; the other two points give `h0 = 0.128 mm` and `r = 0.25`.
+//! The form is assumed and untested. Valid for wax powder up to 1.4 mm, near-normal impacts.
 
 use super::{Effect, EffectInfo, Parameter, QuantityKind, Search};
 use crate::impact::Impact;

@@ -1,8 +1,8 @@
 //! `size-dependent-yield`: small particles are stronger.
 //!
-//! `sigma_y -> sigma_y (d0/d)^m` with `d` the particle's diameter [m], `d0` the `diameter` [m] for which the material's
-//! strength holds and `m` the `exponent` [1]. The yield velocity is proportional to `d^(-5m/2)`. Strength changes by twelve decades at
-//! most.
+//! `sigma_y -> sigma_y (d0/d)^m` with `d` the particle's diameter [m], `d0` the `diameter` [m] for
+//! which the material's strength holds and `m` the `exponent` [1]. The yield velocity is
+//! proportional to `d^(-5m/2)`. Strength changes by twelve decades at most.
 //!
 //! That metals of few micrometres are stronger is known (fewer sources of dislocations, finer grains: Hall–Petch has
 //! `m = 1/2` in the grain size), and the MIGRAINE dust study lets tungsten's strength depend on size without giving the

@@ -4,9 +4,10 @@
 //! (`src/tangential/sliding_rolling.rs`) of friction `f` [1]: `e_t = 1 - f (1+e_n) v_n/v_t` up to the critical angle
 //! from the surface `alpha_cr = acot((7k-1)/k · f/2 · (1+e_n))`, 5/7 above; spin counts in both.
 //!
-//! Observed with wax on Pyrex (Troiano et al., Figs 6 and 7): a straight line with `f = 0.28` up to 45°, where the data leave it;
-//! `alpha_cr` is 43°. Valid for a rigid sphere; near normal real ones keep more (0.85 at 80°), see
-//! `tangential-compliance`. It exists as an effect besides the law so that a diagnosis can propose it.
+//! Observed with wax on Pyrex (Troiano et al., Figs 6 and 7): a straight line with `f = 0.28` up to
+//! 45°, where the data leave it; `alpha_cr` is 43°. Valid for a rigid sphere; near normal real ones
+//! keep more (0.85 at 80°), see `tangential-compliance`. It exists as an effect besides the law so
+//! that a diagnosis can propose it.
 
 use super::{Effect, EffectInfo, Parameter, QuantityKind, Search};
 use crate::tangential::{ImpactKinematics, Rebound, TangentialLaw};

@@ -1,13 +1,15 @@
 //! `strain-rate-hardening`: a faster impact meets a stronger solid.
 //!
-//! `sigma_y -> sigma_y (v_n/v_0)^m` with `v_n` the speed towards the wall [m/s], `v_0` the `speed` [m/s] at which the material's
-//! strength holds and `m` the `exponent` [1]. Far above yield `e_n` falls with `v_n^(-1/4)` without this
-//! effect and changes with `v_n^((5m/2-1)/4)` with it; `m = 0.4` makes it constant. Strength changes by twelve decades at most.
+//! `sigma_y -> sigma_y (v_n/v_0)^m` with `v_n` the speed towards the wall [m/s], `v_0` the `speed`
+//! [m/s] at which the material's strength holds and `m` the `exponent` [1]. Far above yield `e_n`
+//! falls with `v_n^(-1/4)` without this effect and changes with `v_n^((5m/2-1)/4)` with it; `m =
+//! 0.4` makes it constant. Strength changes by twelve decades at most.
 //!
-//! Observed with sand and metals, whose `p_y` rises with impact speed; the power in the impact speed, rather than in the rate of
-//! strain, is assumed: the rate is also proportional to `1/d`, which `size-dependent-yield` covers. Valid over the fitted
-//! speeds; for much slower impacts the solid is too weak. The sticking velocity is that of a solid with the strength at the
-//! speed of the impact.
+//! Observed with sand and metals, whose `p_y` rises with impact speed; the power in the impact
+//! speed, rather than in the rate of strain, is assumed: the rate is also proportional to `1/d`,
+//! which `size-dependent-yield` covers. Valid over the fitted speeds; for much slower impacts the
+//! solid is too weak. The sticking velocity is that of a solid with the strength at the speed of
+//! the impact.
 
 use super::{Effect, EffectInfo, Parameter, Search, bounded};
 use crate::impact::Impact;

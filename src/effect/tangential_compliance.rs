@@ -1,20 +1,23 @@
 //! `tangential-compliance`: past the critical angle the contact deforms elastically along the wall.
 //!
-//! Up to `alpha_cr` gross sliding, as in `sliding-to-rolling`. Above, in place of rolling's 5/7, `e_t = e_cr + (e_1 - e_cr)
-//! x^q`, `x = (alpha - alpha_cr)/(pi/2 - alpha_cr)`, where `e_cr = 1 - 2k/(7k-1)` is the value at the end of sliding
-//! (Mindlin's `k`), `e_1` the value `near_normal` [1] and `q` the `exponent` [1]. `e_t` is continuous, lies below 5/7 just
-//! past the transition and rises towards `e_1`. `alpha` is counted from the surface.
+//! Up to `alpha_cr` gross sliding, as in `sliding-to-rolling`. Above, in place of rolling's 5/7,
+//! `e_t = e_cr + (e_1 - e_cr) x^q`, `x = (alpha - alpha_cr)/(pi/2 - alpha_cr)`, where `e_cr = 1 -
+//! 2k/(7k-1)` is the value at the end of sliding (Mindlin's `k`), `e_1` the value `near_normal` [1]
+//! and `q` the `exponent` [1]. `e_t` is continuous, lies below 5/7 just past the transition and
+//! rises towards `e_1`. `alpha` is counted from the surface.
 //!
 //! With spin `omega` the slip `u - omega d/2` takes the place of `u`: `alpha = atan(v_n/|slip|)`, the wall reduces the
 //! speed along it by `(1 - e_t(x)) slip` (for 2/7 that is rolling), and the spin keeps the angular momentum about the
 //! contact point, `omega2 = omega1 + 5 (u1 - u2)/d`. `u` [m/s], `d` [m], `omega` [rad/s].
 //!
-//! The power of `x` is assumed and fitted to wax on Pyrex (Troiano et al., Fig 6): 0.85 at 80°, which `f = 0.28`, `e_1 =
-//! 1`, `q = 2.2` give. It is not the solution for elastic spheres (Maw, Barber & Fawcett 1976): integrated for that pair,
-//! elastic compliance falls from 0.64 at the transition to 0.55 and comes back to 0.69 head-on (`validation/run`,
-//! "Independent checks"), so another cause raises wax to 0.85; the name of the paper is kept. The solution itself is the
-//! tangential law `maw-barber-fawcett`. `e_1` above 1, or below 3/7, may create energy with spin. Valid for one friction
-//! and one pair of materials. It replaces the result of the tangential law and of effects before it.
+//! The power of `x` is assumed and fitted to wax on Pyrex (Troiano et al., Fig 6): 0.85 at 80°,
+//! which `f = 0.28`, `e_1 = 1`, `q = 2.2` give. It is not the solution for elastic spheres (Maw,
+//! Barber & Fawcett 1976): integrated for that pair, elastic compliance falls from 0.64 at the
+//! transition to 0.55 and comes back to 0.69 head-on (`validation/run`, "Independent checks"), so
+//! another cause raises wax to 0.85; the name of the paper is kept. The solution itself is the
+//! tangential law `maw-barber-fawcett`. `e_1` above 1, or below 3/7, may create energy with spin.
+//! Valid for one friction and one pair of materials. It replaces the result of the tangential law
+//! and of effects before it.
 
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,12 +1,15 @@
 //! `thermal-softening`: a hot particle is weaker and softer.
 //!
-//! `sigma_y -> sigma_y s` and `E* -> E* sqrt(s)` with `s = exp(-max(0, T_p - onset)/scale)`; `T_p` particle temperature [K],
-//! `onset` [K], `scale` [K]. The yield velocity is proportional to `s^(3/2)`. Strength changes by twelve decades at most.
+//! `sigma_y -> sigma_y s` and `E* -> E* sqrt(s)` with `s = exp(-max(0, T_p - onset)/scale)`; `T_p`
+//! particle temperature [K], `onset` [K], `scale` [K]. The yield velocity is proportional to
+//! `s^(3/2)`. Strength changes by twelve decades at most.
 //!
-//! Assumed: the exponential, and that the modulus falls more slowly than the strength (`sqrt(s)`). Both are known to fall
-//! for tungsten (the MIGRAINE dust study lets them depend on temperature, without giving the laws) and expected of hot
-//! ash. Valid below melting; beyond it use `melting-transition`. It multiplies the temperature tables of a material, if any.
-//! It softens the whole contact: the particle is assumed to yield before the wall and to contribute most of the compliance.
+//! Assumed: the exponential, and that the modulus falls more slowly than the strength (`sqrt(s)`).
+//! Both are known to fall for tungsten (the MIGRAINE dust study lets them depend on temperature,
+//! without giving the laws) and expected of hot ash. Valid below melting; beyond it use
+//! `melting-transition`. It multiplies the temperature tables of a material, if any. It softens the
+//! whole contact: the particle is assumed to yield before the wall and to contribute most of the
+//! compliance.
 
 use super::{Effect, EffectInfo, Parameter, QuantityKind, Search, bounded};
 use crate::impact::Impact;

@@ -1,12 +1,13 @@
 //! `viscoelastic-loss`: a loss in the solids that grows with speed.
 //!
-//! `e_n -> e_n exp(-(v_n/v_0)^m)` with `v_n` the speed towards the wall [m/s], `v_0` the `speed` [m/s] at which the loss leaves
-//! `1/e` of `e_n`, and `m` the `exponent` [1].
+//! `e_n -> e_n exp(-(v_n/v_0)^m)` with `v_n` the speed towards the wall [m/s], `v_0` the `speed`
+//! [m/s] at which the loss leaves `1/e` of `e_n`, and `m` the `exponent` [1].
 //!
-//! For slow impacts the loss is `(v_n/v_0)^m`; the theory of viscoelastic spheres begins with `m = 1/5` (Kuwabara & Kono 1987;
-//! Ramírez et al., Phys. Rev. E 60 (1999) 4465). Assumed: the exponential beyond small losses, and that it
-//! multiplies the result of plasticity and adhesion. Expected of soft particles. Valid over the fitted speeds;
-//! size and temperature enter only through the fitted values.
+//! For slow impacts the loss is `(v_n/v_0)^m`; the theory of viscoelastic spheres begins with `m =
+//! 1/5` (Kuwabara & Kono 1987; Ramírez et al., Phys. Rev. E 60 (1999) 4465). Assumed: the
+//! exponential beyond small losses, and that it multiplies the result of plasticity and adhesion.
+//! Expected of soft particles. Valid over the fitted speeds; size and temperature enter only
+//! through the fitted values.
 
 use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;

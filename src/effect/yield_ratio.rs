@@ -1,11 +1,13 @@
 //! `yield-ratio`: the ratio of limiting contact pressure to yield strength differs from the assumed one.
 //!
-//! `c = p_y / sigma_y -> ratio` [1], in place of the model's `yield_ratio`. The yield velocity is proportional to
-//! `c^(5/2)`, so far above it `e_n` is proportional to `c^(5/8)`. Finite-element work on spheres puts `c` at 1.6 to 2.8.
+//! `c = p_y / sigma_y -> ratio` [1], in place of the model's `yield_ratio`. The yield velocity is
+//! proportional to `c^(5/2)`, so far above it `e_n` is proportional to `c^(5/8)`. Finite-element
+//! work on spheres puts `c` at 1.6 to 2.8.
 //!
-//! Observed with tungsten dust on tungsten, where 4 describes the rebounds that 2.8 makes too slow (MIGRAINE dust study), and
-//! with wax spheres, soft against a hard target: 0.7 (Troiano et al.). Valid with `thornton-ning`, whose limits it shares.
-//! A rebound depends on `c` and `sigma_y` only through their product: a ratio far from 1.6 to 4 may indicate another strength.
+//! Observed with tungsten dust on tungsten, where 4 describes the rebounds that 2.8 makes too slow
+//! (MIGRAINE dust study), and with wax spheres, soft against a hard target: 0.7 (Troiano et al.).
+//! Valid with `thornton-ning`, whose limits it shares. A rebound depends on `c` and `sigma_y` only
+//! through their product: a ratio far from 1.6 to 4 may indicate another strength.
 
 use super::{Effect, EffectInfo, Parameter, Precomputed, Search};
 use crate::impact::Impact;

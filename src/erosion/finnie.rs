@@ -1,17 +1,21 @@
 //! `finnie`: erosion of a ductile metal by cutting.
 //!
-//! `Q = m v²/(p psi K) (sin 2a - 6/K sin² a)` for `tan a <= K/6`, and `Q = m v²/(6 p psi) cos² a` above.
-//! `Q` volume removed [m³], `m` mass of the particles [kg], `v` impact speed [m/s], `a` angle between path and surface, `p` plastic
-//! flow stress of the wall (`flow_stress` [Pa]), `psi` ratio of the length of contact to the depth of cut (`depth_ratio` [1], default
-//! 2), `K` ratio of the vertical to the horizontal force on the particle (`force_ratio` [1], default 2).
+//! `Q = m v²/(p psi K) (sin 2a - 6/K sin² a)` for `tan a <= K/6`, and `Q = m v²/(6 p psi) cos² a`
+//! above. `Q` volume removed [m³], `m` mass of the particles [kg], `v` impact speed [m/s], `a`
+//! angle between path and surface, `p` plastic flow stress of the wall (`flow_stress` [Pa]), `psi`
+//! ratio of the length of contact to the depth of cut (`depth_ratio` [1], default 2), `K` ratio of
+//! the vertical to the horizontal force on the particle (`force_ratio` [1], default 2).
 //!
-//! Finnie, "Erosion of surfaces by solid particles", Wear 3 (1960) 87. Second source: the cloud function `particleErosion` of
-//! OpenFOAM (keys `p`, `psi`, `K` with the same defaults), which names Finnie and McFadden, Wear 48 (1978) 181, and Finnie, Levy and
-//! McFadden, ASTM STP 664 (1979) 36; the same sums come out (`tests/openfoam/run erosion`).
+//! Finnie, "Erosion of surfaces by solid particles", Wear 3 (1960) 87. Second source: the cloud
+//! function `particleErosion` of OpenFOAM (keys `p`, `psi`, `K` with the same defaults), which
+//! names Finnie and McFadden, Wear 48 (1978) 181, and Finnie, Levy and McFadden, ASTM STP 664
+//! (1979) 36; the same sums come out (`tests/openfoam/run erosion`).
 //!
-//! Case of the fit: angular silicon carbide on ductile metals at room temperature, shallow angles. Finnie multiplies by the share of
-//! the particles that cut (0.1 to 0.5); here, as in OpenFOAM, that share is part of `p`. Limits: nothing is removed at 90°, where real
-//! metals lose about a third of their maximum; measured exponents of the speed are 2.3 to 2.5. Not for brittle walls (refractory).
+//! Case of the fit: angular silicon carbide on ductile metals at room temperature, shallow angles.
+//! Finnie multiplies by the share of the particles that cut (0.1 to 0.5); here, as in OpenFOAM,
+//! that share is part of `p`. Limits: nothing is removed at 90°, where real metals lose about a
+//! third of their maximum; measured exponents of the speed are 2.3 to 2.5. Not for brittle walls
+//! (refractory).
 
 use std::sync::Arc;
 
@@ -67,8 +71,8 @@ mod tests {
             .unwrap()
     }
 
-    /// By hand with psi = K = 2: 1 kg at 100 m/s has m v²/(p psi K) = 2.5e-6 m³. At 15° times sin 30° - 3 sin² 15° = 0.299038106;
-    /// at 60° times 2/6 cos² 60° = 1/12.
+    /// By hand with psi = K = 2: 1 kg at 100 m/s has m v²/(p psi K) = 2.5e-6 m³. At 15° times sin
+    /// 30° - 3 sin² 15° = 0.299038106; at 60° times 2/6 cos² 60° = 1/12.
     #[test]
     fn volumes_are_those_by_hand() {
         assert_relative_eq!(eroded(100.0, 15.0), 2.5e-6 * 0.299_038_106, max_relative = 1e-8);

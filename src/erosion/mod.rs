@@ -1,10 +1,13 @@
-//! Erosion: the volume of wall that impacts remove. A tally: it changes neither the impact nor the wall. One law a file.
+//! Erosion: the volume of wall that impacts remove. A tally: it changes neither the impact nor the
+//! wall. One law a file.
 //!
-//! A new law is one file with an [`ErosionLaw`] and one line in [`EROSION_LAWS`]; the model file, the C library and OpenFOAM then
-//! know it. [`Model::erosion`](crate::Model::erosion) applies the law of a wall.
+//! A new law is one file with an [`ErosionLaw`] and one line in [`EROSION_LAWS`]; the model file,
+//! the C library and OpenFOAM then know it. [`Model::erosion`](crate::Model::erosion) applies the
+//! law of a wall.
 //!
-//! The laws are fitted per mass of particles that reach the bare surface, whatever becomes of them. So every impact counts, also one
-//! that ends with capture, and a deposit that protects the wall is not regarded: the result is an upper bound where walls are covered.
+//! The laws are fitted per mass of particles that reach the bare surface, whatever becomes of them.
+//! So every impact counts, also one that ends with capture, and a deposit that protects the wall is
+//! not regarded: the result is an upper bound where walls are covered.
 
 mod finnie;
 mod oka;

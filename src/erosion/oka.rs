@@ -1,9 +1,9 @@
 //! `oka`: erosion fitted over the hardness of metals, for three kinds of particles.
 //!
-//! `E = g E_90` [mm³ of wall per kg of particles], `E_90 = K Hv^k1 (v/v')^k2 (d/d')^k3`,
-//! `g = (sin a)^n1 (1 + Hv (1 - sin a))^n2`, `n1 = s1 Hv^q1`, `n2 = s2 Hv^q2`, `k2 = k Hv^r`.
-//! `Hv` Vickers hardness of the wall [GPa] (`hardness` [Pa] in the model file), `v` impact speed [m/s], `a` angle between path and
-//! surface, `d` diameter of the particle. `particles` chooses the constants:
+//! `E = g E_90` [mm³ of wall per kg of particles], `E_90 = K Hv^k1 (v/v')^k2 (d/d')^k3`, `g = (sin
+//! a)^n1 (1 + Hv (1 - sin a))^n2`, `n1 = s1 Hv^q1`, `n2 = s2 Hv^q2`, `k2 = k Hv^r`. `Hv` Vickers
+//! hardness of the wall [GPa] (`hardness` [Pa] in the model file), `v` impact speed [m/s], `a`
+//! angle between path and surface, `d` diameter of the particle. `particles` chooses the constants:
 //!
 //! | `particles` | `K` | `k1` | `k` | `r` | `k3` | `v'` [m/s] | `d'` [µm] | `s1` | `q1` | `s2` | `q2` |
 //! |---|---|---|---|---|---|---|---|---|---|---|---|
@@ -11,14 +11,16 @@
 //! | `silicon-carbide` | 45 | -0.05 | 3.0 | 0.085 | 0.19 | 99 | 326 | 0.71 | 0.14 | 2.8 | -1.00 |
 //! | `glass-beads` | 27 | -0.16 | 2.1 | 0 | 0.19 | 100 | 200 | 2.8 | 0.41 | 2.6 | -1.46 |
 //!
-//! Oka, Okamura and Yoshida, Wear 259 (2005) 95; Oka and Yoshida, Wear 259 (2005) 102. Second sources: the form in the manual of EDEM
-//! ("Oka wear model"); `K`, `k1`, `k2`, `k3`, `v'`, `d'` of all three in the public code `gemini_model`, `K = 65 mm³/kg` also as default of
-//! COMSOL. `s1` to `q2` are from memory of the first paper, not re-read: for sand on steel of 1.8 GPa they give `n1 = 0.77`, `n2 = 1.38`,
-//! where the Fluent manual has 0.8 and 1.3 (and `k2` = 2.35 as here). Its `E_90`, 6.154e-4 kg/kg, is 79 mm³/kg for steel of
-//! 7800 kg/m³, where these constants give 61.
+//! Oka, Okamura and Yoshida, Wear 259 (2005) 95; Oka and Yoshida, Wear 259 (2005) 102. Second
+//! sources: the form in the manual of EDEM ("Oka wear model"); `K`, `k1`, `k2`, `k3`, `v'`, `d'` of
+//! all three in the public code `gemini_model`, `K = 65 mm³/kg` also as default of COMSOL. `s1` to
+//! `q2` are from memory of the first paper, not re-read: for sand on steel of 1.8 GPa they give `n1
+//! = 0.77`, `n2 = 1.38`, where the Fluent manual has 0.8 and 1.3 (and `k2` = 2.35 as here). Its
+//! `E_90`, 6.154e-4 kg/kg, is 79 mm³/kg for steel of 7800 kg/m³, where these constants give 61.
 //!
-//! Case of the fit: metals of 0.2 to 8 GPa at room temperature, jets of angular silica and silicon carbide and of glass beads, speeds
-//! of 50 to 170 m/s (range from memory). Far below these speeds, as in most furnaces, the power of the speed is an extrapolation.
+//! Case of the fit: metals of 0.2 to 8 GPa at room temperature, jets of angular silica and silicon
+//! carbide and of glass beads, speeds of 50 to 170 m/s (range from memory). Far below these speeds,
+//! as in most furnaces, the power of the speed is an extrapolation.
 
 use std::sync::Arc;
 
@@ -130,8 +132,9 @@ mod tests {
         }
     }
 
-    /// Worked by hand for sand on steel of 1.8 GPa: `n1` = 0.770897, `n2` = 1.381195, `k2` = 2.351951, so at 30° and 52 m/s
-    /// `E_90` = 65 * 0.931896 * 0.195881 = 11.865143 and `g` = 0.586053 * 2.426684 = 1.422165.
+    /// Worked by hand for sand on steel of 1.8 GPa: `n1` = 0.770897, `n2` = 1.381195, `k2` =
+    /// 2.351951, so at 30° and 52 m/s `E_90` = 65 * 0.931896 * 0.195881 = 11.865143 and `g` =
+    /// 0.586053 * 2.426684 = 1.422165.
     #[test]
     fn volumes_are_those_by_hand() {
         let found = eroded(1.8e9, "", &Impact { diameter: 326e-6, ..at(52.0, 30.0) });

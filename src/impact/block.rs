@@ -10,7 +10,8 @@ pub const BLOCK: usize = 128;
 pub struct Block {
     /// A column for each of [`INPUTS`], in their order and units.
     pub inputs: [[f64; BLOCK]; INPUTS.len()],
-    /// A column for each input that the model declares, in their order, NaN where an impact does not state it; may be shorter.
+    /// A column for each input that the model declares, in their order, NaN where an impact does
+    /// not state it; may be shorter.
     pub extra: Vec<[f64; BLOCK]>,
     /// Unique key of each impact, for its random numbers.
     pub keys: [u64; BLOCK],

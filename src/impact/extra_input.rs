@@ -1,7 +1,7 @@
 //! Inputs that a model file declares: `[inputs.NAME]`.
 //!
-//! The library knows no law for such an input; a [`FittedCurve`](crate::effect::FittedCurve) depends on it. It is a number, or a
-//! word of a list: its value is then the index of the word.
+//! The library knows no law for such an input; a [`FittedCurve`](crate::effect::FittedCurve)
+//! depends on it. It is a number, or a word of a list: its value is then the index of the word.
 
 use super::{EXTRA_INPUTS, INPUTS};
 use crate::input::{InputError, Section, unknown};
@@ -51,8 +51,9 @@ impl ExtraInput {
         !self.labels.is_empty()
     }
 
-    /// The value of a cell that is not blank: a finite number, or the index of a word. A word that is not in the list has a value on
-    /// which no curve acts. `None` for a cell that should be a number and is not.
+    /// The value of a cell that is not blank: a finite number, or the index of a word. A word that
+    /// is not in the list has a value on which no curve acts. `None` for a cell that should be a
+    /// number and is not.
     pub fn value_of_text(&self, text: &str) -> Option<f64> {
         if self.is_label() {
             return Some(self.place(text).map_or(UNKNOWN_LABEL, |place| place as f64));

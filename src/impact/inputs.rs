@@ -35,7 +35,7 @@ macro_rules! for_each_input {
             coverage, coverage, COVERAGE, "1", SHARE, 0.0;
             /// Thickness of the powder layer on the wall [m], not negative.
             layer_thickness, layer_thickness, LAYER_THICKNESS, "m", NOT_NEGATIVE, 0.0;
-            /// Thickness of a liquid film [m] that the caller states, not negative; `liquid-film` uses it, or the melt if thicker.
+            /// Thickness of a liquid film [m], not negative; `liquid-film` uses it, or the melt if thicker.
             film_thickness, film_thickness, FILM_THICKNESS, "m", NOT_NEGATIVE, 0.0;
             /// Thickness of the melt in the deposit of earlier particles [m], not negative.
             melt_thickness, melt_thickness, MELT_THICKNESS, "m", NOT_NEGATIVE, 0.0;

@@ -47,7 +47,8 @@ pub enum ImpactError {
 }
 
 impl Impact {
-    /// Checks that every input of [`INPUTS`] is finite and has a physical meaning. A model checks the inputs that it declares.
+    /// Checks that every input of [`INPUTS`] is finite and has a physical meaning. A model checks
+    /// the inputs that it declares.
     ///
     /// # Errors
     /// [`ImpactError::Unusable`] naming the first input that is not.

@@ -40,10 +40,11 @@ macro_rules! define_fields {
     };
 }
 
-// Every property of a material, in the order of display; the first five are required. The limits lie about a factor of ten
-// beyond the most extreme known materials, which their texts name (round numbers as commonly tabulated, not re-read); they
-// admit a rigid wall, and one that never yields. Viscosity has no upper limit: a formula continued to low temperatures rises
-// without bound and means a solid.
+// Every property of a material, in the order of display; the first five are required. The limits
+// lie about a factor of ten beyond the most extreme known materials, which their texts name (round
+// numbers as commonly tabulated, not re-read); they admit a rigid wall, and one that never yields.
+// Viscosity has no upper limit: a formula continued to low temperatures rises without bound and
+// means a solid.
 define_fields! {
     Density, "density", Amount, true, limits("kg/m3", 0.01, 2.5e5, "lightest aerogels 0.16, osmium 22590");
     YoungsModulus, "youngs_modulus", Amount, true, limits("Pa", 1.0, 1e13, "soft gels some 10, diamond 1.1e12");
@@ -233,14 +234,15 @@ impl Material {
         })
     }
 
-    /// The mechanical properties, in the order of [`Mechanical`]; the last is `None` for a material without a fitted work of adhesion.
+    /// The mechanical properties, in the order of [`Mechanical`]; the last is `None` for a material
+    /// without a fitted work of adhesion.
     pub(crate) fn mechanical_by_field(&self) -> Option<([&Property; MECHANICAL.len()], Option<&Property>)> {
         let [a, b, c, d, e] = MECHANICAL.map(|field| self.properties[field as usize].as_ref());
         Some(([a?, b?, c?, d?, e?], self.properties[Field::WorkOfAdhesion as usize].as_ref()))
     }
 
-    /// Temperatures [K] at which every mechanical property is stated to hold, where they are one range; `None` where a property has a
-    /// melt of its own.
+    /// Temperatures [K] at which every mechanical property is stated to hold, where they are one
+    /// range; `None` where a property has a melt of its own.
     pub(crate) fn stated_range(&self) -> Option<[f64; 2]> {
         let ranges: Option<Vec<_>> = self.mechanical_properties().map(Property::stated_range).collect();
         Some(overlap(ranges?.into_iter()))
@@ -258,8 +260,8 @@ impl Material {
         })
     }
 
-    /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at which it is known; `None` without
-    /// one and without a composition.
+    /// Surface tension [N/m] of its melt at a temperature [K], or at the nearest temperature at
+    /// which it is known; `None` without one and without a composition.
     pub fn surface_tension_near(&self, temperature: f64) -> Option<f64> {
         self.surface_tension_by_composition().or_else(|| self.near(Field::SurfaceTension, temperature))
     }

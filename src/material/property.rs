@@ -45,9 +45,10 @@ impl Property {
         Self { form: Form::Constant(value), valid: None, uncertainty: None, source: None, melt: None }
     }
 
-    /// Reads `key`: a number, `{ value }`, `{ T, value }`, `{ polynomial, T0 }` or `{ arrhenius }`, each with
-    /// `valid` (the last two need it), and optional `uncertainty`, `unit`, `source` and `melt`. `unit` has to be the SI unit of the
-    /// key; `melt` is written like the property itself and applies above its upper end.
+    /// Reads `key`: a number, `{ value }`, `{ T, value }`, `{ polynomial, T0 }` or `{ arrhenius }`,
+    /// each with `valid` (the last two need it), and optional `uncertainty`, `unit`, `source` and
+    /// `melt`. `unit` has to be the SI unit of the key; `melt` is written like the property itself
+    /// and applies above its upper end.
     ///
     /// # Errors
     /// [`InputError::Fault`] for anything else, and for values outside the limits.
@@ -119,8 +120,9 @@ impl Property {
         }
     }
 
-    /// As [`Property::within_range`] for many temperatures [K]: one pass over them for each segment of a table or each coefficient of a
-    /// polynomial, which the compiler turns into vector instructions. The same bits.
+    /// As [`Property::within_range`] for many temperatures [K]: one pass over them for each segment
+    /// of a table or each coefficient of a polynomial, which the compiler turns into vector
+    /// instructions. The same bits.
     #[inline(always)]
     pub(crate) fn within_range_each(&self, temperatures: &[f64], out: &mut [f64]) {
         let pairs = || temperatures.iter().copied();
@@ -143,7 +145,8 @@ impl Property {
         }
     }
 
-    /// Temperatures [K] at which the source states the value, where they are one range: `None` for a property with a melt.
+    /// Temperatures [K] at which the source states the value, where they are one range: `None` for
+    /// a property with a melt.
     pub(crate) fn stated_range(&self) -> Option<[f64; 2]> {
         self.melt.is_none().then(|| self.valid.unwrap_or([0.0, f64::INFINITY]))
     }

@@ -56,7 +56,8 @@ impl PropertyTable {
         self.lines[beyond].at(temperature)
     }
 
-    /// As [`Self::at`] for many temperatures [K]: one pass over them for each line, which the compiler turns into vector instructions.
+    /// As [`Self::at`] for many temperatures [K]: one pass over them for each line, which the
+    /// compiler turns into vector instructions.
     #[inline(always)]
     pub fn each(&self, temperatures: &[f64], out: &mut [f64]) {
         for (number, line) in self.lines.iter().enumerate() {

@@ -9,11 +9,11 @@ pub use crate::impact::{BLOCK, Block, Outcomes};
 use crate::rng::ImpactRng;
 
 impl Model {
-    /// Decides a block of impacts on the wall with index `wall`, with the widest vectors of this machine. The bits are those of
-    /// [`Model::resolve`] one by one.
+    /// Decides a block of impacts on the wall with index `wall`, with the widest vectors of this
+    /// machine. The bits are those of [`Model::resolve`] one by one.
     ///
-    /// On a [prepared](Model::is_prepared) wall the caller must have checked the impacts ([`Impact::check`]); numbers without
-    /// meaning give outcomes without meaning.
+    /// On a [prepared](Model::is_prepared) wall the caller must have checked the impacts
+    /// ([`Impact::check`]); numbers without meaning give outcomes without meaning.
     ///
     /// # Errors
     /// As [`Model::resolve`], for a wall that is not prepared. Part of the outcomes is then that of the previous block.
@@ -56,14 +56,14 @@ impl Model {
         Ok(())
     }
 
-    /// Whether the wall is prepared: within its [temperatures](Model::temperature_ranges) only [`Impact::check`] can then refuse an
-    /// impact on it.
+    /// Whether the wall is prepared: within its [temperatures](Model::temperature_ranges) only
+    /// [`Impact::check`] can then refuse an impact on it.
     pub fn is_prepared(&self, wall: usize) -> bool {
         matches!(self.prepared.get(wall), Some(Some(_)))
     }
 
-    /// The temperatures [K] within which only [`Impact::check`] can refuse an impact on a wall; `None` for a wall of which a single
-    /// impact has to be asked ([`Model::check`]).
+    /// The temperatures [K] within which only [`Impact::check`] can refuse an impact on a wall;
+    /// `None` for a wall of which a single impact has to be asked ([`Model::check`]).
     pub(crate) fn decided_temperatures(&self, wall: usize) -> Option<TemperatureRanges> {
         *self.decided.get(wall)?
     }

@@ -11,12 +11,13 @@ use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
 
 impl Model {
-    /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²], with the particle's `density`
-    /// [kg/m³].
+    /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²],
+    /// with the particle's `density` [kg/m³].
     ///
-    /// They are molten when their stickiness at the temperature of the wall reaches [`Stickiness::THRESHOLD`]; by the droplet
-    /// criterion, when the wall is hotter than the melting point. In a model whose stickiness does not depend on the particle
-    /// temperature, their state is that of the impact.
+    /// They are molten when their stickiness at the temperature of the wall reaches
+    /// [`Stickiness::THRESHOLD`]; by the droplet criterion, when the wall is hotter than the
+    /// melting point. In a model whose stickiness does not depend on the particle temperature,
+    /// their state is that of the impact.
     ///
     /// # Errors
     /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or an unknown wall.
@@ -39,9 +40,10 @@ impl Model {
         Ok(arrivals.with(&CapturedParticles { mass, density, diameter, conversion, molten }))
     }
 
-    /// The deposit on a wall according to the model file, with a share `voidage` of voids in the powder [1]: the initial and
-    /// minimum deposit. A `coverage` alone has no mass, which the file does not give; a `layer_thickness` is powder of the
-    /// particles' density and covers the wall as grains of 100 µm do (*assumed*).
+    /// The deposit on a wall according to the model file, with a share `voidage` of voids in the
+    /// powder [1]: the initial and minimum deposit. A `coverage` alone has no mass, which the file
+    /// does not give; a `layer_thickness` is powder of the particles' density and covers the wall
+    /// as grains of 100 µm do (*assumed*).
     ///
     /// # Errors
     /// [`ImpactError`] for a voidage without physical meaning, an unknown wall, or an unknown density.
@@ -55,8 +57,8 @@ impl Model {
         Ok(Deposit { powder, solid, cover, ..Deposit::default() })
     }
 
-    /// The impact with a deposit on the wall: sets the thickness of the powder layer with a `voidage` [1], the share that it
-    /// covers, and the thickness of the melt.
+    /// The impact with a deposit on the wall: sets the thickness of the powder layer with a
+    /// `voidage` [1], the share that it covers, and the thickness of the melt.
     ///
     /// # Errors
     /// [`ImpactError`] for a deposit or a voidage without physical meaning, or an unknown wall.
@@ -83,8 +85,8 @@ impl Model {
         })
     }
 
-    /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the particles. Outside the temperatures of a
-    /// table, its value at the nearest end is used.
+    /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the
+    /// particles. Outside the temperatures of a table, its value at the nearest end is used.
     ///
     /// # Errors
     /// [`ImpactError::NoSuchWall`], or an unknown density.
@@ -106,7 +108,8 @@ impl Model {
         Ok(WallMelt { density: material.density_near(temperature)?, viscosity, surface_tension })
     }
 
-    /// The melt that an impact meets on bare wall, with the thickness of its film; `None` where there is none, or it is stiff.
+    /// The melt that an impact meets on bare wall, with the thickness of its film; `None` where
+    /// there is none, or it is stiff.
     pub(super) fn melt_met(&self, wall: &Wall, impact: &Impact) -> Result<Option<WallMelt>, ImpactError> {
         if wall.slag.is_none() && impact.melt_thickness == 0.0 {
             return Ok(None);
@@ -115,8 +118,8 @@ impl Model {
         Ok(melt.viscosity.is_finite().then_some(melt))
     }
 
-    /// Stickiness of the bare wall [1]: the larger of that of its slag and that of the melt from earlier particles, where the melt
-    /// wets the wall.
+    /// Stickiness of the bare wall [1]: the larger of that of its slag and that of the melt from
+    /// earlier particles, where the melt wets the wall.
     pub(super) fn wall_stickiness(&self, wall: &Wall, impact: &Impact) -> f64 {
         let own = wall.slag_stickiness(impact);
         if impact.melt_thickness == 0.0 || !self.stickiness_depends_on_temperature() {
@@ -133,8 +136,9 @@ impl Model {
             || criteria.all(|criterion| criterion.holds_on_wall(impact.wall_temperature))
     }
 
-    /// Stickiness [1] of the particle's material on the wall, at the wall's temperature and with a conversion [1]: the product of
-    /// what the capture criterion and the effects give, 0 without any.
+    /// Stickiness [1] of the particle's material on the wall, at the wall's temperature and with a
+    /// conversion [1]: the product of what the capture criterion and the effects give, 0 without
+    /// any.
     fn stickiness_as_melt(&self, impact: &Impact, conversion: f64) -> f64 {
         let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
         let criterion = self.stickiness.as_ref().map(|criterion| criterion.on_wall(&on_wall));
@@ -142,8 +146,8 @@ impl Model {
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
-    /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each process took from it [kg/m²], by
-    /// the table [`PROCESSES`](crate::deposit::PROCESSES).
+    /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each
+    /// process took from it [kg/m²], by the table [`PROCESSES`](crate::deposit::PROCESSES).
     ///
     /// # Errors
     /// [`ImpactError`] for surroundings or a duration without physical meaning, or an unknown wall.
@@ -370,8 +374,8 @@ model = "droplet"
         assert_eq!(none, at(1700.0));
     }
 
-    /// 1 - exp(-A) = 0.4 for A = ln(1/0.6); 0.2 mm of powder with half voids, of the ash's 2300 kg/m³, covers like a hundred
-    /// micrometre grains, 1.5 * 1e-4/1e-4.
+    /// 1 - exp(-A) = 0.4 for A = ln(1/0.6); 0.2 mm of powder with half voids, of the ash's 2300
+    /// kg/m³, covers like a hundred micrometre grains, 1.5 * 1e-4/1e-4.
     #[test]
     fn the_initial_deposit_is_that_of_the_model_file() {
         let given = |text: &str| {

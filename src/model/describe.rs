@@ -10,7 +10,8 @@ use crate::tangential::TangentialLaw;
 const ROOM_TEMPERATURE: f64 = 293.15;
 
 impl Model {
-    /// The content of the model as pairs of a heading and its numbers with units, in the order of the steps of an impact.
+    /// The content of the model as pairs of a heading and its numbers with units, in the order of
+    /// the steps of an impact.
     pub fn describe(&self) -> Vec<(&'static str, String)> {
         let mut particle = self.particle().name().to_owned();
         if let Some(ash) = self.ash() {
@@ -69,7 +70,8 @@ impl Model {
         format!("{}, yield_ratio {ratio}, work of adhesion {work}", self.normal.name())
     }
 
-    /// The work of adhesion where the model file does not give it; of the source of the particle's own the part before `;`.
+    /// The work of adhesion where the model file does not give it; of the source of the particle's
+    /// own the part before `;`.
     fn describe_own_adhesion(&self) -> String {
         let Some(property) = self.particle().property("work_of_adhesion") else {
             return "2 sqrt(gamma_p gamma_w)".to_owned();

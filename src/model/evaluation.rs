@@ -1,14 +1,17 @@
 //! The order of physics: the steps of an impact, written once.
 //!
-//! [`evaluate`] is the order. Two kinds of walls follow it through [`WallSteps`]: a `GeneralWall` with every law, effect, draw and
-//! trace, and a `PreparedWall` whose constants were computed when the model was read. A step that a prepared wall does not need
-//! keeps the trait's default and costs nothing.
+//! [`evaluate`] is the order. Two kinds of walls follow it through [`WallSteps`]: a `GeneralWall`
+//! with every law, effect, draw and trace, and a `PreparedWall` whose constants were computed when
+//! the model was read. A step that a prepared wall does not need keeps the trait's default and
+//! costs nothing.
 //!
-//! A new quantity of an impact is a field of [`ImpactState`]; a new step is a method of [`WallSteps`] and a line of [`evaluate`].
+//! A new quantity of an impact is a field of [`ImpactState`]; a new step is a method of
+//! [`WallSteps`] and a line of [`evaluate`].
 //!
-//! A single impact runs all steps at once. A block of impacts runs them in groups ([`StepSet`]), each group in a loop of its own
-//! over the block: short loops keep a processor's divider busy, while in one long loop each impact waits for its own chain of
-//! results. The functions are the same, so both give the same bits.
+//! A single impact runs all steps at once. A block of impacts runs them in groups ([`StepSet`]),
+//! each group in a loop of its own over the block: short loops keep a processor's divider busy,
+//! while in one long loop each impact waits for its own chain of results. The functions are the
+//! same, so both give the same bits.
 
 use crate::capture::{Combination, Stickiness};
 use crate::impact::{Impact, Outcome, Regime};
@@ -206,9 +209,10 @@ pub(super) struct OnBareWall {
 }
 
 impl OnBareWall {
-    /// Probability of capture [1], and whether the normal law was used outside its range; `left_range` says so of the law alone. A dry
-    /// particle leaves a melt that it rebounds from. A particle that rebounds from a sticky wall by the law of a dry contact is outside that
-    /// law's range.
+    /// Probability of capture [1], and whether the normal law was used outside its range;
+    /// `left_range` says so of the law alone. A dry particle leaves a melt that it rebounds from. A
+    /// particle that rebounds from a sticky wall by the law of a dry contact is outside that law's
+    /// range.
     #[inline(always)]
     pub fn capture_probability(
         self,

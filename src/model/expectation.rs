@@ -1,8 +1,9 @@
 //! The mean of what a model decides for an impact, over what it draws by chance.
 //!
-//! The random numbers of the terms form a lattice, which covers the draws more evenly than random numbers do and is denser at both
-//! ends, where rare branches and long tails are; each draw has a weight. The share of the wall that is met, covered or bare, is not
-//! drawn for a mean: both are evaluated.
+//! The random numbers of the terms form a lattice, which covers the draws more evenly than random
+//! numbers do and is denser at both ends, where rare branches and long tails are; each draw has a
+//! weight. The share of the wall that is met, covered or bare, is not drawn for a mean: both are
+//! evaluated.
 
 use super::Model;
 use crate::effect::stream;
@@ -20,7 +21,8 @@ pub struct Expectation {
     pub sticking_probability: f64,
     /// Variances of `e_n` and `e_t` [1] over the draws; 0 for a model without chance.
     pub variances: [f64; 2],
-    /// The most frequent regime over the draws, at the share of the wall, covered or bare, that the impact more probably meets.
+    /// The most frequent regime over the draws, at the share of the wall, covered or bare, that the
+    /// impact more probably meets.
     pub regime: Regime,
     /// Whether a law or a term is used outside the range that it is stated for, in any draw.
     pub outside_range: bool,
@@ -44,7 +46,8 @@ pub struct RotatedLattice<'a> {
 }
 
 impl DrawLattice {
-    /// The draws of a model's terms and, if `place`, of the share of the wall that is met: `count`, or one where nothing is drawn.
+    /// The draws of a model's terms and, if `place`, of the share of the wall that is met: `count`,
+    /// or one where nothing is drawn.
     pub fn new(model: &Model, place: bool, count: usize) -> Self {
         let mut streams: Vec<u64> = model.terms().iter().filter_map(|term| term.kind().stream).collect();
         if place {
@@ -126,8 +129,9 @@ impl Sums {
 }
 
 impl Model {
-    /// What the model predicts for an impact on average, over `draws` draws of what its terms draw by chance and over covered and
-    /// bare wall. Without either the outcome is that of [`Model::resolve`]. Pure: the same input gives the same bits.
+    /// What the model predicts for an impact on average, over `draws` draws of what its terms draw
+    /// by chance and over covered and bare wall. Without either the outcome is that of
+    /// [`Model::resolve`]. Pure: the same input gives the same bits.
     ///
     /// # Errors
     /// As [`Model::resolve`].

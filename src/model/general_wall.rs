@@ -1,7 +1,8 @@
 //! The steps of an impact on any wall: properties over temperature, slag, every law and effect, draws and a trace.
 //!
-//! A wall with slag or powder is a patchwork: an impact meets its covered or its bare share. A draw decides which; the outcome is
-//! that of the share met, and its probability of capture is that of both, `c P_covered + (1 - c) P_bare`.
+//! A wall with slag or powder is a patchwork: an impact meets its covered or its bare share. A draw
+//! decides which; the outcome is that of the share met, and its probability of capture is that of
+//! both, `c P_covered + (1 - c) P_bare`.
 
 use super::evaluation::{
     Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
@@ -16,8 +17,8 @@ use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
-/// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1); `trace` receives term, quantity
-/// and value.
+/// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1);
+/// `trace` receives term, quantity and value.
 struct GeneralWall<'a, U, T> {
     model: &'a Model,
     wall: &'a Wall,
@@ -66,8 +67,9 @@ impl Model {
         Ok(Outcome { sticking_probability, outside_range, ..outcome })
     }
 
-    /// Decides an impact with the caller's random numbers; the probability of capture is that of the place met, covered or bare. For
-    /// averages over the random draws in which a rebound counts where it happens.
+    /// Decides an impact with the caller's random numbers; the probability of capture is that of
+    /// the place met, covered or bare. For averages over the random draws in which a rebound counts
+    /// where it happens.
     ///
     /// # Errors
     /// As [`Model::resolve`].
@@ -209,7 +211,8 @@ impl Model {
         Ok(factors.fold(product.unwrap_or(0.0), |product, factor| product * factor))
     }
 
-    /// Normal restitution [1] of a droplet that bounces whole; `None` for any other particle. In melt on the wall it merges.
+    /// Normal restitution [1] of a droplet that bounces whole; `None` for any other particle. In
+    /// melt on the wall it merges.
     fn droplet_rebound(
         &self,
         wall: &Wall,
@@ -223,8 +226,8 @@ impl Model {
         if rebound.is_some() && molten()? { Ok(None) } else { Ok(rebound) }
     }
 
-    /// The outcome after the fitted corrections, in the order of the file; the shifts of the log odds of capture are added up. `reaching` is
-    /// the impact on the wall as a whole.
+    /// The outcome after the fitted corrections, in the order of the file; the shifts of the log
+    /// odds of capture are added up. `reaching` is the impact on the wall as a whole.
     pub(super) fn corrected(
         &self,
         reaching: &Impact,

@@ -1,9 +1,11 @@
 //! A model: the materials, the laws and the list of named terms that decide an impact.
 //!
-//! All callers go through [`Model::resolve`]: the command, the C library and OpenFOAM. The order of the steps stands in
-//! `evaluation.rs`: tilt of the wall, contact of the materials at their temperatures with the effects on it, stickiness of
-//! particle and wall, normal law, effects on `e_n`, loss by stickiness, tangential law, effects on `e_t`, back to the mean wall,
-//! capture, fitted corrections. [`Model::explain`] runs the same steps and records the value after each term.
+//! All callers go through [`Model::resolve`]: the command, the C library and OpenFOAM. The order of
+//! the steps stands in `evaluation.rs`: tilt of the wall, contact of the materials at their
+//! temperatures with the effects on it, stickiness of particle and wall, normal law, effects on
+//! `e_n`, loss by stickiness, tangential law, effects on `e_t`, back to the mean wall, capture,
+//! fitted corrections. [`Model::explain`] runs the same steps and records the value after each
+//! term.
 
 pub mod block;
 mod deposit;
@@ -61,8 +63,8 @@ pub struct Model {
     has_corrections: bool,
     /// For each wall its prepared form; `None` where every impact needs the general steps.
     prepared: Vec<Option<PreparedWall>>,
-    /// For each wall the temperatures [K] within which only [`Impact::check`] can refuse an impact; `None` where a single impact
-    /// has to be asked ([`Model::check`]).
+    /// For each wall the temperatures [K] within which only [`Impact::check`] can refuse an impact;
+    /// `None` where a single impact has to be asked ([`Model::check`]).
     decided: Vec<Option<TemperatureRanges>>,
 }
 
@@ -177,8 +179,9 @@ impl Model {
         self
     }
 
-    /// The index of the wall for a patch name: the wall of that name, else the last one whose name is a regular expression
-    /// that matches it. There is no fall-back to `default`; callers decide that.
+    /// The index of the wall for a patch name: the wall of that name, else the last one whose name
+    /// is a regular expression that matches it. There is no fall-back to `default`; callers decide
+    /// that.
     pub fn find_wall(&self, name: &str) -> Option<usize> {
         let exact = self.walls.iter().position(|wall| wall.name() == name);
         exact.or_else(|| self.walls.iter().rposition(|wall| wall.fits(name)))
@@ -252,8 +255,8 @@ impl Model {
         self.evaluate(wall, impact, |stream| rng.uniform(stream), |_, _, _| {})
     }
 
-    /// Decides one impact with the caller's random numbers: `uniform` gives the number of each stream, in (0, 1). For averages
-    /// over the random draws.
+    /// Decides one impact with the caller's random numbers: `uniform` gives the number of each
+    /// stream, in (0, 1). For averages over the random draws.
     ///
     /// # Errors
     /// As [`Model::resolve`].
@@ -296,8 +299,9 @@ impl Model {
         Ok((outcome, trace))
     }
 
-    /// Volume of wall [m³] that particles of a total `mass` [kg] remove by impacts like this one; 0 where the model file gives the wall
-    /// no erosion law. Independent of what becomes of the particles.
+    /// Volume of wall [m³] that particles of a total `mass` [kg] remove by impacts like this one; 0
+    /// where the model file gives the wall no erosion law. Independent of what becomes of the
+    /// particles.
     ///
     /// # Errors
     /// [`ImpactError`] for an impact or a mass without physical meaning, or an unknown wall.

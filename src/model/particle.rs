@@ -1,8 +1,8 @@
 //! The particle of a model: its material, and the ash that it becomes.
 //!
-//! A char particle has the mechanical properties of its material at conversion 0 and of its ash at conversion 1, in between *assumed*
-//! linear in the conversion (density, modulus, Poisson's ratio, yield strength, work of adhesion). A model file without `ash` keeps those of
-//! the material.
+//! A char particle has the mechanical properties of its material at conversion 0 and of its ash at
+//! conversion 1, in between *assumed* linear in the conversion (density, modulus, Poisson's ratio,
+//! yield strength, work of adhesion). A model file without `ash` keeps those of the material.
 
 use crate::impact::{Impact, ImpactError};
 use crate::material::{Material, Mechanical};
@@ -36,8 +36,8 @@ impl Particle {
         self.ash.is_none() && self.material.is_constant()
     }
 
-    /// Whether every mechanical property is stated to hold for an impact: those of the material up to half of the conversion, those of
-    /// the ash beyond.
+    /// Whether every mechanical property is stated to hold for an impact: those of the material up
+    /// to half of the conversion, those of the ash beyond.
     pub(super) fn holds_for(&self, impact: &Impact) -> bool {
         let ash = self.ash.as_ref().filter(|_| impact.conversion > 0.5);
         ash.unwrap_or(&self.material).holds_at(impact.particle_temperature)
@@ -53,8 +53,8 @@ impl Particle {
         Ok(char + (ash.density(impact.particle_temperature)? - char) * impact.conversion)
     }
 
-    /// The contact with a wall for an impact; the density is that of the impact where it is given. Work of adhesion as in
-    /// [`Contact::new`].
+    /// The contact with a wall for an impact; the density is that of the impact where it is given.
+    /// Work of adhesion as in [`Contact::new`].
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] outside a table.
@@ -75,8 +75,8 @@ impl Particle {
     }
 }
 
-/// The contact of a particle of a density [kg/m³] with a wall: of char, or of char and ash at a conversion [1], from the work of adhesion
-/// [J/m²] of both; see [`Particle::contact`].
+/// The contact of a particle of a density [kg/m³] with a wall: of char, or of char and ash at a
+/// conversion [1], from the work of adhesion [J/m²] of both; see [`Particle::contact`].
 #[inline(always)]
 pub(super) fn contact_of(
     conversion: f64,

@@ -1,8 +1,9 @@
 //! Blocks of impacts on a [`PreparedWall`]: each set of steps is a loop without branches over columns.
 //!
-//! A law is matched outside its loop ([`with_normal`], [`with_tangential`]) and is then a constant within it. Matching through
-//! the reference matters: of a local copy the compiler makes one enum again, whose variant every impact would have to ask for.
-//! The grouping of the steps is the fastest measured: steps that divide stand beside steps that do not.
+//! A law is matched outside its loop ([`with_normal`], [`with_tangential`]) and is then a constant
+//! within it. Matching through the reference matters: of a local copy the compiler makes one enum
+//! again, whose variant every impact would have to ask for. The grouping of the steps is the
+//! fastest measured: steps that divide stand beside steps that do not.
 
 use std::sync::Arc;
 
@@ -137,8 +138,8 @@ macro_rules! with_tangential {
     };
 }
 
-/// As [`with_normal`], for what decides the work of adhesion of the contact: a wall without ash does not mix, a known work is
-/// not computed again.
+/// As [`with_normal`], for what decides the work of adhesion of the contact: a wall without ash
+/// does not mix, a known work is not computed again.
 macro_rules! with_works {
     ($of:expr, $wall:ident => $body:expr) => {
         in_variants! { $of, $wall => $body; ($of.has_ash, $of.works);
@@ -171,7 +172,8 @@ impl PreparedWall {
         all_within(Impact::MELT_THICKNESS, [0.0, 0.0]) && (self.varying.is_none() || known())
     }
 
-    /// Decides a block of impacts that have been checked and that [`Self::decides_block`], with the instructions of `level`.
+    /// Decides a block of impacts that have been checked and that [`Self::decides_block`], with the
+    /// instructions of `level`.
     pub fn resolve_block(
         &self,
         block: &Block,
@@ -254,8 +256,8 @@ impl ContactColumns {
 }
 
 impl SolidColumns {
-    /// These properties of an impact, or where `covered` is 1 those of `powder`. Both are read, so that this is no choice of
-    /// addresses, for which there is no vector instruction.
+    /// These properties of an impact, or where `covered` is 1 those of `powder`. Both are read, so
+    /// that this is no choice of addresses, for which there is no vector instruction.
     #[inline(always)]
     fn or(&self, powder: &Self, index: usize, covered: u64) -> Mechanical {
         let mask = covered.wrapping_neg();
@@ -477,8 +479,9 @@ impl<const CONSTANT: bool> Loops<'_, CONSTANT> {
         });
     }
 
-    /// Runs the steps of `selected` on the impact `i`, from what the columns hold; `columns` where the contact is not constant.
-    /// With the state, what the melt leaves a dry particle and whether the normal law was left.
+    /// Runs the steps of `selected` on the impact `i`, from what the columns hold; `columns` where
+    /// the contact is not constant. With the state, what the melt leaves a dry particle and whether
+    /// the normal law was left.
     #[inline(always)]
     fn run(
         &self,

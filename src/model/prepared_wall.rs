@@ -1,13 +1,16 @@
 //! The steps of an impact on a prepared wall: what model and wall decide is computed when the model is read.
 //!
-//! A wall is prepared when every effect of the model has a precomputed form ([`Precomputed`]), particles are no droplets and
-//! the model file declares no inputs. The contact of particle and wall is the same for all impacts ([`PreparedImpact`] with
-//! `CONSTANT`), or it varies ([`VaryingContact`]): properties over temperature, char that becomes ash, slag, powder. Both
-//! follow the same steps, alone and in blocks (`prepared_block.rs`). The steps have no branches, so the compiler turns a loop
-//! over a block into vector instructions; only a law by name is called for each impact.
+//! A wall is prepared when every effect of the model has a precomputed form ([`Precomputed`]),
+//! particles are no droplets and the model file declares no inputs. The contact of particle and
+//! wall is the same for all impacts ([`PreparedImpact`] with `CONSTANT`), or it varies
+//! ([`VaryingContact`]): properties over temperature, char that becomes ash, slag, powder. Both
+//! follow the same steps, alone and in blocks (`prepared_block.rs`). The steps have no branches, so
+//! the compiler turns a loop over a block into vector instructions; only a law by name is called
+//! for each impact.
 //!
-//! An impact of a patchwork meets its covered or its bare share (`general_wall.rs`): the share that it meets is evaluated
-//! whole, of the other one only what the probability of capture and the range need.
+//! An impact of a patchwork meets its covered or its bare share (`general_wall.rs`): the share that
+//! it meets is evaluated whole, of the other one only what the probability of capture and the range
+//! need.
 
 use std::convert::Infallible;
 use std::sync::Arc;
@@ -62,7 +65,8 @@ pub(super) struct WallConstants {
     pub fitted: [bool; 2],
     /// Whether covered and bare share differ.
     pub patchwork: bool,
-    /// Work of adhesion [J/m²] of char and ash with the bare wall and with powder, where it is the same for all impacts.
+    /// Work of adhesion [J/m²] of char and ash with the bare wall and with powder, where it is the
+    /// same for all impacts.
     pub works: Option<[[f64; 2]; 2]>,
     pub adhesion: ContactSettings,
     /// Surface tension [N/m] of the slag; NaN without slag or where it has none.
@@ -291,8 +295,8 @@ impl WallConstants {
         Outcome { outside_range: outcome.outside_range | !holds, ..outcome }
     }
 
-    /// Restitution [1] that melt of a viscosity [Pa s] and a surface tension [N/m] leaves a dry particle of a density [kg/m³];
-    /// see [`Surfaces::on_melt`].
+    /// Restitution [1] that melt of a viscosity [Pa s] and a surface tension [N/m] leaves a dry
+    /// particle of a density [kg/m³]; see [`Surfaces::on_melt`].
     #[inline(always)]
     pub fn rebound_on_melt(
         &self,
@@ -327,8 +331,8 @@ impl WallConstants {
         }
     }
 
-    /// Calls the normal law: its rebound, and whether it is stated for the impact. Not inlined and with copies, so that the
-    /// numbers of an impact by another law stay in registers.
+    /// Calls the normal law: its rebound, and whether it is stated for the impact. Not inlined and
+    /// with copies, so that the numbers of an impact by another law stay in registers.
     #[cold]
     #[inline(never)]
     fn call_normal(&self, contact: Contact, impact: Impact, covered: bool) -> (NormalRebound, bool) {
@@ -390,8 +394,8 @@ impl VaryingContact {
 }
 
 impl Model {
-    /// The bare wall with melt of earlier particles on it, and the surface tension [N/m] of the melt, NaN for one without; `slag`
-    /// is the wall without them.
+    /// The bare wall with melt of earlier particles on it, and the surface tension [N/m] of the
+    /// melt, NaN for one without; `slag` is the wall without them.
     #[cold]
     fn with_melt(&self, wall: &Wall, impact: &Impact, slag: WallState) -> (WallState, f64) {
         // The density, the only property that may be unknown, is known at the nearest temperature.
@@ -414,7 +418,8 @@ fn solids_of<'a>(model: &'a Model, wall: &'a Wall) -> [&'a Material; 4] {
     [particle.material(), particle.melting(), bare, wall.powder.as_ref().unwrap_or(bare)]
 }
 
-/// Works of adhesion [J/m²] of char and ash with bare wall and powder, in this order, where no temperature changes them.
+/// Works of adhesion [J/m²] of char and ash with bare wall and powder, in this order, where no
+/// temperature changes them.
 fn constant_works(solids: [&Material; 4], given: Option<f64>) -> Option<[[f64; 2]; 2]> {
     let constant = |material: &Material, key| material.property(key).is_none_or(Property::is_constant);
     let known = |solid: &&Material| constant(solid, "surface_energy") && constant(solid, "work_of_adhesion");
@@ -432,7 +437,8 @@ fn constant_works(solids: [&Material; 4], given: Option<f64>) -> Option<[[f64; 2
     Some(walls.map(|wall| particle.map(|solid| work_of_adhesion(&solid, &wall, given))))
 }
 
-/// Surface tension [N/m] of a slag that has one for all temperatures, NaN for one without; `None` where it depends on temperature.
+/// Surface tension [N/m] of a slag that has one for all temperatures, NaN for one without; `None`
+/// where it depends on temperature.
 fn constant_surface_tension(slag: &Material) -> Option<f64> {
     match slag.property("surface_tension") {
         Some(property) if !property.is_constant() => None,

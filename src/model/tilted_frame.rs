@@ -1,9 +1,10 @@
 //! The local frame of a rough wall, whose normal is tilted within the plane of the impact.
 //!
-//! The laws act in the local frame. With `v_n`, `v_t` the speeds towards and along the mean wall and `delta` the tilt
-//! towards the particle [rad]: `v_n' = v_n cos(delta) + v_t sin(delta)`, `v_t' = v_t cos(delta) - v_n sin(delta)`. The
-//! rebound is turned back, so `e_n` and `e_t` are ratios of speeds towards and along the mean wall, as a camera measures
-//! them; `e_n` may then exceed 1. A rebound that still points into the mean wall is mirrored (it hits the wall again).
+//! The laws act in the local frame. With `v_n`, `v_t` the speeds towards and along the mean wall
+//! and `delta` the tilt towards the particle [rad]: `v_n' = v_n cos(delta) + v_t sin(delta)`, `v_t'
+//! = v_t cos(delta) - v_n sin(delta)`. The rebound is turned back, so `e_n` and `e_t` are ratios of
+//! speeds towards and along the mean wall, as a camera measures them; `e_n` may then exceed 1. A
+//! rebound that still points into the mean wall is mirrored (it hits the wall again).
 
 use crate::impact::Impact;
 
@@ -26,8 +27,8 @@ impl TiltedFrame {
         impact.spin = impact.spin.copysign(impact.spin * tangential);
     }
 
-    /// `e_n` and `e_t` [1] with regard to the mean wall, from those of the local frame. Without speed along the wall `e_t`
-    /// stays that of the local frame.
+    /// `e_n` and `e_t` [1] with regard to the mean wall, from those of the local frame. Without
+    /// speed along the wall `e_t` stays that of the local frame.
     pub fn turn_back(self, arriving: &Impact, turned: &Impact, [e_n, e_t]: [f64; 2]) -> [f64; 2] {
         if self.tilt == 0.0 {
             return [e_n, e_t];
@@ -44,7 +45,8 @@ impl TiltedFrame {
         ]
     }
 
-    /// The spin [rad/s] with the sign of the mean wall: the local frame counts it with the opposite sign where it reverses `v_t`.
+    /// The spin [rad/s] with the sign of the mean wall: the local frame counts it with the opposite
+    /// sign where it reverses `v_t`.
     pub fn spin_back(self, arriving: &Impact, spin: f64) -> f64 {
         if self.tilt != 0.0 && self.speeds(arriving)[1] < 0.0 { -spin } else { spin }
     }

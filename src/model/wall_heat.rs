@@ -1,7 +1,8 @@
 //! Heat through a wall and what lies on it: the surface temperature that the next impact meets.
 //!
-//! From the coolant outwards: the wall, powder with its voids and melt, in the order of `src/deposit/layers.rs`. Steady conduction:
-//! a deposit of 5 mm follows the gas within a minute, and grows over hours.
+//! From the coolant outwards: the wall, powder with its voids and melt, in the order of
+//! `src/deposit/layers.rs`. Steady conduction: a deposit of 5 mm follows the gas within a minute,
+//! and grows over hours.
 
 use super::Model;
 use crate::deposit::conduction::{self, ConductingLayer, ConductionError, Coolant, HotSide};
@@ -11,7 +12,8 @@ use crate::impact::ImpactError;
 use crate::material::Material;
 use crate::slag::film;
 
-/// Rounds in which conductivities and temperatures are made to agree, and the change of temperature [K] at which they do.
+/// Rounds in which conductivities and temperatures are made to agree, and the change of temperature
+/// [K] at which they do.
 const MOST_ROUNDS: u32 = 50;
 const AGREED: f64 = 1e-9;
 /// Emissivity of grains whose material has none [1]; assumed.
@@ -127,8 +129,9 @@ impl Model {
         found.ok_or(WallHeatError::Conduction(ConductionError::NoBalance))
     }
 
-    /// Mean speed [m/s] at which melt of a mass [kg/m²] runs down a wall that a heat flux [W/m²] crosses: hot and thin outside, stiff inside.
-    /// `surface_temperature` [K], `gravity_along` the wall [m/s²].
+    /// Mean speed [m/s] at which melt of a mass [kg/m²] runs down a wall that a heat flux [W/m²]
+    /// crosses: hot and thin outside, stiff inside. `surface_temperature` [K], `gravity_along` the
+    /// wall [m/s²].
     ///
     /// # Errors
     /// [`WallHeatError`].

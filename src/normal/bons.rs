@@ -1,6 +1,8 @@
-//! Bons, Prenter & Whitaker (2017), the deposition model of Ohio State University: an elastic–plastic cylinder with adhesion.
+//! Bons, Prenter & Whitaker (2017), the deposition model of Ohio State University: an
+//! elastic–plastic cylinder with adhesion.
 //!
-//! The particle is a cylinder with its diameter and volume, so of length `l = 2d/3`, which is pressed flat against the wall:
+//! The particle is a cylinder with its diameter and volume, so of length `l = 2d/3`, which is
+//! pressed flat against the wall:
 //!
 //! ```text
 //! v_y   = sigma_y/sqrt(rho E_c)                       yield begins: w/w_crit = v/v_y,  w_crit = sigma_y l/E_c
@@ -9,21 +11,24 @@
 //! e_n²  = e_0² - 2 W A/(m v²)                         adhesion; the particle sticks where this is not positive
 //! ```
 //!
-//! `v` speed towards the wall [m/s], `d` diameter [m], `V` volume [m³], `m` mass [kg], `rho` density of the particle [kg/m³],
-//! `E_c` composite modulus [Pa], `1/E_c = (1-nu_p²)/E_p + (1-nu_w²)/E_w` (the contact's `E*`), `sigma_y` yield strength [Pa]
-//! (the contact's `p_y`; `yield_ratio` is 1 unless given), `W` work of adhesion [J/m²], `w` deformation [m], `a`, `b`, `c`
-//! `contact_offset`, `contact_slope`, `contact_exponent` [1], by default 0.1, 1/7 and 0.5.
+//! `v` speed towards the wall [m/s], `d` diameter [m], `V` volume [m³], `m` mass [kg], `rho`
+//! density of the particle [kg/m³], `E_c` composite modulus [Pa], `1/E_c = (1-nu_p²)/E_p +
+//! (1-nu_w²)/E_w` (the contact's `E*`), `sigma_y` yield strength [Pa] (the contact's `p_y`;
+//! `yield_ratio` is 1 unless given), `W` work of adhesion [J/m²], `w` deformation [m], `a`, `b`,
+//! `c` `contact_offset`, `contact_slope`, `contact_exponent` [1], by default 0.1, 1/7 and 0.5.
 //!
-//! Source: J. P. Bons, R. Prenter, S. Whitaker, "A simple physics-based model for particle rebound and deposition in
-//! turbomachinery", ASME J. Turbomach. 139 (2017) 081009, not re-read. `v_y` and `e_0` agree with an open CFD code that names the
-//! paper (an earlier version of it; the present one lacks `1/sqrt(pi)` in `w`, so that its `e_0` reaches 1.77). The area of
-//! contact with `a`, `b`, `c` is from memory of the paper, without a second source. The paper takes 200 MPa and 0.8 J/m² for ash,
-//! and lets strength and modulus fall above 1000 K: give these in the material. Its removal of deposit by the shear of the gas is
-//! left out: an impact does not know that shear.
+//! Source: J. P. Bons, R. Prenter, S. Whitaker, "A simple physics-based model for particle rebound
+//! and deposition in turbomachinery", ASME J. Turbomach. 139 (2017) 081009, not re-read. `v_y` and
+//! `e_0` agree with an open CFD code that names the paper (an earlier version of it; the present
+//! one lacks `1/sqrt(pi)` in `w`, so that its `e_0` reaches 1.77). The area of contact with `a`,
+//! `b`, `c` is from memory of the paper, without a second source. The paper takes 200 MPa and 0.8
+//! J/m² for ash, and lets strength and modulus fall above 1000 K: give these in the material. Its
+//! removal of deposit by the shear of the gas is left out: an impact does not know that shear.
 //!
-//! The paper compares with quartz and ash at 20 to 100 m/s and with deposits on hot vanes (range from memory; 5 to 200 m/s is
-//! assumed here). Above yield the rebound speed is `v_y` at any speed while the area of contact grows, so fast particles stick again.
-//! `w_crit/l` counts as at most one half: beyond that no solid is meant.
+//! The paper compares with quartz and ash at 20 to 100 m/s and with deposits on hot vanes (range
+//! from memory; 5 to 200 m/s is assumed here). Above yield the rebound speed is `v_y` at any speed
+//! while the area of contact grows, so fast particles stick again. `w_crit/l` counts as at most one
+//! half: beyond that no solid is meant.
 
 use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;
@@ -86,8 +91,8 @@ fn area(deformation: f64, values: &ParameterValues) -> f64 {
     values[0] + values[1] * deformation.powf(values[2])
 }
 
-/// The slowest speed at which a particle rebounds; infinite where none does. Up to yield the energy grows with `v²` and the
-/// adhesion with at most `v²`; bisection.
+/// The slowest speed at which a particle rebounds; infinite where none does. Up to yield the energy
+/// grows with `v²` and the adhesion with at most `v²`; bisection.
 fn sticking_velocity(impact: &Impact, contact: &Contact, values: &ParameterValues) -> f64 {
     let yielding = yield_velocity(contact.limiting_pressure(), contact);
     let adhesion = adhesion(impact.diameter, contact, values);
@@ -139,8 +144,9 @@ mod tests {
         assert_relative_eq!(e_n(0.0, 1e-5, 60.0).unwrap(), 0.298142397, max_relative = 1e-8);
     }
 
-    /// 10 µm, 0.8 J/m², 60 m/s: l = 6.6667e-6 m, w_crit/l = 0.004, 2W/(rho l 0.996) = 96.385542 m²/s²; v/v_y = 3.3541020, root
-    /// 1.8314207, area 0.36163152; loss 34.856050/3600 = 0.0096822; e_n² = 0.08888889 - 0.00968224 = 0.07920665.
+    /// 10 µm, 0.8 J/m², 60 m/s: l = 6.6667e-6 m, w_crit/l = 0.004, 2W/(rho l 0.996) = 96.385542
+    /// m²/s²; v/v_y = 3.3541020, root 1.8314207, area 0.36163152; loss 34.856050/3600 = 0.0096822;
+    /// e_n² = 0.08888889 - 0.00968224 = 0.07920665.
     #[test]
     fn adhesion_by_hand() {
         assert_relative_eq!(e_n(0.8, 1e-5, 60.0).unwrap(), 0.07920665f64.sqrt(), max_relative = 1e-6);

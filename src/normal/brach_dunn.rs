@@ -7,23 +7,27 @@
 //! e_n² = R(v)² - R(v_cr)² (v_cr/v)²     above v_cr; the particle sticks up to v_cr
 //! ```
 //!
-//! `v` speed towards the wall [m/s], `d` diameter [m], `rho` density of the particle [kg/m³], `E_Y` Young's modulus [Pa], `nu`
-//! Poisson's ratio [1], `E*` reduced modulus [Pa], `S` effective stiffness parameter, `R` restitution without adhesion [1], `K`
-//! `loss_speed` [m/s], `p` `loss_exponent` [1]. The number 0.51 has a unit, kg m^-0.5 s^-1.5, and stands for the adhesion of the
-//! microspheres of the fit; the model's work of adhesion does not enter.
+//! `v` speed towards the wall [m/s], `d` diameter [m], `rho` density of the particle [kg/m³], `E_Y`
+//! Young's modulus [Pa], `nu` Poisson's ratio [1], `E*` reduced modulus [Pa], `S` effective
+//! stiffness parameter, `R` restitution without adhesion [1], `K` `loss_speed` [m/s], `p`
+//! `loss_exponent` [1]. The number 0.51 has a unit, kg m^-0.5 s^-1.5, and stands for the adhesion
+//! of the microspheres of the fit; the model's work of adhesion does not enter.
 //!
-//! Sources: R. M. Brach, P. F. Dunn, "A mathematical model of the impact and adhesion of microspheres", Aerosol Science and
-//! Technology 16 (1992) 51–64, not re-read; `v_cr` as coded in a published deposition model of El-Batsh and Haselbacher, which
-//! agrees. `R` is the form of that paper from memory. There adhesion takes the share `1 - sqrt(1 - 2 W_A/(m R² v²))` of `R`; the
-//! last line is that share with the work `W_A` that gives `e_n = 0` at `v_cr` (derived here), so that `e_n` has no jump.
-//! For silver-coated glass spheres on steel the same authors gave `R = 45.3/(45.3 + v^0.718)` (1995, from memory, in m/s), which is
-//! `K` = 202 m/s and `p` = 0.718.
+//! Sources: R. M. Brach, P. F. Dunn, "A mathematical model of the impact and adhesion of
+//! microspheres", Aerosol Science and Technology 16 (1992) 51–64, not re-read; `v_cr` as coded in a
+//! published deposition model of El-Batsh and Haselbacher, which agrees. `R` is the form of that
+//! paper from memory. There adhesion takes the share `1 - sqrt(1 - 2 W_A/(m R² v²))` of `R`; the
+//! last line is that share with the work `W_A` that gives `e_n = 0` at `v_cr` (derived here), so
+//! that `e_n` has no jump. For silver-coated glass spheres on steel the same authors gave `R =
+//! 45.3/(45.3 + v^0.718)` (1995, from memory, in m/s), which is `K` = 202 m/s and `p` = 0.718.
 //!
-//! Fitted to microspheres of 3 to 70 µm on polished metal and mineral surfaces at up to 20 m/s (range from memory). `p` up to 1,
-//! so that a faster particle leaves faster. Ammonium fluorescein of 4.9 µm (1.2 GPa, Wall et al. 1990) sticks up to about 1.6 m/s in
-//! Thornton & Ning's solution, here up to 1.1 m/s; this also shows that 0.51 is meant in SI. The law does not hold for ash:
-//! measured critical velocities of fly ash on steel are 0.19 to 1.92 m/s at 65 to 104 µm (Energies 6 (2013) 3245 and 4288) and
-//! some 1 m/s at 23 µm (Energies 14 (2021) 5231), the law says 0.001 to 0.002 and 0.01 m/s.
+//! Fitted to microspheres of 3 to 70 µm on polished metal and mineral surfaces at up to 20 m/s
+//! (range from memory). `p` up to 1, so that a faster particle leaves faster. Ammonium fluorescein
+//! of 4.9 µm (1.2 GPa, Wall et al. 1990) sticks up to about 1.6 m/s in Thornton & Ning's solution,
+//! here up to 1.1 m/s; this also shows that 0.51 is meant in SI. The law does not hold for ash:
+//! measured critical velocities of fly ash on steel are 0.19 to 1.92 m/s at 65 to 104 µm (Energies
+//! 6 (2013) 3245 and 4288) and some 1 m/s at 23 µm (Energies 14 (2021) 5231), the law says 0.001 to
+//! 0.002 and 0.01 m/s.
 
 use super::{Contact, ListedNormalLaw};
 use crate::impact::Impact;

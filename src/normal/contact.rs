@@ -3,8 +3,8 @@
 use crate::deposit::WallMelt;
 use crate::material::Mechanical;
 
-/// Contact radius over particle radius [1] up to which the contact of a sphere with a half-space is a fair description: Hertz's theory is
-/// for small contacts, and 0.3 is a usual bound (assumed).
+/// Contact radius over particle radius [1] up to which the contact of a sphere with a half-space is
+/// a fair description: Hertz's theory is for small contacts, and 0.3 is a usual bound (assumed).
 pub const LARGEST_CONTACT_RADIUS: f64 = 0.3;
 
 /// Properties of the two solids that the impact laws use.
@@ -50,8 +50,8 @@ impl Contact {
     }
 
     /// Largest `rho v_n²` [Pa] at which a sphere that flows plastically stays below
-    /// [`LARGEST_CONTACT_RADIUS`]: `a/R = (8 rho v_n²/(3 p_y))^(1/4)`, from the kinetic energy that the pressure `p_y` takes up on the
-    /// area `pi a² = 2 pi R h` (indentation `h`).
+    /// [`LARGEST_CONTACT_RADIUS`]: `a/R = (8 rho v_n²/(3 p_y))^(1/4)`, from the kinetic energy that
+    /// the pressure `p_y` takes up on the area `pi a² = 2 pi R h` (indentation `h`).
     #[inline(always)]
     pub fn largest_impact_pressure(&self) -> f64 {
         0.375 * LARGEST_CONTACT_RADIUS.powi(4) * self.limiting_pressure()
@@ -97,7 +97,8 @@ mod tests {
     use super::*;
     use crate::material::Library;
 
-    /// The model file's number goes before the material's, and that before the geometric mean. That of a wall has no say.
+    /// The model file's number goes before the material's, and that before the geometric mean. That
+    /// of a wall has no say.
     #[test]
     fn the_work_of_adhesion_is_the_nearest_one_given() {
         let plain = Mechanical {

@@ -5,17 +5,19 @@
 //! v_cr = (2 S/d)^(10/7),  S = 0.51 (5 pi² (k1+k2)/(4 rho^1.5))^(2/5),  k = (1-nu²)/(pi E_Y)
 //! ```
 //!
-//! Up to `v_cr` [m/s] the particle sticks, above it rebounds with the given `e_n` [1]. `T` [K] temperature, `d` diameter [m], `rho`
-//! density of the particle [kg/m³], `nu` Poisson's ratio [1].
+//! Up to `v_cr` [m/s] the particle sticks, above it rebounds with the given `e_n` [1]. `T` [K]
+//! temperature, `d` diameter [m], `rho` density of the particle [kg/m³], `nu` Poisson's ratio [1].
 //!
-//! Sources: H. El-Batsh, H. Haselbacher, "Numerical investigation of the effect of ash particle deposition on the flow field
-//! through turbine cascades", ASME GT-2002-30600; the modulus is a later fit to deposits of coal ash (Ai & Fletcher, Brigham Young
-//! University, about 2008). Neither was re-read; all numbers here agree with a published Fluent function of that model, which
-//! takes the mean temperature of gas and surface. Here `T` is the mean of particle and wall (assumed): an impact does not know the gas.
-//! That function rebounds with 0.8 along the normal and 0.4 along the wall, for any speed above `v_cr`; there is no default here.
+//! Sources: H. El-Batsh, H. Haselbacher, "Numerical investigation of the effect of ash particle
+//! deposition on the flow field through turbine cascades", ASME GT-2002-30600; the modulus is a
+//! later fit to deposits of coal ash (Ai & Fletcher, Brigham Young University, about 2008). Neither
+//! was re-read; all numbers here agree with a published Fluent function of that model, which takes
+//! the mean temperature of gas and surface. Here `T` is the mean of particle and wall (assumed): an
+//! impact does not know the gas. That function rebounds with 0.8 along the normal and 0.4 along the
+//! wall, for any speed above `v_cr`; there is no default here.
 //!
-//! Fitted to ash of 1 to 20 µm on turbine vanes of 1100 to 1500 K (range from memory). Below it the modulus exceeds that of any
-//! solid (1.3e12 Pa at 815 K), so that nothing sticks.
+//! Fitted to ash of 1 to 20 µm on turbine vanes of 1100 to 1500 K (range from memory). Below it the
+//! modulus exceeds that of any solid (1.3e12 Pa at 815 K), so that nothing sticks.
 
 use std::f64::consts::PI;
 
@@ -55,8 +57,9 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// By hand at 1300 K, 5 µm, 2500 kg/m³: E_Y = 3e20 e^-30.745 = 1.332715e7 Pa; k1+k2 = 2*0.9271/(pi E_Y) = 4.428629e-8/Pa;
-    /// 5 pi² (k1+k2)/5e5 = 4.370882e-12, to the 0.4: 2.859088e-5; S = 1.458135e-5; 2S/d = 5.832541; v_cr = 12.41888 m/s.
+    /// By hand at 1300 K, 5 µm, 2500 kg/m³: E_Y = 3e20 e^-30.745 = 1.332715e7 Pa; k1+k2 =
+    /// 2*0.9271/(pi E_Y) = 4.428629e-8/Pa; 5 pi² (k1+k2)/5e5 = 4.370882e-12, to the 0.4:
+    /// 2.859088e-5; S = 1.458135e-5; 2S/d = 5.832541; v_cr = 12.41888 m/s.
     #[test]
     fn the_critical_velocity_by_hand() {
         let impact = Impact {

@@ -5,15 +5,18 @@
 //! sd(e_n) = 2.15 b - 5.02 b² + 4.05 b³ - 1.085 b⁴
 //! ```
 //!
-//! `b` is the angle between path and SURFACE [rad]: 0 glancing, pi/2 head-on. The result is the mean plus `deviation` [1] times
-//! the standard deviation, 0 by default, kept between 0 and 1. No particle sticks.
+//! `b` is the angle between path and SURFACE [rad]: 0 glancing, pi/2 head-on. The result is the
+//! mean plus `deviation` [1] times the standard deviation, 0 by default, kept between 0 and 1. No
+//! particle sticks.
 //!
-//! Source: G. Grant, W. Tabakoff, "Erosion prediction in turbomachinery resulting from environmental solid particles", J. Aircraft
-//! 12 (1975) 471–478, not re-read; the numbers agree in two compilations. An open CFD code has `0.99288 - 0.030708 b + 4.7389e-4 b²
+//! Source: G. Grant, W. Tabakoff, "Erosion prediction in turbomachinery resulting from
+//! environmental solid particles", J. Aircraft 12 (1975) 471–478, not re-read; the numbers agree in
+//! two compilations. An open CFD code has `0.99288 - 0.030708 b + 4.7389e-4 b²
 //! - 2.5845e-6 b³` with `b` in degrees, which is the same curve within 0.006.
 //!
-//! Quartz sand of 20 to 200 µm on 2024 aluminium at some 60 to 190 m/s (particles, target and range from memory). Speed, size and
-//! materials do not enter: elsewhere the outcome is marked as outside the range.
+//! Quartz sand of 20 to 200 µm on 2024 aluminium at some 60 to 190 m/s (particles, target and range
+//! from memory). Speed, size and materials do not enter: elsewhere the outcome is marked as outside
+//! the range.
 
 use super::ListedNormalLaw;
 use crate::law::{FitLimit, Origin, Parameter, Search, polynomial};
@@ -67,7 +70,8 @@ mod tests {
         }
     }
 
-    /// By hand at 30°, b = 0.5235988: 0.993 - 0.9215338 + 0.4276829 - 0.0703383 = 0.4288107; scatter 1.1257374 - 1.3762615
+    /// By hand at 30°, b = 0.5235988: 0.993 - 0.9215338 + 0.4276829 - 0.0703383 = 0.4288107;
+    /// scatter 1.1257374 - 1.3762615
     /// + 0.5813677 - 0.0815501 = 0.2492935. Glancing particles keep more: the angle is counted from the surface.
     #[test]
     fn mean_and_scatter_by_hand() {

@@ -1,8 +1,9 @@
 //! Normal restitution: the share of the speed towards the wall that a particle keeps. One law a file.
 //!
-//! The laws of [`NormalLaw`] with a variant of their own can be prepared for vectors. All others are listed in [`LISTED_LAWS`]: a
-//! new one is one file with a [`ListedNormalLaw`] and one line there; the model file and `nearwall check` then know it, and tests demand
-//! its row in the documents.
+//! The laws of [`NormalLaw`] with a variant of their own can be prepared for vectors. All others
+//! are listed in [`LISTED_LAWS`]: a new one is one file with a [`ListedNormalLaw`] and one line
+//! there; the model file and `nearwall check` then know it, and tests demand its row in the
+//! documents.
 
 mod bons;
 mod brach_dunn;
@@ -49,7 +50,8 @@ pub struct ListedNormalLaw {
     pub parameters: &'static [Parameter],
     /// Normal restitution [1] from the values of the parameters; `None` when the particle sticks.
     pub restitution: fn(&Impact, &Contact, &ParameterValues) -> Option<f64>,
-    /// Sticking velocity [m/s] at the size and the temperatures of an impact; `None` for a law under which no particle sticks.
+    /// Sticking velocity [m/s] at the size and the temperatures of an impact; `None` for a law
+    /// under which no particle sticks.
     pub sticking_velocity: Option<fn(&Impact, &Contact, &ParameterValues) -> f64>,
 }
 
@@ -122,8 +124,8 @@ impl NormalLaw {
         }
     }
 
-    /// Normal restitution [1] of a particle of `diameter` [m] that hits head-on at `normal_speed` [m/s], without temperatures;
-    /// `None` when adhesion holds it.
+    /// Normal restitution [1] of a particle of `diameter` [m] that hits head-on at `normal_speed`
+    /// [m/s], without temperatures; `None` when adhesion holds it.
     pub fn restitution(self, contact: &Contact, diameter: f64, normal_speed: f64) -> Option<f64> {
         self.rebound(contact, &Impact { diameter, normal_speed, ..Impact::default() })
     }
@@ -165,8 +167,9 @@ impl NormalLaw {
         }
     }
 
-    /// Whether the law is stated for an impact: the contact radius has to stay below [`LARGEST_CONTACT_RADIUS`] times that of the
-    /// particle, and a listed law has the range of its fit.
+    /// Whether the law is stated for an impact: the contact radius has to stay below
+    /// [`LARGEST_CONTACT_RADIUS`] times that of the particle, and a listed law has the range of its
+    /// fit.
     #[inline(always)]
     pub fn holds_for(self, contact: &Contact, impact: &Impact) -> bool {
         match self {
@@ -179,8 +182,8 @@ impl NormalLaw {
         }
     }
 
-    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m], without temperatures; for a law under which no
-    /// particle sticks those of Thornton–Ning.
+    /// Adhesive, yield and sticking velocity of a particle of `diameter` [m], without temperatures;
+    /// for a law under which no particle sticks those of Thornton–Ning.
     pub fn speeds(self, contact: &Contact, diameter: f64) -> Speeds {
         self.speeds_of(contact, &Impact { diameter, ..Impact::default() })
     }

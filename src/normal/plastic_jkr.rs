@@ -1,9 +1,10 @@
-//! `thornton-ning-raised-pull-off` (its name in model files): a plastic JKR contact, that is Thornton–Ning with the pull-off
-//! raised by yielding.
+//! `thornton-ning-raised-pull-off` (its name in model files): a plastic JKR contact, that is
+//! Thornton–Ning with the pull-off raised by yielding.
 //!
-//! Yielding flattens the contact: it separates along the JKR curve of a larger radius of curvature `R_p`, with a larger
-//! pull-off force and more adhesive work than on loading (Thornton & Ning, Powder Technology 99 (1998) 154, who integrate
-//! such a contact numerically). This law is the exact energy balance of that contact under three assumptions:
+//! Yielding flattens the contact: it separates along the JKR curve of a larger radius of curvature
+//! `R_p`, with a larger pull-off force and more adhesive work than on loading (Thornton & Ning,
+//! Powder Technology 99 (1998) 154, who integrate such a contact numerically). This law is the
+//! exact energy balance of that contact under three assumptions:
 //! - `delta = a²/R - sqrt(2πWa/E*)` (JKR) holds while the contact grows, elastic or plastic, from `delta = 0` on;
 //! - the JKR pressure `p(r) = p0 u - p1/u`, `u = sqrt(1 - r²/a²)`, `p0 = 2E*a/πR`, `p1 = sqrt(2WE*/πa)`, is limited
 //!   to `p_y` where it would be higher, first at the centre: adhesion takes `p1` of the pressure there;
@@ -14,24 +15,27 @@
 //! `t² = a/a_h` and `beta = p1/p_y` at `a_h`, which is `(2/π)(C2 v_adh/(C1 v_y))^(3/5)`:
 //! - elastic force `t⁶/rho - 3 beta t³`, displacement `t⁴/rho - 2 beta t`, `rho = R_p/R`, and their work
 //!   `phi(t, rho) = t¹⁰/rho² - 5 beta t⁷/rho + (15/4) beta² t⁴`;
-//! - past yield the pressure is limited up to the `u` with `t u = 1/y`, `t = y(1 + beta y)`, and in `y` force and work are
-//!   polynomials: with `s = beta y`, `F = 3t⁴/2 - (1+s)²(1/2 + 2s)`;
+//! - past yield the pressure is limited up to the `u` with `t u = 1/y`, `t = y(1 + beta y)`, and in
+//!   `y` force and work are polynomials: with `s = beta y`, `F = 3t⁴/2 - (1+s)²(1/2 + 2s)`;
 //! - first contact `t³ = 2 beta`, yield `y²(1 + beta y) = 1`, parting `t³ = beta rho/2`;
 //! - `e_n² = [phi(t, rho) - (3/2) beta² (beta rho/2)^(4/3)] / (v/v_y)²` with the `t` that `v` reaches.
 //!
-//! Below yield this is Thornton–Ning to the last bit. Without adhesion it is their `P(v_y/v)`. Its own yield velocity is
-//! that of the JKR contact: `v_y (1 - 3.1 beta²)` for weak adhesion, and 0 from `v_adh = 0.61 v_y` on, where adhesion alone makes
-//! the contact yield. The sticking velocity is that of Thornton–Ning up to `v_adh = 0.48 v_y` and higher from there on.
+//! Below yield this is Thornton–Ning to the last bit. Without adhesion it is their `P(v_y/v)`. Its
+//! own yield velocity is that of the JKR contact: `v_y (1 - 3.1 beta²)` for weak adhesion, and 0
+//! from `v_adh = 0.61 v_y` on, where adhesion alone makes the contact yield. The sticking velocity
+//! is that of Thornton–Ning up to `v_adh = 0.48 v_y` and higher from there on.
 //!
-//! Adhesion also lowers the pressure at the centre, so that a fast contact flattens less: far above `v_s`, `e_n` is up to 0.01
-//! higher than by Thornton–Ning.
+//! Adhesion also lowers the pressure at the centre, so that a fast contact flattens less: far above
+//! `v_s`, `e_n` is up to 0.01 higher than by Thornton–Ning.
 //!
-//! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, for `a` small against `R`; at the sticking velocity `a` is 0.7 to
-//! 1.2 times `a_h v_adh/v_y` for `v_adh/v_y` of 3 to 1000, and much of it exists at rest, since adhesion alone pulls the
-//! particle in. The change of `delta(a)` under the pressure limit is neglected. For 4.9 µm ammonium fluorescein the sticking
-//! velocity is 1.46 m/s, against 0.69 m/s of the closed form and about 1.6 m/s that Thornton & Ning found. Their paper was
-//! not available; the three assumptions are taken from accounts of it. A force past yield of `dF/da = 2πap_y - sqrt(2πWE*a)`,
-//! which keeps the pull at the rim as at yield, would give 1.82 m/s: a measure of the uncertainty.
+//! Symbols: as in `thornton_ning.rs`. Valid as Thornton–Ning, for `a` small against `R`; at the
+//! sticking velocity `a` is 0.7 to 1.2 times `a_h v_adh/v_y` for `v_adh/v_y` of 3 to 1000, and much
+//! of it exists at rest, since adhesion alone pulls the particle in. The change of `delta(a)` under
+//! the pressure limit is neglected. For 4.9 µm ammonium fluorescein the sticking velocity is 1.46
+//! m/s, against 0.69 m/s of the closed form and about 1.6 m/s that Thornton & Ning found. Their
+//! paper was not available; the three assumptions are taken from accounts of it. A force past yield
+//! of `dF/da = 2πap_y - sqrt(2πWE*a)`, which keeps the pull at the rim as at yield, would give 1.82
+//! m/s: a measure of the uncertainty.
 
 use super::thornton_ning::{ADHESIVE_FACTOR, YIELD_FACTOR, restitution as plain_restitution};
 
@@ -67,7 +71,8 @@ pub fn speeds(adhesive: f64, yielding: f64) -> [f64; 2] {
 
 /// A contact in the units of its Hertz yield.
 struct YieldingContact {
-    /// `beta` [1]: pressure that adhesion removes at the centre when a Hertz contact yields, over the limiting pressure.
+    /// `beta` [1]: pressure that adhesion removes at the centre when a Hertz contact yields, over
+    /// the limiting pressure.
     beta: f64,
     /// `y` where the pressure limit begins to act: at yield, or at first contact when that already yields.
     start: f64,

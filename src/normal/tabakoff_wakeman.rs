@@ -1,11 +1,12 @@
 //! Tabakoff & Wakeman (1981): normal restitution of sand on a turbomachine's metal, fitted over the impact angle.
 //!
-//! `e_n = 1 - 0.0211 b + 2.28e-4 b² - 8.76e-7 b³`, `b` the angle between path and SURFACE [degrees]: 0 glancing, 90 head-on. No
-//! particle sticks.
+//! `e_n = 1 - 0.0211 b + 2.28e-4 b² - 8.76e-7 b³`, `b` the angle between path and SURFACE
+//! [degrees]: 0 glancing, 90 head-on. No particle sticks.
 //!
-//! Source: W. Tabakoff, T. Wakeman, "Basic erosion investigation in small turbomachinery", University of Cincinnati, 1981, as coded
-//! in an open CFD code, the only source. Particles and target are not stated there (quartz on a nickel or steel alloy at some
-//! 100 m/s is assumed), nor is the scatter. The fits for other alloys (Tabakoff, Hamed & Murugan 1996) were not found.
+//! Source: W. Tabakoff, T. Wakeman, "Basic erosion investigation in small turbomachinery",
+//! University of Cincinnati, 1981, as coded in an open CFD code, the only source. Particles and
+//! target are not stated there (quartz on a nickel or steel alloy at some 100 m/s is assumed), nor
+//! is the scatter. The fits for other alloys (Tabakoff, Hamed & Murugan 1996) were not found.
 //! Stated for 5 to 70°, where the tangential fit of the same source stays below 1.
 
 use super::ListedNormalLaw;

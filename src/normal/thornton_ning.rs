@@ -15,8 +15,8 @@
 //! losses of adhesion and of plasticity. It neglects that yielding flattens the contact and so raises the pull-off;
 //! `plastic_jkr.rs` includes this.
 //!
-//! Misprints: Troiano et al., Eq. 1, has 4/3 in place of 16/9 (their `K` is `4E*/3`), which makes `v_s` 0.953 of the above;
-//! Eq. 6 lacks a minus sign under its inner root. Tests below state both.
+//! Misprints: Troiano et al., Eq. 1, has 4/3 in place of 16/9 (their `K` is `4E*/3`), which makes
+//! `v_s` 0.953 of the above; Eq. 6 lacks a minus sign under its inner root. Tests below state both.
 
 use super::{Contact, Speeds};
 use crate::vector_math::inverse_cube_root;
@@ -28,8 +28,9 @@ pub(super) const YIELD_FACTOR: f64 = 1.560_521_475_613_219_8;
 
 /// The constants of the law for a contact.
 ///
-/// `rho v_adh² = C1² E* u^(-5/3)` with `u = d E*/2W` [1]: the formula above in other symbols. Density enters only with the kinetic
-/// energy, so the law works with `sqrt(rho) v` [Pa^½] in place of every speed.
+/// `rho v_adh² = C1² E* u^(-5/3)` with `u = d E*/2W` [1]: the formula above in other symbols.
+/// Density enters only with the kinetic energy, so the law works with `sqrt(rho) v` [Pa^½] in place
+/// of every speed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ThorntonNingConstants {
     /// `E*/2W` [1/m], infinite without adhesion.
@@ -62,8 +63,8 @@ impl ThorntonNingConstants {
         self.adhesion_scale * (square * square * root)
     }
 
-    /// Share of the kinetic energy `e_n²` [1] that a particle of `density` [kg/m³] keeps at `normal_speed` [m/s], from its
-    /// [`Self::adhesive_pressure`] [Pa]; 0 when adhesion holds it.
+    /// Share of the kinetic energy `e_n²` [1] that a particle of `density` [kg/m³] keeps at
+    /// `normal_speed` [m/s], from its [`Self::adhesive_pressure`] [Pa]; 0 when adhesion holds it.
     #[inline(always)]
     pub fn energy(&self, density: f64, normal_speed: f64, adhesive_pressure: f64) -> f64 {
         energy(density.sqrt() * normal_speed, adhesive_pressure, self.yielding)
@@ -110,7 +111,8 @@ pub fn restitution(speed: f64, adhesive: f64, yielding: f64) -> f64 {
     energy(speed, adhesive * adhesive, yielding).sqrt()
 }
 
-/// `e_n²` [1], from `v_adh²`; otherwise as [`restitution`]. Without branches, for vectors: both sides of a choice are computed.
+/// `e_n²` [1], from `v_adh²`; otherwise as [`restitution`]. Without branches, for vectors: both
+/// sides of a choice are computed.
 #[inline(always)]
 fn energy(speed: f64, adhesive_squared: f64, yielding: f64) -> f64 {
     let inverse_speed = 1.0 / speed;

@@ -1,15 +1,18 @@
-//! Whitaker & Bons (2018), in part: the cylinder of `bons` with a yield strength that grows with the speed of the impact.
+//! Whitaker & Bons (2018), in part: the cylinder of `bons` with a yield strength that grows with
+//! the speed of the impact.
 //!
 //! `sigma_y = a |v|`, `v_y = sigma_y/sqrt(rho E_c)`, `e_n = min(1, v_y/v_n)`; no adhesion, no particle sticks.
 //!
-//! `|v|` speed [m/s], `v_n` speed towards the wall [m/s], `a` `strength_per_speed` [Pa s/m], `rho` density of the particle [kg/m³],
-//! `E_c` composite modulus [Pa] (see `bons`). A head-on particle that yields keeps the same share of its speed at any speed,
-//! `a/sqrt(rho E_c)`; an oblique one more.
+//! `|v|` speed [m/s], `v_n` speed towards the wall [m/s], `a` `strength_per_speed` [Pa s/m], `rho`
+//! density of the particle [kg/m³], `E_c` composite modulus [Pa] (see `bons`). A head-on particle
+//! that yields keeps the same share of its speed at any speed, `a/sqrt(rho E_c)`; an oblique one
+//! more.
 //!
-//! Source: S. Whitaker, J. Bons, "An improved particle impact model by accounting for rate of strain and stochastic rebound", ASME
-//! GT2018-77158. The paper was not found; the equation is as coded in an open CFD code that names it, the only source. The
-//! random part of the paper's model is left out, and no value of `a` was found: there is no default.
-//! The case of its fit is not known to us; the limits are those of `bons` (assumed).
+//! Source: S. Whitaker, J. Bons, "An improved particle impact model by accounting for rate of
+//! strain and stochastic rebound", ASME GT2018-77158. The paper was not found; the equation is as
+//! coded in an open CFD code that names it, the only source. The random part of the paper's model
+//! is left out, and no value of `a` was found: there is no default. The case of its fit is not
+//! known to us; the limits are those of `bons` (assumed).
 
 use super::bons::{elastic_plastic, yield_velocity};
 use super::{ListedNormalLaw, bons};

@@ -4,28 +4,32 @@
 //! T_cv = 2990 - 1470 (S/A) + 360 (S/A)² - 14.7 (F + C + M) + 0.15 (F + C + M)²     T_cv in °C
 //! ```
 //!
-//! `S`, `A`, `F`, `C` and `M` are the shares of `SiO2`, `Al2O3`, `Fe2O3`, `CaO` and `MgO` [wt%], scaled so that the five add up
-//! to 100, with all iron as `Fe2O3` ([`FiveOxides`]). Alkalis, titania and the rest do not enter.
+//! `S`, `A`, `F`, `C` and `M` are the shares of `SiO2`, `Al2O3`, `Fe2O3`, `CaO` and `MgO` [wt%],
+//! scaled so that the five add up to 100, with all iron as `Fe2O3` ([`FiveOxides`]). Alkalis,
+//! titania and the rest do not enter.
 //!
 //! A slag on a wall stays for minutes or longer and crystallises below this temperature. A droplet in flight cools
 //! in milliseconds and stays a glass: the temperature says nothing about it.
 //!
-//! Source: J. D. Watt, "The flow properties of slags formed from the ashes of British coals. Part 2: The crystallizing
-//! behaviour of the slags", J. Inst. Fuel 42 (1969) 131–134; often cited as Watt 1963. Not re-read, and no second source with the
-//! numbers could be looked up. That it is in °C follows from M. Seggiani, Fuel 77 (1998) 1611, who writes it in kelvin with 3263 for
-//! 2990 (from memory).
+//! Source: J. D. Watt, "The flow properties of slags formed from the ashes of British coals. Part
+//! 2: The crystallizing behaviour of the slags", J. Inst. Fuel 42 (1969) 131–134; often cited as
+//! Watt 1963. Not re-read, and no second source with the numbers could be looked up. That it is in
+//! °C follows from M. Seggiani, Fuel 77 (1998) 1611, who writes it in kelvin with 3263 for 2990
+//! (from memory).
 //!
 //! # Range and error
-//! Slags of British bituminous ash in Watt and Fereday's range of composition ([`FiveOxides::is_like_british_ash`]; the
-//! range is that of part 1). In addition `S/A` at most [`LARGEST_OXIDE_RATIO`] (assumed): the parabola has its minimum at
-//! `S/A = 2.04` and rises beyond it, by 1380 K at `S/A = 4`, where slags rich in silica crystallise late if at all. The source's
-//! error is not known to us; differences of 50 to 100 K from measured values are common in the literature (assumed).
+//! Slags of British bituminous ash in Watt and Fereday's range of composition
+//! ([`FiveOxides::is_like_british_ash`]; the range is that of part 1). In addition `S/A` at most
+//! [`LARGEST_OXIDE_RATIO`] (assumed): the parabola has its minimum at `S/A = 2.04` and rises beyond
+//! it, by 1380 K at `S/A = 4`, where slags rich in silica crystallise late if at all. The source's
+//! error is not known to us; differences of 50 to 100 K from measured values are common in the
+//! literature (assumed).
 
 use super::composition::Composition;
 use super::watt_fereday::FiveOxides;
 
-/// Largest ratio of silica to alumina [1] at which the formula is used without a flag: beyond it the parabola has risen by more than
-/// 100 K above its minimum. Assumed.
+/// Largest ratio of silica to alumina [1] at which the formula is used without a flag: beyond it
+/// the parabola has risen by more than 100 K above its minimum. Assumed.
 pub const LARGEST_OXIDE_RATIO: f64 = 2.57;
 
 /// Temperature of critical viscosity [K]; `None` for a composition without `Al2O3`.
@@ -60,8 +64,8 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// By hand: 18 FeO are 20.004 Fe2O3, so the five add up to 91.004; F + C + M = 28.004/91.004 = 30.7723 wt%, S/A = 2.5:
-    /// 2990 - 3675 + 2250 - 452.353 + 142.040 = 1254.687 °C.
+    /// By hand: 18 FeO are 20.004 Fe2O3, so the five add up to 91.004; F + C + M = 28.004/91.004 =
+    /// 30.7723 wt%, S/A = 2.5: 2990 - 3675 + 2250 - 452.353 + 142.040 = 1254.687 °C.
     #[test]
     fn slag_of_illinois_coal() {
         let slag = oxides("SiO2 45, Al2O3 18, FeO 18, CaO 7, MgO 1, Na2O 0.6, K2O 1.9, TiO2 1, P2O5 0.2");

@@ -5,13 +5,14 @@
 //! mu / mu_liquid = (1 - 1.35 phi)^-2.5                     infinite from phi = 1/1.35 = 0.741 on
 //! ```
 //!
-//! `phi` share of crystals [1], `T` temperature [K], `mu` viscosity of the suspension and `mu_liquid` of the melt between the
-//! crystals [both Pa s].
+//! `phi` share of crystals [1], `T` temperature [K], `mu` viscosity of the suspension and
+//! `mu_liquid` of the melt between the crystals [both Pa s].
 //!
-//! Source of the factor: R. Roscoe, "The viscosity of suspensions of rigid spheres", Br. J. Appl. Phys. 3 (1952) 267–269, for
-//! equal spheres, of which 74 % by volume fill the space (not re-read). Assumed by us: the straight line between
-//! liquidus and solidus; that the share by mass is the share by volume; that the melt between the crystals keeps the composition of
-//! the slag; and equilibrium, that is, a slag that has had minutes. Needles and plates thicken more than spheres.
+//! Source of the factor: R. Roscoe, "The viscosity of suspensions of rigid spheres", Br. J. Appl.
+//! Phys. 3 (1952) 267–269, for equal spheres, of which 74 % by volume fill the space (not re-read).
+//! Assumed by us: the straight line between liquidus and solidus; that the share by mass is the
+//! share by volume; that the melt between the crystals keeps the composition of the slag; and
+//! equilibrium, that is, a slag that has had minutes. Needles and plates thicken more than spheres.
 
 /// Volume of the space that one volume of packed crystals fills [1].
 pub const PACKING: f64 = 1.35;

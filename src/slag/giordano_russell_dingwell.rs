@@ -8,24 +8,27 @@
 //! FM = FeO + MnO + MgO,   NK = Na2O + K2O
 //! ```
 //!
-//! with shares in mol% of these oxides, all iron as `FeO`. The terms for water and fluorine are left out: ash has neither.
+//! with shares in mol% of these oxides, all iron as `FeO`. The terms for water and fluorine are
+//! left out: ash has neither.
 //!
-//! Source: D. Giordano, J. K. Russell, D. B. Dingwell, "Viscosity of magmatic liquids: a model", Earth Planet. Sci. Lett.
-//! 271 (2008) 123–134 (not re-read); the coefficients as three open programs have them, one of them after the authors' own.
+//! Source: D. Giordano, J. K. Russell, D. B. Dingwell, "Viscosity of magmatic liquids: a model",
+//! Earth Planet. Sci. Lett. 271 (2008) 123–134 (not re-read); the coefficients as three open
+//! programs have them, one of them after the authors' own.
 //!
 //! # Range and error
-//! Fitted to melts of volcanic rocks between 1e-1 and 1e14 Pa s, for which the source states a root mean square error of
-//! 0.40 in log10 (from memory). Used here without a flag within [`OXIDE_RANGES`] (the ranges of the source's table, from memory),
-//! with at least [`LEAST_ALKALI`] of `Na2O + K2O` (assumed) and between 1373 and 1980 K, where it was compared: 592
-//! measured melts in that range and thinner than 1e4 Pa s, of 21 references of the collection of Le Losq and Ferraina
-//! (zenodo 13843250; not in this repository). Root mean square error in log10, all references having the same weight: 0.45
-//! (bias -0.15), for Urbain 0.53, for Kalmanovitch–Frank 0.71 (bias -0.53). Some of the points are in the fit, and the
-//! collection is not clear about the iron of many; on its 116 points with at most 1 wt% of iron the errors are 0.46, 0.58
-//! and 0.79.
+//! Fitted to melts of volcanic rocks between 1e-1 and 1e14 Pa s, for which the source states a root
+//! mean square error of 0.40 in log10 (from memory). Used here without a flag within
+//! [`OXIDE_RANGES`] (the ranges of the source's table, from memory), with at least [`LEAST_ALKALI`]
+//! of `Na2O + K2O` (assumed) and between 1373 and 1980 K, where it was compared: 592 measured melts
+//! in that range and thinner than 1e4 Pa s, of 21 references of the collection of Le Losq and
+//! Ferraina (zenodo 13843250; not in this repository). Root mean square error in log10, all
+//! references having the same weight: 0.45 (bias -0.15), for Urbain 0.53, for Kalmanovitch–Frank
+//! 0.71 (bias -0.53). Some of the points are in the fit, and the collection is not clear about the
+//! iron of many; on its 116 points with at most 1 wt% of iron the errors are 0.46, 0.58 and 0.79.
 //!
-//! **On slags with much lime and no alkali it is useless**: more than ten times too thin on most of the references of
-//! `tests/data/slag_viscosity_measured.csv`, none of whose rows is in its range. It is for ash of biomass and alkali-rich
-//! ash.
+//! **On slags with much lime and no alkali it is useless**: more than ten times too thin on most of
+//! the references of `tests/data/slag_viscosity_measured.csv`, none of whose rows is in its range.
+//! It is for ash of biomass and alkali-rich ash.
 
 use super::composition::{Composition, Oxide};
 use super::{ViscosityLaw, for_each_temperature, limited_exponential};
@@ -120,8 +123,9 @@ mod tests {
     use super::*;
     use approx::assert_relative_eq;
 
-    /// Molten albite, 75 SiO2, 12.5 Al2O3 and 12.5 mol% Na2O, by hand: B = 11967 - 2166.75 - 1051 - 995.3125 + 2753.125 =
-    /// 10507.0625, C = 206.25 + 196.5 - 153.625 + 46.875 = 296; at 1496 K log10 mu = -4.55 + 10507.0625/1200.
+    /// Molten albite, 75 SiO2, 12.5 Al2O3 and 12.5 mol% Na2O, by hand: B = 11967 - 2166.75 - 1051 -
+    /// 995.3125 + 2753.125 = 10507.0625, C = 206.25 + 196.5 - 153.625 + 46.875 = 296; at 1496 K
+    /// log10 mu = -4.55 + 10507.0625/1200.
     #[test]
     fn albite_by_hand() {
         let albite =
@@ -134,8 +138,9 @@ mod tests {
         assert_relative_eq!(found, 4.205885416666667, max_relative = 1e-12);
     }
 
-    /// Every oxide, 1 mol% of each but silica and alumina, by hand: FM = 3, NK = 2, SiO2 + TiO2 = 82, B = 13083.92 - 1906.74 +
-    /// 216.39 + 75.69 - 38.98 - 84.08 - 597.78 - 0.91 94 2 + 17.62 11 2 = 10964.98, C = 222.75 + 188.64 + 24.96 + 10.2 - 24.58
+    /// Every oxide, 1 mol% of each but silica and alumina, by hand: FM = 3, NK = 2, SiO2 + TiO2 =
+    /// 82, B = 13083.92 - 1906.74 + 216.39 + 75.69 - 38.98 - 84.08 - 597.78 - 0.91 94 2 + 17.62 11
+    /// 2 = 10964.98, C = 222.75 + 188.64 + 24.96 + 10.2 - 24.58
     /// + 0.3 14 2 = 430.37.
     #[test]
     fn every_oxide_has_its_terms() {

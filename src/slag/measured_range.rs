@@ -1,8 +1,9 @@
-//! Compositions and temperatures of the measured slags on which the errors of Urbain's and of Kalmanovitch and Frank's law are
-//! stated: `tests/data/slag_viscosity_measured.csv`.
+//! Compositions and temperatures of the measured slags on which the errors of Urbain's and of
+//! Kalmanovitch and Frank's law are stated: `tests/data/slag_viscosity_measured.csv`.
 //!
-//! The ranges that the two sources give for their fits were not re-read; the range here is where the stated error was found.
-//! Most of the slags are from blast furnaces. No slag has `Na2O` or `P2O5`; up to [`MOST_OTHER`] of them is allowed (assumed).
+//! The ranges that the two sources give for their fits were not re-read; the range here is where
+//! the stated error was found. Most of the slags are from blast furnaces. No slag has `Na2O` or
+//! `P2O5`; up to [`MOST_OTHER`] of them is allowed (assumed).
 
 use super::composition::{Composition, Oxide};
 
@@ -29,8 +30,8 @@ pub const MOST_IRON: f64 = 22.1;
 /// Most of every other oxide together [wt%]; assumed, 0.6 (`MnO`) was measured.
 pub const MOST_OTHER: f64 = 1.0;
 
-/// Temperatures [K] at which slags like this one were measured; `None` where none were. Shares are those in what stays in the
-/// melt, without `SO3`.
+/// Temperatures [K] at which slags like this one were measured; `None` where none were. Shares are
+/// those in what stays in the melt, without `SO3`.
 pub fn temperatures(composition: &Composition) -> Option<[f64; 2]> {
     let melt = 100.0 - composition.weight_percent(Oxide::SO3);
     if melt <= 0.0 {

@@ -1,8 +1,10 @@
-//! Slag: the composition of an ash and the properties of its melt. One viscosity law a file; [`film`] is the flow down a wall.
+//! Slag: the composition of an ash and the properties of its melt. One viscosity law a file;
+//! [`film`] is the flow down a wall.
 //!
-//! A new law is one file with a [`ViscosityLaw`] and one line in [`VISCOSITY_LAWS`]; the model file and `nearwall check` then know
-//! it. `tests/library/slag_viscosity.rs` compares the laws with measurements. The laws describe a liquid or a quenched glass:
-//! that a slag with time crystallises is in [`critical_viscosity_temperature`] and [`crystal_load`].
+//! A new law is one file with a [`ViscosityLaw`] and one line in [`VISCOSITY_LAWS`]; the model file
+//! and `nearwall check` then know it. `tests/library/slag_viscosity.rs` compares the laws with
+//! measurements. The laws describe a liquid or a quenched glass: that a slag with time crystallises
+//! is in [`critical_viscosity_temperature`] and [`crystal_load`].
 
 mod composition;
 pub mod critical_viscosity_temperature;
@@ -58,8 +60,8 @@ pub struct ViscosityLaw {
     pub range: fn(&Composition) -> Option<[f64; 2]>,
 }
 
-/// Calls `viscosity` for each temperature, with the vectors of `level`. A law's function is inlined here, so it becomes vectors where it
-/// has no branches.
+/// Calls `viscosity` for each temperature, with the vectors of `level`. A law's function is inlined
+/// here, so it becomes vectors where it has no branches.
 #[inline(always)]
 fn for_each_temperature(
     level: Level,

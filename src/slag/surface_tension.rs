@@ -4,18 +4,20 @@
 //! sigma = 271.2 + 3.47 Al2O3 + 3.34 CaO + 1.96 MgO + 2.68 FeO + 2.92 MnO - 2.22 K2O - 2.86 B2O3        sigma in mN/m
 //! ```
 //!
-//! with shares in mol% of what stays in the melt, at 1400 °C. `SiO2`, `Na2O` and, for lack of a coefficient, `TiO2`, `P2O5`
-//! and `Fe2O3` have the value of the constant.
+//! with shares in mol% of what stays in the melt, at 1400 °C. `SiO2`, `Na2O` and, for lack of a
+//! coefficient, `TiO2`, `P2O5` and `Fe2O3` have the value of the constant.
 //!
-//! Source: A. Kucuk, A. G. Clare, L. Jones, "An estimation of the surface tension of silicate glass melts at 1400 °C using
-//! statistical analysis", Glass Technol. 40 (1999) 149–153; the coefficients as glassproperties.com prints them.
+//! Source: A. Kucuk, A. G. Clare, L. Jones, "An estimation of the surface tension of silicate glass
+//! melts at 1400 °C using statistical analysis", Glass Technol. 40 (1999) 149–153; the coefficients
+//! as glassproperties.com prints them.
 //!
 //! # Range and error
-//! The source's data have errors of 1 to 5 %. Other data: four lavas from limburgite to andesite 350 to 370 mN/m at 1200 to
-//! 1500 °C (Walker and Mullins 1981; the formula gives 363 to 403 for rocks of these names), slags of black and brown coal
-//! in reducing gas 400 to 700 at 1 bar (Melchior et al. 2009) and 270 to 490 at up to 10 bar (Melchior et al. 2011); the
-//! built-in `coal-slag` gets 396. Mills' partial molar values (1600 °C) are 2 to 15 % higher. An error of 15 % is a fair
-//! estimate (assumed).
+//! The source's data have errors of 1 to 5 %. Other data: four lavas from limburgite to andesite
+//! 350 to 370 mN/m at 1200 to 1500 °C (Walker and Mullins 1981; the formula gives 363 to 403 for
+//! rocks of these names), slags of black and brown coal in reducing gas 400 to 700 at 1 bar
+//! (Melchior et al. 2009) and 270 to 490 at up to 10 bar (Melchior et al. 2011); the built-in
+//! `coal-slag` gets 396. Mills' partial molar values (1600 °C) are 2 to 15 % higher. An error of 15
+//! % is a fair estimate (assumed).
 //!
 //! The change with temperature is left out, because the sources disagree on its sign: -0.15 mN/(m K) in Mills' scheme,
 //! small and positive for lavas and for most coal slags. 200 K change the value by less than 10 % either way. Below the
@@ -57,8 +59,9 @@ pub fn kucuk(composition: &Composition) -> Option<f64> {
     Some(CONSTANT + sum).filter(|sigma| melt > 0.0 && *sigma > 0.0)
 }
 
-/// Whether the formula is stated for a composition at a temperature [K]: a silicate (at least 30 mol% `SiO2`, assumed) with
-/// at most 10 mol% of the oxides that have no coefficient (`Na2O` apart), within [`KUCUK_TEMPERATURES`].
+/// Whether the formula is stated for a composition at a temperature [K]: a silicate (at least 30
+/// mol% `SiO2`, assumed) with at most 10 mol% of the oxides that have no coefficient (`Na2O`
+/// apart), within [`KUCUK_TEMPERATURES`].
 pub fn holds(composition: &Composition, temperature: f64) -> bool {
     let share = |oxide| 100.0 * composition.mole_fraction(oxide);
     let without: f64 = [Oxide::TiO2, Oxide::P2O5, Oxide::Fe2O3].map(share).iter().sum();
@@ -92,9 +95,9 @@ mod tests {
         assert_relative_eq!(kucuk(&melt).unwrap(), 0.374422222222, max_relative = 1e-11);
     }
 
-    /// Measured: an andesite and a basalt near 360 mN/m (Walker and Mullins, Contrib. Mineral. Petrol. 76 (1981) 455: 350 to
-    /// 370 for limburgite to andesite), CaO–50 wt% Al2O3 624 mN/m at 1550 °C (Metals 15 (2025) 1252), though that melt is no
-    /// silicate.
+    /// Measured: an andesite and a basalt near 360 mN/m (Walker and Mullins, Contrib. Mineral.
+    /// Petrol. 76 (1981) 455: 350 to 370 for limburgite to andesite), CaO–50 wt% Al2O3 624 mN/m at
+    /// 1550 °C (Metals 15 (2025) 1252), though that melt is no silicate.
     #[test]
     fn near_measured_melts() {
         let andesite = oxides("SiO2 58, Al2O3 17.5, FeO 7, MgO 3.5, CaO 7, Na2O 3.5, K2O 1.6, TiO2 0.9");

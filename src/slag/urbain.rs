@@ -28,12 +28,13 @@
 //! - `SO3` is ignored; it leaves before the ash melts.
 //!
 //! # Range and error
-//! Fully liquid slag: below the liquidus crystals thicken it and both laws are too low. The ranges of the fits were not re-read;
-//! both laws count as stated on the slags and temperatures of the measured table ([`measured_range`]), where the errors
-//! below were found, and as outside their range elsewhere. Against the 1161 measured
-//! points of `tests/data/slag_viscosity_measured.csv` (1523–2456 K, 30–70 wt% SiO2, 8–40 wt% Al2O3) the root mean
-//! square error in log10 is 0.18 for Kalmanovitch–Frank (bias +0.04) and 0.29 for Urbain (bias +0.24, that is 1.7
-//! times too thick). Kalmanovitch–Frank is too thick below 40 wt% SiO2 and too thin above 50. Only 44 of the points
+//! Fully liquid slag: below the liquidus crystals thicken it and both laws are too low. The ranges
+//! of the fits were not re-read; both laws count as stated on the slags and temperatures of the
+//! measured table ([`measured_range`]), where the errors below were found, and as outside their
+//! range elsewhere. Against the 1161 measured points of `tests/data/slag_viscosity_measured.csv`
+//! (1523–2456 K, 30–70 wt% SiO2, 8–40 wt% Al2O3) the root mean square error in log10 is 0.18 for
+//! Kalmanovitch–Frank (bias +0.04) and 0.29 for Urbain (bias +0.24, that is 1.7 times too thick).
+//! Kalmanovitch–Frank is too thick below 40 wt% SiO2 and too thin above 50. Only 44 of the points
 //! carry iron; on them the errors are 0.30 and 0.42.
 
 use super::composition::{Composition, Oxide, OxideRole};

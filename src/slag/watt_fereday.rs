@@ -86,8 +86,8 @@ impl FiveOxides {
 
 /// `m` and `c` [both 1].
 ///
-/// `None` when none of the five oxides is present, or when `m` is not positive for lack of silica and alumina: the viscosity
-/// would not fall with temperature.
+/// `None` when none of the five oxides is present, or when `m` is not positive for lack of silica
+/// and alumina: the viscosity would not fall with temperature.
 fn line(composition: &Composition) -> Option<[f64; 2]> {
     let of = FiveOxides::of(composition)?;
     let slope = 0.00835 * of.silica + 0.00601 * of.alumina - 0.109;

@@ -2,12 +2,14 @@
 //!
 //! `u2 = u1 - f (1+e_n) v_n cos² b`, so `e_t = 1 - f (1+e_n) sin b cos b`.
 //!
-//! `u` speed along the wall [m/s], `v_n` speed towards it [m/s], `b` the angle between path and SURFACE [rad]: 0 glancing, pi/2
-//! head-on; `f` friction coefficient [1]; `e_t` is kept at 0 or above. Spin stays as it was: the model has none.
+//! `u` speed along the wall [m/s], `v_n` speed towards it [m/s], `b` the angle between path and
+//! SURFACE [rad]: 0 glancing, pi/2 head-on; `f` friction coefficient [1]; `e_t` is kept at 0 or
+//! above. Spin stays as it was: the model has none.
 //!
-//! Source as for the normal law of the same name; the equation agrees with an open CFD code that names the paper (0.3 was the
-//! friction of an earlier version), with friction after Barker et al. 2013 and the cosine by Bons et al. The lift of adhesion and the
-//! shear of the gas, which the paper adds, are left out.
+//! Source as for the normal law of the same name; the equation agrees with an open CFD code that
+//! names the paper (0.3 was the friction of an earlier version), with friction after Barker et al.
+//! 2013 and the cosine by Bons et al. The lift of adhesion and the shear of the gas, which the
+//! paper adds, are left out.
 
 use super::{ListedTangentialLaw, Rebound};
 use crate::law::{Parameter, QuantityKind, Search};

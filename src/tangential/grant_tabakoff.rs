@@ -5,12 +5,13 @@
 //! sd(e_t) = -0.0005 + 0.62 b - 0.535 b² + 0.089 b³
 //! ```
 //!
-//! `b` is the angle between path and SURFACE [rad]: 0 glancing, pi/2 head-on. The result is the mean plus `deviation` [1] times
-//! the standard deviation, 0 by default, kept between 0 and 1. The fit says nothing of spin, which stays as it was.
+//! `b` is the angle between path and SURFACE [rad]: 0 glancing, pi/2 head-on. The result is the
+//! mean plus `deviation` [1] times the standard deviation, 0 by default, kept between 0 and 1. The
+//! fit says nothing of spin, which stays as it was.
 //!
-//! Source, particles, target and range as for the normal law of the same name; the numbers agree in two compilations. An open CFD
-//! code has `0.98723 - 0.030354 b + 7.1913e-4 b² - 4.2979e-6 b³` with `b` in degrees, another curve: higher by 0.03 at 60°, lower
-//! by 0.04 head-on.
+//! Source, particles, target and range as for the normal law of the same name; the numbers agree in
+//! two compilations. An open CFD code has `0.98723 - 0.030354 b + 7.1913e-4 b² - 4.2979e-6 b³` with
+//! `b` in degrees, another curve: higher by 0.03 at 60°, lower by 0.04 head-on.
 
 use super::{ListedTangentialLaw, Rebound};
 use crate::law::polynomial;
@@ -39,7 +40,8 @@ mod tests {
         (GRANT_TABAKOFF.rebound)(&kinematics(degrees, 0.0), &[deviation, 0.0, 0.0, 0.0]).restitution
     }
 
-    /// By hand at 30°, b = 0.5235988: 0.988 - 0.8691740 + 0.5784685 - 0.0961769 = 0.6011176; scatter -0.0005 + 0.3246312
+    /// By hand at 30°, b = 0.5235988: 0.988 - 0.8691740 + 0.5784685 - 0.0961769 = 0.6011176;
+    /// scatter -0.0005 + 0.3246312
     /// - 0.1466733 + 0.0127757 = 0.1902337.
     #[test]
     fn mean_and_scatter_by_hand() {

@@ -7,28 +7,35 @@
 //! u2  = u1 - J,  omega2 = omega1 + 5 J/d,  J = s rho(psi, k)
 //! ```
 //!
-//! `J` is the impulse along the wall per mass [m/s], `u` speed along the wall [m/s], `omega` spin [rad/s], `d` diameter [m], `f`
-//! friction coefficient [1], `k` Mindlin's ratio of tangential to normal stiffness [1] (2/3 to 4/3 for any pair of solids; the papers'
-//! `kappa` is `7k/4` for a solid sphere, their `psi_1` is `psi`), `rho` the share of the slip that the wall takes [1]. Angular momentum about the contact
-//! point is kept. From `psi = 7k - 1` on friction acts through the whole contact: `J = f (1+e_n) v_n`, as in `sliding`.
-//! Below it the stretched contact gives part of its energy back: `e_t` falls past the end of sliding and rises again towards head-on.
+//! `J` is the impulse along the wall per mass [m/s], `u` speed along the wall [m/s], `omega` spin
+//! [rad/s], `d` diameter [m], `f` friction coefficient [1], `k` Mindlin's ratio of tangential to
+//! normal stiffness [1] (2/3 to 4/3 for any pair of solids; the papers' `kappa` is `7k/4` for a
+//! solid sphere, their `psi_1` is `psi`), `rho` the share of the slip that the wall takes [1].
+//! Angular momentum about the contact point is kept. From `psi = 7k - 1` on friction acts through
+//! the whole contact: `J = f (1+e_n) v_n`, as in `sliding`. Below it the stretched contact gives
+//! part of its energy back: `e_t` falls past the end of sliding and rises again towards head-on.
 //!
 //! # Solution
-//! `rho` is integrated over the impact: Hertz's contact as a row of springs over the contact radius, each with its own friction (exact
-//! for Hertz and for Cattaneo's and Mindlin's partial slip under any history of loads), over the phase `theta` of
-//! `v = v_n cos(theta)`. A row of `NODES` values of `psi` for one of `TABLE_ROWS` values of `k` is computed when it is first needed
-//! (1 ms) and kept; between them linear interpolation. Error of `e_t`: below 1e-3 (tests compare with a finer integration; the
-//! independent integration of `validation/run`, "Independent checks", agrees as well).
+//! `rho` is integrated over the impact: Hertz's contact as a row of springs over the contact
+//! radius, each with its own friction (exact for Hertz and for Cattaneo's and Mindlin's partial
+//! slip under any history of loads), over the phase `theta` of `v = v_n cos(theta)`. A row of
+//! `NODES` values of `psi` for one of `TABLE_ROWS` values of `k` is computed when it is first
+//! needed (1 ms) and kept; between them linear interpolation. Error of `e_t`: below 1e-3 (tests
+//! compare with a finer integration; the independent integration of `validation/run`, "Independent
+//! checks", agrees as well).
 //!
 //! # Sources
-//! N. Maw, J. R. Barber, J. N. Fawcett, Wear 38 (1976) 101–114 and ASME J. Lubrication Technology 103 (1981) 74–80 (theory; discs
-//! of steel and of rubber). K. L. Johnson, "Contact Mechanics", 1985, section 11.4.
+//! N. Maw, J. R. Barber, J. N. Fawcett, Wear 38 (1976) 101–114 and ASME J. Lubrication Technology
+//! 103 (1981) 74–80 (theory; discs of steel and of rubber). K. L. Johnson, "Contact Mechanics",
+//! 1985, section 11.4.
 //!
 //! # Range
-//! The theory is elastic (`e_n = 1`), quasi-static, with one friction coefficient and without adhesion, and for similar solids. For
-//! `e_n < 1` the impulses are scaled with the normal impulse, `(1+e_n)/2` (usual, assumed): the end of sliding is then that of
-//! `sliding-rolling`, and no energy is made. How a plastically flattened contact gives up its stretch is not described.
-//! Measured: 5 mm alumina spheres on glass, `e_n` = 0.98 (Kharaz, Gorham & Salman 2001): `tests/library/oblique_impact.rs`.
+//! The theory is elastic (`e_n = 1`), quasi-static, with one friction coefficient and without
+//! adhesion, and for similar solids. For `e_n < 1` the impulses are scaled with the normal impulse,
+//! `(1+e_n)/2` (usual, assumed): the end of sliding is then that of `sliding-rolling`, and no
+//! energy is made. How a plastically flattened contact gives up its stretch is not described.
+//! Measured: 5 mm alumina spheres on glass, `e_n` = 0.98 (Kharaz, Gorham & Salman 2001):
+//! `tests/library/oblique_impact.rs`.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -112,7 +119,8 @@ fn place(along: f64, nodes: usize) -> (usize, f64) {
     (below, scaled - below as f64)
 }
 
-/// One row of the table: `rho` over its value at the end of partial slip [1], so that the law joins gross sliding exactly.
+/// One row of the table: `rho` over its value at the end of partial slip [1], so that the law joins
+/// gross sliding exactly.
 fn tabulate(row: usize) -> [f64; NODES] {
     let [low, high] = STIFFNESS;
     let k = low + (high - low) * row as f64 / (TABLE_ROWS - 1) as f64;
@@ -130,8 +138,9 @@ fn tabulate(row: usize) -> [f64; NODES] {
 
 /// Integrates the impact: the share of the slip that the wall takes [1].
 ///
-/// Lengths along the normal are in units of the deepest approach `D`, stretch along the wall in units of `f D/k`, so that the
-/// spring at `x` (in contact radii) holds at most `depth - x²`; slip in units of `f v_n/k`, impulse of `f m v_n`.
+/// Lengths along the normal are in units of the deepest approach `D`, stretch along the wall in
+/// units of `f D/k`, so that the spring at `x` (in contact radii) holds at most `depth - x²`; slip
+/// in units of `f v_n/k`, impulse of `f m v_n`.
 fn integrate<const SPRINGS: usize>(k: f64, psi: f64, steps: usize) -> f64 {
     let places: [f64; SPRINGS] = std::array::from_fn(|i| ((i as f64 + 0.5) / SPRINGS as f64).powi(2));
     let mut stretch = [0.0; SPRINGS];
@@ -151,8 +160,8 @@ fn integrate<const SPRINGS: usize>(k: f64, psi: f64, steps: usize) -> f64 {
     impulse * k / psi
 }
 
-/// Moves the springs along the wall by `moved` while the contact goes from one depth to another; the tangential over friction times
-/// normal force [1].
+/// Moves the springs along the wall by `moved` while the contact goes from one depth to another;
+/// the tangential over friction times normal force [1].
 fn shear(stretch: &mut [f64], places: &[f64], [before, depth]: [f64; 2], moved: f64) -> f64 {
     let (mut normal, mut tangential) = (0.0, 0.0);
     for (stretch, place) in stretch.iter_mut().zip(places) {
@@ -207,7 +216,8 @@ mod tests {
         }
     }
 
-    /// Head-on nothing slips at first: only `k` counts, neither friction nor speed, and `e_t` has the limit of small speeds.
+    /// Head-on nothing slips at first: only `k` counts, neither friction nor speed, and `e_t` has
+    /// the limit of small speeds.
     #[test]
     fn head_on_friction_does_not_count() {
         let e_t = |friction: f64, degrees: f64| {

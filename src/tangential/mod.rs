@@ -1,8 +1,9 @@
 //! Tangential restitution: the share of the speed along the wall that a particle keeps. One law a file.
 //!
-//! The laws of [`TangentialLaw`] with a variant of their own can be prepared for vectors. All others are listed in
-//! [`LISTED_LAWS`]: a new one is one file with a [`ListedTangentialLaw`] and one line there; the model file and `nearwall check` then know
-//! it, and tests demand its row in the documents.
+//! The laws of [`TangentialLaw`] with a variant of their own can be prepared for vectors. All
+//! others are listed in [`LISTED_LAWS`]: a new one is one file with a [`ListedTangentialLaw`] and
+//! one line there; the model file and `nearwall check` then know it, and tests demand its row in
+//! the documents.
 
 mod bons;
 mod constant;
@@ -79,7 +80,8 @@ impl ImpactKinematics {
         self.normal_speed.abs().atan2(self.tangential_speed.abs())
     }
 
-    /// The rebound with a speed along the wall [m/s] and the spin `omega_0 + x/d`; `at_rest` is `e_t` of a head-on impact.
+    /// The rebound with a speed along the wall [m/s] and the spin `omega_0 + x/d`; `at_rest` is
+    /// `e_t` of a head-on impact.
     #[inline(always)]
     fn rebound(&self, [speed, omega_0, x]: [f64; 3], at_rest: f64) -> Rebound {
         let ratio = speed / self.tangential_speed;
@@ -174,7 +176,8 @@ impl TangentialLaw {
         }
     }
 
-    /// Tangential restitution and spin after the impact. Without tangential speed the restitution is its limit for a small one.
+    /// Tangential restitution and spin after the impact. Without tangential speed the restitution
+    /// is its limit for a small one.
     #[inline(always)]
     pub fn rebound(self, kinematics: &ImpactKinematics) -> Rebound {
         match self {

@@ -1,21 +1,22 @@
 //! Gross sliding: friction acts through the whole contact (Troiano et al., Eq. 10; MIGRAINE, Eq. 4).
 //!
-//! The normal impulse per mass is `(1+e_n) v_n`; Coulomb friction `f` reduces the tangential speed by that share of it and
-//! converts it to spin:
-//! `u2 = u1 - f (1+e_n) v_n`, `omega2 = omega1 + 5 f (1+e_n) v_n / d`, hence `e_t = 1 - f (1+e_n) tan(alpha)`.
+//! The normal impulse per mass is `(1+e_n) v_n`; Coulomb friction `f` reduces the tangential speed
+//! by that share of it and converts it to spin: `u2 = u1 - f (1+e_n) v_n`, `omega2 = omega1 + 5 f
+//! (1+e_n) v_n / d`, hence `e_t = 1 - f (1+e_n) tan(alpha)`.
 //!
 //! `u` tangential speed [m/s], `omega` spin [rad/s], `d` diameter [m]. Friction follows the slip of the contact
 //! point, `s = u1 - omega1 d/2`, so fast forward spin accelerates the particle and backspin may reverse it. Valid below
 //! the critical angle of `sliding_rolling`, while the contact slips.
 //!
-//! Beyond that the law is used as printed, with two limits. Friction without spin can stop the particle but not reverse it.
-//! And an impulse `J` per mass changes the energy of motion and spin by `-|s| J + 7/4 J²`, so friction beyond `J = 4|s|/7`
-//! would create energy: neither the spin nor, with spin, the speed changes by more than that.
+//! Beyond that the law is used as printed, with two limits. Friction without spin can stop the
+//! particle but not reverse it. And an impulse `J` per mass changes the energy of motion and spin
+//! by `-|s| J + 7/4 J²`, so friction beyond `J = 4|s|/7` would create energy: neither the spin nor,
+//! with spin, the speed changes by more than that.
 
 use super::{ImpactKinematics, Rebound};
 
-/// Speed along the wall [m/s], and spin as `[omega_0, x]` for `omega_0 + x/d`, after gross sliding. Without branches, for
-/// vectors.
+/// Speed along the wall [m/s], and spin as `[omega_0, x]` for `omega_0 + x/d`, after gross sliding.
+/// Without branches, for vectors.
 #[inline(always)]
 pub(super) fn motion(friction: f64, kinematics: &ImpactKinematics) -> [f64; 3] {
     let slip = kinematics.slip();

@@ -1,10 +1,11 @@
 //! Tabakoff & Wakeman (1981): tangential restitution of sand on a turbomachine's metal, fitted over the impact angle.
 //!
-//! `e_t = 0.953 - 4.46e-4 b² + 6.48e-6 b³`, `b` the angle between path and SURFACE [degrees]: 0 glancing, 90 head-on. Kept at 1 or
-//! below: the polynomial passes 1 at 70°, where its range ends, and reaches 2 head-on. Spin stays as it was.
+//! `e_t = 0.953 - 4.46e-4 b² + 6.48e-6 b³`, `b` the angle between path and SURFACE [degrees]: 0
+//! glancing, 90 head-on. Kept at 1 or below: the polynomial passes 1 at 70°, where its range ends,
+//! and reaches 2 head-on. Spin stays as it was.
 //!
-//! Source as for the normal law of the same name, the only one; an older version of that code has other powers of ten, which make
-//! `e_t` negative at 15°.
+//! Source as for the normal law of the same name, the only one; an older version of that code has
+//! other powers of ten, which make `e_t` negative at 15°.
 
 use super::{ListedTangentialLaw, Rebound};
 use crate::law::polynomial;

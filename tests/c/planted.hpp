@@ -1,5 +1,5 @@
-// Included before everything (-include) where tests/hard asks whether UBSan sees the code that cxx generates: overflows an
-// integer in that file, and in that file alone, when the program starts.
+// Included before everything (-include) where tests/hard asks whether UBSan sees the code that cxx
+// generates: overflows an integer in that file, and in that file alone, when the program starts.
 #include <climits>
 #include <cstring>
 

@@ -1,4 +1,5 @@
-// nearwall.hpp in a C++11 program: loads, asks one by one, in a batch and from eight threads, and catches what is thrown.
+// nearwall.hpp in a C++11 program: loads, asks one by one, in a batch and from eight threads, and
+// catches what is thrown.
 //
 //     shim FOLDER
 //

@@ -1,4 +1,5 @@
-//! A wall's deposit and its temperatures through the C library: the numbers of the Rust library, and every way to be refused.
+//! A wall's deposit and its temperatures through the C library: the numbers of the Rust library,
+//! and every way to be refused.
 
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
@@ -66,8 +67,8 @@ fn a_deposit_starts_from_its_wall() {
     assert_eq!(format!("{found:?}"), format!("{expected:?}"));
 }
 
-/// Through a film with a heat flux the hot outside carries the flow: by hand, the sum over 20000 slices of `rho g y²/mu(T(y)) dy`,
-/// `y` from the surface, over the thickness.
+/// Through a film with a heat flux the hot outside carries the flow: by hand, the sum over 20000
+/// slices of `rho g y²/mu(T(y)) dy`, `y` from the surface, over the thickness.
 #[test]
 fn a_cooled_film_is_stiff_inside() {
     let calls = Calls::load();
@@ -567,7 +568,8 @@ fn a_deposit_falls_off() {
 const ADHESION: &str = "[walls.slag.resuspension]\nwork_of_adhesion = 0.5\n[walls.\"quench.*\".resuspension]\n\
      work_of_adhesion = 0.3\nadhesion_median = 0.02\nadhesion_spread = 3\n";
 
-/// Powder of random size under random gas, twice in a row, by both libraries, to the last bit. The first wall has no table.
+/// Powder of random size under random gas, twice in a row, by both libraries, to the last bit. The
+/// first wall has no table.
 #[test]
 fn the_gas_carries_away_as_in_the_rust_library() {
     let calls = Calls::load();

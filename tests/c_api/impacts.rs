@@ -219,7 +219,8 @@ fn null_pointers_and_other_sizes_are_refused() {
     }
 }
 
-/// The header asks for no more. What is unset must have no influence; `tests/hard full` runs this under the memory sanitizer.
+/// The header asks for no more. What is unset must have no influence; `tests/hard full` runs this
+/// under the memory sanitizer.
 #[test]
 fn an_outcome_needs_no_more_than_its_size() {
     let calls = Calls::load();

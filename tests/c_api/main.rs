@@ -1,5 +1,5 @@
-//! The C library: every call and status, hostile input, threads, floating-point state, the shared library's file and the
-//! dependencies. `tests/library/interface` tests the header.
+//! The C library: every call and status, hostile input, threads, floating-point state, the shared
+//! library's file and the dependencies. `tests/library/interface` tests the header.
 #![allow(unsafe_code, reason = "calling a C library")]
 #![allow(
     clippy::unwrap_used,

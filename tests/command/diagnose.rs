@@ -53,8 +53,8 @@ fn measured(rows: u64, planted: impl Fn(f64, &str) -> f64) -> String {
     lines.join("\n") + "\n"
 }
 
-/// The gain on the page is what `predict` gives with the written model on the rows that it has not seen: a column that the library does not
-/// know is an input of that model.
+/// The gain on the page is what `predict` gives with the written model on the rows that it has not
+/// seen: a column that the library does not know is an input of that model.
 #[test]
 fn the_gain_is_that_of_the_written_model() {
     let base =

@@ -1,4 +1,5 @@
-//! Inputs that a model file declares, in the command: columns of `predict`, `compare` and `check`; and means over chance in `predict`.
+//! Inputs that a model file declares, in the command: columns of `predict`, `compare` and `check`;
+//! and means over chance in `predict`.
 
 use nearwall::{Impact, Model};
 use nearwall_lab::dataset::{ColumnMap, Measurements, WallChoice};

@@ -1,5 +1,6 @@
-//! What goes wrong around the command: full disks, folders that take nothing, files cut off or replaced while it runs. Nothing
-//! that was there is lost, the exit code is 1, and the message names the place and what to do.
+//! What goes wrong around the command: full disks, folders that take nothing, files cut off or
+//! replaced while it runs. Nothing that was there is lost, the exit code is 1, and the message
+//! names the place and what to do.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

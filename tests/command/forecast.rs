@@ -29,7 +29,8 @@ fn sticking(temperature: f64, [middle, width]: [f64; 2]) -> f64 {
     1.0 / (1.0 + ((middle - temperature) / width).exp())
 }
 
-/// A sequence without a pattern that matters here, in 0 to 1 (the golden ratio's multiples, and those of another irrational).
+/// A sequence without a pattern that matters here, in 0 to 1 (the golden ratio's multiples, and
+/// those of another irrational).
 fn spread(number: u32, irrational: f64) -> f64 {
     (f64::from(number) * irrational).fract()
 }
@@ -100,8 +101,8 @@ fn bands_of_drawn_models_hold_the_planted_law() {
     refused(path, &["predict", "--model", "out/extended.toml", "--draws", "none", "fresh.csv"], &["none: "]);
 }
 
-/// Planted sets with this number of impacts and softening: the shares of fresh impacts whose true `p_stick` and `e_n` lie within the band,
-/// over the sets that were diagnosed rightly.
+/// Planted sets with this number of impacts and softening: the shares of fresh impacts whose true
+/// `p_stick` and `e_n` lie within the band, over the sets that were diagnosed rightly.
 fn coverage(sets: u64, impacts: usize, softening: f64) -> [f64; 2] {
     let one = |seed: u64| {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -257,8 +258,9 @@ fn simulated_bands_are_the_range_over_the_draws() {
     refused(path, &["simulate", "case.toml", "--draws", "draws"], &["0.toml", "other walls"]);
 }
 
-/// Thornton and Ning in a vacuum: below the sticking velocity all stick. That depends on the materials, but not on a thermal property
-/// of the gas, and not on the particle's yield strength if the wall is far softer.
+/// Thornton and Ning in a vacuum: below the sticking velocity all stick. That depends on the
+/// materials, but not on a thermal property of the gas, and not on the particle's yield strength if
+/// the wall is far softer.
 #[test]
 fn a_number_that_cannot_matter_has_exactly_no_effect() {
     let model = r#"

@@ -1,4 +1,5 @@
-//! The picture of gas and parcels on the page of an OpenFOAM case, from files that OpenFOAM wrote: `tests/data/gas_with_parcels`.
+//! The picture of gas and parcels on the page of an OpenFOAM case, from files that OpenFOAM wrote:
+//! `tests/data/gas_with_parcels`.
 
 use std::path::{Path, PathBuf};
 
@@ -12,9 +13,9 @@ const CLOUD: &str = "kinematicCloud";
 /// The places of the injection [m].
 const PLACES: [[f64; 3]; 5] =
     [[0.5, 0.1, 0.2], [1.9, 0.26, 0.05], [1.2, 0.249, 0.9], [0.6, 0.24, 0.3], [1.5, 0.45, 0.55]];
-/// Parcels of a coal cloud that nearWallInteraction v1912 captured and recorded in the step that ended with the write of these
-/// numbers: diameter [m], density [kg/m³], mass at injection [kg], `YC(s)`, and the recorded conversion. They burn on
-/// until the end of the step.
+/// Parcels of a coal cloud that nearWallInteraction v1912 captured and recorded in the step that
+/// ended with the write of these numbers: diameter [m], density [kg/m³], mass at injection [kg],
+/// `YC(s)`, and the recorded conversion. They burn on until the end of the step.
 const CAPTURED: [([f64; 4], f64); 6] = [
     ([1.4701311077e-4, 614.4774963, 2.1627692012e-9, 0.7969006176], 0.2519964722),
     ([1.2525348598e-4, 628.3887472, 1.3375543552e-9, 0.8013968331], 0.2296589986),

@@ -24,8 +24,8 @@ fn entries(array: Option<&Array>) -> Vec<(&str, &InlineTable)> {
     tables.map(|table| (table["crate"].as_str().unwrap(), table)).collect()
 }
 
-/// Name, version and licence of every crate that compiles or is part of library, command and Python module, on the machines
-/// of `deny.toml`.
+/// Name, version and licence of every crate that compiles or is part of library, command and Python
+/// module, on the machines of `deny.toml`.
 fn compiled(rules: &DocumentMut) -> BTreeSet<[String; 3]> {
     let mut crates = BTreeSet::new();
     for machine in strings(rules["graph"]["targets"].as_array()) {

@@ -83,7 +83,8 @@ fn the_published_wax_numbers_name_the_melting() {
     assert_eq!(causes.first(), Some(&"melting-transition"));
     // The rows with a powder layer show that as well.
     assert!(causes[1..].iter().all(|cause| *cause == "powder-layer"), "{causes:?}");
-    // Half stick at 360.1 K and the odds change by e over 6.96 K where a line in the log odds meets 8 % and 93 % exactly.
+    // Half stick at 360.1 K and the odds change by e over 6.96 K where a line in the log odds meets
+    // 8 % and 93 % exactly.
     for (parameter, exact) in [("temperature", 360.1), ("width", 6.96)] {
         let fit = &diagnosis["findings"][0]["parameters"][parameter];
         let (low, high) = (fit["low"].as_f64().unwrap(), fit["high"].as_f64().unwrap());

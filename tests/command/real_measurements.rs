@@ -1,7 +1,8 @@
-//! What a diagnosis says of measurements from the literature, beside the verdict that was written down before its first run.
+//! What a diagnosis says of measurements from the literature, beside the verdict that was written
+//! down before its first run.
 //!
-//! `tests/real_measurements/README.md` describes the sets and the keys of `expected.json`. The folder `NEARWALL_REAL_OUT`, if set, gets
-//! the page and the JSON of each set.
+//! `tests/real_measurements/README.md` describes the sets and the keys of `expected.json`. The
+//! folder `NEARWALL_REAL_OUT`, if set, gets the page and the JSON of each set.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

@@ -1,5 +1,6 @@
-//! `nearwall diagnose MEASURED.csv --impacts`: deposits of a rig, and impacts as nearWallInteraction records them, written by a small
-//! computation of particles that bounce along a floor.
+//! `nearwall diagnose MEASURED.csv --impacts`: deposits of a rig, and impacts as
+//! nearWallInteraction records them, written by a small computation of particles that bounce along
+//! a floor.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -70,7 +71,8 @@ fn record(case: &Path, mean: u32, capture: fn(f64) -> f64) {
     );
 }
 
-/// A folder with `base.toml`, the recorded cases below `runs`, which capture so, and `measured.csv` of a laboratory that captures so.
+/// A folder with `base.toml`, the recorded cases below `runs`, which capture so, and `measured.csv`
+/// of a laboratory that captures so.
 fn rig(model: &str, base: fn(f64) -> f64, laboratory: fn(f64) -> f64) -> tempfile::TempDir {
     const WEIGHED: u64 = 300;
     let mut data = "experiment,captured@floor,captured@floor_n\n".to_owned();

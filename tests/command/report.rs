@@ -67,8 +67,8 @@ fn table(rows: &[[f64; 5]]) -> String {
     text
 }
 
-/// Distributions as nearWallInteraction writes them: two injectors, of 100 parcels 60 stick, all of one speed; the energy
-/// that leaves is 0.09 of what came. The numbers are `scale` times that.
+/// Distributions as nearWallInteraction writes them: two injectors, of 100 parcels 60 stick, all of
+/// one speed; the energy that leaves is 0.09 of what came. The numbers are `scale` times that.
 fn distributions(time: f64, scale: f64) -> String {
     let mut text = "# time_s injector quantity low high hits particles particles_squared mass_kg sticks stick_particles \
                     stick_mass_kg energy_in_J energy_out_J\n"
@@ -326,7 +326,8 @@ fn the_page_compares_and_says_what_constants_get_wrong() {
     assert!(folder.path().join("ours/report.html").is_file());
 }
 
-/// standardWallInteraction counts no escapes at patches; a log without the sum leaves the record of what left, or nothing.
+/// standardWallInteraction counts no escapes at patches; a log without the sum leaves the record of
+/// what left, or nothing.
 #[test]
 fn escapes_that_no_log_counts_are_those_recorded_or_unknown() {
     let folder = tempfile::tempdir().unwrap();

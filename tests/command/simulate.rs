@@ -290,8 +290,8 @@ fn a_burnt_out_particle_hits_as_dense_ash() {
     }
 }
 
-/// Cooling droplet, Nu = 2: the time is the integral of c(T)/(T - T_g), with the heat of fusion spread over the range or at one
-/// temperature.
+/// Cooling droplet, Nu = 2: the time is the integral of c(T)/(T - T_g), with the heat of fusion
+/// spread over the range or at one temperature.
 #[test]
 fn freezing_takes_the_time_of_the_enthalpy_integral() {
     let case = case(&plane(STILL_AIR, ONE, "", ""));
@@ -310,8 +310,8 @@ fn freezing_takes_the_time_of_the_enthalpy_integral() {
     }
 }
 
-/// The keys of the heat of fusion and of a thin gas reach the flight: a droplet that has to freeze arrives hotter, and so does one
-/// in a thin gas.
+/// The keys of the heat of fusion and of a thin gas reach the flight: a droplet that has to freeze
+/// arrives hotter, and so does one in a thin gas.
 #[test]
 fn heat_of_fusion_and_thin_gas_slow_down_cooling() {
     let arrives = |particles: &str, gas: &str| {
@@ -381,7 +381,8 @@ fn what_goes_in_is_what_ends_somewhere() {
     assert_eq!(runs[0].totals.walls[0].1.regime_hits.unwrap().iter().sum::<u64>(), hits as u64);
 }
 
-/// The eroded volume of a wall is Finnie's formula over the hits, `p` 2e9 Pa and `psi`, `K` 2, written here with the angle.
+/// The eroded volume of a wall is Finnie's formula over the hits, `p` 2e9 Pa and `psi`, `K` 2,
+/// written here with the angle.
 #[test]
 fn erosion_sums_over_the_hits() {
     let text = rig(100, 300.0, 5) + "[model.erosion]\nlaw = \"finnie\"\nflow_stress = 2e9\n";
@@ -509,7 +510,8 @@ fn falling(more: &str, deposit: &str) -> String {
     plane(&gas, particles, "", &more)
 }
 
-/// Every grain lands in the first ring, of radius 2.5 mm: A = 3 m/(2 rho d) per area, c = 1 - exp(-A), layer m/(rho (1 - voidage)).
+/// Every grain lands in the first ring, of radius 2.5 mm: A = 3 m/(2 rho d) per area, c = 1 -
+/// exp(-A), layer m/(rho (1 - voidage)).
 #[test]
 fn the_cover_grows_with_the_grains_that_landed() {
     let mut case = case(&falling("", "voidage = 0.4\n"));
@@ -549,8 +551,8 @@ fn cooled(gas_temperature: f64, steps: u32) -> String {
         .replace("normal = [0, 0, 1]\ntemperature = 300\n", &format!("normal = [0, 0, 1]\n{cooling}"))
 }
 
-/// Resistances in series: coolant, steel, and a layer that grows with a constant conductivity, that of loose ash (some 0.1 to 0.2 W/(m K)
-/// were measured). Impacts meet the surface of their step.
+/// Resistances in series: coolant, steel, and a layer that grows with a constant conductivity, that
+/// of loose ash (some 0.1 to 0.2 W/(m K) were measured). Impacts meet the surface of their step.
 #[test]
 fn a_deposit_insulates_a_cooled_wall() {
     let (trajectories, runs) = trajectories_of(&cooled(390.0, 20));
@@ -574,7 +576,8 @@ fn a_deposit_insulates_a_cooled_wall() {
     }
 }
 
-/// Powder that becomes as hot as it melts joins the melt: the share beyond 400 K, the middle of its transition. Mass is kept.
+/// Powder that becomes as hot as it melts joins the melt: the share beyond 400 K, the middle of its
+/// transition. Mass is kept.
 #[test]
 fn powder_on_a_cooled_wall_melts_where_it_is_hot() {
     let (_, runs) = trajectories_of(&cooled(900.0, 50));
@@ -599,7 +602,8 @@ fn lost(bin: &BinHistory, loss: &str, step: usize) -> f64 {
     bin.lost[step][place]
 }
 
-/// Gravity pulls away from the wall: each step adds 1e-5 kg/20 on a ring of 2.5 mm radius, 0.25 Pa, and the fifth exceeds 1.1 Pa.
+/// Gravity pulls away from the wall: each step adds 1e-5 kg/20 on a ring of 2.5 mm radius, 0.25 Pa,
+/// and the fifth exceeds 1.1 Pa.
 #[test]
 fn a_deposit_that_hangs_falls_off_when_it_is_too_heavy() {
     let strength = "[model.walls.default.shedding]\ntensile_strength = 1.1\nshear_strength = 9\n";
@@ -639,7 +643,8 @@ fn the_gas_shears_a_deposit_off() {
     assert!(error.contains("run.gravity: pulls across the pipe `floor`"), "{error}");
 }
 
-/// Powder that lands at a constant rate while gas carries it away: each cohort has its own age, which the deposit does not know.
+/// Powder that lands at a constant rate while gas carries it away: each cohort has its own age,
+/// which the deposit does not know.
 #[test]
 fn the_gas_carries_powder_away() {
     let adhesion = "[model.walls.default.resuspension]\nwork_of_adhesion = 2\nadhesion_median = 0.01\n\
@@ -687,8 +692,8 @@ fn a_cooled_wall_says_what_it_needs() {
     assert_eq!(error, "floor: material montan-wax has no thermal_conductivity; give it one");
 }
 
-/// Char that burns on the wall at k while it arrives at a constant rate: C after a time t is F (1 - exp(-k t))/k. Its ash stays,
-/// dense.
+/// Char that burns on the wall at k while it arrives at a constant rate: C after a time t is F (1 -
+/// exp(-k t))/k. Its ash stays, dense.
 #[test]
 fn covering_char_burns_off() {
     let law = "[conversion]\nlaw = \"first-order\"\npre_exponential = 0.05\nactivation_energy = 0\ncarbon = 0.8\n\

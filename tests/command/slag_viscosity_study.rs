@@ -16,8 +16,9 @@
 //!   one; of the sizes within one standard error of the best the smallest is taken.
 //! - Intervals: 95 % percentiles of 10 000 draws of references with replacement, ChaCha8, fixed seed.
 //!
-//! `cargo test --test command slag_viscosity_study -- --nocapture` prints every figure of `docs/slag-viscosity.md`; with
-//! `NEARWALL_BLESS=1` before it, it also draws the figures there anew.
+//! `cargo test --test command slag_viscosity_study -- --nocapture` prints every figure of
+//! `docs/slag-viscosity.md`; with `NEARWALL_BLESS=1` before it, it also draws the figures there
+//! anew.
 
 use crate::common::measured_slags::{Measured, measured};
 use nalgebra::{DMatrix, DVector};
@@ -29,8 +30,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 
 const LAWS: [&ViscosityLaw; 3] = [&WATT_FEREDAY, &URBAIN, &KALMANOVITCH_FRANK];
 
-/// The law that this study led to and that was withdrawn: Kalmanovitch and Frank's less [`SILICA_OFFSET`] and [`SILICA_SLOPE`] per
-/// 10 wt% SiO2 above 40, in log10.
+/// The law that this study led to and that was withdrawn: Kalmanovitch and Frank's less
+/// [`SILICA_OFFSET`] and [`SILICA_SLOPE`] per 10 wt% SiO2 above 40, in log10.
 static SILICA_CORRECTED: ViscosityLaw = ViscosityLaw {
     name: "kalmanovitch-frank-silica",
     stated_for: measured_range::IN_WORDS,
@@ -515,9 +516,10 @@ fn other_choices() {
     }
 }
 
-/// What let the gain through: the reported interval draws the twelve held-out errors anew and takes the choice of terms, the fit
-/// and the references behind them as given. Here the references themselves are drawn, the whole search and fit is
-/// repeated on those that were drawn, and asked on those that were not.
+/// What let the gain through: the reported interval draws the twelve held-out errors anew and takes
+/// the choice of terms, the fit and the references behind them as given. Here the references
+/// themselves are drawn, the whole search and fit is repeated on those that were drawn, and asked
+/// on those that were not.
 #[test]
 fn the_choice_drawn_anew() {
     const REDRAWS: usize = 400;

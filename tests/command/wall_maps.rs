@@ -1,4 +1,5 @@
-//! Maps of the deposit on the page of an OpenFOAM case: reading of meshes and fields as OpenFOAM writes them, and unrolling.
+//! Maps of the deposit on the page of an OpenFOAM case: reading of meshes and fields as OpenFOAM
+//! writes them, and unrolling.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -92,7 +93,8 @@ struct Patch {
     molten: Vec<f64>,
 }
 
-/// Points and patches of a plate of 1.5 by 0.5 m in the plane z = 0, and a pipe along x. The faces of the plate have 0.5 m by 0.5 m.
+/// Points and patches of a plate of 1.5 by 0.5 m in the plane z = 0, and a pipe along x. The faces
+/// of the plate have 0.5 m by 0.5 m.
 fn mesh() -> (Vec<[f64; 3]>, Vec<Patch>) {
     let mut points: Vec<[f64; 3]> =
         (0..8).map(|i| [0.5 * f64::from(i % 4), 0.5 * f64::from(i / 4), 0.0]).collect();
@@ -415,8 +417,9 @@ fn regimes_are_those_of_the_parcels_on_each_face() {
     ours(&root);
     let (points, patches) = mesh();
     write_case(&root, Format::Ascii, &points, &patches);
-    // On the first face of the plate 3 g as NSP-SW and 1 g as SP-SW, on the second one 2 g as SP-SW; 5 g on a side of the
-    // pipe, between the rings at 1.5 and 2.5 m; one parcel flies far away, and one stuck at a patch that holds all.
+    // On the first face of the plate 3 g as NSP-SW and 1 g as SP-SW, on the second one 2 g as
+    // SP-SW; 5 g on a side of the pipe, between the rings at 1.5 and 2.5 m; one parcel flies far
+    // away, and one stuck at a patch that holds all.
     let turn = PI / SIDES as f64;
     let flat = RADIUS * turn.cos() - 1e-7;
     let side = [1.6, CENTRE[0] + flat * turn.cos(), CENTRE[1] + flat * turn.sin()];

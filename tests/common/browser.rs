@@ -1,5 +1,5 @@
-//! A page in a real browser. Needs Chromium (`tests/prepare` installs it); without one a test says so and stops, except in
-//! CI, where it fails.
+//! A page in a real browser. Needs Chromium (`tests/prepare` installs it); without one a test says
+//! so and stops, except in CI, where it fails.
 
 use std::path::Path;
 use std::process::Command;

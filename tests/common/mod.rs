@@ -1,4 +1,5 @@
-//! What several tests share: the golden table, measured slags and resuspension, random impacts, compilers and a browser.
+//! What several tests share: the golden table, measured slags and resuspension, random impacts,
+//! compilers and a browser.
 #![allow(dead_code, reason = "each test uses its part")]
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,5 @@
-//! The criteria of `[capture]` through `Model::resolve`: melt fraction, kinetic energy, droplets of ash, droplets that bounce.
+//! The criteria of `[capture]` through `Model::resolve`: melt fraction, kinetic energy, droplets of
+//! ash, droplets that bounce.
 
 use crate::common::random::hostile_cases;
 use nearwall::{Impact, ImpactRng, Model, Outcome, Regime};
@@ -73,7 +74,8 @@ fn a_salt_on_the_wall_holds_by_its_share_of_liquid() {
 const ENERGY: &str = "model = \"kinetic-energy\"\nlaw = \"urbain\"";
 const ASH: &str = "composition = { SiO2 = 50, Al2O3 = 25, CaO = 15, FeO = 10 }";
 
-/// `A E^-n/mu` from the written formula: 50 µm, 2500 kg/m³ and a viscosity of 1e6 Pa s; 3 m/s 7.363e-10 J, 9.03e4 Pa s: 0.0903.
+/// `A E^-n/mu` from the written formula: 50 µm, 2500 kg/m³ and a viscosity of 1e6 Pa s; 3 m/s
+/// 7.363e-10 J, 9.03e4 Pa s: 0.0903.
 #[test]
 fn fast_and_large_impacts_stick_less() {
     let glass = "viscosity = 1e6";
@@ -124,8 +126,9 @@ fn ash_is_a_droplet_by_its_composition() {
     assert_eq!(hit(&model, &at(5.0, 1500.0)).regime, Regime::NspNsw);
 }
 
-/// As if the surface tension of `nearwall::slag` were written down. 100 µm with 0.4 N/m and 0.1 Pa s by hand: at 10 m/s We 62, Re 25,
-/// K = 18, all stays; at 100 m/s We 6200, Re 250, K = 313, three quarters splash.
+/// As if the surface tension of `nearwall::slag` were written down. 100 µm with 0.4 N/m and 0.1 Pa
+/// s by hand: at 10 m/s We 62, Re 25, K = 18, all stays; at 100 m/s We 6200, Re 250, K = 313, three
+/// quarters splash.
 #[test]
 fn the_surface_tension_of_ash_follows_from_its_composition() {
     let given = format!("viscosity = 0.1\nmelting_point = 1500\n{ASH}");
@@ -187,8 +190,8 @@ fn a_droplet_bounces_where_it_does_not_wet() {
     );
 }
 
-/// MIGRAINE, Fig 7b: molten molybdenum freezes on tungsten below 1000 K before it can recoil. On a wall near the melting point it would
-/// bounce, if it did not wet it.
+/// MIGRAINE, Fig 7b: molten molybdenum freezes on tungsten below 1000 K before it can recoil. On a
+/// wall near the melting point it would bounce, if it did not wet it.
 #[test]
 fn a_metal_droplet_is_arrested_by_a_cold_wall() {
     let text = text("model = \"droplet\"\ncontact_angle = 150", "", "");
@@ -206,7 +209,8 @@ fn a_metal_droplet_is_arrested_by_a_cold_wall() {
     assert_eq!(hit(&unknown, &impact).sticking_probability, 0.0);
 }
 
-/// A rise by `conversion-transition` that is complete, then the fall: by hand 1 at the peak 0.9, 0.75 halfway, 0.5 at the end.
+/// A rise by `conversion-transition` that is complete, then the fall: by hand 1 at the peak 0.9,
+/// 0.75 halfway, 0.5 at the end.
 #[test]
 fn stickiness_falls_again_past_its_peak() {
     let effects = "[[effects]]\nkind = \"conversion-decline\"\npeak = 0.9\nresidual = 0.5\n\

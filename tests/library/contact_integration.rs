@@ -124,8 +124,8 @@ fn the_integration_converges() {
     assert!(change < ALLOWED && defect < ALLOWED);
 }
 
-/// Hertz (1882): an elastic sphere touches for 2.9432 `delta_max/v`, with `delta_max = (15mv²/(16E* sqrt(R)))^(2/5)`, and
-/// is pressed with `(4/3)E* sqrt(R delta_max³)`.
+/// Hertz (1882): an elastic sphere touches for 2.9432 `delta_max/v`, with `delta_max = (15mv²/(16E*
+/// sqrt(R)))^(2/5)`, and is pressed with `(4/3)E* sqrt(R delta_max³)`.
 #[test]
 fn a_hertz_contact_has_hertz_duration_and_force() {
     let base = fluorescein().impact;
@@ -173,7 +173,8 @@ fn impacts_without_adhesion_agree() {
     }
 }
 
-/// The raised law is the balance of the very contact that the oracle follows: they agree everywhere, and on what sticks.
+/// The raised law is the balance of the very contact that the oracle follows: they agree
+/// everywhere, and on what sticks.
 #[test]
 fn the_raised_law_is_the_followed_contact() {
     let [mut worst, mut curvature] = [0f64; 2];
@@ -254,8 +255,8 @@ fn print_plane() {
     }
 }
 
-/// Published sticking velocity of ammonium fluorescein: about 1.6 m/s by Thornton & Ning's numerical solution, where the
-/// plain law has 0.69 m/s.
+/// Published sticking velocity of ammonium fluorescein: about 1.6 m/s by Thornton & Ning's
+/// numerical solution, where the plain law has 0.69 m/s.
 #[test]
 fn ammonium_fluorescein_sticks_as_published() {
     let case = fluorescein();

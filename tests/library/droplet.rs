@@ -43,8 +43,9 @@ fn molten_wax_is_captured_at_every_speed_and_angle() {
     }
 }
 
-/// MIGRAINE, set 6: molybdenum dust of 12 to 16 µm, hotter than 2900 K, on tungsten of about 1000 K: 13 of 13 stuck. Their
-/// speeds are not printed; the tungsten sets of the same paper lie between 0.57 and 12.95 m/s.
+/// MIGRAINE, set 6: molybdenum dust of 12 to 16 µm, hotter than 2900 K, on tungsten of about 1000
+/// K: 13 of 13 stuck. Their speeds are not printed; the tungsten sets of the same paper lie between
+/// 0.57 and 12.95 m/s.
 #[test]
 fn molten_molybdenum_sticks_thirteen_times_of_thirteen() {
     let model = model("molybdenum", "tungsten", "");

@@ -1,5 +1,5 @@
-//! Fitted curves, level shifts and the inputs that a model file declares, against numbers by hand; the mean over draws against
-//! plain random draws.
+//! Fitted curves, level shifts and the inputs that a model file declares, against numbers by hand;
+//! the mean over draws against plain random draws.
 
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
 use nearwall::impact::{EXTRA_INPUTS, ExtraInput, INPUTS};

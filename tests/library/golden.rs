@@ -1,4 +1,5 @@
-//! Thornton–Ning against 400 cases computed with 40 digits, through the Rust API; `tests/c_api` and `tests/command` ask the C library and the command.
+//! Thornton–Ning against 400 cases computed with 40 digits, through the Rust API; `tests/c_api` and
+//! `tests/command` ask the C library and the command.
 
 use crate::common::golden::{Golden, golden_cases};
 use nearwall::normal::{Contact, NormalLaw, reduced_modulus, restitution};

@@ -140,8 +140,9 @@ fn outside_the_range_of_the_fit_the_outcome_is_marked() {
     }
 }
 
-/// The fits over the angle, as both laws of one model: nearly nothing is lost along a glancing path, and most towards a wall hit
-/// head-on. Mistaking the angle for that from the normal would turn this round.
+/// The fits over the angle, as both laws of one model: nearly nothing is lost along a glancing
+/// path, and most towards a wall hit head-on. Mistaking the angle for that from the normal would
+/// turn this round.
 #[test]
 fn angles_are_counted_from_the_surface() {
     for name in ["grant-tabakoff", "tabakoff-wakeman"] {
@@ -163,7 +164,8 @@ fn angles_are_counted_from_the_surface() {
     }
 }
 
-/// Measured critical velocities of fly ash on steel (Energies 6 (2013) 3245 and 4288; 14 (2021) 5231): diameter [m], velocity [m/s].
+/// Measured critical velocities of fly ash on steel (Energies 6 (2013) 3245 and 4288; 14 (2021)
+/// 5231): diameter [m], velocity [m/s].
 const ASH: [[f64; 2]; 6] =
     [[88e-6, 1.92], [96e-6, 1.25], [104e-6, 0.69], [85e-6, 0.19], [65e-6, 0.42], [23e-6, 1.06]];
 

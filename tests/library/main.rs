@@ -1,5 +1,6 @@
-//! The library: the golden table, independent oracles, effects, fitted curves, listed laws, measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links
-//! in the documents, and the C header with everything that is generated from it.
+//! The library: the golden table, independent oracles, effects, fitted curves, listed laws,
+//! measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links in the
+//! documents, and the C header with everything that is generated from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "the C interface is compared and fuzzed too")]
 #![allow(missing_docs, reason = "the fuzz targets belong to another workspace")]

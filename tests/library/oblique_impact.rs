@@ -1,9 +1,10 @@
 //! `maw-barber-fawcett` beside measured oblique impacts.
 //!
-//! A. H. Kharaz, D. A. Gorham, A. D. Salman, "An experimental study of the elastic rebound of spheres", Powder Technology 120
-//! (2001) 281–291: alumina spheres of 5 mm on thick soda-lime glass at 3.9 m/s, without spin before the impact. The points were read
-//! from the figures by the authors of an open code for granular flow, who compare with them; that code, and others, take
-//! `e_n` = 0.98 and a friction of 0.092 from the paper. Nothing is fitted here.
+//! A. H. Kharaz, D. A. Gorham, A. D. Salman, "An experimental study of the elastic rebound of
+//! spheres", Powder Technology 120 (2001) 281–291: alumina spheres of 5 mm on thick soda-lime glass
+//! at 3.9 m/s, without spin before the impact. The points were read from the figures by the authors
+//! of an open code for granular flow, who compare with them; that code, and others, take `e_n` =
+//! 0.98 and a friction of 0.092 from the paper. Nothing is fitted here.
 //!
 //! Angles are counted from the NORMAL, as in the paper.
 

@@ -1,8 +1,9 @@
 //! Published observations of sticking and rebound beside what a model file says of them.
 //!
-//! `tests/data/published_sticking.csv` has the observations; each names the model file that is asked. The test writes the tables of
-//! `docs/published-sticking.md`: `NEARWALL_BLESS=1 cargo test --test library published_sticking` after a change of the physics.
-//! A difference is shown as a difference; the test fails only when the page and the models say different things.
+//! `tests/data/published_sticking.csv` has the observations; each names the model file that is
+//! asked. The test writes the tables of `docs/published-sticking.md`: `NEARWALL_BLESS=1 cargo test
+//! --test library published_sticking` after a change of the physics. A difference is shown as a
+//! difference; the test fails only when the page and the models say different things.
 
 use std::path::{Path, PathBuf};
 
@@ -260,8 +261,9 @@ impl Trial {
     }
 }
 
-/// The rows that mechanisms are asked about, with the source (A to D) of those from which the effective work of adhesion of fly
-/// ash is taken. The size is assumed where the abstract gives none.
+/// The rows that mechanisms are asked about, with the source (A to D) of those from which the
+/// effective work of adhesion of fly ash is taken. The size is assumed where the abstract gives
+/// none.
 const ROWS: [(&str, &str); 8] =
     [("D3", "A"), ("D4", "A"), ("D5", "A"), ("D6", "B"), ("D7", "B"), ("D8", "C"), ("H1", "D"), ("D1", "")];
 const ASSUMED_DIAMETER: f64 = 50e-6;
@@ -401,8 +403,9 @@ fn the_page_shows_what_the_models_say() {
     );
 }
 
-/// Measured critical velocities of 85 to 104 µm ash on steel are 0.19 to 1.92 m/s, and 0.1 m/s of another size: the built-in ash lies
-/// between, by both laws and for every usual yield ratio. With its surface energy alone it would be ten times below.
+/// Measured critical velocities of 85 to 104 µm ash on steel are 0.19 to 1.92 m/s, and 0.1 m/s of
+/// another size: the built-in ash lies between, by both laws and for every usual yield ratio. With
+/// its surface energy alone it would be ten times below.
 #[test]
 fn built_in_ash_on_steel_lies_inside_the_measured_band() {
     let row = observation("D3");
@@ -421,7 +424,8 @@ fn built_in_ash_on_steel_lies_inside_the_measured_band() {
     assert!(geometric < 0.025, "{geometric}");
 }
 
-/// The number in the material file is the middle of what the sources ask for, and it meets each of them within a factor of ten.
+/// The number in the material file is the middle of what the sources ask for, and it meets each of
+/// them within a factor of ten.
 #[test]
 fn the_built_in_work_of_adhesion_is_the_middle_of_the_sources() {
     let library = nearwall::material::Library::built_in().unwrap();
@@ -439,7 +443,8 @@ fn the_built_in_work_of_adhesion_is_the_middle_of_the_sources() {
     }
 }
 
-/// Elastic limit by hand: `m v²/2` equals the work that a JKR contact loses, `7.09 (W⁵ R⁴/E*²)^(1/3)` (Thornton & Ning).
+/// Elastic limit by hand: `m v²/2` equals the work that a JKR contact loses, `7.09 (W⁵
+/// R⁴/E*²)^(1/3)` (Thornton & Ning).
 #[test]
 fn an_elastic_critical_velocity_is_that_of_the_lost_work() {
     let row = observation("D7");

@@ -83,8 +83,8 @@ fn laws_meet_the_measured_slags() {
     }
 }
 
-/// How many rows a law is stated for, and its error there. The table says little about Watt–Fereday, which is for slags with
-/// iron and magnesia, and nothing about melts with alkali.
+/// How many rows a law is stated for, and its error there. The table says little about
+/// Watt–Fereday, which is for slags with iron and magnesia, and nothing about melts with alkali.
 #[test]
 fn errors_within_the_stated_ranges() {
     let rows = measured();

@@ -2,9 +2,11 @@
 //!
 //! - `cargo test --release --test planted_effects -- --nocapture diagnose` scores the command on all sets.
 //! - `NEARWALL_PLANTED_OUT=DIR cargo test --release --test planted_effects -- --ignored write_sets` writes them.
-//! - `cargo test --release --test planted_effects -- --nocapture situations` scores it on data as laboratories have them.
+//! - `cargo test --release --test planted_effects -- --nocapture situations` scores it on data as
+//!   laboratories have them.
 //!
-//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_PLANTED_SETS` multiplies the sets, `NEARWALL_PLANTED_ONLY` selects some.
+//! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_PLANTED_SETS` multiplies the sets,
+//! `NEARWALL_PLANTED_ONLY` selects some.
 #![allow(
     clippy::unwrap_used,
     clippy::expect_used,

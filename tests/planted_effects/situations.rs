@@ -1,7 +1,9 @@
 //! Situations of a laboratory: few averages, weak effects, nulls of every kind, slips, captures, two laboratories.
 //!
-//! - `cargo test --release --test planted_effects -- --nocapture situations` prints situation by situation what is said.
-//! - `NEARWALL_PLANTED_OUT=DIR cargo test --release --test planted_effects -- --ignored write_situations` writes the sets.
+//! - `cargo test --release --test planted_effects -- --nocapture situations` prints situation by
+//!   situation what is said.
+//! - `NEARWALL_PLANTED_OUT=DIR cargo test --release --test planted_effects -- --ignored
+//!   write_situations` writes the sets.
 //!
 //! `NEARWALL_COVERAGE_SETS` is the number of sets whose law is the library's own, for the coverage of intervals.
 

@@ -1,8 +1,9 @@
 //! Following `next_experiments.csv` identifies the planted cause in fewer impacts than a uniform design.
 //!
-//! Both laboratories begin with the same few experiments, which leave the cause open. In every round they then spend the same number of
-//! impacts: one on the best rows of the advice, the other on settings spread evenly over the ranges of what it varies. A laboratory stops
-//! when the diagnosis names the planted cause first and alone.
+//! Both laboratories begin with the same few experiments, which leave the cause open. In every
+//! round they then spend the same number of impacts: one on the best rows of the advice, the other
+//! on settings spread evenly over the ranges of what it varies. A laboratory stops when the
+//! diagnosis names the planted cause first and alone.
 
 use std::path::Path;
 
@@ -79,7 +80,8 @@ pub struct Comparison {
     pub courses: [Course; 2],
 }
 
-/// Rigs of this seed whose cause is open after the first experiments, the first ones, and what both laboratories need for it.
+/// Rigs of this seed whose cause is open after the first experiments, the first ones, and what both
+/// laboratories need for it.
 pub fn compare(seed: u64, wanted: usize) -> Vec<Comparison> {
     let mut starts: Vec<Start> = Vec::new();
     let mut begin = 0;

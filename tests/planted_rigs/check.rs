@@ -101,7 +101,8 @@ fn generator_and_predict_agree() {
     }
 }
 
-/// Where particles hit several times, what the diagnosis predicts for the base agrees with the generator: far better than a reading.
+/// Where particles hit several times, what the diagnosis predicts for the base agrees with the
+/// generator: far better than a reading.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "minutes in a debug build")]
 fn the_diagnosis_predicts_the_base() {

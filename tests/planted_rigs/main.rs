@@ -1,10 +1,11 @@
 //! Rigs with planted effects for `nearwall diagnose --case`, generated without the crate's own laws and flights.
 //!
-//! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with` scores the command on all sets. It takes 10 to 20
-//!   minutes and does not reach all its gates yet: `docs/rig-diagnosis.md` has the table.
+//! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with` scores the
+//!   command on all sets. It takes 10 to 20 minutes and does not reach all its gates yet:
+//!   `docs/rig-diagnosis.md` has the table.
 //! - `cargo test --release --test planted_rigs -- --nocapture clear` checks that clear effects are noticed.
-//! - `cargo test --release --test planted_rigs -- --nocapture advice` compares laboratories that follow the advice on what to measure
-//!   next with laboratories that do not.
+//! - `cargo test --release --test planted_rigs -- --nocapture advice` compares laboratories that
+//!   follow the advice on what to measure next with laboratories that do not.
 //! - `cargo test --release --test planted_rigs agree` compares the generator with `nearwall simulate`.
 //!
 //! `NEARWALL_TEST_SEED` repeats a run, `NEARWALL_RIGS_SETS` multiplies the sets (3: every cause at every
@@ -73,8 +74,8 @@ fn rigs_with_planted_effects() {
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 
-/// Effects of about ten standard errors are never passed over in silence. Which cause is named is scored by the campaign: from mean `e_t` alone
-/// a friction is not told from a yield ratio.
+/// Effects of about ten standard errors are never passed over in silence. Which cause is named is
+/// scored by the campaign: from mean `e_t` alone a friction is not told from a yield ratio.
 #[test]
 #[cfg_attr(
     debug_assertions,
@@ -98,8 +99,8 @@ fn clear_effects_are_noticed() {
     }
 }
 
-/// The advice on what to measure next identifies the cause in fewer impacts than a uniform design. A few rigs scatter much, so the seeds
-/// are fixed unless one is given; the campaign takes any.
+/// The advice on what to measure next identifies the cause in fewer impacts than a uniform design.
+/// A few rigs scatter much, so the seeds are fixed unless one is given; the campaign takes any.
 #[test]
 #[cfg_attr(
     debug_assertions,

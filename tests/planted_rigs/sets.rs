@@ -106,8 +106,9 @@ impl Recipe {
     }
 }
 
-/// The sets that this run is asked for: `NEARWALL_RIGS_SETS` repeats (1; 3 for every strength), and of those only `NEARWALL_RIGS_ONLY`,
-/// names (`powder-layer#1`), families (`powder-layer`) or beginnings (`calib*`), several with commas.
+/// The sets that this run is asked for: `NEARWALL_RIGS_SETS` repeats (1; 3 for every strength), and
+/// of those only `NEARWALL_RIGS_ONLY`, names (`powder-layer#1`), families (`powder-layer`) or
+/// beginnings (`calib*`), several with commas.
 pub fn wanted() -> Vec<Recipe> {
     let repeats = std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
     recipes(repeats).into_iter().filter(|recipe| is_wanted(&recipe.name)).collect()

@@ -92,8 +92,8 @@ fn hostile() -> impl Strategy<Value = Impact> {
     )
 }
 
-/// Walls whose contact differs between impacts: char that becomes ash, properties as constants, tables and formulas, slag and powder,
-/// every criterion and every effect without chance.
+/// Walls whose contact differs between impacts: char that becomes ash, properties as constants,
+/// tables and formulas, slag and powder, every criterion and every effect without chance.
 fn varying_models() -> impl Strategy<Value = Model> {
     let particle = prop_oneof![
         Just("coal-char\"\nash = \"fly-ash"),

@@ -37,7 +37,8 @@ fn material() -> impl Strategy<Value = String> {
 proptest! {
     #![proptest_config(config(300))]
 
-    /// Without incoming spin. With it `e_t` is no share any more: backspin throws back (below 0), forward spin drives on (above 1).
+    /// Without incoming spin. With it `e_t` is no share any more: backspin throws back (below 0),
+    /// forward spin drives on (above 1).
     #[test]
     fn restitutions_and_probabilities_are_shares(
         normal in normal_laws(),
@@ -58,8 +59,9 @@ proptest! {
         }
     }
 
-    /// Numbers that are legal but far from any particle: every output is a number. `e_t` is finite without spin; with spin
-    /// it is what spin makes of a speed along the wall that may be next to nothing, and may exceed every number.
+    /// Numbers that are legal but far from any particle: every output is a number. `e_t` is finite
+    /// without spin; with spin it is what spin makes of a speed along the wall that may be next to
+    /// nothing, and may exceed every number.
     #[test]
     fn far_away_inputs_give_numbers(
         normal in prop_oneof![Just(crate::cases::THORNTON_NING.to_owned()), crate::cases::listed_normal_laws()],

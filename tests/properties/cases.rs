@@ -7,8 +7,8 @@ use proptest::test_runner::RngSeed;
 
 use crate::common::random::seed;
 
-/// The number of cases of a test, drawn from the printed seed (`NEARWALL_TEST_SEED` repeats it). The seed replaces a file of
-/// failures.
+/// The number of cases of a test, drawn from the printed seed (`NEARWALL_TEST_SEED` repeats it).
+/// The seed replaces a file of failures.
 pub fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
         cases,

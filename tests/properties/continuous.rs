@@ -1,8 +1,8 @@
 //! The outcome is continuous wherever a law changes its form.
 //!
-//! Two jumps are meant: `e_t` of `sliding-rolling` at the critical angle, whose size is tested here, and the probability of capture,
-//! which goes from 0 to 1 where adhesion or a film begins to hold (there `e_n` reaches 0 without a jump). What is drawn jumps
-//! by chance.
+//! Two jumps are meant: `e_t` of `sliding-rolling` at the critical angle, whose size is tested
+//! here, and the probability of capture, which goes from 0 to 1 where adhesion or a film begins to
+//! hold (there `e_n` reaches 0 without a jump). What is drawn jumps by chance.
 
 use nearwall::normal::{restitution, sticking_velocity, stiffness_ratio};
 use nearwall::tangential::critical_angle;

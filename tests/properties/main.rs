@@ -1,7 +1,8 @@
 //! Properties of every model and impact: bounds, monotonicity, continuity, units, energy.
 //!
-//! `proptest` draws random cases and minimises failures. A failing test prints `NEARWALL_TEST_SEED=...`; the same variable in the
-//! environment repeats the run: `NEARWALL_TEST_SEED=... cargo test --test properties`.
+//! `proptest` draws random cases and minimises failures. A failing test prints
+//! `NEARWALL_TEST_SEED=...`; the same variable in the environment repeats the run:
+//! `NEARWALL_TEST_SEED=... cargo test --test properties`.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 #[path = "../common/mod.rs"]

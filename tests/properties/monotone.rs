@@ -48,7 +48,8 @@ fn melt(reference: f64) -> Model {
 proptest! {
     #![proptest_config(config(100))]
 
-    /// Without adhesion `e_n` is 1 up to `v_y` and falls above. With it `e_n` first rises from `v_s`, then falls: one hill.
+    /// Without adhesion `e_n` is 1 up to `v_y` and falls above. With it `e_n` first rises from
+    /// `v_s`, then falls: one hill.
     #[test]
     fn restitution_over_speed_is_one_hill(yielding in decades(1e-5, 10.0), ratio in decades(1e-3, 1e3)) {
         let speeds = ladder(0.5 * yielding, 1e6 * yielding, 300);
@@ -77,7 +78,8 @@ proptest! {
         fall(&over(&ladder(diameter, 30.0 * diameter, 8), |d| sticking(work, d)))?;
     }
 
-    /// Of the laws by name that have one: small particles stick up to higher speeds, and hot ones where the law knows heat.
+    /// Of the laws by name that have one: small particles stick up to higher speeds, and hot ones
+    /// where the law knows heat.
     #[test]
     fn sticking_velocities_of_listed_laws(diameter in decades(1e-6, 1e-3), temperature in 600.0..1400.0) {
         let sticking = |law: &str, diameter: f64, temperature: f64| {

@@ -1,15 +1,17 @@
-//! The outcome does not depend on the units: every quantity of a model and an impact counted in other kilograms, metres, seconds
-//! and kelvins gives the same restitutions and probabilities, and a spin in the other unit.
+//! The outcome does not depend on the units: every quantity of a model and an impact counted in
+//! other kilograms, metres, seconds and kelvins gives the same restitutions and probabilities, and
+//! a spin in the other unit.
 //!
-//! The units are those that the library itself states: of its inputs, of its effects' parameters and of its materials' fields.
+//! The units are those that the library itself states: of its inputs, of its effects' parameters
+//! and of its materials' fields.
 //!
 //! What does depend on units, and is left out or counted anew:
 //! - `oblique-angle` refers to 1 m/s: its `strength` goes with (that speed)^-`speed_exponent`;
 //! - `micro-roughness`, `agglomerates`, shares, ratios and exponents have no unit;
-//! - polynomials `sum c_i (T - T0)^i`: each `c_i` has a unit of its own, which a file does not state; Arrhenius forms do (the field's
-//!   and K) and are here;
-//! - the viscosity laws of slags (Urbain, Watt–Fereday) are fits in poise, wt% and K or °C: numbers, not equations between
-//!   quantities; a melt with a viscosity of its own is here;
+//! - polynomials `sum c_i (T - T0)^i`: each `c_i` has a unit of its own, which a file does not
+//!   state; Arrhenius forms do (the field's and K) and are here;
+//! - the viscosity laws of slags (Urbain, Watt–Fereday) are fits in poise, wt% and K or °C:
+//!   numbers, not equations between quantities; a melt with a viscosity of its own is here;
 //! - the twelve decades that `thermal-softening` and its kind are kept within are ratios.
 
 use nearwall::effect::{EFFECTS, EffectInfo, Parameter, Search};
@@ -55,8 +57,8 @@ impl Units {
 }
 
 fn units() -> impl Strategy<Value = Units> {
-    // No further, so that every parameter and property stays within its bounds: tungsten's density, a twelfth of the largest, is
-    // counted in up to 1.8^4 = 10 of the other unit.
+    // No further, so that every parameter and property stays within its bounds: tungsten's density,
+    // a twelfth of the largest, is counted in up to 1.8^4 = 10 of the other unit.
     let factor = || decades(1.0 / 1.8, 1.8);
     (factor(), factor(), factor(), decades(0.3, 3.0)).prop_map(|(kilogram, metre, second, kelvin)| Units {
         kilogram,
@@ -204,7 +206,8 @@ proptest! {
     }
 }
 
-/// The test above sees a unit that is wrong: the hidden metre per second of `oblique-angle` shows when it is not counted.
+/// The test above sees a unit that is wrong: the hidden metre per second of `oblique-angle` shows
+/// when it is not counted.
 #[test]
 fn a_hidden_unit_shows() {
     let place = EFFECTS.iter().position(|kind| kind.id == "oblique-angle").unwrap();

@@ -1,10 +1,11 @@
 //! Validation: comparison with both source papers and with independent computations.
 //!
-//! A [`SourceStudy`] compares one source with the library. Each comparison is a [`Claim`], which gives a reason where the two differ.
-//! [`STUDIES`] lists all studies, [`page`] writes the page. `validation/run` is the command.
+//! A [`SourceStudy`] compares one source with the library. Each comparison is a [`Claim`], which
+//! gives a reason where the two differ. [`STUDIES`] lists all studies, [`page`] writes the page.
+//! `validation/run` is the command.
 //!
-//! [`oracle`] computes the same quantities independently (numerical integration of a contact, an impulse, an energy) and shares
-//! no code with the library.
+//! [`oracle`] computes the same quantities independently (numerical integration of a contact, an
+//! impulse, an energy) and shares no code with the library.
 
 pub mod checks;
 pub mod claim;

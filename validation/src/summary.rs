@@ -106,8 +106,8 @@ fn line(cells: &[impl AsRef<str>]) -> String {
     format!("| {} |\n", cells.iter().map(|text| cell(text)).collect::<Vec<_>>().join(" | "))
 }
 
-/// Whether two lines say the same: numbers may differ by the last digits, as another machine's mathematical functions do, and by all
-/// digits where they are rounding errors.
+/// Whether two lines say the same: numbers may differ by the last digits, as another machine's
+/// mathematical functions do, and by all digits where they are rounding errors.
 pub fn alike(one: &str, other: &str) -> bool {
     const ROUNDING: f64 = 1e-6;
     let words = |line: &str| -> Vec<String> {

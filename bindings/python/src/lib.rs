@@ -1,5 +1,5 @@
-//! The compiled part of the Python package `nearwall`: what its functions do on whole tables. Python code in `nearwall/`
-//! checks arguments and makes objects of the results.
+//! The compiled part of the Python package `nearwall`: what its functions do on whole tables.
+//! Python code in `nearwall/` checks arguments and makes objects of the results.
 //!
 //! The module also carries the C library in itself: `nearwall/library.py` calls its functions `nw_*` on NumPy arrays.
 

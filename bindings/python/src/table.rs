@@ -45,8 +45,8 @@ impl TableSource {
         }
     }
 
-    /// The text of the file, or CSV text of the columns: line 1 has the names, line 2 the first row. Numbers read back to the
-    /// same bits.
+    /// The text of the file, or CSV text of the columns: line 1 has the names, line 2 the first
+    /// row. Numbers read back to the same bits.
     ///
     /// # Errors
     /// A file that cannot be opened.

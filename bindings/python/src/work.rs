@@ -1,4 +1,5 @@
-//! Long work beside the Python interpreter: without its lock, with Ctrl-C, and without a panic that crosses into Python.
+//! Long work beside the Python interpreter: without its lock, with Ctrl-C, and without a panic that
+//! crosses into Python.
 
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicBool, Ordering};

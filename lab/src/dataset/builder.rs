@@ -346,8 +346,9 @@ impl Measurements {
         Self::read_at_most(file, source, map, walls, usize::MAX, &mut |_| {})
     }
 
-    /// As [`Self::read`], with at most so many rows and rejected rows. Of a file with more usable rows a selection is kept; the
-    /// others go to `unselected` one by one, not in the order of the file.
+    /// As [`Self::read`], with at most so many rows and rejected rows. Of a file with more usable
+    /// rows a selection is kept; the others go to `unselected` one by one, not in the order of the
+    /// file.
     pub(crate) fn read_at_most(
         file: &str,
         source: impl Read,
@@ -368,8 +369,8 @@ impl Measurements {
     }
 }
 
-/// The possible causes: all columns without another meaning, and the labels `wall` and `series`. The numbers of a column
-/// that tells groups apart are labels too.
+/// The possible causes: all columns without another meaning, and the labels `wall` and `series`.
+/// The numbers of a column that tells groups apart are labels too.
 fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> Vec<(usize, ColumnCells)> {
     let of_parcels = |header: &str| PARCEL_COLUMNS.contains(&header) && is_record(headers);
     let cause = |(index, header): (usize, &str)| match named.name_of(index) {

@@ -67,8 +67,9 @@ pub(super) fn is_error(name: &str) -> bool {
 const GROUPS: [&str; 10] =
     ["series", "day", "date", "batch", "burst", "lab", "laboratory", "session", "run", "campaign"];
 
-/// The columns of OpenFOAM's record that identify a parcel, order its impacts and weigh them: the rank that made it, its
-/// number there, its age [s] and its number of particles. A file with all of them is such a record; they are no causes.
+/// The columns of OpenFOAM's record that identify a parcel, order its impacts and weigh them: the
+/// rank that made it, its number there, its age [s] and its number of particles. A file with all of
+/// them is such a record; they are no causes.
 pub const PARCEL_COLUMNS: [&str; 4] = ["origProcId", "origId", "parcel_age", "n_particles"];
 
 /// Whether a column of this name tells groups of rows apart that may share an error: `series`, `day`, `date`, `batch`,

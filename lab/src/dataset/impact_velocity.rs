@@ -158,8 +158,9 @@ impl ImpactVelocity {
         Ok(())
     }
 
-    /// Standard errors of `v_n` and `v_t` [m/s] of this impact, to first order, from those of the columns that determine
-    /// them: of both speeds [m/s], of the magnitude `speed` [m/s] and of `angle` [rad].
+    /// Standard errors of `v_n` and `v_t` [m/s] of this impact, to first order, from those of the
+    /// columns that determine them: of both speeds [m/s], of the magnitude `speed` [m/s] and of
+    /// `angle` [rad].
     pub(super) fn propagate(&self, impact: &Impact, own: [f64; 2], speed: f64, angle: f64) -> [f64; 2] {
         let speeds = [impact.normal_speed, impact.tangential_speed];
         let magnitude = impact.speed();

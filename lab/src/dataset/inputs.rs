@@ -65,7 +65,8 @@ impl InputColumns {
         self.columns.get(position(name)).is_some_and(Option::is_some)
     }
 
-    /// Reads a row's inputs into `impact`; blank ones have their default, those that the model declares NaN. The impact is not checked yet.
+    /// Reads a row's inputs into `impact`; blank ones have their default, those that the model
+    /// declares NaN. The impact is not checked yet.
     ///
     /// # Errors
     /// The reason, for a cell that is not a number or a blank `v_n`.

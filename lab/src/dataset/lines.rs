@@ -2,9 +2,9 @@
 
 use std::io::Read;
 
-/// A text with each line end (CR LF, CR, LF) as one line feed, so that the number of line feeds gives the line of a
-/// record. [`Self::EXTRA`] line feeds follow the end: the first ends the last line; a record that contains the second has
-/// an unterminated quotation mark.
+/// A text with each line end (CR LF, CR, LF) as one line feed, so that the number of line feeds
+/// gives the line of a record. [`Self::EXTRA`] line feeds follow the end: the first ends the last
+/// line; a record that contains the second has an unterminated quotation mark.
 pub(super) struct Lines<R> {
     source: R,
     /// Lines still to be skipped at the beginning.

@@ -476,7 +476,8 @@ mod tests {
             );
         };
         let root = 3f64.sqrt();
-        // 2 m/s at 30 degrees: v_n = 1, v_t = sqrt 3; d v_n = dV / 2 and dv_n = v_t da; dv_t = dV sqrt 3 / 2 and v_n da.
+        // 2 m/s at 30 degrees: v_n = 1, v_t = sqrt 3; d v_n = dV / 2 and dv_n = v_t da; dv_t = dV
+        // sqrt 3 / 2 and v_n da.
         near(errors("dV,da", "2,30,0.5,0.2,0", "speed"), [0.1, 0.1 * root]);
         near(errors("dV,da", "2,30,0.5,,0.01", "speed"), [0.01 * root, 0.01]);
         near(errors("dV,da", "2,30,0.5,0.2,0.1", "speed"), [0.04f64.sqrt(), 0.04f64.sqrt()]);

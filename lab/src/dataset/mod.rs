@@ -1,9 +1,11 @@
 //! Impacts in a CSV file: one row an impact, columns by name.
 //!
-//! [`ImpactReader`] reads impacts one at a time, in SI units, so a file may be larger than memory. [`Measurements`] reads
-//! a whole file with its observations, the standard errors of its inputs and all columns that may be causes; a
-//! [`ColumnMap`] describes the columns and the detection limit of a laboratory's own file. The columns named in [`nearwall::impact::INPUTS`] are the inputs; only `v_n` is required, a blank
-//! or absent input takes its value in [`nearwall::Impact::default`]. A row that cannot be used becomes a [`BadRow`].
+//! [`ImpactReader`] reads impacts one at a time, in SI units, so a file may be larger than memory.
+//! [`Measurements`] reads a whole file with its observations, the standard errors of its inputs and
+//! all columns that may be causes; a [`ColumnMap`] describes the columns and the detection limit of
+//! a laboratory's own file. The columns named in [`nearwall::impact::INPUTS`] are the inputs; only
+//! `v_n` is required, a blank or absent input takes its value in [`nearwall::Impact::default`]. A
+//! row that cannot be used becomes a [`BadRow`].
 //!
 //! Format for users: `docs/data-file.md`.
 

@@ -1,8 +1,9 @@
 //! Rig-level data: a row is an experiment, or one bin of it.
 //!
-//! Columns: `experiment` (text), settings (dotted keys of a case file), observables `NAME@WALL` ([`RigQuantity`]) with
-//! `NAME@WALL_err` (standard error) and `NAME@WALL_n` (the count it rests on). Other columns are notes. Rows with the same
-//! `experiment` are readings of one run and have the same settings.
+//! Columns: `experiment` (text), settings (dotted keys of a case file), observables `NAME@WALL`
+//! ([`RigQuantity`]) with `NAME@WALL_err` (standard error) and `NAME@WALL_n` (the count it rests
+//! on). Other columns are notes. Rows with the same `experiment` are readings of one run and have
+//! the same settings.
 
 use std::collections::BTreeMap;
 use std::io::Read;

@@ -1,12 +1,13 @@
 //! Which rows of a large file are kept in memory.
 //!
-//! Up to [`MOST_ROWS`] usable rows all are kept. Of a larger file a share of the groups is kept, and a share of the rows of
-//! each of these groups. A group is a set of rows with the same cells in all columns that tell groups apart; a file without such columns is
-//! one group. Every row is kept with the same probability. Small groups stay whole and large ones stay present, so that
-//! errors that rows share are still seen.
+//! Up to [`MOST_ROWS`] usable rows all are kept. Of a larger file a share of the groups is kept,
+//! and a share of the rows of each of these groups. A group is a set of rows with the same cells in
+//! all columns that tell groups apart; a file without such columns is one group. Every row is kept
+//! with the same probability. Small groups stay whole and large ones stay present, so that errors
+//! that rows share are still seen.
 //!
-//! Both shares begin at 1 and fall whenever there are too many rows. Whether a row is kept depends only on both shares, its
-//! line and its cells, so the same file gives the same rows.
+//! Both shares begin at 1 and fall whenever there are too many rows. Whether a row is kept depends
+//! only on both shares, its line and its cells, so the same file gives the same rows.
 
 use std::collections::HashMap;
 
@@ -15,7 +16,8 @@ use nearwall::rng::ImpactRng;
 
 /// Largest number of rows that are kept: a quarter of four fifths of them measures the gain, which needs 20,000.
 pub const MOST_ROWS: usize = 100_000;
-/// The share of groups falls as long as most rows are in groups with no more rows than this, otherwise the share of rows.
+/// The share of groups falls as long as most rows are in groups with no more rows than this,
+/// otherwise the share of rows.
 const LARGE_GROUP: usize = 100;
 /// Factor on a share when there are too many rows.
 const SHARE_STEP: f64 = 0.8;
@@ -41,8 +43,8 @@ pub(super) struct Ticket {
 }
 
 impl Ticket {
-    /// The ticket of the row on this line; `groups` are its cells in the columns that tell groups apart. A row without these
-    /// cells is a group of its own if there are such columns.
+    /// The ticket of the row on this line; `groups` are its cells in the columns that tell groups
+    /// apart. A row without these cells is a group of its own if there are such columns.
     pub(super) fn new<'a>(line: u64, groups: impl Iterator<Item = &'a str> + Clone) -> Self {
         let alone = groups.clone().next().is_some() && groups.clone().all(str::is_empty);
         let group = if alone { line } else { groups.fold(FNV_OFFSET, hashed) };

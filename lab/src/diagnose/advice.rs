@@ -1,9 +1,10 @@
 //! The measurement that would distinguish two causes.
 //!
-//! Each input in turn varies over its range and a quarter beyond, with all others at their medians. The best place to
-//! measure is where the predictions of the two fitted models differ most, relative to the scatter. The number of impacts
-//! is that of a comparison of two groups, one at each end, with 5 % false alarms and 80 % power:
-//! `n = 2 · 2 (1.96 + 0.84)² (scatter / difference)²`.
+//! Each input in turn varies over its range and a quarter beyond, with all others at their medians.
+//! The best place to measure is where the predictions of the two fitted models differ most,
+//! relative to the scatter. The number of impacts is that of a comparison of two groups, one at
+//! each end, with 5 % false alarms and 80 % power: `n = 2 · 2 (1.96 + 0.84)² (scatter /
+//! difference)²`.
 
 use super::forecast::Forecast;
 use super::hypothesis::Hypothesis;

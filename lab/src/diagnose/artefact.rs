@@ -90,7 +90,8 @@ fn skewness_of(mut residuals: Vec<f64>, scatter: f64) -> f64 {
     if beats_shift { (skewed - plain - PARAMETER).max(0.0) } else { 0.0 }
 }
 
-/// Gain of a scatter with two widths, the wider one on either side, over one width [nats]: what a stochastic effect must exceed.
+/// Gain of a scatter with two widths, the wider one on either side, over one width [nats]: what a
+/// stochastic effect must exceed.
 pub(super) fn lopsided_gain(residuals: &[f64], scatter: f64) -> f64 {
     if residuals.len() < READINGS {
         return 0.0;

@@ -1,7 +1,8 @@
 //! The kinds of candidates: what can be added to a hypothesis.
 //!
-//! A new kind is a variant of [`Candidate`] and of [`Addition`]; the compiler then names the places that treat it: its shapes in
-//! `shapes`, the list of candidates and the fits in `fitting`, its preference in `model_selection`, its finding in `finding`.
+//! A new kind is a variant of [`Candidate`] and of [`Addition`]; the compiler then names the places
+//! that treat it: its shapes in `shapes`, the list of candidates and the fits in `fitting`, its
+//! preference in `model_selection`, its finding in `finding`.
 
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;

@@ -52,8 +52,8 @@ fn varies(hypothesis: &Hypothesis<'_>, observable: Observable) -> bool {
     values.len() >= LEAST_CURVE_ROWS && values.iter().any(|value| *value != values[0])
 }
 
-/// The columns of the curves of an observable: a level, every column, and unless readings are `few` those on which the hypothesis
-/// depends with another one.
+/// The columns of the curves of an observable: a level, every column, and unless readings are `few`
+/// those on which the hypothesis depends with another one.
 fn sides(hypothesis: &Hypothesis<'_>, observable: Observable, few: bool) -> Vec<Sides> {
     let data = hypothesis.data;
     let level = (!has_level(hypothesis, observable)).then_some([None; 2]);

@@ -78,9 +78,10 @@ fn follows_groups(curve: &ColumnCurve, data: &DataSplit, groups: &GroupColumn) -
 }
 
 impl CauseChoice {
-    /// Chooses causes on the fitted rows. Groups share an error only if the residuals beside the causes show it; the choice is then
-    /// made anew with that error. A curve over a column that is constant within groups takes their errors for its own, so there the
-    /// residuals without curves decide.
+    /// Chooses causes on the fitted rows. Groups share an error only if the residuals beside the
+    /// causes show it; the choice is then made anew with that error. A curve over a column that is
+    /// constant within groups takes their errors for its own, so there the residuals without curves
+    /// decide.
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let plain = Self::once(data, task);
         let bare = Self { state: plain.state.without_curves(), ..plain.clone() };

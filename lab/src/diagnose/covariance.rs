@@ -1,7 +1,8 @@
 //! Covariance of fitted coordinates that is robust against an inexact law or scatter.
 //!
-//! With `s` the derivative of the log score of each independent unit by the coordinates and `H` the matrix of second derivatives of the
-//! sum, both by finite differences, the covariance is `H⁻¹` if the model is exact, and the sandwich `H⁻¹ (Σ s sᵀ) H⁻¹` if it is not.
+//! With `s` the derivative of the log score of each independent unit by the coordinates and `H` the
+//! matrix of second derivatives of the sum, both by finite differences, the covariance is `H⁻¹` if
+//! the model is exact, and the sandwich `H⁻¹ (Σ s sᵀ) H⁻¹` if it is not.
 
 use nalgebra::DMatrix;
 
@@ -53,7 +54,8 @@ impl Covariance {
         Self::robust(&at, &curvature, &(slopes.transpose() * &slopes))
     }
 
-    /// From `H` with its sign changed and from `meat`, which is `Σ s sᵀ`. A coordinate at a bound has no usable curvature.
+    /// From `H` with its sign changed and from `meat`, which is `Σ s sᵀ`. A coordinate at a bound
+    /// has no usable curvature.
     fn robust(at: &[f64], curvature: &DMatrix<f64>, meat: &DMatrix<f64>) -> Self {
         let free: Vec<usize> =
             (0..at.len()).filter(|&i| (AT_BOUND..=1.0 - AT_BOUND).contains(&at[i])).collect();

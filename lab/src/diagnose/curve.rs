@@ -1,4 +1,5 @@
-//! A smooth curve over one column or a surface over two, for a dependence that no effect explains; without a column, a level shift.
+//! A smooth curve over one column or a surface over two, for a dependence that no effect explains;
+//! without a column, a level shift.
 
 use nalgebra::DMatrix;
 

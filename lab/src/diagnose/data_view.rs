@@ -45,9 +45,9 @@ pub(super) fn views(models: [&Hypothesis<'_>; 2], findings: &[Finding]) -> Vec<D
     views
 }
 
-/// The main column and, if a finding is about this observable, a second one, of the columns that vary in these rows: the
-/// findings' own inputs, then `v_n` and `d` if they are among them, then `v_n`; without any of these the column with most
-/// different values.
+/// The main column and, if a finding is about this observable, a second one, of the columns that
+/// vary in these rows: the findings' own inputs, then `v_n` and `d` if they are among them, then
+/// `v_n`; without any of these the column with most different values.
 fn columns<'a>(
     data: &'a DataSplit,
     findings: &[Finding],

@@ -1,8 +1,9 @@
 //! Model files drawn from a fit: their parameters scatter together as the data leave them open.
 //!
-//! The coordinates are drawn from a normal distribution about the fit, with the covariance of [`super::covariance`] times the factors of
-//! its sandwich, widened as Student's t for few units, and are clamped to their ranges. As for the intervals, parameters that were left
-//! at their defaults are free. A coordinate at a bound is drawn from its interval. Curves stay as they are.
+//! The coordinates are drawn from a normal distribution about the fit, with the covariance of
+//! [`super::covariance`] times the factors of its sandwich, widened as Student's t for few units,
+//! and are clamped to their ranges. As for the intervals, parameters that were left at their
+//! defaults are free. A coordinate at a bound is drawn from its interval. Curves stay as they are.
 
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;

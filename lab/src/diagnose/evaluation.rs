@@ -219,7 +219,8 @@ impl<'a> Evaluation<'a> {
         })
     }
 
-    /// Predicted minus measured number of captures if `added` is added to the log odds; `None` without measured captures.
+    /// Predicted minus measured number of captures if `added` is added to the log odds; `None`
+    /// without measured captures.
     pub fn excess_captures(&self, added: f64) -> Option<f64> {
         let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
             let offset = Offset { capture: offset.capture + added, ..offset };

@@ -94,8 +94,9 @@ fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
     curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid(data))
 }
 
-/// A curve, a surface or a level shift on an observable, in a form, over inputs with their knots. The heights of a surface come
-/// with their number along its second input; `valid` are the ranges of the inputs of the fit.
+/// A curve, a surface or a level shift on an observable, in a form, over inputs with their knots.
+/// The heights of a surface come with their number along its second input; `valid` are the ranges
+/// of the inputs of the fit.
 pub(super) fn curve_effect(
     [on, form]: [&str; 2],
     inputs: &[impl AsRef<str>],

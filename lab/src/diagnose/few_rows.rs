@@ -1,11 +1,13 @@
 //! Tests with few rows, and of captures in classes, by the fall of chi-square or of the deviance.
 //!
-//! Where all readings have stated errors, `chi²` is that of the stated errors alone. With `k` parameters more, `n` readings and `chi²_0`,
-//! `chi²_1` before and after: if `chi²_1 <= n - k`, the errors are as stated and `chi²_0 - chi²_1` is distributed as chi-square with
-//! `k` degrees of freedom; otherwise errors are scaled by `sqrt(chi²_1/(n - k))` (Birge 1932), which is the F test of
-//! `((chi²_0 - chi²_1)/k) / (chi²_1/(n - k))`. Without stated errors the F test follows from the gain in log likelihood `G`:
-//! `chi²_0/chi²_1 = exp(2 G/n)`. Of captures `2 G` falls; `chi²_1` is Pearson's, which exceeds `n - k` where the impacts of a class
-//! are not independent (over-dispersion; McCullagh and Nelder 1989, ch. 4).
+//! Where all readings have stated errors, `chi²` is that of the stated errors alone. With `k`
+//! parameters more, `n` readings and `chi²_0`, `chi²_1` before and after: if `chi²_1 <= n - k`, the
+//! errors are as stated and `chi²_0 - chi²_1` is distributed as chi-square with `k` degrees of
+//! freedom; otherwise errors are scaled by `sqrt(chi²_1/(n - k))` (Birge 1932), which is the F test
+//! of `((chi²_0 - chi²_1)/k) / (chi²_1/(n - k))`. Without stated errors the F test follows from the
+//! gain in log likelihood `G`: `chi²_0/chi²_1 = exp(2 G/n)`. Of captures `2 G` falls; `chi²_1` is
+//! Pearson's, which exceeds `n - k` where the impacts of a class are not independent
+//! (over-dispersion; McCullagh and Nelder 1989, ch. 4).
 
 use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
 
@@ -42,8 +44,8 @@ impl FewRows {
         })
     }
 
-    /// The p-value of an extension with `freedom` parameters more, which gains `gain` [nats]; `observable` is the only one that it
-    /// changes, if it is one.
+    /// The p-value of an extension with `freedom` parameters more, which gains `gain` [nats];
+    /// `observable` is the only one that it changes, if it is one.
     pub fn p_value(
         &self,
         extended: &Evaluation<'_>,

@@ -161,7 +161,8 @@ impl FindingBuilder<'_> {
                 Addition::Part { .. } => {
                     other.addition.parameters() <= most_parameters || other.gain() > winner.gain()
                 }
-                // A level shift, a column that no law knows, or beside a cause without an input of its own any column that matters.
+                // A level shift, a column that no law knows, or beside a cause without an input of
+                // its own any column that matters.
                 Addition::Curve(curve) => {
                     let input = |column: &usize| self.hypothesis.data.covariates[*column].input;
                     let known = curve.form.sides.iter().any(|side| input(&side.0));

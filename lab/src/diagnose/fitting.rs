@@ -1,8 +1,10 @@
-//! One round: all candidates tested against the current hypothesis, and the promising ones fitted to all rows of the search.
+//! One round: all candidates tested against the current hypothesis, and the promising ones fitted
+//! to all rows of the search.
 //!
-//! With many readings the p-value is that of the score test ([`super::score_test`]); with few, that of the fit: `F` of the fall of
-//! chi-square, or chi-square itself where stated errors explain the rest. A candidate's gain is that of its fit in log likelihood, less
-//! its number of parameters (Akaike 1974).
+//! With many readings the p-value is that of the score test ([`super::score_test`]); with few, that
+//! of the fit: `F` of the fall of chi-square, or chi-square itself where stated errors explain the
+//! rest. A candidate's gain is that of its fit in log likelihood, less its number of parameters
+//! (Akaike 1974).
 
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
@@ -26,7 +28,8 @@ use super::smooth::Basis;
 const REFINEMENT: f64 = 1.0;
 /// Rows of the coarse search.
 const COARSE_ROWS: usize = 250;
-/// Candidates with a larger p-value, corrected for their own shapes, are not fitted, except for curves, whose fits take no time.
+/// Candidates with a larger p-value, corrected for their own shapes, are not fitted, except for
+/// curves, whose fits take no time.
 const WORTH_A_FIT: f64 = 0.05;
 /// A candidate that changes the distribution is fitted, too, if a place of its grid gains this much [nats].
 const PROMISING_GAIN: f64 = 2.0;

@@ -1,4 +1,5 @@
-//! The gain of the extended model, measured by running its file on rows that no choice and no fit saw; and the rows of the figures.
+//! The gain of the extended model, measured by running its file on rows that no choice and no fit
+//! saw; and the rows of the figures.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -188,7 +189,8 @@ pub(super) fn bootstrap(units: &[[f64; 2]], seed: u64) -> [f64; 2] {
     [ratios[BOOTSTRAP_RESAMPLES / 40], ratios[BOOTSTRAP_RESAMPLES - 1 - BOOTSTRAP_RESAMPLES / 40]]
 }
 
-/// The same by Student's t of the linearised logarithm of the ratio, which is wider for few units; `widened` multiplies its error.
+/// The same by Student's t of the linearised logarithm of the ratio, which is wider for few units;
+/// `widened` multiplies its error.
 pub(super) fn student_interval(units: &[[f64; 2]], widened: f64) -> [f64; 2] {
     let count = units.len() as f64;
     let sums = units.iter().fold([0.0; 2], |[b, a], [before, after]| [b + before, a + after]);

@@ -1,8 +1,9 @@
 //! Does a model fit at all? An absolute test of the base and of the extended model.
 //!
-//! Where all readings have stated errors: chi-square against those errors. Otherwise, where inputs repeat exactly: the residuals between
-//! the means of replicates against those within (pure error; Draper and Smith 1998, ch. 2). Otherwise only the structure of the
-//! residuals can be tested: the smallest corrected p-value of any candidate of the round.
+//! Where all readings have stated errors: chi-square against those errors. Otherwise, where inputs
+//! repeat exactly: the residuals between the means of replicates against those within (pure error;
+//! Draper and Smith 1998, ch. 2). Otherwise only the structure of the residuals can be tested: the
+//! smallest corrected p-value of any candidate of the round.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +20,8 @@ const LEAST_MISFIT: f64 = 2.0;
 /// Least number of degrees of freedom within replicates.
 const LEAST_REPLICATES: usize = 5;
 
-/// The tests of both models on the rows of the search; `structure` is the smallest corrected p-value of a candidate beside each.
+/// The tests of both models on the rows of the search; `structure` is the smallest corrected
+/// p-value of a candidate beside each.
 pub(super) fn fit(base: &Hypothesis<'_>, extended: &Hypothesis<'_>, structure: [f64; 2]) -> Fit {
     let parameters = extended.freedom();
     let [before, after] = [base, extended].map(rows_alone);

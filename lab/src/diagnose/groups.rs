@@ -1,8 +1,9 @@
 //! Rows that share an error: bursts, days, series, laboratories.
 //!
-//! *Units* are what tests and bootstraps draw: rows of one averaged row, or with equal cells, count once; so do the rows of a group
-//! that shares an error. A *shared error* is a random offset of `e_n` and `e_t` of each group, normal with a standard deviation that is estimated; it enters
-//! the likelihood where the residuals of the model show it (random intercept; Laird and Ware 1982).
+//! *Units* are what tests and bootstraps draw: rows of one averaged row, or with equal cells, count
+//! once; so do the rows of a group that shares an error. A *shared error* is a random offset of
+//! `e_n` and `e_t` of each group, normal with a standard deviation that is estimated; it enters the
+//! likelihood where the residuals of the model show it (random intercept; Laird and Ware 1982).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -26,7 +27,8 @@ pub(super) struct GroupColumn {
 }
 
 impl GroupColumn {
-    /// The column that the user names, else every one whose name says that it groups rows; none with fewer than two groups.
+    /// The column that the user names, else every one whose name says that it groups rows; none
+    /// with fewer than two groups.
     pub fn all(data: &Measurements, declared: Option<&str>) -> Vec<Self> {
         let named = |column: &&DataColumn| match declared {
             Some(name) => column.name == name,
@@ -54,8 +56,8 @@ impl GroupColumn {
     }
 }
 
-/// Whether a column groups rows unless the user says otherwise. Few batches with many rows each are a material that may differ, so a
-/// possible cause; many are a random choice.
+/// Whether a column groups rows unless the user says otherwise. Few batches with many rows each are
+/// a material that may differ, so a possible cause; many are a random choice.
 fn groups_by_default(column: &DataColumn) -> bool {
     let few = matches!(&column.values, ColumnValues::Labels { levels, .. } if levels.len() <= FEW_BATCHES);
     names_groups(&column.name) && !(column.name.eq_ignore_ascii_case("batch") && few)

@@ -301,7 +301,8 @@ impl<'a> Hypothesis<'a> {
         acting.map(|(part, _)| part)
     }
 
-    /// The columns on which a part or a curve of this observable depends, by index; of a part those beside speed and diameter, if any.
+    /// The columns on which a part or a curve of this observable depends, by index; of a part those
+    /// beside speed and diameter, if any.
     pub fn columns_of(&self, observable: Observable) -> Vec<usize> {
         let of_parts = self.acting_on(observable).flat_map(|part| own_inputs(part.part.inputs()));
         let index = |name: &str| self.data.covariates.iter().position(|column| column.name == name);
@@ -329,8 +330,8 @@ impl<'a> Hypothesis<'a> {
         (0..self.parts.len()).map(of_part).collect()
     }
 
-    /// Mean squared difference of two forecasts of the search's rows, in units of the scatter, by observable; 0 where it
-    /// was not measured.
+    /// Mean squared difference of two forecasts of the search's rows, in units of the scatter, by
+    /// observable; 0 where it was not measured.
     pub fn changes(&self, one: &Forecast, other: &Forecast) -> [f64; 3] {
         let [e_n, e_t] = self.scatter;
         let scatter = [e_n, e_t, CAPTURE_WEIGHT_SCATTER];

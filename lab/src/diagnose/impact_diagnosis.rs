@@ -1,5 +1,5 @@
-//! The diagnosis of a file of measured impacts, from its reading to the drawn models: what the command `nearwall diagnose` and the
-//! Python package have in common.
+//! The diagnosis of a file of measured impacts, from its reading to the drawn models: what the
+//! command `nearwall diagnose` and the Python package have in common.
 
 use std::io::Read;
 use std::path::Path;
@@ -29,8 +29,9 @@ pub struct FileDiagnosisError {
 }
 
 impl ImpactDiagnosis {
-    /// A diagnosis against the model file `document`. `columns` is a column map, `wall` the wall that the user gives for all rows;
-    /// the group of `options` is named as in the data file or as in nearwall.
+    /// A diagnosis against the model file `document`. `columns` is a column map, `wall` the wall
+    /// that the user gives for all rows; the group of `options` is named as in the data file or as
+    /// in nearwall.
     ///
     /// # Errors
     /// An error in the model file or in the column map.

@@ -1,10 +1,12 @@
 //! Stated errors of the inputs, taken into account before any fit.
 //!
-//! A reading `x` with the standard error `sigma` says of the true value `t` what Bayes' theorem does with the distribution of the true
-//! values in these rows (regression calibration; Carroll et al. 2006, ch. 4). That distribution is the one of largest likelihood on
-//! a grid over the readings, by a fixed number of steps of expectation–maximisation (Laird 1978). Rows are predicted at the expected
-//! true values; their variance adds to that of `e_n` and `e_t` through the slope of the base model, and its curvature shifts the
-//! prediction. Inputs are treated one by one: correlations of their true values are ignored.
+//! A reading `x` with the standard error `sigma` says of the true value `t` what Bayes' theorem
+//! does with the distribution of the true values in these rows (regression calibration; Carroll et
+//! al. 2006, ch. 4). That distribution is the one of largest likelihood on a grid over the
+//! readings, by a fixed number of steps of expectation–maximisation (Laird 1978). Rows are
+//! predicted at the expected true values; their variance adds to that of `e_n` and `e_t` through
+//! the slope of the base model, and its curvature shifts the prediction. Inputs are treated one by
+//! one: correlations of their true values are ignored.
 
 use super::likelihood::Offset;
 use crate::dataset::{Measurement, Measurements};
@@ -98,7 +100,8 @@ impl TrueValues {
         self.grid.iter().map(one).collect()
     }
 
-    /// Expected true value of a reading and its standard deviation; of a single value far from all others, the reading and its error.
+    /// Expected true value of a reading and its standard deviation; of a single value far from all
+    /// others, the reading and its error.
     fn given(&self, value: f64, error: f64) -> [f64; 2] {
         let shares: Vec<f64> =
             self.densities(value, error).iter().zip(&self.weights).map(|(p, w)| p * w).collect();
@@ -119,8 +122,8 @@ fn ends(values: &[f64]) -> [f64; 2] {
     values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(*v), high.max(*v)])
 }
 
-/// `e_n` and `e_t` of the base model one deviation below, at, and one above the value of the input; `None` where an impact there has no
-/// meaning.
+/// `e_n` and `e_t` of the base model one deviation below, at, and one above the value of the input;
+/// `None` where an impact there has no meaning.
 fn around(base: &Model, input: &Input, row: &Measurement, deviation: f64) -> Option<[[f64; 2]; 3]> {
     let at = |step: f64| {
         let mut impact: Impact = row.impact;
@@ -137,7 +140,8 @@ mod tests {
     use nearwall::rng::ImpactRng;
     use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
-    /// Between true values that are equally likely from 1 to 2, a reading says what a normal distribution cut off at 1 and 2 says.
+    /// Between true values that are equally likely from 1 to 2, a reading says what a normal
+    /// distribution cut off at 1 and 2 says.
     #[test]
     fn expected_values_are_those_of_a_cut_normal_distribution() {
         let error = 0.2;

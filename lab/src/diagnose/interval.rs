@@ -1,9 +1,11 @@
 //! 95 % intervals of fitted parameters by profile likelihood, and what the data cannot separate.
 //!
-//! The root of the profile ([`super::profile`]) reaches Student's quantile at the ends, times the square root of the factor by which
-//! units that scatter more than the model says widen the variance ([`super::covariance`]). Parameters that were left at their defaults
-//! are free beside the others: the data do not know that the defaults are right. An end at the bound of the search range is that bound.
-//! Models that draw at random take too long for profiles: their intervals are symmetric in the coordinate.
+//! The root of the profile ([`super::profile`]) reaches Student's quantile at the ends, times the
+//! square root of the factor by which units that scatter more than the model says widen the
+//! variance ([`super::covariance`]). Parameters that were left at their defaults are free beside
+//! the others: the data do not know that the defaults are right. An end at the bound of the search
+//! range is that bound. Models that draw at random take too long for profiles: their intervals are
+//! symmetric in the coordinate.
 
 use std::ops::Range;
 
@@ -33,8 +35,8 @@ struct FoundIntervals {
     covariance: Covariance,
 }
 
-/// Sets the 95 % intervals of all parts, fitted to these rows, and what cannot be separated. A profile may find a better fit, which
-/// then is the fit.
+/// Sets the 95 % intervals of all parts, fitted to these rows, and what cannot be separated. A
+/// profile may find a better fit, which then is the fit.
 pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
     if hypothesis.coordinates().is_empty() {
         return;

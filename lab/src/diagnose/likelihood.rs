@@ -1,9 +1,10 @@
 //! The log score of a measured row under a prediction.
 //!
-//! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a share of 2 % gross
-//! errors: the density is `0.98 N(residual; s) + 0.02 · 0.4`, where the second term is uniform over a width of 2.5. So a few
-//! outliers cannot decide for or against a cause. A capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to
-//! 0.995. Under a stochastic model the probability of a row is the mean over the draws. The scatter of an average of `n`
+//! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a
+//! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02 · 0.4`, where the second
+//! term is uniform over a width of 2.5. So a few outliers cannot decide for or against a cause. A
+//! capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to 0.995. Under a stochastic
+//! model the probability of a row is the mean over the draws. The scatter of an average of `n`
 //! impacts is `s/sqrt(n)`, or `s` combined with its stated standard error.
 
 use super::forecast::Prediction;
@@ -133,8 +134,8 @@ fn normal_density(residual: f64, deviation: f64) -> f64 {
     (-0.5 * z * z).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt())
 }
 
-/// Density of a residual, and its part without gross errors, of which a share `gross` is expected. Without gross errors a far residual
-/// keeps the density of a normal distribution.
+/// Density of a residual, and its part without gross errors, of which a share `gross` is expected.
+/// Without gross errors a far residual keeps the density of a normal distribution.
 fn densities(residual: f64, deviation: f64, gross: f64) -> (f64, f64) {
     let normal = (1.0 - gross) * normal_density(residual, deviation);
     (normal + (gross * GROSS_DENSITY).max(f64::MIN_POSITIVE), normal)

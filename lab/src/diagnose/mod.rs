@@ -1,9 +1,10 @@
 //! Diagnosis: the effects that a model lacks to explain measured impacts, the extended model and its gain.
 //!
-//! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, tested and fitted → forward selection →
-//! extended model → gain of its file on held-out rows → record. Effects are known only through their
-//! [`nearwall::effect::EffectInfo`], so every effect of the list is a candidate. Method and limits: `docs/diagnosis.md`.
-//! [`ImpactDiagnosis`] does all this for the files of a user; [`comparison`] ranks several models with the same likelihood.
+//! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, tested and
+//! fitted → forward selection → extended model → gain of its file on held-out rows → record.
+//! Effects are known only through their [`nearwall::effect::EffectInfo`], so every effect of the
+//! list is a candidate. Method and limits: `docs/diagnosis.md`. [`ImpactDiagnosis`] does all this
+//! for the files of a user; [`comparison`] ranks several models with the same likelihood.
 
 mod advice;
 mod artefact;
@@ -110,7 +111,8 @@ pub fn diagnose(
     Ok((diagnosis, extended))
 }
 
-/// As [`diagnose`], with the texts of `draws` model files whose parameters are drawn from the fit; none where nothing is fitted.
+/// As [`diagnose`], with the texts of `draws` model files whose parameters are drawn from the fit;
+/// none where nothing is fitted.
 ///
 /// # Errors
 /// [`DiagnosisError`].

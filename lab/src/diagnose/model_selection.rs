@@ -184,8 +184,8 @@ fn better_without_law(
     best(significant.filter(over_own)).filter(|curve| curve.gain() > winner.gain()).cloned()
 }
 
-/// The surface over a law's input and a speed or size that takes the law's place: beside the law the product of both is significant,
-/// and the surface alone gains more than the law.
+/// The surface over a law's input and a speed or size that takes the law's place: beside the law
+/// the product of both is significant, and the surface alone gains more than the law.
 fn better_surface(
     before: &Hypothesis<'_>,
     with: &Hypothesis<'_>,

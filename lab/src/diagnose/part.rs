@@ -92,8 +92,9 @@ impl Part {
         }
     }
 
-    /// The search ranges of its parameters, with `refined` also of those with a default, which come last; `range` gives the least and
-    /// largest value of an input in the data. `None` if the data do not vary in what it depends on.
+    /// The search ranges of its parameters, with `refined` also of those with a default, which come
+    /// last; `range` gives the least and largest value of an input in the data. `None` if the data
+    /// do not vary in what it depends on.
     pub fn axes(&self, range: impl Fn(&str) -> Option<[f64; 2]>, refined: bool) -> Option<Vec<SearchAxis>> {
         let Self::Effect(effect) = self else { return Some(vec![SearchAxis::linear(0.02, 1.1)]) };
         // Beside another input, speed and diameter need not vary: the plain laws depend on them too.

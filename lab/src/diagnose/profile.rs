@@ -1,8 +1,9 @@
 //! The profile of the likelihood: its maximum over all other coordinates with one of them fixed.
 //!
-//! Its root `r(x) = sqrt(2 (l_max - l(x)))` is the distance in standard errors, whatever the shape of the likelihood (Venzon and
-//! Moolgavkar 1988). An interval ends where `r` exceeds a quantile for good: laws with jumps, such as that from sliding to rolling,
-//! make the likelihood rough, and `r` may cross the quantile more than once.
+//! Its root `r(x) = sqrt(2 (l_max - l(x)))` is the distance in standard errors, whatever the shape
+//! of the likelihood (Venzon and Moolgavkar 1988). An interval ends where `r` exceeds a quantile
+//! for good: laws with jumps, such as that from sliding to rolling, make the likelihood rough, and
+//! `r` may cross the quantile more than once.
 
 use super::hypothesis::Hypothesis;
 use super::likelihood::Offset;
@@ -59,7 +60,8 @@ impl<'a> LikelihoodProfile<'a> {
         rows.evaluate(self.rows, &self.offsets).with_fitted_scatter().score()
     }
 
-    /// The outermost coordinate in the direction `sign` at which `r` is at most `quantile`; `error` is a guess of the standard error.
+    /// The outermost coordinate in the direction `sign` at which `r` is at most `quantile`; `error`
+    /// is a guess of the standard error.
     pub fn end(&self, coordinate: usize, sign: f64, quantile: f64, error: f64) -> Result<f64, Higher> {
         let bound = if sign > 0.0 { 1.0 } else { 0.0 };
         let mut step = WALK_STEP * quantile * error;

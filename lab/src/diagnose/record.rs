@@ -13,7 +13,8 @@ pub struct Options {
     pub seed: u64,
     /// Accepted share of false discoveries [1].
     pub level: f64,
-    /// The column of labels that tells groups of rows apart; `None` for those that [`crate::dataset::names_groups`] accepts.
+    /// The column of labels that tells groups of rows apart; `None` for those that
+    /// [`crate::dataset::names_groups`] accepts.
     pub group: Option<String>,
 }
 
@@ -135,7 +136,8 @@ pub struct Finding {
     pub sigma: f64,
     /// Share of resampled data sets that name this cause [1].
     pub certainty: f64,
-    /// p-value of the test that a free curve over its inputs fits no better; small values speak against the law's shape.
+    /// p-value of the test that a free curve over its inputs fits no better; small values speak
+    /// against the law's shape.
     pub lack_of_fit: Option<f64>,
     /// Pairs of parameters of which the data determine only a product or a ratio, as sentences.
     pub not_separable: Vec<String>,
@@ -273,8 +275,9 @@ pub struct NotExamined {
 pub struct Gain {
     /// Number of rows.
     pub held_out_rows: usize,
-    /// `held-out` if `extended.toml` itself was run on rows that no fit and no choice saw; `cross-validated` with few rows, where each
-    /// row is predicted by a model file that was chosen and fitted without it.
+    /// `held-out` if `extended.toml` itself was run on rows that no fit and no choice saw;
+    /// `cross-validated` with few rows, where each row is predicted by a model file that was chosen
+    /// and fitted without it.
     pub measured: &'static str,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
@@ -306,8 +309,8 @@ pub struct Fit {
 /// A goodness-of-fit test.
 #[derive(Debug, Clone, Serialize, Default)]
 pub struct FitTest {
-    /// What the misfit is compared with: `stated errors`, `replicates`, `structure` (does any column shape the residuals) or
-    /// `none`.
+    /// What the misfit is compared with: `stated errors`, `replicates`, `structure` (does any
+    /// column shape the residuals) or `none`.
     pub against: &'static str,
     /// Chi-square [1]; `None` for a test of structure.
     pub chi_square: Option<f64>,

@@ -1,8 +1,9 @@
 //! Explanations other than physics: mistakes in the input, and artefacts of measurement.
 //!
-//! A slip is the base model with another reading of the numbers, for instance with the diameter doubled; it has no free parameter.
-//! An artefact is another distribution of the readings about the base model: truncated where the instrument sees nothing, or
-//! skewed. Each is scored by its gain in log likelihood beside that of the extended model.
+//! A slip is the base model with another reading of the numbers, for instance with the diameter
+//! doubled; it has no free parameter. An artefact is another distribution of the readings about the
+//! base model: truncated where the instrument sees nothing, or skewed. Each is scored by its gain
+//! in log likelihood beside that of the extended model.
 
 use super::artefact;
 use super::data_split::DataSplit;
@@ -17,13 +18,13 @@ use nearwall::model::Model;
 const BEHIND: f64 = 3.0;
 /// Least gain of a rival [nats].
 const LEAST_RIVAL_GAIN: f64 = 6.0;
-/// Least lead over the extended model at which a rival takes the place of the causes, and a slip that of one cause [nats]: without
-/// parameters it is a little ahead of a cause that it imitates.
+/// Least lead over the extended model at which a rival takes the place of the causes, and a slip
+/// that of one cause [nats]: without parameters it is a little ahead of a cause that it imitates.
 const DECISIVE: f64 = 0.0;
 const DECISIVE_SLIP: f64 = 3.0;
 
-/// The rivals that explain the misfit of `base` about as well as `extended` does, the best first; `text` is the base model's file.
-/// Both hypotheses are on the rows of the search.
+/// The rivals that explain the misfit of `base` about as well as `extended` does, the best first;
+/// `text` is the base model's file. Both hypotheses are on the rows of the search.
 pub(super) fn rivals(base: &Hypothesis<'_>, extended: &Hypothesis<'_>, text: &str) -> Vec<Rival> {
     let before = base.search_score();
     let after = extended.without_discrepancy().search_score();
@@ -63,7 +64,8 @@ fn main_observable(data: &DataSplit) -> &'static str {
     best.map_or("e_n", Observable::name)
 }
 
-/// Gain of a slip on the rows of the search [nats]; `None` where it changes nothing, or the model cannot decide its rows.
+/// Gain of a slip on the rows of the search [nats]; `None` where it changes nothing, or the model
+/// cannot decide its rows.
 fn slip_gain(data: &DataSplit, slip: &Slip, before: f64) -> Option<f64> {
     let model: Model = slip.model.clone().unwrap_or_else(|| data.base.clone());
     let mut rows: Vec<Measurement> = data.rows.to_vec();

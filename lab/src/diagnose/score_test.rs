@@ -1,15 +1,18 @@
 //! Does a candidate explain anything? A score test of its shapes, corrected for the number of shapes and candidates.
 //!
-//! A shape is the change of the predictions that a candidate makes at one place of its search range; with the slope of the log score
-//! of each row it gives one number a row, and by addition one number `u_g` for each independent unit. Without the candidate the sum of
-//! `u_g` has the mean zero; `t = Σ u_g / sqrt(Σ u_g²)` needs no assumption about the noise (Lagrange multiplier test with a
-//! heteroscedasticity-consistent variance; White 1982). It is at most the square root of the number of units, so few units never say
-//! much. For classes of captures its p-value is that of Student's t with the effective number of units `(Σ u²)²/Σ u⁴`.
+//! A shape is the change of the predictions that a candidate makes at one place of its search
+//! range; with the slope of the log score of each row it gives one number a row, and by addition
+//! one number `u_g` for each independent unit. Without the candidate the sum of `u_g` has the mean
+//! zero; `t = Σ u_g / sqrt(Σ u_g²)` needs no assumption about the noise (Lagrange multiplier test
+//! with a heteroscedasticity-consistent variance; White 1982). It is at most the square root of the
+//! number of units, so few units never say much. For classes of captures its p-value is that of
+//! Student's t with the effective number of units `(Σ u²)²/Σ u⁴`.
 //!
-//! Shapes of one candidate, and candidates, resemble each other. How many independent tests they amount to follows from the largest `t`
-//! of units with random signs (multiplier bootstrap; Chernozhukov, Chetverikov and Kato 2013; minimum p-value of Westfall and
-//! Young 1993): `m = ln(0.95) / ln(1 - p_5)`, where `p_5` is the 5 % quantile of the smallest p-value. The corrected p-value is
-//! `1 - (1 - p)^m`.
+//! Shapes of one candidate, and candidates, resemble each other. How many independent tests they
+//! amount to follows from the largest `t` of units with random signs (multiplier bootstrap;
+//! Chernozhukov, Chetverikov and Kato 2013; minimum p-value of Westfall and Young 1993): `m =
+//! ln(0.95) / ln(1 - p_5)`, where `p_5` is the 5 % quantile of the smallest p-value. The corrected
+//! p-value is `1 - (1 - p)^m`.
 
 use nalgebra::DMatrix;
 use rand_chacha::ChaCha8Rng;
@@ -51,7 +54,8 @@ pub(super) struct Tested {
     pub starts: Vec<Vec<f64>>,
 }
 
-/// Tests all candidates; `units` is the independent unit of each row. Units that are `skewed`, as classes of captures are, say less.
+/// Tests all candidates; `units` is the independent unit of each row. Units that are `skewed`, as
+/// classes of captures are, say less.
 pub(super) fn test(candidates: &[Shapes], units: &[usize], skewed: bool) -> Vec<Tested> {
     let (units, count) = compact(units);
     let by_unit: Vec<Vec<Vec<f64>>> = candidates.iter().map(|shapes| sums(shapes, &units, count)).collect();

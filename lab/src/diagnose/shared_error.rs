@@ -1,8 +1,9 @@
 //! The error that rows of one group share: its standard deviation and its most likely value in each group.
 //!
-//! Residuals `r_i` with variances `v_i` and a shared error `b` of variance `tau²`: with `S = Σ 1/v_i` and `R = Σ r_i/v_i` over a
-//! group, `b = tau² R / (1 + tau² S)` with the variance `tau² / (1 + tau² S)`, and the log likelihood changes by
-//! `½ tau² R² / (1 + tau² S) - ½ ln(1 + tau² S)`. `tau` maximises the sum over groups.
+//! Residuals `r_i` with variances `v_i` and a shared error `b` of variance `tau²`: with `S = Σ
+//! 1/v_i` and `R = Σ r_i/v_i` over a group, `b = tau² R / (1 + tau² S)` with the variance `tau² /
+//! (1 + tau² S)`, and the log likelihood changes by `½ tau² R² / (1 + tau² S) - ½ ln(1 + tau² S)`.
+//! `tau` maximises the sum over groups.
 
 /// Standard deviations tried [1].
 const SMALLEST_DEVIATION: f64 = 1e-4;

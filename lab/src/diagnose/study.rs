@@ -1,10 +1,11 @@
 //! Which rows choose causes, which fit the extended model, and which measure its gain.
 //!
-//! The gain needs rows that neither a choice nor a fit has seen. With many units, three quarters of them choose; only if they name
-//! nothing, all do. With fewer units all rows choose the causes, and if three quarters alone name the same, the extended model is
-//! fitted to those; its file is then run on the rest. In all other cases the gain is cross-validated: a choice, a fit and a model file
-//! for each part of the units without that part. Where groups share an error, whole groups are held out: other rows of the same group
-//! would tell its error.
+//! The gain needs rows that neither a choice nor a fit has seen. With many units, three quarters of
+//! them choose; only if they name nothing, all do. With fewer units all rows choose the causes, and
+//! if three quarters alone name the same, the extended model is fitted to those; its file is then
+//! run on the rest. In all other cases the gain is cross-validated: a choice, a fit and a model
+//! file for each part of the units without that part. Where groups share an error, whole groups are
+//! held out: other rows of the same group would tell its error.
 
 use std::sync::Arc;
 
@@ -107,7 +108,8 @@ impl Study {
         lines
     }
 
-    /// The rows that measure the gain, and how; `models` are the base and the extended hypothesis, `text` is the extended model.
+    /// The rows that measure the gain, and how; `models` are the base and the extended hypothesis,
+    /// `text` is the extended model.
     pub fn held_out(
         &self,
         rows: &Measurements,

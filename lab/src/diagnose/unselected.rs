@@ -11,8 +11,9 @@ use nearwall::model::Model;
 /// Rows that are evaluated together.
 const ROWS_AT_ONCE: usize = 25_000;
 
-/// Reads measured impacts in bounded memory: of a file with more than [`crate::dataset::MOST_ROWS`] usable rows a selection,
-/// and the sums of the others that [`super::diagnose`] needs. `base` is the model of `walls`.
+/// Reads measured impacts in bounded memory: of a file with more than [`crate::dataset::MOST_ROWS`]
+/// usable rows a selection, and the sums of the others that [`super::diagnose`] needs. `base` is
+/// the model of `walls`.
 ///
 /// # Errors
 /// As [`Measurements::read`].

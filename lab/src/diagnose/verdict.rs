@@ -99,7 +99,8 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
     }
 }
 
-/// Why effects were no candidates: `range` gives the least and largest value of an input that varies, `here` says where it does not.
+/// Why effects were no candidates: `range` gives the least and largest value of an input that
+/// varies, `here` says where it does not.
 pub(super) fn not_examined(
     base: &Model,
     range: impl Fn(&str) -> Option<[f64; 2]>,
@@ -128,8 +129,8 @@ fn possible_laws(finding: &Finding) -> Vec<String> {
     effects.map(|effect| effect.id.to_owned()).collect()
 }
 
-/// With few rows, a cause that the data cannot tell from others is no finding, nor ever one that resampled data hardly name: all of them
-/// are undecided.
+/// With few rows, a cause that the data cannot tell from others is no finding, nor ever one that
+/// resampled data hardly name: all of them are undecided.
 pub(super) fn undecided(findings: &[Finding], choice: &CauseChoice) -> Vec<String> {
     let Some(first) = findings.first() else { return Vec::new() };
     let mut all = vec![first.cause.clone()];

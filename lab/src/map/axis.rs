@@ -73,7 +73,8 @@ impl InputAxis {
         Ok(Self { input, low, high, points })
     }
 
-    /// The input of this name over a range that laws and property tables cover; `None` for an input without such a range.
+    /// The input of this name over a range that laws and property tables cover; `None` for an input
+    /// without such a range.
     pub(super) fn over_default_range(name: &str, model: &Model, wall: usize, points: usize) -> Option<Self> {
         let known = model.temperature_ranges(wall).ok();
         let [low, high] = match name {

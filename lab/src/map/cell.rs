@@ -45,8 +45,9 @@ impl Draws {
         if self.streams.is_empty() { 1 } else { DRAWS_A_CELL }
     }
 
-    /// The mean over all draws. Restitution and regime are those of the share of the wall that an impact more probably meets,
-    /// covered or bare; where that share holds every particle, restitution is that of the other share.
+    /// The mean over all draws. Restitution and regime are those of the share of the wall that an
+    /// impact more probably meets, covered or bare; where that share holds every particle,
+    /// restitution is that of the other share.
     ///
     /// # Errors
     /// [`ImpactError`] where the model cannot decide the impact.
@@ -67,8 +68,8 @@ impl Draws {
         })
     }
 
-    /// One outcome a draw; `cover` decides between bare and covered share. With the largest number for the capture, only
-    /// a particle that is held with certainty is captured.
+    /// One outcome a draw; `cover` decides between bare and covered share. With the largest number
+    /// for the capture, only a particle that is held with certainty is captured.
     fn outcomes(
         &self,
         model: &Model,

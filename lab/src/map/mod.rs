@@ -84,8 +84,8 @@ impl Map {
 /// Speeds [m/s] at which the dependence on an input is tried.
 const TRIED_SPEEDS: [f64; 3] = [0.3, 3.0, 30.0];
 
-/// The axes of a map where the user gives one or none: `v_n`, and the first of `T_w`, `d`, `T_p`, `conversion` and `v_t` that
-/// changes an outcome.
+/// The axes of a map where the user gives one or none: `v_n`, and the first of `T_w`, `d`, `T_p`,
+/// `conversion` and `v_t` that changes an outcome.
 pub fn default_axes(
     model: &Model,
     wall: usize,

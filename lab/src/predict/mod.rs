@@ -1,7 +1,8 @@
 //! Predictions for a table of impacts: what `nearwall predict` and the Python package add to each row.
 //!
-//! Data flow: [`ImpactReader`] → row → [`Predictor`] → [`PredictedRow`]; [`RowNotes`] counts the rows and keeps the warnings about
-//! them, [`file_notes`] has those about the columns. Rows do not depend on each other, so they may be predicted on several threads.
+//! Data flow: [`ImpactReader`] → row → [`Predictor`] → [`PredictedRow`]; [`RowNotes`] counts the
+//! rows and keeps the warnings about them, [`file_notes`] has those about the columns. Rows do not
+//! depend on each other, so they may be predicted on several threads.
 
 mod notes;
 

@@ -1,9 +1,11 @@
 //! Pages of results, as the command writes them.
 //!
-//! A [`Chart`] or [`BarChart`] becomes a [`Figure`]: an SVG with a title and a caption. A [`Page`] is a
-//! self-contained HTML file of text, tables and figures, readable on paper. [`standalone_page`] and [`openfoam_page`]
-//! show [`crate::results`], [`sweep`] a table of runs, [`map_page`] a map of a model, [`comparison_page`] several models on
-//! one data file, [`diagnosis_page`] what a model lacks to explain impacts, [`rig_page`] the same for what a whole rig shows.
+//! A [`Chart`] or [`BarChart`] becomes a [`Figure`]: an SVG with a title and a caption. A [`Page`]
+//! is a self-contained HTML file of text, tables and figures, readable on paper.
+//! [`standalone_page`] and [`openfoam_page`] show [`crate::results`], [`sweep`] a table of runs,
+//! [`map_page`] a map of a model, [`comparison_page`] several models on one data file,
+//! [`diagnosis_page`] what a model lacks to explain impacts, [`rig_page`] the same for what a whole
+//! rig shows.
 
 mod chart;
 mod compare;

@@ -1,9 +1,10 @@
 //! A table of runs over one variable, beside published numbers: one figure a quantity.
 //!
-//! The CSV's first column names the run and the second is the variable. A quantity `Q` is drawn when there is a column
-//! `Q_paper` beside it: its values with error bars from `Q_low95` and `Q_high95`, or 1.96 `Q_standard_error`, and the
-//! published ones; `>0.85` is a lower bound, `-` or a blank means no value. A column `Q_reference`, the result of another
-//! calculation of the same quantity, is drawn, too.
+//! The CSV's first column names the run and the second is the variable. A quantity `Q` is drawn
+//! when there is a column `Q_paper` beside it: its values with error bars from `Q_low95` and
+//! `Q_high95`, or 1.96 `Q_standard_error`, and the published ones; `>0.85` is a lower bound, `-` or
+//! a blank means no value. A column `Q_reference`, the result of another calculation of the same
+//! quantity, is drawn, too.
 
 use std::path::Path;
 
@@ -12,8 +13,8 @@ use super::{Chart, ErrorBars, Figure, Page, Table, number};
 /// Why a table cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum SweepError {
-    /// The file cannot be read as CSV, or a line does not fit the header: the file, with the line if it is known, and what
-    /// is wrong.
+    /// The file cannot be read as CSV, or a line does not fit the header: the file, with the line
+    /// if it is known, and what is wrong.
     #[error("{0}: {1}")]
     Unreadable(String, String),
     /// No column has a published partner.

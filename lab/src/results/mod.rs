@@ -84,8 +84,8 @@ pub struct NearWall {
 }
 
 impl NearWall {
-    /// Mean concentration near the wall over that in the whole cross-section [1]: by number and by mass. 1 when the particles are
-    /// spread evenly; `None` without a cross-section.
+    /// Mean concentration near the wall over that in the whole cross-section [1]: by number and by
+    /// mass. 1 when the particles are spread evenly; `None` without a cross-section.
     pub fn concentration(&self) -> Option<[f64; 2]> {
         let volumes = self.volumes?;
         let ratio = |of: usize| share(self.near[of].total(), volumes * self.section[of].total());
@@ -151,8 +151,8 @@ pub struct Capture {
     pub regime: Option<Regime>,
 }
 
-/// Arrivals at a patch as OpenFOAM's own cloud function records them, before the wall model acts, up to the time at which
-/// the run is compared with others.
+/// Arrivals at a patch as OpenFOAM's own cloud function records them, before the wall model acts,
+/// up to the time at which the run is compared with others.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RecordedArrivals {
     /// Name of the patch.
@@ -227,7 +227,8 @@ pub struct RunResults {
     pub wall_model: WallModel,
     /// The key `stuck` of nearWallInteraction: what becomes of captured parcels.
     pub stuck: Option<String>,
-    /// Whether the cloud is solved for a steady flow: times are then numbers of iterations, and sums those of one solve.
+    /// Whether the cloud is solved for a steady flow: times are then numbers of iterations, and
+    /// sums those of one solve.
     pub steady: bool,
     /// Totals of each wall or patch.
     pub walls: Vec<History<WallTotals>>,

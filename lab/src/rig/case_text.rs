@@ -1,8 +1,10 @@
 //! A case file as text, in which an experiment changes settings.
 //!
-//! A setting is a dotted key: `gas.temperature`, `particles.speed.mean`, `walls.NAME.temperature` (`[[walls]]` by name),
-//! `particles.NAME.key` (several `[[particles]]` by name), `model.walls.NAME.coverage` (a key of the model file). A number replaces the whole
-//! value: `particles.speed = 2` makes the speed of all particles 2 m/s, `particles.speed.mean = 2` moves the mean of a distribution.
+//! A setting is a dotted key: `gas.temperature`, `particles.speed.mean`, `walls.NAME.temperature`
+//! (`[[walls]]` by name), `particles.NAME.key` (several `[[particles]]` by name),
+//! `model.walls.NAME.coverage` (a key of the model file). A number replaces the whole value:
+//! `particles.speed = 2` makes the speed of all particles 2 m/s, `particles.speed.mean = 2` moves
+//! the mean of a distribution.
 
 use std::path::Path;
 

@@ -148,8 +148,8 @@ pub fn add_capture_bands(
 
 /// The bands of the walls of a case, which gave `run` with its own model. `progress` is called after each draw.
 ///
-/// Without a deposit they are expected captures of at most a thousand particles, scaled to what was injected; with one the case is
-/// run anew with each model and the same random numbers.
+/// Without a deposit they are expected captures of at most a thousand particles, scaled to what was
+/// injected; with one the case is run anew with each model and the same random numbers.
 ///
 /// # Errors
 /// [`PredictionError`] where a drawn model cannot decide the case.

@@ -1,11 +1,12 @@
 //! Forward models of a rig: what a wall law predicts for what the whole rig measures.
 //!
-//! A [`Forward`] predicts every reading of [`crate::dataset::RigMeasurements`] for a changed wall law. [`SimulatedRig`] follows
-//! particles as `nearwall simulate` does; [`ReplayedRig`] decides again the impacts that OpenFOAM recorded. Both hand their hits to a
-//! [`tally`], which sums them up to the observables. `diagnose::rig` compares the predictions with the measurements.
+//! A [`Forward`] predicts every reading of [`crate::dataset::RigMeasurements`] for a changed wall
+//! law. [`SimulatedRig`] follows particles as `nearwall simulate` does; [`ReplayedRig`] decides
+//! again the impacts that OpenFOAM recorded. Both hand their hits to a [`tally`], which sums them
+//! up to the observables. `diagnose::rig` compares the predictions with the measurements.
 //!
-//! For forecasts, [`add_capture_bands`] gives what models drawn from a fit capture, and [`sensitivity`] the numbers on which captures
-//! depend.
+//! For forecasts, [`add_capture_bands`] gives what models drawn from a fit capture, and
+//! [`sensitivity`] the numbers on which captures depend.
 
 mod captures;
 mod case_text;
@@ -80,7 +81,8 @@ pub trait Forward: Sync {
         change: &ModelChange<'_>,
     ) -> Result<Vec<PredictedReading>, PredictionError>;
 
-    /// Most causes that one diagnosis may name: one where predictions are only approximate beside the law of the record.
+    /// Most causes that one diagnosis may name: one where predictions are only approximate beside
+    /// the law of the record.
     fn most_causes(&self) -> usize {
         usize::MAX
     }

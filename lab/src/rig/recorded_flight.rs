@@ -1,9 +1,10 @@
 //! A recorded flight between flat parallel walls, begun again with another rebound.
 //!
-//! Along the normal, and along the wall, the acceleration decays with the drag: `v(t) = s + a (1 - exp(-r t))/r`. The record gives the speed at
-//! both ends, the time and the way between the walls, and so `a` and `r`; with another speed `s'` at the start the acceleration is
-//! `a - r (s' - s)`, as the gas and gravity stay. The time until the particle is at the wall follows, and from it the speed there and the
-//! way along the wall. Exact for Stokes drag in a gas of one velocity.
+//! Along the normal, and along the wall, the acceleration decays with the drag: `v(t) = s + a (1 -
+//! exp(-r t))/r`. The record gives the speed at both ends, the time and the way between the walls,
+//! and so `a` and `r`; with another speed `s'` at the start the acceleration is `a - r (s' - s)`,
+//! as the gas and gravity stay. The time until the particle is at the wall follows, and from it the
+//! speed there and the way along the wall. Exact for Stokes drag in a gas of one velocity.
 
 use nalgebra::Vector3;
 
@@ -13,12 +14,12 @@ const FLATNESS: f64 = 1e-3;
 const BEYOND_IMPACTS: f64 = 0.02;
 /// Most times that a flight may take of what was recorded [1].
 const LONGEST: f64 = 100.0;
-/// Shares of a change of speed that lie in the mean of a flight, `(mean - end)/(start - end)` [1], which the law above can have, with the
-/// largest one that the time steps of the solver explain.
+/// Shares of a change of speed that lie in the mean of a flight, `(mean - end)/(start - end)` [1],
+/// which the law above can have, with the largest one that the time steps of the solver explain.
 const MEAN: [f64; 2] = [0.02, 0.6];
 
-/// Difference to the share of drag alone, without gravity and gas across, up to which it is taken to be that [1]. Where drag is small
-/// the share tells little of it, and drag grows with the speed.
+/// Difference to the share of drag alone, without gravity and gas across, up to which it is taken
+/// to be that [1]. Where drag is small the share tells little of it, and drag grows with the speed.
 const DRAG_ALONE: f64 = 0.02;
 
 /// A flat wall as its recorded impacts show it.
@@ -240,8 +241,8 @@ fn decay(share: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Follows a particle from x = 0 in a gas of velocity `gas` along z and of gravity `g` (x, z), with drag of this rate, up to x = `width`
-    /// or back: position, speeds and time.
+    /// Follows a particle from x = 0 in a gas of velocity `gas` along z and of gravity `g` (x, z),
+    /// with drag of this rate, up to x = `width` or back: position, speeds and time.
     fn followed(
         width: f64,
         gas: f64,

@@ -19,14 +19,15 @@ use nearwall::rng::ImpactRng;
 const MOST_REPLAYED: u64 = 20_000;
 /// Probability of capture of the base from which too few parcels go on to stand for the others [1].
 const CERTAIN: f64 = 0.99;
-/// What is doubtful after a flight that begins again, over the square of the relative change of the rebound [1]; assumed.
+/// What is doubtful after a flight that begins again, over the square of the relative change of the
+/// rebound [1]; assumed.
 const FLOWN_AGAIN: f64 = 0.25;
 /// Largest share of a parcel that arrives [1]: one parcel must not stand for more.
 const MOST_SHARE: f64 = 100.0;
 /// Random draws over which the base is averaged.
 const BASE_DRAWS: usize = 64;
-/// Standard errors by which the captures of a record may differ from those of the base model, and the share of its impacts that
-/// may contradict the base model.
+/// Standard errors by which the captures of a record may differ from those of the base model, and
+/// the share of its impacts that may contradict the base model.
 const ERRORS: f64 = 4.5;
 const CONTRADICTIONS: f64 = 1e-3;
 /// Relative change of a rebound up to which it is the recorded one [1].
@@ -83,8 +84,8 @@ enum NextImpact {
 impl ReplayedImpact {
     /// What follows a rebound with these speeds [m/s].
     ///
-    /// The change is that of the normal or the tangential speed, the larger one, at most 1: across the wall it decides when, and whether,
-    /// the next wall is met, along the wall where.
+    /// The change is that of the normal or the tangential speed, the larger one, at most 1: across
+    /// the wall it decides when, and whether, the next wall is met, along the wall where.
     fn next(&self, speeds: [f64; 2]) -> NextImpact {
         let change = |(now, then): (f64, f64)| if now == then { 0.0 } else { (now / then - 1.0).abs() };
         let changes = speeds.into_iter().zip(self.rebound).map(change);
@@ -164,7 +165,8 @@ impl ReplayAccount {
 }
 
 impl ReplayedImpact {
-    /// The random draws depend only on `seed` and the place of the impact, so that predictions change smoothly with a parameter.
+    /// The random draws depend only on `seed` and the place of the impact, so that predictions
+    /// change smoothly with a parameter.
     fn new(
         recorded: &RecordedImpact,
         wall: usize,
@@ -203,7 +205,8 @@ impl Recording {
     /// The recorded impacts of a run, which the base model decides as well; `seed` tells experiments apart.
     ///
     /// # Errors
-    /// [`ReplayError`] for a record without impacts, with another wall, or with an impact that the base model cannot decide.
+    /// [`ReplayError`] for a record without impacts, with another wall, or with an impact that the
+    /// base model cannot decide.
     pub fn new(history: &ImpactHistory, base: &Model, seed: u64) -> Result<Self, ReplayError> {
         let file = || history.file.clone();
         let mut patches: Vec<String> = Vec::new();
@@ -324,7 +327,8 @@ impl Recording {
         Self { impacts, parcels, missed, injected, ..self }
     }
 
-    /// Decides all impacts again. `hit` gets each of them with the share that is doubtful, `end` each parcel after its last one.
+    /// Decides all impacts again. `hit` gets each of them with the share that is doubtful, `end`
+    /// each parcel after its last one.
     ///
     /// # Errors
     /// [`PredictionError`] for an impact that the model cannot decide.
@@ -342,7 +346,8 @@ impl Recording {
         Ok(account.over(self.injected))
     }
 
-    /// The impact of a parcel that a changed flight may have led elsewhere, and its place; `None` where the wall has no impact.
+    /// The impact of a parcel that a changed flight may have led elsewhere, and its place; `None`
+    /// where the wall has no impact.
     fn arrival(&self, one: &ReplayedImpact, landing: Option<Landing>) -> Option<(Impact, Vector3<f64>)> {
         let Some(Landing { speeds, shift }) = landing else { return Some((one.impact, one.position)) };
         let [normal_speed, tangential_speed] = speeds;
@@ -412,8 +417,9 @@ impl Recording {
     }
 }
 
-/// The mass at the injection [kg], and the number of parcels without an impact with the mass of one. The record states no mass of a
-/// parcel at the injection: that of its first impact is taken, and the rest is that of parcels without an impact.
+/// The mass at the injection [kg], and the number of parcels without an impact with the mass of
+/// one. The record states no mass of a parcel at the injection: that of its first impact is taken,
+/// and the rest is that of parcels without an impact.
 fn balance(history: &ImpactHistory, parcels: &mut [Parcel]) -> (f64, (f64, f64)) {
     let arrived: f64 = parcels.iter().map(|parcel| parcel.injected).sum();
     let injected = history.injected_mass.unwrap_or(arrived);

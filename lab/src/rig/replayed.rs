@@ -1,19 +1,23 @@
 //! OpenFOAM's recorded impacts as the forward model of a rig.
 //!
-//! The run's own model, the base, let each parcel go on or caught it; the record holds the impacts up to the capture. A changed law
-//! decides the same impacts again. With the probabilities of capture `b_j` of the base and `p_j` of the changed law, the share of a parcel that
-//! arrives at its impact `i` under the changed law is
+//! The run's own model, the base, let each parcel go on or caught it; the record holds the impacts
+//! up to the capture. A changed law decides the same impacts again. With the probabilities of
+//! capture `b_j` of the base and `p_j` of the changed law, the share of a parcel that arrives at
+//! its impact `i` under the changed law is
 //!
 //! `share_i = prod_{j<i} (1 - p_j)/(1 - b_j)`,
 //!
-//! since the record holds that impact only with the probability `prod_{j<i} (1 - b_j)`. The sums over `share_i p_i` have the expectation of
-//! a run with the changed law, if only capture changes. Two limits, which [`ReplayAccount`] states:
-//! - Where the base holds a parcel with (almost) certainty, the record says nothing about what follows. What the changed law lets go there is
-//!   *without a record*.
-//! - If a rebound changes, later impacts are an approximation. Between flat parallel walls the flight begins again with the new rebound
-//!   ([`RecordedFlight`]): the next impact has other speeds and another place, or is missed. Elsewhere later impacts stay as recorded. The relative
-//!   change of the rebound velocity, of a flight begun again a quarter of its square, is the share of what follows that is doubtful; it adds
-//!   to the variance of the prediction ([`Tally::set_doubt`]).
+//! since the record holds that impact only with the probability `prod_{j<i} (1 - b_j)`. The sums
+//! over `share_i p_i` have the expectation of a run with the changed law, if only capture changes.
+//! Two limits, which [`ReplayAccount`] states:
+//! - Where the base holds a parcel with (almost) certainty, the record says nothing about what
+//!   follows. What the changed law lets go there is *without a record*.
+//! - If a rebound changes, later impacts are an approximation. Between flat parallel walls the
+//!   flight begins again with the new rebound ([`RecordedFlight`]): the next impact has other
+//!   speeds and another place, or is missed. Elsewhere later impacts stay as recorded. The relative
+//!   change of the rebound velocity, of a flight begun again a quarter of its square, is the share
+//!   of what follows that is doubtful; it adds to the variance of the prediction
+//!   ([`Tally::set_doubt`]).
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -187,7 +191,8 @@ impl ReplayedRig {
     }
 }
 
-/// The case of an experiment: the sub-folder of its name. Rows without a name, and a single experiment, may be of `folder` itself.
+/// The case of an experiment: the sub-folder of its name. Rows without a name, and a single
+/// experiment, may be of `folder` itself.
 fn case_of(
     folder: &Path,
     experiment: &Experiment,
@@ -212,8 +217,8 @@ fn case_of(
     Err(ReplayError::NoCase { place: place.to_owned(), folder: own, found })
 }
 
-/// Checks that the patches of all readings are recorded. Where a patch has impacts in another experiment, and none in this one, none
-/// arrived.
+/// Checks that the patches of all readings are recorded. Where a patch has impacts in another
+/// experiment, and none in this one, none arrived.
 fn check_patches(
     data: &RigMeasurements,
     runs: &[Recording],
@@ -289,7 +294,8 @@ mod tests {
 
     const HEADER: &str = "time,x,y,z,origProcId,origId,parcel_age,n_particles,v_n,v_t,d,T_p,patch,wall,injector,mass,regime,outcome,e_n,e_t";
 
-    /// Rebounds with e_n 0.5 and e_t 0.8; captures half of the particles at this temperature, a fifth of those 6.93 K below.
+    /// Rebounds with e_n 0.5 and e_t 0.8; captures half of the particles at this temperature, a
+    /// fifth of those 6.93 K below.
     fn model(temperature: f64, e_n: f64) -> Model {
         let text = format!(
             "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n[normal]\nmodel = \"constant\"\n\
@@ -385,8 +391,9 @@ mod tests {
              captured_from_0.09_to_0.3@floor\n0.5,0.1,0.1,0.1\n",
         );
         let replayed = ReplayedRig::new(folder.path(), &data, &model(350.0, 0.5)).unwrap();
-        // Bounces of 1 s with 1 and 0.5 m/s take 0.5 and 0.25 s with 0.5 and 0.125 m/s. Along the floor the speed grows by 0.2 m/s in
-        // a second: of 0.9 m, 0.1 m in the record, the particle gets 0.425 m and 0.18625 m far.
+        // Bounces of 1 s with 1 and 0.5 m/s take 0.5 and 0.25 s with 0.5 and 0.125 m/s. Along the
+        // floor the speed grows by 0.2 m/s in a second: of 0.9 m, 0.1 m in the record, the particle
+        // gets 0.425 m and 0.18625 m far.
         let predicted = replayed.predict(0, &|_| model(350.0, 0.25)).unwrap();
         for (predicted, expected) in predicted.iter().zip([0.5, 0.25, 0.25, 0.0]) {
             assert!((predicted.value - expected).abs() < 1e-9, "{} {expected}", predicted.value);

@@ -1,10 +1,12 @@
 //! On which numbers the captures of a case depend.
 //!
-//! Every number of the materials in use, of the model's laws and effects and of the case is moved down and up within its range, one at a
-//! time and with the same random numbers, and the captures are computed anew ([`super::Captures`]). The range is the stated one: `low` and
-//! `high` of a fit, or `uncertainty` of a property. Otherwise it is assumed from the quality of the source ([`Quality`]): 10 % with a
-//! source; for an assumed number a factor of 2, for densities, heat and the case's own numbers 25 %, shares as odds, temperatures
-//! 10 or 50 K, angles 5 or 20 degrees. A number that is then refused is moved half as far, and so on.
+//! Every number of the materials in use, of the model's laws and effects and of the case is moved
+//! down and up within its range, one at a time and with the same random numbers, and the captures
+//! are computed anew ([`super::Captures`]). The range is the stated one: `low` and `high` of a fit,
+//! or `uncertainty` of a property. Otherwise it is assumed from the quality of the source
+//! ([`Quality`]): 10 % with a source; for an assumed number a factor of 2, for densities, heat and
+//! the case's own numbers 25 %, shares as odds, temperatures 10 or 50 K, angles 5 or 20 degrees. A
+//! number that is then refused is moved half as far, and so on.
 
 use serde::Serialize;
 use toml_edit::{DocumentMut, Item, Value};

@@ -1,10 +1,13 @@
 //! `nearwall simulate` as the forward model of a rig.
 //!
-//! The base law is followed once, with many particles on their exact paths ([`crate::simulate::follow_exactly`]). For a changed law the difference
-//! from the base is computed with fewer particles, whose flights all laws share ([`crate::simulate::PathTree`]): up to the first contact their paths
-//! do not depend on the wall law, and after it they have the share of their weight that is not caught and the same random numbers, so that
-//! predictions change smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are independent.
-//! Walls with a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random captures.
+//! The base law is followed once, with many particles on their exact paths
+//! ([`crate::simulate::follow_exactly`]). For a changed law the difference from the base is
+//! computed with fewer particles, whose flights all laws share ([`crate::simulate::PathTree`]): up
+//! to the first contact their paths do not depend on the wall law, and after it they have the share
+//! of their weight that is not caught and the same random numbers, so that predictions change
+//! smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are
+//! independent. Walls with a memory (`[deposit]`) have no such paths: their case is run anew for
+//! each law, with its own random captures.
 
 use rayon::prelude::*;
 

@@ -1,8 +1,9 @@
 //! Sums over weighted hits: the observables of a rig with their Monte Carlo error.
 //!
-//! Every observable but a quantile is a ratio of two sums over particles, `sum a / sum b`. Its Monte Carlo variance is that of the
-//! ratio estimator, `n/(n-1) sum (a - r b)² / (sum b)²`, since particles are independent. A quantile is that of the weighted values; its variance
-//! is `q (1 - q) / (n f²)`, with the density `f` from the values around it.
+//! Every observable but a quantile is a ratio of two sums over particles, `sum a / sum b`. Its
+//! Monte Carlo variance is that of the ratio estimator, `n/(n-1) sum (a - r b)² / (sum b)²`, since
+//! particles are independent. A quantile is that of the weighted values; its variance is `q (1 - q)
+//! / (n f²)`, with the density `f` from the values around it.
 
 use crate::dataset::{Restitution, RigQuantity, RigReading};
 use nearwall::impact::{Impact, Outcome};
@@ -34,8 +35,9 @@ pub struct ReadingBlocks {
 }
 
 impl ReadingBlocks {
-    /// A better known value with the difference of these blocks from those of its model. What the difference shares with the blocks' own error is
-    /// gone from its variance; of a quantile half is taken to be shared.
+    /// A better known value with the difference of these blocks from those of its model. What the
+    /// difference shares with the blocks' own error is gone from its variance; of a quantile half
+    /// is taken to be shared.
     pub fn moved(&self, known: &PredictedReading, of_its_model: &Self) -> PredictedReading {
         let difference = self.predicted.value - of_its_model.predicted.value;
         let value = known.value + difference;
@@ -130,7 +132,8 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Sums for these readings; `walls` are the names to which [`TalliedHit::wall`] refers. A wall that is not among them is never hit.
+    /// Sums for these readings; `walls` are the names to which [`TalliedHit::wall`] refers. A wall
+    /// that is not among them is never hit.
     pub fn new(readings: &[RigReading], walls: &[String]) -> Self {
         let line = |reading: &RigReading| ReadingSums {
             quantity: reading.quantity,
@@ -154,8 +157,9 @@ impl Tally {
         }
     }
 
-    /// Of the next hits, this share may happen elsewhere or not at all [1]: a systematic error, of which half counts as a standard
-    /// deviation (assumed). It adds to the variance of what is a ratio, not of quantiles.
+    /// Of the next hits, this share may happen elsewhere or not at all [1]: a systematic error, of
+    /// which half counts as a standard deviation (assumed). It adds to the variance of what is a
+    /// ratio, not of quantiles.
     pub fn set_doubt(&mut self, share: f64) {
         self.doubt = share;
     }
@@ -321,7 +325,8 @@ mod tests {
         }
     }
 
-    /// Ten particles of mass 1 and 3 in turn: the first hit catches half, the rest rebounds with 0.1 i and is caught by the other wall.
+    /// Ten particles of mass 1 and 3 in turn: the first hit catches half, the rest rebounds with
+    /// 0.1 i and is caught by the other wall.
     #[test]
     fn sums_are_those_counted_by_hand() {
         let readings = [

@@ -200,8 +200,8 @@ impl Case {
         injection.model.as_ref().unwrap_or(&self.model)
     }
 
-    /// The injection that a particle comes from, by its index, and its number among the injection's particles. Particles
-    /// are numbered through all injections, in their order.
+    /// The injection that a particle comes from, by its index, and its number among the injection's
+    /// particles. Particles are numbered through all injections, in their order.
     pub(super) fn origin(&self, number: u64) -> Option<(usize, u64)> {
         let mut own = number;
         for (index, injection) in self.injections.iter().enumerate() {

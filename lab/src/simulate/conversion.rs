@@ -1,9 +1,9 @@
 //! Carbon conversion in flight by a simple law, so that the conversion at the wall is not an input.
 //!
-//! `first-order`: `dX/dt = A exp(-E/(R T_p)) (1 - X)`; `fixed-rate`: `dX/dt = rate` until nothing is left.
-//! `X` is the carbon conversion [1]. The law does not resolve oxygen and steam in the gas, diffusion to
-//! the particle, or heat of reaction: its parameters hold for one gas and one coal. [`super::shrinkage`] gives the particle's
-//! size and density.
+//! `first-order`: `dX/dt = A exp(-E/(R T_p)) (1 - X)`; `fixed-rate`: `dX/dt = rate` until nothing
+//! is left. `X` is the carbon conversion [1]. The law does not resolve oxygen and steam in the gas,
+//! diffusion to the particle, or heat of reaction: its parameters hold for one gas and one coal.
+//! [`super::shrinkage`] gives the particle's size and density.
 
 use super::geometry::required_within;
 use super::shrinkage::{DIAMETER_EXPONENT, LARGEST_DIAMETER_EXPONENT};

@@ -1,9 +1,11 @@
 //! A cooled wall of a case: its temperature follows from the deposit on it.
 //!
-//! Table `cooling` of a wall: `coolant_temperature` [K], `coolant_coefficient` [W/(m² K)] (infinite unless given), `thickness` [m] and
-//! `conductivity` [W/(m K)] of the wall (the latter by its material unless given), `gas_coefficient` [W/(m² K)], `gas_temperature`
-//! [K] (that of the case's gas at the wall unless given), `surroundings_temperature` [K] that radiates onto the wall, with the
-//! `emissivity` of its surface [1]. What arriving particles bring is left out: their mass is small against the gas.
+//! Table `cooling` of a wall: `coolant_temperature` [K], `coolant_coefficient` [W/(m² K)] (infinite
+//! unless given), `thickness` [m] and `conductivity` [W/(m K)] of the wall (the latter by its
+//! material unless given), `gas_coefficient` [W/(m² K)], `gas_temperature` [K] (that of the case's
+//! gas at the wall unless given), `surroundings_temperature` [K] that radiates onto the wall, with
+//! the `emissivity` of its surface [1]. What arriving particles bring is left out: their mass is
+//! small against the gas.
 
 use nalgebra::Vector3;
 

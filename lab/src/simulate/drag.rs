@@ -1,8 +1,9 @@
 //! Drag on a sphere (Schiller and Naumann 1933).
 //!
-//! `C_D Re = 24 (1 + 0.15 Re^0.687)` up to `Re = 1000`, `0.44 Re` above, with `Re = rho_g |u - v| d / mu`. The sphere is
-//! rigid, smooth and far from walls and from other particles; lift, added mass and history forces are left out, which
-//! holds for `rho_p >> rho_g`. In a thin gas ([`slip_factor`]) the drag is divided by Cunningham's factor.
+//! `C_D Re = 24 (1 + 0.15 Re^0.687)` up to `Re = 1000`, `0.44 Re` above, with `Re = rho_g |u - v| d
+//! / mu`. The sphere is rigid, smooth and far from walls and from other particles; lift, added mass
+//! and history forces are left out, which holds for `rho_p >> rho_g`. In a thin gas
+//! ([`slip_factor`]) the drag is divided by Cunningham's factor.
 
 /// Drag coefficient times Reynolds number [1] at a Reynolds number [1].
 pub fn coefficient_times_reynolds(reynolds: f64) -> f64 {

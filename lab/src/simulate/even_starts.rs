@@ -1,9 +1,11 @@
 //! Starts of particles that are spread evenly over their distributions, for expectations.
 //!
-//! The states of particles that are drawn at random miss an expectation by their scatter over the root of their number. Here they are the
-//! quantiles of an Owen-scrambled Sobol sequence (Owen, "Scrambled net variance for integrals of smooth functions", Annals of Statistics
-//! 25, 1997): each particle is still a fair draw, but together they leave no gaps, and a mean over them is off by far less. They come in
-//! blocks, each scrambled anew, so that the scatter of the blocks' means tells the error that is left.
+//! The states of particles that are drawn at random miss an expectation by their scatter over the
+//! root of their number. Here they are the quantiles of an Owen-scrambled Sobol sequence (Owen,
+//! "Scrambled net variance for integrals of smooth functions", Annals of Statistics 25, 1997): each
+//! particle is still a fair draw, but together they leave no gaps, and a mean over them is off by
+//! far less. They come in blocks, each scrambled anew, so that the scatter of the blocks' means
+//! tells the error that is left.
 
 use super::case::Case;
 use super::distribution::Distribution;
@@ -33,7 +35,8 @@ impl StartNumbers for SobolPoint {
     }
 }
 
-/// About this number of particles, the same share of each injection as the case has, block by block; at least one of each in each block.
+/// About this number of particles, the same share of each injection as the case has, block by
+/// block; at least one of each in each block.
 pub fn even_starts(case: &Case, particles: u64) -> Vec<Vec<Start>> {
     let all = case.count().max(1) as f64;
     let mut numbers = 0..;

@@ -195,8 +195,9 @@ fn crossing<S: PathSolver>(
     None
 }
 
-/// A time at which the gap is within 0 to `near`, between one with a positive and one with a negative gap. Illinois method: the secant, with the
-/// gap of an end that stays for a second time halved.
+/// A time at which the gap is within 0 to `near`, between one with a positive and one with a
+/// negative gap. Illinois method: the secant, with the gap of an end that stays for a second time
+/// halved.
 fn arrival(
     mut gap: impl FnMut(f64) -> Option<f64>,
     near: f64,

@@ -1,12 +1,15 @@
 //! Heat of fusion of a particle in flight.
 //!
-//! Between `T_m - r/2` and `T_m + r/2` the particle takes up the heat of fusion `L` beside its heat capacity `c_p`, evenly over the
-//! range: an apparent heat capacity `c_p + L/r` there. The integrated quantity is the heat taken up, `H(T)`, as the
-//! temperature `H/c_p` that the particle would have without fusion, so that no step can pass over the range, however narrow;
-//! with `r = 0` the temperature stays at `T_m` until all is molten. Freezing runs the same way back: there is no undercooling.
+//! Between `T_m - r/2` and `T_m + r/2` the particle takes up the heat of fusion `L` beside its heat
+//! capacity `c_p`, evenly over the range: an apparent heat capacity `c_p + L/r` there. The
+//! integrated quantity is the heat taken up, `H(T)`, as the temperature `H/c_p` that the particle
+//! would have without fusion, so that no step can pass over the range, however narrow; with `r = 0`
+//! the temperature stays at `T_m` until all is molten. Freezing runs the same way back: there is no
+//! undercooling.
 //!
-//! `L` [J/kg] of the whole particle, `c_p` [J/(kg K)], `T_m`, `r` [K]. The enthalpy and apparent heat capacity methods are
-//! textbook forms of the same balance (Voller and Cross 1981; not re-read). The particle has one temperature throughout.
+//! `L` [J/kg] of the whole particle, `c_p` [J/(kg K)], `T_m`, `r` [K]. The enthalpy and apparent
+//! heat capacity methods are textbook forms of the same balance (Voller and Cross 1981; not
+//! re-read). The particle has one temperature throughout.
 
 /// Melting of a particle.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -27,17 +27,19 @@ pub fn radiation(emissivity: f64, diameter: f64, surroundings: f64, particle: f6
     emissivity * STEFAN_BOLTZMANN * PI * diameter * diameter * (surroundings.powi(4) - particle.powi(4))
 }
 
-/// Nusselt number [1] in a thin gas (Kavanau 1955; McCoy and Cha 1974): the jump of temperature at the surface in series with
-/// the gas around it,
+/// Nusselt number [1] in a thin gas (Kavanau 1955; McCoy and Cha 1974): the jump of temperature at
+/// the surface in series with the gas around it,
 ///
 /// `Nu = Nu_0 / (1 + (Nu_0/2) G lambda/d)`, `G = 8 gamma/((gamma + 1) alpha Pr)`.
 ///
-/// `dense` is `Nu_0` [1], `mean_free_path` `lambda` [m], `diameter` `d` [m], `prandtl` [1], `accommodation` `alpha` [1] the share
-/// of the exchanged heat that molecules take over on hitting the surface. `gamma` = 1.4, *assumed* (a diatomic gas; 7 % less heat
-/// resistance at 1.2, 7 % more at 5/3). At rest and `lambda >> d` this is the free molecular flux exactly, with
-/// `lambda = mu sqrt(pi R T/2)/p`. Kavanau's form for air, `Nu_0/(1 + 3.42 Nu_0 Ma/(Re Pr))` with `alpha` = 1 and the same
-/// `lambda`, has 3.42 where this has 3.46. Near `lambda << d`, Smoluchowski's jump with `alpha` = 1 is half of this one: there the
-/// correction itself is a few per cent. (McCoy and Cha's formula and Kavanau's coefficient from secondary sources.)
+/// `dense` is `Nu_0` [1], `mean_free_path` `lambda` [m], `diameter` `d` [m], `prandtl` [1],
+/// `accommodation` `alpha` [1] the share of the exchanged heat that molecules take over on hitting
+/// the surface. `gamma` = 1.4, *assumed* (a diatomic gas; 7 % less heat resistance at 1.2, 7 % more
+/// at 5/3). At rest and `lambda >> d` this is the free molecular flux exactly, with `lambda = mu
+/// sqrt(pi R T/2)/p`. Kavanau's form for air, `Nu_0/(1 + 3.42 Nu_0 Ma/(Re Pr))` with `alpha` = 1
+/// and the same `lambda`, has 3.42 where this has 3.46. Near `lambda << d`, Smoluchowski's jump
+/// with `alpha` = 1 is half of this one: there the correction itself is a few per cent. (McCoy and
+/// Cha's formula and Kavanau's coefficient from secondary sources.)
 pub fn thin_gas_nusselt(
     dense: f64,
     mean_free_path: f64,

@@ -154,14 +154,15 @@ impl Injection {
         self.walls.get(of_case).copied().unwrap_or(of_case)
     }
 
-    /// Density of the ash [kg/m³]: that of the case, else that of the model's ash near a temperature [K], else an assumed one.
+    /// Density of the ash [kg/m³]: that of the case, else that of the model's ash near a
+    /// temperature [K], else an assumed one.
     pub(super) fn ash_density(&self, model: &Model, temperature: f64) -> f64 {
         let of_model = || model.ash().and_then(|ash| ash.density_near(temperature).ok());
         self.burning.ash_density.or_else(of_model).unwrap_or(ASH_DENSITY)
     }
 
-    /// What a particle of a diameter and a density before any carbon is gone [m, kg/m³] consists of, with the `temperature` [K]
-    /// of its start.
+    /// What a particle of a diameter and a density before any carbon is gone [m, kg/m³] consists
+    /// of, with the `temperature` [K] of its start.
     ///
     /// # Errors
     /// [`SimulationError`] when its ash does not fit into it, or when no melting point is known.

@@ -1,10 +1,12 @@
 //! Standalone cases: particles in a prescribed gas hit walls until they are captured or gone.
 //!
-//! A [`Case`] is read from a TOML file. [`run_once`] draws its particles and follows each through the gas ([`gas`]) with drag
-//! ([`drag`]), weight and heat ([`heating`]); [`nearwall::Model::resolve`] decides every hit. [`crate::results::standalone`]
-//! sums up the [`Trajectory`]s. Particles do not interact with each other and do not act on the gas. A `[deposit]` gives the walls
-//! a memory: the particles are released over a duration, and at the end of each of its steps the captured ones are added to the walls
-//! ([`DepositSettings`]). Each particle has its own random draws, so that results are the same bits on any number of threads.
+//! A [`Case`] is read from a TOML file. [`run_once`] draws its particles and follows each through
+//! the gas ([`gas`]) with drag ([`drag`]), weight and heat ([`heating`]);
+//! [`nearwall::Model::resolve`] decides every hit. [`crate::results::standalone`] sums up the
+//! [`Trajectory`]s. Particles do not interact with each other and do not act on the gas. A
+//! `[deposit]` gives the walls a memory: the particles are released over a duration, and at the end
+//! of each of its steps the captured ones are added to the walls ([`DepositSettings`]). Each
+//! particle has its own random draws, so that results are the same bits on any number of threads.
 
 mod case;
 mod conversion;
@@ -57,7 +59,8 @@ use wall_deposits::WallDeposits;
 /// Particles that are followed in parallel before their trajectories are handed over in order.
 const BATCH: usize = 4096;
 
-/// Runs a case as it is; `value` is passed on to the observer. Returns what lies on the walls over time, where they keep it.
+/// Runs a case as it is; `value` is passed on to the observer. Returns what lies on the walls over
+/// time, where they keep it.
 ///
 /// # Errors
 /// Those of `observer`, and a deposit that cannot be formed.

@@ -1,9 +1,10 @@
 //! Time that a particle spends near each wall, and in the part of a pipe that belongs to it.
 //!
-//! A particle is near a wall while the gap between its surface and the wall is at most a given distance. The centre is then in a
-//! layer of exactly that thickness, whatever the size of the particle, so that time over volume is a concentration that can be
-//! compared with that in the whole cross-section. Within a step the path is that of the dense output; where the particle comes
-//! near is found by bisection.
+//! A particle is near a wall while the gap between its surface and the wall is at most a given
+//! distance. The centre is then in a layer of exactly that thickness, whatever the size of the
+//! particle, so that time over volume is a concentration that can be compared with that in the
+//! whole cross-section. Within a step the path is that of the dense output; where the particle
+//! comes near is found by bisection.
 
 use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleState, PathSolver, position, reach};
 use super::surface::{Surface, SurfaceKind, SurfaceShape};

@@ -1,7 +1,8 @@
 //! Diameter and density of a particle whose combustible matter reacts away.
 //!
-//! The unburnt particle of volume `V_0` and mass `m_0 = rho_0 V_0` is dense ash of volume `V_ash` and combustible matter around
-//! it. With the carbon conversion `X` and the combustible share `c` of the unburnt mass:
+//! The unburnt particle of volume `V_0` and mass `m_0 = rho_0 V_0` is dense ash of volume `V_ash`
+//! and combustible matter around it. With the carbon conversion `X` and the combustible share `c`
+//! of the unburnt mass:
 //!
 //! ```text
 //! m(X) = m_0 (1 - c X)
@@ -9,16 +10,20 @@
 //! d(X) = (6 V/pi)^(1/3),    rho(X) = m/V
 //! ```
 //!
-//! So the combustible matter has the usual power laws: its size goes as `(1 - X)^a`, its density as `(1 - X)^b` with
-//! `3 a + b = 1`, because its mass goes as `1 - X`. Without ash these are the laws of the whole particle: `a = 1/3` is a core
-//! that shrinks at constant density, `a = 0` a sphere of constant size that becomes lighter. At `X = 1` the particle is a dense
-//! sphere of its ash for every `a > 0`; with `a = 0` it stays a hollow sphere of its first diameter (a cenosphere). The mass, and so
-//! the ash that is left, does not depend on `a`. A particle without combustible matter (`c = 0`) keeps its size.
+//! So the combustible matter has the usual power laws: its size goes as `(1 - X)^a`, its density as
+//! `(1 - X)^b` with `3 a + b = 1`, because its mass goes as `1 - X`. Without ash these are the laws
+//! of the whole particle: `a = 1/3` is a core that shrinks at constant density, `a = 0` a sphere of
+//! constant size that becomes lighter. At `X = 1` the particle is a dense sphere of its ash for
+//! every `a > 0`; with `a = 0` it stays a hollow sphere of its first diameter (a cenosphere). The
+//! mass, and so the ash that is left, does not depend on `a`. A particle without combustible matter
+//! (`c = 0`) keeps its size.
 //!
-//! Symbols: `a`, `b`, `c`, `X` [1], `d` [m], `rho` [kg/m³]. Range: `a` from 0 to 1/3, `rho_ash >= (1 - c) rho_0` (the ash fits into
-//! the particle). Swelling and fragmentation are left out. The default `a` = 0.25 stands for combustion (pore diffusion and
-//! surface together): the Carbon Burnout Kinetics code (Hurt, Sun and Lunden 1998; inputs of public copies, the paper not re-read)
-//! uses `b` = 0.2, so `a` = 0.27, for combustion and `b` = 0.95, so `a` = 0.02, for slow gasification inside the pores.
+//! Symbols: `a`, `b`, `c`, `X` [1], `d` [m], `rho` [kg/m³]. Range: `a` from 0 to 1/3, `rho_ash >=
+//! (1 - c) rho_0` (the ash fits into the particle). Swelling and fragmentation are left out. The
+//! default `a` = 0.25 stands for combustion (pore diffusion and surface together): the Carbon
+//! Burnout Kinetics code (Hurt, Sun and Lunden 1998; inputs of public copies, the paper not
+//! re-read) uses `b` = 0.2, so `a` = 0.27, for combustion and `b` = 0.95, so `a` = 0.02, for slow
+//! gasification inside the pores.
 
 use super::error::SimulationError;
 
@@ -44,8 +49,8 @@ impl Shrinkage {
     /// A particle that keeps size and mass.
     pub const NONE: Self = Self { combustible: 0.0, exponent: 0.0, ash_volume: 1.0 };
 
-    /// The law for a particle of unburnt `density` [kg/m³] with a `combustible` share of its mass [1], the `exponent` `a` [1] and
-    /// the density of its ash [kg/m³].
+    /// The law for a particle of unburnt `density` [kg/m³] with a `combustible` share of its mass
+    /// [1], the `exponent` `a` [1] and the density of its ash [kg/m³].
     ///
     /// # Errors
     /// [`SimulationError::AshTooLarge`] when the ash is larger than the particle.

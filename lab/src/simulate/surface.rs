@@ -1,8 +1,9 @@
 //! Walls and exits: planes, discs and pipes, and how far a point is from them.
 //!
-//! A particle touches a wall when its surface does, that is with its centre at `R = d/2`; it leaves through an exit when
-//! its centre does. OpenFOAM's clouds by default let the centre touch the wall; for a target that is flat on the
-//! scale of a particle the difference is a shift of the hit by one radius.
+//! A particle touches a wall when its surface does, that is with its centre at `R = d/2`; it leaves
+//! through an exit when its centre does. OpenFOAM's clouds by default let the centre touch the
+//! wall; for a target that is flat on the scale of a particle the difference is a shift of the hit
+//! by one radius.
 
 use std::f64::consts::PI;
 
@@ -81,7 +82,8 @@ impl SurfaceShape {
         }
     }
 
-    /// Where its bins begin and end [m]: along the axis of a pipe, from the middle of a disc outwards; `None` without an end.
+    /// Where its bins begin and end [m]: along the axis of a pipe, from the middle of a disc
+    /// outwards; `None` without an end.
     pub fn extent(&self) -> Option<[f64; 2]> {
         match *self {
             Self::Plane { radius, .. } => radius.map(|radius| [0.0, radius]),

@@ -208,8 +208,8 @@ impl<'a> Tracker<'a> {
         surface.ok_or(Fate::Airborne)
     }
 
-    /// Spin dies out exponentially; the gas's viscosity is that at the end of the flight, and in a thin gas the torque is
-    /// taken to be less by the same factor as the drag.
+    /// Spin dies out exponentially; the gas's viscosity is that at the end of the flight, and in a
+    /// thin gas the torque is taken to be less by the same factor as the drag.
     fn let_spin_decay(&mut self, duration: f64, end: &ParticleState) {
         let gas = self.case.gas.at(&position(end));
         let body = &self.motion.body;

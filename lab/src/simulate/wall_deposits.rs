@@ -1,13 +1,15 @@
 //! The memory of the walls: a `[deposit]` in a case.
 //!
-//! The particles of each injection are released evenly over the duration of the feed. The duration has equal steps.
-//! Particles that are released in a step meet the walls as they were at its beginning; at its end the captured ones are
-//! added ([`nearwall::Model::add_captured`], [`Deposit::with`]) and the carbon of the powder burns for the length of the step,
-//! by the case's law of conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over the step. Then the processes
-//! of [`nearwall::deposit::PROCESSES`] act ([`nearwall::Model::advance`]).
-//! So the flight has to be short against a step, and what one step adds has to be small. The sums go in the order of the
-//! particles, so that they do not depend on the number of threads. A wall has equal bins along a pipe, or rings of equal
-//! width on a disc; each is one [`Deposit`].
+//! The particles of each injection are released evenly over the duration of the feed. The duration
+//! has equal steps. Particles that are released in a step meet the walls as they were at its
+//! beginning; at its end the captured ones are added ([`nearwall::Model::add_captured`],
+//! [`Deposit::with`]) and the carbon of the powder burns for the length of the step, by the case's
+//! law of conversion at the temperature of the wall ([`burn_off`]), while they arrive evenly over
+//! the step. Then the processes of [`nearwall::deposit::PROCESSES`] act
+//! ([`nearwall::Model::advance`]). So the flight has to be short against a step, and what one step
+//! adds has to be small. The sums go in the order of the particles, so that they do not depend on
+//! the number of threads. A wall has equal bins along a pipe, or rings of equal width on a disc;
+//! each is one [`Deposit`].
 
 use nalgebra::Vector3;
 
@@ -184,8 +186,9 @@ impl WallDeposits {
 }
 
 impl Bin {
-    /// What was captured arrives evenly over the step while the powder burns: sub-steps of half the burning, a part of the
-    /// captured particles, and the other half. Returns the mass that burns [kg/m²].
+    /// What was captured arrives evenly over the step while the powder burns: sub-steps of half the
+    /// burning, a part of the captured particles, and the other half. Returns the mass that burns
+    /// [kg/m²].
     fn end_step(
         &mut self,
         case: &Case,

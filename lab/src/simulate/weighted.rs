@@ -1,13 +1,16 @@
 //! Expected hits: a particle that a wall catches with a probability flies on with the rest of its weight.
 //!
-//! [`crate::simulate::run_once`] decides every capture by a random number. For an expectation that is noise, and it makes the result jump
-//! where a parameter changes. Here a hit with the probability `p` catches the share `p` of what is left of the particle, and `1 - p` flies
-//! on, until almost nothing is left.
+//! [`crate::simulate::run_once`] decides every capture by a random number. For an expectation that
+//! is noise, and it makes the result jump where a parameter changes. Here a hit with the
+//! probability `p` catches the share `p` of what is left of the particle, and `1 - p` flies on,
+//! until almost nothing is left.
 //!
-//! [`follow_exactly`] follows one particle so. To compare many models, their flights are shared, which is what takes time ([`PathTree`]): the
-//! path up to the first contact does not depend on the model; a rebound flies on with the middle of the cell of a grid into which its
-//! restitutions and its spin fall. The grid is shifted for every particle, so that the differences from the middle average out. Where a
-//! threshold is sharp some bias is left, which nearly cancels in differences between models.
+//! [`follow_exactly`] follows one particle so. To compare many models, their flights are shared,
+//! which is what takes time ([`PathTree`]): the path up to the first contact does not depend on the
+//! model; a rebound flies on with the middle of the cell of a grid into which its restitutions and
+//! its spin fall. The grid is shifted for every particle, so that the differences from the middle
+//! average out. Where a threshold is sharp some bias is left, which nearly cancels in differences
+//! between models.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -105,8 +108,8 @@ pub fn follow_exactly(
 }
 
 impl<'a> PathTree<'a> {
-    /// At most `particles` particles of a case at their first contacts, evenly over all injections, which are numbered one after the
-    /// other; or why one cannot be followed.
+    /// At most `particles` particles of a case at their first contacts, evenly over all injections,
+    /// which are numbered one after the other; or why one cannot be followed.
     pub fn sample(case: &'a Case, particles: u64) -> Vec<Result<Self, SimulationError>> {
         let count = case.count();
         let wanted = particles.min(count).max(1);
@@ -212,7 +215,8 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// Decides the hit and hands it over; `share` of the particle arrives, and then flies on. `None` when hardly anything does.
+    /// Decides the hit and hands it over; `share` of the particle arrives, and then flies on.
+    /// `None` when hardly anything does.
     fn decide(
         &self,
         model: &Model,

@@ -1,5 +1,6 @@
-//! The binary interface of the C library, as `cpp_shim/abi.txt` keeps it: symbols, sizes and places of struct fields, numbers,
-//! prototypes. Any change needs another `NW_ABI_VERSION`, because programs that were built before would go wrong.
+//! The binary interface of the C library, as `cpp_shim/abi.txt` keeps it: symbols, sizes and places
+//! of struct fields, numbers, prototypes. Any change needs another `NW_ABI_VERSION`, because
+//! programs that were built before would go wrong.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;

@@ -1,5 +1,5 @@
-//! The law `maw-barber-fawcett` and the effect `tangential-compliance` beside elastic theory: Hertz along the normal, Mindlin along
-//! the wall, partial slip.
+//! The law `maw-barber-fawcett` and the effect `tangential-compliance` beside elastic theory: Hertz
+//! along the normal, Mindlin along the wall, partial slip.
 
 use std::f64::consts::PI;
 
@@ -98,8 +98,8 @@ fn law(impact: &ImpactKinematics) -> Result<Rebound> {
     Ok(TangentialLaw::Listed { law, values: [WAX_ON_PYREX_FRICTION, 0.0, 0.0, 0.0] }.rebound(impact))
 }
 
-/// How far the law is from the integrated theory, over stiffness ratios, angles and spins: speed along the wall and speed of the rim,
-/// in units of the slip before the impact [1].
+/// How far the law is from the integrated theory, over stiffness ratios, angles and spins: speed
+/// along the wall and speed of the rim, in units of the slip before the impact [1].
 fn law_from_theory(extent: Extent) -> Result<f64> {
     let mut largest = 0.0f64;
     for k in [2.0 / 3.0, 0.676, 0.78, 0.91, 1.0] {
@@ -128,8 +128,8 @@ struct ComplianceFit {
 }
 
 impl ComplianceFit {
-    /// Least squares over evenly spaced angles: `near_normal` enters linearly, the exponent is looked for on a fine ladder within its
-    /// bounds (0.05 to 20).
+    /// Least squares over evenly spaced angles: `near_normal` enters linearly, the exponent is
+    /// looked for on a fine ladder within its bounds (0.05 to 20).
     fn new(k: f64, points: &[[f64; 2]]) -> Result<Self> {
         let mut best: Option<Self> = None;
         for exponent in even_in_logarithm([0.05, 20.0], 300) {
@@ -343,8 +343,8 @@ fn the_papers_number(compared: &Compared) -> Claim {
     ))
 }
 
-/// Frequency along the wall over frequency along the normal, squared [1], at the deepest point of a fully plastic impact of 1 m/s:
-/// `m v²/2 = pi R p_y delta²`.
+/// Frequency along the wall over frequency along the normal, squared [1], at the deepest point of a
+/// fully plastic impact of 1 m/s: `m v²/2 = pi R p_y delta²`.
 fn plastic_swing(contact: &Contact) -> f64 {
     let radius = 0.5 * WAX_PARTICLE_DIAMETER;
     let mass = 4.0 / 3.0 * PI * radius.powi(3) * contact.density;

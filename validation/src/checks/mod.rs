@@ -74,8 +74,9 @@ mod tests {
     use super::*;
     use crate::claim::Verdict;
 
-    /// What differs is what is known to: the elastic theory of tangential compliance against the assumed one and the paper's
-    /// 0.85, the published sticking velocity of ammonium fluorescein, and the measured resuspension.
+    /// What differs is what is known to: the elastic theory of tangential compliance against the
+    /// assumed one and the paper's 0.85, the published sticking velocity of ammonium fluorescein,
+    /// and the measured resuspension.
     #[test]
     fn only_what_is_known_differs() {
         let study = study(Extent::Short).unwrap();

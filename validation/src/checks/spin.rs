@@ -81,7 +81,8 @@ fn in_window(case: &GlancingImpact, k: f64) -> bool {
     (0.5 * (7.0 - 1.0 / k)..=STICKS).contains(&case.slip())
 }
 
-/// Angles from the surface [degrees] at which sliding ends without spin: of the rigid sphere, and as the library has it.
+/// Angles from the surface [degrees] at which sliding ends without spin: of the rigid sphere, and
+/// as the library has it.
 struct SlidingEnds {
     rigid: f64,
     library: f64,

@@ -220,7 +220,8 @@ impl Cases {
         (0..SETS.len()).map(|set| [0, 1].map(|spread| self.share(hold, set, spread))).collect()
     }
 
-    /// Share of a set's impacts that stick. `v_s` falls smoothly with the diameter: drawn straight between nine of them.
+    /// Share of a set's impacts that stick. `v_s` falls smoothly with the diameter: drawn straight
+    /// between nine of them.
     fn share(&self, hold: Hold, set: usize, spread: usize) -> f64 {
         const PIECES: usize = 8;
         let [small, _, large] = SETS[set].size.map(|size| size * 1e-6);

@@ -93,8 +93,8 @@ fn friction_of_set_4(plain: &Model, drawn: &Drawn) -> Result<f64> {
     Ok(0.5 * (low + high))
 }
 
-/// Largest mu with which half of campaigns like set 1 keep the least e_t above the printed 0.61: the smallest of n angles lies at
-/// the quantile `1 - 2^(-1/n)`.
+/// Largest mu with which half of campaigns like set 1 keep the least e_t above the printed 0.61:
+/// the smallest of n angles lies at the quantile `1 - 2^(-1/n)`.
 fn friction_bound(plain: &Model, drawn: &Drawn) -> Result<f64> {
     let mut largest = Vec::new();
     let allowed = 1.0 - SETS[0].least_e_t.unwrap_or(0.0);
@@ -252,8 +252,8 @@ fn end_of_sliding(plain: &Model) -> Result<f64> {
     Ok(1.0 - 2.0 * k / (7.0 * k - 1.0))
 }
 
-/// Energy lost along the wall over energy lost towards it, with the printed mean e_t. What a sphere gains as spin is not lost:
-/// friction gives it `R omega = 5/2 (1 - e_t) v_t`.
+/// Energy lost along the wall over energy lost towards it, with the printed mean e_t. What a sphere
+/// gains as spin is not lost: friction gives it `R omega = 5/2 (1 - e_t) v_t`.
 fn dissipation(plain: &Model, drawn: &Drawn) -> Result<Vec<Claim>> {
     let mut claims = Vec::new();
     for (set, impacts) in SETS.iter().zip(drawn) {

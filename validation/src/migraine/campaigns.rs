@@ -204,8 +204,8 @@ fn table_of(both: &Both) -> Table {
 /// Mean error over the unseen sets before and after, and the gain with its 5 and 95 %.
 type CampaignGain = ([f64; 2], [f64; 3]);
 
-/// One for each observable, over both spreads. Published shares are drawn anew from their counts for each campaign, so that the interval
-/// holds the luck of both.
+/// One for each observable, over both spreads. Published shares are drawn anew from their counts
+/// for each campaign, so that the interval holds the luck of both.
 fn gains(both: &Both) -> Vec<CampaignGain> {
     let replicates = both[0][0][0].len();
     let gain = |(place, observable): (usize, &CampaignObservable)| {

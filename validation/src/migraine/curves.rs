@@ -1,4 +1,5 @@
-//! Normal restitution against speed (Figs 1, 3 to 6), and what a yield strength that nobody knows makes of `p_y = 4 sigma_y`.
+//! Normal restitution against speed (Figs 1, 3 to 6), and what a yield strength that nobody knows
+//! makes of `p_y = 4 sigma_y`.
 
 use nearwall::Model;
 use nearwall::normal::{Contact, NormalLaw, plastic_term, restitution, yield_velocity};

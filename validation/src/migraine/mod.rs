@@ -1,17 +1,21 @@
-//! Tungsten dust on tungsten in Pilot-PSI: the paper that calibrated MIGRAINE's impact model, gone through statement by statement.
+//! Tungsten dust on tungsten in Pilot-PSI: the paper that calibrated MIGRAINE's impact model, gone
+//! through statement by statement.
 //!
-//! How to read it. The paper's figures were not at hand, only its text: counts, ranges, means. `published.rs` holds each of these
-//! once. The parts follow the paper:
-//! - `curves.rs`: `e_n` against `v_n` (Figs 1, 3 to 6), what the unknown yield strength does, what `p_y` the counts allow;
+//! How to read it. The paper's figures were not at hand, only its text: counts, ranges, means.
+//! `published.rs` holds each of these once. The parts follow the paper:
+//! - `curves.rs`: `e_n` against `v_n` (Figs 1, 3 to 6), what the unknown yield strength does, what
+//!   `p_y` the counts allow;
 //! - `adhesion.rs`: work of adhesion, sticking velocity, and whether any of it explains the sticking counts;
 //! - `along.rs`: the laws of `e_t` (Fig 2, Eq. 4);
 //! - `roughness.rs`: the two probabilistic models;
 //! - `oblique.rs`: set 4;
 //! - `doublets.rs`: rigid doublets, followed hit by hit (`rigid_doublet.rs`);
 //! - `molten.rs`: set 6;
-//! - `campaigns.rs`: all sets drawn again, under the old and the calibrated model; what is fitted, what is predicted, the gain.
+//! - `campaigns.rs`: all sets drawn again, under the old and the calibrated model; what is fitted,
+//!   what is predicted, the gain.
 //!
-//! Model files stand in `validation/migraine/`; copy them. All chance comes from `nearwall::ImpactRng` with the seeds named on the page.
+//! Model files stand in `validation/migraine/`; copy them. All chance comes from
+//! `nearwall::ImpactRng` with the seeds named on the page.
 
 mod adhesion;
 mod along;

@@ -53,7 +53,8 @@ impl MeltTried {
     }
 }
 
-/// Temperatures by speeds. The speeds of set 6 are not printed; those of set 5, the same size in the same plasma, stand in.
+/// Temperatures by speeds. The speeds of set 6 are not printed; those of set 5, the same size in
+/// the same plasma, stand in.
 fn sweep(model: &Model) -> Result<Vec<MeltTried>> {
     let [slowest, fastest] = SETS[4].normal;
     let mut tried = Vec::new();

@@ -78,8 +78,8 @@ fn figure(plain: &Model) -> Result<Figure> {
     ))
 }
 
-/// For each strength: the fraction of agglomerates with which set 1 has its published share below 0.6, and the share of campaigns like
-/// set 4 in which all 41 rebounds lie below.
+/// For each strength: the fraction of agglomerates with which set 1 has its published share below
+/// 0.6, and the share of campaigns like set 4 in which all 41 rebounds lie below.
 fn strengths(plain: &Model, extent: Extent) -> Result<Table> {
     let replicates = extent.count(1000) as u64;
     let mut rows = Vec::new();

@@ -1,23 +1,28 @@
 //! A rigid doublet: two equal spheres that hit a smooth plane as one body.
 //!
-//! Each sphere has the mass `m` and the radius `R`; the doublet has the mass `M = 2 m` and, about an axis across the line of
-//! centres, the moment of inertia `I = 2 (2/5 m R² + m R²) = 14/5 m R²`. Without friction the wall pushes along its normal
-//! only. The end that hits has its centre at the lever arm `b = R sin(phi)` beside the common centre (`phi` is the angle of the
-//! line of centres from the normal), and closes on the wall with the speed `c`:
+//! Each sphere has the mass `m` and the radius `R`; the doublet has the mass `M = 2 m` and, about
+//! an axis across the line of centres, the moment of inertia `I = 2 (2/5 m R² + m R²) = 14/5 m R²`.
+//! Without friction the wall pushes along its normal only. The end that hits has its centre at the
+//! lever arm `b = R sin(phi)` beside the common centre (`phi` is the angle of the line of centres
+//! from the normal), and closes on the wall with the speed `c`:
 //! - effective mass `1/m* = 1/M + b²/I`, so `m*/m = 1/(1/2 + 5/14 sin²(phi))`, from 2 end-on to 7/6 flat;
 //! - impulse `J = (1 + e) c m*`; the centre gains `J/M` away from the wall, the spin `J b/I`;
 //! - between hits the body flies and turns freely; the ends hit in turn until it leaves.
 //!
-//! Without spin and with a single hit the centre of mass has `e_cm = (1 + e)/(1 + M b²/I) - 1`, below `e`: the difference
-//! turns the doublet, and a second hit of the other end may return part of it.
+//! Without spin and with a single hit the centre of mass has `e_cm = (1 + e)/(1 + M b²/I) - 1`,
+//! below `e`: the difference turns the doublet, and a second hit of the other end may return part
+//! of it.
 //!
-//! The contact is that of one sphere of radius `R` with the mass `m*` in place of `m`. `v_y` and `v_adh` of Thornton & Ning are
-//! proportional to `m^(-1/2)` at a given `R`, so they are those of a sphere of density `rho m*/m` ([`contact_restitution`]).
+//! The contact is that of one sphere of radius `R` with the mass `m*` in place of `m`. `v_y` and
+//! `v_adh` of Thornton & Ning are proportional to `m^(-1/2)` at a given `R`, so they are those of a
+//! sphere of density `rho m*/m` ([`contact_restitution`]).
 //!
-//! Symbols: `e` contact restitution [1], `v` speed of the centre [m/s], `omega` spin [rad/s]. Rigid-body mechanics (Newton's
-//! impulse law at each contact), no fit. Valid for a neck that neither bends nor breaks, contacts short against one turn, and
-//! smooth walls. Limits: without friction neither the speed along the wall nor the spin about the line of centres changes (the
-//! latter is left out); flat impacts hit the two ends in turn rather than at once; gravity is left out.
+//! Symbols: `e` contact restitution [1], `v` speed of the centre [m/s], `omega` spin [rad/s].
+//! Rigid-body mechanics (Newton's impulse law at each contact), no fit. Valid for a neck that
+//! neither bends nor breaks, contacts short against one turn, and smooth walls. Limits: without
+//! friction neither the speed along the wall nor the spin about the line of centres changes (the
+//! latter is left out); flat impacts hit the two ends in turn rather than at once; gravity is left
+//! out.
 
 use std::f64::consts::TAU;
 
@@ -66,17 +71,19 @@ pub fn effective_mass(axis_normal: f64) -> f64 {
 
 /// Restitution [1] of one contact after Thornton & Ning; `None` when adhesion holds it.
 ///
-/// `diameter` [m] is that of one sphere, `speed` [m/s] the closing speed of its surface, `effective_mass` [1] the result of
-/// [`effective_mass`].
+/// `diameter` [m] is that of one sphere, `speed` [m/s] the closing speed of its surface,
+/// `effective_mass` [1] the result of [`effective_mass`].
 pub fn contact_restitution(contact: &Contact, diameter: f64, speed: f64, effective_mass: f64) -> Option<f64> {
     let contact = Contact { density: contact.density * effective_mass, ..*contact };
     NormalLaw::ThorntonNing.restitution(&contact, diameter, speed)
 }
 
-/// Follows a doublet of spheres of `radius` [m] from where its centre is `2 R` above the wall, out of reach, until it leaves;
-/// `None` when adhesion holds a contact or the doublet comes to rest. `arriving.axis` is its orientation there.
+/// Follows a doublet of spheres of `radius` [m] from where its centre is `2 R` above the wall, out
+/// of reach, until it leaves; `None` when adhesion holds a contact or the doublet comes to rest.
+/// `arriving.axis` is its orientation there.
 ///
-/// `restitution` gives the contact's `e` [1] from the closing speed [m/s] and the effective mass `m*/m` [1]; `None` holds.
+/// `restitution` gives the contact's `e` [1] from the closing speed [m/s] and the effective mass
+/// `m*/m` [1]; `None` holds.
 pub fn rebound(
     arriving: &DoubletMotion,
     radius: f64,
@@ -131,8 +138,8 @@ impl DoubletFlight {
         touches.into_iter().flatten().min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Time [s] until this end touches. Its gap is a line plus a sine and is monotonic between turning points, which are known:
-    /// no touch is missed.
+    /// Time [s] until this end touches. Its gap is a line plus a sine and is monotonic between
+    /// turning points, which are known: no touch is missed.
     fn touch(&self, end: f64) -> Option<f64> {
         let DoubletMotion { speed, axis, spin } = self.motion;
         let rate = dot(spin, spin).sqrt();
@@ -308,8 +315,9 @@ mod tests {
         assert!(rebound(&flat, R, |speed, _| (speed > 0.9).then_some(0.1)).is_none());
     }
 
-    /// Another way to the same: two soft springs at the ends, followed in small steps. Stiff springs tend to perfect hits; cases where
-    /// ends touch almost at once are left out, since there a spring and a sequence of hits differ.
+    /// Another way to the same: two soft springs at the ends, followed in small steps. Stiff
+    /// springs tend to perfect hits; cases where ends touch almost at once are left out, since
+    /// there a spring and a sequence of hits differ.
     #[test]
     fn springs_in_small_steps_say_the_same() {
         let mut compared = 0;

@@ -1,5 +1,6 @@
-//! Impacts drawn as a set's printed ranges allow. The paper prints ranges, a mean angle and most probable sizes, no distributions: two
-//! assumptions stand side by side, so that a reader sees what they are worth.
+//! Impacts drawn as a set's printed ranges allow. The paper prints ranges, a mean angle and most
+//! probable sizes, no distributions: two assumptions stand side by side, so that a reader sees what
+//! they are worth.
 
 use crate::Result;
 use nearwall::{Impact, ImpactRng};

@@ -1,5 +1,6 @@
-//! A sphere carried along a line by air: Runge and Kutta's classical method, fixed step, Schiller and Naumann's drag and
-//! Ranz and Marshall's heat; for Stokes' drag in a steady stream also the closed form.
+//! A sphere carried along a line by air: Runge and Kutta's classical method, fixed step, Schiller
+//! and Naumann's drag and Ranz and Marshall's heat; for Stokes' drag in a steady stream also the
+//! closed form.
 //!
 //! `dx/dt = v`, `dv/dt = (18 mu/(rho d²)) (1 + 0.15 Re^0.687) (u - v) + g (1 - rho_a/rho)`, `Re = rho_a |u - v| d/mu`,
 //! `dT/dt = 6 Nu k/(rho c d²) (T_a - T)`, `Nu = 2 + 0.6 Re^½ Pr^⅓`. SI units.
@@ -23,7 +24,8 @@ pub struct Air {
 const AIR_HEAT: f64 = 1007.0;
 
 impl Air {
-    /// Ideal gas of 28.96 g/mol; Sutherland's viscosity; conductivity from 0.0243 at 0 °C to 0.0335 W/(m K) at 130 °C (handbook).
+    /// Ideal gas of 28.96 g/mol; Sutherland's viscosity; conductivity from 0.0243 at 0 °C to 0.0335
+    /// W/(m K) at 130 °C (handbook).
     pub fn at(temperature: f64) -> Self {
         Self {
             temperature,
@@ -152,7 +154,8 @@ pub fn terminal_speed(diameter: f64, air: &Air) -> f64 {
     })
 }
 
-/// Speed [m/s] and way [m] after `time` [s] of a sphere that starts with `first` [m/s] towards `last` [m/s] with Stokes' drag.
+/// Speed [m/s] and way [m] after `time` [s] of a sphere that starts with `first` [m/s] towards
+/// `last` [m/s] with Stokes' drag.
 pub fn stokes_closed_form(first: f64, last: f64, relaxation: f64, time: f64) -> [f64; 2] {
     let left = (-time / relaxation).exp();
     [last + (first - last) * left, last * time + (first - last) * relaxation * (1.0 - left)]

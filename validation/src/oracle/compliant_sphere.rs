@@ -1,19 +1,23 @@
 //! An elastic sphere with a compliant contact and friction hits a plane: integration over time.
 //!
-//! The problem of Maw, Barber & Fawcett (Wear 38 (1976) 101): Hertz's contact along the normal, Mindlin's stiffness along
-//! the wall, Coulomb friction at every point of the contact, so that an outer ring slips while the middle sticks. It is
-//! solved by the mapping of a round contact to a row of independent springs (Popov & Heß, Method of Dimensionality
-//! Reduction, 2015), which is exact for Hertz's normal contact and, for any history of loads, for the partial slip of
-//! Cattaneo and Mindlin: the spring at `x` carries `E* dx (delta - x²/R)` along the normal and `k E* dx w(x)` along the wall,
-//! no more than `f` times the former; `w` is its stretch, which follows the slip until friction gives. A spring that leaves the
-//! contact forgets its stretch.
+//! The problem of Maw, Barber & Fawcett (Wear 38 (1976) 101): Hertz's contact along the normal,
+//! Mindlin's stiffness along the wall, Coulomb friction at every point of the contact, so that an
+//! outer ring slips while the middle sticks. It is solved by the mapping of a round contact to a
+//! row of independent springs (Popov & Heß, Method of Dimensionality Reduction, 2015), which is
+//! exact for Hertz's normal contact and, for any history of loads, for the partial slip of Cattaneo
+//! and Mindlin: the spring at `x` carries `E* dx (delta - x²/R)` along the normal and `k E* dx
+//! w(x)` along the wall, no more than `f` times the former; `w` is its stretch, which follows the
+//! slip until friction gives. A spring that leaves the contact forgets its stretch.
 //!
-//! `delta` approach [m], `E*` reduced modulus [Pa], `k` Mindlin's ratio of tangential to normal stiffness [1], `f` friction
-//! [1], `s = u - omega d/2` slip speed [m/s]. SlipMotion: `m d²delta/dt² = -F_n`, `m du/dt = -F_t`, `m ds/dt = -(7/2) F_t` (sphere).
-//! What comes out depends on `k` and on `psi = k s/(f v_n)` alone; units are chosen so that mass, `v_n`, `R` and `E*` are one.
+//! `delta` approach [m], `E*` reduced modulus [Pa], `k` Mindlin's ratio of tangential to normal
+//! stiffness [1], `f` friction [1], `s = u - omega d/2` slip speed [m/s]. SlipMotion: `m
+//! d²delta/dt² = -F_n`, `m du/dt = -F_t`, `m ds/dt = -(7/2) F_t` (sphere). What comes out depends
+//! on `k` and on `psi = k s/(f v_n)` alone; units are chosen so that mass, `v_n`, `R` and `E*` are
+//! one.
 //!
-//! Limits: elastic (`e_n = 1`), quasi-static, similar materials in the sense that normal and tangential tractions do not couple
-//! (exact for equal solids, or Poisson's ratio one half), friction the same at rest and in motion.
+//! Limits: elastic (`e_n = 1`), quasi-static, similar materials in the sense that normal and
+//! tangential tractions do not couple (exact for equal solids, or Poisson's ratio one half),
+//! friction the same at rest and in motion.
 
 /// A contact and how finely it is integrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,8 +100,9 @@ impl CompliantSphere {
         }
     }
 
-    /// Tangential force over friction times normal force [1] when the contact is pressed to `depth` and then sheared by `shear`
-    /// (both in units of `R`), standing still: for comparison with Mindlin.
+    /// Tangential force over friction times normal force [1] when the contact is pressed to `depth`
+    /// and then sheared by `shear` (both in units of `R`), standing still: for comparison with
+    /// Mindlin.
     pub fn sheared(&self, friction: f64, depth: f64, shear: f64) -> f64 {
         let width = depth.sqrt() / self.springs as f64;
         let (mut normal, mut tangential) = (0.0, 0.0);
@@ -172,8 +177,8 @@ mod tests {
         }
     }
 
-    /// A contact without tangential stiffness takes nothing; a very stiff one is the rigid sphere, which leaves rolling.
-    /// What is left to swing falls with `1/sqrt(k)`, its period.
+    /// A contact without tangential stiffness takes nothing; a very stiff one is the rigid sphere,
+    /// which leaves rolling. What is left to swing falls with `1/sqrt(k)`, its period.
     #[test]
     fn soft_and_stiff_limits() {
         assert!(sphere(1e-5).impact(0.3, 0.5).impulse < 1e-3);

@@ -5,10 +5,11 @@
 //! `delta(a) = a²/R - sqrt(2 pi W a/E*)` [m], positive where they overlap. `R` radius of the sphere [m], `E*` reduced
 //! modulus [Pa], `W` work of adhesion [J/m²].
 //!
-//! The impact, as Thornton & Ning let it run: contact forms at `delta = 0`, where the force snaps to that of `a_0` with
-//! `delta(a_0) = 0` (no displacement, no work); in and out along the curve, past zero load, until the contact cannot be
-//! kept even with the displacement held (`d delta/da = 0`, "fixed grips"), where it opens at once. The work of a piece of
-//! the curve is `∫ F d delta`. With `x = sqrt(a)` both are polynomials, which Gauss–Legendre sums are good at.
+//! The impact, as Thornton & Ning let it run: contact forms at `delta = 0`, where the force snaps
+//! to that of `a_0` with `delta(a_0) = 0` (no displacement, no work); in and out along the curve,
+//! past zero load, until the contact cannot be kept even with the displacement held (`d delta/da =
+//! 0`, "fixed grips"), where it opens at once. The work of a piece of the curve is `∫ F d delta`.
+//! With `x = sqrt(a)` both are polynomials, which Gauss–Legendre sums are good at.
 //!
 //! Limits: quasi-static, no waves, no plasticity, surface forces of no range.
 
@@ -173,7 +174,8 @@ mod tests {
         assert!((ours / expected - 1.0).abs() < relative, "{ours} against {expected}");
     }
 
-    /// JKR's own landmarks: pull-off 3 pi W R/2 at fixed load, 5/9 of it at fixed grips, 8/9 of it when the contact forms.
+    /// JKR's own landmarks: pull-off 3 pi W R/2 at fixed load, 5/9 of it at fixed grips, 8/9 of it
+    /// when the contact forms.
     #[test]
     fn landmarks_of_the_curve() {
         let sphere = Jkr { radius: 2.0, density: 3.0, reduced_modulus: 5.0, work_of_adhesion: 0.7 };

@@ -1,16 +1,19 @@
 //! One normal impact of an adhesive, elastic–perfectly plastic sphere on a plane, followed through time.
 //!
 //! The contact is that of Thornton & Ning (Powder Technology 99 (1998) 154), and nothing is solved in closed form:
-//! - Loading: `delta = a²/R - sqrt(2πWa/E*)` (JKR), from `delta = 0`. The force is the integral over the contact of
-//!   the JKR pressure `p0 u - p1/u`, cut off at `p_y`; `u = sqrt(1 - r²/a²)`, `p0 = 2E*a/πR`, `p1 = sqrt(2WE*/πa)`. So adhesion
-//!   enters the yield criterion: it takes `p1` from the Hertz pressure at the centre, where yield begins.
+//! - Loading: `delta = a²/R - sqrt(2πWa/E*)` (JKR), from `delta = 0`. The force is the integral
+//!   over the contact of the JKR pressure `p0 u - p1/u`, cut off at `p_y`; `u = sqrt(1 - r²/a²)`,
+//!   `p0 = 2E*a/πR`, `p1 = sqrt(2WE*/πa)`. So adhesion enters the yield criterion: it takes `p1`
+//!   from the Hertz pressure at the centre, where yield begins.
 //! - Unloading: JKR with the radius of curvature `R_p` that has the same force at the same `a` where the motion turns.
 //! - The particle is free when `delta` has come to its minimum on that curve, and stuck when it stops before.
 //!
-//! Equations of motion `m dv/dt = -F`, `d delta/dt = v` for the sphere's mass `m = (4/3)πrho R³`. The state is the root of the
-//! contact radius, since `delta` and `F` are smooth in it, and the clock `tau` has `dt = (d delta/d sqrt(a)) dtau`, since that
-//! derivative vanishes where the contact parts. Dormand & Prince's pair of orders 5 and 4 with error control;
-//! `tolerance` is the error of a step relative to the state. The points of yield, turning and parting are hit to rounding.
+//! Equations of motion `m dv/dt = -F`, `d delta/dt = v` for the sphere's mass `m = (4/3)πrho R³`.
+//! The state is the root of the contact radius, since `delta` and `F` are smooth in it, and the
+//! clock `tau` has `dt = (d delta/d sqrt(a)) dtau`, since that derivative vanishes where the
+//! contact parts. Dormand & Prince's pair of orders 5 and 4 with error control; `tolerance` is the
+//! error of a step relative to the state. The points of yield, turning and parting are hit to
+//! rounding.
 
 use std::f64::consts::PI;
 
@@ -44,7 +47,8 @@ pub struct Bounce {
     pub plastic_loss: f64,
     /// Energy that the contact kept, over the kinetic energy of the impact [1]: the work of parting where it parts.
     pub adhesive_loss: f64,
-    /// Kinetic energy of the impact less that of the rebound and the losses, relative to it [1]: an error of integration.
+    /// Kinetic energy of the impact less that of the rebound and the losses, relative to it [1]: an
+    /// error of integration.
     pub energy_defect: f64,
     /// From first contact to parting or standstill [s].
     pub duration: f64,
@@ -174,8 +178,8 @@ impl ContactMotion {
         }
     }
 
-    /// `∫ min(p, p_y) dA`: over `u`, `dA = 2πa² u du`, so the integrand is a polynomial on either side of the edge of the limit,
-    /// and Simpson's rule is exact.
+    /// `∫ min(p, p_y) dA`: over `u`, `dA = 2πa² u du`, so the integrand is a polynomial on either
+    /// side of the edge of the limit, and Simpson's rule is exact.
     fn limited_force(&self, a: f64) -> f64 {
         let [hertz, tension] = self.pressures(a);
         // The force is stationary in the edge, so 40 halvings leave no error.

@@ -6,8 +6,8 @@
 //! follows the slip as it changes. Where the slip vanishes the contact sticks: for a sphere no tangential impulse is
 //! then needed (normal and tangential motion are not coupled), so that any friction holds it and slip never reverses.
 //!
-//! `u` speed along the wall [m/s], `omega` spin [rad/s], positive when it rolls forward, `d` diameter [m], `f` friction [1].
-//! Limits: no compliance of the contact, no rolling friction.
+//! `u` speed along the wall [m/s], `omega` spin [rad/s], positive when it rolls forward, `d`
+//! diameter [m], `f` friction [1]. Limits: no compliance of the contact, no rolling friction.
 
 /// A sphere as it arrives.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,8 +50,8 @@ impl RigidSphere {
         };
         for _ in 0..steps {
             let before = slip(left.tangential_speed, left.spin);
-            // What friction may do in this step, and what stopping the slip takes: a unit of impulse changes u by one and
-            // d omega/2 by 5/2.
+            // What friction may do in this step, and what stopping the slip takes: a unit of
+            // impulse changes u by one and d omega/2 by 5/2.
             let to_stick = before / (1.0 + 2.5);
             let change = (friction * step).min(to_stick.abs()).copysign(before);
             left.sticks = to_stick.abs() <= friction * step;

@@ -1,33 +1,40 @@
-//! Fate of a char particle on a molten slag layer: the four fates of Montagnaro & Salatino, Combust. Flame 157 (2010) 874,
-//! in their words. Their criteria were not available: the forms below are derived here, *assumed*.
+//! Fate of a char particle on a molten slag layer: the four fates of Montagnaro & Salatino,
+//! Combust. Flame 157 (2010) 874, in their words. Their criteria were not available: the forms
+//! below are derived here, *assumed*.
 //!
-//! *Entrapment*, drawn into the melt. A sphere of radius `R = d/2` crosses a flat surface with the free energy
-//! `F(h) = pi sigma (h² - 2 R h (1 + cos theta))`, `h` [m] the depth to which it is wetted and `theta` [rad] the contact angle
-//! through the slag. It rests at `h = R (1 + cos theta)`; from there, submerging takes `W = pi R² sigma (1 - cos theta)²`.
-//! Stokes' drag along one diameter reduces the speed by `18 mu/(rho_c d)`. Therefore, entrapment
-//! - by inertia: `m (v_n - 18 mu/(rho_c d))² / 2 >= W`. The energy released by wetting up to the rest position counts as lost;
-//! - by weight: `(rho_c - rho_s) g` times the sphere's volume against the most the surface can hold, `pi R sigma (1 - cos theta)`;
-//!   only what is denser than the slag sinks, and `g` is the gravity into the layer (0 at a vertical wall);
+//! *Entrapment*, drawn into the melt. A sphere of radius `R = d/2` crosses a flat surface with the
+//! free energy `F(h) = pi sigma (h² - 2 R h (1 + cos theta))`, `h` [m] the depth to which it is
+//! wetted and `theta` [rad] the contact angle through the slag. It rests at `h = R (1 + cos
+//! theta)`; from there, submerging takes `W = pi R² sigma (1 - cos theta)²`. Stokes' drag along one
+//! diameter reduces the speed by `18 mu/(rho_c d)`. Therefore, entrapment
+//! - by inertia: `m (v_n - 18 mu/(rho_c d))² / 2 >= W`. The energy released by wetting up to the
+//!   rest position counts as lost;
+//! - by weight: `(rho_c - rho_s) g` times the sphere's volume against the most the surface can
+//!   hold, `pi R sigma (1 - cos theta)`; only what is denser than the slag sinks, and `g` is the
+//!   gravity into the layer (0 at a vertical wall);
 //! - by wetting: at `theta = 0` it submerges by itself.
 //!
-//! *Over-layering*, burial on the surface: fresh slag as high as the char stands out, `d (1 - cos theta)/2`, arrives before the
-//! char has burned off or the layer has carried it away. Assumed: slag does not lift the char; a particle that rises with the
-//! surface is buried later or never.
+//! *Over-layering*, burial on the surface: fresh slag as high as the char stands out, `d (1 - cos
+//! theta)/2`, arrives before the char has burned off or the layer has carried it away. Assumed:
+//! slag does not lift the char; a particle that rises with the surface is buried later or never.
 //!
-//! *Segregation*: it stays on the surface and burns there. *Segregation–coverage*: so much char lies there that the next one
-//! hits char rather than slag: with `N = n pi d²/4 t` (`n` char particles a second and area [1/(m² s)], `t` [s] their stay)
-//! the char on the wall has the projected area `A = N exp(-A)`, because char that hits char is not held, and covers the share
+//! *Segregation*: it stays on the surface and burns there. *Segregation–coverage*: so much char
+//! lies there that the next one hits char rather than slag: with `N = n pi d²/4 t` (`n` char
+//! particles a second and area [1/(m² s)], `t` [s] their stay) the char on the wall has the
+//! projected area `A = N exp(-A)`, because char that hits char is not held, and covers the share
 //! `1 - exp(-A)` of [`cover::share`]. The limit is a share of one half, as for
-//! [`Stickiness::THRESHOLD`](nearwall::capture::Stickiness::THRESHOLD). A simulation of falling discs (in the tests) gives 0.47 at `N = 1` where this says 0.43.
+//! [`Stickiness::THRESHOLD`](nearwall::capture::Stickiness::THRESHOLD). A simulation of falling
+//! discs (in the tests) gives 0.47 at `N = 1` where this says 0.43.
 //!
-//! Symbols: `d` [m], `rho_c` [kg/m³], `v_n` [m/s] and `m` [kg] of the char; `sigma` [N/m], `mu` [Pa s] and `rho_s` [kg/m³] of the
-//! slag. Valid for smooth spheres that are small against the capillary
-//! length `sqrt(sigma/(rho_s g))`, some 4 mm for slag, and against the layer's thickness. Neglected: slag entering
-//! porous char, a contact angle that falls by reaction, added mass, solid slag.
+//! Symbols: `d` [m], `rho_c` [kg/m³], `v_n` [m/s] and `m` [kg] of the char; `sigma` [N/m], `mu` [Pa
+//! s] and `rho_s` [kg/m³] of the slag. Valid for smooth spheres that are small against the
+//! capillary length `sqrt(sigma/(rho_s g))`, some 4 mm for slag, and against the layer's thickness.
+//! Neglected: slag entering porous char, a contact angle that falls by reaction, added mass, solid
+//! slag.
 //!
-//! The result depends strongly on `theta`, which is poorly known: slag is called highly non-wetting on char (AIChE J. 62 (2016) 659, abstract),
-//! and wets graphite poorly at first, better as it reacts (Mater. Chem. Phys. 2009, a Mn-Ti-silicate slag, abstract).
-//! 90 to 160° is assumed.
+//! The result depends strongly on `theta`, which is poorly known: slag is called highly non-wetting
+//! on char (AIChE J. 62 (2016) 659, abstract), and wets graphite poorly at first, better as it
+//! reacts (Mater. Chem. Phys. 2009, a Mn-Ti-silicate slag, abstract). 90 to 160° is assumed.
 
 use std::f64::consts::PI;
 
@@ -79,7 +86,8 @@ pub struct Judgement {
     pub fate: CharFate,
     /// Kinetic energy left after drag over the work of submerging [1]: entrapped from 1 on.
     pub inertia: f64,
-    /// Weight less buoyancy over the force that the surface can hold [1]: entrapped from 1 on; negative where it floats.
+    /// Weight less buoyancy over the force that the surface can hold [1]: entrapped from 1 on;
+    /// negative where it floats.
     pub weight: f64,
     /// Share of its height that is under the surface at rest, `(1 + cos theta)/2` [1]: entrapped at 1.
     pub immersion: f64,
@@ -95,13 +103,14 @@ pub fn submerging_work(diameter: f64, surface_tension: f64, contact_angle: f64) 
     PI / 4.0 * diameter * diameter * surface_tension * (1.0 - contact_angle.cos()).powi(2)
 }
 
-/// Largest force [N] with which a surface holds a small sphere up, `pi R sigma (1 - cos theta)`, from its diameter [m], the
-/// surface tension [N/m] and the contact angle [rad].
+/// Largest force [N] with which a surface holds a small sphere up, `pi R sigma (1 - cos theta)`,
+/// from its diameter [m], the surface tension [N/m] and the contact angle [rad].
 pub fn holding_force(diameter: f64, surface_tension: f64, contact_angle: f64) -> f64 {
     PI / 2.0 * diameter * surface_tension * (1.0 - contact_angle.cos())
 }
 
-/// Share of a wall that char covers [1], `1 - exp(-A)` with `A exp(A) = N`, from the area `N` [1] that would arrive within one stay.
+/// Share of a wall that char covers [1], `1 - exp(-A)` with `A exp(A) = N`, from the area `N` [1]
+/// that would arrive within one stay.
 pub fn char_coverage(arriving: f64) -> f64 {
     if arriving.is_infinite() {
         return 1.0;
@@ -186,8 +195,9 @@ mod tests {
         (0..steps).map(move |i| (low + step * (f64::from(i) + 0.5), step))
     }
 
-    /// The free energy of a sphere that crosses a flat surface, by summing rings of wetted solid and of lost surface from the
-    /// bottom up. Its least value and its value when all of it is wetted differ by the work.
+    /// The free energy of a sphere that crosses a flat surface, by summing rings of wetted solid
+    /// and of lost surface from the bottom up. Its least value and its value when all of it is
+    /// wetted differ by the work.
     #[test]
     fn the_work_is_the_barrier_of_the_summed_free_energy() {
         let (radius, sigma) = (40e-6, 0.5);
@@ -195,7 +205,8 @@ mod tests {
             let angle = degrees * DEGREE;
             let (mut energy, mut least) = (0.0, 0.0_f64);
             for (polar, step) in midpoints(0.0, PI, 20_000) {
-                // Wetted solid changes gamma by -sigma cos(theta) (Young); the disc r = R sin(polar) of surface is lost.
+                // Wetted solid changes gamma by -sigma cos(theta) (Young); the disc r = R
+                // sin(polar) of surface is lost.
                 let wetted = 2.0 * PI * radius * radius * polar.sin() * step;
                 let lost = 2.0 * PI * radius * polar.sin() * (radius * polar.cos() * step);
                 energy -= sigma * (wetted * angle.cos() + lost);
@@ -223,8 +234,9 @@ mod tests {
         }
     }
 
-    /// Newton's law from the rest position on, with the surface's pull and Stokes' drag together: what is called entrapped
-    /// by inertia gets under; what lacks a quarter of the energy for the surface alone does not.
+    /// Newton's law from the rest position on, with the surface's pull and Stokes' drag together:
+    /// what is called entrapped by inertia gets under; what lacks a quarter of the energy for the
+    /// surface alone does not.
     #[test]
     fn what_is_entrapped_by_inertia_gets_under() {
         let gets_under = |char: &CharOnSlag| {
@@ -317,9 +329,10 @@ mod tests {
         assert_eq!(CharOnSlag { drain_time: 1.0, ..CHAR }.stay(), 1.0);
     }
 
-    /// Discs fall at random on a wall without edges; one whose centre hits another is not held, the others stay for the same time.
-    /// With `x = N (1 - c)`, the area held, the covered share `c` is at most `x` (no overlap: `N/(1+N)`) and at least
-    /// `1 - exp(-x)` (overlap as if they did not avoid each other). 0.01 is three standard errors of the count.
+    /// Discs fall at random on a wall without edges; one whose centre hits another is not held, the
+    /// others stay for the same time. With `x = N (1 - c)`, the area held, the covered share `c` is
+    /// at most `x` (no overlap: `N/(1+N)`) and at least `1 - exp(-x)` (overlap as if they did not
+    /// avoid each other). 0.01 is three standard errors of the count.
     #[test]
     fn coverage_lies_between_its_bounds_and_the_formula_is_the_lower_one() {
         let seed = 20_100_874;
@@ -352,9 +365,10 @@ mod tests {
         }
     }
 
-    /// Troiano et al., section 3.1: with coal slag (0.4 to 0.7 N/m, 2500 to 3000 kg/m³, 0.01 to 1 Pa s) and char of 50 to 100 µm at
-    /// about 2 m/s, entrapment and over-layering do not come about. Assumed here: 90 to 160°, char of 700 to 1000 kg/m³, up to
-    /// 0.01 kg/(m² s) of slag, 1 to 5 s to burn off.
+    /// Troiano et al., section 3.1: with coal slag (0.4 to 0.7 N/m, 2500 to 3000 kg/m³, 0.01 to 1
+    /// Pa s) and char of 50 to 100 µm at about 2 m/s, entrapment and over-layering do not come
+    /// about. Assumed here: 90 to 160°, char of 700 to 1000 kg/m³, up to 0.01 kg/(m² s) of slag, 1
+    /// to 5 s to burn off.
     #[test]
     fn troiano_coal_slag_leads_to_segregation() {
         let mut fates = std::collections::BTreeSet::new();
@@ -395,8 +409,8 @@ mod tests {
         );
     }
 
-    /// How far that goes: over-layering is excluded while less than `rho_s d (1 - cos theta)/2` of slag arrives during the stay,
-    /// by hand 2500 · 25e-6 = 0.0625 kg/m² for 50 µm at 90°.
+    /// How far that goes: over-layering is excluded while less than `rho_s d (1 - cos theta)/2` of
+    /// slag arrives during the stay, by hand 2500 · 25e-6 = 0.0625 kg/m² for 50 µm at 90°.
     #[test]
     fn over_layering_is_excluded_by_the_assumed_slag_flux_alone() {
         let slag = Molten { density: 2500.0, ..CHAR.slag };
@@ -406,8 +420,9 @@ mod tests {
         assert_eq!(at(0.0626 / 5.0), CharFate::OverLayering);
     }
 
-    /// The wax of the same section (0.03 N/m, 1000 kg/m³, 0.02 to 0.1 Pa s): drag alone stops it. The surface alone would not,
-    /// and a melt that wets its own solid would draw it in: for wax the statement stands on the contact angle, which is not given.
+    /// The wax of the same section (0.03 N/m, 1000 kg/m³, 0.02 to 0.1 Pa s): drag alone stops it.
+    /// The surface alone would not, and a melt that wets its own solid would draw it in: for wax
+    /// the statement stands on the contact angle, which is not given.
     #[test]
     fn troiano_wax_is_held_back_by_drag_not_by_the_surface() {
         let wax = |diameter, viscosity, contact_angle| {

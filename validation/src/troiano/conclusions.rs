@@ -9,7 +9,8 @@ use super::{Result, arriving, decide, model};
 use crate::oracle::carried::{Air, CarriedFlight, Law, OnTheWay, Sphere};
 use crate::{Claim, StudyPart};
 
-/// How far a particle flies off the wall [mm] in still air without gravity, until 1 % of its rebound speed [m/s] is left.
+/// How far a particle flies off the wall [mm] in still air without gravity, until 1 % of its
+/// rebound speed [m/s] is left.
 fn reach(speed: f64) -> f64 {
     let sphere = Sphere { diameter: WAX_DIAMETER, density: WAX_DENSITY, heat_capacity: 2000.0 };
     let flight = CarriedFlight {

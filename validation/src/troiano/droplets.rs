@@ -19,7 +19,8 @@ const DROPLET_SIZES: [f64; 3] = [100e-6, 120e-6, 140e-6];
 /// Fig. 14's impact that stands for all [m/s, degrees].
 const TYPICAL_IMPACT: [f64; 2] = [2.0, 90.0];
 
-/// What capture gains from the slowest to the fastest impact at one angle [points], by melting and by the droplet criterion.
+/// What capture gains from the slowest to the fastest impact at one angle [points], by melting and
+/// by the droplet criterion.
 struct Trend([f64; 2]);
 
 impl Trend {

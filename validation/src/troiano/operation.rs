@@ -11,7 +11,8 @@ use crate::study::table;
 use crate::{Claim, StudyPart};
 
 impl Operation {
-    /// Speed [m/s] that an air flow [m³/h at 273 K] of a temperature [°C] gives its particles: air plus terminal velocity.
+    /// Speed [m/s] that an air flow [m³/h at 273 K] of a temperature [°C] gives its particles: air
+    /// plus terminal velocity.
     fn carried(&self, flow: f64, celsius: f64) -> f64 {
         let area = FRAC_PI_4 * TUBE[0] * TUBE[0];
         let air = Air::at(celsius + 273.15);

@@ -15,8 +15,9 @@ use crate::{Claim, ClaimBasis, Extent, StudyPart};
 /// Normal speeds [m/s] of the table.
 const PLATE_SPEEDS: [f64; 4] = [0.5, 1.0, 2.0, 3.0];
 
-/// What two frames a millisecond apart make of a normal restitution [1] at a plate, over what it is: the particle is braked
-/// on its way in and out. The speed between two frames is that half-way; the nearest pairs lie a millisecond off on average.
+/// What two frames a millisecond apart make of a normal restitution [1] at a plate, over what it
+/// is: the particle is braked on its way in and out. The speed between two frames is that half-way;
+/// the nearest pairs lie a millisecond off on average.
 fn seen(speed: f64, e_n: f64, air: f64) -> f64 {
     let height = 0.03_f64;
     let gas = |z: f64| -air * (std::f64::consts::FRAC_PI_2 * (z / height).clamp(0.0, 1.0)).sin();
@@ -35,7 +36,8 @@ fn seen(speed: f64, e_n: f64, air: f64) -> f64 {
     at(e_n * speed, 1e-6) / -at(-speed, -1e-6) / e_n
 }
 
-/// `e_n` as the frames show it over what it is [1] at each of [`PLATE_SPEEDS`], with air as fast as the particle, and in still air.
+/// `e_n` as the frames show it over what it is [1] at each of [`PLATE_SPEEDS`], with air as fast as
+/// the particle, and in still air.
 struct Frames {
     moving: [f64; 4],
     still: [f64; 4],

@@ -11,7 +11,8 @@ pub struct StatedNumber {
     pub what: &'static str,
     /// As printed.
     pub value: f64,
-    /// How far ours may be off: the stated uncertainty, half of the last digit, or for "around" and "about" a whole one.
+    /// How far ours may be off: the stated uncertainty, half of the last digit, or for "around" and
+    /// "about" a whole one.
     pub tolerance: f64,
 }
 

@@ -96,7 +96,8 @@ fn way_until(lack: f64) -> f64 {
     -lack.ln() - (1.0 - lack)
 }
 
-/// Time [s] to melt a wax particle in air: first to the melting point, then at it, `Nu = 2`; air [K], latent heat [J/kg].
+/// Time [s] to melt a wax particle in air: first to the melting point, then at it, `Nu = 2`; air
+/// [K], latent heat [J/kg].
 fn fusion_time(diameter: f64, air: f64, latent: f64) -> f64 {
     let conductivity = Air::at(air).conductivity;
     let melting = 353.15;

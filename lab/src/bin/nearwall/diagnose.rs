@@ -55,8 +55,8 @@ pub struct Arguments {
     /// Column map that renames and converts the columns of a laboratory's own file
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
-    /// Column that tells groups of rows apart that may share an error; its numbers are labels. By default columns such as
-    /// series, day, batch or lab (docs/data-file.md lists them)
+    /// Column that tells groups of rows apart that may share an error; its numbers are labels. By
+    /// default columns such as series, day, batch or lab (docs/data-file.md lists them)
     #[arg(long, value_name = "COLUMN")]
     group: Option<String>,
     /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
@@ -186,7 +186,8 @@ fn write_rig(
     write(&arguments.out, &inputs, &results, &found.draws)
 }
 
-/// Writes all of these names and texts and the drawn model files into a folder, or none; no file may be one of `inputs`.
+/// Writes all of these names and texts and the drawn model files into a folder, or none; no file
+/// may be one of `inputs`.
 fn write(out: &Path, inputs: &[&Path], results: &[(&str, &str)], draws: &[String]) -> CommandResult {
     if !draws.is_empty() {
         make_folder(&out.join("draws"))?;

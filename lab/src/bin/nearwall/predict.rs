@@ -205,7 +205,8 @@ impl PredictedText {
     }
 }
 
-/// Writes the cells of a row and its prediction, each number with as few digits as give the same bits when they are read.
+/// Writes the cells of a row and its prediction, each number with as few digits as give the same
+/// bits when they are read.
 fn write_row(
     row: &ImpactRow,
     predicted: &PredictedRow,

@@ -1,8 +1,9 @@
 //! Comparison: several models ranked on one file of measured impacts.
 //!
-//! No parameter of a model is fitted, so every row is held out. Only the scatter of `e_n` and `e_t` about each model is
-//! estimated, always on other rows than those that it scores. Intervals are those of a bootstrap over groups with the same
-//! resamples for all models. Method for users: `docs/compare.md`.
+//! No parameter of a model is fitted, so every row is held out. Only the scatter of `e_n` and `e_t`
+//! about each model is estimated, always on other rows than those that it scores. Intervals are
+//! those of a bootstrap over groups with the same resamples for all models. Method for users:
+//! `docs/compare.md`.
 
 mod bootstrap;
 mod groups;
@@ -37,8 +38,9 @@ pub struct ComparedModel<'a> {
 }
 
 impl<'a> ComparedModel<'a> {
-    /// Reads the data in bounded memory: of a file with more than [`MOST_ROWS`] usable rows a selection. `model` is that of `walls`,
-    /// `name` its name in the results, and `file` names the source in messages.
+    /// Reads the data in bounded memory: of a file with more than [`MOST_ROWS`] usable rows a
+    /// selection. `model` is that of `walls`, `name` its name in the results, and `file` names the
+    /// source in messages.
     ///
     /// # Errors
     /// As [`Measurements::read`].
@@ -190,7 +192,8 @@ mod tests {
     const MODEL: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
         [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \"constant\"\ne_t = 0.76\n";
 
-    /// Rows of the model with some scatter; of ten one cannot be read and one is implausible, and both kinds stand at the end, too.
+    /// Rows of the model with some scatter; of ten one cannot be read and one is implausible, and
+    /// both kinds stand at the end, too.
     fn rows(count: u64, model: &Model) -> String {
         let mut text = "v_n,d,e_n\n".to_owned();
         for row in 0..count {

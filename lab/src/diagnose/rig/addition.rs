@@ -1,4 +1,5 @@
-//! What a rig's data can add to the wall law: an effect, another value of a law's own number, a level or a curve over an input.
+//! What a rig's data can add to the wall law: an effect, another value of a law's own number, a
+//! level or a curve over an input.
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Table, Value, value};
 
@@ -37,8 +38,8 @@ pub(super) struct RigAddition {
 }
 
 impl RigAddition {
-    /// An effect or a law's number; `range` gives the least and largest value of an input. `None` if the impacts do not vary in what
-    /// it depends on.
+    /// An effect or a law's number; `range` gives the least and largest value of an input. `None`
+    /// if the impacts do not vary in what it depends on.
     pub fn part(part: Part, range: impl Fn(&str) -> Option<[f64; 2]>) -> Option<Self> {
         let axes = part.axes(range, false)?;
         Some(Self { kind: Kind::Part(part), at: vec![0.5; axes.len()], axes, intervals: Vec::new() })
@@ -88,7 +89,8 @@ impl RigAddition {
         matches!(self.kind, Kind::Part(Part::LawParameter(_)))
     }
 
-    /// Whether it is a number that is usually fitted before any effect is looked for: one of the base's own laws, or the yield ratio.
+    /// Whether it is a number that is usually fitted before any effect is looked for: one of the
+    /// base's own laws, or the yield ratio.
     pub fn is_usual_number(&self) -> bool {
         self.is_number() || matches!(self.kind, Kind::Part(Part::Effect(info)) if info.id == "yield-ratio")
     }

@@ -1,4 +1,5 @@
-//! What could be added beside the causes found so far: every effect whose inputs vary, the numbers of the base model's own laws, levels, and curves.
+//! What could be added beside the causes found so far: every effect whose inputs vary, the numbers
+//! of the base model's own laws, levels, and curves.
 
 use super::super::part::{LawParameter, Part};
 use super::addition::RigAddition;
@@ -9,13 +10,14 @@ use nearwall::impact::{INPUTS, Impact};
 
 /// How far beyond the range of an input a law's place is searched, as a share of the range.
 const SEARCH_BEYOND: f64 = 0.5;
-/// Least standard deviation of an input's mean over the experiments, as a share of its range, from which on it is changed on purpose: for a curve
-/// over it.
+/// Least standard deviation of an input's mean over the experiments, as a share of its range, from
+/// which on it is changed on purpose: for a curve over it.
 const LEAST_INPUT_CHANGE: f64 = 0.05;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
 
-/// The range of an input over the first impacts of all experiments, without the outermost hundredths; `None` if it does not vary.
+/// The range of an input over the first impacts of all experiments, without the outermost
+/// hundredths; `None` if it does not vary.
 pub(super) fn range(forward: &dyn Forward, input: &str) -> Option<[f64; 2]> {
     let sorted = sorted_values(forward, input)?;
     let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share).round() as usize];
@@ -38,8 +40,8 @@ fn sorted_values(forward: &dyn Forward, input: &str) -> Option<Vec<f64>> {
     (!sorted.is_empty()).then_some(sorted)
 }
 
-/// The inputs over which a curve could be seen, with its knots: those whose mean changes from experiment to experiment. Of inputs that
-/// change together the first one.
+/// The inputs over which a curve could be seen, with its knots: those whose mean changes from
+/// experiment to experiment. Of inputs that change together the first one.
 fn curve_inputs(forward: &dyn Forward) -> Vec<(usize, Vec<f64>)> {
     let mut means_of_earlier: Vec<Vec<f64>> = Vec::new();
     let mut curves = Vec::new();

@@ -29,14 +29,17 @@ pub(super) const DISTINGUISHABLE_GAIN: f64 = 2.0;
 const BEYOND_LAWS: f64 = 3.0;
 /// What is left to gain from which on causes are exchanged [nats].
 const ROOM_TO_EXCHANGE: f64 = 6.0;
-/// Largest number of other first causes that are tried. A start with the numbers that are usually fitted is tried beside them.
+/// Largest number of other first causes that are tried. A start with the numbers that are usually
+/// fitted is tried beside them.
 const OTHER_STARTS: usize = 3;
 /// Gain for which a cause is exchanged [nats].
 const EXCHANGED: f64 = 1.5;
-/// Difference in gain below which the candidate with fewer parameters is taken, and of these a number of the base's own laws [nats].
+/// Difference in gain below which the candidate with fewer parameters is taken, and of these a
+/// number of the base's own laws [nats].
 const EQUAL_GAIN: f64 = 0.5;
-/// What a law that is not in the model yet must gain beyond one of its numbers to be named first, and what it must gain beyond that if no
-/// experiment changes one of its inputs on purpose [nats]: odds of 3 to 1 each. Over such an input a law is hardly more than a level.
+/// What a law that is not in the model yet must gain beyond one of its numbers to be named first,
+/// and what it must gain beyond that if no experiment changes one of its inputs on purpose [nats]:
+/// odds of 3 to 1 each. Over such an input a law is hardly more than a level.
 const NEW_LAW: f64 = 1.1;
 const UNCHANGED: f64 = 1.1;
 /// One cause, and one more for so many readings; and most causes.
@@ -44,7 +47,8 @@ const READINGS_A_CAUSE: usize = 3;
 const MOST_RIG_CAUSES: usize = 5;
 /// Most candidates kept of a round that finds none significant.
 const HINTS: usize = 4;
-/// First size of the simplex, and iterations a parameter: for a law that is to be compared with others first, and for one that is promising.
+/// First size of the simplex, and iterations a parameter: for a law that is to be compared with
+/// others first, and for one that is promising.
 const FIT_SIMPLEX: f64 = 0.08;
 const FIRST_ITERATIONS: u64 = 8;
 const FIT_ITERATIONS: u64 = 25;
@@ -84,7 +88,8 @@ impl RigRound {
         !(other.addition.is_curve() && freer)
     }
 
-    /// The candidates that the winner could be mistaken for and that gain at most `behind` less than it [nats], the best first.
+    /// The candidates that the winner could be mistaken for and that gain at most `behind` less
+    /// than it [nats], the best first.
     pub fn rivals(&self, behind: f64) -> impl Iterator<Item = &Scored> {
         let close = move |one: &&Scored| one.gain > self.winner.gain - behind;
         self.others.iter().filter(close).filter(|one| self.is_rival(one))
@@ -129,8 +134,9 @@ impl<'a> RigStudy<'a> {
         Self { forward, data, level, seed, progress, unchanged, tables: Mutex::default() }
     }
 
-    /// The predictions of all candidates beside these additions. A later call with the same causes gets the same predictions, whatever
-    /// the values of their parameters: where they were computed matters little to a choice.
+    /// The predictions of all candidates beside these additions. A later call with the same causes
+    /// gets the same predictions, whatever the values of their parameters: where they were computed
+    /// matters little to a choice.
     pub fn table(&self, additions: &[RigAddition]) -> Result<Arc<PredictionTable>, PredictionError> {
         let names: Vec<String> = additions.iter().map(RigAddition::key).collect();
         let mut tables = self.tables.lock().unwrap_or_else(PoisonError::into_inner);
@@ -144,7 +150,8 @@ impl<'a> RigStudy<'a> {
         Ok(table)
     }
 
-    /// Log likelihood of the measured values with these additions [nats]; minus infinity where the model refuses an impact.
+    /// Log likelihood of the measured values with these additions [nats]; minus infinity where the
+    /// model refuses an impact.
     pub fn score(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
         let Ok(predicted) = predict(self.forward, additions) else { return f64::NEG_INFINITY };
         self.score_of(&predicted, weights)
@@ -249,7 +256,8 @@ impl<'a> RigStudy<'a> {
         }
     }
 
-    /// The choice with causes exchanged for others that explain more together with the rest: the first cause was chosen alone.
+    /// The choice with causes exchanged for others that explain more together with the rest: the
+    /// first cause was chosen alone.
     fn exchanged(&self, mut choice: RigChoice, weights: &[f64]) -> Result<RigChoice, PredictionError> {
         let mut place = 0;
         while choice.additions.len() > 1 && place < choice.additions.len() {
@@ -280,15 +288,17 @@ impl<'a> RigStudy<'a> {
         Ok(choice)
     }
 
-    /// What any candidate can still gain: up to predictions that equal the measured values [nats]. Without bound where a scatter is
-    /// fitted.
+    /// What any candidate can still gain: up to predictions that equal the measured values [nats].
+    /// Without bound where a scatter is fitted.
     fn room(&self, additions: &[RigAddition], weights: &[f64]) -> Result<f64, PredictionError> {
         let predicted = predict(self.forward, additions)?;
         Ok(self.data.room(&predicted, weights))
     }
 
-    /// The causes that experiments with these weights name, one after the other as in the choice on all experiments: with the predictions that
-    /// were computed for it, each cause at its best place, at most `most`. After a cause that the whole choice does not have there is no further one.
+    /// The causes that experiments with these weights name, one after the other as in the choice on
+    /// all experiments: with the predictions that were computed for it, each cause at its best
+    /// place, at most `most`. After a cause that the whole choice does not have there is no further
+    /// one.
     ///
     /// # Errors
     /// Why the base model cannot decide an impact.

@@ -1,7 +1,8 @@
 //! The gain on experiments that no choice and no fit has seen.
 //!
-//! Experiments are held out as a whole. For each part of them, causes are chosen and fitted on the others, the model file is written and
-//! read again, and predicts the part. The candidates of a round were computed once for all parts; they do not depend on the data.
+//! Experiments are held out as a whole. For each part of them, causes are chosen and fitted on the
+//! others, the model file is written and read again, and predicts the part. The candidates of a
+//! round were computed once for all parts; they do not depend on the data.
 
 use super::super::data_split::shuffled;
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
@@ -22,8 +23,9 @@ const LEAST_EXPERIMENTS: usize = 4;
 /// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
 const MOST_OF_ONE: f64 = 2.3;
 
-/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which its p-value is below the level: what is only
-/// just significant has to carry over, what is far beyond chance may do so badly with few experiments [1].
+/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which
+/// its p-value is below the level: what is only just significant has to carry over, what is far
+/// beyond chance may do so badly with few experiments [1].
 const CARRIES: f64 = 0.5;
 /// Most that any cause may lose there [nats].
 const MOST_LOST: f64 = 4.0;
@@ -35,8 +37,9 @@ pub(super) struct HeldOutExperiments {
 }
 
 impl HeldOutExperiments {
-    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole choice, serves as places of a fit; without it
-    /// a cause keeps the numbers of the whole choice. `write` gives the text of a model file with additions. `None` with too few experiments.
+    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole
+    /// choice, serves as places of a fit; without it a cause keeps the numbers of the whole choice.
+    /// `write` gives the text of a model file with additions. `None` with too few experiments.
     ///
     /// # Errors
     /// Why a model cannot decide an impact.
@@ -81,8 +84,9 @@ impl HeldOutExperiments {
         Ok(Some(Self { predicted }))
     }
 
-    /// What is gained over `other` on experiments that neither has seen [nats]. One experiment can lose [`MOST_OF_ONE`]: a part that names
-    /// another cause may predict no rebound at all where it is extrapolated.
+    /// What is gained over `other` on experiments that neither has seen [nats]. One experiment can
+    /// lose [`MOST_OF_ONE`]: a part that names another cause may predict no rebound at all where it
+    /// is extrapolated.
     pub fn gain_over(&self, other: &Self, study: &RigStudy<'_>) -> f64 {
         let experiments = study.data.experiments;
         let values = study.data.values();
@@ -152,8 +156,8 @@ impl HeldOutExperiments {
     }
 }
 
-/// The choice without the causes, from the last one on, that do not help to predict experiments that they have not seen, and the names of
-/// those left out.
+/// The choice without the causes, from the last one on, that do not help to predict experiments
+/// that they have not seen, and the names of those left out.
 ///
 /// # Errors
 /// Why a model cannot decide an impact.
@@ -171,7 +175,8 @@ pub(super) fn carried(
         let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?) else {
             break;
         };
-        // The numbers have seen all experiments, which gains about one nat each: later causes have to gain more than that.
+        // The numbers have seen all experiments, which gains about one nat each: later causes have
+        // to gain more than that.
         let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
         let seen = if causes > 1 { parameters as f64 } else { 0.0 };
         let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
@@ -188,8 +193,8 @@ pub(super) fn carried(
     Ok((choice, dropped))
 }
 
-/// Predictions of all readings by a model file: its terms and changed numbers on the model of each experiment, whose settings may
-/// change other keys of the model.
+/// Predictions of all readings by a model file: its terms and changed numbers on the model of each
+/// experiment, whose settings may change other keys of the model.
 pub(super) fn predict_file(
     study: &RigStudy<'_>,
     file: &Model,

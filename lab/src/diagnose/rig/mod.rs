@@ -1,9 +1,11 @@
 //! Diagnosis of a simulation from what the whole rig measures.
 //!
-//! Data flow: readings → predictions of every candidate at places of its range (`prediction_table`) → test against data sets without an effect
-//! (`significance`) → fits and choice (`choice`) → draws of the parameters (`posterior`) → gain on held-out experiments
-//! (`gain`) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
-//! decided again. Candidates are those of the diagnosis of impacts. Method and limits: `docs/rig-diagnosis.md`.
+//! Data flow: readings → predictions of every candidate at places of its range (`prediction_table`)
+//! → test against data sets without an effect (`significance`) → fits and choice (`choice`) → draws
+//! of the parameters (`posterior`) → gain on held-out experiments (`gain`) → record with the model
+//! file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
+//! decided again. Candidates are those of the diagnosis of impacts. Method and limits:
+//! `docs/rig-diagnosis.md`.
 
 mod addition;
 mod candidates;
@@ -62,8 +64,9 @@ const LEAST_READINGS: usize = 3;
 /// Misfit per degree of freedom beyond which the parameters' intervals are widened by it, at this p-value.
 const MISFIT: f64 = 0.05;
 
-/// Diagnoses the readings of `forward` against the model file with the text `model`. `draws` model files are drawn from the fit;
-/// `case` simulates experiments that nobody has made yet, where there is one; `progress` is called after each candidate.
+/// Diagnoses the readings of `forward` against the model file with the text `model`. `draws` model
+/// files are drawn from the fit; `case` simulates experiments that nobody has made yet, where there
+/// is one; `progress` is called after each candidate.
 ///
 /// # Errors
 /// [`RigError`].

@@ -1,14 +1,17 @@
 //! What to measure next: the experiments that best tell the surviving causes apart and best pin their numbers.
 //!
-//! Every surviving cause `h` with the weight `w_h` (its likelihood) predicts a reading with some values of its numbers that the file leaves
-//! open. With the error of the reading, of standard deviation `s`, they make a density `p_h(y)` of its value (a kernel estimate that keeps
-//! their variance). The expected information on which cause it is, is `sum w_h ∫ p_h ln(p_h/p) dy` with `p = sum w_h p_h` [nats]: a cause that
-//! predicts one value is also told from one that leaves it open. That on the numbers of the first cause is `ln(1 + v_1/s²)/2` with their
-//! variance `v_1`. The first rows tell the causes apart as well as possible, the others are worth most in both. Each row is the best one
-//! when those above it are measured: on the cause by the density of all readings together, on the numbers by linear regression on
-//! the expected readings.
+//! Every surviving cause `h` with the weight `w_h` (its likelihood) predicts a reading with some
+//! values of its numbers that the file leaves open. With the error of the reading, of standard
+//! deviation `s`, they make a density `p_h(y)` of its value (a kernel estimate that keeps their
+//! variance). The expected information on which cause it is, is `sum w_h ∫ p_h ln(p_h/p) dy` with
+//! `p = sum w_h p_h` [nats]: a cause that predicts one value is also told from one that leaves it
+//! open. That on the numbers of the first cause is `ln(1 + v_1/s²)/2` with their variance `v_1`.
+//! The first rows tell the causes apart as well as possible, the others are worth most in both.
+//! Each row is the best one when those above it are measured: on the cause by the density of all
+//! readings together, on the numbers by linear regression on the expected readings.
 //!
-//! The count that decides between the two leading causes is that at which the expected ratio of their likelihoods is `e³`.
+//! The count that decides between the two leading causes is that at which the expected ratio of
+//! their likelihoods is `e³`.
 
 use serde::Serialize;
 
@@ -35,8 +38,8 @@ const ASSUMED_COUNT: f64 = 100.0;
 const DECIDES: f64 = 3.0;
 /// Largest number of usual readings that a proposal may ask for; beyond it no number is given.
 const MOST_REPEATS: f64 = 100.0;
-/// The first rows only tell causes apart, as long as one is expected to tell so much [nats]: a rival of a small weight is worth little, but
-/// as long as it is there the cause has no name.
+/// The first rows only tell causes apart, as long as one is expected to tell so much [nats]: a
+/// rival of a small weight is worth little, but as long as it is there the cause has no name.
 const TELLING: usize = 4;
 const LEAST_TOLD: f64 = 0.002;
 /// Least expected information of any other row [nats].
@@ -49,8 +52,8 @@ pub struct NextExperiment {
     pub settings: Vec<(String, String)>,
     /// What to observe, as in `captured@target`.
     pub observable: String,
-    /// Particles to count for it, or repeats of a reading with the usual error; `None` where the leading causes predict nearly the same, so
-    /// that no count decides between them.
+    /// Particles to count for it, or repeats of a reading with the usual error; `None` where the
+    /// leading causes predict nearly the same, so that no count decides between them.
     pub repeats: Option<u64>,
     /// Standard error to reach with these repeats [1], where the file states errors.
     pub error: Option<f64>,
@@ -114,8 +117,9 @@ struct Possible {
     left: Vec<f64>,
 }
 
-/// Ranks experiments over the settings of the file and along the usual levers of a rig; the most telling first. `whole` is the choice with
-/// the causes that did not help to predict unseen experiments.
+/// Ranks experiments over the settings of the file and along the usual levers of a rig; the most
+/// telling first. `whole` is the choice with the causes that did not help to predict unseen
+/// experiments.
 ///
 /// # Errors
 /// Why the cases of the proposals cannot be simulated.
@@ -164,7 +168,8 @@ pub(super) fn next_experiments(
     Ok(ensemble.ranked(options).iter().map(row).collect())
 }
 
-/// What each state of each cause predicts for all readings; states that the case refuses are left out, and causes without any.
+/// What each state of each cause predicts for all readings; states that the case refuses are left
+/// out, and causes without any.
 fn predict_states(forward: &SimulatedRig<'_>, causes: &mut Vec<Cause>) -> Vec<Vec<f64>> {
     let mut by_state: Vec<Vec<f64>> = Vec::new();
     for cause in causes.iter_mut() {
@@ -180,8 +185,8 @@ fn predict_states(forward: &SimulatedRig<'_>, causes: &mut Vec<Cause>) -> Vec<Ve
     by_state
 }
 
-/// Errors of readings that stand for a normal distribution, in standard deviations: means of eight parts of it of equal probability.
-/// Their variance is 0.945.
+/// Errors of readings that stand for a normal distribution, in standard deviations: means of eight
+/// parts of it of equal probability. Their variance is 0.945.
 const NORMAL_ERRORS: [f64; 8] = [-1.647, -0.8949, -0.4905, -0.1580, 0.1580, 0.4905, 0.8949, 1.647];
 
 /// Factor and shift that give each reading of a table its own order of these errors.
@@ -242,7 +247,8 @@ impl Ensemble {
         one.usual.variance(self.mean(&one.predicted)) / count
     }
 
-    /// The kernels of all states for a reading of so many particles: their middles, and their variance with that of the reading.
+    /// The kernels of all states for a reading of so many particles: their middles, and their
+    /// variance with that of the reading.
     fn kernels(&self, one: &Possible, count: f64) -> Vec<[f64; 2]> {
         let noise = self.noise(one, count);
         let [means, spreads] = [self.means(&one.predicted), self.spreads(&one.predicted)];
@@ -290,8 +296,8 @@ impl Ensemble {
         sums.into_iter().map(|sum| most + sum.max(f64::MIN_POSITIVE).ln()).collect()
     }
 
-    /// Mean over the readings that the states predict of a function of the cause and all causes' log densities, each state with this
-    /// weight.
+    /// Mean over the readings that the states predict of a function of the cause and all causes'
+    /// log densities, each state with this weight.
     fn expected(
         &self,
         measured: &MeasuredReadings,
@@ -316,7 +322,8 @@ impl Ensemble {
         self.expected(measured, |state| self.states[state].0, gain).max(0.0)
     }
 
-    /// The least count that decides between the leading causes: the expected logarithm of the ratio of their likelihoods is [`DECIDES`].
+    /// The least count that decides between the leading causes: the expected logarithm of the ratio
+    /// of their likelihoods is [`DECIDES`].
     fn decides(&self, one: &Possible) -> Option<f64> {
         let first = |state: usize| {
             let (weight, cause) = self.states[state];
@@ -343,7 +350,8 @@ impl Ensemble {
         0.5 * (spread / self.noise(one, one.usual.count())).ln_1p()
     }
 
-    /// Removes from what is left to know of `one` its regression on `other`, as far as the noise of that reading allows.
+    /// Removes from what is left to know of `one` its regression on `other`, as far as the noise of
+    /// that reading allows.
     fn regress(&self, one: &mut Possible, other: &Possible) {
         let [mean, other_mean] = [self.mean(&one.left), self.mean(&other.left)];
         let (mut both, mut square) = (0.0, 0.0);
@@ -359,7 +367,8 @@ impl Ensemble {
         }
     }
 
-    /// The readings most worth making, the best first; of each proposal one. Each is the best one when those above it are measured.
+    /// The readings most worth making, the best first; of each proposal one. Each is the best one
+    /// when those above it are measured.
     fn ranked(&self, mut options: Vec<Possible>) -> Vec<Possible> {
         let mut ranked: Vec<Possible> = Vec::new();
         let mut measured = self.unmeasured();
@@ -624,8 +633,8 @@ mod tests {
         assert_eq!(apart.pins_numbers, 0.0);
     }
 
-    /// Two normal densities of one middle, with variances of 1 and 4 times that of a reading: the information on which it is by
-    /// integration.
+    /// Two normal densities of one middle, with variances of 1 and 4 times that of a reading: the
+    /// information on which it is by integration.
     #[test]
     fn a_cause_that_leaves_a_reading_open_is_told_from_one_that_does_not() {
         let causes = [cause("sure", 1), cause("open", 40)];

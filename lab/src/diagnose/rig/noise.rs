@@ -1,7 +1,8 @@
 //! The readings of a rig with their noise, and the log likelihood of predictions.
 //!
-//! A share with a count is binomial; a reading with a stated error is normal; readings of one kind without either share one normal
-//! scatter, which is fitted, larger the smaller a count they rest on. The Monte Carlo variance of a prediction adds to each.
+//! A share with a count is binomial; a reading with a stated error is normal; readings of one kind
+//! without either share one normal scatter, which is fitted, larger the smaller a count they rest
+//! on. The Monte Carlo variance of a prediction adds to each.
 
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Binomial, Distribution as _, StandardNormal};
@@ -13,8 +14,9 @@ use crate::rig::PredictedReading;
 const SHARE_MARGIN: f64 = 0.003;
 /// Number of kinds of observables.
 const KINDS: usize = 8;
-/// Scatter of readings without a stated error before they are seen, which counts as one reading more: of a single particle where counts are
-/// given, otherwise of a reading [1]. Without it a few readings could be met exactly by chance.
+/// Scatter of readings without a stated error before they are seen, which counts as one reading
+/// more: of a single particle where counts are given, otherwise of a reading [1]. Without it a few
+/// readings could be met exactly by chance.
 const PRIOR_SCATTER: [f64; 2] = [0.1, 0.01];
 
 /// What is known of the error of a reading.
@@ -261,8 +263,8 @@ impl Data {
     }
 }
 
-/// A prediction that can be compared: where the model says that nothing happens that could be measured, as no rebound, it is as wrong as
-/// it could be.
+/// A prediction that can be compared: where the model says that nothing happens that could be
+/// measured, as no rebound, it is as wrong as it could be.
 fn existing(one: &PredictedReading, measured: f64) -> PredictedReading {
     if one.value.is_finite() {
         return *one;

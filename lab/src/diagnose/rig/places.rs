@@ -3,8 +3,9 @@
 use super::addition::{Kind, RigAddition};
 use crate::diagnose::part::Part;
 
-/// Places of the range of a law's own number, of an effect's only parameter, and along each of two. With `sliding-to-rolling` a reading
-/// jumps where the critical angle passes its angle: only between two such angles the law is right.
+/// Places of the range of a law's own number, of an effect's only parameter, and along each of two.
+/// With `sliding-to-rolling` a reading jumps where the critical angle passes its angle: only
+/// between two such angles the law is right.
 const OF_A_NUMBER: usize = 20;
 const OF_AN_EFFECT: usize = 80;
 const SIDE: usize = 6;
@@ -12,8 +13,8 @@ const SIDE: usize = 6;
 const HALTON_PLACES: usize = 48;
 /// Bases of the Halton sequence.
 const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
-/// Sizes of a curve, as a share of its reach, and changes of a law's own number, as a share of its range: small ones too, where many
-/// readings show them.
+/// Sizes of a curve, as a share of its reach, and changes of a law's own number, as a share of its
+/// range: small ones too, where many readings show them.
 const CURVE_SIZES: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
 const NUMBER_CHANGES: [f64; 4] = [0.01, 0.025, 0.06, 0.15];
 /// Shapes of a curve over three knots.

@@ -1,8 +1,9 @@
 //! Draws of the parameters from their likelihood, all together.
 //!
-//! Population Monte Carlo: normal draws about the fit are weighted by the likelihood over the density that they were drawn from; the next
-//! generation is drawn with the mean and covariance of the weighted ones. The prior is even over the search ranges. A misfit that
-//! is left, and few readings for a fitted scatter, widen the likelihood by a factor on its variance.
+//! Population Monte Carlo: normal draws about the fit are weighted by the likelihood over the
+//! density that they were drawn from; the next generation is drawn with the mean and covariance of
+//! the weighted ones. The prior is even over the search ranges. A misfit that is left, and few
+//! readings for a fitted scatter, widen the likelihood by a factor on its variance.
 
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;

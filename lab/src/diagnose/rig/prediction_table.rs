@@ -1,7 +1,8 @@
 //! What every candidate predicts at places of its search range, computed once for all uses.
 //!
-//! The predictions depend on the wall law but not on the measured values. The same table therefore serves the test of the data, of
-//! thousands of data sets drawn without an effect, of resampled experiments and of every part of a cross-validation.
+//! The predictions depend on the wall law but not on the measured values. The same table therefore
+//! serves the test of the data, of thousands of data sets drawn without an effect, of resampled
+//! experiments and of every part of a cross-validation.
 
 use rayon::prelude::*;
 
@@ -46,7 +47,8 @@ pub(super) fn predict(
 }
 
 impl PredictionTable {
-    /// Computes the predictions of all candidates beside `additions`; those that the impacts refuse or that change nothing are left out.
+    /// Computes the predictions of all candidates beside `additions`; those that the impacts refuse
+    /// or that change nothing are left out.
     ///
     /// # Errors
     /// Why the model with the additions cannot decide an impact.

@@ -52,8 +52,8 @@ impl Range {
     }
 }
 
-/// Settings worth trying: those of the file, ends of the ranges with each other, settings inside, one setting beyond its range, and one lever
-/// at a time.
+/// Settings worth trying: those of the file, ends of the ranges with each other, settings inside,
+/// one setting beyond its range, and one lever at a time.
 pub(super) fn proposals(data: &RigMeasurements, text: &CaseText) -> Vec<Settings> {
     let known: Vec<&Settings> = data.experiments.iter().map(|one| &one.settings).collect();
     let Some(middle) = known.get(known.len() / 2).map(|one| (*one).clone()) else { return Vec::new() };

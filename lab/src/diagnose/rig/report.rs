@@ -34,7 +34,8 @@ pub struct RigDiagnosis {
     /// As for impacts; rows are those of the file, held-out ones are experiments.
     #[serde(flatten)]
     pub diagnosis: Diagnosis,
-    /// Causes that would explain these experiments, but that do not help to predict experiments that they have not seen.
+    /// Causes that would explain these experiments, but that do not help to predict experiments
+    /// that they have not seen.
     pub not_carried: Vec<String>,
     /// Every reading beside both models.
     pub readings: Vec<RigRow>,

@@ -1,9 +1,10 @@
 //! How often chance alone gains as much as a candidate, corrected for all candidates and all their places.
 //!
-//! Data sets are drawn from the model without a candidate, with the noise of the readings. In each, the largest gain of any candidate at any
-//! place is found, exactly as in the measured data. The share of data sets in which it reaches that of a candidate is the
-//! candidate's corrected p-value (the max-T test of Westfall and Young); beyond the largest drawn gains the tail is continued as an
-//! exponential.
+//! Data sets are drawn from the model without a candidate, with the noise of the readings. In each,
+//! the largest gain of any candidate at any place is found, exactly as in the measured data. The
+//! share of data sets in which it reaches that of a candidate is the candidate's corrected p-value
+//! (the max-T test of Westfall and Young); beyond the largest drawn gains the tail is continued as
+//! an exponential.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

@@ -6,8 +6,9 @@ use kuva::render::layout::TickFormat;
 
 use super::super::format::number;
 
-/// Larger numbers are not drawn and smaller ones are drawn as zero: steps, ranges and powers of the plotting crate's axes
-/// would overflow, and a tick for each power of ten up to infinity would fill the memory.
+/// Larger numbers are not drawn and smaller ones are drawn as zero: steps, ranges and powers of the
+/// plotting crate's axes would overflow, and a tick for each power of ten up to infinity would fill
+/// the memory.
 const MOST_DRAWN: f64 = 1e100;
 const LEAST_DRAWN: f64 = 1e-100;
 

@@ -1,7 +1,7 @@
 //! Charts as SVG: points, lines, bands and histograms over two axes; bars; maps.
 //!
-//! Colours are those of Okabe and Ito, which colour-blind readers can tell apart; series also differ by marker and dash, so
-//! that a figure survives a black-and-white printer.
+//! Colours are those of Okabe and Ito, which colour-blind readers can tell apart; series also
+//! differ by marker and dash, so that a figure survives a black-and-white printer.
 
 mod axis;
 mod bars;

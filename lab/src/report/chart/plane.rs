@@ -105,8 +105,9 @@ impl<'a> PlanePicture<'a> {
         );
     }
 
-    /// Adds dots as round ends of lines without a length: first all of them in black and a bit larger, as outlines, then
-    /// those of one colour as one path, in the order of their values. Without a scale they are black.
+    /// Adds dots as round ends of lines without a length: first all of them in black and a bit
+    /// larger, as outlines, then those of one colour as one path, in the order of their values.
+    /// Without a scale they are black.
     pub fn dots(&mut self, dots: &[([f64; 2], f64)], scale: Option<&ColourScale>) {
         let mut paths: Vec<(String, String)> = Vec::new();
         let mut sorted: Vec<&([f64; 2], f64)> = dots.iter().collect();
@@ -176,8 +177,8 @@ impl<'a> PlanePicture<'a> {
         self.svg += &(svg + &upright([13.0, TOP + 0.5 * height], &up.0));
     }
 
-    /// Adds a bar of colours of a height [px], the first or a later one beside the plot: a unit stands above it, a longer
-    /// label upright beside it.
+    /// Adds a bar of colours of a height [px], the first or a later one beside the plot: a unit
+    /// stands above it, a longer label upright beside it.
     pub fn bar(&mut self, scale: &ColourScale, label: &str, place: usize, height: f64) {
         let [x, y] = self.beside();
         let x = x + COLUMN_WIDTH * place as f64;
@@ -188,7 +189,8 @@ impl<'a> PlanePicture<'a> {
         };
     }
 
-    /// The figure, so wide and so high [px]; the plot with what is beside it is in the middle of a drawing that is wider.
+    /// The figure, so wide and so high [px]; the plot with what is beside it is in the middle of a
+    /// drawing that is wider.
     pub fn figure(self, caption: &str, [width, height]: [f64; 2], used: f64) -> Figure {
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.1} 0 {width:.1} {height:.1}\" role=\"img\" \

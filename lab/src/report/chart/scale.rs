@@ -9,7 +9,8 @@ use nearwall::impact::Regime;
 /// Number of colours of a scale.
 const LEVELS: f64 = 64.0;
 
-/// Light yellow to dark red: the colours YlOrRd of ColorBrewer (Harrower and Brewer, doi:10.1179/000870403235002042), lightened.
+/// Light yellow to dark red: the colours YlOrRd of ColorBrewer (Harrower and Brewer,
+/// doi:10.1179/000870403235002042), lightened.
 const YELLOW_TO_RED: [[f64; 3]; 6] = [
     [255.0, 252.0, 224.0],
     [255.0, 237.0, 160.0],
@@ -111,8 +112,8 @@ impl ColourScale {
     }
 }
 
-/// Round numbers from `low` to `high`, about `count`: the share of the way, and the number with the digits that tell it from
-/// its neighbours.
+/// Round numbers from `low` to `high`, about `count`: the share of the way, and the number with the
+/// digits that tell it from its neighbours.
 pub(super) fn ticks(low: f64, high: f64, count: usize) -> Vec<(f64, String)> {
     let edges = round_edges(low, high, count);
     let step = edges[1] - edges[0];

@@ -72,8 +72,8 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Names clip paths after the figure. The plotting crate numbers them through a whole program, but the same figure has to
-/// be the same text every time.
+/// Names clip paths after the figure. The plotting crate numbers them through a whole program, but
+/// the same figure has to be the same text every time.
 fn with_own_ids(svg: &str, id: &str) -> String {
     let mut parts = svg.split("kuva-clip-");
     let mut text = parts.next().unwrap_or_default().to_owned();

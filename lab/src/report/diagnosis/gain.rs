@@ -122,8 +122,8 @@ pub(in crate::report) fn table(gains: &[Gain]) -> Table {
     Table::new("Root mean square errors [1].", 1, &header, gains.iter().map(row).collect())
 }
 
-/// Measured against predicted values: of the held-out rows, or of all where none are held out; nothing where the extension
-/// changes nothing or rows are too few.
+/// Measured against predicted values: of the held-out rows, or of all where none are held out;
+/// nothing where the extension changes nothing or rows are too few.
 fn parity(diagnosis: &Diagnosis, observable: &str) -> Vec<Figure> {
     let sample = &diagnosis.sample.rows;
     let held_out = sample.iter().any(|row| row.held_out);

@@ -56,8 +56,9 @@ pub(in crate::report) fn span(low: f64, high: f64, count: usize) -> Vec<f64> {
     round_edges(low - room, high + room, count)
 }
 
-/// Measured minus model over a column. Up to [`FEW_DRAWN`] rows with stated errors are drawn with their own error bars; others as
-/// a cloud of the base model's rows with means for each of `models`.
+/// Measured minus model over a column. Up to [`FEW_DRAWN`] rows with stated errors are drawn with
+/// their own error bars; others as a cloud of the base model's rows with means for each of
+/// `models`.
 pub(super) fn residuals(
     sample: &Sample,
     [observable, column]: [&str; 2],
@@ -155,8 +156,8 @@ fn mean_residuals(
     (chart, caption + &note)
 }
 
-/// The shares of the rows within 1 and 2 stated standard errors of each model, as a sentence for a caption; nothing where
-/// no errors are stated.
+/// The shares of the rows within 1 and 2 stated standard errors of each model, as a sentence for a
+/// caption; nothing where no errors are stated.
 pub(super) fn agreement(rows: &[PlotRow], models: &[(usize, &str)]) -> String {
     let share = |which: usize, most: f64| {
         let stated = rows.iter().filter(|(_, error, numbers)| *error > 0.0 && numbers[which].is_finite());
@@ -219,8 +220,8 @@ impl Means {
         means
     }
 
-    /// Sets the errors to those that a model of captures expects, √(p(1-p)/n): where all or none are captured, the spread of
-    /// the rows says nothing.
+    /// Sets the errors to those that a model of captures expects, √(p(1-p)/n): where all or none
+    /// are captured, the spread of the rows says nothing.
     fn with_expected_errors(mut self, rows: &[PlotRow], which: usize, words: bool) -> Self {
         let variance = |(x, _, numbers): &PlotRow| {
             let p = numbers[which].clamp(RARE, 1.0 - RARE);

@@ -45,8 +45,9 @@ pub enum RigSource<'a> {
     },
 }
 
-/// The page: verdict, fit, measured against predicted values, causes, changed numbers, gain, what to measure next, what cannot be seen,
-/// all readings, rows left out, method, how to run the extended model.
+/// The page: verdict, fit, measured against predicted values, causes, changed numbers, gain, what
+/// to measure next, what cannot be seen, all readings, rows left out, method, how to run the
+/// extended model.
 ///
 /// # Errors
 /// When the template cannot be filled.

@@ -116,7 +116,8 @@ fn cells(rows: &[&RigRow], key: &str) -> usize {
     all.len()
 }
 
-/// The setting with the most values; of several with nearly as many, the one with which the additions change most, else the readings.
+/// The setting with the most values; of several with nearly as many, the one with which the
+/// additions change most, else the readings.
 fn varied(rows: &[&RigRow], in_case: &dyn Fn(&str) -> Option<f64>) -> Option<String> {
     let numbers =
         |key: &String| rows.iter().map(|row| value(row, key, in_case)).collect::<Option<Vec<f64>>>();

@@ -87,7 +87,8 @@ fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     if high - low < least { [low - least, high + least] } else { [low, high] }
 }
 
-/// Time, plane, and which parcels are shown; `drawn` are the numbers of cells and of parcels in the slab, and of parcels a dot.
+/// Time, plane, and which parcels are shown; `drawn` are the numbers of cells and of parcels in the
+/// slab, and of parcels a dot.
 fn caption(run: &RunResults, gas: &GasCut, [cells, near, every]: [usize; 3]) -> String {
     let time = number(gas.time);
     let when = if run.steady { format!("Iteration {time}") } else { format!("Time {time} s") };

@@ -171,8 +171,8 @@ impl<'a> RunComparison<'a> {
         comparison
     }
 
-    /// The walls of a standalone case in its order. Of OpenFOAM cases those walls of the mesh, or, without a mesh, those
-    /// patches that captured something or let it rebound.
+    /// The walls of a standalone case in its order. Of OpenFOAM cases those walls of the mesh, or,
+    /// without a mesh, those patches that captured something or let it rebound.
     fn find_walls(&self) -> Vec<String> {
         if let [run] = self.runs
             && run.cloud.is_empty()

@@ -188,8 +188,8 @@ fn around(axis: usize) -> [usize; 2] {
     [[1, 2], [2, 0], [0, 1]][axis]
 }
 
-/// Whether places lie roughly on round walls about an axis through the origin: all around it, and at each place along it
-/// most at one radius.
+/// Whether places lie roughly on round walls about an axis through the origin: all around it, and
+/// at each place along it most at one radius.
 fn is_round(places: &[[f64; 3]], axis: usize) -> bool {
     let [first, second] = around(axis);
     let [low, high] = range(places.iter().map(|place| place[axis]));

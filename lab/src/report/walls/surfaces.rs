@@ -106,8 +106,8 @@ fn map(
     Some((finished(map, &caption), is_stretched))
 }
 
-/// A map of the unrolled wall without what is beside it, and whether its upright axis is stretched; `None` for a wall without
-/// an extent.
+/// A map of the unrolled wall without what is beside it, and whether its upright axis is stretched;
+/// `None` for a wall without an extent.
 fn picture<'a>(
     texts: [&'a str; 2],
     unrolled: &Unrolled,

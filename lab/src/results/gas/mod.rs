@@ -118,7 +118,8 @@ impl GasCut {
         self.cells.iter().map(|cell| cell.area).sum()
     }
 
-    /// The cells of a picture: those of the cut, or the means in equal rectangles where there are more than [`GAS_CELLS`].
+    /// The cells of a picture: those of the cut, or the means in equal rectangles where there are
+    /// more than [`GAS_CELLS`].
     pub fn drawn(&self) -> Vec<MapCell> {
         match extent(&self.cells).filter(|_| self.cells.len() > GAS_CELLS) {
             Some(ends) => Grid::of_squares(ends, GAS_CELLS).means(&self.cells, LEAST_COVERED),

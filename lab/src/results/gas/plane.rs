@@ -1,4 +1,5 @@
-//! The plane in which the gas is shown: through the middle of the domain, normal to the axis along which it extends least.
+//! The plane in which the gas is shown: through the middle of the domain, normal to the axis along
+//! which it extends least.
 
 /// The plane is off the middle by this share of the extent, so that no faces of a symmetric mesh lie in it [1].
 const OFF_MIDDLE: f64 = 1e-5;

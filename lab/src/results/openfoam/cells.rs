@@ -3,11 +3,12 @@
 //! `polyMesh/owner` and `neighbour` tell which cells a face belongs to. The plane crosses edges of a cell's faces; the
 //! crossings, in turn around their middle, are the corners of the cut. This holds for convex cells.
 //!
-//! OpenFOAM follows a parcel in a tetrahedron of a cell: its centre C, the base point B of one of its faces, and two corners
-//! V, W beside each other on that face. The place is a C + b B + c V + d W with a + b + c + d = 1 (`particle::position`). A
-//! face that belongs to another cell is walked the other way round. The base point is the first corner of the face; on a
-//! face where that would give a tetrahedron turned inside out OpenFOAM takes another one, and the place is off by up to the
-//! size of the face.
+//! OpenFOAM follows a parcel in a tetrahedron of a cell: its centre C, the base point B of one of
+//! its faces, and two corners V, W beside each other on that face. The place is a C + b B + c V + d
+//! W with a + b + c + d = 1 (`particle::position`). A face that belongs to another cell is walked
+//! the other way round. The base point is the first corner of the face; on a face where that would
+//! give a tetrahedron turned inside out OpenFOAM takes another one, and the place is off by up to
+//! the size of the face.
 
 use std::collections::BTreeMap;
 
@@ -139,8 +140,8 @@ fn in_turn(mut corners: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     corners
 }
 
-/// Centre of a cell [m] as OpenFOAM defines it: the mean of the centres of pyramids from its faces to the mean of the faces'
-/// centres, by volume. `None` without faces.
+/// Centre of a cell [m] as OpenFOAM defines it: the mean of the centres of pyramids from its faces
+/// to the mean of the faces' centres, by volume. `None` without faces.
 fn centre(faces: &[WallFace]) -> Option<Vector3<f64>> {
     let middle = faces.iter().map(|face| face.centre).sum::<Vector3<f64>>() / faces.len() as f64;
     let (mut moment, mut volume) = (Vector3::zeros(), 0.0);

@@ -1,7 +1,8 @@
 //! The syntax of OpenFOAM's files of meshes, fields and parcels: header, dictionaries, and lists in ASCII and binary.
 //!
-//! A binary list is its length, `(`, the bytes of its numbers and `)`. The widths of labels and scalars and the order of
-//! their bytes are in the header (`arch`); without it they are 32 bits, 64 bits and little-endian.
+//! A binary list is its length, `(`, the bytes of its numbers and `)`. The widths of labels and
+//! scalars and the order of their bytes are in the header (`arch`); without it they are 32 bits, 64
+//! bits and little-endian.
 
 use std::path::{Path, PathBuf};
 
@@ -299,9 +300,9 @@ impl FoamFile {
         Ok(numbers.chunks_exact(3).map(|place| [place[0], place[1], place[2]]).collect())
     }
 
-    /// The values of a field in `count` cells or on faces, which `name` counts: `uniform 1;`, `uniform (1 2 3);` or
-    /// `nonuniform List<scalar> 2(1 2);`, which may lack the type where the list is empty. The `parts` of an entry, 1 of a
-    /// scalar and 3 of a vector, stand side by side.
+    /// The values of a field in `count` cells or on faces, which `name` counts: `uniform 1;`,
+    /// `uniform (1 2 3);` or `nonuniform List<scalar> 2(1 2);`, which may lack the type where the
+    /// list is empty. The `parts` of an entry, 1 of a scalar and 3 of a vector, stand side by side.
     ///
     /// # Errors
     /// Another form, or another number of values.
@@ -364,8 +365,9 @@ impl FoamFile {
         Ok(Numbers::Each(numbers))
     }
 
-    /// The rows of a list of places: scalars between brackets, then labels, `(x y z) cell` for instance. In binary each row
-    /// has brackets of its own, around one of these `forms`: so many scalars and so many labels.
+    /// The rows of a list of places: scalars between brackets, then labels, `(x y z) cell` for
+    /// instance. In binary each row has brackets of its own, around one of these `forms`: so many
+    /// scalars and so many labels.
     ///
     /// # Errors
     /// When there are no such rows, or when the list is cut off.

@@ -2,10 +2,11 @@
 //!
 //! The mesh, `T` or else `U`, and the cloud are read from the case or from the folders of its ranks.
 //!
-//! The conversion of a parcel is 1 - m Y_C / (m_0 Y_C0): the mass m of a particle from its diameter and density (π/6 d³ ρ),
-//! the share Y_C of carbon in it from `YC(s)`, its mass at injection from `mass0`, and the share at injection from the
-//! cloud's properties (`YSolidTot0` and `C` of the solid). OpenFOAM writes `YC(s)` as a share of the whole parcel, not of its
-//! solid. nearWallInteraction computes the same (`carbonConversion` of `openfoam/coupling/cloudTraits.H`).
+//! The conversion of a parcel is 1 - m Y_C / (m_0 Y_C0): the mass m of a particle from its diameter
+//! and density (π/6 d³ ρ), the share Y_C of carbon in it from `YC(s)`, its mass at injection from
+//! `mass0`, and the share at injection from the cloud's properties (`YSolidTot0` and `C` of the
+//! solid). OpenFOAM writes `YC(s)` as a share of the whole parcel, not of its solid.
+//! nearWallInteraction computes the same (`carbonConversion` of `openfoam/coupling/cloudTraits.H`).
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -18,8 +19,8 @@ use super::written_time::{WrittenTime, has_collated};
 use crate::results::gas::{CutPlane, FlyingParcel, GasCut, GasQuantity, ParcelQuantity};
 use crate::results::{MapCell, range};
 
-/// Largest size of the files `faces` of a mesh that is cut, in all [bytes]: some four million cells, for which reading takes
-/// a gigabyte.
+/// Largest size of the files `faces` of a mesh that is cut, in all [bytes]: some four million
+/// cells, for which reading takes a gigabyte.
 const LARGEST_MESH: u64 = 250_000_000;
 /// Carbon of each parcel over its mass [1].
 const CARBON: &str = "YC(s)";

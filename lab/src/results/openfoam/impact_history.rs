@@ -1,8 +1,8 @@
 //! The recorded impacts of each parcel in their order, from the `impacts.csv` of a finished case (key `record` of
 //! nearWallInteraction), with what the tables state about the whole run.
 //!
-//! A wall law can be judged by replaying them: as long as it decides each impact as recorded, the parcel's next impact is
-//! the recorded one.
+//! A wall law can be judged by replaying them: as long as it decides each impact as recorded, the
+//! parcel's next impact is the recorded one.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -319,7 +319,8 @@ fn preface(source: impl BufRead) -> std::io::Result<(u64, u64)> {
     Ok((one_in, header))
 }
 
-/// The newest `impacts.csv` that a place stands for: the file itself, or a case, a cloud's tables or a folder around them.
+/// The newest `impacts.csv` that a place stands for: the file itself, or a case, a cloud's tables
+/// or a folder around them.
 ///
 /// # Errors
 /// [`HistoryError`] for a place without a record or with those of several clouds.

@@ -123,7 +123,8 @@ pub(super) struct Faces {
 }
 
 impl Faces {
-    /// Reads `points` and `faces`. In ASCII the latter is a list of lists, in binary the starts of the faces and all labels.
+    /// Reads `points` and `faces`. In ASCII the latter is a list of lists, in binary the starts of
+    /// the faces and all labels.
     ///
     /// # Errors
     /// [`FoamError`].

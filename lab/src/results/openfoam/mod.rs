@@ -1,9 +1,11 @@
 //! Results of finished OpenFOAM cases.
 //!
-//! Sources are the tables of nearWallInteraction ([`tables`], [`deposit`]), the counts of the stock models in the logs
-//! ([`log`]), the arrivals that the cloud function `patchPostProcessing` recorded ([`recorded`]), and the captured
-//! parcels of the last written time ([`parcels`]), its fields on the walls ([`surfaces`]), and the gas with the parcels in it
-//! ([`gas`]). [`impact_history`] reads the impacts of each parcel. What is missing is listed in [`RunResults::missing`].
+//! Sources are the tables of nearWallInteraction ([`tables`], [`deposit`]), the counts of the stock
+//! models in the logs ([`log`]), the arrivals that the cloud function `patchPostProcessing`
+//! recorded ([`recorded`]), and the captured parcels of the last written time ([`parcels`]), its
+//! fields on the walls ([`surfaces`]), and the gas with the parcels in it ([`gas`]).
+//! [`impact_history`] reads the impacts of each parcel. What is missing is listed in
+//! [`RunResults::missing`].
 
 mod cells;
 pub mod deposit;
@@ -55,7 +57,8 @@ pub fn read(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
     read_all(&[folder])
 }
 
-/// Reads finished cases for a comparison: as [`read`], with the recorded arrivals up to the last time that all have reached.
+/// Reads finished cases for a comparison: as [`read`], with the recorded arrivals up to the last
+/// time that all have reached.
 ///
 /// # Errors
 /// [`CaseError`] of the first folder that is no case or holds no results.

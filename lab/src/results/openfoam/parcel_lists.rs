@@ -1,7 +1,7 @@
 //! The lists of a cloud's parcels: their places, and the values of one property of all.
 //!
-//! v1912 writes Cartesian places to `positions` and barycentric coordinates to `coordinates`; OpenFOAM of the Foundation
-//! writes the latter to `positions`.
+//! v1912 writes Cartesian places to `positions` and barycentric coordinates to `coordinates`;
+//! OpenFOAM of the Foundation writes the latter to `positions`.
 
 use std::path::Path;
 
@@ -10,7 +10,8 @@ use super::foam_file::{FoamError, FoamFile, Numbers, is_written};
 /// Where a parcel is within a tetrahedron of a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TetPlace {
-    /// Weights of the four corners, whose sum is 1: centre of the cell, base point of the face, and two further corners.
+    /// Weights of the four corners, whose sum is 1: centre of the cell, base point of the face, and
+    /// two further corners.
     pub weights: [f64; 4],
     pub cell: usize,
     pub face: usize,

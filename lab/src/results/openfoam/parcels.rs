@@ -1,8 +1,8 @@
 //! The captured parcels of a cloud at the last written time.
 //!
-//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and the deposit of `nearWallInteraction`,
-//! `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, `regime`, ASCII or binary. Compressed files are not read; the page
-//! then states it.
+//! `<time>/lagrangian/<cloud>/positions`, `active`, `d`, `rho`, `nParticle`, and the deposit of
+//! `nearWallInteraction`, `<time>/lagrangian/<cloud>Deposit/positions`, `d`, `mass`, `regime`,
+//! ASCII or binary. Compressed files are not read; the page then states it.
 
 use std::f64::consts::PI;
 use std::path::Path;

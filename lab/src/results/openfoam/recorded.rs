@@ -1,7 +1,8 @@
-//! Arrivals at patches as OpenFOAM's own cloud function `patchPostProcessing` records them, before the wall model acts:
-//! `postProcessing/lagrangian/<cloud>/<function>/<time>/<patch>.post`, one line a parcel. Since v2306 it is
-//! `particlePostProcessing`, the file ends with `.dat` and the names of the columns are in quotation marks. The function
-//! works with every wall model, so that cases can be compared by what arrives.
+//! Arrivals at patches as OpenFOAM's own cloud function `patchPostProcessing` records them, before
+//! the wall model acts: `postProcessing/lagrangian/<cloud>/<function>/<time>/<patch>.post`, one
+//! line a parcel. Since v2306 it is `particlePostProcessing`, the file ends with `.dat` and the
+//! names of the columns are in quotation marks. The function works with every wall model, so that
+//! cases can be compared by what arrives.
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -68,8 +69,8 @@ struct Arrival {
     conversion: Option<f64>,
 }
 
-/// The recorded arrivals of a cloud at each patch, summed up to a time [s]. A patch that two functions record is taken from
-/// the first.
+/// The recorded arrivals of a cloud at each patch, summed up to a time [s]. A patch that two
+/// functions record is taken from the first.
 pub(super) fn read_all(
     case: &Path,
     cloud: &str,

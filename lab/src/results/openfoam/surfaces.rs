@@ -8,8 +8,8 @@ use super::mesh::Patch;
 use super::written_time::{WrittenTime, has_collated};
 use crate::results::surface::{SurfaceQuantity, WallFace, WallSurface};
 
-/// All fields of a cloud on the walls: those that are always written, then those of a wall with memory; and the quantity
-/// that a page shows of them. Fields of one quantity are added up.
+/// All fields of a cloud on the walls: those that are always written, then those of a wall with
+/// memory; and the quantity that a page shows of them. Fields of one quantity are added up.
 const WALL_FIELDS: [(&str, Option<SurfaceQuantity>); 14] = [
     ("depositedMass", Some(SurfaceQuantity::Captured)),
     ("hitCount", None),
@@ -129,7 +129,8 @@ fn last(case: &Path, cloud: &str, wanted: Option<f64>) -> Result<Option<WrittenT
     Ok(source)
 }
 
-/// The wanted fields on the wanted patches, which may depend on whether a patch has any value; values that are absent are 0.
+/// The wanted fields on the wanted patches, which may depend on whether a patch has any value;
+/// values that are absent are 0.
 fn read(
     source: &WrittenTime,
     cloud: &str,

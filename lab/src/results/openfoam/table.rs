@@ -82,8 +82,9 @@ pub fn for_each(path: &Path, mut take: impl FnMut(&TableRow<'_>)) {
     }
 }
 
-/// Reads `<folder>/<start time>/<wall><suffix>`, but no file that ends as one of `except`: the history of each wall over
-/// all starts of the solver. What a start wrote replaces what earlier starts had written after its time.
+/// Reads `<folder>/<start time>/<wall><suffix>`, but no file that ends as one of `except`: the
+/// history of each wall over all starts of the solver. What a start wrote replaces what earlier
+/// starts had written after its time.
 pub fn histories<T>(
     folder: &Path,
     suffix: &str,

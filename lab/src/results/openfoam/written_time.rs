@@ -1,5 +1,5 @@
-//! Where a case wrote something last: in its own folder or, when it is decomposed and not reconstructed up to that time, in
-//! the folders of the ranks.
+//! Where a case wrote something last: in its own folder or, when it is decomposed and not
+//! reconstructed up to that time, in the folders of the ranks.
 
 use std::path::{Path, PathBuf};
 

@@ -30,7 +30,8 @@ const HEADER: [&str; 14] = [
 /// Further columns of a case with a cooled wall; blank for walls of a given temperature.
 const HEAT_HEADER: [&str; 3] = ["porosity", "surface_temperature_K", "heat_flux_W_m2"];
 
-/// Further columns of a case with a wall that loses deposits: the place of each process in [`PROCESSES`] and the name of its loss.
+/// Further columns of a case with a wall that loses deposits: the place of each process in
+/// [`PROCESSES`] and the name of its loss.
 fn losses() -> impl Iterator<Item = (usize, &'static str)> {
     PROCESSES.iter().enumerate().filter_map(|(place, process)| Some((place, process.loss?)))
 }

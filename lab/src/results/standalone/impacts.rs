@@ -17,9 +17,10 @@ const INJECTION: &str = "injection";
 
 /// Writes impacts as a data file that `nearwall predict` and `nearwall diagnose` read, up to a number of rows.
 ///
-/// The rows are all hits of the first particles of each injection: a fair sample, since particles are drawn alike (in a case
-/// with a deposit, of the time of the first particles). The first particle whose hits do not all fit ends the record. Each
-/// injection and each value of a sweep has an equal number of rows.
+/// The rows are all hits of the first particles of each injection: a fair sample, since particles
+/// are drawn alike (in a case with a deposit, of the time of the first particles). The first
+/// particle whose hits do not all fit ends the record. Each injection and each value of a sweep has
+/// an equal number of rows.
 pub struct ImpactRecorder<W: Write> {
     writer: csv::Writer<W>,
     /// Rows for each injection in each run of the case.

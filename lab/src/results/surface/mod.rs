@@ -1,7 +1,7 @@
 //! What lies on the faces of a wall, and the wall unrolled into a plane.
 //!
-//! [`crate::results::openfoam`] reads a [`WallSurface`]; [`unroll()`] lays its faces into a plane; [`shapes`] makes the cells
-//! of a map of one quantity.
+//! [`crate::results::openfoam`] reads a [`WallSurface`]; [`unroll()`] lays its faces into a plane;
+//! [`shapes`] makes the cells of a map of one quantity.
 
 mod nearest;
 mod unroll;
@@ -97,8 +97,9 @@ pub struct WallSurface {
     pub faces: Vec<WallFace>,
     /// Quantities and their values on each face.
     pub quantities: Vec<(SurfaceQuantity, Vec<f64>)>,
-    /// Mass per area [kg/m²] of the captured parcels that lie on each face, by the regime of their capture in the order of
-    /// [`nearwall::impact::Regime::ALL`]; `None` where the source does not tell it.
+    /// Mass per area [kg/m²] of the captured parcels that lie on each face, by the regime of their
+    /// capture in the order of [`nearwall::impact::Regime::ALL`]; `None` where the source does not
+    /// tell it.
     pub captured: Option<[Vec<f64>; 4]>,
 }
 

@@ -9,11 +9,12 @@ use crate::results::{Capture, range};
 
 /// Cells along the longest side of the box around all walls.
 const CELLS_ALONG: f64 = 40.0;
-/// Distance from a face up to which a parcel lies on it, over the root of the face's area [1]; its diameter comes on top.
+/// Distance from a face up to which a parcel lies on it, over the root of the face's area [1]; its
+/// diameter comes on top.
 const REACH_OF_FACE: f64 = 0.1;
 
-/// Gives each wall the mass of the parcels on its faces by regime; walls without such parcels stay as they are. Parcels away
-/// from all walls, or of an unknown regime, are left out.
+/// Gives each wall the mass of the parcels on its faces by regime; walls without such parcels stay
+/// as they are. Parcels away from all walls, or of an unknown regime, are left out.
 pub(in crate::results) fn add_regimes(walls: &mut [WallSurface], captures: &[Capture]) {
     let faces = FacesByPlace::of(walls);
     let found: Vec<_> = captures

@@ -1,9 +1,10 @@
 //! A wall unrolled into a plane.
 //!
 //! - A **flat** wall is projected on its plane.
-//! - A wall **around an axis** with one cross-section (a pipe, part of a pipe, a duct) is unrolled along the outline of the
-//!   section. The axis is the direction in which the normals of the faces spread least, its place the centre of the circle
-//!   that fits the corners best. Every face keeps its area.
+//! - A wall **around an axis** with one cross-section (a pipe, part of a pipe, a duct) is unrolled
+//!   along the outline of the section. The axis is the direction in which the normals of the faces
+//!   spread least, its place the centre of the circle that fits the corners best. Every face keeps
+//!   its area.
 //! - A **body of revolution** (a pipe with a cone) becomes the angle at a mean radius over the axis.
 //! - Any **other** wall is projected on the two main axes over which it extends most, which the text says.
 
@@ -17,7 +18,8 @@ use crate::results::range;
 
 /// Largest extent of a flat wall across its plane, over that along it [1].
 const FLATNESS: f64 = 0.02;
-/// Largest root mean square of the part of the normals along the axis of a pipe, or around that of a body of revolution [1].
+/// Largest root mean square of the part of the normals along the axis of a pipe, or around that of
+/// a body of revolution [1].
 const ACROSS: f64 = 0.1;
 /// Largest mean change of a face's area by unrolling a pipe [1].
 const AREA_CHANGE: f64 = 0.03;
@@ -176,7 +178,8 @@ fn across(direction: &Vector3<f64>) -> Vector3<f64> {
     unit(first - first.dot(direction) * direction)
 }
 
-/// Two directions in a plane: those of main axes, unless the wall fits better into a rectangle along the spread of its corners.
+/// Two directions in a plane: those of main axes, unless the wall fits better into a rectangle
+/// along the spread of its corners.
 fn directions_in_plane(faces: &[WallFace], normal: Vector3<f64>) -> [Vector3<f64>; 2] {
     let first = tidy(across(&normal));
     let straight = [first, tidy(normal.cross(&first))];
@@ -217,8 +220,8 @@ impl RoundAxis {
         [y.atan2(x), x.hypot(y), place.dot(&self.direction)]
     }
 
-    /// The corners of a face as angle, distance and place along the axis; angles are within half a turn of the face's centre,
-    /// which is within a turn after `start`.
+    /// The corners of a face as angle, distance and place along the axis; angles are within half a
+    /// turn of the face's centre, which is within a turn after `start`.
     fn corners(&self, face: &WallFace, start: f64) -> Vec<[f64; 3]> {
         let middle = start + (self.polar(&face.centre)[0] - start).rem_euclid(TAU);
         let near = |corner: &Vector3<f64>| {
