@@ -398,8 +398,24 @@ impl Loops<'_, false> {
     /// Probability of capture and range of both shares, with those of the place that the impact does not meet.
     #[inline(always)]
     fn other(&self, steps: &StepColumns, columns: &ContactColumns, outcomes: &mut Outcomes) {
+        with_normal!(self.wall, wall => in_variants! {
+            wall, wall => self.other_with(wall, steps, columns, outcomes); wall.tangential;
+            law @ TangentialLaw::Listed { .. } => { tangential: law }
+            // Only a law by name has a range; no rebound is asked for.
+            _ => { tangential: TangentialLaw::Constant { restitution: 0.0 } }
+        });
+    }
+
+    #[inline(always)]
+    fn other_with(
+        &self,
+        wall: &WallConstants,
+        steps: &StepColumns,
+        columns: &ContactColumns,
+        outcomes: &mut Outcomes,
+    ) {
         let selected = StepSet::ADHESION.union(StepSet::NORMAL).union(AFTER_NORMAL);
-        with_normal!(self.wall, wall => for i in 0..self.length() {
+        for i in 0..self.length() {
             let (state, ..) = self.run(i, selected, wall, steps, Some(columns));
             let coverage = columns.coverage[i];
             let share = if columns.covered[i] == 1 { coverage } else { 1.0 - coverage };
@@ -407,7 +423,7 @@ impl Loops<'_, false> {
             let both = both_shares(share, met, state.probability);
             outcomes.sticking_probability[i] = if share == 0.0 { met } else { both };
             outcomes.outside_range[i] |= u32::from(state.outside_range) & u32::from(share != 0.0);
-        });
+        }
     }
 }
 
