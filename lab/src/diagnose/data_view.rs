@@ -16,7 +16,7 @@ const AVERAGED_ROWS: usize = 40;
 /// Least number of rows averaged, if there are so many.
 const LEAST_NEAREST: usize = 12;
 /// Positive values that span more than this factor are evenly spaced in their logarithm.
-const LOGARITHMIC_SPAN: f64 = 30.0;
+const CURVE_LOGARITHMIC_SPAN: f64 = 30.0;
 /// Number of parts by a second column, and least number of rows of each.
 const COLUMN_PARTS: usize = 3;
 const LEAST_PART: usize = 20;
@@ -150,7 +150,7 @@ fn curve(
         seen.iter().copied().step_by(seen.len().div_ceil(MOST_CURVE_ROWS).max(1)).collect();
     let (Some(&first), Some(&last)) = (seen.first(), seen.last()) else { return Vec::new() };
     let (low, high) = (numbers[first], numbers[last]);
-    let log = low > 0.0 && high > LOGARITHMIC_SPAN * low;
+    let log = low > 0.0 && high > CURVE_LOGARITHMIC_SPAN * low;
     let place = |value: f64| if log { value.ln() } else { value };
     let nearest = (seen.len() / 6).clamp(LEAST_NEAREST, AVERAGED_ROWS).min(seen.len());
 

@@ -9,7 +9,7 @@
 use nalgebra::Vector3;
 
 /// Distance of a point from its wall, as a share of the wall's size, up to which the wall is flat [1].
-const FLATNESS: f64 = 1e-3;
+const WALL_FLATNESS: f64 = 1e-3;
 /// How far beyond the recorded impacts of a wall a particle may arrive, as a share of the wall's size [1].
 const BEYOND_IMPACTS: f64 = 0.02;
 /// Most times that a flight may take of what was recorded [1].
@@ -43,7 +43,7 @@ impl FlatWall {
             let farthest = rest.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
             let far = farthest.norm();
             size = f64::max(size, far);
-            if far <= FLATNESS * size {
+            if far <= WALL_FLATNESS * size {
                 break;
             }
             along.push(farthest / far);
@@ -61,7 +61,7 @@ impl FlatWall {
     /// The directions along both walls, if they are parallel.
     fn shared<'a>(&'a self, other: &'a Self) -> Option<&'a [Vector3<f64>]> {
         let [few, many] = if self.along.len() < other.along.len() { [self, other] } else { [other, self] };
-        let inside = |direction: &Vector3<f64>| beside(*direction, &many.along).norm() < 10.0 * FLATNESS;
+        let inside = |direction: &Vector3<f64>| beside(*direction, &many.along).norm() < 10.0 * WALL_FLATNESS;
         few.along.iter().all(inside).then_some(&many.along)
     }
 }
@@ -113,7 +113,7 @@ impl RecordedFlight {
         let off = beside(whole, along);
         let (across, drift) = (off.norm(), whole - off);
         let time = to.age - from.age;
-        let returns = across <= FLATNESS * from.wall.size.max(to.wall.size) && from.wall == to.wall;
+        let returns = across <= WALL_FLATNESS * from.wall.size.max(to.wall.size) && from.wall == to.wall;
         let (way, end) = if returns { (0.0, -to.speeds[0]) } else { (across, to.speeds[0]) };
         let [start, along_start] = from.speeds;
         if !(time > 0.0 && start > 0.0 && (returns || way > 0.0)) {
