@@ -26,8 +26,8 @@
 //! ```
 //!
 //! # An impact, step by step
-//! All callers (OpenFOAM, the C library, the command) go through [`Model::resolve`]. It runs these
-//! steps; none looks back:
+//! All callers (OpenFOAM, the C library, the command) use [`Model::resolve`], or
+//! [`Model::resolve_block`] for many impacts at once, with the same bits. Both run these steps:
 //!
 //! 1. [`impact`]: the caller's [`Impact`] holds speeds, size, temperatures and what lies on the
 //!    wall. The wall adds the powder and the covering of its entry in the model file.
@@ -36,8 +36,10 @@
 //! 3. [`capture`]: how sticky the particle and the wall are, from viscosity ([`slag`]), melting or conversion.
 //! 4. [`normal`]: the normal law gives `e_n`, or says that adhesion holds the particle. Effects
 //!    change `e_n`; a sticky particle loses part of it.
-//! 5. [`tangential`]: the tangential law gives `e_t` and the spin. Effects change them.
-//! 6. [`capture`] again: the probability of capture.
+//! 5. [`tangential`]: the tangential law gives `e_t` and the spin. Effects change them. `e_n` and
+//!    `e_t` are then referred to the mean wall again, if an effect tilted it.
+//! 6. [`capture`] again: the probability of capture. On a wall with slag or powder it is the mean
+//!    over the covered and the bare share; a random draw decides which of them gives `e_n` and `e_t`.
 //! 7. Fitted corrections ([`effect::FittedCurve`]) of `e_n`, `e_t` and the probability, where a
 //!    model has them; then the random draw ([`rng`]) decides whether the particle stays.
 //! 8. [`Outcome`]: `e_n`, `e_t`, spin, probability, regime, and whether a law was used outside its stated range.

@@ -2,7 +2,7 @@
 //! The command `nearwall` is one binary of this crate. Impacts themselves are decided by the
 //! library [`nearwall`], through its public functions.
 //!
-//! # The rooms, in the order in which data walk
+//! # Modules, in the order in which data pass through them
 //! 1. [`dataset`] reads tables of measured impacts and of readings of a rig.
 //! 2. [`predict`] adds predictions to a table of impacts; [`map`] shows a model over two inputs;
 //!    [`simulate`] follows particles in a prescribed gas flow; [`rig`] predicts what a whole rig

@@ -126,7 +126,7 @@ pub type WallProcess = Option<Arc<dyn Process>>;
 /// Name of a process and how it is read.
 #[derive(Debug)]
 pub struct ProcessInfo {
-    /// Its name, which is that of its table in a wall of the model file where it has one.
+    /// Its name, and that of its table `[walls.NAME.<process>]` in the model file, if it has a table.
     pub name: &'static str,
     /// How tables name the mass that it takes from the wall; `None` for a process that conserves mass.
     pub loss: Option<&'static str>,

@@ -41,7 +41,8 @@
 //! curve of 10 µm is steeper, and half have left at some 0.7 m/s against 0.92 computed. The gas is
 //! not certain: the later version of the first program takes air (1.181 kg/m³, 1.539e-5 m²/s) as a
 //! correction of hot helium (1.92 kg/m³, 1.96e-5 m²/s), which would give 0.06 and 0.10, half at
-//! 0.73 m/s. `tests/library/resuspension.rs` and the validation page have the points. This is no
+//! 0.73 m/s. `tests/data/resuspension_measured.csv` has the points, `tests/library/resuspension.rs` the
+//! comparison. This is no
 //! blind test, for Biasi et al. fitted resuspension data, those of Reeks & Hall probably among them
 //! (assumed).
 //!
@@ -105,7 +106,7 @@ pub const LARGEST_FITTED_RADIUS: f64 = 10e-6;
 /// adhesion (0.56 J/m²).
 pub const BONDED_NECK: f64 = 0.01;
 
-/// Share [1] of particles too small to follow: where fewer can leave, nothing does.
+/// If a smaller share [1] of the particles than this can leave, none is taken to leave.
 const NEGLIGIBLE: f64 = 1e-12;
 
 /// `x` below which the rate constant equals the burst frequency, `exp(-x²/2) = Phi(x)`.
@@ -120,7 +121,7 @@ static RELATIVE_RATES: LazyLock<[f64; ADHESION_CLASSES]> = LazyLock::new(|| {
         relative_rate(CAP + (LAST_DEVIATION - CAP) * (i as f64 + 0.5) / ADHESION_CLASSES as f64)
     })
 });
-/// Search for an equivalent time: range of the logarithm of time times burst frequency. Between 1e-17 and 1e22.
+/// Search for an equivalent time: range of ln(time · burst frequency), from 4e-18 to 5e21.
 const LOG_TIMES: (f64, f64) = (-40.0, 50.0);
 /// Most steps of a search; a Newton step that leaves the bracket is replaced by a halving.
 const MOST_SEARCH_STEPS: usize = 100;
@@ -136,7 +137,7 @@ fn biasi(radius: f64) -> [f64; 2] {
     [0.016 - 0.0023 * micrometres.powf(0.545), 1.8 + 0.136 * micrometres.powf(1.4)]
 }
 
-/// AdhesionDistribution of particles of one size to a rough wall: log-normal.
+/// Distribution of the adhesion of particles of one size to a rough wall: log-normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AdhesionDistribution {
     /// Force of the smooth contact, `F_a` [N].

@@ -6,7 +6,8 @@
 //!
 //! The end of a time step, for every code that keeps deposits:
 //!
-//! 1. The film flows with the deposit of the start of the step. It couples pieces of wall, so the code
+//! 1. The liquid film flows along the wall, with the deposit as it was at the start of the step. It
+//!    couples neighbouring pieces of wall, so the code
 //!    that has the mesh moves it ([`Model::film_velocity`](crate::Model::film_velocity)); all processes
 //!    here see one piece of wall.
 //! 2. Captured particles are added ([`Deposit::with`]). Where powder burns, it does so while they arrive

@@ -131,7 +131,7 @@ macro_rules! define_impact {
         }
 
         impl Impact {
-            $(#[doc = concat!("InputPlace of `", stringify!($field), "` in [`INPUTS`].")]
+            $(#[doc = concat!("Place of `", stringify!($field), "` in [`INPUTS`].")]
             pub const $place: usize = InputPlace::$field as usize;)*
         }
 

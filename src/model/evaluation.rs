@@ -1,4 +1,4 @@
-//! The order of physics: the steps of an impact, written once.
+//! The steps of an impact in their order, for every kind of wall.
 //!
 //! [`evaluate`] is the order. Two kinds of walls follow it through [`WallSteps`]: a `GeneralWall`
 //! with every law, effect, draw and trace, and a `PreparedWall` whose constants were computed when
@@ -10,7 +10,8 @@
 //!
 //! A single impact runs all steps at once. A block of impacts runs them in groups ([`StepSet`]),
 //! each group in a loop of its own over the block: short loops keep a processor's divider busy,
-//! while in one long loop each impact waits for its own chain of results. The functions are the
+//! while in one long loop every step waits for
+//! the result of the one before. The functions are the
 //! same, so both give the same bits.
 
 use crate::capture::{Combination, Stickiness};
@@ -174,7 +175,7 @@ pub(super) trait WallSteps {
         stickiness.particle
     }
 
-    /// The outcome after the fitted corrections, which know no law.
+    /// The outcome after the fitted corrections, which are not based on a law.
     #[inline(always)]
     fn correct(&mut self, plain: Corrected) -> Corrected {
         plain
@@ -191,7 +192,9 @@ pub(super) trait WallSteps {
     fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
 }
 
-/// Probability of capture [1] where the place that is not met has the share `share` [1].
+/// Probability of capture [1] of a wall with a covered and a bare share: the impact meets one of
+/// them, with the probability `met`; the other has the share `share` [1] of the wall and the
+/// probability `other`.
 #[inline(always)]
 pub(super) fn both_shares(share: f64, met: f64, other: f64) -> f64 {
     (1.0 - share) * met + share * other
@@ -228,7 +231,7 @@ impl OnBareWall {
     }
 }
 
-/// Runs the steps of `selected` on an impact, in the order of physics.
+/// Runs the steps of `selected` on an impact, in their order.
 ///
 /// # Errors
 /// What [`WallSteps::contact`] and [`WallSteps::stickiness`] return.

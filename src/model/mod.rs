@@ -1,11 +1,11 @@
 //! A model: the materials, the laws and the list of named terms that decide an impact.
 //!
-//! All callers go through [`Model::resolve`]: the command, the C library and OpenFOAM. The order of
-//! the steps stands in `evaluation.rs`: tilt of the wall, contact of the materials at their
-//! temperatures with the effects on it, stickiness of particle and wall, normal law, effects on
-//! `e_n`, loss by stickiness, tangential law, effects on `e_t`, back to the mean wall, capture,
-//! fitted corrections. [`Model::explain`] runs the same steps and records the value after each
-//! term.
+//! The command, the C library and OpenFOAM call [`Model::resolve`], or [`Model::resolve_block`] for
+//! many impacts at once, with the same bits. The order of the steps stands in `evaluation.rs`: tilt
+//! of the wall, contact of the materials at their temperatures with the effects on it, stickiness
+//! of particle and wall, normal law, effects on `e_n`, loss by stickiness, tangential law, effects
+//! on `e_t`, back to the mean wall, capture, fitted corrections. [`Model::explain`] runs the same
+//! steps and records the value after each term.
 
 pub mod block;
 mod deposit;

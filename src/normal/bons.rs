@@ -21,7 +21,7 @@
 //! and deposition in turbomachinery", ASME J. Turbomach. 139 (2017) 081009, not re-read. `v_y` and
 //! `e_0` agree with an open CFD code that names the paper (an earlier version of it; the present
 //! one lacks `1/sqrt(pi)` in `w`, so that its `e_0` reaches 1.77). The area of contact with `a`,
-//! `b`, `c` is from memory of the paper, without a second source. The paper takes 200 MPa and 0.8
+//! `b`, `c` was recalled from the paper and not checked against a second text. The paper takes 200 MPa and 0.8
 //! J/m² for ash, and lets strength and modulus fall above 1000 K: give these in the material. Its
 //! removal of deposit by the shear of the gas is left out: an impact does not know that shear.
 //!

@@ -84,7 +84,7 @@ fn lead(materials: &[&Material]) -> String {
 
 fn origins(materials: &[&Material]) -> Figure {
     let names: Vec<String> = materials.iter().map(|material| material.name().to_owned()).collect();
-    let mut bars = BarChart::new("NumberOrigin of the values", "property values", &names).stacked();
+    let mut bars = BarChart::new("Origin of the values", "property values", &names).stacked();
     for origin in NumberOrigin::ALL {
         let counts: Vec<f64> = materials.iter().map(|material| count(material, origin) as f64).collect();
         bars = bars.series(origin.name(), &counts);

@@ -1,4 +1,4 @@
-//! Numbers that several files of the room use.
+//! Numbers that several files of this module use.
 
 use super::likelihood::Scatter;
 

@@ -22,7 +22,7 @@ use nearwall::model::Model;
 const MINOR: f64 = 0.05;
 /// Scatter of a capture in comparisons with that of restitutions [1].
 const CAPTURE_WEIGHT_SCATTER: f64 = 0.25;
-/// Tolerance of the last fit [nats].
+/// Tolerance of the log score in [`Hypothesis::polish`] [nats].
 const SUMMIT: f64 = 1e-4;
 
 /// A scatter that changes with a covariate.
@@ -55,7 +55,7 @@ pub(super) struct Hypothesis<'a> {
     /// The observables that each part acts on, in their order, as of the last [`Hypothesis::fit_discrepancy`].
     pub acts_on: Vec<Vec<Observable>>,
     pub curves: Vec<ColumnCurve>,
-    /// Offset of the log odds of capture that no column explains.
+    /// Offset of the log odds of capture [1] that is the same for all rows.
     pub background_capture: f64,
     pub scatter_trends: Vec<ScatterTrend>,
     /// Offsets of `e_n` and `e_t` by row: residuals over the parts' own inputs, where a law is inexact.
@@ -207,7 +207,7 @@ impl<'a> Hypothesis<'a> {
         self.fit_scatter(rows);
     }
 
-    /// Moves all parameters to the summit of the likelihood of these rows, from near it.
+    /// Moves all parameters to the maximum of the likelihood of these rows, from near it.
     pub fn polish(&mut self, rows: &[usize]) {
         let offsets = self.offsets();
         let start = self.coordinates();
@@ -221,7 +221,7 @@ impl<'a> Hypothesis<'a> {
         self.fit_scatter(rows);
     }
 
-    /// Fits the constant rate of captures, if there is one; a curve of capture contains it.
+    /// Fits the constant rate of captures, if there is one; 0 where a curve of capture takes its place.
     fn fit_rate(&mut self, rows: &[usize]) {
         if self.background_capture == 0.0 {
             return;

@@ -20,7 +20,7 @@ use super::surface::Surface;
 pub struct FlightEnd {
     /// Time [s].
     pub time: f64,
-    /// ParticleState there.
+    /// State of the particle there.
     pub state: ParticleState,
     /// Index of the surface that was reached; `None` when the time was up.
     pub surface: Option<usize>,

@@ -1,6 +1,6 @@
 //! The state of a particle on its way and the equations of its motion.
 //!
-//! ParticleState: position [m], velocity [m/s], temperature without the heat of fusion [K] ([`super::fusion`]),
+//! State of a particle: position [m], velocity [m/s], temperature without the heat of fusion [K] ([`super::fusion`]),
 //! carbon conversion [1].
 //! `dx/dt = v`, `dv/dt = (u - v)/tau + g (1 - rho_g/rho_p)`, `m c_p dT/dt = heat`, `dX/dt` from
 //! [`super::conversion`]. Diameter and density follow the conversion ([`super::shrinkage`]).
