@@ -49,6 +49,18 @@ void requireViscosity
 }
 
 
+void printSettings(const scalar voidage, const bool film, const scalar acceleration)
+{
+    Info<< "    nearWallInteraction, memory of the walls: voidage " << voidage
+        << ", film " << (film ? "yes" : "no") << nl;
+    if (acceleration > 1)
+    {
+        Info<< "        acceleration " << acceleration << ": 1 s of the flow is "
+            << acceleration << " s of the deposit" << nl;
+    }
+}
+
+
 scalar readVoidage(const dictionary& dict)
 {
     return readChecked<scalar>
@@ -220,13 +232,7 @@ Foam::nearWall::wallMemory::wallMemory
         forAll(rules, patchi) walls[patchi] = rules[patchi].wall;
         film_.reset(new wallFilm(mesh, patches_, walls, model, gravity));
     }
-    Info<< "    nearWallInteraction, memory of the walls: voidage " << voidage_
-        << ", film " << (film_ ? "yes" : "no") << nl;
-    if (acceleration_ > 1)
-    {
-        Info<< "        acceleration " << acceleration_ << ": 1 s of the flow is "
-            << acceleration_ << " s of the deposit" << nl;
-    }
+    printSettings(voidage_, bool(film_), acceleration_);
 }
 
 

@@ -71,7 +71,7 @@ void Foam::nearWall::runState::makeMemory
 }
 
 
-void Foam::nearWall::runState::begin(const bool isSteady)
+void Foam::nearWall::runState::beginStep(const bool isSteady)
 {
     isSolving = true;
     recorder_.reserveIdentities();
