@@ -54,7 +54,7 @@
 //! impacts remove of a wall. [`c_api`] is the C interface.
 //!
 //! The crate `nearwall-lab` (folder `lab`) has everything around the library: measurements,
-//! standalone cases, diagnosis, pages and the command `nearwall`.
+//! standalone cases, diagnosis, HTML pages and the command `nearwall`.
 
 // Units stand in brackets, which rustdoc takes for links.
 #![allow(rustdoc::broken_intra_doc_links)]

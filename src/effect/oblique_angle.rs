@@ -3,15 +3,17 @@
 //! `e_n -> e_n exp(-a s^q (v_n / 1 m/s)^p)` with `s = sin²(theta) = v_t²/(v_n²+v_t²)`, `theta`
 //! counted from the normal, `a` the `strength` [1] (positive lowers `e_n`, negative raises it), `p`
 //! the `speed_exponent` [1] and `q` the `sharpness` [1], 2 unless given. Where it raises `e_n`, the
-//! speed away from the wall stays below that of arrival, `e_n <= v/v_n`. The gain is not taken from
-//! the speed along the wall: with an `e_t` near 1 a strong gain creates energy.
+//! normal speed after the impact is at most the total speed `v = sqrt(v_n² + v_t²)` before it, `e_n
+//! <= v/v_n`. The gain is not taken from the speed along the wall: with an `e_t` near 1 a strong
+//! gain creates energy.
 //!
 //! The form is assumed. Observations: Theories let `e_n` depend on `v_n` alone up to about 45° and
 //! on the angle beyond (with `q = 2` at most a quarter of `a` acts up to 45°). Tungsten dust on
 //! tungsten at a mean `theta` of 60.6° rebounds slower than by Thornton–Ning, the more so the
-//! higher `v_n` (set 4 of the dust impacts in the MIGRAINE paper, see docs/validation.md). Broom's 11 µm glass on aluminium gained 5 to 10 %
-//! from 0 to 45°, finer glass had a lower `e_n` there (cited by Troiano et al.). The sign is therefore free. Valid
-//! within the angles and speeds it was fitted on.
+//! higher `v_n` (set 4 of the dust impacts in the MIGRAINE paper, see docs/validation.md). Broom's
+//! 11 µm glass on aluminium gained 5 to 10 % from 0 to 45°, finer glass had a lower `e_n` there
+//! (cited by Troiano et al.). The sign is therefore free. Valid within the angles and speeds it was
+//! fitted on.
 
 use super::{Effect, EffectInfo, Parameter, Search};
 use crate::impact::Impact;

@@ -85,7 +85,8 @@ pub(super) struct ImpactState {
     pub outside_range: bool,
     pub contact: Contact,
     pub sticky: Stickiness,
-    /// `rho v_adh²` [Pa]; 0 where the normal law computes it itself.
+    /// `rho v_adh²` [Pa], density [kg/m³] times the adhesive velocity [m/s] squared; 0 where the
+    /// normal law computes it itself.
     pub adhesion: f64,
     pub normal: NormalRebound,
     /// Random number of the capture, in (0, 1).

@@ -14,8 +14,10 @@
 //! `v` speed towards the wall [m/s], `d` diameter [m], `V` volume [m³], `m` mass [kg], `rho`
 //! density of the particle [kg/m³], `E_c` composite modulus [Pa], `1/E_c = (1-nu_p²)/E_p +
 //! (1-nu_w²)/E_w` (the contact's `E*`), `sigma_y` yield strength [Pa] (the contact's `p_y`;
-//! `yield_ratio` is 1 unless given), `W` work of adhesion [J/m²], `w` deformation [m], `a`, `b`,
-//! `c` `contact_offset`, `contact_slope`, `contact_exponent` [1], by default 0.1, 1/7 and 0.5.
+//! `yield_ratio` is 1 unless given), `W` work of adhesion [J/m²], `w` deformation and `w_crit` that
+//! at yield [m], `l` length [m], `A` area of contact [m²], `e_0` restitution without adhesion [1],
+//! `e_n` normal restitution [1], `a`, `b`, `c` `contact_offset`, `contact_slope`,
+//! `contact_exponent` [1], by default 0.1, 1/7 and 0.5.
 //!
 //! Source: J. P. Bons, R. Prenter, S. Whitaker, "A simple physics-based model for particle rebound
 //! and deposition in turbomachinery", ASME J. Turbomach. 139 (2017) 081009, not re-read. `v_y` and

@@ -330,7 +330,8 @@ impl<'a> Hypothesis<'a> {
         (0..self.parts.len()).map(of_part).collect()
     }
 
-    /// Mean squared difference of two forecasts of the search's rows, in units of the scatter, by
+    /// Mean squared difference of two forecasts of the search's rows (of the means, plus the difference
+    /// of the variances), in units of the scatter squared, by
     /// observable; 0 where it was not measured.
     pub fn changes(&self, one: &Forecast, other: &Forecast) -> [f64; 3] {
         let [e_n, e_t] = self.scatter;
