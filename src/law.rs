@@ -182,11 +182,17 @@ impl FitLimit {
 impl Origin {
     /// Whether an impact lies in the range of the fit.
     pub fn holds_for(&self, impact: &Impact) -> bool {
-        self.range.iter().all(|limit| {
+        self.left_by(impact).next().is_none()
+    }
+
+    /// The limits of the fit that an impact leaves.
+    pub(crate) fn left_by(&self, impact: &Impact) -> impl Iterator<Item = &'static FitLimit> {
+        let impact = *impact;
+        self.range.iter().filter(move |limit| {
             let [low, high] = limit.range;
             // Rounding: an angle of 90 degrees is computed from two speeds.
-            let value = (limit.value)(impact);
-            value >= low * (1.0 - 1e-12) && value <= high * (1.0 + 1e-12)
+            let value = (limit.value)(&impact);
+            !(value >= low * (1.0 - 1e-12) && value <= high * (1.0 + 1e-12))
         })
     }
 

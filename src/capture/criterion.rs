@@ -268,6 +268,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// Temperatures [K] at which the criterion can be evaluated.
     fn known_range(&self) -> [f64; 2];
 
+    /// Temperatures [K] for which the criterion is stated for this material; from infinity to 0 for none.
+    fn stated_range(&self) -> [f64; 2] {
+        self.known_range()
+    }
+
     /// Whether the criterion is stated for this material in flight at a temperature [K].
     fn holds_in_flight(&self, temperature: f64) -> bool;
 

@@ -143,7 +143,7 @@ impl Melt {
     }
 
     /// Temperatures [K] for which the viscosity is stated; from infinity to 0 for none.
-    fn stated_range(&self) -> [f64; 2] {
+    pub fn stated_range(&self) -> [f64; 2] {
         match &self.viscosity {
             MeltViscosity::Oxides(law) => law.range().unwrap_or([f64::INFINITY, 0.0]),
             MeltViscosity::Given(_) => self.known_range(),

@@ -213,6 +213,10 @@ impl StickinessCriterion for MeltStickiness {
         self.melt.known_range()
     }
 
+    fn stated_range(&self) -> [f64; 2] {
+        self.melt.stated_range()
+    }
+
     fn holds_in_flight(&self, temperature: f64) -> bool {
         self.melt.holds_in_flight(temperature)
     }

@@ -259,6 +259,11 @@ impl Term {
         &self.valid
     }
 
+    /// As [`Self::valid`] of the inputs that the model file declares.
+    pub(crate) fn valid_extra(&self) -> &[(usize, [f64; 2])] {
+        &self.valid_extra
+    }
+
     /// The effect itself.
     pub fn effect(&self) -> &dyn Effect {
         self.effect.as_ref()

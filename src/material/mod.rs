@@ -361,6 +361,40 @@ impl Material {
         self.mechanical_properties().all(|p| p.holds_at(temperature))
     }
 
+    /// Key and stated range [K] of each mechanical property that is held outside of it at a temperature [K].
+    pub(crate) fn not_stated_at(&self, temperature: f64) -> impl Iterator<Item = (&'static str, [f64; 2])> {
+        let fields = MECHANICAL.into_iter().chain([Field::WorkOfAdhesion]);
+        fields.filter_map(move |field| {
+            let property = self.properties[field as usize].as_ref()?;
+            let held = !property.holds_at(temperature);
+            held.then(|| {
+                (PROPERTY_FIELDS[field as usize].key, property.valid().unwrap_or([0.0, f64::INFINITY]))
+            })
+        })
+    }
+
+    /// Key of each mechanical property that is stated for some temperatures only, and its relative
+    /// uncertainty [1], 0 where none is stated.
+    pub(crate) fn limited_properties(&self) -> impl Iterator<Item = (&'static str, f64)> {
+        let fields = MECHANICAL.into_iter().chain([Field::WorkOfAdhesion]);
+        fields.filter_map(|field| {
+            let property = self.properties[field as usize].as_ref()?;
+            property.valid()?;
+            Some((PROPERTY_FIELDS[field as usize].key, property.relative_uncertainty().unwrap_or(0.0)))
+        })
+    }
+
+    /// The same material with one property multiplied by a factor [1], within its limits.
+    pub(crate) fn scaled(&self, key: &str, factor: f64) -> Self {
+        let mut changed = self.clone();
+        for (field, property) in PROPERTY_FIELDS.iter().zip(&mut changed.properties) {
+            if field.key == key {
+                *property = property.take().map(|p| p.scaled(factor, &field.limits));
+            }
+        }
+        changed
+    }
+
     /// Whether the mechanical properties are the same at every temperature.
     pub fn is_constant(&self) -> bool {
         self.mechanical_properties().all(Property::is_constant)

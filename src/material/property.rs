@@ -173,6 +173,29 @@ impl Property {
         self.uncertainty
     }
 
+    /// Stated uncertainty [1] as a share of the value at the lower end of its range.
+    pub(crate) fn relative_uncertainty(&self) -> Option<f64> {
+        let [low, _] = self.valid().unwrap_or([293.15; 2]);
+        Some((self.uncertainty? / self.within_range(low)).abs())
+    }
+
+    /// The property multiplied by a factor [1]; its values stay within the limits.
+    pub(crate) fn scaled(self, factor: f64, limits: &Limits) -> Self {
+        let within = |value: f64| (value * factor).clamp(limits.low, limits.high);
+        let form = match self.form {
+            Form::Constant(value) => Form::Constant(within(value)),
+            Form::Table(table) => Form::Table(table.mapped(within)),
+            Form::Polynomial { coefficients, origin } => {
+                Form::Polynomial { coefficients: coefficients.iter().map(|c| c * factor).collect(), origin }
+            }
+            Form::Arrhenius { factor: before, temperature } => {
+                Form::Arrhenius { factor: before * factor, temperature }
+            }
+        };
+        let melt = self.melt.map(|melt| Box::new(melt.scaled(factor, limits)));
+        Self { form, melt, ..self }
+    }
+
     /// Source of the number; a text that starts with "assumed" means that there is none.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()

@@ -43,6 +43,14 @@ impl PropertyTable {
         self.lines.iter().map(|line| [line.from, line.value]).chain([self.last])
     }
 
+    /// The table with each value changed.
+    pub fn mapped(self, change: impl Fn(f64) -> f64) -> Self {
+        let [temperatures, values]: [Vec<f64>; 2] =
+            [0, 1].map(|which| self.points().map(|point| point[which]).collect());
+        let changed: Vec<f64> = values.into_iter().map(change).collect();
+        Self::new(&temperatures, &changed).unwrap_or(self)
+    }
+
     /// First and last temperature [K].
     pub fn range(&self) -> [f64; 2] {
         [self.lines.first().map_or(self.last[0], |line| line.from), self.last[0]]

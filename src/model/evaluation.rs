@@ -226,9 +226,17 @@ impl OnBareWall {
     ) -> (f64, bool) {
         let wall = if self.rebounds_from_melt { 0.0 } else { stickiness.wall };
         let probability = combination.probability(Stickiness { wall, ..stickiness });
+        let [law, dry_contact] = self.ranges_left(stickiness, probability, left_range);
+        (probability, law | dry_contact)
+    }
+
+    /// Whether the normal law is left by its own range, and whether as a dry contact on a sticky wall.
+    #[inline(always)]
+    pub fn ranges_left(self, stickiness: Stickiness, probability: f64, left_range: bool) -> [bool; 2] {
         let dry_rebound = (probability < 1.0) & self.dry & stickiness.is_wall_sticky();
         // Slag that holds every particle does so whatever the law of a dry contact says.
-        (probability, (left_range & (wall < 1.0)) | (dry_rebound & self.contact_law))
+        let holds_all = !self.rebounds_from_melt & (stickiness.wall >= 1.0);
+        [left_range & !holds_all, dry_rebound & self.contact_law]
     }
 }
 

@@ -4,6 +4,7 @@
 //! decides which; the outcome is that of the share met, and its probability of capture is that of
 //! both, `c P_covered + (1 - c) P_bare`.
 
+use super::beyond::{self, Beyond};
 use super::evaluation::{
     Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
 };
@@ -17,11 +18,33 @@ use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
-/// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1);
-/// `trace` receives term, quantity and value.
-struct GeneralWall<'a, U, T> {
-    model: &'a Model,
-    wall: &'a Wall,
+/// What watches the steps of an impact on a model.
+pub(super) trait Watcher<'m> {
+    /// Receives a quantity after a term.
+    fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
+
+    /// Receives what is used outside of its range.
+    fn beyond(&mut self, _beyond: Beyond<'m>) {}
+}
+
+/// Watches nothing.
+pub(super) struct Unwatched;
+
+impl Watcher<'_> for Unwatched {}
+
+/// The share of the wall that is not met: its ranges count, its terms are not shown.
+struct NotMet<'w, W>(&'w mut W);
+
+impl<'m, W: Watcher<'m>> Watcher<'m> for NotMet<'_, W> {
+    fn beyond(&mut self, beyond: Beyond<'m>) {
+        self.0.beyond(beyond);
+    }
+}
+
+/// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1).
+struct GeneralWall<'m, 'a, U, W> {
+    model: &'m Model,
+    wall: &'m Wall,
     place: WallPlace,
     /// The impact on the wall as a whole, covered or not: fitted corrections depend on it.
     reaching: &'a Impact,
@@ -34,23 +57,24 @@ struct GeneralWall<'a, U, T> {
     droplet_rebound: Option<f64>,
     /// Whether a law was used outside its range.
     left_range: bool,
+    contact: Contact,
     uniform: &'a U,
-    trace: T,
+    watcher: &'a mut W,
 }
 
 impl Model {
     /// Decides an impact by the general steps.
-    pub(super) fn evaluate(
-        &self,
+    pub(super) fn evaluate<'m>(
+        &'m self,
         wall: usize,
         impact: &Impact,
         uniform: impl Fn(u64) -> f64,
-        mut trace: impl FnMut(&'static str, &'static str, f64),
+        watcher: &mut impl Watcher<'m>,
     ) -> Result<Outcome, ImpactError> {
         let mut arriving = *impact;
         let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
-        let outcome = self.evaluate_place(wall, &arriving, met, &uniform, &mut trace)?;
+        let outcome = self.evaluate_place(wall, &arriving, met, &uniform, watcher)?;
         let (other, share) = match met {
             WallPlace::Anywhere => return Ok(outcome),
             WallPlace::Bare => (WallPlace::Covered, arriving.coverage),
@@ -59,10 +83,10 @@ impl Model {
         if share == 0.0 {
             return Ok(outcome);
         }
-        let elsewhere = self.evaluate_place(wall, &arriving, other, &uniform, &mut |_, _, _| {})?;
+        let elsewhere = self.evaluate_place(wall, &arriving, other, &uniform, &mut NotMet(watcher))?;
         let sticking_probability =
             both_shares(share, outcome.sticking_probability, elsewhere.sticking_probability);
-        trace("cover", "p_stick", sticking_probability);
+        watcher.trace("cover", "p_stick", sticking_probability);
         let outside_range = outcome.outside_range | elsewhere.outside_range;
         Ok(Outcome { sticking_probability, outside_range, ..outcome })
     }
@@ -82,7 +106,7 @@ impl Model {
         let mut arriving = *impact;
         let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
-        self.evaluate_place(wall, &arriving, met, &uniform, &mut |_, _, _| {})
+        self.evaluate_place(wall, &arriving, met, &uniform, &mut Unwatched)
     }
 
     /// Whether a draw decides if the impact meets the covered or the bare share of the wall.
@@ -101,13 +125,13 @@ impl Model {
     }
 
     /// Decides an impact at one place of a wall.
-    fn evaluate_place(
-        &self,
-        wall: &Wall,
+    fn evaluate_place<'m>(
+        &'m self,
+        wall: &'m Wall,
         reaching: &Impact,
         place: WallPlace,
         uniform: &impl Fn(u64) -> f64,
-        trace: &mut impl FnMut(&'static str, &'static str, f64),
+        watcher: &mut impl Watcher<'m>,
     ) -> Result<Outcome, ImpactError> {
         let at_place;
         let arriving = match place {
@@ -132,8 +156,9 @@ impl Model {
             on_melt: None,
             droplet_rebound: None,
             left_range: false,
+            contact: Contact::default(),
             uniform,
-            trace,
+            watcher,
         };
         let mut state = ImpactState { impact: *arriving, ..ImpactState::default() };
         evaluate(&mut steps, StepSet::ALL, &mut state)?;
@@ -281,22 +306,17 @@ fn place_met(wall: &Wall, arriving: &Impact, uniform: &impl Fn(u64) -> f64) -> W
     }
 }
 
-impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for GeneralWall<'_, U, T> {
+impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U, W> {
     type Fault = ImpactError;
 
     fn outside_range(&mut self, arriving: &Impact) -> bool {
-        let Self { model, wall, place, .. } = self;
-        let melt = wall.melt.as_ref().filter(|_| *place != WallPlace::Covered);
-        !(model
-            .stickiness
-            .as_ref()
-            .is_none_or(|criterion| criterion.holds_in_flight(arriving.particle_temperature))
-            && melt.is_none_or(|melt| melt.holds_on_wall(arriving.wall_temperature))
-            && model.melt_holds(arriving)
-            && model.tangential.holds_for(arriving)
-            && model.particle.holds_for(arriving)
-            && wall.material.holds_at(arriving.wall_temperature)
-            && model.terms.iter().all(|term| term.holds_for(arriving)))
+        let Self { model, wall, place, watcher, .. } = self;
+        let mut any = false;
+        model.beyond_before(wall, *place, arriving, &mut |beyond| {
+            any = true;
+            watcher.beyond(beyond);
+        });
+        any
     }
 
     fn turn(&mut self, impact: &mut Impact) {
@@ -307,6 +327,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     fn contact(&mut self, impact: &Impact) -> Result<Contact, ImpactError> {
         let contact = self.model.contact(self.wall, impact, self.place, self.uniform)?;
+        self.contact = contact;
         self.on_melt = match contact.melt {
             Some(_) => self.model.terms.iter().find_map(|term| term.effect().on_melt(impact, &contact)),
             None => None,
@@ -316,9 +337,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     }
 
     fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, ImpactError> {
-        let mut particle = self.model.particle_stickiness(impact, &mut self.trace)?;
+        let mut trace = |term, quantity, value| self.watcher.trace(term, quantity, value);
+        let mut particle = self.model.particle_stickiness(impact, &mut trace)?;
         if self.droplet_rebound.is_some() {
-            self.trace("droplet rebound", "particle stickiness", 0.0);
+            self.watcher.trace("droplet rebound", "particle stickiness", 0.0);
             particle = 0.0;
         }
         let wall = match self.place {
@@ -330,17 +352,17 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
 
     fn normal_law(&mut self, impact: &Impact, contact: &Contact, _: f64) -> NormalRebound {
         if let Some(OnMelt::Rebounds(e_n)) = self.on_melt {
-            self.trace("melt", "e_n", e_n);
+            self.watcher.trace("melt", "e_n", e_n);
             return NormalRebound { restitution: e_n, held: false };
         }
         if let Some(e_n) = self.droplet_rebound {
-            self.trace("droplet rebound", "e_n", e_n);
+            self.watcher.trace("droplet rebound", "e_n", e_n);
             return NormalRebound { restitution: e_n, held: false };
         }
         let law = self.model.normal;
         self.left_range = !law.holds_for(contact, impact);
         let e_n = law.rebound(contact, impact);
-        self.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
+        self.watcher.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
         NormalRebound::of(e_n)
     }
 
@@ -358,7 +380,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             let chance = term.chance(self.uniform);
             let changed = term.effect().normal_restitution(impact, contact, e_n, chance);
             if changed != Some(e_n) {
-                (self.trace)(term.kind().id, "e_n", changed.unwrap_or(0.0));
+                self.watcher.trace(term.kind().id, "e_n", changed.unwrap_or(0.0));
             }
             let Some(changed) = changed else { return NormalRebound::of(None) };
             e_n = changed;
@@ -377,7 +399,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     fn tangential_law(&mut self, kinematics: &ImpactKinematics) -> Rebound {
         let law = self.model.tangential;
         let rebound = law.rebound(kinematics);
-        self.trace(law.name(), "e_t", rebound.restitution);
+        self.watcher.trace(law.name(), "e_t", rebound.restitution);
         rebound
     }
 
@@ -385,7 +407,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         for term in &self.model.terms {
             let changed = term.effect().tangential(kinematics, rebound);
             if changed != rebound {
-                (self.trace)(term.kind().id, "e_t", changed.restitution);
+                self.watcher.trace(term.kind().id, "e_t", changed.restitution);
             }
             rebound = changed;
         }
@@ -400,8 +422,12 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     /// A droplet's capture does not depend on the wall.
     fn capture_probability(&mut self, impact: &Impact, stickiness: Stickiness) -> f64 {
         let model = self.model;
+        let mut found = |beyond| self.watcher.beyond(beyond);
         let droplet = |t| model.stickiness.as_ref().is_some_and(|criterion| criterion.is_droplet(t));
         if droplet(impact.particle_temperature) {
+            if self.left_range {
+                beyond::of_normal_law(model.normal, &self.contact, impact, &mut found);
+            }
             return stickiness.particle;
         }
         let place = OnBareWall {
@@ -409,14 +435,23 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             dry: self.on_melt.is_none(),
             contact_law: model.normal.is_contact_law(),
         };
+        let law_left = self.left_range;
         let probability;
         (probability, self.left_range) =
-            place.capture_probability(model.capture.combination, stickiness, self.left_range);
+            place.capture_probability(model.capture.combination, stickiness, law_left);
+        let [law, dry_contact] = place.ranges_left(stickiness, probability, law_left);
+        if law {
+            beyond::of_normal_law(model.normal, &self.contact, impact, &mut found);
+        }
+        if dry_contact {
+            beyond::of_dry_contact(model.normal, stickiness.wall, &mut found);
+        }
         probability
     }
 
     fn correct(&mut self, plain: Corrected) -> Corrected {
-        self.model.corrected(self.reaching, plain, &mut self.trace)
+        let mut trace = |term, quantity, value| self.watcher.trace(term, quantity, value);
+        self.model.corrected(self.reaching, plain, &mut trace)
     }
 
     fn left_range(&self) -> bool {
@@ -424,6 +459,6 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     }
 
     fn trace(&mut self, term: &'static str, quantity: &'static str, value: f64) {
-        (self.trace)(term, quantity, value);
+        self.watcher.trace(term, quantity, value);
     }
 }

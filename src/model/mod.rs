@@ -7,9 +7,11 @@
 //! on `e_t`, back to the mean wall, capture, fitted corrections. [`Model::explain`] runs the same
 //! steps and records the value after each term.
 
+mod beyond;
 pub mod block;
 mod deposit;
 mod describe;
+mod displaced;
 mod evaluation;
 mod expectation;
 mod general_wall;
@@ -35,8 +37,11 @@ use crate::rng::ImpactRng;
 use crate::tangential::TangentialLaw;
 
 pub use crate::deposit::WallMelt;
+pub use beyond::{Beyond, Limit, Stated};
+pub use displaced::{Displaced, LEAST_SHARE, MATTERS_FROM};
 pub use expectation::Expectation;
 pub use expectation::{DrawLattice, RotatedLattice};
+use general_wall::{Unwatched, Watcher};
 pub use particle::Particle;
 use prepared_wall::PreparedWall;
 pub use quantity::kind_of;
@@ -86,6 +91,12 @@ pub struct TemperatureRanges {
     pub particle: [f64; 2],
     /// Of the wall.
     pub wall: [f64; 2],
+}
+
+impl Watcher<'_> for Vec<TraceEntry> {
+    fn trace(&mut self, term: &'static str, quantity: &'static str, value: f64) {
+        self.push(TraceEntry { term, quantity, value });
+    }
 }
 
 impl TemperatureRanges {
@@ -252,7 +263,7 @@ impl Model {
 
     #[inline(never)]
     fn evaluate_general(&self, wall: usize, impact: &Impact, rng: ImpactRng) -> Result<Outcome, ImpactError> {
-        self.evaluate(wall, impact, |stream| rng.uniform(stream), |_, _, _| {})
+        self.evaluate(wall, impact, |stream| rng.uniform(stream), &mut Unwatched)
     }
 
     /// Decides one impact with the caller's random numbers: `uniform` gives the number of each
@@ -266,7 +277,7 @@ impl Model {
         impact: &Impact,
         uniform: impl Fn(u64) -> f64,
     ) -> Result<Outcome, ImpactError> {
-        self.evaluate(wall, impact, uniform, |_, _, _| {})
+        self.evaluate(wall, impact, uniform, &mut Unwatched)
     }
 
     /// Decides one impact and records the value after each term, in the order of the steps.
@@ -293,9 +304,7 @@ impl Model {
         uniform: impl Fn(u64) -> f64,
     ) -> Result<(Outcome, Vec<TraceEntry>), ImpactError> {
         let mut trace = Vec::new();
-        let outcome = self.evaluate(wall, impact, uniform, |term, quantity, value| {
-            trace.push(TraceEntry { term, quantity, value });
-        })?;
+        let outcome = self.evaluate(wall, impact, uniform, &mut trace)?;
         Ok((outcome, trace))
     }
 

@@ -26,6 +26,11 @@ impl Particle {
         self.ash.as_ref()
     }
 
+    /// Its materials, to change them.
+    pub(super) fn solids_mut(&mut self) -> impl Iterator<Item = &mut Material> {
+        [Some(&mut self.material), self.ash.as_mut()].into_iter().flatten()
+    }
+
     /// The material whose melt makes the particle sticky: the ash where there is one.
     pub fn melting(&self) -> &Material {
         self.ash.as_ref().unwrap_or(&self.material)
@@ -36,11 +41,10 @@ impl Particle {
         self.ash.is_none() && self.material.is_constant()
     }
 
-    /// Whether every mechanical property is stated to hold for an impact: those of the material up
-    /// to half of the conversion, those of the ash beyond.
-    pub(super) fn holds_for(&self, impact: &Impact) -> bool {
-        let ash = self.ash.as_ref().filter(|_| impact.conversion > 0.5);
-        ash.unwrap_or(&self.material).holds_at(impact.particle_temperature)
+    /// The material whose stated ranges an impact has to keep: that of the particle up to half of the
+    /// conversion, the ash beyond.
+    pub(super) fn stated_material(&self, impact: &Impact) -> &Material {
+        self.ash.as_ref().filter(|_| impact.conversion > 0.5).unwrap_or(&self.material)
     }
 
     /// Density [kg/m³] of the materials for an impact, whatever density the impact gives.

@@ -1,5 +1,6 @@
 //! Same inputs, same bits: single impacts, with a trace, and in blocks of any length with any vectors.
 
+use nearwall::model::Limit;
 use nearwall::model::block::{BLOCK, Block, Level, Outcomes, Workspace};
 use nearwall::{Impact, ImpactRng, Model, Outcome, impact::INPUTS};
 use proptest::prelude::*;
@@ -244,8 +245,40 @@ fn compare_blocks(model: &Model, impacts: &[Impact], seed: u64, first: u64) -> R
     Ok(())
 }
 
+/// The list of what an impact uses outside of its range is empty where the flag is not set, and only there.
+fn compare_with_reasons(model: &Model, impacts: &[Impact]) -> Result<(), TestCaseError> {
+    for impact in impacts {
+        let Ok(outcome) = model.resolve_with(0, impact, |_| 0.5) else { continue };
+        let reasons = model.beyond(0, impact).unwrap();
+        prop_assert_eq!(outcome.outside_range, !reasons.is_empty(), "{:?} {:?}", impact, reasons);
+        for reason in reasons {
+            if let Limit::Quantity { value, range: [low, high], .. } = reason.limit {
+                prop_assert!(
+                    !(low..=high).contains(&value) || (value - high).abs() <= 1e-9 * high,
+                    "{:?}",
+                    reason
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
 proptest! {
     #![proptest_config(config(300))]
+
+    #[test]
+    fn reasons_stand_where_the_flag_does(
+        model in models(),
+        impacts in prop::collection::vec(prop_oneof![impacts(), spinning(), hostile()], 1..40),
+    ) {
+        compare_with_reasons(&model, &impacts)?;
+    }
+
+    #[test]
+    fn reasons_stand_where_the_flag_does_on_varying_walls(model in varying_models(), impacts in varying_impacts()) {
+        compare_with_reasons(&model, &impacts)?;
+    }
 
     #[test]
     fn a_trace_changes_nothing(
