@@ -7,6 +7,7 @@
 //! 2. [`predict`] adds predictions to a table of impacts; [`map`] shows a model over two inputs;
 //!    [`simulate`] follows particles in a prescribed gas flow; [`rig`] predicts what a whole rig
 //!    measures.
+//!    [`range`] says what impacts use outside of its stated range.
 //! 3. [`results`] reads what `simulate` and OpenFOAM wrote.
 //! 4. [`diagnose`] finds what a model lacks, from impacts or from readings of a rig.
 //! 5. [`report`] draws the pages.
@@ -21,6 +22,7 @@ pub mod dataset;
 pub mod diagnose;
 pub mod map;
 pub mod predict;
+pub mod range;
 pub mod report;
 pub mod results;
 pub mod rig;

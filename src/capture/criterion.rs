@@ -268,6 +268,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// Temperatures [K] at which the criterion can be evaluated.
     fn known_range(&self) -> [f64; 2];
 
+    /// The criterion for a material that is `factor` [1] times as viscous; `None` where no viscosity decides.
+    fn more_viscous(&self, _factor: f64) -> Option<Arc<dyn StickinessCriterion>> {
+        None
+    }
+
     /// Temperatures [K] for which the criterion is stated for this material; from infinity to 0 for none.
     fn stated_range(&self) -> [f64; 2] {
         self.known_range()

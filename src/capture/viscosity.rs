@@ -7,6 +7,8 @@
 //! viscosity ([`super::Solidification`]). It does not include residual carbon (see the effect
 //! `conversion-transition`).
 
+use std::sync::Arc;
+
 use fearless_simd::{Level, dispatch};
 
 use super::kinetic_energy::EnergyLaw;
@@ -211,6 +213,13 @@ impl StickinessCriterion for MeltStickiness {
 
     fn known_range(&self) -> [f64; 2] {
         self.melt.known_range()
+    }
+
+    /// Only the ratio of the viscosity to its limit counts, so the limit changes.
+    fn more_viscous(&self, factor: f64) -> Option<Arc<dyn StickinessCriterion>> {
+        let ReferenceViscosity::Constant(reference) = self.criterion.reference else { return None };
+        let reference = ReferenceViscosity::Constant(reference / factor);
+        Some(Arc::new(Self { criterion: ViscosityCriterion { reference, ..self.criterion }, ..self.clone() }))
     }
 
     fn stated_range(&self) -> [f64; 2] {

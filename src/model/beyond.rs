@@ -14,7 +14,7 @@ use crate::effect::Term;
 use crate::impact::{INPUTS, Impact, ImpactError};
 use crate::law::Origin;
 use crate::material::Material;
-use crate::normal::{Contact, NormalLaw};
+use crate::normal::{Contact, LARGEST_CONTACT_RADIUS, NormalLaw};
 
 /// One thing that is used outside of its stated range.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +71,16 @@ impl Beyond<'_> {
         matches!(self.what, Stated::Property { .. })
     }
 
+    /// What [`Displaced`](super::Displaced) changes to see whether it matters; `None` for a law whose
+    /// alternative nobody knows.
+    pub fn trial(&self) -> Option<&'static str> {
+        match self.what {
+            Stated::Property { .. } => Some("held there; 20 % or its uncertainty more or less"),
+            Stated::Criterion { .. } => Some("used beyond; ten times the viscosity or a tenth"),
+            Stated::Law { .. } => None,
+        }
+    }
+
     /// What is used and its range, without the value of this impact: the same text for every impact
     /// that leaves the same range.
     pub fn stated(&self) -> String {
@@ -85,7 +95,7 @@ impl Beyond<'_> {
     /// The value of this impact, with its unit; `None` for a composition.
     pub fn value(&self) -> Option<String> {
         match self.limit {
-            Limit::Quantity { value, unit, .. } => Some(format!("{} {unit}", short(value))),
+            Limit::Quantity { value, unit, .. } => Some(with_unit(&short(value), unit)),
             Limit::Composition => None,
         }
     }
@@ -115,12 +125,17 @@ fn short(value: f64) -> String {
     if size != 0.0 && !(1e-3..1e6).contains(&size) { format!("{rounded:e}") } else { rounded.to_string() }
 }
 
+fn with_unit(text: &str, unit: &str) -> String {
+    if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
+}
+
 fn range_text(low: f64, high: f64, unit: &str) -> String {
-    match (low.is_finite() && low > 0.0, high.is_finite()) {
-        (true, false) => format!("from {} {unit}", short(low)),
-        (false, true) => format!("up to {} {unit}", short(high)),
-        _ => format!("{} to {} {unit}", short(low), short(high)),
-    }
+    let range = match (low.is_finite() && low != 0.0, high.is_finite()) {
+        (true, false) => format!("from {}", short(low)),
+        (false, true) => format!("up to {}", short(high)),
+        _ => format!("{} to {}", short(low), short(high)),
+    };
+    with_unit(&range, unit)
 }
 
 /// Calls `found` for everything that is used outside of its range.
@@ -179,16 +194,21 @@ fn of_term<'m>(model: &'m Model, term: &'m Term, impact: &Impact, found: &mut Fo
 }
 
 /// The normal law, once the contact is known. A contact law holds while the contact stays small
-/// against the particle, which limits the speed.
+/// against the particle: `a/R` goes with the fourth root of the energy.
 pub(super) fn of_normal_law(law: NormalLaw, contact: &Contact, impact: &Impact, found: &mut Found<'_, '_>) {
     let name = law.name();
     match law {
         NormalLaw::Listed { law, .. } => of_origin(name, law.origin, impact, found),
         _ if law.holds_for(contact, impact) => {}
         _ => {
-            let fastest = (contact.largest_impact_pressure() / contact.density).sqrt();
-            let (value, range) = (impact.normal_speed, [0.0, fastest]);
-            let limit = Limit::Quantity { name: "v_n", unit: "m/s", value, range };
+            let pressure = contact.density * impact.normal_speed * impact.normal_speed;
+            let share = pressure / contact.largest_impact_pressure();
+            let limit = Limit::Quantity {
+                name: "contact radius over particle radius",
+                unit: "",
+                value: LARGEST_CONTACT_RADIUS * share.sqrt().sqrt(),
+                range: [0.0, LARGEST_CONTACT_RADIUS],
+            };
             found(Beyond { what: Stated::Law { name }, limit });
         }
     }
@@ -197,7 +217,7 @@ pub(super) fn of_normal_law(law: NormalLaw, contact: &Contact, impact: &Impact, 
 /// A dry contact law where the wall is sticky.
 pub(super) fn of_dry_contact(law: NormalLaw, wall: f64, found: &mut Found<'_, '_>) {
     let range = [0.0, Stickiness::THRESHOLD];
-    let limit = Limit::Quantity { name: "wall stickiness", unit: "1", value: wall, range };
+    let limit = Limit::Quantity { name: "wall stickiness", unit: "", value: wall, range };
     found(Beyond { what: Stated::Law { name: law.name() }, limit });
 }
 
@@ -288,7 +308,7 @@ model = "grant-tabakoff"
     #[test]
     fn numbers_and_ranges_are_short() {
         assert_eq!([273.15, 1e-5, 0.0, 1.23456e7].map(short), ["273.15", "1e-5", "0", "1.2346e7"]);
-        assert_eq!(range_text(0.0, 3.0, "m/s"), "0 to 3 m/s");
+        assert_eq!(range_text(-3.0, 3.0, "m/s"), "-3 to 3 m/s");
         assert_eq!(range_text(300.0, f64::INFINITY, "K"), "from 300 K");
         assert_eq!(range_text(f64::NEG_INFINITY, 3.0, "m"), "up to 3 m");
     }

@@ -1,8 +1,9 @@
-//! What a number that is held outside of its stated range moves in the outcome.
+//! What a number that is used outside of its stated range moves in the outcome.
 //!
-//! A property is held at its value where its source says nothing ([`Beyond::is_held`]). How wrong it
-//! is there is not known; the outcome with the property raised and lowered by a share shows whether
-//! that matters. The share is the stated uncertainty, at least [`LEAST_SHARE`].
+//! A property is held at its value where its source says nothing, and a law of viscosity goes on
+//! beyond the temperatures of its fit. How wrong they are there is not known; the outcome with the
+//! property or the viscosity changed both ways shows whether that matters: a property by its stated
+//! uncertainty, at least [`LEAST_SHARE`], a viscosity by [`VISCOSITY_FACTOR`].
 
 use super::{Beyond, Expectation, Model, Stated, Wall};
 use crate::impact::{Impact, ImpactError};
@@ -13,20 +14,26 @@ use crate::normal::Contact;
 /// strengths of metals and glasses change by some 5 to 10 % in 100 K.
 pub const LEAST_SHARE: f64 = 0.2;
 
+/// Factor by which a viscosity beyond its fit is raised and lowered [1]: assumed, as laws of viscosity
+/// differ by up to a decade on the same slag within their ranges already.
+pub const VISCOSITY_FACTOR: f64 = 10.0;
+
 /// Change of an outcome [1] from which a held property matters; assumed, as the scatter of measured
 /// restitutions is some 0.01 to 0.05.
 pub const MATTERS_FROM: f64 = 0.01;
 
-/// A model with each property that has a stated range raised and lowered.
+/// A model with each property that has a stated range, and its viscosities, changed both ways.
 #[derive(Debug, Clone)]
 pub struct Displaced<'m> {
     model: &'m Model,
-    held: Vec<HeldProperty>,
+    properties: Vec<DisplacedProperty>,
+    /// With less and more viscous melts.
+    viscosities: Option<[Model; 2]>,
 }
 
 /// A property, and the model with it lowered and raised.
 #[derive(Debug, Clone)]
-struct HeldProperty {
+struct DisplacedProperty {
     material: String,
     key: &'static str,
     models: [Model; 2],
@@ -35,18 +42,19 @@ struct HeldProperty {
 impl<'m> Displaced<'m> {
     /// The displaced models of a model.
     pub fn new(model: &'m Model) -> Self {
-        let mut held: Vec<HeldProperty> = Vec::new();
-        for material in model.solids() {
-            for (key, share) in material.limited_properties() {
-                if !held.iter().any(|known| known.key == key && known.material == material.name()) {
-                    let share = share.max(LEAST_SHARE);
-                    let models =
-                        [1.0 - share, 1.0 + share].map(|factor| model.scaled(material.name(), key, factor));
-                    held.push(HeldProperty { material: material.name().to_owned(), key, models });
+        let mut properties: Vec<DisplacedProperty> = Vec::new();
+        for solid in model.solids() {
+            for (key, share) in solid.limited_properties() {
+                let (material, share) = (solid.name(), share.max(LEAST_SHARE));
+                if !properties.iter().any(|known| known.key == key && known.material == material) {
+                    let models = [1.0 - share, 1.0 + share].map(|factor| model.scaled(material, key, factor));
+                    properties.push(DisplacedProperty { material: material.to_owned(), key, models });
                 }
             }
         }
-        Self { model, held }
+        let less = model.more_viscous(1.0 / VISCOSITY_FACTOR);
+        let viscosities = less.zip(model.more_viscous(VISCOSITY_FACTOR)).map(<[Model; 2]>::from);
+        Self { model, properties, viscosities }
     }
 
     /// The model that is displaced.
@@ -54,9 +62,9 @@ impl<'m> Displaced<'m> {
         self.model
     }
 
-    /// How far a held property moves the outcome of an impact [1]: the largest change of `p_stick`,
-    /// or of `e_n` and `e_t` times the share that rebounds, over `draws` as in [`Model::expect`].
-    /// `None` for a law beyond its fit: nothing is known to compare with.
+    /// How far what is used beyond its range moves the outcome of an impact [1]: the largest change
+    /// of `p_stick`, or of `e_n` and `e_t` times the share that rebounds, over `draws` as in
+    /// [`Model::expect`]. `None` for a law whose alternative nobody knows.
     ///
     /// # Errors
     /// As [`Model::resolve`].
@@ -67,16 +75,24 @@ impl<'m> Displaced<'m> {
         beyond: &Beyond<'_>,
         draws: usize,
     ) -> Result<Option<f64>, ImpactError> {
-        let Stated::Property { material, key } = beyond.what else { return Ok(None) };
-        let Some(held) = self.held.iter().find(|held| held.key == key && held.material == material) else {
-            return Ok(None);
-        };
+        let Some(models) = self.models_for(beyond) else { return Ok(None) };
         let plain = self.model.expect(wall, impact, draws)?;
         let mut most: f64 = 0.0;
-        for model in &held.models {
+        for model in models {
             most = most.max(change(&plain, &model.expect(wall, impact, draws)?));
         }
         Ok(Some(most))
+    }
+
+    fn models_for(&self, beyond: &Beyond<'_>) -> Option<&[Model; 2]> {
+        match beyond.what {
+            Stated::Property { material, key } => {
+                let mut known = self.properties.iter();
+                Some(&known.find(|known| known.key == key && known.material == material)?.models)
+            }
+            Stated::Criterion { .. } => self.viscosities.as_ref(),
+            Stated::Law { .. } => None,
+        }
     }
 }
 
@@ -94,6 +110,18 @@ impl Model {
     fn solids(&self) -> impl Iterator<Item = &Material> {
         let of_walls = self.walls.iter().flat_map(|wall| wall.powder.iter().chain([&wall.material]));
         [Some(self.particle()), self.ash()].into_iter().flatten().chain(of_walls)
+    }
+
+    /// The same model with every melt `factor` [1] times as viscous; `None` where no viscosity decides.
+    fn more_viscous(&self, factor: f64) -> Option<Self> {
+        let mut model = self.clone();
+        let of_walls = model.walls.iter_mut().map(|wall| &mut wall.melt);
+        for melt in [&mut model.stickiness].into_iter().chain(of_walls) {
+            if let Some(criterion) = melt {
+                *melt = Some(criterion.more_viscous(factor)?);
+            }
+        }
+        Some(model.prepare())
     }
 
     /// The same model with a mechanical property of a material multiplied by a factor [1].

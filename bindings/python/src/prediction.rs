@@ -10,9 +10,15 @@ use pyo3::prelude::*;
 use crate::table::{ForPython, TableCells, TableSource, floats};
 use crate::work::{Failure, run};
 
-/// Columns of the file, if it was one; added columns of numbers; regimes; rows left out, with their lines; notes.
-type ForCaller =
-    (Option<Vec<ForPython>>, Vec<ForPython>, Vec<Option<&'static str>>, Vec<(u64, String)>, Vec<String>);
+/// Columns of the file, if it was one; added columns of numbers; regimes; ranges that are left; rows left out, with their lines; notes.
+type ForCaller = (
+    Option<Vec<ForPython>>,
+    Vec<ForPython>,
+    Vec<Option<&'static str>>,
+    Vec<String>,
+    Vec<(u64, String)>,
+    Vec<String>,
+);
 
 /// The same before it becomes Python's.
 struct Predictions {
@@ -21,6 +27,7 @@ struct Predictions {
     /// Columns of [`VALUES`], then of [`BANDS`] if there are drawn models.
     numbers: Vec<Vec<f64>>,
     regimes: Vec<Option<&'static str>>,
+    beyond: Vec<String>,
     left_out: Vec<BadRow>,
     notes: Vec<String>,
 }
@@ -34,14 +41,14 @@ pub fn predict(
     wall: Option<String>,
     draws: Option<PathBuf>,
 ) -> PyResult<ForCaller> {
-    let Predictions { cells, numbers, regimes, left_out, notes } =
+    let Predictions { cells, numbers, regimes, beyond, left_out, notes } =
         run(py, |tick| predict_rows(&model, &data, wall.as_deref(), draws.as_deref(), tick))?;
     let names = VALUES.iter().chain(&BANDS);
     let columns = names.zip(&numbers).map(|(name, values)| ((*name).to_owned(), floats(py, values)));
     let columns = columns.collect();
     let cells = cells.map(|cells| cells.for_python(py)).transpose()?;
     let left_out = left_out.into_iter().map(|bad| (bad.line, bad.reason)).collect();
-    Ok((cells, columns, regimes, left_out, notes))
+    Ok((cells, columns, regimes, beyond, left_out, notes))
 }
 
 fn predict_rows(
@@ -77,7 +84,14 @@ fn predict_rows(
 impl Predictions {
     fn new(cells: Option<TableCells>, bands: bool, notes: Vec<String>) -> Self {
         let columns = VALUES.len() + if bands { BANDS.len() } else { 0 };
-        Self { cells, numbers: vec![Vec::new(); columns], regimes: Vec::new(), left_out: Vec::new(), notes }
+        Self {
+            cells,
+            numbers: vec![Vec::new(); columns],
+            regimes: Vec::new(),
+            beyond: Vec::new(),
+            left_out: Vec::new(),
+            notes,
+        }
     }
 
     fn add(&mut self, row: &ImpactRow, predicted: &PredictedRow) {
@@ -87,6 +101,7 @@ impl Predictions {
         let numbers = predicted.values.iter().chain(predicted.bands.as_flattened());
         self.numbers.iter_mut().zip(numbers).for_each(|(column, number)| column.push(*number));
         self.regimes.push(Some(predicted.regime));
+        self.beyond.push(predicted.beyond_text());
     }
 
     /// The rows of a frame keep their places; those of a file are left out, as by the command.
@@ -94,6 +109,7 @@ impl Predictions {
         if self.cells.is_none() {
             self.numbers.iter_mut().for_each(|column| column.push(f64::NAN));
             self.regimes.push(None);
+            self.beyond.push(String::new());
         }
         self.left_out.push(bad);
     }

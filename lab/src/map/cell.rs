@@ -24,6 +24,8 @@ pub struct Cell {
     pub regime: Regime,
     /// Whether a law or a term is used outside the range that it is stated for.
     pub outside_range: bool,
+    /// Whether that matters for the outcome.
+    pub beyond: bool,
 }
 
 /// The random draws over which a cell is averaged.
@@ -65,6 +67,7 @@ impl Draws {
             sticking_probability: mean_probability / outcomes.len() as f64,
             regime: model.expect(wall, impact, DRAWS_A_CELL)?.regime,
             outside_range: outcomes.iter().any(|outcome| outcome.outside_range),
+            beyond: false,
         })
     }
 

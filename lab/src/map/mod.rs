@@ -8,6 +8,7 @@ mod cell;
 
 use rayon::prelude::*;
 
+use crate::range::{RangeCounts, RangeReader, Reason};
 use nearwall::impact::{INPUTS, Impact, Input};
 use nearwall::model::Model;
 
@@ -32,6 +33,8 @@ pub struct Map {
     pub cells: Vec<Option<Cell>>,
     /// Why the first undecided cell could not be decided.
     pub first_refusal: Option<String>,
+    /// The stated ranges that the cells leave.
+    pub ranges: RangeCounts,
 }
 
 impl Map {
@@ -51,9 +54,10 @@ impl Map {
         let decided: Vec<_> = y.values().par_iter().flat_map_iter(row).collect();
         let refusal = |cell: &Result<Cell, _>| cell.as_ref().err().map(ToString::to_string);
         let first_refusal = decided.iter().find_map(refusal);
-        let cells = decided.into_iter().map(Result::ok).collect();
+        let mut cells: Vec<Option<Cell>> = decided.into_iter().map(Result::ok).collect();
+        let ranges = count_ranges(model, wall, [&x, &y], &fixed, &mut cells);
         let wall = model.walls().get(wall).map_or("", |wall| wall.name()).to_owned();
-        Self { wall, x, y, fixed, draws: draws.count(), cells, first_refusal }
+        Self { wall, x, y, fixed, draws: draws.count(), cells, first_refusal, ranges }
     }
 
     /// Number of cells that could not be decided.
@@ -61,9 +65,9 @@ impl Map {
         self.cells.iter().filter(|cell| cell.is_none()).count()
     }
 
-    /// Number of cells outside the range that a law or a term is stated for.
-    pub fn outside_range(&self) -> usize {
-        self.cells.iter().flatten().filter(|cell| cell.outside_range).count()
+    /// Number of cells outside a stated range in a way that matters.
+    pub fn beyond(&self) -> usize {
+        self.cells.iter().flatten().filter(|cell| cell.beyond).count()
     }
 
     /// Both values of each cell, in the order of the cells.
@@ -79,6 +83,36 @@ impl Map {
         let fixed = INPUTS.iter().filter(move |input| !axes.contains(&input.name));
         fixed.map(|input| (input, (input.value)(&self.fixed)))
     }
+}
+
+/// Counts the stated ranges that cells leave, and marks those for which it matters.
+fn count_ranges(
+    model: &Model,
+    wall: usize,
+    [x, y]: [&InputAxis; 2],
+    fixed: &Impact,
+    cells: &mut [Option<Cell>],
+) -> RangeCounts {
+    let reader = RangeReader::new(model);
+    let columns = x.values();
+    let impact = |column: f64, row: f64| {
+        let mut impact = *fixed;
+        (y.input().set)(&mut impact, row);
+        (x.input().set)(&mut impact, column);
+        impact
+    };
+    let impacts: Vec<Impact> =
+        y.values().iter().flat_map(|row| columns.iter().map(|column| impact(*column, *row))).collect();
+    let find = |(cell, impact): (&mut Option<Cell>, &Impact)| {
+        let cell = cell.as_mut()?;
+        let reasons = if cell.outside_range { reader.reasons(wall, impact) } else { Vec::new() };
+        cell.beyond = reasons.iter().any(Reason::matters);
+        Some(reasons)
+    };
+    let reasons: Vec<Option<Vec<Reason>>> = cells.par_iter_mut().zip(&impacts).map(find).collect();
+    let mut counts = RangeCounts::default();
+    reasons.iter().flatten().for_each(|reasons| counts.add(reasons));
+    counts
 }
 
 /// Speeds [m/s] at which the dependence on an input is tried.

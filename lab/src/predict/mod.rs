@@ -10,6 +10,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::dataset::{BadRow, ImpactReader, ImpactRow, WallChoice, WallError};
+use crate::range::{RangeReader, Reason};
 use crate::rig::{Band, DrawnModels, DrawsError};
 use nearwall::impact::ImpactError;
 use nearwall::model::{Expectation, Model};
@@ -21,6 +22,9 @@ pub const VALUES: [&str; 3] = ["e_n", "e_t", "p_stick"];
 /// The ends of the 95 % bands of [`VALUES`] over drawn models [1].
 pub const BANDS: [&str; 6] = ["e_n_low", "e_n_high", "e_t_low", "e_t_high", "p_stick_low", "p_stick_high"];
 
+/// The column of the stated ranges that a row leaves.
+pub const BEYOND: &str = "beyond";
+
 /// Draws of what a model draws by chance, for the mean of each row.
 const DRAWS_A_ROW: usize = 64;
 
@@ -28,6 +32,7 @@ const DRAWS_A_ROW: usize = 64;
 pub struct Predictor<'a> {
     model: &'a Model,
     drawn: Vec<Model>,
+    ranges: RangeReader<'a>,
     walls: WallChoice<'a>,
     /// The column that names the wall of a row.
     wall_column: Option<usize>,
@@ -42,8 +47,15 @@ pub struct PredictedRow {
     pub bands: Vec<[f64; 2]>,
     /// Name of the regime.
     pub regime: &'static str,
-    /// Whether a property, a law or a fitted term is used outside its valid range.
-    pub outside_range: bool,
+    /// The stated ranges that the impact leaves.
+    pub beyond: Vec<Reason>,
+}
+
+impl PredictedRow {
+    /// The cell of the column [`BEYOND`]: the ranges that the impact leaves.
+    pub fn beyond_text(&self) -> String {
+        self.beyond.iter().map(Reason::to_string).collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// Why a row cannot be predicted.
@@ -67,7 +79,7 @@ impl<'a> Predictor<'a> {
     ) -> Result<Self, WallError> {
         let (walls, wall_column) = (WallChoice::new(model, wall)?, reader.column("wall"));
         walls.check(wall_column.is_some())?;
-        Ok(Self { model, drawn: Vec::new(), walls, wall_column })
+        Ok(Self { model, drawn: Vec::new(), ranges: RangeReader::new(model), walls, wall_column })
     }
 
     /// Adds the models of a folder that were drawn from the fit of the model; each row then has bands.
@@ -111,12 +123,8 @@ impl<'a> Predictor<'a> {
         let mean = expect(self.model)?;
         let drawn = self.drawn.iter().map(|model| expect(model).map(|mean| values(&mean)));
         let drawn: Vec<[f64; 3]> = drawn.collect::<Result<_, _>>()?;
-        Ok(PredictedRow {
-            values: values(&mean),
-            bands: bands(&drawn),
-            regime: mean.regime.name(),
-            outside_range: mean.outside_range,
-        })
+        let beyond = if mean.outside_range { self.ranges.reasons(wall, &row.impact) } else { Vec::new() };
+        Ok(PredictedRow { values: values(&mean), bands: bands(&drawn), regime: mean.regime.name(), beyond })
     }
 }
 

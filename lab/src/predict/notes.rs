@@ -4,6 +4,7 @@ use std::io::Read;
 
 use super::{PredictedRow, Predictor};
 use crate::dataset::{BadRow, ImpactReader, ImpactRow, assumed, unlikely};
+use crate::range::RangeCounts;
 use nearwall::Model;
 use nearwall::impact::ExtraInput;
 
@@ -26,7 +27,7 @@ pub fn file_notes(file: &str, reader: &ImpactReader<impl Read>) -> Vec<String> {
 pub struct RowNotes {
     predicted: u64,
     left_out: u64,
-    outside_range: u64,
+    ranges: RangeCounts,
     /// About an input that is probably in another unit.
     unit: Option<String>,
     /// About a word that the model file does not list.
@@ -50,7 +51,7 @@ impl RowNotes {
         match &predicted {
             Ok((_, row)) => {
                 self.predicted += 1;
-                self.outside_range += u64::from(row.outside_range);
+                self.ranges.add(&row.beyond);
             }
             Err(_) => self.left_out += 1,
         }
@@ -70,7 +71,7 @@ impl RowNotes {
     pub fn add(&mut self, later: Self) {
         self.predicted += later.predicted;
         self.left_out += later.left_out;
-        self.outside_range += later.outside_range;
+        self.ranges.merge(later.ranges);
         self.unit = self.unit.take().or(later.unit);
         self.label = self.label.take().or(later.label);
     }
@@ -90,14 +91,9 @@ impl RowNotes {
         self.unit.iter().chain(&self.label).map(String::as_str)
     }
 
-    /// How many rows lie outside a valid range; `None` if there are none.
-    pub fn outside_range(&self) -> Option<String> {
-        let Self { outside_range, predicted, .. } = self;
-        (*outside_range > 0).then(|| {
-            format!(
-                "{outside_range} of {predicted} rows lie outside the valid range of a property, a law or a fitted term"
-            )
-        })
+    /// How many rows lie outside a stated range, and a line for each range; empty if there are none.
+    pub fn outside_range(&self) -> Vec<String> {
+        self.ranges.lines("rows")
     }
 }
 

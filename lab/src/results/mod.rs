@@ -264,6 +264,8 @@ pub struct RunResults {
     pub has_carbon: bool,
     /// Why the first unusable particle could not be used, with the number of such particles.
     pub trouble: Option<(u64, String)>,
+    /// What hits used outside of its stated range, in lines.
+    pub outside_ranges: Vec<String>,
     /// What could not be found.
     pub missing: Vec<String>,
 }

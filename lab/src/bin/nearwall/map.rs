@@ -96,7 +96,7 @@ fn write(arguments: &Arguments, map: &Map) -> CommandResult {
 fn table(map: &Map) -> CommandResult<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let [x, y] = [map.x.input().name, map.y.input().name];
-    writer.write_record([x, y, "e_n", "e_t", "p_stick", "regime", "outside_range"])?;
+    writer.write_record([x, y, "e_n", "e_t", "p_stick", "regime", "outside_range", "matters"])?;
     for ([x, y], cell) in map.places().zip(&map.cells) {
         let decided = cell.map_or_else(Default::default, |cell| texts(&cell));
         writer.write_record([x.to_string(), y.to_string()].iter().chain(&decided))?;
@@ -105,7 +105,7 @@ fn table(map: &Map) -> CommandResult<String> {
 }
 
 /// The cells of a decided impact.
-fn texts(cell: &Cell) -> [String; 5] {
+fn texts(cell: &Cell) -> [String; 6] {
     let restitution =
         |which: usize| cell.restitution.map_or(String::new(), |pair| format!("{:.16e}", pair[which]));
     [
@@ -114,6 +114,7 @@ fn texts(cell: &Cell) -> [String; 5] {
         format!("{:.16e}", cell.sticking_probability),
         cell.regime.name().to_owned(),
         cell.outside_range.to_string(),
+        cell.beyond.to_string(),
     ]
 }
 
@@ -132,8 +133,8 @@ fn summary(map: &Map) -> String {
             map.undecided()
         );
     }
-    if map.outside_range() > 0 {
-        text += &format!("{} of {all} lie outside the range that a law is stated for\n", map.outside_range());
+    for line in map.ranges.lines("impacts") {
+        text += &format!("{line}\n");
     }
     text
 }

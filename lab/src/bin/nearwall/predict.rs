@@ -9,7 +9,7 @@ use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
 use nearwall_lab::atomic_file::{AtomicFile, WriteError};
 use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, ImpactRow};
-use nearwall_lab::predict::{BANDS, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
+use nearwall_lab::predict::{BANDS, BEYOND, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use rayon::prelude::*;
 
 use crate::{CommandResult, progress};
@@ -111,7 +111,7 @@ fn predict(
 fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> csv::Result<Vec<u8>> {
     let bands: &[&str] = if predictor.has_bands() { &BANDS } else { &[] };
     let mut header = reader.headers().clone();
-    for name in VALUES.iter().chain(&["regime"]).chain(bands) {
+    for name in VALUES.iter().chain(&["regime"]).chain(bands).chain(&[BEYOND]) {
         // A column of the file keeps its name.
         let more = if reader.column(name).is_some() { "_predicted" } else { "" };
         header.push_field(&format!("{name}{more}"));
@@ -221,15 +221,14 @@ fn write_row(
     for value in predicted.bands.as_flattened() {
         writer.write_field(digits.format(*value))?;
     }
+    writer.write_field(predicted.beyond_text())?;
     writer.write_record(None::<&[u8]>)
 }
 
 /// Prints the notes about all rows.
 fn report(notes: &RowNotes) -> CommandResult {
     crate::note(notes.warnings());
-    if let Some(outside) = notes.outside_range() {
-        eprintln!("nearwall: {outside} (see --explain LINE, `nearwall materials NAME`)");
-    }
+    crate::note(notes.outside_range());
     let (predicted, left_out) = (notes.predicted(), notes.left_out());
     if left_out > 0 {
         eprintln!("nearwall: {predicted} rows predicted, {left_out} left out");
@@ -251,8 +250,9 @@ fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line
                 // Of covered and bare wall the share that is met more probably.
                 let uniform =
                     |wanted| if wanted == stream::COVER { 0.5 } else { ImpactRng::default().uniform(wanted) };
-                let (outcome, entries) = model.explain_with(wall, &row.impact, uniform)?;
-                let regime = predictor.row(&row).map_err(|bad| bad.reason)?.regime;
+                let (_, entries) = model.explain_with(wall, &row.impact, uniform)?;
+                let predicted = predictor.row(&row).map_err(|bad| bad.reason)?;
+                let regime = predicted.regime;
                 let speeds = model.speeds(wall, &row.impact)?;
                 let mut text = format!(
                     "wall {}, regime {regime}\nv_adh {:.4e} m/s, v_y {:.4e} m/s, v_s {:.4e} m/s\n",
@@ -261,8 +261,8 @@ fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line
                     speeds.yielding,
                     speeds.sticking
                 );
-                if outcome.outside_range {
-                    text += "outside the valid range of a property, a law or a fitted term\n";
+                for reason in &predicted.beyond {
+                    text += &format!("outside its range: {reason}\n");
                 }
                 for entry in entries {
                     text += &format!("{:<24} {:<22} {:.6}\n", entry.term, entry.quantity, entry.value);

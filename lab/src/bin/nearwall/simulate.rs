@@ -70,6 +70,9 @@ fn summary_of_run(case: &Case, run: &Run) -> String {
             captured_particles.high.round(),
         );
     }
+    for line in totals.ranges.lines("hits") {
+        text += &format!("  {line}\n");
+    }
     text
 }
 

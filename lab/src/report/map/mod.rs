@@ -63,16 +63,15 @@ fn notes(map: &Map) -> Vec<String> {
             map.draws
         ));
     }
-    let (undecided, outside, all) = (map.undecided(), map.outside_range(), map.cells.len());
+    let (undecided, all) = (map.undecided(), map.cells.len());
     if let Some(reason) = &map.first_refusal {
         notes.push(format!(
             "{undecided} of {all} impacts could not be decided and are blank. The first: {reason}."
         ));
     }
-    if outside > 0 {
-        notes.push(format!(
-            "{outside} of {all} impacts lie outside the range that a law is stated for: hatched."
-        ));
+    for (number, line) in map.ranges.lines("impacts").into_iter().enumerate() {
+        let hatched = if number == 0 { "; those are hatched" } else { "" };
+        notes.push(format!("{line}{hatched}."));
     }
     notes
 }

@@ -73,7 +73,7 @@ impl<'a> Panel<'a> {
         }));
         let hatch = format!("url(#{}-hatch)", self.id);
         picture.paths(&self.outlines(&picture, |cell| {
-            self.map.cells[cell].filter(|cell| cell.outside_range).map(|_| hatch.clone())
+            self.map.cells[cell].filter(|cell| cell.beyond).map(|_| hatch.clone())
         }));
         let [across, up] = [&self.map.x, &self.map.y].map(labelled);
         picture.labelled_axes(&across, &up, true);
@@ -139,7 +139,11 @@ impl<'a> Panel<'a> {
     /// The marks that occur in this panel, with their meaning.
     fn marks(&self) -> Vec<(String, &'static str)> {
         let marks = [
-            (self.map.outside_range() > 0, format!("url(#{}-hatch)", self.id), "outside the stated range"),
+            (
+                self.map.beyond() > 0,
+                format!("url(#{}-hatch)", self.id),
+                "outside a stated range that matters",
+            ),
             (self.fills.contains(&Fill::NoRebound), NO_VALUE.to_owned(), "no particle rebounds"),
             (self.fills.contains(&Fill::Undecided), "white".to_owned(), "not decided"),
         ];

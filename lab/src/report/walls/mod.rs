@@ -207,6 +207,9 @@ impl<'a> RunComparison<'a> {
                 let text = format!("{count} particles{of} could not be used. The first: {reason}.");
                 page.text(text);
             }
+            for line in &run.outside_ranges {
+                page.text(format!("{line}."));
+            }
             page_later_captures(page, run);
         }
         SECTIONS.iter().for_each(|section| self.add_section(page, section));

@@ -11,6 +11,7 @@ pub use impacts::ImpactRecorder;
 pub use summary::{Summary, summary};
 pub use totals::{ParticleEnds, RESTITUTION_STEP, RunTotals};
 
+use crate::range::RangeReader;
 use crate::results::RunResults;
 use crate::rig::CaptureBand;
 use crate::simulate::{self, Case, DepositHistory, SimulationError, Trajectory};
@@ -59,8 +60,10 @@ fn run_once<E: From<SimulationError>>(
     observer: &mut impl FnMut(&Case, Option<f64>, u64, &Trajectory) -> Result<(), E>,
 ) -> Result<Run, E> {
     let mut totals = RunTotals::new(case);
+    let ranges = RangeReader::new(&case.model);
     let deposits = simulate::run_once(case, value, &mut |case, value, number, trajectory| {
         totals.add(trajectory);
+        totals.count_ranges(case, &ranges, trajectory);
         observer(case, value, number, trajectory)
     })?;
     Ok(Run { value, totals, deposits, bands: Vec::new() })

@@ -1,6 +1,7 @@
 //! Sums over the trajectories of a run: per wall, per exit, and the mass balance.
 
 use super::summary::over;
+use crate::range::{RangeCounts, RangeReader};
 use crate::results::{
     Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, NearWall, PipeZones, RunResults, WallMap,
     WallModel, WallTotals, bin,
@@ -144,6 +145,8 @@ pub struct RunTotals {
     pub captures: Vec<Capture>,
     /// Whether a captured particle had carbon left.
     pub has_carbon: bool,
+    /// The stated ranges that hits left.
+    pub ranges: RangeCounts,
 }
 
 impl RunTotals {
@@ -201,6 +204,15 @@ impl RunTotals {
         }
     }
 
+    /// Counts the stated ranges that the hits of a particle leave.
+    pub(super) fn count_ranges(&mut self, case: &Case, ranges: &RangeReader<'_>, trajectory: &Trajectory) {
+        for hit in &trajectory.hits {
+            if let SurfaceKind::Wall { model: wall, .. } = case.surfaces[hit.surface].kind {
+                self.ranges.count(ranges, wall, &hit.impact, hit.outcome.outside_range);
+            }
+        }
+    }
+
     /// How many particles could not be used, and why the first; `None` if all could.
     pub fn trouble_note(&self) -> Option<String> {
         let (first, count) = (self.first_trouble.as_ref()?, self.ends.unusable.count);
@@ -242,6 +254,7 @@ impl RunTotals {
             pipe: self.pipe(case),
             injections: self.by_injection(case),
             has_carbon: self.has_carbon,
+            outside_ranges: self.ranges.lines("hits"),
             trouble: self.first_trouble.clone().map(|reason| (self.ends.unusable.count, reason)),
             ..RunResults::default()
         }

@@ -1,0 +1,218 @@
+//! What impacts use outside of its stated range, and whether that matters: the reasons of one impact
+//! and their counts over many. `predict`, `map` and `simulate` show them.
+//!
+//! The ranges themselves are the library's ([`Model::beyond`]); what a held property moves comes from
+//! the model with that property raised and lowered ([`Displaced`]).
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use nearwall::impact::Impact;
+use nearwall::model::{Displaced, MATTERS_FROM, Model};
+
+/// Draws of what a model draws by chance, for the mean of an impact.
+const DRAWS: usize = 64;
+/// Impacts of each reason whose outcome is also computed with the property displaced.
+const MEASURED: u64 = 200;
+/// The reason of an impact that leaves a range in some draws of its effects only.
+const SOME_DRAWS: &str = "a law is left in some draws of the effects";
+
+/// Finds the reasons of impacts on one model.
+#[derive(Debug, Clone)]
+pub struct RangeReader<'m> {
+    displaced: Displaced<'m>,
+}
+
+/// One range that an impact leaves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reason {
+    /// What is stated for which range.
+    pub stated: String,
+    /// The value of the impact with its unit; `None` where it has none.
+    pub value: Option<String>,
+    /// What was changed to see whether it matters; `None` for a law whose alternative nobody knows.
+    pub trial: Option<&'static str>,
+    /// How far that moves `e_n`, `e_t` or `p_stick` [1]; `None` where it was not tried.
+    pub moved: Option<f64>,
+}
+
+impl<'m> RangeReader<'m> {
+    /// For the impacts on a model.
+    pub fn new(model: &'m Model) -> Self {
+        Self { displaced: Displaced::new(model) }
+    }
+
+    /// The ranges that an impact outside of its ranges leaves, with what those move for which
+    /// `measured` is true.
+    fn find(&self, wall: usize, impact: &Impact, measured: impl Fn(&str) -> bool) -> Vec<Reason> {
+        let found = self.displaced.model().beyond(wall, impact).unwrap_or_default();
+        let reason = |beyond: &nearwall::model::Beyond<'_>| {
+            let stated = beyond.stated();
+            let moved = measured(&stated)
+                .then(|| self.displaced.moved(wall, impact, beyond, DRAWS).ok().flatten())
+                .flatten();
+            Reason { stated, value: beyond.value(), trial: beyond.trial(), moved }
+        };
+        let reasons: Vec<Reason> = found.iter().map(reason).collect();
+        if reasons.is_empty() {
+            vec![Reason { stated: SOME_DRAWS.to_owned(), value: None, trial: None, moved: None }]
+        } else {
+            reasons
+        }
+    }
+
+    /// The ranges that an impact whose outcome is marked leaves, with what they move.
+    pub fn reasons(&self, wall: usize, impact: &Impact) -> Vec<Reason> {
+        self.find(wall, impact, |_| true)
+    }
+}
+
+impl Reason {
+    /// Whether the outcome depends on it, or may do so for all that is known.
+    pub fn matters(&self) -> bool {
+        self.moved.is_none_or(|moved| moved >= MATTERS_FROM)
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.stated)?;
+        if let Some(value) = &self.value {
+            write!(f, ", here {value}")?;
+        }
+        match self.moved {
+            Some(moved) => write!(f, " (moves {})", change(moved)),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A change of an outcome in words.
+fn change(moved: f64) -> String {
+    if moved < 1e-4 { "less than 0.0001".to_owned() } else { format!("{moved:.4}") }
+}
+
+/// Impacts outside of ranges, by reason.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RangeCounts {
+    impacts: u64,
+    outside: u64,
+    matter: u64,
+    reasons: BTreeMap<String, ReasonCount>,
+}
+
+#[derive(Debug, Clone, PartialEq, Default)]
+struct ReasonCount {
+    impacts: u64,
+    measured: u64,
+    trial: Option<&'static str>,
+    most: f64,
+}
+
+impl RangeCounts {
+    /// Adds an impact with the reasons why it lies outside of a range; none for one that does not.
+    pub fn add(&mut self, reasons: &[Reason]) {
+        self.impacts += 1;
+        self.outside += u64::from(!reasons.is_empty());
+        self.matter += u64::from(reasons.iter().any(Reason::matters));
+        for reason in reasons {
+            let count = self.reasons.entry(reason.stated.clone()).or_default();
+            count.impacts += 1;
+            count.trial = reason.trial;
+            if let Some(moved) = reason.moved {
+                count.measured += 1;
+                count.most = count.most.max(moved);
+            }
+        }
+    }
+
+    /// Adds an impact, of which the first ones of each reason are also computed with the property
+    /// displaced; a later one counts as the first ones of its reasons did at most.
+    pub fn count(&mut self, reader: &RangeReader<'_>, wall: usize, impact: &Impact, outside: bool) {
+        if !outside {
+            return self.add(&[]);
+        }
+        let known = &self.reasons;
+        let few = |stated: &str| known.get(stated).is_none_or(|count| count.measured < MEASURED);
+        let mut reasons = reader.find(wall, impact, few);
+        for reason in reasons.iter_mut().filter(|reason| reason.trial.is_some() && reason.moved.is_none()) {
+            reason.moved = known.get(&reason.stated).map(|count| count.most);
+        }
+        self.add(&reasons);
+    }
+
+    /// Adds the counts of other impacts.
+    pub fn merge(&mut self, other: Self) {
+        self.impacts += other.impacts;
+        self.outside += other.outside;
+        self.matter += other.matter;
+        for (stated, more) in other.reasons {
+            let count = self.reasons.entry(stated).or_default();
+            count.impacts += more.impacts;
+            count.measured += more.measured;
+            count.trial = more.trial;
+            count.most = count.most.max(more.most);
+        }
+    }
+
+    /// Impacts outside of a range in a way that matters ([`Reason::matters`]).
+    pub fn matter(&self) -> u64 {
+        self.matter
+    }
+
+    /// The counts in words: how many of the `things`, such as "rows", then a line a reason, those
+    /// that matter first. Empty where all lie inside.
+    pub fn lines(&self, things: &str) -> Vec<String> {
+        let Self { impacts, outside, matter, reasons } = self;
+        if *outside == 0 {
+            return Vec::new();
+        }
+        let first = format!(
+            "{outside} of {impacts} {things} lie outside of a stated range; it may matter for {matter} \
+             (at least {MATTERS_FROM} in e_n, e_t or p_stick, or not known)"
+        );
+        let mut sorted: Vec<(&String, &ReasonCount)> = reasons.iter().collect();
+        sorted.sort_by(|(_, one), (_, other)| {
+            let key = |count: &ReasonCount| (count.trial.is_some(), -count.most);
+            key(one).partial_cmp(&key(other)).unwrap_or(std::cmp::Ordering::Equal)
+        });
+        let line = |(stated, count): (&String, &ReasonCount)| {
+            let moved = count.trial.map(|trial| format!("; {trial} moves at most {}", change(count.most)));
+            format!("{} of {outside}: {stated}{}", count.impacts, moved.unwrap_or_default())
+        };
+        std::iter::once(first).chain(sorted.into_iter().map(line)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"stainless-steel\"\n\
+        [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \"constant\"\ne_t = 0.76\n";
+
+    /// The steel's surface energy is stated up to 403.15 K; at 30 m/s adhesion does not count, at
+    /// 0.2 m/s, near the sticking velocity, it does.
+    #[test]
+    fn a_held_surface_energy_matters_for_slow_particles() {
+        let model = Model::from_toml("m", MODEL).unwrap();
+        let reader = RangeReader::new(&model);
+        let at = |normal_speed: f64| {
+            let hot = Impact { wall_temperature: 450.0, diameter: 75e-6, ..Impact::default() };
+            reader.reasons(0, &Impact { normal_speed, particle_temperature: 300.0, ..hot })
+        };
+        let [slow, fast] = [0.2, 30.0].map(at);
+        assert!(slow[0].stated.starts_with("surface_energy of stainless-steel"), "{slow:?}");
+        assert!(slow[0].matters() && !fast[0].matters(), "{slow:?} {fast:?}");
+        let mut counts = RangeCounts::default();
+        counts.add(&slow);
+        counts.add(&fast);
+        counts.add(&[]);
+        let lines = counts.lines("rows");
+        assert!(lines[0].starts_with("2 of 3 rows") && lines[0].contains("matter for 1 "), "{lines:?}");
+        assert!(
+            lines[1].starts_with("2 of 2: surface_energy of stainless-steel is stated for T_w"),
+            "{lines:?}"
+        );
+    }
+}
