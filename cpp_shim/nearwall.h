@@ -448,6 +448,18 @@ nw_status nw_explain(const struct nw_model *model,
                      char *message,
                      size_t message_size);
 
+// Says what an impact marked `NW_OUTSIDE_VALID_RANGE` uses outside of its stated range, one thing a
+// line: the property or law and its range, without the impact's own value, so that impacts can be
+// counted by line. `text` receives at most `text_size` bytes with the closing zero, an empty text
+// if all ranges are kept. Random draws are at their median.
+//
+// # Safety
+// `model` is a loaded model; `impact` begins with its `struct_size`; `text` has room for `text_size` bytes.
+nw_status nw_beyond(const struct nw_model *model,
+                    const struct nw_impact *impact,
+                    char *text,
+                    size_t text_size);
+
 // Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees
 // Celsius?), a diameter above 5 cm. `text` receives at most `text_size` bytes with the closing
 // zero, an empty text if nothing is unlikely. Call it for the first impacts of a run: a

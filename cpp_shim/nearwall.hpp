@@ -335,6 +335,13 @@ public:
         return status == NW_OK ? std::string() : m.text[0] ? m.text : nw_status_text(status);
     }
 
+    // What a marked impact uses outside of its stated range, one thing a line; empty if all ranges are kept.
+    std::string beyond(const nw_impact& impact) const {
+        detail::message m;
+        detail::check(nw_beyond(raw_, &impact, m.text, sizeof(m.text)), std::string("nw_beyond"));
+        return m.text;
+    }
+
     // Density [kg/m3] of the particle's material, which is taken where the impact's `rho_p` is 0; no exceptions.
     nw_status particle_density(const nw_impact& impact, double& density) const noexcept {
         return nw_particle_density(raw_, &impact, &density);

@@ -266,6 +266,15 @@ module nearwall
       integer(c_int32_t) :: nw_explain
     end function nw_explain
 
+    function nw_beyond(model, impact, text, text_size) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_impact), intent(in) :: impact
+      character(kind=c_char), intent(inout) :: text(*)
+      integer(c_size_t), value :: text_size
+      integer(c_int32_t) :: nw_beyond
+    end function nw_beyond
+
     function nw_unlikely(impact, text, text_size) bind(c)
       import
       type(nw_impact), intent(in) :: impact

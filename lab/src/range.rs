@@ -81,15 +81,15 @@ impl fmt::Display for Reason {
             write!(f, ", here {value}")?;
         }
         match self.moved {
-            Some(moved) => write!(f, " (moves {})", change(moved)),
+            Some(moved) => write!(f, " (moves {})", change("", moved)),
             None => Ok(()),
         }
     }
 }
 
-/// A change of an outcome in words.
-fn change(moved: f64) -> String {
-    if moved < 1e-4 { "less than 0.0001".to_owned() } else { format!("{moved:.4}") }
+/// A change of an outcome in words, after `many` for one of several.
+fn change(many: &str, moved: f64) -> String {
+    if moved < 1e-4 { "less than 0.0001".to_owned() } else { format!("{many}{moved:.4}") }
 }
 
 /// Impacts outside of ranges, by reason.
@@ -177,7 +177,7 @@ impl RangeCounts {
             key(one).partial_cmp(&key(other)).unwrap_or(std::cmp::Ordering::Equal)
         });
         let line = |(stated, count): (&String, &ReasonCount)| {
-            let moved = count.trial.map(|trial| format!("; {trial} moves at most {}", change(count.most)));
+            let moved = count.trial.map(|trial| format!("; {trial} moves {}", change("up to ", count.most)));
             format!("{} of {outside}: {stated}{}", count.impacts, moved.unwrap_or_default())
         };
         std::iter::once(first).chain(sorted.into_iter().map(line)).collect()

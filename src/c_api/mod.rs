@@ -21,7 +21,7 @@ use std::path::Path;
 
 use crate::impact::Regime;
 use crate::key::key_of_values;
-use crate::model::Model;
+use crate::model::{Beyond, Model};
 use crate::rng::ImpactRng;
 
 pub use batch::*;
@@ -252,6 +252,35 @@ pub unsafe extern "C" fn nw_explain(
     };
     // SAFETY: the caller's promise on `message`.
     unsafe { report(guarded(explain), message, message_size) }
+}
+
+/// Says what an impact marked `NW_OUTSIDE_VALID_RANGE` uses outside of its stated range, one thing a
+/// line: the property or law and its range, without the impact's own value, so that impacts can be
+/// counted by line. `text` receives at most `text_size` bytes with the closing zero, an empty text
+/// if all ranges are kept. Random draws are at their median.
+///
+/// # Safety
+/// `model` is a loaded model; `impact` begins with its `struct_size`; `text` has room for `text_size` bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_beyond(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    text: *mut c_char,
+    text_size: usize,
+) -> nw_status {
+    let found = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        if text.is_null() || text_size == 0 {
+            return Err(NW_NULL_POINTER);
+        }
+        let beyond = model.inner().beyond(impact.wall as usize, &impact.to_impact())?;
+        let lines: Vec<String> = beyond.iter().map(Beyond::stated).collect();
+        // SAFETY: not null, with room for `text_size` bytes by the caller's promise.
+        unsafe { put_text(&lines.join("\n"), text, text_size) };
+        Ok(())
+    };
+    guarded_status(found)
 }
 
 /// Says which input of an impact is probably in another unit: a temperature below 150 K (in degrees

@@ -99,6 +99,33 @@ fn density_and_erosion_are_those_of_the_rust_library() {
     calls.free(plain);
 }
 
+/// Ranges by both libraries, a line each; empty exactly where no range is left.
+#[test]
+fn ranges_that_an_impact_leaves_are_named() {
+    let calls = Calls::load();
+    let (rust, model) = (Model::from_toml("m", EVERY_REGIME).unwrap(), calls.parse(EVERY_REGIME));
+    let mut left = 0;
+    for case in random_cases(seed(), 200) {
+        let (impact, mut text) = (c_case(&case), [1 as std::ffi::c_char; 4000]);
+        let status =
+            unsafe { (calls.nw_beyond)(model, &raw const impact, text.as_mut_ptr(), text.len()) };
+        match rust.beyond(case.0, &case.1) {
+            Ok(beyond) => {
+                let end = text.iter().position(|byte| *byte == 0).unwrap();
+                let said: String = text[..end].iter().map(|byte| char::from(*byte as u8)).collect();
+                let lines: Vec<String> = beyond.iter().map(nearwall::model::Beyond::stated).collect();
+                assert_eq!((status, said), (NW_OK, lines.join("\n")));
+                left += usize::from(!beyond.is_empty());
+            }
+            Err(error) => assert_eq!(status, status_of(&error)),
+        }
+    }
+    assert!(left > 20, "{left} left a range");
+    let impact = nw_impact::default();
+    assert_eq!(unsafe { (calls.nw_beyond)(model, &raw const impact, null_mut(), 9) }, NW_NULL_POINTER);
+    calls.free(model);
+}
+
 /// A temperature in degrees Celsius and a diameter in micrometres are seen; ordinary impacts pass in silence.
 #[test]
 fn unlikely_units_are_named() {

@@ -15,6 +15,7 @@ macro_rules! for_each_function {
             nw_outcome_init: unsafe extern "C" fn(*mut nw_outcome) -> i32,
             nw_resolve: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut nw_outcome) -> i32,
             nw_explain: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut c_char, usize) -> i32,
+            nw_beyond: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut c_char, usize) -> i32,
             nw_unlikely: unsafe extern "C" fn(*const nw_impact, *mut c_char, usize) -> i32,
             nw_key_of_values: unsafe extern "C" fn(*const f64, usize, *mut u64) -> i32,
             nw_speeds: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64, *mut f64, *mut f64) -> i32,

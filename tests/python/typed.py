@@ -33,5 +33,6 @@ model.add_captured(source, 1e-6, 2300.0, 900.0, d=1e-5)
 deposit.add(source)
 try:
     model.explain(1.0)
+    model.beyond(1.0)
 except nearwall.Error as error:
     status: int | None = error.status

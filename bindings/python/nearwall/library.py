@@ -134,6 +134,7 @@ FUNCTIONS = {
     "nw_outcome_init": (c_int32, [POINTER(nw_outcome)]),
     "nw_resolve": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(nw_outcome)]),
     "nw_explain": (c_int32, [c_void_p, POINTER(nw_impact), c_char_p, c_size_t]),
+    "nw_beyond": (c_int32, [c_void_p, POINTER(nw_impact), c_char_p, c_size_t]),
     "nw_unlikely": (c_int32, [POINTER(nw_impact), c_char_p, c_size_t]),
     "nw_key_of_values": (c_int32, [POINTER(c_double), c_size_t, POINTER(c_uint64)]),
     "nw_speeds": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double), POINTER(c_double), POINTER(c_double)]),
@@ -520,6 +521,12 @@ class Model:
         impact, text = self._impact(wall, {"v_n": v_n, **inputs}), ctypes.create_string_buffer(2048)
         status = _library.nw_explain(self._handle, byref(impact), text, len(text))
         return text.value.decode() if status else ""
+
+    def beyond(self, v_n: float, wall: int = 0, **inputs: Union[float, str]) -> list[str]:
+        """What an impact uses outside of its stated range: properties and laws with their ranges; empty if all are kept."""
+        impact, text = self._impact(wall, {"v_n": v_n, **inputs}), ctypes.create_string_buffer(2048)
+        _check(_library.nw_beyond(self._handle, byref(impact), text, len(text)))
+        return text.value.decode().splitlines()
 
     def temperature_ranges(self, wall: int = 0) -> TemperatureRanges:
         """Temperatures [K] for which the properties of particle and wall are defined."""
