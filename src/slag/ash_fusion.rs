@@ -107,13 +107,14 @@ impl FusionTemperatures {
     }
 }
 
-/// Why there is no estimate for a composition.
+/// Why there is no estimate for a composition: a share [wt%] or ratio [1] that no fitted ash has.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "no fusion temperatures can be estimated: {quantity} is {value:.4}, and the ashes of the estimate have {low} to {high}"
+    "no fusion temperatures can be estimated: {quantity} is {}, and the ashes of the estimate have {low} to {high}",
+    (.value * 1e4).round() / 1e4
 )]
 pub struct OutsideAshes {
-    /// The oxide with its unit, or what else is outside.
+    /// The oxide, or what else is outside.
     pub quantity: &'static str,
     /// Its value.
     pub value: f64,
