@@ -208,6 +208,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// [`ImpactError::OutOfRange`] where a required property is not known.
     fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError>;
 
+    /// Both ends of the 90 % band of [`Self::in_flight`]; `None` where it is not known.
+    fn in_flight_band(&self, _impact: &Impact) -> Option<[f64; 2]> {
+        None
+    }
+
     /// Stickiness [1] of the material on a wall, at the wall's temperature, where it had time to
     /// crystallise. Outside a table the value at its nearest end, or 0 where that is colder. By the
     /// droplet criterion it is 1 above the melting point and 0 below.

@@ -7,7 +7,8 @@
 //!
 //! The temperatures are the material's `fusion_temperatures`, else they are estimated from its composition with a band of
 //! some ± 130 to 270 K ([`crate::slag::ash_fusion`]); `nearwall check` shows which, with the 90 % band. A composition
-//! outside the ashes of the estimate is refused.
+//! outside the ashes of the estimate is refused. The band of the stickiness, which `predict --explain` prints, has all
+//! temperatures at the upper or the lower end of theirs (assumed: they err together).
 //!
 //! Below the flow temperature what lies on a wall is solid: it does not flow, and particles that are caught there are
 //! powder. Above it the melt has the material's viscosity, or that of the `law` for its composition; without either it
@@ -103,6 +104,12 @@ impl StickinessCriterion for FusionStickiness {
 
     fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
         Ok(fusion_stickiness(&self.temperatures, impact.particle_temperature))
+    }
+
+    /// With all temperatures of the sheet at the upper and at the lower end of their bands.
+    fn in_flight_band(&self, impact: &Impact) -> Option<[f64; 2]> {
+        let at = |part| fusion_stickiness(&self.temperatures.shifted(part), impact.particle_temperature);
+        Some([at(1.0), at(-1.0)])
     }
 
     fn on_wall(&self, impact: &Impact) -> f64 {

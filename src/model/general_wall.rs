@@ -17,6 +17,9 @@ use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
+/// Both ends of the 90 % band of the stickiness, in a trace.
+const BAND: [&str; 2] = ["stickiness, low (5 %)", "stickiness, high (95 %)"];
+
 /// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1);
 /// `trace` receives term, quantity and value.
 struct GeneralWall<'a, U, T> {
@@ -199,6 +202,10 @@ impl Model {
         if let Some(criterion) = &self.stickiness {
             let stickiness = criterion.in_flight(impact)?;
             trace(criterion.name(), "particle stickiness", stickiness);
+            let ends = criterion.in_flight_band(impact);
+            for (quantity, end) in BAND.into_iter().zip(ends.into_iter().flatten()) {
+                trace(criterion.name(), quantity, end);
+            }
             product = Some(stickiness);
         }
         for term in &self.terms {

@@ -98,6 +98,17 @@ impl FusionTemperatures {
         all.filter_map(|((name, temperature), band)| Some((name, temperature?, band)))
     }
 
+    /// All temperatures moved by a part of the half width of their bands; none above a later one.
+    #[must_use]
+    pub fn shifted(&self, part: f64) -> Self {
+        let [deformation, softening, hemisphere, flow] = self.half_widths.map(|width| part * width);
+        let flow = self.flow + flow;
+        let hemisphere = self.hemisphere.map(|own| flow.min(own + hemisphere));
+        let softening = self.softening.map(|own| hemisphere.unwrap_or(flow).min(own + softening));
+        let deformation = softening.or(hemisphere).unwrap_or(flow).min(self.deformation + deformation);
+        Self { deformation, softening, hemisphere, flow, ..*self }
+    }
+
     /// All in one line: each with its 90 % band.
     pub fn describe(&self) -> String {
         let each: Vec<_> =

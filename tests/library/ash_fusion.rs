@@ -310,7 +310,24 @@ fn every_ash_begins_to_stick_at_deformation_and_always_sticks_at_flow() {
     }
 }
 
-/// What a fall on a wall below the flow temperature is powder, though it was caught.
+/// Half way between 1300 and 1500 K; ± 40 K are ± 0.2 of that.
+#[test]
+fn the_band_of_the_sheet_is_a_band_of_the_stickiness() {
+    let ends = |sheet: &str| -> Vec<f64> {
+        let model = model("model = \"fusion\"", sheet);
+        let entries = model.explain_with(0, &at(1400.0, 300.0), |_| 0.5).unwrap().1;
+        entries.iter().filter(|entry| entry.quantity.starts_with("stickiness, ")).map(|of| of.value).collect()
+    };
+    let own = ends("fusion_temperatures = { deformation = 1300, flow = 1500 }");
+    assert!(own.len() == 2 && (own[0] - 0.3).abs() < 1e-9 && (own[1] - 0.7).abs() < 1e-9, "{own:?}");
+    let exact = ends("fusion_temperatures = { deformation = 1300, flow = 1500, uncertainty = 0 }");
+    assert_eq!(exact, [0.5; 2]);
+    // By composition alone nearly every stickiness is possible.
+    let estimated = ends(&composition(&built_in_ashes()[0]));
+    assert!(estimated[0] < 0.1 && estimated[1] > 0.9, "{estimated:?}");
+}
+
+/// What lands on a wall below the flow temperature is powder, though it was caught.
 #[test]
 fn a_deposit_is_solid_below_the_flow_temperature() {
     let sheet = "fusion_temperatures = { deformation = 1300, flow = 1500 }\nviscosity = 100";
