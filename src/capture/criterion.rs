@@ -9,6 +9,7 @@ use std::sync::Arc;
 use fearless_simd::Level;
 
 use super::droplet::DropletCriterion;
+use super::fusion::FusionCriterion;
 use super::melt_fraction::MeltFractionCriterion;
 use super::stickiness::Combination;
 use super::viscosity::ViscosityCriterion;
@@ -16,7 +17,7 @@ use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::law::QuantityKind;
 use crate::material::Material;
-use crate::slag::UnsuitableComposition;
+use crate::slag::{OutsideAshes, UnsuitableComposition};
 
 /// The kinds of the numbers of a `[capture]` table.
 pub(crate) const CAPTURE_KINDS: [(&str, QuantityKind); 3] = [
@@ -41,6 +42,8 @@ pub enum Criterion {
     Viscosity(ViscosityCriterion),
     /// A particle with enough liquid sticks.
     MeltFraction(MeltFractionCriterion),
+    /// An ash sticks between its deformation and its flow temperature.
+    Fusion(FusionCriterion),
     /// A droplet that does not splash stays.
     Droplet(DropletCriterion),
 }
@@ -59,6 +62,14 @@ pub enum Unsuitable {
     NoLaw {
         /// The material's name.
         material: String,
+    },
+    /// Its fusion temperatures have to follow from its composition, which no fitted ash has.
+    #[error("`{material}`: {reason}; give fusion_temperatures to the material")]
+    NoEstimate {
+        /// The material's name.
+        material: String,
+        /// What is outside the fitted ashes.
+        reason: OutsideAshes,
     },
     /// The criterion needs properties that it lacks.
     #[error(
@@ -81,13 +92,14 @@ impl Capture {
     /// # Errors
     /// [`InputError::Fault`] for an unknown model or law, or a missing or impossible number.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let models = ["none", "viscosity", "kinetic-energy", "melt-fraction", "droplet"];
+        let models = ["none", "viscosity", "kinetic-energy", "melt-fraction", "fusion", "droplet"];
         let criterion = match section.choice("model", &models)?.as_deref() {
             Some("viscosity") => Some(Criterion::Viscosity(ViscosityCriterion::read(section)?)),
             Some("kinetic-energy") => {
                 Some(Criterion::Viscosity(ViscosityCriterion::read_with_energy(section)?))
             }
             Some("melt-fraction") => Some(Criterion::MeltFraction(MeltFractionCriterion::read(section)?)),
+            Some("fusion") => Some(Criterion::Fusion(FusionCriterion::read(section)?)),
             Some("droplet") => Some(Criterion::Droplet(DropletCriterion::read(section)?)),
             _ => None,
         };
@@ -106,6 +118,7 @@ impl Criterion {
         match self {
             Self::Viscosity(criterion) => criterion.describe(),
             Self::MeltFraction(criterion) => criterion.describe(),
+            Self::Fusion(criterion) => criterion.describe(),
             Self::Droplet(criterion) => criterion.describe(),
         }
     }
@@ -119,7 +132,7 @@ impl Criterion {
         material: &Material,
     ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
         match self {
-            Self::Viscosity(_) | Self::MeltFraction(_) => self.of_slag(material, material),
+            Self::Viscosity(_) | Self::MeltFraction(_) | Self::Fusion(_) => self.of_slag(material, material),
             Self::Droplet(criterion) => Ok(Some(Arc::new(criterion.prepare(material)?))),
         }
     }
@@ -139,6 +152,7 @@ impl Criterion {
                 Ok(criterion.prepare(slag, particle)?.map(|melt| Arc::new(melt) as _))
             }
             Self::MeltFraction(criterion) => Ok(criterion.prepare(slag).map(|melt| Arc::new(melt) as _)),
+            Self::Fusion(criterion) => Ok(criterion.prepare(slag)?.map(|melt| Arc::new(melt) as _)),
             Self::Droplet(_) => Ok(None),
         }
     }
@@ -148,6 +162,7 @@ impl Criterion {
         match self {
             Self::Viscosity(_) => "a composition or a viscosity",
             Self::MeltFraction(_) => "a melt_fraction",
+            Self::Fusion(_) => "fusion_temperatures or a composition",
             Self::Droplet(_) => "a melt",
         }
     }
@@ -192,6 +207,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// # Errors
     /// [`ImpactError::OutOfRange`] where a required property is not known.
     fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError>;
+
+    /// Both ends of the 90 % band of [`Self::in_flight`]; `None` where it is not known.
+    fn in_flight_band(&self, _impact: &Impact) -> Option<[f64; 2]> {
+        None
+    }
 
     /// Stickiness [1] of the material on a wall, at the wall's temperature, where it had time to
     /// crystallise. Outside a table the value at its nearest end, or 0 where that is colder. By the
@@ -249,9 +269,18 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
         Ok(None)
     }
 
-    /// Temperature [K] below which the material is stiff on a wall, and whether the law for that is
-    /// stated for it; `None` for one without such a temperature.
-    fn stiff_below(&self) -> Option<(f64, bool)> {
+    /// Temperature [K] below which the material is stiff on a wall; `None` for one without such a temperature.
+    fn stiff_below(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether it is known where the material stiffens on a wall; otherwise it counts as a liquid.
+    fn stiffening_is_known(&self) -> bool {
+        true
+    }
+
+    /// What the criterion knows of the material, in words, where a model file does not show it.
+    fn describe(&self) -> Option<String> {
         None
     }
 

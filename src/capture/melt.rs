@@ -30,9 +30,14 @@ impl MeltLaws {
 
     /// With a `law` that only materials without a viscosity of their own need.
     pub fn read_optional(section: &Section<'_>) -> Result<Self, InputError> {
+        Ok(Self { solidification: Solidification::read(section)?, ..Self::read_law(section)? })
+    }
+
+    /// As [`Self::read_optional`] for a criterion that itself says when melt is stiff.
+    pub fn read_law(section: &Section<'_>) -> Result<Self, InputError> {
         let name = section.choice("law", &VISCOSITY_LAWS.map(|law| law.name))?;
         let law = name.and_then(|name| ViscosityLaw::from_name(&name));
-        Ok(Self { law, solidification: Solidification::read(section)? })
+        Ok(Self { law, solidification: Solidification::None })
     }
 
     /// The law with its range, in words; `None` without one.
@@ -165,10 +170,14 @@ impl Melt {
         (low..=high).contains(&temperature)
     }
 
-    /// Temperature [K] below which it is stiff on a wall, and whether the law for that is stated
-    /// for the material; `None` for a liquid at every temperature.
-    pub fn stiff_below(&self) -> Option<(f64, bool)> {
-        self.stiffening.stiff_below().map(|temperature| (temperature, self.stiffening.holds()))
+    /// Temperature [K] below which it is stiff on a wall; `None` for a liquid at every temperature.
+    pub fn stiff_below(&self) -> Option<f64> {
+        self.stiffening.stiff_below()
+    }
+
+    /// Whether it is known where it stiffens.
+    pub fn stiffening_is_known(&self) -> bool {
+        self.stiffening.holds()
     }
 
     /// As [`Self::holds_in_flight`], on a wall.

@@ -13,6 +13,7 @@ mod criterion;
 pub mod drop_freezing;
 pub mod drop_rebound;
 mod droplet;
+mod fusion;
 mod kinetic_energy;
 mod melt;
 mod melt_fraction;
@@ -24,6 +25,7 @@ mod viscosity;
 pub(crate) use criterion::CAPTURE_KINDS;
 pub use criterion::{Capture, Criterion, MeltStates, StickinessCriterion, Unsuitable, WallState};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
+pub use fusion::{FusionCriterion, FusionStickiness, fusion_stickiness};
 pub use kinetic_energy::{critical_viscosity, kinetic_energy};
 pub use melt_fraction::{
     FLOWS_FROM, MeltFractionCriterion, MeltFractionStickiness, STICKY_FROM, melt_fraction_stickiness,

@@ -5,9 +5,15 @@
 //! flow. A droplet in flight is quenched glass instead, so its viscosity law goes on below `T_cv`.
 //!
 //! `[capture] solidification`:
-//! - `"watt"` (default): the material's `critical_viscosity_temperature` [K] where it is given,
-//!   else Watt's equation for its composition ([`crate::slag::critical_viscosity_temperature`]); a
-//!   material with neither stays liquid.
+//! - `"watt"` (default): the first of these that there is
+//!   1. the material's `critical_viscosity_temperature` [K]
+//!   2. Watt's equation, where it is stated for the composition
+//!      ([`crate::slag::critical_viscosity_temperature`])
+//!   3. the flow temperature of its `fusion_temperatures`: in the range of Watt's equation it follows
+//!      `T_cv` closer than the hemisphere temperature does (figures in that file), some 30 K above it
+//!
+//!   A material with a composition and none of these stays liquid and is flagged as outside the range:
+//!   no temperature is made up. A material without a composition stays liquid.
 //! - `"crystal-load"`: crystals thicken the slag between the material's `liquidus` and `solidus` [K]
 //!   ([`crate::slag::crystal_load`]).
 //! - `"none"`: a liquid at every temperature.
@@ -20,7 +26,7 @@ use crate::slag::{critical_viscosity_temperature, crystal_load};
 /// The `solidification` of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Solidification {
-    /// Stiff below the temperature of critical viscosity, given or by Watt's equation.
+    /// Stiff below the temperature of critical viscosity: given, by Watt's equation, or the flow temperature.
     #[default]
     Watt,
     /// Thickened by crystals between liquidus and solidus.
@@ -49,17 +55,14 @@ impl Solidification {
         let given = |key| material.property(key).and_then(|property| property.at(293.15).ok());
         match self {
             Self::None => Ok(Stiffening::Never),
-            Self::Watt => Ok(match (given("critical_viscosity_temperature"), material.composition()) {
-                (Some(temperature), _) => Stiffening::Below { temperature, stated: true },
-                (None, Some(composition)) => critical_viscosity_temperature::watt(composition).map_or(
-                    Stiffening::Never,
-                    |temperature| {
-                        let stated = critical_viscosity_temperature::watt_holds(composition);
-                        Stiffening::Below { temperature, stated }
-                    },
-                ),
-                (None, None) => Stiffening::Never,
-            }),
+            Self::Watt => {
+                let by_watt = || critical_viscosity_temperature::watt(material.composition()?);
+                let by_sheet = || material.fusion_temperatures().map(|sheet| sheet.flow);
+                let known = given("critical_viscosity_temperature").or_else(by_watt).or_else(by_sheet);
+                let unknown =
+                    if material.composition().is_some() { Stiffening::Unknown } else { Stiffening::Never };
+                Ok(known.map_or(unknown, Stiffening::Below))
+            }
             Self::CrystalLoad => match (given("liquidus"), given("solidus")) {
                 (Some(liquidus), Some(solidus)) => Ok(Stiffening::Crystals { liquidus, solidus }),
                 (liquidus, solidus) => {
@@ -79,12 +82,10 @@ impl Solidification {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Stiffening {
     Never,
-    Below {
-        /// `T_cv` [K].
-        temperature: f64,
-        /// Whether Watt's equation is stated for the composition.
-        stated: bool,
-    },
+    /// Taken as a liquid at every temperature, because nothing says where it stiffens.
+    Unknown,
+    /// Below `T_cv` [K].
+    Below(f64),
     Crystals {
         liquidus: f64,
         solidus: f64,
@@ -103,8 +104,8 @@ impl Stiffening {
     #[inline(always)]
     pub fn factor(self, temperature: f64) -> f64 {
         match self {
-            Self::Never => 1.0,
-            Self::Below { temperature: critical, .. } => {
+            Self::Never | Self::Unknown => 1.0,
+            Self::Below(critical) => {
                 if temperature < critical {
                     f64::INFINITY
                 } else {
@@ -122,9 +123,9 @@ impl Stiffening {
     #[inline(always)]
     pub fn for_each<T: Copy>(self, temperatures: &[f64], out: &mut [T], change: impl Fn(f64, f64, T) -> T) {
         match self {
-            Self::Never => each(temperatures, out, |t, before| change(1.0, t, before)),
-            Self::Below { temperature, stated } => {
-                let law = Self::Below { temperature, stated };
+            Self::Never | Self::Unknown => each(temperatures, out, |t, before| change(1.0, t, before)),
+            Self::Below(critical) => {
+                let law = Self::Below(critical);
                 each(temperatures, out, |t, before| change(law.factor(t), t, before));
             }
             Self::Crystals { liquidus, solidus } => {
@@ -137,14 +138,14 @@ impl Stiffening {
     /// Temperature [K] below which it is stiff; `None` for a liquid at every temperature.
     pub fn stiff_below(self) -> Option<f64> {
         match self {
-            Self::Never => None,
-            Self::Below { temperature, .. } => Some(temperature),
+            Self::Never | Self::Unknown => None,
+            Self::Below(critical) => Some(critical),
             Self::Crystals { liquidus, solidus } => Some(crystal_load::stiff_temperature(solidus, liquidus)),
         }
     }
 
-    /// Whether the law is stated for the material.
+    /// Whether it is known where the material stiffens.
     pub fn holds(self) -> bool {
-        !matches!(self, Self::Below { stated: false, .. })
+        self != Self::Unknown
     }
 }

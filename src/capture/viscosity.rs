@@ -207,8 +207,12 @@ impl StickinessCriterion for MeltStickiness {
         self.viscosity(temperature).unwrap_or(f64::INFINITY)
     }
 
-    fn stiff_below(&self) -> Option<(f64, bool)> {
+    fn stiff_below(&self) -> Option<f64> {
         self.melt.stiff_below()
+    }
+
+    fn stiffening_is_known(&self) -> bool {
+        self.melt.stiffening_is_known()
     }
 
     fn known_range(&self) -> [f64; 2] {

@@ -1,5 +1,6 @@
 //! Materials of particles and walls: properties over temperature, built in or given by the user.
 
+mod fusion;
 mod property;
 mod table;
 
@@ -9,7 +10,7 @@ use std::sync::LazyLock;
 use crate::impact::ImpactError;
 use crate::input::{Document, InputError, Limits, Section, unknown};
 use crate::law::QuantityKind;
-use crate::slag::{Composition, Molten, surface_tension};
+use crate::slag::{Composition, FusionTemperatures, Molten, surface_tension};
 
 pub use property::{OutOfRange, Property};
 
@@ -71,7 +72,8 @@ const MECHANICAL: [Field; 5] =
 
 /// The kind of a property by its key in files.
 pub fn kind_of(key: &str) -> Option<QuantityKind> {
-    PROPERTY_FIELDS.iter().find(|field| field.key == key).map(|field| field.kind)
+    let property = PROPERTY_FIELDS.iter().find(|field| field.key == key).map(|field| field.kind);
+    property.or((key == fusion::KEY).then_some(QuantityKind::Temperature))
 }
 
 /// A solid that a particle or a wall is made of.
@@ -81,6 +83,7 @@ pub struct Material {
     about: Option<String>,
     properties: [Option<Property>; PROPERTY_FIELDS.len()],
     composition: Option<Composition>,
+    fusion_temperatures: Option<FusionTemperatures>,
 }
 
 /// The mechanical properties at one temperature.
@@ -132,9 +135,10 @@ impl Material {
             }
         }
         let composition = section.section("composition")?.map(|s| read_composition(&s)).transpose()?;
+        let fusion_temperatures = fusion::read(section)?;
         let about = section.text("about")?.or(section.text("source")?);
         section.finish()?;
-        Ok(Self { name: name.to_owned(), about, properties, composition })
+        Ok(Self { name: name.to_owned(), about, properties, composition, fusion_temperatures })
     }
 
     /// The name in model files.

@@ -15,7 +15,7 @@ impl Model {
     /// with the particle's `density` [kg/m³].
     ///
     /// They are molten when their stickiness at the temperature of the wall reaches
-    /// [`Stickiness::THRESHOLD`]; by the droplet criterion, when the wall is hotter than the
+    /// [`Stickiness::THRESHOLD`] and they are not stiff there; by the droplet criterion, when the wall is hotter than the
     /// melting point. In a model whose stickiness does not depend on the particle temperature,
     /// their state is that of the impact.
     ///
@@ -35,7 +35,7 @@ impl Model {
             let reason = "must be positive and finite";
             return Err(ImpactError::Unusable { quantity: "density".into(), value: density, reason });
         }
-        let molten = self.stickiness_as_melt(impact, impact.conversion) >= Stickiness::THRESHOLD;
+        let molten = self.is_melt(impact, impact.conversion);
         let Impact { diameter, conversion, .. } = *impact;
         Ok(arrivals.with(&CapturedParticles { mass, density, diameter, conversion, molten }))
     }
@@ -146,6 +146,13 @@ impl Model {
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
+    /// Whether the particle's material is melt at the wall's temperature.
+    fn is_melt(&self, impact: &Impact, conversion: f64) -> bool {
+        let stiff_below = self.stickiness.as_ref().and_then(|criterion| criterion.stiff_below());
+        !stiff_below.is_some_and(|temperature| impact.wall_temperature < temperature)
+            && self.stickiness_as_melt(impact, conversion) >= Stickiness::THRESHOLD
+    }
+
     /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each
     /// process took from it [kg/m²], by the table [`PROCESSES`](crate::deposit::PROCESSES).
     ///
@@ -175,11 +182,10 @@ impl Model {
 }
 
 impl PowderMaterial for Model {
-    /// Where its stickiness reaches [`Stickiness::THRESHOLD`], as captured particles do.
+    /// As captured particles are: where it is sticky and not stiff.
     fn melts(&self, conversion: f64, temperature: f64) -> bool {
         let impact = Impact { wall_temperature: temperature, ..Impact::default() };
-        self.stickiness_depends_on_temperature()
-            && self.stickiness_as_melt(&impact, conversion) >= Stickiness::THRESHOLD
+        self.stickiness_depends_on_temperature() && self.is_melt(&impact, conversion)
     }
 
     /// Those of the particles' melt.

@@ -9,6 +9,10 @@ use crate::tangential::TangentialLaw;
 /// Temperature [K] at which a property that depends on it is shown.
 const ROOM_TEMPERATURE: f64 = 293.15;
 
+/// Of a wall whose slag has no critical viscosity temperature.
+const UNKNOWN_STIFFENING: &str = " that counts as a liquid at every temperature: it is outside the range of Watt's \
+    equation, and has neither critical_viscosity_temperature nor fusion_temperatures";
+
 impl Model {
     /// The content of the model as pairs of a heading and its numbers with units, in the order of
     /// the steps of an impact.
@@ -27,6 +31,8 @@ impl Model {
             |criterion| format!("also by {criterion}"),
         );
         lines.push(("capture", capture));
+        let known = self.stickiness.as_ref().and_then(|criterion| criterion.describe());
+        lines.extend(known.map(|known| ("stickiness", known)));
         for term in &self.terms {
             lines.push(("effect", term.describe(&self.extra_inputs)));
         }
@@ -91,9 +97,11 @@ impl Wall {
         if let Some(slag) = &self.slag {
             text += &format!(", under {}", slag.name());
         }
-        if let Some((temperature, stated)) = self.melt.as_ref().and_then(|melt| melt.stiff_below()) {
-            let beyond = if stated { "" } else { " (outside the range of Watt's equation)" };
-            text += &format!(" that is stiff below {temperature:.0} K{beyond}");
+        if let Some(melt) = &self.melt {
+            text +=
+                &melt.stiff_below().map_or_else(String::new, |t| format!(" that is stiff below {t:.0} K"));
+            text += if melt.stiffening_is_known() { "" } else { UNKNOWN_STIFFENING };
+            text += &melt.describe().map_or_else(String::new, |melt| format!(" ({melt})"));
         }
         if let Some(powder) = &self.powder {
             text += &format!(", covered by {}", powder.name());

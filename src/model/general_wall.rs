@@ -18,6 +18,9 @@ use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
+/// Both ends of the 90 % band of the stickiness, in a trace.
+const BAND: [&str; 2] = ["stickiness, low (5 %)", "stickiness, high (95 %)"];
+
 /// What watches the steps of an impact on a model.
 pub(super) trait Watcher<'m> {
     /// Receives a quantity after a term.
@@ -224,6 +227,10 @@ impl Model {
         if let Some(criterion) = &self.stickiness {
             let stickiness = criterion.in_flight(impact)?;
             trace(criterion.name(), "particle stickiness", stickiness);
+            let ends = criterion.in_flight_band(impact);
+            for (quantity, end) in BAND.into_iter().zip(ends.into_iter().flatten()) {
+                trace(criterion.name(), quantity, end);
+            }
             product = Some(stickiness);
         }
         for term in &self.terms {

@@ -209,12 +209,12 @@ impl WallReader<'_> {
     /// Why there is no criterion for the slag of a wall.
     fn without_criterion(&self, slag: &Material) -> String {
         match self.criterion {
-            Some(criterion @ (Criterion::Viscosity(_) | Criterion::MeltFraction(_))) => {
-                format!("`{}` lacks {}", slag.name(), criterion.needs())
+            None | Some(Criterion::Droplet(_)) => {
+                "a wall with slag needs [capture] model = \"viscosity\", \"kinetic-energy\", \"melt-fraction\" or \
+                 \"fusion\" to say when it is sticky"
+                    .to_owned()
             }
-            _ => "a wall with slag needs [capture] model = \"viscosity\", \"kinetic-energy\" or \"melt-fraction\" to say \
-                  when it is sticky"
-                .to_owned(),
+            Some(criterion) => format!("`{}` lacks {}", slag.name(), criterion.needs()),
         }
     }
 }

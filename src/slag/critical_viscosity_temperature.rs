@@ -21,18 +21,21 @@
 //! Slags of British bituminous ash in Watt and Fereday's range of composition
 //! ([`FiveOxides::is_like_british_ash`]; the range is that of part 1). In addition `S/A` at most
 //! [`LARGEST_OXIDE_RATIO`] (assumed): the parabola has its minimum at `S/A = 2.04` and rises beyond
-//! it, by 1380 K at `S/A = 4`, where slags rich in silica crystallise late if at all. The source's
-//! error is not known to us; differences of 50 to 100 K from measured values are common in the
-//! literature (assumed).
+//! it, by 1380 K at `S/A = 4`, where slags rich in silica crystallise late if at all. Outside there is
+//! no value: a straw ash would get 44,778 K.
+//!
+//! The source's error is not known to us. Of the ashes in `tests/data/ash_fusion_temperatures.csv` 44 lie
+//! in the range and have a flow temperature: `T_cv` is 30 K below it in the mean, with a standard
+//! deviation of 66 K and a correlation of 0.63 (0.21 with the hemisphere temperature, 26 ashes).
 
 use super::composition::Composition;
 use super::watt_fereday::FiveOxides;
 
-/// Largest ratio of silica to alumina [1] at which the formula is used without a flag: beyond it
+/// Largest ratio of silica to alumina [1] at which the formula is used: beyond it
 /// the parabola has risen by more than 100 K above its minimum. Assumed.
 pub const LARGEST_OXIDE_RATIO: f64 = 2.57;
 
-/// Temperature of critical viscosity [K]; `None` for a composition without `Al2O3`.
+/// Temperature of critical viscosity [K]; `None` for a composition outside the range.
 ///
 /// ```
 /// use nearwall::slag::{Composition, critical_viscosity_temperature};
@@ -46,16 +49,13 @@ pub const LARGEST_OXIDE_RATIO: f64 = 2.57;
 pub fn watt(composition: &Composition) -> Option<f64> {
     const ZERO_CELSIUS: f64 = 273.15;
     let of = FiveOxides::of(composition)?;
-    let ratio = (of.alumina > 0.0).then(|| of.silica / of.alumina)?;
+    if !of.is_like_british_ash() || of.silica > LARGEST_OXIDE_RATIO * of.alumina {
+        return None;
+    }
+    let ratio = of.silica / of.alumina;
     let flux = of.iron + of.lime + of.magnesia;
     let celsius = 2990.0 + ratio * (360.0 * ratio - 1470.0) + flux * (0.15 * flux - 14.7);
-    Some(celsius + ZERO_CELSIUS).filter(|kelvin| kelvin.is_finite())
-}
-
-/// Whether the composition is in the range of Watt's formula.
-pub fn watt_holds(composition: &Composition) -> bool {
-    FiveOxides::of(composition)
-        .is_some_and(|of| of.is_like_british_ash() && of.silica <= LARGEST_OXIDE_RATIO * of.alumina)
+    Some(celsius + ZERO_CELSIUS)
 }
 
 #[cfg(test)]
@@ -70,7 +70,6 @@ mod tests {
     fn slag_of_illinois_coal() {
         let slag = oxides("SiO2 45, Al2O3 18, FeO 18, CaO 7, MgO 1, Na2O 0.6, K2O 1.9, TiO2 1, P2O5 0.2");
         assert_relative_eq!(watt(&slag).unwrap(), 1254.687 + 273.15, epsilon = 2e-3);
-        assert!(watt_holds(&slag));
     }
 
     #[test]
@@ -83,12 +82,14 @@ mod tests {
         assert_relative_eq!(watt(&five).unwrap(), watt(&ferrous).unwrap(), max_relative = 1e-6);
     }
 
+    /// The last is a wheat straw, for which the formula gives 44,778 K.
     #[test]
-    fn compositions_without_alumina_have_none() {
-        assert_eq!(watt(&oxides("SiO2 60, CaO 40")), None);
-        assert_eq!(watt(&oxides("Na2O 1")), None);
-        assert!(!watt_holds(&oxides("SiO2 60, CaO 40")) && !watt_holds(&oxides("Na2O 1")));
-        assert_eq!(watt(&oxides("SiO2 60, Al2O3 1e-300")), None);
+    fn compositions_outside_the_range_have_none() {
+        for outside in
+            ["SiO2 60, CaO 40", "Na2O 1", "SiO2 60, Al2O3 1e-300", "SiO2 59, Al2O3 5, CaO 9, K2O 20"]
+        {
+            assert_eq!(watt(&oxides(outside)), None, "{outside}");
+        }
     }
 
     #[test]
@@ -97,7 +98,7 @@ mod tests {
             let rest = 100.0 - silica - alumina - 3.0;
             let shares = [("SiO2", silica), ("Al2O3", alumina), ("MgO", 3.0)];
             let flux = [("Fe2O3", 0.5 * rest), ("CaO", 0.5 * rest)];
-            watt_holds(&Composition::new(shares.into_iter().chain(flux)).unwrap())
+            watt(&Composition::new(shares.into_iter().chain(flux)).unwrap()).is_some()
         };
         assert!(with(50.0, 20.0) && with(35.0, 30.0) && !with(53.0, 20.0) && !with(28.0, 28.0));
         // The rise above the minimum at 1470/720: 360 (2.57 - 2.0417)² = 100.5 K.

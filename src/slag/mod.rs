@@ -6,6 +6,7 @@
 //! measurements. The laws describe a liquid or a quenched glass: that a slag with time crystallises
 //! is in [`critical_viscosity_temperature`] and [`crystal_load`].
 
+pub mod ash_fusion;
 mod composition;
 pub mod critical_viscosity_temperature;
 pub mod crystal_load;
@@ -19,6 +20,7 @@ pub mod watt_fereday;
 use fearless_simd::{Level, dispatch};
 
 use crate::vector_math::exponential;
+pub use ash_fusion::{FusionTemperatures, OutsideAshes};
 pub use composition::{Composition, CompositionError, Oxide, OxideRole};
 
 /// Every viscosity law.

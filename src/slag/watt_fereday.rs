@@ -23,7 +23,7 @@ use super::{ViscosityLaw, for_each_temperature, limited_exponential};
 use fearless_simd::Level;
 
 /// Mass of ferric oxide that holds the iron of 1 kg of ferrous oxide [kg].
-const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
+pub(super) const FERRIC_PER_FERROUS: f64 = 159.687 / (2.0 * 71.844);
 
 /// Temperatures [K] for which the law counts as stated; assumed.
 const WATT_TEMPERATURES: [f64; 2] = [1423.0, 1873.0];

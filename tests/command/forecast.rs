@@ -258,6 +258,48 @@ fn simulated_bands_are_the_range_over_the_draws() {
     refused(path, &["simulate", "case.toml", "--draws", "draws"], &["0.toml", "other walls"]);
 }
 
+/// All temperatures of a sheet move together by its uncertainty: half way between 1300 and 1500 K, 40 K
+/// warmer and colder ash is sticky with 0.3 and 0.7.
+#[test]
+fn an_ash_sheet_is_moved_as_a_whole() {
+    let model = r#"
+[particle]
+material = "ash"
+[walls.default]
+material = "ash"
+[normal]
+model = "constant"
+e_n = 0.5
+[tangential]
+model = "constant"
+e_t = 0.8
+[capture]
+model = "fusion"
+[materials.ash]
+density = 2500
+youngs_modulus = 7e10
+poisson_ratio = 0.2
+yield_strength = 1e10
+surface_energy = 0.5
+fusion_temperatures = { deformation = 1300, softening = 1366.6667, flow = 1500, uncertainty = 40 }
+"#;
+    let case = plate(&nested(model), "speed = 1", "")
+        .replace("temperature = 300\nspeed", "temperature = 1400\nspeed");
+    let files = folder(&[("case.toml", &case.replace("count = 50", "count = 2000"))]);
+    let path = files.path();
+    done(path, &["sensitivity", "case.toml", "-o", "out", "--clean-walls"]);
+    let found = json(&path.join("out/sensitivity.json"));
+    let numbers = found["numbers"].as_array().unwrap();
+    let key = "model.materials.ash.fusion_temperatures";
+    let sheet = numbers.iter().find(|number| number["key"] == key).unwrap();
+    assert_eq!((&sheet["low"], &sheet["high"]), (&(-40.0).into(), &40.0.into()));
+    let wall = &sheet["walls"][0];
+    for (end, share) in [("captured_low", 0.7), ("captured", 0.5), ("captured_high", 0.3)] {
+        let captured = wall[end].as_f64().unwrap();
+        assert!((captured - share).abs() < 0.05, "{end} {captured}");
+    }
+}
+
 /// Thornton and Ning in a vacuum: below the sticking velocity all stick. That depends on the
 /// materials, but not on a thermal property of the gas, and not on the particle's yield strength if
 /// the wall is far softer.

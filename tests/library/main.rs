@@ -8,6 +8,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod ash_fusion;
 mod capture;
 mod contact_integration;
 mod docs;

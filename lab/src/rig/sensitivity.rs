@@ -16,6 +16,7 @@ use super::captures::{Captures, Flights, run_captures};
 use super::case_text::CaseText;
 use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
+use nearwall::slag::ash_fusion;
 
 /// The kinds of a case's own numbers, by key; those of the model state theirs.
 const CASE_KINDS: [(&str, QuantityKind); 10] = [
@@ -543,7 +544,7 @@ impl Finder {
         }
     }
 
-    /// Adds a number, or a table with `value`, `polynomial` or `arrhenius`.
+    /// Adds a number, or a table with `value`, `polynomial` or `arrhenius`, or an ash sheet.
     fn quantity(&mut self, item: &Item, place: &[KeyStep], key: &str) {
         let mut items = Vec::new();
         leaves(item, place, &mut items);
@@ -596,7 +597,7 @@ fn is_quantity(item: &Item) -> bool {
     let holds = |key: &str| item.get(key).is_some_and(|item| first_number(item).is_some());
     item.as_table_like()
         .is_some_and(|table| !table.contains_key("kind") && !table.contains_key("distribution"))
-        && ["value", "polynomial", "arrhenius"].iter().any(|key| holds(key))
+        && ["value", "polynomial", "arrhenius", "deformation"].iter().any(|key| holds(key))
 }
 
 /// The items that hold the numbers of a quantity.
@@ -606,7 +607,7 @@ fn leaves(item: &Item, place: &[KeyStep], found: &mut Vec<(Vec<KeyStep>, Item)>)
         found.push((place.to_vec(), item.clone()));
         return;
     }
-    for key in ["value", "polynomial"] {
+    for key in ["value", "polynomial"].into_iter().chain(ash_fusion::NAMES) {
         if let Some(item) = item.get(key) {
             found.push((join(key), item.clone()));
         }

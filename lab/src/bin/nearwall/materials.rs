@@ -63,6 +63,9 @@ fn show(material: &Material, temperature: f64) -> String {
             composition.oxides().map(|(oxide, share)| format!("{} {share:.1}", oxide.name())).collect();
         lines.push(format!("  {:<16} {} (wt%)", "composition", oxides.join(", ")));
     }
+    let fusion = material.given_or_estimated_fusion();
+    let fusion = fusion.map(|found| found.map_or_else(|none| none.to_string(), |known| known.describe()));
+    lines.extend(fusion.map(|fusion| format!("  {:<16} {fusion}", "fusion")));
     lines.push(String::new());
     lines.join("\n")
 }
