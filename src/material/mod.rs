@@ -1,16 +1,15 @@
 //! Materials of particles and walls: properties over temperature, built in or given by the user.
 
+mod library;
 mod property;
 mod table;
 
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
-
 use crate::impact::ImpactError;
-use crate::input::{Document, InputError, Limits, Section, unknown};
+use crate::input::{InputError, Limits, Section};
 use crate::law::QuantityKind;
 use crate::slag::{Composition, Molten, surface_tension};
 
+pub use library::{BUILT_IN_TEXT, Library, built_in_toml};
 pub use property::{OutOfRange, Property};
 
 /// Key of a property in files, its kind, its limits, and whether it is required.
@@ -119,20 +118,24 @@ impl Mechanical {
 }
 
 impl Material {
-    /// Reads one `[materials.<name>]` table.
+    /// Reads one `[materials.<name>]` table. What it does not give is taken from `base`, the material
+    /// that it is `like`.
     ///
     /// # Errors
     /// [`InputError::Fault`] for a missing, unknown or unphysical property.
-    pub fn read(name: &str, section: &Section<'_>) -> Result<Self, InputError> {
+    pub fn read(name: &str, section: &Section<'_>, base: Option<&Self>) -> Result<Self, InputError> {
         let mut properties = [const { None }; PROPERTY_FIELDS.len()];
-        for (field, property) in PROPERTY_FIELDS.iter().zip(&mut properties) {
-            *property = Property::read(section, field.key, &field.limits)?;
+        for (place, (field, property)) in PROPERTY_FIELDS.iter().zip(&mut properties).enumerate() {
+            let own = Property::read(section, field.key, &field.limits)?;
+            *property = own.or_else(|| base?.properties[place].clone());
             if property.is_none() && field.required {
                 return Err(section.missing(field.key, &format!("a value in {}", field.limits.unit)));
             }
         }
         let composition = section.section("composition")?.map(|s| read_composition(&s)).transpose()?;
+        let composition = composition.or_else(|| base?.composition.clone());
         let about = section.text("about")?.or(section.text("source")?);
+        let about = about.or_else(|| base.map(|base| format!("like {}", base.name)));
         section.finish()?;
         Ok(Self { name: name.to_owned(), about, properties, composition })
     }
@@ -384,67 +387,10 @@ fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     Composition::new(named).map_err(|error| section.fault("", error))
 }
 
-/// The file of the built-in materials.
-pub const BUILT_IN_TEXT: &str = include_str!("materials.toml");
-
-static BUILT_IN: LazyLock<Result<Library, InputError>> = LazyLock::new(|| {
-    let document = Document::new("built-in materials", BUILT_IN_TEXT);
-    document.read(|top| Library::default().with(top))
-});
-
-/// Materials by name.
-#[derive(Debug, Clone, Default)]
-pub struct Library {
-    materials: BTreeMap<String, Material>,
-}
-
-impl Library {
-    /// The built-in materials.
-    ///
-    /// # Errors
-    /// [`InputError`] for an error in the built-in data (a test excludes it).
-    pub fn built_in() -> Result<Self, InputError> {
-        BUILT_IN.clone()
-    }
-
-    /// Adds every table of `section`; a material of the same name is replaced.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] for a material that cannot be read.
-    pub fn with(mut self, section: &Section<'_>) -> Result<Self, InputError> {
-        for name in section.keys() {
-            let material = Material::read(&name, &section.required_section(&name)?)?;
-            self.materials.insert(name, material);
-        }
-        Ok(self)
-    }
-
-    /// A material by its name.
-    pub fn get(&self, name: &str) -> Option<&Material> {
-        self.materials.get(name)
-    }
-
-    /// All names, sorted.
-    pub fn names(&self) -> Vec<&str> {
-        self.materials.keys().map(String::as_str).collect()
-    }
-
-    /// The material that `key` of a section names.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] with the nearest known name when there is none.
-    pub fn named_by(&self, section: &Section<'_>, key: &str) -> Result<Option<Material>, InputError> {
-        let Some(name) = section.text(key)? else { return Ok(None) };
-        match self.get(&name) {
-            Some(material) => Ok(Some(material.clone())),
-            None => Err(section.fault(key, unknown(&name, "material", &self.names()))),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Document;
 
     #[test]
     fn every_built_in_number_names_unit_range_and_source() {
