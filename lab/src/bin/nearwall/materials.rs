@@ -1,19 +1,23 @@
 //! `nearwall materials`: the built-in materials with the source of each number.
 
 use nearwall::input::unknown;
-use nearwall::material::{Library, Material};
+use nearwall::material::{Library, Material, built_in_toml};
 
 use crate::CommandResult;
 
 /// Lists the built-in materials, or shows one with its sources
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000")]
+#[command(after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000\n  \
+nearwall materials coal-slag --toml")]
 pub struct Arguments {
     /// The material to show
     name: Option<String>,
     /// Temperature [K] at which to evaluate
     #[arg(long, value_name = "K", default_value_t = 293.15)]
     temperature: f64,
+    /// Print the material as a block for a model file
+    #[arg(long, requires = "name", conflicts_with = "temperature")]
+    toml: bool,
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
@@ -31,6 +35,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let Some(material) = library.get(name) else {
         return Err(unknown(name, "material", &library.names()).into());
     };
+    if arguments.toml {
+        return crate::print(&built_in_toml(name).unwrap_or_default());
+    }
     crate::print(&show(material, arguments.temperature))
 }
 
