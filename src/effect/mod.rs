@@ -123,6 +123,12 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         Some(restitution)
     }
 
+    /// Whether the effect may leave more energy than came in, so that the model has to bound it; such an
+    /// effect has no precomputed form.
+    fn may_add_energy(&self) -> bool {
+        false
+    }
+
     /// Whether the effect depends on [`Contact::melt`], the melt that the particle meets.
     fn uses_melt(&self) -> bool {
         false

@@ -4,6 +4,7 @@
 //! decides which; the outcome is that of the share met, and its probability of capture is that of
 //! both, `c P_covered + (1 - c) P_bare`.
 
+use super::energy_bound;
 use super::evaluation::{
     Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
 };
@@ -390,6 +391,17 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             rebound = changed;
         }
         rebound
+    }
+
+    fn energy_bound(&mut self, kinematics: &ImpactKinematics, rebound: Rebound) -> f64 {
+        if !self.model.adds_energy {
+            return kinematics.normal_restitution;
+        }
+        let e_n = energy_bound::bounded(kinematics, rebound);
+        if e_n != kinematics.normal_restitution {
+            self.trace("energy bound", "e_n", e_n);
+        }
+        e_n
     }
 
     fn turn_back(&self, impact: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {

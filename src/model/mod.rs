@@ -10,6 +10,7 @@
 pub mod block;
 mod deposit;
 mod describe;
+mod energy_bound;
 mod evaluation;
 mod expectation;
 mod general_wall;
@@ -59,6 +60,8 @@ pub struct Model {
     terms: Vec<Term>,
     /// Whether a term depends on the melt on the wall.
     uses_melt: bool,
+    /// Whether a term may leave more energy than came in.
+    adds_energy: bool,
     /// Whether a term is a fitted correction.
     has_corrections: bool,
     /// For each wall its prepared form; `None` where every impact needs the general steps.
@@ -172,6 +175,7 @@ impl Model {
     /// Prepares the walls that can be prepared.
     fn prepare(mut self) -> Self {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
+        self.adds_energy = self.terms.iter().any(|term| term.effect().may_add_energy());
         self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
         self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         let decided = !self.has_droplets() && self.extra_inputs.is_empty();
