@@ -31,4 +31,4 @@ pub use melt_fraction::{
 pub(crate) use rebound_from_slag::rebound_from_slag;
 pub use solidification::Solidification;
 pub use stickiness::{Combination, Stickiness};
-pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};
+pub use viscosity::{FASTEST_WITHOUT_SPEED, MeltStickiness, ViscosityCriterion, sticking_probability};

@@ -109,7 +109,8 @@ mod tests {
     /// What a property is, in bits: the written form of a number is that of its bits.
     fn written(material: &Material) -> String {
         let properties: Vec<_> = material.properties().collect();
-        format!("{properties:?} {:?} {:?}", material.composition(), material.about())
+        let rest = (material.composition(), material.about(), material.crystalline_below());
+        format!("{properties:?} {rest:?}")
     }
 
     #[test]

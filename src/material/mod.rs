@@ -80,6 +80,7 @@ pub struct Material {
     about: Option<String>,
     properties: [Option<Property>; PROPERTY_FIELDS.len()],
     composition: Option<Composition>,
+    crystalline: bool,
 }
 
 /// The mechanical properties at one temperature.
@@ -136,8 +137,14 @@ impl Material {
         let composition = composition.or_else(|| base?.composition.clone());
         let about = section.text("about")?.or(section.text("source")?);
         let about = about.or_else(|| base.map(|base| format!("like {}", base.name)));
+        let crystalline = section.boolean("crystalline")?;
+        let crystalline = crystalline.or(base.map(|base| base.crystalline)).unwrap_or(false);
         section.finish()?;
-        Ok(Self { name: name.to_owned(), about, properties, composition })
+        if crystalline && properties[Field::MeltingPoint as usize].is_none() {
+            let what = "the temperature [K] below which a crystalline material is solid,";
+            return Err(section.missing("melting_point", what));
+        }
+        Ok(Self { name: name.to_owned(), about, properties, composition, crystalline })
     }
 
     /// The name in model files.
@@ -297,6 +304,12 @@ impl Material {
     /// As [`Material::surface_tension_near`], the total emissivity of its surface [1].
     pub fn emissivity_near(&self, temperature: f64) -> Option<f64> {
         self.near(Field::Emissivity, temperature)
+    }
+
+    /// The melting point [K] of a crystalline material: below it there is no melt, not even a stiff one.
+    /// `None` for a glass, whose melt only stiffens.
+    pub fn crystalline_below(&self) -> Option<f64> {
+        self.melting_point_near(293.15).filter(|_| self.crystalline)
     }
 
     /// As [`Material::surface_tension_near`], the melting point [K].

@@ -291,8 +291,8 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
         !(model
             .stickiness
             .as_ref()
-            .is_none_or(|criterion| criterion.holds_in_flight(arriving.particle_temperature))
-            && melt.is_none_or(|melt| melt.holds_on_wall(arriving.wall_temperature))
+            .is_none_or(|criterion| criterion.holds_for_particle(arriving))
+            && melt.is_none_or(|melt| melt.holds_for_wall(arriving))
             && model.melt_holds(arriving)
             && model.tangential.holds_for(arriving)
             && model.particle.holds_for(arriving)
