@@ -55,7 +55,12 @@ impl Library {
     }
 
     /// The material that the table of `name` is `like`; the tables of `later` follow it in the file.
-    fn base(&self, table: &Section<'_>, name: &str, later: &[String]) -> Result<Option<&Material>, InputError> {
+    fn base(
+        &self,
+        table: &Section<'_>,
+        name: &str,
+        later: &[String],
+    ) -> Result<Option<&Material>, InputError> {
         let Some(base) = table.text("like")? else { return Ok(None) };
         if later.contains(&base) {
             let problem = format!(
@@ -66,7 +71,8 @@ impl Library {
         match self.get(&base) {
             Some(material) => Ok(Some(material)),
             None if base == name => {
-                let problem = format!("`{name}` is not built in, so it has nothing to extend; name another one");
+                let problem =
+                    format!("`{name}` is not built in, so it has nothing to extend; name another one");
                 Err(table.fault("like", problem))
             }
             None => Err(table.fault("like", unknown(&base, "material", &self.names()))),
@@ -138,15 +144,42 @@ mod tests {
         assert_eq!(own.property("youngs_modulus"), before.property("youngs_modulus"));
     }
 
+    /// Density, modulus and Poisson's ratio follow; strength and surface energy have no law, and the refusal says what to do.
+    #[test]
+    fn a_composition_gives_what_laws_give() {
+        let oxides = "composition = { SiO2 = 43.2, Al2O3 = 36.6, CaO = 20.2 }\n";
+        let glass =
+            read(&format!("[materials.a]\nyield_strength = 3e8\nsurface_energy = 0.05\n{oxides}")).unwrap();
+        let glass = glass.get("a").unwrap();
+        let cold = glass.mechanical(293.15).unwrap();
+        assert!(
+            (cold.density / 2700.0 - 1.0).abs() < 0.04 && (cold.youngs_modulus / 90e9 - 1.0).abs() < 0.12,
+            "{cold:?}"
+        );
+        assert_eq!(glass.estimated(), ["density", "youngs_modulus", "poisson_ratio", "surface_tension"]);
+        assert!(glass.mechanical(1723.15).unwrap().youngs_modulus < 0.1 * cold.youngs_modulus);
+        let alone = read(&format!("[materials.a]\n{oxides}")).unwrap_err();
+        assert!(
+            alone.contains("materials.a.yield_strength: missing; add a value in Pa (no law gives it"),
+            "{alone}"
+        );
+        assert!(alone.contains("like = \"fly-ash\""), "{alone}");
+        let lime = read("[materials.a]\ncomposition = { CaO = 90, SiO2 = 10 }\n").unwrap_err();
+        assert!(lime.contains("materials.a.density: missing") && lime.contains("outside the law"), "{lime}");
+        let like = read(&format!("[materials.a]\nlike = \"fly-ash\"\n{oxides}")).unwrap();
+        assert_eq!(like.get("a").unwrap().density(293.15), Ok(2300.0), "taken, not estimated");
+    }
+
     #[test]
     fn a_wrong_base_is_named_with_the_remedy() {
         let refused = |text: &str| read(text).unwrap_err();
-        assert!(
-            refused("[materials.a]\nlike = \"coal-slak\"\n")
-                .starts_with("m.toml:2:1: materials.a.like: unknown material `coal-slak`; did you mean `coal-slag`?")
-        );
+        assert!(refused("[materials.a]\nlike = \"coal-slak\"\n").starts_with(
+            "m.toml:2:1: materials.a.like: unknown material `coal-slak`; did you mean `coal-slag`?"
+        ));
         let later = "[materials.a]\nlike = \"b\"\n[materials.b]\nlike = \"a\"\n";
-        assert!(refused(later).contains("materials.a.like: [materials.b] follows further down; move it above"));
+        assert!(
+            refused(later).contains("materials.a.like: [materials.b] follows further down; move it above")
+        );
         assert!(refused("[materials.a]\nlike = \"a\"\n").contains("`a` is not built in"));
         let misspelt = refused("[materials.a]\nlike = \"pyrex\"\nemisivity = 0.5\n");
         assert!(misspelt.contains("did you mean `emissivity`?"), "{misspelt}");
@@ -165,7 +198,8 @@ mod tests {
             assert_eq!(written(pasted), written(before), "{name}");
             for temperature in [293.15, 700.0, 1300.0, 1800.0, 3000.0] {
                 let bits = |material: &Material| {
-                    let at = |property: &super::super::Property| property.at(temperature).ok().map(f64::to_bits);
+                    let at =
+                        |property: &super::super::Property| property.at(temperature).ok().map(f64::to_bits);
                     material.properties().map(|(.., property)| at(property)).collect::<Vec<_>>()
                 };
                 assert_eq!(bits(pasted), bits(before), "{name} at {temperature} K");

@@ -1,5 +1,6 @@
 //! Materials of particles and walls: properties over temperature, built in or given by the user.
 
+mod estimate;
 mod library;
 mod property;
 mod table;
@@ -129,12 +130,19 @@ impl Material {
         for (place, (field, property)) in PROPERTY_FIELDS.iter().zip(&mut properties).enumerate() {
             let own = Property::read(section, field.key, &field.limits)?;
             *property = own.or_else(|| base?.properties[place].clone());
-            if property.is_none() && field.required {
-                return Err(section.missing(field.key, &format!("a value in {}", field.limits.unit)));
-            }
         }
         let composition = section.section("composition")?.map(|s| read_composition(&s)).transpose()?;
         let composition = composition.or_else(|| base?.composition.clone());
+        for (field, property) in
+            PROPERTY_FIELDS.iter().zip(&mut properties).filter(|(field, _)| field.required)
+        {
+            if property.is_none() {
+                *property = composition.as_ref().and_then(|oxides| estimate::estimated(field.key, oxides));
+            }
+            if property.is_none() {
+                return Err(section.missing(field.key, &how_to_give(field, composition.as_ref())));
+            }
+        }
         let about = section.text("about")?.or(section.text("source")?);
         let about = about.or_else(|| base.map(|base| format!("like {}", base.name)));
         let crystalline = section.boolean("crystalline")?;
@@ -172,6 +180,14 @@ impl Material {
     pub fn properties(&self) -> impl Iterator<Item = (&'static str, &'static str, &Property)> {
         let fields = PROPERTY_FIELDS.iter().zip(&self.properties);
         fields.filter_map(|(field, p)| Some((field.key, field.limits.unit, p.as_ref()?)))
+    }
+
+    /// Keys of the properties that follow from its composition and are not given.
+    pub fn estimated(&self) -> Vec<&'static str> {
+        let mechanical =
+            self.properties().filter(|(.., property)| property.is_estimated()).map(|(key, ..)| key);
+        let tension = self.surface_tension_by_composition().map(|_| "surface_tension");
+        mechanical.chain(tension).collect()
     }
 
     /// Viscosity [Pa s] of the melt at a temperature [K].
@@ -386,6 +402,20 @@ impl Material {
 /// The intersection of all ranges; all temperatures without any.
 pub(crate) fn overlap(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     ranges.fold([0.0, f64::INFINITY], |[low, high], [l, h]| [low.max(l), high.min(h)])
+}
+
+/// What to add for a required property that is missing, in words.
+fn how_to_give(field: &PropertyField, composition: Option<&Composition>) -> String {
+    let unit = field.limits.unit;
+    match composition {
+        None => format!("a value in {unit}"),
+        Some(_) if estimate::ESTIMATED.contains(&field.key) => {
+            format!("a value in {unit} (the composition is outside the law that estimates it)")
+        }
+        Some(_) => format!(
+            "a value in {unit} (no law gives it by composition), or like = \"fly-ash\" to take that of fly ash,"
+        ),
+    }
 }
 
 fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {

@@ -26,8 +26,8 @@ pub(super) fn bounded(kinematics: &ImpactKinematics, rebound: Rebound) -> f64 {
         *kinematics;
     let along = tangential_speed / normal_speed;
     let rim = |spin: f64| spin * diameter / normal_speed;
-    let [arriving, leaving] =
-        [(along, rim(spin)), (rebound.restitution * along, rim(rebound.spin))].map(|(u, r)| u * u + 0.1 * r * r);
+    let [arriving, leaving] = [(along, rim(spin)), (rebound.restitution * along, rim(rebound.spin))]
+        .map(|(u, r)| u * u + 0.1 * r * r);
     let allowed = 1.0 + arriving - leaving;
     // A speed or a spin beyond all numbers leaves nothing to compare.
     let exceeds = e_n * e_n > allowed + ROUNDING * (1.0 + arriving);

@@ -288,10 +288,7 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
     fn outside_range(&mut self, arriving: &Impact) -> bool {
         let Self { model, wall, place, .. } = self;
         let melt = wall.melt.as_ref().filter(|_| *place != WallPlace::Covered);
-        !(model
-            .stickiness
-            .as_ref()
-            .is_none_or(|criterion| criterion.holds_for_particle(arriving))
+        !(model.stickiness.as_ref().is_none_or(|criterion| criterion.holds_for_particle(arriving))
             && melt.is_none_or(|melt| melt.holds_for_wall(arriving))
             && model.melt_holds(arriving)
             && model.tangential.holds_for(arriving)

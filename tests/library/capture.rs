@@ -75,8 +75,10 @@ fn a_salt_on_the_wall_holds_by_its_share_of_liquid() {
 #[test]
 fn crystals_do_not_stick_below_their_melting_point() {
     const CMAS: &str = "composition = { CaO = 33, MgO = 9, Al2O3 = 13, SiO2 = 45 }\nmelting_point = 1500";
-    let capture = "model = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 1e5\nsolidification = \"none\"";
-    let [glass, crystals] = ["", "\ncrystalline = true"].map(|more| model(capture, &format!("{CMAS}{more}"), ""));
+    let capture =
+        "model = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 1e5\nsolidification = \"none\"";
+    let [glass, crystals] =
+        ["", "\ncrystalline = true"].map(|more| model(capture, &format!("{CMAS}{more}"), ""));
     let p = |model: &Model, speed, t| hit(model, &at(speed, t)).sticking_probability;
     for speed in [1.0, 30.0, 300.0] {
         assert_eq!(p(&crystals, speed, 1300.0), 0.0);
@@ -92,13 +94,15 @@ fn crystals_do_not_stick_below_their_melting_point() {
 /// What does not know the speed is marked above 30 m/s where it says that something sticks.
 #[test]
 fn a_criterion_without_speed_is_marked_at_high_speed() {
-    let capture = "model = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 1e3\nsolidification = \"none\"";
+    let capture =
+        "model = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 1e3\nsolidification = \"none\"";
     let outside = |model: &Model, speed, t| hit(model, &at(speed, t)).outside_range;
     let crystals = format!("{ASH}\nmelting_point = 1650\ncrystalline = true");
     let own = model(capture, &crystals, "");
     assert!(!outside(&own, 3.0, 1700.0) && outside(&own, 300.0, 1700.0));
     // The contact law of a fast impact is tested elsewhere; here nothing sticks at any speed.
-    let hard = text(capture, &crystals, "").replace("thornton-ning\"\nyield_ratio = 2.8", "constant\"\ne_n = 0.5");
+    let hard =
+        text(capture, &crystals, "").replace("thornton-ning\"\nyield_ratio = 2.8", "constant\"\ne_n = 0.5");
     let hard = Model::from_toml("m.toml", &hard).unwrap();
     assert!(!outside(&hard, 300.0, 1600.0) && outside(&hard, 300.0, 1700.0));
     let energy = text(ENERGY, ASH, "").replace("thornton-ning\"\nyield_ratio = 2.8", "constant\"\ne_n = 0.5");

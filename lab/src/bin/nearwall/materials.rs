@@ -7,8 +7,10 @@ use crate::CommandResult;
 
 /// Lists the built-in materials, or shows one with its sources
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000\n  \
-nearwall materials coal-slag --toml")]
+#[command(
+    after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000\n  \
+nearwall materials coal-slag --toml"
+)]
 pub struct Arguments {
     /// The material to show
     name: Option<String>,
@@ -64,6 +66,12 @@ fn show(material: &Material, temperature: f64) -> String {
             lines.push(format!("  {:<16}   stated for {low} to {high} K{outside}", ""));
         }
         lines.push(format!("  {:<16}   source: {}", "", property.source().unwrap_or("none given")));
+    }
+    if material.property("surface_tension").is_none()
+        && let Some(tension) = material.surface_tension_near(temperature)
+    {
+        lines.push(format!("  {:<16} {} N/m", "surface_tension", short(tension)));
+        lines.push(format!("  {:<16}   source: estimated from the composition after Kucuk et al.", ""));
     }
     if let Some(composition) = material.composition() {
         let oxides: Vec<String> =
