@@ -31,7 +31,7 @@ use crate::effect::Term;
 use crate::impact::{EXTRA_INPUTS, ExtraInput, Impact, ImpactError, Outcome};
 use crate::input::{Document, InputError};
 use crate::material::{Material, overlap};
-use crate::normal::{NormalLaw, Speeds};
+use crate::normal::{self, NormalLaw, Speeds};
 use crate::rng::ImpactRng;
 use crate::tangential::TangentialLaw;
 
@@ -322,6 +322,18 @@ impl Model {
     /// [`ImpactError::OutOfRange`] outside a table.
     pub fn particle_density(&self, impact: &Impact) -> Result<f64, ImpactError> {
         self.particle.density_of_materials(impact)
+    }
+
+    /// Time [s] that a solid particle of this impact touches the wall ([`normal::contact_time`]); random numbers
+    /// are at their median, 0.5.
+    ///
+    /// # Errors
+    /// As [`Model::resolve`].
+    pub fn contact_time(&self, wall: usize, impact: &Impact) -> Result<f64, ImpactError> {
+        let mut impact = *impact;
+        let wall = self.at_wall(wall, &mut impact)?;
+        let contact = self.contact(wall, &impact, WallPlace::Anywhere, &|_| 0.5)?;
+        Ok(normal::contact_time(&contact, impact.diameter, impact.normal_speed))
     }
 
     /// Adhesive, yield and sticking velocity of an impact's particle and wall; random numbers are at their median, 0.5.

@@ -21,6 +21,9 @@ pub const VALUES: [&str; 3] = ["e_n", "e_t", "p_stick"];
 /// The ends of the 95 % bands of [`VALUES`] over drawn models [1].
 pub const BANDS: [&str; 6] = ["e_n_low", "e_n_high", "e_t_low", "e_t_high", "p_stick_low", "p_stick_high"];
 
+/// The time of contact of a row [s].
+pub const CONTACT_TIME: &str = "contact_time";
+
 /// Draws of what a model draws by chance, for the mean of each row.
 const DRAWS_A_ROW: usize = 64;
 
@@ -31,6 +34,7 @@ pub struct Predictor<'a> {
     walls: WallChoice<'a>,
     /// The column that names the wall of a row.
     wall_column: Option<usize>,
+    contact_time: bool,
 }
 
 /// The prediction for a row.
@@ -40,6 +44,8 @@ pub struct PredictedRow {
     pub values: [f64; 3],
     /// Low and high end of the band of each value; empty without drawn models.
     pub bands: Vec<[f64; 2]>,
+    /// Time [s] that a solid particle touches the wall, where it is asked for.
+    pub contact_time: Option<f64>,
     /// Name of the regime.
     pub regime: &'static str,
     /// Whether a property, a law or a fitted term is used outside its valid range.
@@ -67,7 +73,18 @@ impl<'a> Predictor<'a> {
     ) -> Result<Self, WallError> {
         let (walls, wall_column) = (WallChoice::new(model, wall)?, reader.column("wall"));
         walls.check(wall_column.is_some())?;
-        Ok(Self { model, drawn: Vec::new(), walls, wall_column })
+        Ok(Self { model, drawn: Vec::new(), walls, wall_column, contact_time: false })
+    }
+
+    /// Adds the time of contact to each row.
+    #[must_use]
+    pub fn with_contact_time(self, contact_time: bool) -> Self {
+        Self { contact_time, ..self }
+    }
+
+    /// Whether rows have a time of contact.
+    pub fn has_contact_time(&self) -> bool {
+        self.contact_time
     }
 
     /// Adds the models of a folder that were drawn from the fit of the model; each row then has bands.
@@ -111,8 +128,11 @@ impl<'a> Predictor<'a> {
         let mean = expect(self.model)?;
         let drawn = self.drawn.iter().map(|model| expect(model).map(|mean| values(&mean)));
         let drawn: Vec<[f64; 3]> = drawn.collect::<Result<_, _>>()?;
+        let contact_time =
+            self.contact_time.then(|| self.model.contact_time(wall, &row.impact)).transpose()?;
         Ok(PredictedRow {
             values: values(&mean),
+            contact_time,
             bands: bands(&drawn),
             regime: mean.regime.name(),
             outside_range: mean.outside_range,
