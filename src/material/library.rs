@@ -144,6 +144,25 @@ mod tests {
         assert_eq!(own.property("youngs_modulus"), before.property("youngs_modulus"));
     }
 
+    /// Hill's mean of Young's modulus and Voigt's of Poisson's ratio, from the elastic constants [GPa] of both cubic salts.
+    #[test]
+    fn salts_have_the_modulus_of_their_crystals() {
+        let library = Library::built_in().unwrap();
+        for (name, [c11, c12, c44]) in
+            [("potassium-chloride", [39.8, 6.2, 6.25]), ("sodium-chloride", [49.47, 12.88, 12.87])]
+        {
+            let bulk: f64 = (c11 + 2.0 * c12) / 3.0;
+            let voigt: f64 = (c11 - c12 + 3.0 * c44) / 5.0;
+            let reuss = 5.0 * (c11 - c12) * c44 / (4.0 * c44 + 3.0 * (c11 - c12));
+            let shear = 0.5 * (voigt + reuss);
+            let modulus = 9.0 * bulk * shear / (3.0 * bulk + shear);
+            let poisson = (3.0 * bulk - 2.0 * voigt) / (2.0 * (3.0 * bulk + voigt));
+            let salt = library.get(name).unwrap().mechanical(300.0).unwrap();
+            assert!((salt.youngs_modulus / (1e9 * modulus) - 1.0).abs() < 0.01, "{name}: {modulus}");
+            assert!((salt.poisson_ratio - poisson).abs() < 0.01, "{name}: {poisson}");
+        }
+    }
+
     /// Density, modulus and Poisson's ratio follow; strength and surface energy have no law, and the refusal says what to do.
     #[test]
     fn a_composition_gives_what_laws_give() {

@@ -438,7 +438,7 @@ mod tests {
     #[test]
     fn every_built_in_number_names_unit_range_and_source() {
         let library = Library::built_in().unwrap();
-        assert!(library.names().len() >= 15);
+        assert!(library.names().len() >= 26);
         for name in library.names() {
             let material = library.get(name).unwrap();
             assert!(material.about().is_some(), "{name}");
