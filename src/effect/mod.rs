@@ -159,7 +159,9 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
 /// What a melt on the wall does to a dry particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OnMelt {
-    /// It sinks, or surface tension holds it.
+    /// It sinks: the melt draws it in.
+    Sinks,
+    /// Drag and surface tension hold it on the surface.
     Held,
     /// It leaves with this normal restitution [1].
     Rebounds(f64),

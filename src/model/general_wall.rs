@@ -309,6 +309,9 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             Some(_) => self.model.terms.iter().find_map(|term| term.effect().on_melt(impact, &contact)),
             None => None,
         };
+        if let Some(held @ (OnMelt::Sinks | OnMelt::Held)) = self.on_melt {
+            self.trace("melt", "submerged", f64::from(held == OnMelt::Sinks));
+        }
         self.droplet_rebound = self.model.droplet_rebound(self.wall, impact, self.place)?;
         Ok(contact)
     }

@@ -9,6 +9,7 @@
 mod common;
 
 mod capture;
+mod char_on_slag;
 mod contact_integration;
 mod docs;
 mod droplet;
