@@ -218,24 +218,24 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// droplet criterion it is 1 above the melting point and 0 below.
     fn on_wall(&self, impact: &Impact) -> f64;
 
-    /// [`Self::on_wall`], [`Self::film_viscosity`] and [`Self::holds_on_wall`] of one impact.
+    /// [`Self::on_wall`], [`Self::film_viscosity`] and [`Self::holds_for_wall`] of one impact.
     fn wall_state(&self, impact: &Impact) -> WallState {
         let temperature = impact.wall_temperature;
         WallState {
             stickiness: self.on_wall(impact),
             viscosity: self.film_viscosity(temperature),
-            holds: self.holds_on_wall(temperature),
+            holds: self.holds_for_wall(impact),
         }
     }
 
-    /// [`Self::in_flight`] and [`Self::holds_in_flight`] of a block of impacts whose particles have a temperature in
+    /// [`Self::in_flight`] and [`Self::holds_for_particle`] of a block of impacts whose particles have a temperature in
     /// [`Self::known_range`], with the vectors of `level`.
     fn in_flight_each(&self, _level: Level, block: &Block, states: &mut MeltStates) {
         for index in 0..block.length.min(BLOCK) {
             let impact = block.impact(index);
             // In the known range there is no error.
             states.stickiness[index] = self.in_flight(&impact).unwrap_or(f64::NAN);
-            states.holds[index] = u64::from(self.holds_in_flight(impact.particle_temperature));
+            states.holds[index] = u64::from(self.holds_for_particle(&impact));
         }
     }
 
@@ -305,6 +305,24 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// Temperatures [K] for which the criterion is stated for this material; from infinity to 0 for none.
     fn stated_range(&self) -> [f64; 2] {
         self.known_range()
+    }
+
+    /// Speed towards the wall [m/s] up to which the criterion is stated; infinite for one that knows the speed.
+    fn fastest(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// Whether the criterion is stated for an impact of a particle of this material, by temperature and
+    /// speed. What does not stick at any speed is stated at every speed.
+    fn holds_for_particle(&self, impact: &Impact) -> bool {
+        self.holds_in_flight(impact.particle_temperature)
+            && (impact.normal_speed <= self.fastest() || self.in_flight(impact) == Ok(0.0))
+    }
+
+    /// As [`Self::holds_for_particle`], of an impact on a wall with this material on it.
+    fn holds_for_wall(&self, impact: &Impact) -> bool {
+        self.holds_on_wall(impact.wall_temperature)
+            && (impact.normal_speed <= self.fastest() || self.on_wall(impact) == 0.0)
     }
 
     /// Whether the criterion is stated for this material in flight at a temperature [K].

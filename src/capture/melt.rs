@@ -64,7 +64,8 @@ impl MeltLaws {
             }
             _ => return Ok(None),
         };
-        Ok(Some(Melt { viscosity, stiffening: self.solidification.prepare(material)? }))
+        let solid_below = material.crystalline_below().unwrap_or(0.0);
+        Ok(Some(Melt { viscosity, solid_below, stiffening: self.solidification.prepare(material)? }))
     }
 }
 
@@ -72,6 +73,9 @@ impl MeltLaws {
 #[derive(Debug, Clone)]
 pub(super) struct Melt {
     viscosity: MeltViscosity,
+    /// Temperature [K] below which it is crystals, in flight too: the melting point of a crystalline
+    /// material, 0 for any other.
+    solid_below: f64,
     stiffening: Stiffening,
 }
 
@@ -82,11 +86,14 @@ enum MeltViscosity {
 }
 
 impl Melt {
-    /// Viscosity of the liquid [Pa s] at a temperature [K].
+    /// Viscosity of the liquid [Pa s] at a temperature [K]; infinite for crystals.
     ///
     /// # Errors
     /// [`ImpactError::OutOfRange`] where the material's own viscosity is not known.
     pub fn viscosity(&self, temperature: f64) -> Result<f64, ImpactError> {
+        if temperature < self.solid_below {
+            return Ok(f64::INFINITY);
+        }
         match &self.viscosity {
             MeltViscosity::Oxides(law) => Ok(law.at(temperature)),
             MeltViscosity::Given(material) => material.viscosity(temperature),
@@ -103,6 +110,16 @@ impl Melt {
 
     /// As [`Self::viscosity`] for many temperatures [K] at which it is known, with the vectors of `level`.
     pub fn viscosities(&self, level: Level, temperatures: &[f64], out: &mut [f64]) {
+        self.liquid_viscosities(level, temperatures, out);
+        let solid_below = self.solid_below;
+        dispatch!(level, _simd => {
+            for (viscosity, temperature) in out.iter_mut().zip(temperatures) {
+                *viscosity = if *temperature < solid_below { f64::INFINITY } else { *viscosity };
+            }
+        });
+    }
+
+    fn liquid_viscosities(&self, level: Level, temperatures: &[f64], out: &mut [f64]) {
         match &self.viscosity {
             MeltViscosity::Oxides(law) => law.at_each(level, temperatures, out),
             MeltViscosity::Given(material) => {
@@ -131,19 +148,20 @@ impl Melt {
 
     /// As [`Self::holds_in_flight`] for many temperatures [K]: 1 or 0.
     pub fn hold_in_flight(&self, level: Level, temperatures: &[f64], out: &mut [u64]) {
-        let [low, high] = self.stated_range();
+        let ([low, high], solid_below) = (self.stated_range(), self.solid_below);
         dispatch!(level, _simd => {
-            let inside = |t: f64| u64::from((t >= low) & (t <= high));
+            let inside = |t: f64| u64::from((t < solid_below) | ((t >= low) & (t <= high)));
             out.iter_mut().zip(temperatures).for_each(|(holds, t)| *holds = inside(*t));
         });
     }
 
     /// As [`Self::holds_on_wall`] for many temperatures [K]: 1 or 0.
     pub fn hold_on_wall(&self, level: Level, temperatures: &[f64], out: &mut [u64]) {
-        let [low, high] = self.stated_range();
+        let ([low, high], solid_below) = (self.stated_range(), self.solid_below);
         let stated = self.stiffening.holds();
         dispatch!(level, _simd => self.stiffening.for_each(temperatures, out, |factor, t, _| {
-            u64::from(stated & ((factor == f64::INFINITY) | ((t >= low) & (t <= high))))
+            let liquid = (t >= low) & (t <= high);
+            u64::from((t < solid_below) | (stated & ((factor == f64::INFINITY) | liquid)))
         }));
     }
 
@@ -155,11 +173,14 @@ impl Melt {
         }
     }
 
-    /// Temperatures [K] at which the viscosity is known.
+    /// Temperatures [K] at which the viscosity is known; crystals need none.
     pub fn known_range(&self) -> [f64; 2] {
         match &self.viscosity {
             MeltViscosity::Oxides(_) => [0.0, f64::INFINITY],
-            MeltViscosity::Given(material) => material.viscosity_range(),
+            MeltViscosity::Given(material) => {
+                let [low, high] = material.viscosity_range();
+                [if self.solid_below >= low { 0.0 } else { low }, high]
+            }
         }
     }
 
@@ -167,21 +188,26 @@ impl Melt {
     /// within [`Self::known_range`].
     pub fn holds_in_flight(&self, temperature: f64) -> bool {
         let [low, high] = self.stated_range();
-        (low..=high).contains(&temperature)
+        temperature < self.solid_below || (low..=high).contains(&temperature)
     }
 
     /// Temperature [K] below which it is stiff on a wall; `None` for a liquid at every temperature.
     pub fn stiff_below(&self) -> Option<f64> {
-        self.stiffening.stiff_below()
+        let stiff = self.stiffening.stiff_below().filter(|temperature| *temperature >= self.solid_below);
+        stiff.or((self.solid_below > 0.0).then_some(self.solid_below))
     }
 
     /// Whether it is known where it stiffens.
     pub fn stiffening_is_known(&self) -> bool {
-        self.stiffening.holds()
+        let melts_first = self.stiffening.stiff_below().is_none_or(|stiff| stiff < self.solid_below);
+        self.stiffening.holds() || (self.solid_below > 0.0 && melts_first)
     }
 
     /// As [`Self::holds_in_flight`], on a wall.
     pub fn holds_on_wall(&self, temperature: f64) -> bool {
+        if temperature < self.solid_below {
+            return true;
+        }
         // Stiff slag has no viscosity that could be out of range.
         let stiff = self.stiffening.factor(temperature).is_infinite();
         self.stiffening.holds() && (stiff || self.holds_in_flight(temperature))

@@ -18,9 +18,10 @@
 //! whose melting range is wide. A silicate ash softens as a glass: use the viscosity criterion.
 //! Above 70 % a layer on the wall runs off; a particle that arrives still sticks. Neglected: the
 //! speed of the impact (sticking temperature falls with size and with liquid content, Tran et al.,
-//! abstract).
+//! abstract); faster than [`FASTEST_WITHOUT_SPEED`] the outcome is marked.
 
 use super::StickinessCriterion;
+use super::viscosity::FASTEST_WITHOUT_SPEED;
 use crate::impact::{Impact, ImpactError};
 use crate::input::{InputError, Section};
 use crate::material::Material;
@@ -119,6 +120,10 @@ impl StickinessCriterion for MeltFractionStickiness {
 
     fn known_range(&self) -> [f64; 2] {
         [0.0, f64::INFINITY]
+    }
+
+    fn fastest(&self) -> f64 {
+        FASTEST_WITHOUT_SPEED
     }
 
     /// Within the table; beyond an end where all is solid or liquid it holds too.

@@ -30,7 +30,7 @@ pub use kinetic_energy::{critical_viscosity, kinetic_energy};
 pub use melt_fraction::{
     FLOWS_FROM, MeltFractionCriterion, MeltFractionStickiness, STICKY_FROM, melt_fraction_stickiness,
 };
-pub(crate) use rebound_from_slag::rebound_from_slag;
+pub(crate) use rebound_from_slag::{rebound_from_slag, sinks_into_slag};
 pub use solidification::Solidification;
 pub use stickiness::{Combination, Stickiness};
-pub use viscosity::{MeltStickiness, ViscosityCriterion, sticking_probability};
+pub use viscosity::{FASTEST_WITHOUT_SPEED, MeltStickiness, ViscosityCriterion, sticking_probability};

@@ -38,6 +38,17 @@ pub(crate) fn rebound_from_slag(
     if leaves { e_n } else { 0.0 }
 }
 
+/// Whether the slag draws such a particle in; arguments as of [`rebound_from_slag`].
+pub(crate) fn sinks_into_slag(
+    [diameter, density, normal_speed]: [f64; 3],
+    [viscosity, surface_tension]: [f64; 2],
+    cosine: f64,
+) -> bool {
+    let size = 1.0 / (density * diameter);
+    let inwards = at_least_zero(normal_speed - 18.0 * viscosity * size);
+    inwards * inwards >= 3.0 * surface_tension * (1.0 - cosine) * (1.0 - cosine) * size
+}
+
 #[inline(always)]
 fn at_least_zero(speed: f64) -> f64 {
     if speed > 0.0 { speed } else { 0.0 }

@@ -4,7 +4,9 @@
 //! temperature and `mu_ref` the viscosity [Pa s] at and below which every impact sticks. The
 //! literature's `mu_ref` spans 8 to 1e7 Pa s: it has no default. Valid for glassy silicate melts;
 //! on a wall, where a melt has time to crystallise, it is stiff below its temperature of critical
-//! viscosity ([`super::Solidification`]). It does not include residual carbon (see the effect
+//! viscosity ([`super::Solidification`]). A `crystalline` material below its melting point has no
+//! viscosity and does not stick. The constant reference knows no speed: faster than
+//! [`FASTEST_WITHOUT_SPEED`] the outcome is marked. It does not include residual carbon (see the effect
 //! `conversion-transition`).
 
 use std::sync::Arc;
@@ -18,11 +20,17 @@ use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Limits, Section};
 use crate::material::Material;
 
+/// Speed towards the wall [m/s] up to which criteria that do not know the speed are used without a mark.
+/// *Assumed*: they come from tubes and walls of furnaces, where the gas flows with some 1 to 30 m/s; blades of
+/// turbines are hit with 100 to 300 m/s.
+pub const FASTEST_WITHOUT_SPEED: f64 = 30.0;
+
 /// Probability of sticking [1] from the viscosity and the reference viscosity [both Pa s].
 #[inline(always)]
 pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
-    // Without motion every viscosity is below an infinite reference.
-    if reference == f64::INFINITY { 1.0 } else { (reference / viscosity).min(1.0) }
+    // Without motion every viscosity is below an infinite reference; a solid has none.
+    let melt = if reference == f64::INFINITY { 1.0 } else { (reference / viscosity).min(1.0) };
+    if viscosity == f64::INFINITY { 0.0 } else { melt }
 }
 
 /// From a tenth of the thinnest liquid to far above the viscosity of a solid glass.
@@ -132,35 +140,36 @@ impl MeltStickiness {
 
 impl MeltStickiness {
     /// Sets the stickiness of a block from its viscosities.
-    fn each_reference(
-        &self,
-        level: Level,
-        block: &Block,
-        states: &mut MeltStates,
-        stickiness: impl Fn(f64, f64) -> f64,
-    ) {
+    fn each_reference(&self, level: Level, block: &Block, states: &mut MeltStates) {
         let length = block.length.min(BLOCK);
         match self.criterion.reference {
             ReferenceViscosity::Constant(reference) => dispatch!(level, _simd => {
                 let (reference, MeltStates { stickiness: sticky, viscosity, .. }) = (reference, &mut *states);
                 for index in 0..length {
-                    sticky[index] = stickiness(viscosity[index], reference);
+                    sticky[index] = sticking_probability(viscosity[index], reference);
                 }
             }),
             ReferenceViscosity::Energy(_) => {
                 for index in 0..length {
                     let reference = self.reference(&block.impact(index));
-                    states.stickiness[index] = stickiness(states.viscosity[index], reference);
+                    states.stickiness[index] = sticking_probability(states.viscosity[index], reference);
                 }
             }
         }
     }
-}
 
-/// Stickiness [1] of melt on a wall: what is stiff holds nothing, however slow.
-#[inline(always)]
-fn film_stickiness(viscosity: f64, reference: f64) -> f64 {
-    if viscosity == f64::INFINITY { 0.0 } else { sticking_probability(viscosity, reference) }
+    /// Takes from [`MeltStates::holds`] what is too fast for the criterion, as
+    /// [`StickinessCriterion::holds_for_particle`].
+    fn hold_by_speed(&self, level: Level, block: &Block, states: &mut MeltStates) {
+        let (fastest, length) = (self.fastest(), block.length.min(BLOCK));
+        let speeds = &block.inputs[Impact::NORMAL_SPEED][..length];
+        let MeltStates { stickiness, holds, .. } = states;
+        dispatch!(level, _simd => {
+            for index in 0..length {
+                holds[index] &= u64::from((speeds[index] <= fastest) | (stickiness[index] == 0.0));
+            }
+        });
+    }
 }
 
 impl StickinessCriterion for MeltStickiness {
@@ -173,15 +182,15 @@ impl StickinessCriterion for MeltStickiness {
     }
 
     fn on_wall(&self, impact: &Impact) -> f64 {
-        film_stickiness(self.film_viscosity(impact.wall_temperature), self.reference(impact))
+        sticking_probability(self.film_viscosity(impact.wall_temperature), self.reference(impact))
     }
 
     fn wall_state(&self, impact: &Impact) -> WallState {
         let viscosity = self.film_viscosity(impact.wall_temperature);
         WallState {
-            stickiness: film_stickiness(viscosity, self.reference(impact)),
+            stickiness: sticking_probability(viscosity, self.reference(impact)),
             viscosity,
-            holds: self.holds_on_wall(impact.wall_temperature),
+            holds: self.holds_for_wall(impact),
         }
     }
 
@@ -189,14 +198,16 @@ impl StickinessCriterion for MeltStickiness {
         let temperatures = &block.inputs[Impact::PARTICLE_TEMPERATURE][..block.length.min(BLOCK)];
         self.melt.viscosities(level, temperatures, &mut states.viscosity);
         self.melt.hold_in_flight(level, temperatures, &mut states.holds);
-        self.each_reference(level, block, states, sticking_probability);
+        self.each_reference(level, block, states);
+        self.hold_by_speed(level, block, states);
     }
 
     fn on_wall_each(&self, level: Level, block: &Block, states: &mut MeltStates) {
         let temperatures = &block.inputs[Impact::WALL_TEMPERATURE][..block.length.min(BLOCK)];
         self.melt.film_viscosities(level, temperatures, &mut states.viscosity);
         self.melt.hold_on_wall(level, temperatures, &mut states.holds);
-        self.each_reference(level, block, states, film_stickiness);
+        self.each_reference(level, block, states);
+        self.hold_by_speed(level, block, states);
     }
 
     fn film_viscosity(&self, temperature: f64) -> f64 {
@@ -228,6 +239,13 @@ impl StickinessCriterion for MeltStickiness {
 
     fn stated_range(&self) -> [f64; 2] {
         self.melt.stated_range()
+    }
+
+    fn fastest(&self) -> f64 {
+        match self.criterion.reference {
+            ReferenceViscosity::Constant(_) => FASTEST_WITHOUT_SPEED,
+            ReferenceViscosity::Energy(_) => f64::INFINITY,
+        }
     }
 
     fn holds_in_flight(&self, temperature: f64) -> bool {

@@ -40,10 +40,15 @@ struct Agglomerates {
     spread: f64,
 }
 
-/// Largest `e_n` [1] that is drawn: spin and tilt can add to what came towards the wall.
+/// Largest `e_n` [1] that is drawn: spin and tilt can add to what came towards the wall, up to the energy
+/// that came in (`src/model/energy_bound.rs`).
 const LARGEST_RESTITUTION: f64 = 1.5;
 
 impl Effect for Agglomerates {
+    fn may_add_energy(&self) -> bool {
+        true
+    }
+
     fn normal_restitution(&self, _: &Impact, _: &Contact, restitution: f64, draw: f64) -> Option<f64> {
         if draw >= self.fraction {
             return Some(restitution);

@@ -16,7 +16,7 @@
 //! spheres small against the depth of the melt.
 
 use super::{Effect, EffectInfo, OnMelt, Parameter, Precomputed, QuantityKind, Search};
-use crate::capture::rebound_from_slag;
+use crate::capture::{rebound_from_slag, sinks_into_slag};
 use crate::impact::Impact;
 use crate::normal::Contact;
 
@@ -59,7 +59,12 @@ impl Effect for DryOnMelt {
     fn on_melt(&self, impact: &Impact, contact: &Contact) -> Option<OnMelt> {
         let melt = contact.melt?.molten()?;
         let e_n = self.rebound(impact, contact.density, melt.viscosity, melt.surface_tension);
-        Some(if e_n > 0.0 { OnMelt::Rebounds(e_n) } else { OnMelt::Held })
+        if e_n > 0.0 {
+            return Some(OnMelt::Rebounds(e_n));
+        }
+        let particle = [impact.diameter, contact.density, impact.normal_speed];
+        let sinks = sinks_into_slag(particle, [melt.viscosity, melt.surface_tension], self.cosine);
+        Some(if sinks { OnMelt::Sinks } else { OnMelt::Held })
     }
 
     fn precompute(&self) -> Option<Precomputed> {
@@ -86,11 +91,12 @@ mod tests {
     #[test]
     fn viscous_slag_holds_and_thin_slag_lets_go() {
         assert_eq!(on_melt(1.0, 100.0, 120.0), Some(OnMelt::Held));
+        assert_eq!(on_melt(1.0, 353.0, 120.0), Some(OnMelt::Sinks));
         assert_eq!(on_melt(1e-12, 2.7, 120.0), Some(OnMelt::Held));
         let leaves = on_melt(1e-12, 3.0, 120.0);
         assert!(matches!(leaves, Some(OnMelt::Rebounds(e_n)) if (e_n - 0.356).abs() < 0.005), "{leaves:?}");
-        assert_eq!(on_melt(1e-12, 8.5, 120.0), Some(OnMelt::Held));
+        assert_eq!(on_melt(1e-12, 8.5, 120.0), Some(OnMelt::Sinks));
         // What the melt wets it keeps.
-        assert_eq!(on_melt(1e-9, 3.0, 0.0), Some(OnMelt::Held));
+        assert_eq!(on_melt(1e-9, 3.0, 0.0), Some(OnMelt::Sinks));
     }
 }

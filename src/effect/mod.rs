@@ -123,6 +123,12 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
         Some(restitution)
     }
 
+    /// Whether the effect may leave more energy than came in, so that the model has to bound it; such an
+    /// effect has no precomputed form.
+    fn may_add_energy(&self) -> bool {
+        false
+    }
+
     /// Whether the effect depends on [`Contact::melt`], the melt that the particle meets.
     fn uses_melt(&self) -> bool {
         false
@@ -153,7 +159,9 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
 /// What a melt on the wall does to a dry particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OnMelt {
-    /// It sinks, or surface tension holds it.
+    /// It sinks: the melt draws it in.
+    Sinks,
+    /// Drag and surface tension hold it on the surface.
     Held,
     /// It leaves with this normal restitution [1].
     Rebounds(f64),

@@ -4,8 +4,8 @@
 //! counted from the normal, `a` the `strength` [1] (positive lowers `e_n`, negative raises it), `p`
 //! the `speed_exponent` [1] and `q` the `sharpness` [1], 2 unless given. Where it raises `e_n`, the
 //! normal speed after the impact is at most the total speed `v = sqrt(v_n² + v_t²)` before it, `e_n
-//! <= v/v_n`. The gain is not taken from the speed along the wall: with an `e_t` near 1 a strong
-//! gain creates energy.
+//! <= v/v_n`; after the tangential law the model bounds it to the energy that is left
+//! (`src/model/energy_bound.rs`).
 //!
 //! The form is assumed. Observations: Theories let `e_n` depend on `v_n` alone up to about 45° and
 //! on the angle beyond (with `q = 2` at most a quarter of `a` acts up to 45°). Tungsten dust on
@@ -50,6 +50,10 @@ struct ObliqueAngle {
 const LARGEST_GAIN: f64 = 600.0;
 
 impl Effect for ObliqueAngle {
+    fn may_add_energy(&self) -> bool {
+        self.strength < 0.0
+    }
+
     fn normal_restitution(&self, impact: &Impact, _: &Contact, restitution: f64, _: f64) -> Option<f64> {
         let loss = self.strength
             * obliquity(impact).powf(self.sharpness)

@@ -51,6 +51,10 @@ struct TangentialCompliance {
 }
 
 impl Effect for TangentialCompliance {
+    fn may_add_energy(&self) -> bool {
+        true
+    }
+
     fn tangential(&self, kinematics: &ImpactKinematics, _: Rebound) -> Rebound {
         let slip = kinematics.tangential_speed - 0.5 * kinematics.diameter * kinematics.spin;
         let angle = kinematics.normal_speed.atan2(slip.abs());

@@ -1,17 +1,17 @@
 //! Materials of particles and walls: properties over temperature, built in or given by the user.
 
+mod estimate;
 mod fusion;
+mod library;
 mod property;
 mod table;
 
-use std::collections::BTreeMap;
-use std::sync::LazyLock;
-
 use crate::impact::ImpactError;
-use crate::input::{Document, InputError, Limits, Section, unknown};
+use crate::input::{InputError, Limits, Section};
 use crate::law::QuantityKind;
 use crate::slag::{Composition, FusionTemperatures, Molten, surface_tension};
 
+pub use library::{BUILT_IN_TEXT, Library, built_in_toml};
 pub use property::{OutOfRange, Property};
 
 /// Key of a property in files, its kind, its limits, and whether it is required.
@@ -84,6 +84,7 @@ pub struct Material {
     properties: [Option<Property>; PROPERTY_FIELDS.len()],
     composition: Option<Composition>,
     fusion_temperatures: Option<FusionTemperatures>,
+    crystalline: bool,
 }
 
 /// The mechanical properties at one temperature.
@@ -122,23 +123,40 @@ impl Mechanical {
 }
 
 impl Material {
-    /// Reads one `[materials.<name>]` table.
+    /// Reads one `[materials.<name>]` table. What it does not give is taken from `base`, the material
+    /// that it is `like`.
     ///
     /// # Errors
     /// [`InputError::Fault`] for a missing, unknown or unphysical property.
-    pub fn read(name: &str, section: &Section<'_>) -> Result<Self, InputError> {
+    pub fn read(name: &str, section: &Section<'_>, base: Option<&Self>) -> Result<Self, InputError> {
         let mut properties = [const { None }; PROPERTY_FIELDS.len()];
-        for (field, property) in PROPERTY_FIELDS.iter().zip(&mut properties) {
-            *property = Property::read(section, field.key, &field.limits)?;
-            if property.is_none() && field.required {
-                return Err(section.missing(field.key, &format!("a value in {}", field.limits.unit)));
-            }
+        for (place, (field, property)) in PROPERTY_FIELDS.iter().zip(&mut properties).enumerate() {
+            let own = Property::read(section, field.key, &field.limits)?;
+            *property = own.or_else(|| base?.properties[place].clone());
         }
         let composition = section.section("composition")?.map(|s| read_composition(&s)).transpose()?;
-        let fusion_temperatures = fusion::read(section)?;
+        let fusion_temperatures = fusion::read(section)?.or_else(|| base?.fusion_temperatures);
+        let composition = composition.or_else(|| base?.composition.clone());
+        for (field, property) in
+            PROPERTY_FIELDS.iter().zip(&mut properties).filter(|(field, _)| field.required)
+        {
+            if property.is_none() {
+                *property = composition.as_ref().and_then(|oxides| estimate::estimated(field.key, oxides));
+            }
+            if property.is_none() {
+                return Err(section.missing(field.key, &how_to_give(field, composition.as_ref())));
+            }
+        }
         let about = section.text("about")?.or(section.text("source")?);
+        let about = about.or_else(|| base.map(|base| format!("like {}", base.name)));
+        let crystalline = section.boolean("crystalline")?;
+        let crystalline = crystalline.or(base.map(|base| base.crystalline)).unwrap_or(false);
         section.finish()?;
-        Ok(Self { name: name.to_owned(), about, properties, composition, fusion_temperatures })
+        if crystalline && properties[Field::MeltingPoint as usize].is_none() {
+            let what = "the temperature [K] below which a crystalline material is solid,";
+            return Err(section.missing("melting_point", what));
+        }
+        Ok(Self { name: name.to_owned(), about, properties, composition, fusion_temperatures, crystalline })
     }
 
     /// The name in model files.
@@ -166,6 +184,14 @@ impl Material {
     pub fn properties(&self) -> impl Iterator<Item = (&'static str, &'static str, &Property)> {
         let fields = PROPERTY_FIELDS.iter().zip(&self.properties);
         fields.filter_map(|(field, p)| Some((field.key, field.limits.unit, p.as_ref()?)))
+    }
+
+    /// Keys of the properties that follow from its composition and are not given.
+    pub fn estimated(&self) -> Vec<&'static str> {
+        let mechanical =
+            self.properties().filter(|(.., property)| property.is_estimated()).map(|(key, ..)| key);
+        let tension = self.surface_tension_by_composition().map(|_| "surface_tension");
+        mechanical.chain(tension).collect()
     }
 
     /// Viscosity [Pa s] of the melt at a temperature [K].
@@ -300,6 +326,12 @@ impl Material {
         self.near(Field::Emissivity, temperature)
     }
 
+    /// The melting point [K] of a crystalline material: below it there is no melt, not even a stiff one.
+    /// `None` for a glass, whose melt only stiffens.
+    pub fn crystalline_below(&self) -> Option<f64> {
+        self.melting_point_near(293.15).filter(|_| self.crystalline)
+    }
+
     /// As [`Material::surface_tension_near`], the melting point [K].
     pub fn melting_point_near(&self, temperature: f64) -> Option<f64> {
         self.near(Field::MeltingPoint, temperature)
@@ -410,6 +442,20 @@ pub(crate) fn overlap(ranges: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     ranges.fold([0.0, f64::INFINITY], |[low, high], [l, h]| [low.max(l), high.min(h)])
 }
 
+/// What to add for a required property that is missing, in words.
+fn how_to_give(field: &PropertyField, composition: Option<&Composition>) -> String {
+    let unit = field.limits.unit;
+    match composition {
+        None => format!("a value in {unit}"),
+        Some(_) if estimate::ESTIMATED.contains(&field.key) => {
+            format!("a value in {unit} (the composition is outside the law that estimates it)")
+        }
+        Some(_) => format!(
+            "a value in {unit} (no law gives it by composition), or like = \"fly-ash\" to take that of fly ash,"
+        ),
+    }
+}
+
 fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     const NOTES: [&str; 2] = ["unit", "source"];
     section.choice("unit", &["wt%"])?;
@@ -422,72 +468,15 @@ fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     Composition::new(named).map_err(|error| section.fault("", error))
 }
 
-/// The file of the built-in materials.
-pub const BUILT_IN_TEXT: &str = include_str!("materials.toml");
-
-static BUILT_IN: LazyLock<Result<Library, InputError>> = LazyLock::new(|| {
-    let document = Document::new("built-in materials", BUILT_IN_TEXT);
-    document.read(|top| Library::default().with(top))
-});
-
-/// Materials by name.
-#[derive(Debug, Clone, Default)]
-pub struct Library {
-    materials: BTreeMap<String, Material>,
-}
-
-impl Library {
-    /// The built-in materials.
-    ///
-    /// # Errors
-    /// [`InputError`] for an error in the built-in data (a test excludes it).
-    pub fn built_in() -> Result<Self, InputError> {
-        BUILT_IN.clone()
-    }
-
-    /// Adds every table of `section`; a material of the same name is replaced.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] for a material that cannot be read.
-    pub fn with(mut self, section: &Section<'_>) -> Result<Self, InputError> {
-        for name in section.keys() {
-            let material = Material::read(&name, &section.required_section(&name)?)?;
-            self.materials.insert(name, material);
-        }
-        Ok(self)
-    }
-
-    /// A material by its name.
-    pub fn get(&self, name: &str) -> Option<&Material> {
-        self.materials.get(name)
-    }
-
-    /// All names, sorted.
-    pub fn names(&self) -> Vec<&str> {
-        self.materials.keys().map(String::as_str).collect()
-    }
-
-    /// The material that `key` of a section names.
-    ///
-    /// # Errors
-    /// [`InputError::Fault`] with the nearest known name when there is none.
-    pub fn named_by(&self, section: &Section<'_>, key: &str) -> Result<Option<Material>, InputError> {
-        let Some(name) = section.text(key)? else { return Ok(None) };
-        match self.get(&name) {
-            Some(material) => Ok(Some(material.clone())),
-            None => Err(section.fault(key, unknown(&name, "material", &self.names()))),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Document;
 
     #[test]
     fn every_built_in_number_names_unit_range_and_source() {
         let library = Library::built_in().unwrap();
-        assert!(library.names().len() >= 15);
+        assert!(library.names().len() >= 26);
         for name in library.names() {
             let material = library.get(name).unwrap();
             assert!(material.about().is_some(), "{name}");

@@ -45,6 +45,29 @@ impl Property {
         Self { form: Form::Constant(value), valid: None, uncertainty: None, source: None, melt: None }
     }
 
+    /// A table of temperature [K] and value, valid in a range [K], that a law gave; `None` for fewer than two points.
+    /// The source starts with "estimated".
+    pub(super) fn estimated(points: &[[f64; 2]], valid: [f64; 2], source: &str) -> Option<Self> {
+        let [temperatures, values] =
+            [0, 1].map(|part| points.iter().map(|point| point[part]).collect::<Vec<_>>());
+        let form = match values.first() {
+            Some(first) if values.iter().all(|value| value == first) => Form::Constant(*first),
+            _ => Form::Table(PropertyTable::new(&temperatures, &values)?),
+        };
+        Some(Self {
+            form,
+            valid: Some(valid),
+            uncertainty: None,
+            source: Some(source.to_owned()),
+            melt: None,
+        })
+    }
+
+    /// Whether a law gave the value, not the material's data.
+    pub fn is_estimated(&self) -> bool {
+        self.source.as_deref().is_some_and(|source| source.starts_with("estimated"))
+    }
+
     /// Reads `key`: a number, `{ value }`, `{ T, value }`, `{ polynomial, T0 }` or `{ arrhenius }`,
     /// each with `valid` (the last two need it), and optional `uncertainty`, `unit`, `source` and
     /// `melt`. `unit` has to be the SI unit of the key; `melt` is written like the property itself

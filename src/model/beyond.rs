@@ -166,6 +166,13 @@ fn of_criterion(
     found(Beyond { what: Stated::Criterion { name: criterion.name() }, limit });
 }
 
+/// A criterion that knows no speed, where something sticks faster than it is stated for.
+fn of_speed(criterion: &dyn StickinessCriterion, impact: &Impact, found: &mut Found<'_, '_>) {
+    let (value, range) = (impact.normal_speed, [0.0, criterion.fastest()]);
+    let limit = Limit::Quantity { name: "v_n", unit: "m/s", value, range };
+    found(Beyond { what: Stated::Law { name: criterion.name() }, limit });
+}
+
 /// A law that was fitted to a case.
 fn of_origin(name: &'static str, origin: &'static Origin, impact: &Impact, found: &mut Found<'_, '_>) {
     for limit in origin.left_by(impact) {
@@ -234,14 +241,20 @@ impl Model {
         if let Some(criterion) = &self.stickiness {
             if !criterion.holds_in_flight(particle_temperature) {
                 of_criterion(criterion.as_ref(), "T_p", particle_temperature, found);
+            } else if !criterion.holds_for_particle(impact) {
+                of_speed(criterion.as_ref(), impact, found);
             }
             if impact.melt_thickness > 0.0 && !criterion.holds_on_wall(wall_temperature) {
                 of_criterion(criterion.as_ref(), "T_w", wall_temperature, found);
             }
         }
         let melt = wall.melt.as_ref().filter(|_| place != WallPlace::Covered);
-        if let Some(melt) = melt.filter(|melt| !melt.holds_on_wall(wall_temperature)) {
-            of_criterion(melt.as_ref(), "T_w", wall_temperature, found);
+        if let Some(melt) = melt.filter(|melt| !melt.holds_for_wall(impact)) {
+            if melt.holds_on_wall(wall_temperature) {
+                of_speed(melt.as_ref(), impact, found);
+            } else {
+                of_criterion(melt.as_ref(), "T_w", wall_temperature, found);
+            }
         }
         if let Some(origin) = self.tangential.origin() {
             of_origin(self.tangential.name(), origin, impact, found);

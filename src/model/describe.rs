@@ -36,8 +36,26 @@ impl Model {
         for term in &self.terms {
             lines.push(("effect", term.describe(&self.extra_inputs)));
         }
+        lines.extend(self.estimated().map(|text| ("estimated", text)));
         lines.extend(self.counted_twice().map(|note| ("note", note)));
         lines
+    }
+
+    /// The properties of the materials in use that follow from a composition.
+    fn estimated(&self) -> Option<String> {
+        let of_walls = self
+            .walls
+            .iter()
+            .flat_map(|wall| [Some(&wall.material), wall.slag.as_ref(), wall.powder.as_ref()]);
+        let mut texts = Vec::new();
+        for material in [Some(self.particle()), self.ash()].into_iter().chain(of_walls).flatten() {
+            let keys = material.estimated();
+            let text = format!("{} of {}", keys.join(", "), material.name());
+            if !keys.is_empty() && !texts.contains(&text) {
+                texts.push(text);
+            }
+        }
+        (!texts.is_empty()).then(|| format!("from the composition: {}", texts.join("; ")))
     }
 
     /// A remark where criterion and effects multiply two stickinesses that both follow the particle's temperature.

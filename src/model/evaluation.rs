@@ -164,6 +164,13 @@ pub(super) trait WallSteps {
         rebound
     }
 
+    /// `e_n` [1] that makes no energy with this tangential rebound. Only effects without a precomputed form
+    /// can make any.
+    #[inline(always)]
+    fn energy_bound(&mut self, kinematics: &ImpactKinematics, _: Rebound) -> f64 {
+        kinematics.normal_restitution
+    }
+
     /// `e_n` [1] and the tangential rebound with regard to the mean wall, from those with regard to the local one.
     #[inline(always)]
     fn turn_back(&self, _: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {
@@ -285,6 +292,7 @@ pub(super) fn evaluate<S: WallSteps>(
         };
         let rebound = steps.tangential_law(&kinematics);
         let rebound = steps.tangential_effects(&kinematics, rebound);
+        let normal_restitution = steps.energy_bound(&kinematics, rebound);
         (state.normal_restitution, state.rebound) =
             steps.turn_back(&state.impact, normal_restitution, rebound);
         // The probability is 1 if adhesion or a film holds the particle.

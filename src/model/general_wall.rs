@@ -5,6 +5,7 @@
 //! both, `c P_covered + (1 - c) P_bare`.
 
 use super::beyond::{self, Beyond};
+use super::energy_bound;
 use super::evaluation::{
     Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
 };
@@ -339,6 +340,9 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
             Some(_) => self.model.terms.iter().find_map(|term| term.effect().on_melt(impact, &contact)),
             None => None,
         };
+        if let Some(held @ (OnMelt::Sinks | OnMelt::Held)) = self.on_melt {
+            self.trace("melt", "submerged", f64::from(held == OnMelt::Sinks));
+        }
         self.droplet_rebound = self.model.droplet_rebound(self.wall, impact, self.place)?;
         Ok(contact)
     }
@@ -419,6 +423,17 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
             rebound = changed;
         }
         rebound
+    }
+
+    fn energy_bound(&mut self, kinematics: &ImpactKinematics, rebound: Rebound) -> f64 {
+        if !self.model.adds_energy {
+            return kinematics.normal_restitution;
+        }
+        let e_n = energy_bound::bounded(kinematics, rebound);
+        if e_n != kinematics.normal_restitution {
+            self.trace("energy bound", "e_n", e_n);
+        }
+        e_n
     }
 
     fn turn_back(&self, impact: &Impact, e_n: f64, rebound: Rebound) -> (f64, Rebound) {

@@ -12,6 +12,7 @@ pub mod block;
 mod deposit;
 mod describe;
 mod displaced;
+mod energy_bound;
 mod evaluation;
 mod expectation;
 mod general_wall;
@@ -32,7 +33,7 @@ use crate::effect::Term;
 use crate::impact::{EXTRA_INPUTS, ExtraInput, Impact, ImpactError, Outcome};
 use crate::input::{Document, InputError};
 use crate::material::{Material, overlap};
-use crate::normal::{NormalLaw, Speeds};
+use crate::normal::{self, NormalLaw, Speeds};
 use crate::rng::ImpactRng;
 use crate::tangential::TangentialLaw;
 
@@ -64,6 +65,8 @@ pub struct Model {
     terms: Vec<Term>,
     /// Whether a term depends on the melt on the wall.
     uses_melt: bool,
+    /// Whether a term may leave more energy than came in.
+    adds_energy: bool,
     /// Whether a term is a fitted correction.
     has_corrections: bool,
     /// For each wall its prepared form; `None` where every impact needs the general steps.
@@ -183,6 +186,7 @@ impl Model {
     /// Prepares the walls that can be prepared.
     fn prepare(mut self) -> Self {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
+        self.adds_energy = self.terms.iter().any(|term| term.effect().may_add_energy());
         self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
         self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         let decided = !self.has_droplets() && self.extra_inputs.is_empty();
@@ -327,6 +331,18 @@ impl Model {
     /// [`ImpactError::OutOfRange`] outside a table.
     pub fn particle_density(&self, impact: &Impact) -> Result<f64, ImpactError> {
         self.particle.density_of_materials(impact)
+    }
+
+    /// Time [s] that a solid particle of this impact touches the wall ([`normal::contact_time`]); random numbers
+    /// are at their median, 0.5.
+    ///
+    /// # Errors
+    /// As [`Model::resolve`].
+    pub fn contact_time(&self, wall: usize, impact: &Impact) -> Result<f64, ImpactError> {
+        let mut impact = *impact;
+        let wall = self.at_wall(wall, &mut impact)?;
+        let contact = self.contact(wall, &impact, WallPlace::Anywhere, &|_| 0.5)?;
+        Ok(normal::contact_time(&contact, impact.diameter, impact.normal_speed))
     }
 
     /// Adhesive, yield and sticking velocity of an impact's particle and wall; random numbers are at their median, 0.5.

@@ -386,7 +386,7 @@ impl VaryingContact {
             particle: [char, ash],
             density,
             stickiness: constants.stickiness(product, impact),
-            flight_holds: criterion.is_none_or(|criterion| criterion.holds_in_flight(temperature)),
+            flight_holds: criterion.is_none_or(|criterion| criterion.holds_for_particle(impact)),
             on_melt: constants.rebound_on_melt(impact, density, [slag.viscosity, surface_tension]),
             slag,
         }

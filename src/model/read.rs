@@ -82,6 +82,7 @@ impl Model {
             extra_inputs,
             terms,
             uses_melt: false,
+            adds_energy: false,
             has_corrections: false,
             prepared: Vec::new(),
             decided: Vec::new(),

@@ -10,6 +10,8 @@ pub mod ash_fusion;
 mod composition;
 pub mod critical_viscosity_temperature;
 pub mod crystal_load;
+pub mod density;
+pub mod elastic;
 pub mod film;
 pub mod giordano_russell_dingwell;
 pub mod measured_range;

@@ -107,8 +107,7 @@ fn ranges_that_an_impact_leaves_are_named() {
     let mut left = 0;
     for case in random_cases(seed(), 200) {
         let (impact, mut text) = (c_case(&case), [1 as std::ffi::c_char; 4000]);
-        let status =
-            unsafe { (calls.nw_beyond)(model, &raw const impact, text.as_mut_ptr(), text.len()) };
+        let status = unsafe { (calls.nw_beyond)(model, &raw const impact, text.as_mut_ptr(), text.len()) };
         match rust.beyond(case.0, &case.1) {
             Ok(beyond) => {
                 let end = text.iter().position(|byte| *byte == 0).unwrap();

@@ -71,6 +71,48 @@ fn a_salt_on_the_wall_holds_by_its_share_of_liquid() {
     assert_eq!(p(1000.0), 1.0);
 }
 
+/// A glass of CMAS softens; crystals of the same melt at 1500 K do not stick at 1300 K, however slow or fast.
+#[test]
+fn crystals_do_not_stick_below_their_melting_point() {
+    const CMAS: &str = "composition = { CaO = 33, MgO = 9, Al2O3 = 13, SiO2 = 45 }\nmelting_point = 1500";
+    let capture =
+        "model = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 1e5\nsolidification = \"none\"";
+    let [glass, crystals] =
+        ["", "\ncrystalline = true"].map(|more| model(capture, &format!("{CMAS}{more}"), ""));
+    let p = |model: &Model, speed, t| hit(model, &at(speed, t)).sticking_probability;
+    for speed in [1.0, 30.0, 300.0] {
+        assert_eq!(p(&crystals, speed, 1300.0), 0.0);
+        assert!(p(&glass, speed, 1300.0) > 0.01);
+        assert_eq!(p(&crystals, speed, 1501.0), p(&glass, speed, 1501.0));
+    }
+    let energy = ["", "\ncrystalline = true"].map(|more| model(ENERGY, &format!("{CMAS}{more}"), ""));
+    assert!(p(&energy[0], 0.5, 1300.0) > 0.1 && p(&energy[1], 0.5, 1300.0) == 0.0);
+    let missing = error(capture, "crystalline = true\ncomposition = { SiO2 = 50, CaO = 50 }", "");
+    assert!(missing.contains("materials.own.melting_point: missing; add the temperature [K]"), "{missing}");
+}
+
+/// What does not know the speed is marked above 30 m/s where it says that something sticks.
+#[test]
+fn a_criterion_without_speed_is_marked_at_high_speed() {
+    let capture =
+        "model = \"viscosity\"\nlaw = \"urbain\"\nreference_viscosity = 1e3\nsolidification = \"none\"";
+    let outside = |model: &Model, speed, t| hit(model, &at(speed, t)).outside_range;
+    let crystals = format!("{ASH}\nmelting_point = 1650\ncrystalline = true");
+    let own = model(capture, &crystals, "");
+    assert!(!outside(&own, 3.0, 1700.0) && outside(&own, 300.0, 1700.0));
+    // The contact law of a fast impact is tested elsewhere; here nothing sticks at any speed.
+    let hard =
+        text(capture, &crystals, "").replace("thornton-ning\"\nyield_ratio = 2.8", "constant\"\ne_n = 0.5");
+    let hard = Model::from_toml("m.toml", &hard).unwrap();
+    assert!(!outside(&hard, 300.0, 1600.0) && outside(&hard, 300.0, 1700.0));
+    let energy = text(ENERGY, ASH, "").replace("thornton-ning\"\nyield_ratio = 2.8", "constant\"\ne_n = 0.5");
+    assert!(!outside(&Model::from_toml("m.toml", &energy).unwrap(), 300.0, 1700.0));
+    let salt = text("model = \"melt-fraction\"", SALT, "")
+        .replace("thornton-ning\"\nyield_ratio = 2.8", "constant\"\ne_n = 0.5");
+    let salt = Model::from_toml("m.toml", &salt).unwrap();
+    assert!(outside(&salt, 300.0, 900.0) && !outside(&salt, 3.0, 900.0) && !outside(&salt, 300.0, 700.0));
+}
+
 const ENERGY: &str = "model = \"kinetic-energy\"\nlaw = \"urbain\"";
 const ASH: &str = "composition = { SiO2 = 50, Al2O3 = 25, CaO = 15, FeO = 10 }";
 

@@ -8,7 +8,7 @@ mod normal_contact;
 
 use crate::common::golden::golden_cases;
 use nearwall::material::{Library, Mechanical};
-use nearwall::normal::{Contact, NormalLaw, Speeds, plastic_term};
+use nearwall::normal::{Contact, NormalLaw, Speeds, contact_time, plastic_term};
 use normal_contact::{Bounce, ContactImpact, follow};
 
 /// Error of a step of the oracle. What it makes of the result is measured by `the_integration_converges`.
@@ -306,4 +306,32 @@ fn sorted(values: impl Iterator<Item = f64>) -> Vec<f64> {
 
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     sorted[((sorted.len() - 1) as f64 * share).round() as usize]
+}
+
+/// The time of contact is that of the followed contact where nothing adheres; what adhesion adds is printed.
+#[test]
+fn the_time_of_contact_is_the_followed_one() {
+    let (mut worst, mut rebounds, mut adhesive) = (0f64, Vec::new(), Vec::new());
+    for case in golden() {
+        let time = |case: &Case| contact_time(&case.contact(), 2.0 * case.impact.radius, case.impact.speed);
+        let dry = Case { impact: ContactImpact { work_of_adhesion: 0.0, ..case.impact } };
+        worst = worst.max((time(&dry) / dry.bounce().duration - 1.0).abs());
+        let bounce = case.bounce();
+        if bounce.rebound_speed > 0.0 {
+            rebounds.push(bounce.duration / time(&case));
+            if case.impact.speed > 10.0 * case.speeds(NormalLaw::ThorntonNing).sticking {
+                adhesive.push(bounce.duration / time(&case));
+            }
+        }
+    }
+    let (all, fast) = (sorted(rebounds.into_iter()), sorted(adhesive.into_iter()));
+    println!(
+        "worst {worst:.1e}; with adhesion {:.2} to {:.2} times, {:.2} to {:.2} above 10 v_s",
+        all[0],
+        all[all.len() - 1],
+        fast[0],
+        fast[fast.len() - 1]
+    );
+    assert!(worst < 1e-6, "{worst:e}");
+    assert!(fast[0] > 0.9 && fast[fast.len() - 1] < 1.5, "{fast:?}");
 }

@@ -10,6 +10,7 @@ mod common;
 
 mod ash_fusion;
 mod capture;
+mod char_on_slag;
 mod contact_integration;
 mod docs;
 mod droplet;

@@ -100,6 +100,7 @@ fn varying_models() -> impl Strategy<Value = Model> {
         Just("coal-char\"\nash = \"fly-ash"),
         Just("coal-char\"\nash = \"odd"),
         Just("odd"),
+        Just("crystal"),
         Just("coal-slag")
     ];
     let wall = prop_oneof![Just("refractory"), Just("coal-slag"), Just("odd"), Just("stainless-steel")];
@@ -108,6 +109,7 @@ fn varying_models() -> impl Strategy<Value = Model> {
         Just("slag = \"coal-slag\"\n"),
         Just("slag = \"measured\"\npowder = \"coal-char\"\ncoverage = 0.4\n"),
         Just("slag = \"coal-slag\"\npowder = \"odd\"\nlayer_thickness = 2e-5\n"),
+        Just("slag = \"crystal\"\n"),
         Just("powder = \"fly-ash\"\ncoverage = 1\n"),
     ];
     let law = prop_oneof![
@@ -160,6 +162,10 @@ surface_energy = 0.5
 surface_tension = 0.4
 viscosity = { T = [1200, 1400, 1600, 1900], value = [1e5, 1e3, 30, 2] }
 critical_viscosity_temperature = 1450
+[materials.crystal]
+like = "measured"
+melting_point = 1550
+crystalline = true
 "#;
 
 /// Impacts on them, from below to beyond what the properties are known for, without or with melt of earlier particles.

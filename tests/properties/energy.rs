@@ -23,13 +23,8 @@ fn energy(normal: f64, along: f64, rim: f64) -> f64 {
     0.5 * (normal * normal + along * along) + rim * rim / 20.0
 }
 
-/// Effects that add energy from elsewhere, or may do so by their parameters.
-const DRIVEN: [&str; 4] = [
-    "gas-lift",              // the gas does work
-    "agglomerates",          // draws e_n up to 1.5
-    "oblique-angle", // a negative strength moves speed along the wall to e_n, and leaves e_t as it is; a positive one is added
-    "tangential-compliance", // near_normal outside 3/7 to 1 says so: tested within
-];
+/// Its `near_normal` outside 3/7 to 1 makes `e_t` alone add energy: tested within.
+const DRIVEN: [&str; 1] = ["tangential-compliance"];
 
 proptest! {
     #![proptest_config(config(600))]
@@ -40,7 +35,7 @@ proptest! {
         tangential in tangential_laws(),
         effects in effects_but(&DRIVEN),
         impact in spinning(),
-        oblique in (0.0..20.0, 0.0..3.0),
+        oblique in (-20.0..20.0, 0.0..3.0),
         still in any::<bool>(),
         key in any::<u64>(),
     ) {

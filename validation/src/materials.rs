@@ -21,9 +21,9 @@ impl NumberOrigin {
 
     /// As the source's own words tell it.
     fn of(source: &str) -> Self {
-        if source.starts_with("assumed") {
+        if source.starts_with("assumed") || source.starts_with("estimated") {
             Self::Assumed
-        } else if source.contains("not re-read") {
+        } else if source.contains("not re-read") || source.contains("not checked") {
             Self::NotReRead
         } else if source.contains("assumed") {
             Self::PartlyAssumed

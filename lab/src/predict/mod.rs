@@ -24,6 +24,8 @@ pub const BANDS: [&str; 6] = ["e_n_low", "e_n_high", "e_t_low", "e_t_high", "p_s
 
 /// The column of the stated ranges that a row leaves.
 pub const BEYOND: &str = "beyond";
+/// The time of contact of a row [s].
+pub const CONTACT_TIME: &str = "contact_time";
 
 /// Draws of what a model draws by chance, for the mean of each row.
 const DRAWS_A_ROW: usize = 64;
@@ -36,6 +38,7 @@ pub struct Predictor<'a> {
     walls: WallChoice<'a>,
     /// The column that names the wall of a row.
     wall_column: Option<usize>,
+    contact_time: bool,
 }
 
 /// The prediction for a row.
@@ -45,6 +48,8 @@ pub struct PredictedRow {
     pub values: [f64; 3],
     /// Low and high end of the band of each value; empty without drawn models.
     pub bands: Vec<[f64; 2]>,
+    /// Time [s] that a solid particle touches the wall, where it is asked for.
+    pub contact_time: Option<f64>,
     /// Name of the regime.
     pub regime: &'static str,
     /// The stated ranges that the impact leaves.
@@ -79,7 +84,19 @@ impl<'a> Predictor<'a> {
     ) -> Result<Self, WallError> {
         let (walls, wall_column) = (WallChoice::new(model, wall)?, reader.column("wall"));
         walls.check(wall_column.is_some())?;
-        Ok(Self { model, drawn: Vec::new(), ranges: RangeReader::new(model), walls, wall_column })
+        let ranges = RangeReader::new(model);
+        Ok(Self { model, drawn: Vec::new(), ranges, walls, wall_column, contact_time: false })
+    }
+
+    /// Adds the time of contact to each row.
+    #[must_use]
+    pub fn with_contact_time(self, contact_time: bool) -> Self {
+        Self { contact_time, ..self }
+    }
+
+    /// Whether rows have a time of contact.
+    pub fn has_contact_time(&self) -> bool {
+        self.contact_time
     }
 
     /// Adds the models of a folder that were drawn from the fit of the model; each row then has bands.
@@ -123,8 +140,16 @@ impl<'a> Predictor<'a> {
         let mean = expect(self.model)?;
         let drawn = self.drawn.iter().map(|model| expect(model).map(|mean| values(&mean)));
         let drawn: Vec<[f64; 3]> = drawn.collect::<Result<_, _>>()?;
+        let contact_time =
+            self.contact_time.then(|| self.model.contact_time(wall, &row.impact)).transpose()?;
         let beyond = if mean.outside_range { self.ranges.reasons(wall, &row.impact) } else { Vec::new() };
-        Ok(PredictedRow { values: values(&mean), bands: bands(&drawn), regime: mean.regime.name(), beyond })
+        Ok(PredictedRow {
+            values: values(&mean),
+            contact_time,
+            bands: bands(&drawn),
+            regime: mean.regime.name(),
+            beyond,
+        })
     }
 }
 

@@ -9,7 +9,7 @@
 //! number that is then refused is moved half as far, and so on.
 
 use serde::Serialize;
-use toml_edit::{DocumentMut, Item, Value};
+use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
@@ -394,9 +394,28 @@ fn add_materials(document: &mut DocumentMut) {
     let Some(model) = document.get_mut("model").and_then(Item::as_table_mut) else { return };
     let own = model.entry("materials").or_insert(toml_edit::table());
     let Some(own) = own.as_table_like_mut() else { return };
+    write_out_likes(own, &built_in);
     for name in names {
         if let Some(material) = built_in.get(&name).filter(|_| !own.contains_key(&name)) {
             own.insert(&name, material.clone());
+        }
+    }
+}
+
+/// Gives each material that is `like` another the numbers that it takes from that one.
+fn write_out_likes(own: &mut dyn TableLike, built_in: &DocumentMut) {
+    let names: Vec<String> = own.iter().map(|(name, _)| name.to_owned()).collect();
+    for (place, name) in names.iter().enumerate() {
+        let like = own.get(name).and_then(|material| material.get("like")).and_then(Item::as_str);
+        let Some(like) = like.map(str::to_owned) else { continue };
+        let base = if names[..place].contains(&like) { own.get(&like) } else { built_in.get(&like) };
+        let (Some(base), Some(table)) = (base.cloned(), own.get_mut(name)) else { continue };
+        let (Some(base), Some(table)) = (base.as_table_like(), table.as_table_like_mut()) else { continue };
+        table.remove("like");
+        for (key, item) in base.iter() {
+            if !table.contains_key(key) {
+                table.insert(key, item.clone());
+            }
         }
     }
 }

@@ -1,19 +1,25 @@
 //! `nearwall materials`: the built-in materials with the source of each number.
 
 use nearwall::input::unknown;
-use nearwall::material::{Library, Material};
+use nearwall::material::{Library, Material, built_in_toml};
 
 use crate::CommandResult;
 
 /// Lists the built-in materials, or shows one with its sources
 #[derive(clap::Args)]
-#[command(after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000")]
+#[command(
+    after_help = "Examples:\n  nearwall materials\n  nearwall materials tungsten --temperature 2000\n  \
+nearwall materials coal-slag --toml"
+)]
 pub struct Arguments {
     /// The material to show
     name: Option<String>,
     /// Temperature [K] at which to evaluate
     #[arg(long, value_name = "K", default_value_t = 293.15)]
     temperature: f64,
+    /// Print the material as a block for a model file
+    #[arg(long, requires = "name", conflicts_with = "temperature")]
+    toml: bool,
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
@@ -31,6 +37,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let Some(material) = library.get(name) else {
         return Err(unknown(name, "material", &library.names()).into());
     };
+    if arguments.toml {
+        return crate::print(&built_in_toml(name).unwrap_or_default());
+    }
     crate::print(&show(material, arguments.temperature))
 }
 
@@ -57,6 +66,12 @@ fn show(material: &Material, temperature: f64) -> String {
             lines.push(format!("  {:<16}   stated for {low} to {high} K{outside}", ""));
         }
         lines.push(format!("  {:<16}   source: {}", "", property.source().unwrap_or("none given")));
+    }
+    if material.property("surface_tension").is_none()
+        && let Some(tension) = material.surface_tension_near(temperature)
+    {
+        lines.push(format!("  {:<16} {} N/m", "surface_tension", short(tension)));
+        lines.push(format!("  {:<16}   source: estimated from the composition after Kucuk et al.", ""));
     }
     if let Some(composition) = material.composition() {
         let oxides: Vec<String> =

@@ -9,7 +9,9 @@ use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
 use nearwall_lab::atomic_file::{AtomicFile, WriteError};
 use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, ImpactRow};
-use nearwall_lab::predict::{BANDS, BEYOND, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
+use nearwall_lab::predict::{
+    BANDS, BEYOND, CONTACT_TIME, PredictedRow, Predictor, RowNotes, VALUES, file_notes,
+};
 use rayon::prelude::*;
 
 use crate::{CommandResult, progress};
@@ -32,6 +34,9 @@ pub struct Arguments {
     /// Folder of model files that `nearwall diagnose --draws` wrote: adds the 95 % bands of e_n, e_t and p_stick
     #[arg(long, value_name = "FOLDER", conflicts_with = "explain")]
     draws: Option<PathBuf>,
+    /// Add a column `contact_time`: how long a solid particle touches the wall [s]
+    #[arg(long, conflicts_with = "explain")]
+    contact_time: bool,
     /// Print the effect of each term on the impact on this line of the file, instead of the table
     #[arg(long, value_name = "LINE")]
     explain: Option<u64>,
@@ -56,7 +61,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let source = File::open(&arguments.impacts).map_err(|error| format!("{file}: {error}"))?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "predicting");
     let mut reader = ImpactReader::new(&file, bar.wrap_read(source))?.with_extra_inputs(model.extra_inputs());
-    let mut predictor = Predictor::new(&model, arguments.wall.as_deref(), &reader)?;
+    let predictor = Predictor::new(&model, arguments.wall.as_deref(), &reader)?;
+    let mut predictor = predictor.with_contact_time(arguments.contact_time);
     if let Some(line) = arguments.explain {
         return explain(&predictor, &mut reader, line);
     }
@@ -111,7 +117,8 @@ fn predict(
 fn header(predictor: &Predictor<'_>, reader: &ImpactReader<impl Read>) -> csv::Result<Vec<u8>> {
     let bands: &[&str] = if predictor.has_bands() { &BANDS } else { &[] };
     let mut header = reader.headers().clone();
-    for name in VALUES.iter().chain(&["regime"]).chain(bands).chain(&[BEYOND]) {
+    let time: &[&str] = if predictor.has_contact_time() { &[CONTACT_TIME] } else { &[] };
+    for name in VALUES.iter().chain(&["regime"]).chain(bands).chain(time).chain(&[BEYOND]) {
         // A column of the file keeps its name.
         let more = if reader.column(name).is_some() { "_predicted" } else { "" };
         header.push_field(&format!("{name}{more}"));
@@ -218,7 +225,7 @@ fn write_row(
         writer.write_field(digits.format(value))?;
     }
     writer.write_field(predicted.regime)?;
-    for value in predicted.bands.as_flattened() {
+    for value in predicted.bands.as_flattened().iter().chain(&predicted.contact_time) {
         writer.write_field(digits.format(*value))?;
     }
     writer.write_field(predicted.beyond_text())?;

@@ -1,0 +1,229 @@
+//! The built-in materials, and those that a model file adds or builds on them.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use super::Material;
+use crate::input::{Document, InputError, Section, unknown};
+
+/// The file of the built-in materials.
+pub const BUILT_IN_TEXT: &str = include_str!("materials.toml");
+
+/// The table of a built-in material as a model file takes it; `None` where there is none of this name.
+pub fn built_in_toml(name: &str) -> Option<String> {
+    let header = format!("\n[{name}]\n");
+    let start = BUILT_IN_TEXT.find(&header)? + header.len();
+    let rest = &BUILT_IN_TEXT[start..];
+    let body = &rest[..rest.find("\n[").unwrap_or(rest.len())];
+    Some(format!("[materials.{name}]\n{}\n", body.trim_end()))
+}
+
+static BUILT_IN: LazyLock<Result<Library, InputError>> = LazyLock::new(|| {
+    let document = Document::new("built-in materials", BUILT_IN_TEXT);
+    document.read(|top| Library::default().with(top))
+});
+
+/// Materials by name.
+#[derive(Debug, Clone, Default)]
+pub struct Library {
+    materials: BTreeMap<String, Material>,
+}
+
+impl Library {
+    /// The built-in materials.
+    ///
+    /// # Errors
+    /// [`InputError`] for an error in the built-in data (a test excludes it).
+    pub fn built_in() -> Result<Self, InputError> {
+        BUILT_IN.clone()
+    }
+
+    /// Adds every table of `section`, in the order of the file; a material of the same name is
+    /// replaced. A table with `like` extends a material that was there before it.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] for a material that cannot be read.
+    pub fn with(mut self, section: &Section<'_>) -> Result<Self, InputError> {
+        let names = section.keys();
+        for (place, name) in names.iter().enumerate() {
+            let table = section.required_section(name)?;
+            let base = self.base(&table, name, &names[place + 1..])?;
+            let material = Material::read(name, &table, base)?;
+            self.materials.insert(name.clone(), material);
+        }
+        Ok(self)
+    }
+
+    /// The material that the table of `name` is `like`; the tables of `later` follow it in the file.
+    fn base(
+        &self,
+        table: &Section<'_>,
+        name: &str,
+        later: &[String],
+    ) -> Result<Option<&Material>, InputError> {
+        let Some(base) = table.text("like")? else { return Ok(None) };
+        if later.contains(&base) {
+            let problem = format!(
+                "[materials.{base}] follows further down; move it above [materials.{name}], which is built on it"
+            );
+            return Err(table.fault("like", problem));
+        }
+        match self.get(&base) {
+            Some(material) => Ok(Some(material)),
+            None if base == name => {
+                let problem =
+                    format!("`{name}` is not built in, so it has nothing to extend; name another one");
+                Err(table.fault("like", problem))
+            }
+            None => Err(table.fault("like", unknown(&base, "material", &self.names()))),
+        }
+    }
+
+    /// A material by its name.
+    pub fn get(&self, name: &str) -> Option<&Material> {
+        self.materials.get(name)
+    }
+
+    /// All names, sorted.
+    pub fn names(&self) -> Vec<&str> {
+        self.materials.keys().map(String::as_str).collect()
+    }
+
+    /// The material that `key` of a section names.
+    ///
+    /// # Errors
+    /// [`InputError::Fault`] with the nearest known name when there is none.
+    pub fn named_by(&self, section: &Section<'_>, key: &str) -> Result<Option<Material>, InputError> {
+        let Some(name) = section.text(key)? else { return Ok(None) };
+        match self.get(&name) {
+            Some(material) => Ok(Some(material.clone())),
+            None => Err(section.fault(key, unknown(&name, "material", &self.names()))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<Library, String> {
+        let document = Document::new("m.toml", text);
+        let with = |top: &Section<'_>| Library::built_in()?.with(&top.required_section("materials")?);
+        document.read(with).map_err(|error| error.to_string())
+    }
+
+    /// What a property is, in bits: the written form of a number is that of its bits.
+    fn written(material: &Material) -> String {
+        let properties: Vec<_> = material.properties().collect();
+        let rest = (material.composition(), material.about(), material.crystalline_below());
+        format!("{properties:?} {rest:?}")
+    }
+
+    #[test]
+    fn a_material_like_another_differs_only_in_what_is_given() {
+        let text = "[materials.plant]\nlike = \"coal-slag\"\ndensity = 2600\ncomposition = { SiO2 = 60, CaO = 40 }\n\
+                    [materials.wet]\nlike = \"plant\"\nemissivity = 0.5\n";
+        let library = read(text).unwrap();
+        let of = |name: &str| library.get(name).unwrap().clone();
+        let (slag, plant, wet) = (of("coal-slag"), of("plant"), of("wet"));
+        assert_eq!(plant.density(900.0), Ok(2600.0));
+        for (key, _, property) in slag.properties().filter(|(key, ..)| *key != "density") {
+            assert_eq!(plant.property(key), Some(property), "{key}");
+        }
+        assert_eq!(plant.composition().unwrap().oxides().count(), 2);
+        assert_eq!((wet.density(900.0), wet.emissivity_near(900.0)), (Ok(2600.0), Some(0.5)));
+        assert_eq!(wet.composition(), plant.composition());
+    }
+
+    #[test]
+    fn a_built_in_name_is_overridden_from_itself() {
+        let library = read("[materials.fly-ash]\nlike = \"fly-ash\"\npoisson_ratio = 0.25\n").unwrap();
+        let built_in = Library::built_in().unwrap();
+        let [own, before] = [&library, &built_in].map(|library| library.get("fly-ash").unwrap().clone());
+        assert_eq!(own.mechanical(300.0).unwrap().poisson_ratio, 0.25);
+        assert_eq!(own.property("youngs_modulus"), before.property("youngs_modulus"));
+    }
+
+    /// Hill's mean of Young's modulus and Voigt's of Poisson's ratio, from the elastic constants [GPa] of both cubic salts.
+    #[test]
+    fn salts_have_the_modulus_of_their_crystals() {
+        let library = Library::built_in().unwrap();
+        for (name, [c11, c12, c44]) in
+            [("potassium-chloride", [39.8, 6.2, 6.25]), ("sodium-chloride", [49.47, 12.88, 12.87])]
+        {
+            let bulk: f64 = (c11 + 2.0 * c12) / 3.0;
+            let voigt: f64 = (c11 - c12 + 3.0 * c44) / 5.0;
+            let reuss = 5.0 * (c11 - c12) * c44 / (4.0 * c44 + 3.0 * (c11 - c12));
+            let shear = 0.5 * (voigt + reuss);
+            let modulus = 9.0 * bulk * shear / (3.0 * bulk + shear);
+            let poisson = (3.0 * bulk - 2.0 * voigt) / (2.0 * (3.0 * bulk + voigt));
+            let salt = library.get(name).unwrap().mechanical(300.0).unwrap();
+            assert!((salt.youngs_modulus / (1e9 * modulus) - 1.0).abs() < 0.01, "{name}: {modulus}");
+            assert!((salt.poisson_ratio - poisson).abs() < 0.01, "{name}: {poisson}");
+        }
+    }
+
+    /// Density, modulus and Poisson's ratio follow; strength and surface energy have no law, and the refusal says what to do.
+    #[test]
+    fn a_composition_gives_what_laws_give() {
+        let oxides = "composition = { SiO2 = 43.2, Al2O3 = 36.6, CaO = 20.2 }\n";
+        let glass =
+            read(&format!("[materials.a]\nyield_strength = 3e8\nsurface_energy = 0.05\n{oxides}")).unwrap();
+        let glass = glass.get("a").unwrap();
+        let cold = glass.mechanical(293.15).unwrap();
+        assert!(
+            (cold.density / 2700.0 - 1.0).abs() < 0.04 && (cold.youngs_modulus / 90e9 - 1.0).abs() < 0.12,
+            "{cold:?}"
+        );
+        assert_eq!(glass.estimated(), ["density", "youngs_modulus", "poisson_ratio", "surface_tension"]);
+        assert!(glass.mechanical(1723.15).unwrap().youngs_modulus < 0.1 * cold.youngs_modulus);
+        let alone = read(&format!("[materials.a]\n{oxides}")).unwrap_err();
+        assert!(
+            alone.contains("materials.a.yield_strength: missing; add a value in Pa (no law gives it"),
+            "{alone}"
+        );
+        assert!(alone.contains("like = \"fly-ash\""), "{alone}");
+        let lime = read("[materials.a]\ncomposition = { CaO = 90, SiO2 = 10 }\n").unwrap_err();
+        assert!(lime.contains("materials.a.density: missing") && lime.contains("outside the law"), "{lime}");
+        let like = read(&format!("[materials.a]\nlike = \"fly-ash\"\n{oxides}")).unwrap();
+        assert_eq!(like.get("a").unwrap().density(293.15), Ok(2300.0), "taken, not estimated");
+    }
+
+    #[test]
+    fn a_wrong_base_is_named_with_the_remedy() {
+        let refused = |text: &str| read(text).unwrap_err();
+        assert!(refused("[materials.a]\nlike = \"coal-slak\"\n").starts_with(
+            "m.toml:2:1: materials.a.like: unknown material `coal-slak`; did you mean `coal-slag`?"
+        ));
+        let later = "[materials.a]\nlike = \"b\"\n[materials.b]\nlike = \"a\"\n";
+        assert!(
+            refused(later).contains("materials.a.like: [materials.b] follows further down; move it above")
+        );
+        assert!(refused("[materials.a]\nlike = \"a\"\n").contains("`a` is not built in"));
+        let misspelt = refused("[materials.a]\nlike = \"pyrex\"\nemisivity = 0.5\n");
+        assert!(misspelt.contains("did you mean `emissivity`?"), "{misspelt}");
+    }
+
+    #[test]
+    fn the_printed_block_of_every_built_in_material_reads_back_to_the_same_bits() {
+        let built_in = Library::built_in().unwrap();
+        for name in built_in.names() {
+            let block = built_in_toml(name).unwrap();
+            let header = format!("[materials.{name}]\n");
+            let text = block.replace(&header, "[materials.pasted]\n");
+            assert_ne!(text, block, "{name}");
+            let pasted = read(&text).unwrap();
+            let [pasted, before] = [pasted.get("pasted").unwrap(), built_in.get(name).unwrap()];
+            assert_eq!(written(pasted), written(before), "{name}");
+            for temperature in [293.15, 700.0, 1300.0, 1800.0, 3000.0] {
+                let bits = |material: &Material| {
+                    let at =
+                        |property: &super::super::Property| property.at(temperature).ok().map(f64::to_bits);
+                    material.properties().map(|(.., property)| at(property)).collect::<Vec<_>>()
+                };
+                assert_eq!(bits(pasted), bits(before), "{name} at {temperature} K");
+            }
+        }
+        assert_eq!(built_in_toml("unobtainium"), None);
+    }
+}
