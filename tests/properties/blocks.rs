@@ -122,11 +122,14 @@ fn varying_models() -> impl Strategy<Value = Model> {
     let criterion = prop_oneof![
         4 => decades(1.0, 1e6).prop_map(|reference| format!("model = \"viscosity\"\nreference_viscosity = {reference:e}")),
         1 => Just("model = \"kinetic-energy\"".to_owned()),
+        1 => Just("model = \"fusion\"".to_owned()),
     ];
     let combination =
         prop_oneof![Just("uintah\"".to_owned()), (0.0..1.0).prop_map(|e| format!("walsh\"\nerosion = {e}"))];
     let capture = (law, solid, criterion, combination).prop_map(|(law, solid, criterion, combination)| {
-        format!("{criterion}\nlaw = \"{law}\"\nsolidification = \"{solid}\"\ncombination = \"{combination}")
+        let chosen = !criterion.contains("fusion");
+        let solid = if chosen { format!("solidification = \"{solid}\"\n") } else { String::new() };
+        format!("{criterion}\nlaw = \"{law}\"\n{solid}combination = \"{combination}")
     });
     let wetting =
         prop_oneof![Just(String::new()), (0.0..180.0).prop_map(|angle| table("dry-on-melt", &[angle]))];
@@ -162,6 +165,7 @@ surface_energy = 0.5
 surface_tension = 0.4
 viscosity = { T = [1200, 1400, 1600, 1900], value = [1e5, 1e3, 30, 2] }
 critical_viscosity_temperature = 1450
+fusion_temperatures = { deformation = 1300, softening = 1380, hemisphere = 1420, flow = 1500 }
 [materials.crystal]
 like = "measured"
 melting_point = 1550
