@@ -40,6 +40,41 @@ fn predict_agrees_with_the_golden_table() {
     });
 }
 
+/// The printed block is a material of a model file, with the same numbers.
+#[test]
+fn a_built_in_material_is_printed_as_a_block_to_paste() {
+    let folder = folder(&[("i.csv", "v_n,d\n1,75e-6\n")]);
+    let block = done(folder.path(), &["materials", "pyrex", "--toml"]);
+    assert!(block.starts_with("[materials.pyrex]\nabout = "), "{block}");
+    let own = format!(
+        "{}{}",
+        WAX.replace("\"pyrex\"", "\"own\""),
+        block.replace("[materials.pyrex]", "[materials.own]")
+    );
+    for (name, model) in [("plain.toml", WAX), ("own.toml", own.as_str())] {
+        std::fs::write(folder.path().join(name), model).unwrap();
+    }
+    let predicted =
+        ["plain.toml", "own.toml"].map(|model| done(folder.path(), &["predict", "--model", model, "i.csv"]));
+    assert_eq!(predicted[0], predicted[1]);
+}
+
+/// Elastic wax of 75 µm would touch for microseconds; soft and plastic it touches longer, by the model's own time.
+#[test]
+fn predict_adds_the_time_of_contact_when_asked() {
+    let folder = folder(&[("m.toml", WAX), ("i.csv", "v_n,d\n1,75e-6\n2,75e-6\n")]);
+    let table = done(folder.path(), &["predict", "--model", "m.toml", "i.csv", "--contact-time"]);
+    let lines: Vec<&str> = table.lines().collect();
+    assert!(lines[0].ends_with(",regime,contact_time"), "{table}");
+    let model = Model::from_toml("m.toml", WAX).unwrap();
+    for (line, normal_speed) in [(lines[1], 1.0), (lines[2], 2.0)] {
+        let time: f64 = line.split(',').next_back().unwrap().parse().unwrap();
+        let impact = Impact { normal_speed, diameter: 75e-6, ..Impact::default() };
+        assert_eq!(time, model.contact_time(0, &impact).unwrap());
+        assert!((1e-7..1e-5).contains(&time), "{time:e}");
+    }
+}
+
 #[test]
 fn predict_keeps_other_columns_and_lists_bad_rows() {
     let rows = "operator,v_n,d,e_n\nAnn,1,75e-6,0.3\nBob,-1,75e-6,0.3\nCem,2,75e-6,\n";

@@ -322,11 +322,14 @@ youngs_modulus = { value = 7e10, source = "a table" }
 poisson_ratio = { value = 0.2, source = "a table" }
 yield_strength = { value = 1e10, source = "assumed: hard" }
 surface_energy = { value = 0.5, source = "assumed" }
-[materials.soft]
+[materials.base]
 density = { value = 2000, source = "a table" }
 youngs_modulus = { value = 1e9, source = "a table" }
 poisson_ratio = { value = 0.3, source = "a table" }
 yield_strength = { value = 1e6, source = "assumed: uncertain by a factor 10" }
+surface_energy = { value = 0.2, source = "a table" }
+[materials.soft]
+like = "base"
 surface_energy = { value = 0.1, source = "a table" }
 "#;
     let speeds = "speed = { distribution = \"uniform\", min = 0.02, max = 1.5 }";
