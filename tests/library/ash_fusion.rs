@@ -304,7 +304,11 @@ fn every_ash_begins_to_stick_at_deformation_and_always_sticks_at_flow() {
         }
     }
     assert!(sheets > 60, "{sheets}");
-    for own in built_in_ashes() {
+    // Silica sand is no ash: refused.
+    let known: Vec<_> =
+        built_in_ashes().into_iter().filter(|own| ash_fusion::estimate(own).is_ok()).collect();
+    assert!(known.len() >= 4, "{}", known.len());
+    for own in known {
         let found = ash_fusion::estimate(&own).unwrap();
         check(&model(fusion, &composition(&own)), found.deformation, found.flow);
     }
@@ -323,7 +327,8 @@ fn the_band_of_the_sheet_is_a_band_of_the_stickiness() {
     let exact = ends("fusion_temperatures = { deformation = 1300, flow = 1500, uncertainty = 0 }");
     assert_eq!(exact, [0.5; 2]);
     // By composition alone nearly every stickiness is possible.
-    let estimated = ends(&composition(&built_in_ashes()[0]));
+    let slag = Library::built_in().unwrap().get("coal-slag").unwrap().composition().cloned().unwrap();
+    let estimated = ends(&composition(&slag));
     assert!(estimated[0] < 0.1 && estimated[1] > 0.9, "{estimated:?}");
 }
 
