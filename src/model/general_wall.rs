@@ -18,7 +18,7 @@ use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
 /// Both ends of the 90 % band of the stickiness, in a trace.
-const BAND: [&str; 2] = ["stickiness, low (5 %)", "stickiness, high (95 %)"];
+const BAND: [&str; 2] = ["stickiness at 5 %", "stickiness at 95 %"];
 
 /// One impact on a wall of a model. `uniform` gives the random number of each stream, in (0, 1);
 /// `trace` receives term, quantity and value.
