@@ -450,9 +450,11 @@ fn how_to_give(field: &PropertyField, composition: Option<&Composition>) -> Stri
         Some(_) if estimate::ESTIMATED.contains(&field.key) => {
             format!("a value in {unit} (the composition is outside the law that estimates it)")
         }
-        Some(_) => format!(
-            "a value in {unit} (no law gives it by composition), or like = \"fly-ash\" to take that of fly ash,"
-        ),
+        Some(_) => {
+            format!(
+                "a value in {unit} (no law gives it by composition; like = \"fly-ash\" takes that of fly ash)"
+            )
+        }
     }
 }
 

@@ -20,7 +20,7 @@ use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
 
 /// Both ends of the 90 % band of the stickiness, in a trace.
-const BAND: [&str; 2] = ["stickiness, low (5 %)", "stickiness, high (95 %)"];
+const BAND: [&str; 2] = ["stickiness at 5 %", "stickiness at 95 %"];
 
 /// What watches the steps of an impact on a model.
 pub(super) trait Watcher<'m> {

@@ -320,7 +320,11 @@ fn the_band_of_the_sheet_is_a_band_of_the_stickiness() {
     let ends = |sheet: &str| -> Vec<f64> {
         let model = model("model = \"fusion\"", sheet);
         let entries = model.explain_with(0, &at(1400.0, 300.0), |_| 0.5).unwrap().1;
-        entries.iter().filter(|entry| entry.quantity.starts_with("stickiness, ")).map(|of| of.value).collect()
+        entries
+            .iter()
+            .filter(|entry| entry.quantity.starts_with("stickiness at "))
+            .map(|of| of.value)
+            .collect()
     };
     let own = ends("fusion_temperatures = { deformation = 1300, flow = 1500 }");
     assert!(own.len() == 2 && (own[0] - 0.3).abs() < 1e-9 && (own[1] - 0.7).abs() < 1e-9, "{own:?}");
@@ -357,7 +361,7 @@ fn compositions_that_no_fitted_ash_has_are_refused() {
         ash_fusion::estimate(&Composition::new(oxides.iter().copied()).unwrap()).unwrap_err().to_string()
     };
     let silica = refused(&[("SiO2", 99.0), ("CaO", 1.0)]);
-    assert!(silica.contains("SiO2 is 99, and the ashes of the estimate have 0 to 94.5"), "{silica}");
+    assert!(silica.contains("SiO2 is 99, and the fitted ashes have 0 to 94.5 (shares in wt%)"), "{silica}");
     assert!(refused(&[("SiO2", 60.0), ("Al2O3", 40.0)]).contains("base/(base + acid) is 0"));
     assert!(refused(&[("SO3", 1.0)]).contains("SO3"));
     assert!(refused(&[("SiO2", 50.0), ("CaO", 40.0), ("B2O3", 10.0)]).contains("MnO + B2O3 is 10"));
