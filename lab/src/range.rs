@@ -191,7 +191,7 @@ mod tests {
     const MODEL: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"stainless-steel\"\n\
         [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \"constant\"\ne_t = 0.76\n";
 
-    /// The steel's surface energy is stated up to 403.15 K; at 30 m/s adhesion does not count, at
+    /// The steel's surface energy is stated up to 403.15 K; at 3 m/s adhesion does not count, at
     /// 0.2 m/s, near the sticking velocity, it does.
     #[test]
     fn a_held_surface_energy_matters_for_slow_particles() {
@@ -201,7 +201,7 @@ mod tests {
             let hot = Impact { wall_temperature: 450.0, diameter: 75e-6, ..Impact::default() };
             reader.reasons(0, &Impact { normal_speed, particle_temperature: 300.0, ..hot })
         };
-        let [slow, fast] = [0.2, 30.0].map(at);
+        let [slow, fast] = [0.2, 3.0].map(at);
         assert!(slow[0].stated.starts_with("surface_energy of stainless-steel"), "{slow:?}");
         assert!(slow[0].matters() && !fast[0].matters(), "{slow:?} {fast:?}");
         let mut counts = RangeCounts::default();

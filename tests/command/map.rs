@@ -48,7 +48,7 @@ fn corners_agree_with_elastic_adhesion_by_hand() {
     let printed = done(at, &["map", "m.toml", "--x", "v_n=0.01:10:4", "--y", "d=1e-6:1e-4:3"]);
     assert!(printed.contains("12 impacts") && printed.contains("map.html"), "{printed}");
     let (header, rows) = table(at);
-    assert_eq!(header, "v_n,d,e_n,e_t,p_stick,regime,outside_range");
+    assert_eq!(header, "v_n,d,e_n,e_t,p_stick,regime,outside_range,matters");
     assert_eq!(rows.len(), 12);
     // JKR: v_s = (sqrt3/2) pi^(1/3) sqrt((1 + 6 2^(2/3))/5) (W^5 / (rho^3 E*^2 R^5))^(1/6)
     let reduced: f64 = 1.0 / (1e-9 + 1e-13);
@@ -111,13 +111,13 @@ fn marks_blanks_and_ranges_are_on_the_page() {
     assert!(printed.contains("61 of 549 could not be decided"), "{printed}");
     assert!(printed.contains("youngs_modulus is given for 290 to 2000 K, asked for 200 K"), "{printed}");
     let (_, rows) = table(at);
-    assert_eq!(rows[&key("0.5", "200")], ["", "", "", "", ""]);
+    assert_eq!(rows[&key("0.5", "200")], ["", "", "", "", "", ""]);
     assert_eq!(rows[&key("0.5", "300")][4], "true");
     assert_eq!(rows[&key("20", "300")][4], "true");
     let page = at.join("map/map.html");
     let html = std::fs::read_to_string(&page).unwrap();
     for part in
-        ["61 of 549 impacts could not be decided", "not decided", "outside the stated range", "logarithmic"]
+        ["61 of 549 impacts could not be decided", "not decided", "outside a stated range", "logarithmic"]
     {
         assert!(html.contains(part), "`{part}` is not on the page");
     }

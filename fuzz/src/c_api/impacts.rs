@@ -162,6 +162,24 @@ pub fn of_particles(bytes: &mut Bytes<'_>, model: *const nw_model) {
     }
     explained(bytes, model, from);
     unlikely(bytes, from);
+    beyond(bytes, model, from);
+}
+
+/// Which stated ranges an impact leaves.
+fn beyond(bytes: &mut Bytes<'_>, model: *const nw_model, impact: *const nw_impact) {
+    let size = [0, 1, 2, 3, 40, 4000][bytes.below(6)];
+    let mut buffer = GuardedBuffer::new(bytes, size);
+    let text = buffer.start_or_null(bytes);
+    // SAFETY: each is null or what it should be.
+    let status = unsafe { nw_beyond(model, impact, text, size) };
+    known(status);
+    buffer.assert_guard_intact();
+    if status == NW_OK {
+        let text = CStr::from_bytes_until_nul(buffer.inside()).expect("a closing zero");
+        text.to_str().expect("whole characters");
+    } else {
+        buffer.assert_untouched();
+    }
 }
 
 /// Which input is probably in another unit.
