@@ -10,7 +10,7 @@ use fearless_simd::Level;
 
 use super::droplet::DropletCriterion;
 use super::melt_fraction::MeltFractionCriterion;
-use super::stickiness::Combination;
+use super::stickiness::{Combination, Stickiness};
 use super::viscosity::ViscosityCriterion;
 use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Section};
@@ -182,6 +182,29 @@ impl Default for MeltStates {
     }
 }
 
+/// Highest temperature [K] at which a deposit is asked whether it is liquid.
+const HOTTEST: f64 = 6000.0;
+
+/// The lowest temperature [K] at which a condition holds that holds above it; `None` where it does not
+/// hold at [`HOTTEST`], 0 where it always holds.
+pub(crate) fn lowest(holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let [mut low, mut high] = [1.0, HOTTEST];
+    if holds(low) {
+        return Some(0.0);
+    }
+    if !holds(high) {
+        return None;
+    }
+    while high - low > 1e-12 * high {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if holds(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
+}
+
 /// A criterion for one material.
 pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// The model's name in the `[capture]` table.
@@ -253,6 +276,17 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// stated for it; `None` for one without such a temperature.
     fn stiff_below(&self) -> Option<(f64, bool)> {
         None
+    }
+
+    /// Temperature [K] below which what lies on a wall is solid: that of [`Self::stiff_below`], else that
+    /// at which it is sticky without an impact. It depends on no speed. `None` for a material that is
+    /// solid at every temperature; 0 for one that is liquid at every temperature.
+    fn solid_below(&self) -> Option<f64> {
+        let sticky = |temperature: f64| {
+            let lying = Impact { wall_temperature: temperature, ..Impact::default() };
+            self.on_wall(&lying) >= Stickiness::THRESHOLD
+        };
+        self.stiff_below().map(|(temperature, _)| temperature).or_else(|| lowest(sticky))
     }
 
     /// Whether particles may be droplets.

@@ -9,6 +9,7 @@
 
 use fearless_simd::{Level, dispatch};
 
+use super::criterion::lowest;
 use super::kinetic_energy::EnergyLaw;
 use super::melt::{Melt, MeltLaws};
 use super::{MeltStates, StickinessCriterion, Unsuitable, WallState};
@@ -26,6 +27,10 @@ pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
 /// From a tenth of the thinnest liquid to far above the viscosity of a solid glass.
 const REFERENCE: Limits =
     Limits { unit: "Pa s", low: 1e-7, high: 1e20, known: "literature 8 to 1e7; glass is solid above 1e12" };
+
+/// Viscosity [Pa s] above which melt on a wall counts as solid where no temperature says it: 1e5 poise,
+/// between the working point of glass and the point at which it softens under its own weight; assumed.
+const SOLID: f64 = 1e4;
 
 /// The reference viscosity of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -207,6 +212,12 @@ impl StickinessCriterion for MeltStickiness {
 
     fn stiff_below(&self) -> Option<(f64, bool)> {
         self.melt.stiff_below()
+    }
+
+    /// Where no temperature is known, below a viscosity of [`SOLID`].
+    fn solid_below(&self) -> Option<f64> {
+        let stiff = self.melt.stiff_below().map(|(temperature, _)| temperature);
+        stiff.or_else(|| lowest(|temperature| self.melt.film_viscosity(temperature) <= SOLID))
     }
 
     fn known_range(&self) -> [f64; 2] {

@@ -2,10 +2,11 @@
 
 use super::Model;
 use super::wall::Wall;
-use crate::capture::Stickiness;
-use crate::deposit::process::PowderMaterial;
+use crate::capture::{Stickiness, lowest};
+use super::wall_heat::WallHeatError;
+use crate::deposit::process::{DepositHeat, PowderMaterial, Step};
 use crate::deposit::{
-    CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, wetting,
+    CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, layers, wetting,
 };
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
@@ -14,10 +15,11 @@ impl Model {
     /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²],
     /// with the particle's `density` [kg/m³].
     ///
-    /// They are molten when their stickiness at the temperature of the wall reaches
-    /// [`Stickiness::THRESHOLD`]; by the droplet criterion, when the wall is hotter than the
-    /// melting point. In a model whose stickiness does not depend on the particle temperature,
-    /// their state is that of the impact.
+    /// They are molten when the wall is hotter than their material is solid
+    /// ([`StickinessCriterion::solid_below`](crate::capture::StickinessCriterion::solid_below)), unless
+    /// an effect on the particle's stickiness leaves less than [`Stickiness::THRESHOLD`] there, as
+    /// carbon does. In a model whose stickiness does not depend on the particle temperature, their
+    /// state is that of the impact.
     ///
     /// # Errors
     /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or an unknown wall.
@@ -35,7 +37,7 @@ impl Model {
             let reason = "must be positive and finite";
             return Err(ImpactError::Unusable { quantity: "density".into(), value: density, reason });
         }
-        let molten = self.stickiness_as_melt(impact, impact.conversion) >= Stickiness::THRESHOLD;
+        let molten = self.is_liquid(impact, impact.conversion);
         let Impact { diameter, conversion, .. } = *impact;
         Ok(arrivals.with(&CapturedParticles { mass, density, diameter, conversion, molten }))
     }
@@ -57,8 +59,9 @@ impl Model {
         Ok(Deposit { powder, solid, cover, ..Deposit::default() })
     }
 
-    /// The impact with a deposit on the wall: sets the thickness of the powder layer with a
-    /// `voidage` [1], the share that it covers, and the thickness of the melt.
+    /// The impact with a deposit on the wall: sets the share of the wall that powder with a `voidage`
+    /// [1] covers, its mean thickness over the wall, and the thickness of the slag, which is stiff or
+    /// liquid by the temperature of its surface.
     ///
     /// # Errors
     /// [`ImpactError`] for a deposit or a voidage without physical meaning, or an unknown wall.
@@ -69,20 +72,30 @@ impl Model {
         voidage: f64,
         impact: &Impact,
     ) -> Result<Impact, ImpactError> {
-        let Deposit { molten, powder, solid, cover, closed, .. } = *deposit;
-        let sizes =
-            [("molten", molten), ("powder", powder), ("solid", solid), ("cover", cover), ("closed", closed)];
+        let Deposit { molten, powder, solid, cover, closed, frozen, behind, .. } = *deposit;
+        let sizes = [
+            ("molten", molten),
+            ("powder", powder),
+            ("solid", solid),
+            ("cover", cover),
+            ("closed", closed),
+            ("frozen", frozen),
+            ("behind", behind),
+        ];
         for (quantity, value) in sizes {
             at_least_zero(quantity, value)?;
         }
         check_voidage(voidage)?;
-        let melt = self.melt(wall, impact.wall_temperature)?;
-        Ok(Impact {
-            layer_thickness: deposit.layer_thickness(voidage),
-            coverage: deposit.coverage(),
-            melt_thickness: molten / melt.density,
-            ..*impact
-        })
+        let melt_thickness = deposit.slag() / self.melt(wall, impact.wall_temperature)?.density;
+        let enclosed = deposit.enclosed();
+        let thickness = deposit.layer_thickness(voidage);
+        let [coverage, layer_thickness] = layers::powder_met(
+            [deposit.coverage(), cover::share(deposit.cover * enclosed)],
+            [thickness * (1.0 - enclosed), thickness * enclosed],
+            melt_thickness,
+            impact.diameter,
+        );
+        Ok(Impact { layer_thickness, coverage, melt_thickness, ..*impact })
     }
 
     /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the
@@ -106,6 +119,15 @@ impl Model {
         let viscosity = criterion.as_ref().map_or(f64::INFINITY, |melt| melt.film_viscosity(temperature));
         let surface_tension = material.surface_tension_near(temperature);
         Ok(WallMelt { density: material.density_near(temperature)?, viscosity, surface_tension })
+    }
+
+    /// The slag that an impact meets as a solid between the powder: stiff, and on more than half of the
+    /// wall.
+    pub(super) fn frozen_slag<'a>(&'a self, wall: &'a Wall, impact: &Impact) -> Option<&'a Material> {
+        let thickness = impact.melt_thickness;
+        let is_solid = || self.slag_melts_at(wall).is_some_and(|limit| impact.wall_temperature < limit);
+        let is_met = thickness > 0.0 && wetting::share(thickness, impact.diameter) > 0.5 && is_solid();
+        is_met.then(|| self.melt_material(wall))
     }
 
     /// The melt that an impact meets on bare wall, with the thickness of its film; `None` where
@@ -146,22 +168,96 @@ impl Model {
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
+    /// Whether material of the particles with a carbon conversion [1] is liquid on the wall of an impact.
+    fn is_liquid(&self, impact: &Impact, conversion: f64) -> bool {
+        let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
+        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&on_wall));
+        let by_terms = terms.reduce(|product, share| product * share);
+        let hot = self.solid_below.is_some_and(|limit| impact.wall_temperature >= limit);
+        match by_terms {
+            Some(sticky) => (self.stickiness.is_none() || hot) && sticky >= Stickiness::THRESHOLD,
+            None => self.stickiness.is_some() && hot,
+        }
+    }
+
+    /// Heat [J/kg] that a captured particle of this impact brings to the surface: sensible heat down to
+    /// the temperature of the wall, `c_p (T_p - T_w)`, and the heat of fusion where it was liquid and
+    /// lands as a solid; less that heat where it was solid and lands as melt. `heat_capacity` [J/(kg K)]
+    /// where the caller knows it, else that of the particles' material. `None` where neither is known.
+    pub fn heat_brought(&self, impact: &Impact, heat_capacity: Option<f64>) -> Option<f64> {
+        let Impact { particle_temperature, wall_temperature, conversion, .. } = *impact;
+        let material = self.particle.melting();
+        let capacity = heat_capacity.or_else(|| material.heat_capacity_near(impact.mean_temperature()))?;
+        let melts_at = self.liquid_from.unwrap_or(f64::INFINITY);
+        let liquid = [particle_temperature >= melts_at, self.is_liquid(impact, conversion)];
+        let [before, after] = liquid.map(|liquid| f64::from(u8::from(liquid)));
+        let fusion = material.heat_of_fusion_near(particle_temperature).unwrap_or(0.0);
+        Some(capacity * (particle_temperature - wall_temperature) + fusion * (before - after))
+    }
+
+    /// The lowest temperature [K] at which material of the particles with a carbon conversion [1] is
+    /// liquid; `None` where there is none, or no temperature decides it.
+    fn lowest_liquid(&self, conversion: f64) -> Option<f64> {
+        let liquid = |temperature: f64| {
+            self.is_liquid(&Impact { wall_temperature: temperature, ..Impact::default() }, conversion)
+        };
+        if !self.stickiness_depends_on_temperature() {
+            return None;
+        }
+        self.solid_below.filter(|limit| *limit > 0.0 && liquid(*limit)).or_else(|| lowest(liquid))
+    }
+
+    /// Temperature [K] below which slag on a wall is solid; `None` where it is not known.
+    pub(super) fn slag_melts_at(&self, wall: &Wall) -> Option<f64> {
+        if wall.slag.is_some() { wall.slag_solid_below } else { self.liquid_from }
+    }
+
+    /// Temperature [K] from which powder with a carbon conversion [1] melts; infinite for powder that
+    /// does not.
+    pub(super) fn powder_melts_at(&self, conversion: f64) -> f64 {
+        let same = |from: &f64| {
+            self.is_liquid(&Impact { wall_temperature: *from, ..Impact::default() }, conversion)
+        };
+        self.liquid_from.filter(same).or_else(|| self.lowest_liquid(conversion)).unwrap_or(f64::INFINITY)
+    }
+
+    /// Computes what depends on the criteria and the terms alone.
+    pub(super) fn set_melting(&mut self) {
+        self.solid_below = self.stickiness.as_ref().and_then(|criterion| criterion.solid_below());
+        self.liquid_from = self.lowest_liquid(1.0);
+        for wall in &mut self.walls {
+            wall.slag_solid_below = wall.melt.as_ref().and_then(|melt| melt.solid_below());
+        }
+    }
+
     /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each
     /// process took from it [kg/m²], by the table [`PROCESSES`](crate::deposit::PROCESSES).
     ///
     /// # Errors
-    /// [`ImpactError`] for surroundings or a duration without physical meaning, or an unknown wall.
+    /// [`WallHeatError`] for surroundings or a duration without physical meaning, an unknown wall, or
+    /// a cooled wall without a heat balance.
     pub fn advance(
         &self,
         wall: usize,
         deposit: &Deposit,
         surroundings: &Surroundings,
         duration: f64,
-    ) -> Result<(Deposit, Losses), ImpactError> {
+    ) -> Result<(Deposit, Losses), WallHeatError> {
         surroundings.check()?;
         at_least_zero("duration", duration)?;
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        Ok(wall.processes.advance(deposit, self, surroundings, duration))
+        let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
+            (Some(cooling), _) if deposit.mass() > 0.0 => {
+                let (thermal, flow, _) =
+                    self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
+                DepositHeat::Cooled { flow, front: thermal.after(&deposit.layers(), duration)? }
+            }
+            (None, Some(temperature)) => DepositHeat::Isothermal {
+                liquid: self.slag_melts_at(of).map(|melts_at| temperature >= melts_at),
+            },
+            _ => DepositHeat::Unknown,
+        };
+        Ok(of.processes.advance(deposit, &Step { powder: self, surroundings, heat, duration }))
     }
 
     /// Whether the stickiness of the particles depends on their temperature.
@@ -175,13 +271,6 @@ impl Model {
 }
 
 impl PowderMaterial for Model {
-    /// Where its stickiness reaches [`Stickiness::THRESHOLD`], as captured particles do.
-    fn melts(&self, conversion: f64, temperature: f64) -> bool {
-        let impact = Impact { wall_temperature: temperature, ..Impact::default() };
-        self.stickiness_depends_on_temperature()
-            && self.stickiness_as_melt(&impact, conversion) >= Stickiness::THRESHOLD
-    }
-
     /// Those of the particles' melt.
     fn sintering(&self, temperature: f64) -> Option<[f64; 2]> {
         let viscosity = self.stickiness.as_ref()?.glass_viscosity(temperature);
@@ -265,7 +354,8 @@ width = 0.01
         assert_eq!(arrive(&Impact { conversion: 0.5, ..at(1900.0) }).powder, 1.0);
         let area = 1.5 / (2000.0 * 60e-6);
         assert_relative_eq!(arrive(&at(1100.0)).cover, area);
-        assert_relative_eq!(arrive(&at(1900.0)).buried, area);
+        // The melt spreads to twice its diameter.
+        assert_relative_eq!(arrive(&at(1900.0)).buried, 4.0 * area);
     }
 
     #[test]

@@ -181,7 +181,8 @@ impl Model {
         place: WallPlace,
         uniform: &impl Fn(u64) -> f64,
     ) -> Result<Contact, ImpactError> {
-        let mut of_materials = wall.contact(&self.particle, impact, place)?;
+        let frozen = self.frozen_slag(wall, impact);
+        let mut of_materials = wall.contact(&self.particle, impact, place, frozen)?;
         if self.uses_melt && place != WallPlace::Covered {
             of_materials.melt = self.melt_met(wall, impact)?;
         }
@@ -295,7 +296,10 @@ impl<U: Fn(u64) -> f64, T: FnMut(&'static str, &'static str, f64)> WallSteps for
             && model.melt_holds(arriving)
             && model.tangential.holds_for(arriving)
             && model.particle.holds_for(arriving)
-            && wall.material.holds_at(arriving.wall_temperature)
+            && match model.frozen_slag(wall, arriving).filter(|_| *place != WallPlace::Covered) {
+                Some(slag) => slag.holds_at(arriving.wall_temperature),
+                None => wall.material.holds_at(arriving.own_wall_temperature()),
+            }
             && model.terms.iter().all(|term| term.holds_for(arriving)))
     }
 
