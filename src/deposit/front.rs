@@ -105,7 +105,9 @@ impl ThermalLayers {
         let freezes = masses.molten > 0.0 && here < melts_at;
         let melts = masses.frozen + masses.inner_powder > 0.0 && here > melts_at;
         let takes_heat = self.heat_of_fusion > 0.0 && self.hot.coefficient.is_finite();
-        (takes_heat && (freezes || melts)).then_some(melts_at)
+        // What touches the coolant has its temperature.
+        let held = self.inside(masses) > 0.0;
+        (takes_heat && held && (freezes || melts)).then_some(melts_at)
     }
 
     fn steady(&self, masses: &Layers<f64>) -> Result<HeatFlow, ConductionError> {
@@ -147,8 +149,13 @@ impl ThermalLayers {
         let outside = of.molten + of.outer_powder;
         let surface = conduction::surface_temperature(outside, front, &self.hot)?;
         let from_gas = conduction::heat_flux(outside, front, surface, &self.hot);
-        let inside = 1.0 / self.coolant.coefficient + self.wall_resistance + of.inner_powder + of.frozen;
-        Ok([from_gas, (front - self.coolant.temperature) / inside])
+        Ok([from_gas, (front - self.coolant.temperature) / self.inside(masses)])
+    }
+
+    /// Thermal resistance between coolant and front [m² K/W].
+    fn inside(&self, masses: &Layers<f64>) -> f64 {
+        let of = self.resistances(masses);
+        1.0 / self.coolant.coefficient + self.wall_resistance + of.inner_powder + of.frozen
     }
 
     /// The layers after a time step [s].
@@ -197,7 +204,10 @@ impl ThermalLayers {
         };
         let masses = melt(masses, melted);
         let [from_gas, to_coolant] = self.fluxes_at(&masses, front)?;
-        let [from_gas, to_coolant] = if time > 0.0 { [from_gas * time, to_coolant * time] } else { [0.0; 2] };
+        let from_gas = from_gas * time;
+        // Without a resistance the coolant gives or takes all at once.
+        let to_coolant =
+            if to_coolant.is_finite() { to_coolant * time } else { from_gas - heat(melted) };
         self.rest(FrontStep { masses, from_gas, to_coolant, melted }, duration - time)
     }
 
@@ -410,7 +420,7 @@ mod tests {
         assert!(before.surface() > 1400.0 && before.sides.outer_powder[0] < 1300.0);
         let step = LAYERS.after(&powder, 1.0).unwrap();
         let Layers { inner_powder, frozen, molten, outer_powder } = step.masses;
-        assert!(molten > 0.01 && inner_powder + frozen > 2.0 && outer_powder == 0.0, "{step:?}");
+        assert!(molten > 0.01 && molten < 1.0 && inner_powder == 1.5 && outer_powder == 0.0, "{step:?}");
         assert_relative_eq!(inner_powder + frozen + molten, 2.5, max_relative = 1e-14);
         let after = LAYERS.flow(&step.masses).unwrap();
         assert!(after.sides.inner_powder[0] > 600.0 && after.sides.molten[0] == 1400.0);
