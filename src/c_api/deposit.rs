@@ -66,20 +66,14 @@ impl nw_deposit {
     }
 
     pub(super) fn with(self, deposit: &Deposit) -> Self {
-        let Deposit { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind } = *deposit;
+        let Deposit { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind } =
+            *deposit;
         Self { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind, ..self }
     }
 
     /// Refuses overflowed sums, so that every other call accepts what this one writes.
     pub(super) fn sound(self) -> Result<Self, nw_status> {
-        let sizes = are_sizes(&[
-            self.molten,
-            self.powder,
-            self.solid,
-            self.cover,
-            self.closed,
-            self.frozen,
-        ]);
+        let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover, self.closed, self.frozen]);
         let shares =
             [self.conversion, self.resuspended, self.behind].map(|share| (0.0..=1.0).contains(&share));
         if sizes && shares == [true; 3] { Ok(self) } else { Err(NW_BAD_STATE) }

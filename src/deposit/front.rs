@@ -206,8 +206,7 @@ impl ThermalLayers {
         let [from_gas, to_coolant] = self.fluxes_at(&masses, front)?;
         let from_gas = from_gas * time;
         // Without a resistance the coolant gives or takes all at once.
-        let to_coolant =
-            if to_coolant.is_finite() { to_coolant * time } else { from_gas - heat(melted) };
+        let to_coolant = if to_coolant.is_finite() { to_coolant * time } else { from_gas - heat(melted) };
         self.rest(FrontStep { masses, from_gas, to_coolant, melted }, duration - time)
     }
 
@@ -239,14 +238,15 @@ fn melt(masses: &Layers<f64>, melted: f64) -> Layers<f64> {
 
 /// The place between 0 and `end` where a function changes its sign, by halving: a front next to nothing
 /// is found as well as any other.
-fn root(
-    excess: impl Fn(f64) -> Result<f64, ConductionError>,
-    end: f64,
-) -> Result<f64, ConductionError> {
+fn root(excess: impl Fn(f64) -> Result<f64, ConductionError>, end: f64) -> Result<f64, ConductionError> {
     let (mut near, mut far) = (0.0, end);
     for _ in 0..MOST_HALVINGS {
         let middle = 0.5 * (near + far);
-        if excess(middle)? * end.signum() > 0.0 { near = middle } else { far = middle }
+        if excess(middle)? * end.signum() > 0.0 {
+            near = middle
+        } else {
+            far = middle
+        }
         if (far - near).abs() <= FOUND * far.abs() {
             break;
         }
@@ -282,8 +282,7 @@ mod tests {
         powder_melts_at: 1400.0,
         heat_of_fusion: 3e5,
     };
-    const COLD: HotSide =
-        HotSide { gas_temperature: 900.0, emissivity: 0.8, irradiation: 3e4, ..FURNACE };
+    const COLD: HotSide = HotSide { gas_temperature: 900.0, emissivity: 0.8, irradiation: 3e4, ..FURNACE };
 
     fn slag(frozen: f64, molten: f64) -> Layers<f64> {
         Layers { frozen, molten, ..Layers::default() }
@@ -362,7 +361,11 @@ mod tests {
             assert!(expected[0].abs() > 0.5, "{expected:?}");
             let error = |steps: u32| {
                 let (masses, found) = stepped(hot, start, time, steps);
-                assert_relative_eq!(masses.frozen + masses.molten, start.frozen + start.molten, epsilon = 1e-12);
+                assert_relative_eq!(
+                    masses.frozen + masses.molten,
+                    start.frozen + start.molten,
+                    epsilon = 1e-12
+                );
                 (0..3).map(|i| (found[i] / expected[i] - 1.0).abs()).fold(0.0, f64::max)
             };
             let [coarse, fine] = [error(50), error(500)];

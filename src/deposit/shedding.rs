@@ -70,7 +70,8 @@ impl Process for Strength {
 
     fn describe(&self) -> String {
         let Self { tensile, shear, spread, sintered } = self;
-        let necks = if *sintered > 0.0 { format!(", {sintered} Pa more by full necks") } else { String::new() };
+        let necks =
+            if *sintered > 0.0 { format!(", {sintered} Pa more by full necks") } else { String::new() };
         format!(", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}{necks}")
     }
 }

@@ -2,8 +2,8 @@
 
 use super::Model;
 use super::wall::Wall;
-use crate::capture::{Stickiness, lowest};
 use super::wall_heat::WallHeatError;
+use crate::capture::{Stickiness, lowest};
 use crate::deposit::process::{DepositHeat, PowderMaterial, Step};
 use crate::deposit::{
     CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, layers, wetting,
@@ -215,9 +215,8 @@ impl Model {
     /// Temperature [K] from which powder with a carbon conversion [1] melts; infinite for powder that
     /// does not.
     pub(super) fn powder_melts_at(&self, conversion: f64) -> f64 {
-        let same = |from: &f64| {
-            self.is_liquid(&Impact { wall_temperature: *from, ..Impact::default() }, conversion)
-        };
+        let same =
+            |from: &f64| self.is_liquid(&Impact { wall_temperature: *from, ..Impact::default() }, conversion);
         self.liquid_from.filter(same).or_else(|| self.lowest_liquid(conversion)).unwrap_or(f64::INFINITY)
     }
 
@@ -248,8 +247,7 @@ impl Model {
         let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
             (Some(cooling), _) if deposit.mass() > 0.0 => {
-                let (thermal, flow, _) =
-                    self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
+                let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
                 DepositHeat::Cooled { flow, front: thermal.after(&deposit.layers(), duration)? }
             }
             (None, Some(temperature)) => DepositHeat::Isothermal {
@@ -482,6 +480,93 @@ model = "droplet"
         assert_relative_eq!(powder.cover, 1.5);
         assert!(given("coverage = 1").cover.is_finite());
         assert!(model().initial_deposit(9, 0.5).is_err() && model().initial_deposit(0, 1.0).is_err());
+    }
+
+    /// Steel that is known up to 873 K, under ash whose surface has 1000 K: steel is met at its own 633 K.
+    #[test]
+    fn the_wall_is_met_at_its_own_temperature() {
+        let text = ASH.replace("\"refractory\"\n[walls.slag]", "\"stainless-steel\"\n[walls.slag]");
+        let model = Model::from_toml("m", &text).unwrap();
+        let hot = Impact { particle_temperature: 1000.0, ..at(1000.0) };
+        let under = Impact { temperature_under: 633.0, ..hot };
+        assert!(model.check(0, &hot).is_err() && model.resolve(0, &hot, ImpactRng::default()).is_err());
+        assert!(model.check(0, &under).is_ok() && model.resolve(0, &under, ImpactRng::default()).is_ok());
+        let contact = |impact: &Impact| {
+            let wall = &model.walls[0];
+            wall.contact(&model.particle, impact, crate::model::WallPlace::Bare, None).unwrap()
+        };
+        let at_633 = contact(&Impact { wall_temperature: 633.0, ..hot });
+        assert_eq!(contact(&under), at_633);
+    }
+
+    /// On a share of 0.39 the layer is thicker than its mean over the wall: e_n of 0.4 (1/4 + 3/4
+    /// exp(-h/(c t))) by hand.
+    #[test]
+    fn powder_is_as_thick_as_it_lies() {
+        let text = ASH
+            .replace("refractory\"\n[walls.slag]", "refractory\"\npowder = \"fly-ash\"\n[walls.slag]")
+            + "[[effects]]\nkind = \"powder-layer\"\nthickness = 1e-4\nresidual = 0.25\n";
+        let model = Model::from_toml("m", &text).unwrap();
+        let dry = Impact { conversion: 0.0, coverage: 0.39, layer_thickness: 5e-5, ..at(900.0) };
+        let covered = model.resolve_place_with(0, &dry, |_| 0.999).unwrap();
+        let expected = 0.4 * (0.25 + 0.75 * (-0.5_f64 / 0.39).exp());
+        assert_relative_eq!(covered.normal_restitution, expected, max_relative = 1e-12);
+    }
+
+    /// What lies still has no energy: salt of 1e23 Pa s is solid, at rest and under fast impacts, and so
+    /// is what lands on it. By the flow point of 1e4 Pa s, B/ln(1e4/A) with the constants below.
+    #[test]
+    fn no_speed_melts_a_deposit() {
+        let text = ASH
+            .replace("model = \"viscosity\"", "model = \"kinetic-energy\"")
+            .replace("reference_viscosity = 25\n", "")
+            .replace("\"fly-ash\"", "\"salt\"")
+            + "[materials.salt]\ndensity = 2000\nyoungs_modulus = 2e10\npoisson_ratio = 0.2\n\
+               yield_strength = 1e8\nsurface_energy = 0.1\n\
+               viscosity = { arrhenius = [1e-10, 40000], valid = [300, 3000] }\n";
+        let model = Model::from_toml("m", &text).unwrap();
+        let melts_at = 40000.0 / 1e14_f64.ln();
+        assert_relative_eq!(model.liquid_from.unwrap(), melts_at, max_relative = 1e-9);
+        for (wall_temperature, molten) in [(530.0, false), (0.99 * melts_at, false), (1.01 * melts_at, true)]
+        {
+            for normal_speed in [0.0, 5.0, 100.0] {
+                let impact = Impact { normal_speed, ..at(wall_temperature) };
+                let sum = model.add_captured(0, &impact, 1.0, 2000.0, DepositSource::default()).unwrap();
+                assert_eq!(sum.molten > 0.0, molten, "{wall_temperature} K at {normal_speed} m/s");
+            }
+        }
+    }
+
+    /// Frozen slag that covers the wall is what an impact meets; where it is liquid, the wall under it.
+    #[test]
+    fn frozen_slag_is_a_partner_of_its_own() {
+        let text = ASH.replace("slag = \"coal-slag\"\n", "");
+        let model = Model::from_toml("m", &text).unwrap();
+        let limit = model.liquid_from.unwrap();
+        let met = |melt_thickness, wall_temperature| {
+            let impact = Impact { melt_thickness, ..at(wall_temperature) };
+            model.frozen_slag(&model.walls[0], &impact).map(Material::name)
+        };
+        assert_eq!(met(1e-3, limit - 1.0), Some("fly-ash"));
+        assert_eq!([met(1e-3, limit + 1.0), met(1e-7, limit - 1.0), met(0.0, limit - 1.0)], [None; 3]);
+    }
+
+    #[test]
+    fn what_lands_brings_its_heat() {
+        let text = ASH.replace("\"fly-ash\"", "\"ash\"")
+            + "[materials.ash]\ndensity = 2000\nyoungs_modulus = 2e10\npoisson_ratio = 0.2\n\
+               yield_strength = 1e8\nsurface_energy = 0.1\nviscosity = 10\n\
+               critical_viscosity_temperature = 1400\nheat_capacity = 1000\nheat_of_fusion = 2e5\n";
+        let model = Model::from_toml("m", &text).unwrap();
+        let brought = |particle_temperature, wall_temperature, capacity| {
+            let impact = Impact { particle_temperature, ..at(wall_temperature) };
+            model.heat_brought(&impact, capacity).unwrap()
+        };
+        assert_eq!(brought(1600.0, 1500.0, None), 1e5);
+        assert_eq!(brought(1600.0, 1300.0, None), 3e5 + 2e5);
+        assert_eq!(brought(1300.0, 1500.0, Some(1200.0)), -1200.0 * 200.0 - 2e5);
+        assert_eq!(brought(1300.0, 1200.0, None), 1e5);
+        assert_eq!(Model::from_toml("m", WAX).unwrap().heat_brought(&at(300.0), None), None);
     }
 
     #[test]

@@ -136,14 +136,13 @@ impl Model {
                 resistance_per_mass: self.resistances_per_mass(of, deposit, voidage, cooling, means)?,
                 slag_melts_at,
                 powder_melts_at,
-                heat_of_fusion: melted
-                    .heat_of_fusion_near(slag_melts_at.unwrap_or(start))
-                    .unwrap_or(0.0),
+                heat_of_fusion: melted.heat_of_fusion_near(slag_melts_at.unwrap_or(start)).unwrap_or(0.0),
             };
             let flow = thermal.flow(&masses)?;
             let found = flow.sides.outwards().map(|[cold, hot]| 0.5 * (cold + hot));
             let changes = means.iter().zip(found).zip(masses.outwards());
-            let changes = changes.filter(|(_, mass)| *mass > 0.0).map(|((mean, found), _)| (found - mean).abs());
+            let changes =
+                changes.filter(|(_, mass)| *mass > 0.0).map(|((mean, found), _)| (found - mean).abs());
             let disagreement = changes.fold(0.0, f64::max);
             round += 1;
             if disagreement <= AGREED || round == MOST_ROUNDS {

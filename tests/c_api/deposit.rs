@@ -344,10 +344,7 @@ fn heat(
     Err(status)
 }
 
-fn surroundings_in_rust(
-    around: &nw_deposit_surroundings,
-    cooling: Option<&nw_wall_cooling>,
-) -> Surroundings {
+fn surroundings_in_rust(around: &nw_deposit_surroundings, cooling: Option<&nw_wall_cooling>) -> Surroundings {
     let nw_deposit_surroundings { voidage, wall_temperature, .. } = *around;
     let nw_deposit_surroundings { gas_density: density, kinematic_viscosity, .. } = *around;
     let nw_deposit_surroundings { gravity_outward, gravity_along, draw, .. } = *around;
@@ -445,8 +442,7 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
 
         let duration = 10_f64.powf(uniform(13, 0.0, 6.0));
         let around = nw_deposit_surroundings { voidage, ..Default::default() };
-        let (aged, losses) =
-            advance_cooled(&calls, model, &deposit, &around, &cooling, duration).unwrap();
+        let (aged, losses) = advance_cooled(&calls, model, &deposit, &around, &cooling, duration).unwrap();
         let surroundings = surroundings_in_rust(&around, Some(&cooling));
         let expected = rust.advance(wall, &deposit_in_rust(&deposit), &surroundings, duration);
         assert_eq!((deposit_in_rust(&aged), aged.wall), (expected.unwrap().0, deposit.wall));
@@ -459,7 +455,10 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
         sintered += usize::from(aged.powder > 0.0 && aged.closed / aged.solid > before);
     }
     calls.free(model);
-    assert!(melted > 20 && frozen > 20 && sintered > 20, "{melted} melted, {frozen} froze, {sintered} sintered");
+    assert!(
+        melted > 20 && frozen > 20 && sintered > 20,
+        "{melted} melted, {frozen} froze, {sintered} sintered"
+    );
 }
 
 /// Without radiation the resistances are in series: 1/2000, 1e-3, the deposit and 1/100.
@@ -517,8 +516,7 @@ fn a_deposit_ages() {
     };
     let age = |coolant_temperature, gas_temperature, gas_coefficient, duration| {
         let around = nw_deposit_surroundings { voidage: 0.4, ..Default::default() };
-        let cooling =
-            nw_wall_cooling { coolant_temperature, gas_temperature, gas_coefficient, ..by_hand() };
+        let cooling = nw_wall_cooling { coolant_temperature, gas_temperature, gas_coefficient, ..by_hand() };
         advance_cooled(&calls, model, &deposit, &around, &cooling, duration).map(|(after, _)| after)
     };
     let unchanged = age(900.0, 1100.0, 100.0, 0.0).unwrap();
@@ -652,7 +650,8 @@ fn the_gas_carries_away_as_in_the_rust_library() {
             };
             let duration = if draw.uniform(50) < 0.05 { 0.0 } else { power(60 + step, -3.0, 5.0) };
             let before = deposit_in_rust(&deposit);
-            let expected = rust.advance(wall as usize, &before, &surroundings_in_rust(&around, None), duration);
+            let expected =
+                rust.advance(wall as usize, &before, &surroundings_in_rust(&around, None), duration);
             let (after, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
             assert_eq!((deposit_in_rust(&after), losses), expected.unwrap());
             assert_eq!(losses, [0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
@@ -854,10 +853,7 @@ fn a_step_that_cannot_be_is_refused_and_nothing_written() {
         (nw_deposit { struct_size: 48, ..deposit }, NW_STRUCT_SIZE),
         (nw_deposit { struct_size: 0, ..deposit }, NW_STRUCT_SIZE),
         // What melts makes more than there can be.
-        (
-            nw_deposit { wall: 1, molten: f64::MAX, powder: f64::MAX, behind: 1.0, ..deposit },
-            NW_BAD_STATE,
-        ),
+        (nw_deposit { wall: 1, molten: f64::MAX, powder: f64::MAX, behind: 1.0, ..deposit }, NW_BAD_STATE),
     ] {
         assert_eq!(step(&bad, &around, 60.0), Err(status), "{bad:?}");
     }

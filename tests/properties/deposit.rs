@@ -35,33 +35,48 @@ struct Event {
 
 fn cooling() -> impl Strategy<Value = WallCooling> {
     let coolant = (300.0..1500.0, prop_oneof![Just(f64::INFINITY), decades(1.0, 1e4), Just(0.0)]);
-    let gas = (300.0..2500.0, decades(1.0, 1e3), 0.0..=1.0, 300.0..2500.0, prop_oneof![Just(0.0), decades(1e-6, 1e-1)]);
-    (coolant, gas).prop_map(|((temperature, coefficient), (gas_temperature, gas, emissivity, radiation, wall))| {
-        let radiation: f64 = radiation;
-        WallCooling {
-            coolant: Coolant { temperature, coefficient },
-            wall_resistance: wall,
-            hot: HotSide {
-                gas_temperature,
-                coefficient: gas,
-                emissivity,
-                irradiation: STEFAN_BOLTZMANN * radiation.powi(4),
-                particle_flux: 0.0,
-            },
-            void_gas: VoidGas { conductivity: 0.06, temperature: 800.0, exponent: VoidGas::AIR },
-        }
-    })
+    let gas = (
+        300.0..2500.0,
+        decades(1.0, 1e3),
+        0.0..=1.0,
+        300.0..2500.0,
+        prop_oneof![Just(0.0), decades(1e-6, 1e-1)],
+    );
+    (coolant, gas).prop_map(
+        |((temperature, coefficient), (gas_temperature, gas, emissivity, radiation, wall))| {
+            let radiation: f64 = radiation;
+            WallCooling {
+                coolant: Coolant { temperature, coefficient },
+                wall_resistance: wall,
+                hot: HotSide {
+                    gas_temperature,
+                    coefficient: gas,
+                    emissivity,
+                    irradiation: STEFAN_BOLTZMANN * radiation.powi(4),
+                    particle_flux: 0.0,
+                },
+                void_gas: VoidGas { conductivity: 0.06, temperature: 800.0, exponent: VoidGas::AIR },
+            }
+        },
+    )
 }
 
 fn particles() -> impl Strategy<Value = CapturedParticles> {
     (decades(1e-9, 10.0), 800.0..3000.0, decades(1e-6, 1e-3), any::<bool>()).prop_map(
-        |(mass, density, diameter, molten)| CapturedParticles { mass, density, diameter, conversion: 1.0, molten },
+        |(mass, density, diameter, molten)| CapturedParticles {
+            mass,
+            density,
+            diameter,
+            conversion: 1.0,
+            molten,
+        },
     )
 }
 
 fn events() -> impl Strategy<Value = Vec<Event>> {
-    let event = (prop::collection::vec(particles(), 0..3), cooling(), prop_oneof![Just(0.0), decades(1e-4, 1e6)])
-        .prop_map(|(arrivals, cooling, duration)| Event { arrivals, cooling, duration });
+    let event =
+        (prop::collection::vec(particles(), 0..3), cooling(), prop_oneof![Just(0.0), decades(1e-4, 1e6)])
+            .prop_map(|(arrivals, cooling, duration)| Event { arrivals, cooling, duration });
     prop::collection::vec(event, 1..20)
 }
 

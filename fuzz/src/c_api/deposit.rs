@@ -442,17 +442,13 @@ fn share(bytes: &mut Bytes<'_>) -> f64 {
 }
 
 fn sound(deposit: &nw_deposit) {
-    let sizes = [
-        deposit.molten,
-        deposit.frozen,
-        deposit.powder,
-        deposit.solid,
-        deposit.cover,
-        deposit.closed,
-    ];
+    let sizes =
+        [deposit.molten, deposit.frozen, deposit.powder, deposit.solid, deposit.cover, deposit.closed];
     assert!(sizes.iter().all(|size| size.is_finite() && *size >= 0.0), "{deposit:?}");
     assert!(
-        [deposit.conversion, deposit.resuspended, deposit.behind].iter().all(|share| (0.0..=1.0).contains(share)),
+        [deposit.conversion, deposit.resuspended, deposit.behind]
+            .iter()
+            .all(|share| (0.0..=1.0).contains(share)),
         "{deposit:?}"
     );
 }

@@ -124,9 +124,8 @@ impl Gas {
         let [low, high] = property.known_range().unwrap_or([temperature; 2]);
         let other = coldest.max(low).min(high);
         let exponent = property.at(other).ok().filter(|_| (other / temperature).ln().abs() > 0.01);
-        let exponent = exponent.map_or(VoidGas::AIR, |at_other| {
-            (at_other / conductivity).ln() / (other / temperature).ln()
-        });
+        let exponent = exponent
+            .map_or(VoidGas::AIR, |at_other| (at_other / conductivity).ln() / (other / temperature).ln());
         VoidGas { conductivity, temperature, exponent }
     }
 
