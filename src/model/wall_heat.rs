@@ -129,6 +129,10 @@ impl Model {
         let mut means = [start; 4];
         let mut round = 0;
         loop {
+            if masses.inner_powder == 0.0 {
+                // What melt will enclose of the outer powder.
+                means[0] = means[3];
+            }
             let thermal = ThermalLayers {
                 coolant: cooling.coolant,
                 wall_resistance: cooling.wall_resistance,

