@@ -102,7 +102,7 @@ pub unsafe extern "C" fn nw_deposit_losses_init(losses: *mut nw_deposit_losses) 
 /// that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 /// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
 /// receives the mass that each process took. Add the particles captured in the step first, with
-/// `nw_deposit_add`. `cooling` is null for a wall that is not cooled; its `gas_coefficient` must be
+/// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
 /// finite, since a surface that is held at a temperature could give any heat.
 ///
 /// # Safety
@@ -126,7 +126,9 @@ pub unsafe extern "C" fn nw_deposit_advance(
             None
         } else {
             // SAFETY: not null, and the caller's promise.
-            Some(unsafe { sized(cooling)? }.sound()?.to_cooling())
+            let cooling = unsafe { sized(cooling)? };
+            let is_given = cooling.coolant_temperature != 0.0 || cooling.gas_temperature != 0.0;
+            if is_given { Some(cooling.sound()?.to_cooling()) } else { None }
         };
         let (wall, given) = (before.wall as usize, before.sound()?.to_deposit());
         let surroundings = surroundings.to_surroundings(cooling);
