@@ -26,6 +26,7 @@
   X(rho_p) \
   X(conversion) \
   X(T_w) \
+  X(T_under) \
   X(roughness) \
   X(coverage) \
   X(layer_thickness) \
@@ -80,6 +81,8 @@ typedef struct nw_impact {
   double conversion;
   // Wall temperature [K], positive.
   double T_w;
+  // Temperature of the wall's own material under a deposit [K], not negative; 0 takes `T_w`.
+  double T_under;
   // Roughness of the wall [m], not negative; kept for diagnosis, used by no built-in law.
   double roughness;
   // Share of the wall that non-sticky char covers [1], 0 to 1.
@@ -148,6 +151,8 @@ typedef struct nw_impacts {
   const double *conversion;
   // Wall temperature [K], positive.
   const double *T_w;
+  // Temperature of the wall's own material under a deposit [K], not negative; 0 takes `T_w`.
+  const double *T_under;
   // Roughness of the wall [m], not negative; kept for diagnosis, used by no built-in law.
   const double *roughness;
   // Share of the wall that non-sticky char covers [1], 0 to 1.
@@ -209,8 +214,13 @@ typedef struct nw_wall_cooling {
   double irradiation;
   // Further heat flux into the surface [W/m2], of particles or the net one of a radiation model.
   double further_flux;
-  // Conductivity of the gas in the voids of the powder [W/(m K)], positive.
+  // Conductivity of the gas in the voids of the powder [W/(m K)] at `void_temperature`, positive. It
+  // changes with the powder's own temperature by the power `void_exponent`.
   double gas_conductivity;
+  // Temperature [K] for which `gas_conductivity` is given, positive.
+  double void_temperature;
+  // Exponent of the conductivity over temperature [1]; 0.8 for air and flue gas.
+  double void_exponent;
 } nw_wall_cooling;
 
 // Temperatures of a wall with a deposit.
@@ -223,12 +233,15 @@ typedef struct nw_wall_heat {
   double surface_temperature;
   // Temperature of the wall under the deposit [K].
   double wall_temperature;
-  // Temperature of the outside of the powder [K], under the melt.
-  double powder_temperature;
-  // Heat flux from the gas to the coolant [W/m2].
+  // Heat flux from the gas into the surface [W/m2].
   double heat_flux;
+  // Heat flux into the coolant [W/m2]: `heat_flux` unless slag melts or freezes.
+  double coolant_flux;
   // Thermal resistance of the deposit [m2 K/W].
   double deposit_resistance;
+  // Change of temperature [K] in the last round of the solver: above 1e-9 where conductivities and
+  // temperatures did not come to agree.
+  double disagreement;
 } nw_wall_heat;
 
 // The deposit on a piece of wall, per wall area. `nw_deposit_init` makes a bare wall.
@@ -237,9 +250,9 @@ typedef struct nw_deposit {
   uint32_t struct_size;
   // Index of the wall, from `nw_model_find_wall`.
   uint32_t wall;
-  // Molten mass [kg/m2].
+  // Mass of molten slag [kg/m2].
   double molten;
-  // Mass of powder [kg/m2].
+  // Mass of powder [kg/m2], outside of the slag and enclosed by it.
   double powder;
   // Volume of the powder's particles without the voids between them [m3/m2].
   double solid;
@@ -249,8 +262,12 @@ typedef struct nw_deposit {
   double conversion;
   // Volume of the powder's voids that sintering has closed [m3/m2].
   double closed;
-  // Share of the powder that landed and has left with the gas [1].
+  // Share of the outer powder that landed and has left with the gas [1].
   double resuspended;
+  // Mass of frozen slag [kg/m2], below the molten slag.
+  double frozen;
+  // Share of the powder that slag has enclosed [1]; it lies below the slag.
+  double behind;
 } nw_deposit;
 
 // Sum of the particles that a piece of wall captured in a step, per wall area.
@@ -268,7 +285,7 @@ typedef struct nw_deposit_source {
   double solid;
   // Projected area of the powder's particles [1].
   double cover;
-  // Projected area of the molten particles [1].
+  // Area that the molten particles cover once they have spread [1].
   double buried;
   // Mass times carbon conversion [kg/m2].
   double converted;
@@ -282,11 +299,9 @@ typedef struct nw_deposit_surroundings {
   uint32_t reserved;
   // Share of voids in fresh powder [1].
   double voidage;
-  // `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not
-  // known, and nothing melts or sinters.
+  // Temperature of a wall that is not cooled [K]: its slag is liquid or frozen by it. 0 where it is
+  // not known, and slag stays as it is.
   double wall_temperature;
-  // `powder_temperature` of `nw_deposit_heat` [K].
-  double powder_temperature;
   // Density of the gas at the wall [kg/m3]; needed where it shears the wall.
   double gas_density;
   // Its kinematic viscosity [m2/s]; needed where it shears the wall.
@@ -536,7 +551,7 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            size_t *first_bad);
 
 // Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-// K) for the gas in the voids (air at room temperature), zeros. Both temperatures must be set.
+// K) at 293.15 K with the exponent 0.8 for the gas in the voids (air), zeros. Both temperatures must be set.
 //
 // # Safety
 // `cooling` can be written.
@@ -548,7 +563,8 @@ nw_status nw_wall_cooling_init(struct nw_wall_cooling *cooling);
 // `heat` can be written.
 nw_status nw_wall_heat_init(struct nw_wall_heat *heat);
 
-// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in
+// Computes the temperatures of a wall under its deposit: steady, but for slag that melts or freezes
+// and takes heat or gives it. `voidage` is the share of voids in
 // fresh powder [1]. The surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY`
 // if a layer's material has none.
 //
@@ -582,7 +598,7 @@ nw_status nw_deposit_initial(const struct nw_model *model,
 nw_status nw_deposit_source_init(struct nw_deposit_source *source);
 
 // Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts
-// as molten if it is sticky at the temperature of the wall, as powder otherwise. The order of
+// as molten if the wall is hotter than its material is solid, as powder otherwise. The order of
 // particles affects the sums only by rounding. Sources of several threads or ranks are summed
 // field by field (`count` too) before one `nw_deposit_add`.
 //
@@ -594,15 +610,15 @@ nw_status nw_deposit_source_add(const struct nw_model *model,
                                 double density,
                                 struct nw_deposit_source *source);
 
-// Adds the source of a step to a deposit. Powder that melt buries becomes part of the melt; mass is conserved.
+// Adds the source of a step to a deposit. Powder that melt buries lies below the slag then; nothing
+// melts or freezes here, and mass is conserved.
 //
 // # Safety
 // `source` and `deposit` begin with their `struct_size`.
-nw_status nw_deposit_add(const struct nw_deposit_source *source,
-                         struct nw_deposit *deposit);
+nw_status nw_deposit_add(const struct nw_deposit_source *source, struct nw_deposit *deposit);
 
-// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage`
-// is the share of voids in the powder [1]. The wall is that of the impact.
+// Sets the `layer_thickness` and `coverage` of the powder, and the `melt_thickness` of the slag, which
+// is stiff or liquid by `T_w`, of an impact on a deposit. `voidage` is the share of voids in the powder [1]. The wall is that of the impact.
 //
 // # Safety
 // `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
@@ -698,16 +714,19 @@ nw_status nw_deposit_surroundings_init(struct nw_deposit_surroundings *surroundi
 // `losses` can be written.
 nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
 
-// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts
-// becomes melt, the rest sinters; the gas carries loose powder away (table `resuspension` of the
+// Advances a deposit by a time step of a `duration` [s]: slag and powder melt and freeze with the heat
+// that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 // wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
 // receives the mass that each process took. Add the particles captured in the step first, with
-// `nw_deposit_add`.
+// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
+// finite, since a surface that is held at a temperature could give any heat.
 //
 // # Safety
-// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`.
+// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`, and
+// so does `cooling` unless it is null.
 nw_status nw_deposit_advance(const struct nw_model *model,
                              const struct nw_deposit_surroundings *surroundings,
+                             const struct nw_wall_cooling *cooling,
                              double duration,
                              struct nw_deposit *deposit,
                              struct nw_deposit_losses *losses);

@@ -381,7 +381,13 @@ public:
     // Advances a deposit by a step of a `duration` [s] and sets what each process took from it; no exceptions.
     nw_status advance(const nw_deposit_surroundings& surroundings, double duration, nw_deposit& deposit,
                       nw_deposit_losses& losses) const noexcept {
-        return nw_deposit_advance(raw_, &surroundings, duration, &deposit, &losses);
+        return nw_deposit_advance(raw_, &surroundings, nullptr, duration, &deposit, &losses);
+    }
+
+    // As advance, on a cooled wall, whose deposit melts, freezes and sinters.
+    nw_status advance(const nw_deposit_surroundings& surroundings, const nw_wall_cooling& cooling,
+                      double duration, nw_deposit& deposit, nw_deposit_losses& losses) const noexcept {
+        return nw_deposit_advance(raw_, &surroundings, &cooling, duration, &deposit, &losses);
     }
 
     // Processes that act on a wall, one bit for each of processes(); throws for an unknown wall.

@@ -58,6 +58,7 @@ module nearwall
     real(c_double) :: rho_p
     real(c_double) :: conversion
     real(c_double) :: T_w
+    real(c_double) :: T_under
     real(c_double) :: roughness
     real(c_double) :: coverage
     real(c_double) :: layer_thickness
@@ -79,7 +80,7 @@ module nearwall
   end type nw_outcome
 
   type, bind(c) :: nw_impacts
-    integer(c_int32_t) :: struct_size = 216
+    integer(c_int32_t) :: struct_size = 224
     integer(c_int32_t) :: wall = 0
     integer(c_size_t) :: count = 0
     integer(c_int64_t) :: seed = 0
@@ -93,6 +94,7 @@ module nearwall
     type(c_ptr) :: rho_p = c_null_ptr
     type(c_ptr) :: conversion = c_null_ptr
     type(c_ptr) :: T_w = c_null_ptr
+    type(c_ptr) :: T_under = c_null_ptr
     type(c_ptr) :: roughness = c_null_ptr
     type(c_ptr) :: coverage = c_null_ptr
     type(c_ptr) :: layer_thickness = c_null_ptr
@@ -125,6 +127,8 @@ module nearwall
     real(c_double) :: irradiation
     real(c_double) :: further_flux
     real(c_double) :: gas_conductivity
+    real(c_double) :: void_temperature
+    real(c_double) :: void_exponent
   end type nw_wall_cooling
 
   type, bind(c) :: nw_wall_heat
@@ -132,9 +136,10 @@ module nearwall
     integer(c_int32_t) :: reserved
     real(c_double) :: surface_temperature
     real(c_double) :: wall_temperature
-    real(c_double) :: powder_temperature
     real(c_double) :: heat_flux
+    real(c_double) :: coolant_flux
     real(c_double) :: deposit_resistance
+    real(c_double) :: disagreement
   end type nw_wall_heat
 
   type, bind(c) :: nw_deposit
@@ -147,6 +152,8 @@ module nearwall
     real(c_double) :: conversion
     real(c_double) :: closed
     real(c_double) :: resuspended
+    real(c_double) :: frozen
+    real(c_double) :: behind
   end type nw_deposit
 
   type, bind(c) :: nw_deposit_source
@@ -165,7 +172,6 @@ module nearwall
     integer(c_int32_t) :: reserved
     real(c_double) :: voidage
     real(c_double) :: wall_temperature
-    real(c_double) :: powder_temperature
     real(c_double) :: gas_density
     real(c_double) :: kinematic_viscosity
     real(c_double) :: shear_down
@@ -484,10 +490,11 @@ module nearwall
       integer(c_int32_t) :: nw_deposit_losses_init
     end function nw_deposit_losses_init
 
-    function nw_deposit_advance(model, surroundings, duration, deposit, losses) bind(c)
+    function nw_deposit_advance(model, surroundings, cooling, duration, deposit, losses) bind(c)
       import
       type(c_ptr), value :: model
       type(nw_deposit_surroundings), intent(in) :: surroundings
+      type(nw_wall_cooling), intent(in) :: cooling
       real(c_double), value :: duration
       type(nw_deposit), intent(inout) :: deposit
       type(nw_deposit_losses), intent(inout) :: losses

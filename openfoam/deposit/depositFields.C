@@ -15,7 +15,9 @@ Foam::nearWall::depositFields::table()
     static const std::vector<faceField> rows
     ({
         {"moltenMass", areal, always, &d::molten, GREAT, "molten", "_kg_m2"},
+        {"frozenMass", areal, always, &d::frozen, GREAT, "frozen", "_kg_m2"},
         {"powderMass", areal, always, &d::powder, GREAT, "powder", "_kg_m2"},
+        {"enclosedShare", dimless, always, &d::behind, 1, nullptr, nullptr},
         {"closedVoids", dimLength, onCooledWalls, &d::closed, GREAT, nullptr, nullptr},
         {"layerThickness", dimLength, always, &d::solid, GREAT, "layer_thickness", "_m"},
         {"coverArea", dimless, always, &d::cover, GREAT, nullptr, nullptr},
@@ -32,6 +34,10 @@ Foam::nearWall::depositFields::table()
         {
             "wallHeatFlux", dimPower/dimArea, onCooledWalls, nullptr, GREAT,
             "heat_flux", "_W_m2"
+        },
+        {
+            "underTemperature", dimTemperature, onCooledWalls, nullptr, GREAT,
+            nullptr, nullptr
         }
     });
     return rows;
@@ -147,6 +153,12 @@ void Foam::nearWall::depositFields::set
 void Foam::nearWall::depositFields::setCoverage(const label patchi)
 {
     const scalarField& area = on(cover, patchi);
+    const scalarField slag(on(molten, patchi) + on(frozen, patchi));
+    const scalarField& below = on(enclosed, patchi);
     scalarField& covered = on(coverage, patchi);
-    forAll(area, facei) covered[facei] = -std::expm1(-area[facei]);
+    forAll(area, facei)
+    {
+        const scalar outside = slag[facei] > 0 ? 1 - below[facei] : 1;
+        covered[facei] = -std::expm1(-area[facei]*outside);
+    }
 }

@@ -72,7 +72,10 @@ struct Foam::nearWall::wallBalance::faceSums
         sum[0] = Foam::sum(area);
         sum[1] = Foam::sum
         (
-            (all.on(fields::molten, patchi) + all.on(fields::powder, patchi))
+            (
+                all.on(fields::molten, patchi) + all.on(fields::frozen, patchi)
+              + all.on(fields::powder, patchi)
+            )
            *area*all.on(fields::conversion, patchi)
         );
         for (label f = 0; f < fields::nFields; ++f)
@@ -107,7 +110,9 @@ struct Foam::nearWall::wallBalance::faceSums
 
     scalar deposited(const label i) const
     {
-        return integral(i, fields::molten) + integral(i, fields::powder);
+        return
+            integral(i, fields::molten) + integral(i, fields::frozen)
+          + integral(i, fields::powder);
     }
 
     //- Append mean and largest value; the latter is known on the master, which
@@ -153,8 +158,9 @@ Foam::nearWall::wallBalance::wallBalance
         {
             const scalarField& area = mesh.magSf().boundaryField()[patchi];
             const scalarField& molten = fields.on(depositFields::molten, patchi);
+            const scalarField& frozen = fields.on(depositFields::frozen, patchi);
             const scalarField& powder = fields.on(depositFields::powder, patchi);
-            add(i, initial, sum((molten + powder)*area));
+            add(i, initial, sum((molten + frozen + powder)*area));
         }
         tables_.emplace_back(folder/(name + ".wall.dat"));
     }
@@ -210,6 +216,8 @@ void Foam::nearWall::wallBalance::reportPatch
         << faces.integral(i, depositFields::molten) << " kg, powder "
         << faces.integral(i, depositFields::powder) << " kg, coverage "
         << faces.mean(i, depositFields::coverage);
+    const scalar frozen = faces.integral(i, depositFields::frozen);
+    if (frozen > 0) os << ", frozen " << frozen << " kg";
     if (film) os << ", drained " << totals[drained] << " kg";
     label t = nTerms;
     for (const std::string& loss : losses_)
@@ -244,10 +252,14 @@ Foam::nearWall::tableRow Foam::nearWall::wallBalance::row
     cells.add("time_s", time);
     for (label t = 0; t < nTerms; ++t) cells.add(names_[t], totals[t]);
     cells.add("molten_kg", faces.integral(i, fields::molten));
+    cells.add("frozen_kg", faces.integral(i, fields::frozen));
     cells.add("powder_kg", faces.integral(i, fields::powder));
     cells.add("residual", all > 0 ? rest/all : 0);
     const fields::field ofDeposit[] =
-        {fields::molten, fields::powder, fields::layer, fields::coverage};
+    {
+        fields::molten, fields::frozen, fields::powder, fields::layer,
+        fields::coverage
+    };
     for (const fields::field f : ofDeposit) faces.addTo(cells, i, f);
     cells.add("conversion_mean", deposited > 0 ? faces.converted(i)/deposited : 0);
     faces.addTo(cells, i, fields::temperature);

@@ -128,10 +128,12 @@ void Foam::nearWall::wallFilm::exchange
     if (change == 0 && convertedChange == 0) return;
 
     const scalar area = mesh_.magSf().boundaryField()[patchi][facei];
-    const scalar powder = fields.on(depositFields::powder, patchi)[facei];
-    const scalar before = molten + powder;
+    const scalar rest =
+        fields.on(depositFields::frozen, patchi)[facei]
+      + fields.on(depositFields::powder, patchi)[facei];
+    const scalar before = molten + rest;
     molten = max(scalar(0), molten + change/area);
-    const scalar after = molten + powder;
+    const scalar after = molten + rest;
     if (after > 0)
     {
         const scalar sum = before*conversion + convertedChange/area;

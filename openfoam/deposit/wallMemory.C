@@ -307,7 +307,7 @@ void Foam::nearWall::wallMemory::checkCooled()
         {
             resistance_[patchi].setSize(patchesOf(mesh_)[patchi].size(), -1);
             nw_deposit all(nearwall::make_deposit(rules_[patchi].wall));
-            all.molten = all.powder = all.cover = 1;
+            all.molten = all.frozen = all.powder = all.cover = 1;
             all.solid = 1e-3;
             nw_wall_cooling cooling(nearwall::make_wall_cooling());
             cooling.coolant_temperature = cooling.gas_temperature = 1000;
@@ -378,6 +378,10 @@ void Foam::nearWall::wallMemory::applyDeposit(impactEvent& e) const
     // The status needs no check: it refuses only a temperature for which the
     // impact will be refused as well
     model_->apply_deposit(deposit(e.patch, e.face), voidage_, e.impact);
+    if (resistance_[e.patch].size())
+    {
+        e.impact.T_under = fields_.on(depositFields::under, e.patch)[e.face];
+    }
 }
 
 
@@ -458,6 +462,7 @@ nw_wall_heat Foam::nearWall::wallMemory::recordHeat
 {
     const nw_wall_heat found(heatUnder(d, patchi, cooling));
     fields_.on(depositFields::heatFlux, patchi)[facei] = found.heat_flux;
+    fields_.on(depositFields::under, patchi)[facei] = found.wall_temperature;
 
     scalar& resistance = resistance_[patchi][facei];
     const scalar rise =
@@ -494,6 +499,11 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
     (
         cooling ? cooling->voidConductivity() : tmp<scalarField>(new scalarField)
     );
+    const List<nw_wall_cooling> heating
+    (
+        cooling ? cooling->heating(voids) : List<nw_wall_cooling>()
+    );
+    const scalarField& wallTemperature = fields_.on(depositFields::temperature, patchi);
     const patchSurroundings surroundings(*this, patchi);
 
     scalar arrived = 0;
@@ -505,18 +515,24 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
         const scalar captured = addCaptured(d, patchi, facei);
         arrived += captured*area[facei];
 
-        nw_wall_heat heat(nearwall::make_wall_heat());
         if (cooling)
         {
-            heat =
-                recordHeat(d, patchi, facei, cooling->cooling(facei, voids[facei]));
+            recordHeat(d, patchi, facei, cooling->cooling(facei, voids[facei]));
         }
-        if (d.molten + d.powder > 0 && (cooling || surroundings.losesMass()))
+        const scalar slag = d.molten + d.frozen;
+        if
+        (
+            slag > 0
+         || (d.powder > 0 && (cooling || surroundings.losesMass()))
+        )
         {
             nw_deposit_surroundings around(surroundings.at(facei));
-            around.wall_temperature = heat.wall_temperature;
-            around.powder_temperature = heat.powder_temperature;
-            require(model_->advance(around, duration, d, here), patchi, "advance");
+            around.wall_temperature = wallTemperature[facei];
+            const nw_status status =
+                cooling
+              ? model_->advance(around, heating[facei], duration, d, here)
+              : model_->advance(around, duration, d, here);
+            require(status, patchi, "advance");
             for (label k = 0; k < NW_PROCESSES; ++k)
             {
                 lost.mass[k] += here.mass[k]*area[facei];

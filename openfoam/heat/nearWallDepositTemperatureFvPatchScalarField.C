@@ -259,7 +259,41 @@ nw_wall_cooling Foam::nearWallDepositTemperatureFvPatchScalarField::cooling
     c.gas_temperature = (*this)[facei];
     c.gas_coefficient = std::numeric_limits<double>::infinity();
     c.gas_conductivity = conductivity;
+    c.void_temperature = (*this)[facei];
     return c;
+}
+
+
+Foam::List<nw_wall_cooling>
+Foam::nearWallDepositTemperatureFvPatchScalarField::heating
+(
+    const scalarField& conductivity
+) const
+{
+    const scalarField conducted
+    (
+        effectiveConductivity()*patch().deltaCoeffs()
+    );
+    const scalarField gas(patchInternalField());
+    const scalar sigma = constant::physicoChemical::sigma.value();
+    List<nw_wall_cooling> found(size());
+    forAll(found, i)
+    {
+        nw_wall_cooling& c = found[i];
+        c = cooling(i, conductivity[i]);
+        c.gas_temperature = gas[i];
+        c.gas_coefficient = conducted[i];
+        c.emissivity = given_.emissivity;
+        c.irradiation = sigma*pow4(given_.surroundingsTemperature);
+    }
+    if (given_.qr != "none")
+    {
+        const scalarField& qr =
+            db().lookupObject<volScalarField>(given_.qr)
+           .boundaryField()[patch().index()];
+        forAll(found, i) found[i].further_flux = qr[i];
+    }
+    return found;
 }
 
 

@@ -86,6 +86,8 @@ impl nw_impacts {
         let known = |ranges: TemperatureRanges, index| unsafe {
             within(get(self.T_p, index, usual.particle_temperature), ranges.particle)
                 & within(get(self.T_w, index, usual.wall_temperature), ranges.wall)
+                & (get(self.T_under, index, 0.0) == 0.0)
+                & (get(self.melt_thickness, index, 0.0) == 0.0)
         };
         let decided = if self.walls.is_null() {
             let all_known = |ranges| {

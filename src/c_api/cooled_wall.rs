@@ -4,6 +4,7 @@
 use super::boundary::{guarded_status, initialise, reader, sized};
 use super::deposit::nw_deposit;
 use super::types::{NW_BAD_STATE, nw_model, nw_status, zero_by_default};
+use crate::deposit::VoidGas;
 use crate::deposit::conduction::{Coolant, HotSide};
 use crate::model::{WallCooling, WallHeat};
 
@@ -33,8 +34,13 @@ pub struct nw_wall_cooling {
     pub irradiation: f64,
     /// Further heat flux into the surface [W/m2], of particles or the net one of a radiation model.
     pub further_flux: f64,
-    /// Conductivity of the gas in the voids of the powder [W/(m K)], positive.
+    /// Conductivity of the gas in the voids of the powder [W/(m K)] at `void_temperature`, positive. It
+    /// changes with the powder's own temperature by the power `void_exponent`.
     pub gas_conductivity: f64,
+    /// Temperature [K] for which `gas_conductivity` is given, positive.
+    pub void_temperature: f64,
+    /// Exponent of the conductivity over temperature [1]; 0.8 for air and flue gas.
+    pub void_exponent: f64,
 }
 
 /// Temperatures of a wall with a deposit.
@@ -49,12 +55,15 @@ pub struct nw_wall_heat {
     pub surface_temperature: f64,
     /// Temperature of the wall under the deposit [K].
     pub wall_temperature: f64,
-    /// Temperature of the outside of the powder [K], under the melt.
-    pub powder_temperature: f64,
-    /// Heat flux from the gas to the coolant [W/m2].
+    /// Heat flux from the gas into the surface [W/m2].
     pub heat_flux: f64,
+    /// Heat flux into the coolant [W/m2]: `heat_flux` unless slag melts or freezes.
+    pub coolant_flux: f64,
     /// Thermal resistance of the deposit [m2 K/W].
     pub deposit_resistance: f64,
+    /// Change of temperature [K] in the last round of the solver: above 1e-9 where conductivities and
+    /// temperatures did not come to agree.
+    pub disagreement: f64,
 }
 
 zero_by_default!(nw_wall_heat);
@@ -74,12 +83,22 @@ impl Default for nw_wall_cooling {
             irradiation: 0.0,
             further_flux: 0.0,
             gas_conductivity: 0.026,
+            void_temperature: 293.15,
+            void_exponent: VoidGas::AIR,
         }
     }
 }
 
 impl nw_wall_cooling {
-    fn to_cooling(self) -> WallCooling {
+    /// Refuses temperatures and a gas that are no numbers, before the model takes a property there.
+    pub(super) fn sound(self) -> Result<Self, nw_status> {
+        let given =
+            [self.coolant_temperature, self.gas_temperature, self.gas_conductivity, self.void_temperature];
+        let sound = given.into_iter().all(is_positive) && self.void_exponent.is_finite();
+        if sound { Ok(self) } else { Err(NW_BAD_STATE) }
+    }
+
+    pub(super) fn to_cooling(self) -> WallCooling {
         WallCooling {
             coolant: Coolant { temperature: self.coolant_temperature, coefficient: self.coolant_coefficient },
             wall_resistance: self.wall_resistance,
@@ -90,21 +109,26 @@ impl nw_wall_cooling {
                 irradiation: self.irradiation,
                 particle_flux: self.further_flux,
             },
-            gas_conductivity: self.gas_conductivity,
+            void_gas: VoidGas {
+                conductivity: self.gas_conductivity,
+                temperature: self.void_temperature,
+                exponent: self.void_exponent,
+            },
         }
     }
 }
 
 impl nw_wall_heat {
     fn with(self, heat: &WallHeat) -> Self {
-        let WallHeat { surface_temperature, wall_temperature, powder_temperature, .. } = *heat;
-        let WallHeat { heat_flux, deposit_resistance, .. } = *heat;
+        let WallHeat { surface_temperature, wall_temperature, heat_flux, coolant_flux, .. } = *heat;
+        let WallHeat { deposit_resistance, disagreement, .. } = *heat;
         Self {
             surface_temperature,
             wall_temperature,
-            powder_temperature,
             heat_flux,
+            coolant_flux,
             deposit_resistance,
+            disagreement,
             ..self
         }
     }
@@ -115,7 +139,7 @@ fn is_positive(number: f64) -> bool {
 }
 
 /// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-/// K) for the gas in the voids (air at room temperature), zeros. Both temperatures must be set.
+/// K) at 293.15 K with the exponent 0.8 for the gas in the voids (air), zeros. Both temperatures must be set.
 ///
 /// # Safety
 /// `cooling` can be written.
@@ -135,7 +159,8 @@ pub unsafe extern "C" fn nw_wall_heat_init(heat: *mut nw_wall_heat) -> nw_status
     unsafe { initialise(heat) }
 }
 
-/// Computes the steady temperatures of a wall under its deposit. `voidage` is the share of voids in
+/// Computes the temperatures of a wall under its deposit: steady, but for slag that melts or freezes
+/// and takes heat or gives it. `voidage` is the share of voids in
 /// fresh powder [1]. The surface temperature is the `T_w` of the next impact. `NW_NO_CONDUCTIVITY`
 /// if a layer's material has none.
 ///
@@ -153,17 +178,13 @@ pub unsafe extern "C" fn nw_deposit_heat(
         // SAFETY: the caller's promises.
         let (model, deposit, cooling, before) =
             unsafe { (reader(model)?, sized(deposit)?, sized(cooling)?, sized(heat.cast_const())?) };
-        let cooling = cooling.to_cooling();
-        // Before the model takes a property at a temperature that is no number.
-        let given = [cooling.coolant.temperature, cooling.hot.gas_temperature, cooling.gas_conductivity];
-        if !given.into_iter().all(is_positive) {
-            return Err(NW_BAD_STATE);
-        }
+        let cooling = cooling.sound()?.to_cooling();
         let (wall, deposit) = (deposit.wall as usize, deposit.sound()?.to_deposit());
         let after = before.with(&model.inner().wall_heat(wall, &deposit, voidage, &cooling)?);
         // As `nw_deposit_advance` accepts them: an infinite resistance leaves no temperature below it.
-        let found = [after.surface_temperature, after.wall_temperature, after.powder_temperature];
-        let others = after.heat_flux.is_finite() && after.deposit_resistance.is_finite();
+        let found = [after.surface_temperature, after.wall_temperature];
+        let others = [after.heat_flux, after.coolant_flux, after.deposit_resistance];
+        let others = others.into_iter().all(f64::is_finite);
         if !(found.into_iter().all(is_positive) && others) {
             return Err(NW_BAD_STATE);
         }

@@ -14,9 +14,9 @@ pub struct nw_deposit {
     pub struct_size: u32,
     /// Index of the wall, from `nw_model_find_wall`.
     pub wall: u32,
-    /// Molten mass [kg/m2].
+    /// Mass of molten slag [kg/m2].
     pub molten: f64,
-    /// Mass of powder [kg/m2].
+    /// Mass of powder [kg/m2], outside of the slag and enclosed by it.
     pub powder: f64,
     /// Volume of the powder's particles without the voids between them [m3/m2].
     pub solid: f64,
@@ -26,8 +26,12 @@ pub struct nw_deposit {
     pub conversion: f64,
     /// Volume of the powder's voids that sintering has closed [m3/m2].
     pub closed: f64,
-    /// Share of the powder that landed and has left with the gas [1].
+    /// Share of the outer powder that landed and has left with the gas [1].
     pub resuspended: f64,
+    /// Mass of frozen slag [kg/m2], below the molten slag.
+    pub frozen: f64,
+    /// Share of the powder that slag has enclosed [1]; it lies below the slag.
+    pub behind: f64,
 }
 
 /// Sum of the particles that a piece of wall captured in a step, per wall area.
@@ -47,7 +51,7 @@ pub struct nw_deposit_source {
     pub solid: f64,
     /// Projected area of the powder's particles [1].
     pub cover: f64,
-    /// Projected area of the molten particles [1].
+    /// Area that the molten particles cover once they have spread [1].
     pub buried: f64,
     /// Mass times carbon conversion [kg/m2].
     pub converted: f64,
@@ -57,20 +61,22 @@ zero_by_default!(nw_deposit, nw_deposit_source);
 
 impl nw_deposit {
     pub(super) fn to_deposit(self) -> Deposit {
-        let Self { molten, powder, solid, cover, conversion, closed, resuspended, .. } = self;
-        Deposit { molten, powder, solid, cover, conversion, closed, resuspended }
+        let Self { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind, .. } = self;
+        Deposit { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind }
     }
 
     pub(super) fn with(self, deposit: &Deposit) -> Self {
-        let Deposit { molten, powder, solid, cover, conversion, closed, resuspended } = *deposit;
-        Self { molten, powder, solid, cover, conversion, closed, resuspended, ..self }
+        let Deposit { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind } =
+            *deposit;
+        Self { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind, ..self }
     }
 
     /// Refuses overflowed sums, so that every other call accepts what this one writes.
     pub(super) fn sound(self) -> Result<Self, nw_status> {
-        let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover, self.closed]);
-        let shares = [self.conversion, self.resuspended].map(|share| (0.0..=1.0).contains(&share));
-        if sizes && shares == [true; 2] { Ok(self) } else { Err(NW_BAD_STATE) }
+        let sizes = are_sizes(&[self.molten, self.powder, self.solid, self.cover, self.closed, self.frozen]);
+        let shares =
+            [self.conversion, self.resuspended, self.behind].map(|share| (0.0..=1.0).contains(&share));
+        if sizes && shares == [true; 3] { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 }
 
@@ -146,7 +152,7 @@ pub unsafe extern "C" fn nw_deposit_source_init(source: *mut nw_deposit_source) 
 }
 
 /// Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. It counts
-/// as molten if it is sticky at the temperature of the wall, as powder otherwise. The order of
+/// as molten if the wall is hotter than its material is solid, as powder otherwise. The order of
 /// particles affects the sums only by rounding. Sources of several threads or ranks are summed
 /// field by field (`count` too) before one `nw_deposit_add`.
 ///
@@ -173,7 +179,8 @@ pub unsafe extern "C" fn nw_deposit_source_add(
     guarded_status(add)
 }
 
-/// Adds the source of a step to a deposit. Powder that melt buries becomes part of the melt; mass is conserved.
+/// Adds the source of a step to a deposit. Powder that melt buries lies below the slag then; nothing
+/// melts or freezes here, and mass is conserved.
 ///
 /// # Safety
 /// `source` and `deposit` begin with their `struct_size`.
@@ -194,8 +201,8 @@ pub unsafe extern "C" fn nw_deposit_add(
     guarded_status(add)
 }
 
-/// Sets the `layer_thickness`, `coverage` and `melt_thickness` of an impact on a deposit. `voidage`
-/// is the share of voids in the powder [1]. The wall is that of the impact.
+/// Sets the `layer_thickness` and `coverage` of the powder, and the `melt_thickness` of the slag, which
+/// is stiff or liquid by `T_w`, of an impact on a deposit. `voidage` is the share of voids in the powder [1]. The wall is that of the impact.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.

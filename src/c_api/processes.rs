@@ -5,9 +5,10 @@ use std::ffi::{CString, c_char};
 use std::sync::LazyLock;
 
 use super::boundary::{guarded_status, initialise, reader, sized};
+use super::cooled_wall::nw_wall_cooling;
 use super::deposit::nw_deposit;
 use super::types::{NW_BAD_STATE, NW_NULL_POINTER, NW_UNKNOWN_WALL, nw_model, nw_status, zero_by_default};
-use crate::deposit::{PROCESS_COUNT, PROCESSES, Surroundings, WallGas};
+use crate::deposit::{PROCESS_COUNT, PROCESSES, Surroundings, WallCooling, WallGas};
 
 /// Number of processes that change a deposit.
 pub const NW_PROCESSES: usize = 4;
@@ -24,11 +25,9 @@ pub struct nw_deposit_surroundings {
     pub reserved: u32,
     /// Share of voids in fresh powder [1].
     pub voidage: f64,
-    /// `wall_temperature` of `nw_deposit_heat` [K]; both temperatures are 0 where they are not
-    /// known, and nothing melts or sinters.
+    /// Temperature of a wall that is not cooled [K]: its slag is liquid or frozen by it. 0 where it is
+    /// not known, and slag stays as it is.
     pub wall_temperature: f64,
-    /// `powder_temperature` of `nw_deposit_heat` [K].
-    pub powder_temperature: f64,
     /// Density of the gas at the wall [kg/m3]; needed where it shears the wall.
     pub gas_density: f64,
     /// Its kinematic viscosity [m2/s]; needed where it shears the wall.
@@ -60,11 +59,11 @@ pub struct nw_deposit_losses {
 zero_by_default!(nw_deposit_surroundings, nw_deposit_losses);
 
 impl nw_deposit_surroundings {
-    fn to_surroundings(self) -> Surroundings {
-        let sides = [self.wall_temperature, self.powder_temperature];
+    fn to_surroundings(self, cooling: Option<WallCooling>) -> Surroundings {
         Surroundings {
             voidage: self.voidage,
-            powder_sides: (sides != [0.0; 2]).then_some(sides),
+            cooling,
+            wall_temperature: (self.wall_temperature != 0.0).then_some(self.wall_temperature),
             gas: WallGas {
                 density: self.gas_density,
                 kinematic_viscosity: self.kinematic_viscosity,
@@ -99,18 +98,21 @@ pub unsafe extern "C" fn nw_deposit_losses_init(losses: *mut nw_deposit_losses) 
     unsafe { initialise(losses) }
 }
 
-/// Advances a deposit by a time step of a `duration` [s]: powder that is hotter than it melts
-/// becomes melt, the rest sinters; the gas carries loose powder away (table `resuspension` of the
+/// Advances a deposit by a time step of a `duration` [s]: slag and powder melt and freeze with the heat
+/// that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 /// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
 /// receives the mass that each process took. Add the particles captured in the step first, with
-/// `nw_deposit_add`.
+/// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
+/// finite, since a surface that is held at a temperature could give any heat.
 ///
 /// # Safety
-/// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`.
+/// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`, and
+/// so does `cooling` unless it is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn nw_deposit_advance(
     model: *const nw_model,
     surroundings: *const nw_deposit_surroundings,
+    cooling: *const nw_wall_cooling,
     duration: f64,
     deposit: *mut nw_deposit,
     losses: *mut nw_deposit_losses,
@@ -120,8 +122,17 @@ pub unsafe extern "C" fn nw_deposit_advance(
         let (model, surroundings, before, lost) = unsafe {
             (reader(model)?, sized(surroundings)?, sized(deposit.cast_const())?, sized(losses.cast_const())?)
         };
+        let cooling = if cooling.is_null() {
+            None
+        } else {
+            // SAFETY: not null, and the caller's promise.
+            let cooling = unsafe { sized(cooling)? };
+            let is_given = cooling.coolant_temperature != 0.0 || cooling.gas_temperature != 0.0;
+            if is_given { Some(cooling.sound()?.to_cooling()) } else { None }
+        };
         let (wall, given) = (before.wall as usize, before.sound()?.to_deposit());
-        let (left, mass) = model.inner().advance(wall, &given, &surroundings.to_surroundings(), duration)?;
+        let surroundings = surroundings.to_surroundings(cooling);
+        let (left, mass) = model.inner().advance(wall, &given, &surroundings, duration)?;
         let after = before.with(&left).sound()?;
         if !mass.iter().all(|mass| mass.is_finite()) {
             return Err(NW_BAD_STATE);

@@ -11,7 +11,7 @@ use fearless_simd::Level;
 use super::droplet::DropletCriterion;
 use super::fusion::FusionCriterion;
 use super::melt_fraction::MeltFractionCriterion;
-use super::stickiness::Combination;
+use super::stickiness::{Combination, Stickiness};
 use super::viscosity::ViscosityCriterion;
 use crate::impact::{BLOCK, Block, Impact, ImpactError};
 use crate::input::{InputError, Section};
@@ -197,6 +197,29 @@ impl Default for MeltStates {
     }
 }
 
+/// Highest temperature [K] at which a deposit is asked whether it is liquid.
+const HOTTEST: f64 = 6000.0;
+
+/// The lowest temperature [K] at which a condition holds that holds above it; `None` where it does not
+/// hold at [`HOTTEST`], 0 where it always holds.
+pub(crate) fn lowest(holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let [mut low, mut high] = [1.0, HOTTEST];
+    if holds(low) {
+        return Some(0.0);
+    }
+    if !holds(high) {
+        return None;
+    }
+    while high - low > 1e-12 * high {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if holds(middle) { high = middle } else { low = middle }
+    }
+    Some(high)
+}
+
 /// A criterion for one material.
 pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// The model's name in the `[capture]` table.
@@ -282,6 +305,17 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// What the criterion knows of the material, in words, where a model file does not show it.
     fn describe(&self) -> Option<String> {
         None
+    }
+
+    /// Temperature [K] below which what lies on a wall is solid: that of [`Self::stiff_below`], else that
+    /// at which it is sticky without an impact. It depends on no speed. `None` for a material that is
+    /// solid at every temperature; 0 for one that is liquid at every temperature.
+    fn solid_below(&self) -> Option<f64> {
+        let sticky = |temperature: f64| {
+            let lying = Impact { wall_temperature: temperature, ..Impact::default() };
+            self.on_wall(&lying) >= Stickiness::THRESHOLD
+        };
+        self.stiff_below().or_else(|| lowest(sticky))
     }
 
     /// Whether particles may be droplets.

@@ -22,7 +22,7 @@ mod solidification;
 mod stickiness;
 mod viscosity;
 
-pub(crate) use criterion::CAPTURE_KINDS;
+pub(crate) use criterion::{CAPTURE_KINDS, lowest};
 pub use criterion::{Capture, Criterion, MeltStates, StickinessCriterion, Unsuitable, WallState};
 pub use droplet::{Droplet, DropletCriterion, DropletNumbers, SPLASH_K, deposited_share};
 pub use fusion::{FusionCriterion, FusionStickiness, fusion_stickiness};

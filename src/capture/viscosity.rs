@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use fearless_simd::{Level, dispatch};
 
+use super::criterion::lowest;
 use super::kinetic_energy::EnergyLaw;
 use super::melt::{Melt, MeltLaws};
 use super::{MeltStates, StickinessCriterion, Unsuitable, WallState};
@@ -36,6 +37,10 @@ pub fn sticking_probability(viscosity: f64, reference: f64) -> f64 {
 /// From a tenth of the thinnest liquid to far above the viscosity of a solid glass.
 const REFERENCE: Limits =
     Limits { unit: "Pa s", low: 1e-7, high: 1e20, known: "literature 8 to 1e7; glass is solid above 1e12" };
+
+/// Viscosity [Pa s] above which melt on a wall counts as solid where no temperature says it: 1e5 poise,
+/// between the working point of glass and the point at which it softens under its own weight; assumed.
+const SOLID: f64 = 1e4;
 
 /// The reference viscosity of an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -224,6 +229,13 @@ impl StickinessCriterion for MeltStickiness {
 
     fn stiffening_is_known(&self) -> bool {
         self.melt.stiffening_is_known()
+    }
+
+    /// Where no temperature is known, below a viscosity of [`SOLID`].
+    fn solid_below(&self) -> Option<f64> {
+        self.melt
+            .stiff_below()
+            .or_else(|| lowest(|temperature| self.melt.film_viscosity(temperature) <= SOLID))
     }
 
     fn known_range(&self) -> [f64; 2] {

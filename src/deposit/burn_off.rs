@@ -1,6 +1,6 @@
 //! Covering char that burns off a wall.
 //!
-//! Powder of mass `P` [kg/m²], volume of its particles `V` [m³/m²] and projected area `A` [1]
+//! Outer powder of mass `P` [kg/m²], volume of its particles `V` [m³/m²] and projected area `A` [1]
 //! contains combustible matter `C` [kg/m²]. Over a time step the law of carbon conversion at the
 //! temperature of the wall leaves the share `r` of it (first order: `r = exp(-k(T_w) dt)`); the
 //! mass `C (1 - r)` goes into the gas. What becomes of the ash depends on the wall:
@@ -18,7 +18,7 @@
 //! wall, and that melt does not burn. No source gives a law for the cover; both rows conserve
 //! carbon and ash.
 
-use super::Deposit;
+use super::{Deposit, Powder};
 
 /// What burns in the powder of a piece of wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,36 +42,26 @@ pub struct PowderBurning {
 #[must_use]
 pub fn after(deposit: &Deposit, burning: &PowderBurning) -> Deposit {
     let PowderBurning { combustible, left, conversion, diameter_exponent, ash_density, ash_melts } = *burning;
-    let combustible = combustible.min(deposit.powder);
+    let [inner, outer] = deposit.powders();
+    let combustible = combustible.min(outer.mass);
     if combustible <= 0.0 || left >= 1.0 {
         return *deposit;
     }
-    let ash = deposit.powder - combustible;
-    let after = if ash_melts {
-        Deposit {
-            molten: deposit.molten + ash * (1.0 - left),
-            powder: combustible * left + ash * left,
-            solid: deposit.solid * left,
-            cover: deposit.cover * left,
-            closed: deposit.closed * left,
-            ..*deposit
-        }
+    let ash = outer.mass - combustible;
+    let (burnt, melted) = if ash_melts {
+        (outer.times(left), ash * (1.0 - left))
     } else {
-        let ash_volume = (ash / ash_density).min(deposit.solid);
+        let ash_volume = (ash / ash_density).min(outer.solid);
         let shrunk = if diameter_exponent == 0.0 { 1.0 } else { left.powf(3.0 * diameter_exponent) };
-        let solid = ash_volume + (deposit.solid - ash_volume) * shrunk;
-        let ratio = if deposit.solid > 0.0 { solid / deposit.solid } else { 1.0 };
-        Deposit {
-            powder: ash + combustible * left,
-            solid,
-            cover: deposit.cover * ratio.powf(2.0 / 3.0),
-            closed: deposit.closed * ratio,
-            ..*deposit
-        }
+        let solid = ash_volume + (outer.solid - ash_volume) * shrunk;
+        let ratio = if outer.solid > 0.0 { solid / outer.solid } else { 1.0 };
+        let (cover, closed) = (outer.cover * ratio.powf(2.0 / 3.0), outer.closed * ratio);
+        (Powder { mass: ash + combustible * left, solid, cover, closed }, 0.0)
     };
+    let after = Deposit { molten: deposit.molten + melted, ..*deposit }.with_powders([inner, burnt]);
     let of_powder = if ash_melts { conversion } else { 1.0 - (1.0 - conversion) * left };
-    let elsewhere = deposit.mass() * deposit.conversion - deposit.powder * conversion;
-    let converted = elsewhere + after.powder * of_powder + (after.molten - deposit.molten);
+    let elsewhere = deposit.mass() * deposit.conversion - outer.mass * conversion;
+    let converted = elsewhere + burnt.mass * of_powder + melted;
     let mean = if after.mass() > 0.0 { converted / after.mass() } else { 1.0 };
     Deposit { conversion: mean.clamp(0.0, 1.0), ..after }
 }

@@ -124,7 +124,8 @@ pub fn steady(
     let heat_flux = match resistance {
         0.0 if is_known => return Err(ConductionError::NoBalance),
         0.0 => hot.heat_flux(surface_temperature),
-        _ => (surface_temperature - coolant.temperature) / resistance,
+        _ if is_known => (surface_temperature - coolant.temperature) / resistance,
+        _ => heat_flux(resistance, coolant.temperature, surface_temperature, hot),
     };
     let mut temperature = surface_temperature;
     let inwards = layers.iter().rev().map(|layer| {
@@ -163,6 +164,14 @@ pub fn surface_temperature(resistance: f64, behind: f64, hot: &HotSide) -> Resul
         }
     }
     Ok(temperature)
+}
+
+/// Heat flux [W/m²] through a resistance [m² K/W] to a temperature behind it [K], with the surface of
+/// [`surface_temperature`] [K]: from the side that resists more, since the difference of temperatures
+/// over a small resistance is rounding.
+pub(super) fn heat_flux(resistance: f64, behind: f64, surface: f64, hot: &HotSide) -> f64 {
+    let gas = hot.coefficient + 4.0 * hot.emissivity * STEFAN_BOLTZMANN * surface.powi(3);
+    if resistance * gas < 1.0 { hot.heat_flux(surface) } else { (surface - behind) / resistance }
 }
 
 fn check(layers: &[ConductingLayer], coolant: &Coolant, hot: &HotSide) -> Result<(), ConductionError> {

@@ -10,8 +10,9 @@
 //!
 //! A thin cover (`A << 1`) decays as `exp(-b)`, by a factor e for each particle height (`2 d/3`,
 //! volume over projected area) of fresh melt; a thick one disappears particle for particle.
-//! *Assumed*: that melt covers its own projected area, and that char does not float up through
-//! melt, sink into it or drift together. Segregation and coverage: Troiano et al., section 1 and
+//! `b` is the area that molten particles cover once they have spread, four times their projected area
+//! (`wetting.rs`). *Assumed*: that char does not float up through melt, sink into it or drift
+//! together. Segregation and coverage: Troiano et al., section 1 and
 //! the regimes they cite; they give no law.
 
 /// Covered share [1] by a projected area of particles per area of wall [1].

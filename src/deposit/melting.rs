@@ -1,55 +1,41 @@
-//! Melting of powder that is hotter than it melts.
+//! Melting and freezing of a deposit: what [`super::front`] finds for the step.
 //!
-//! The temperature of the powder rises linearly from its cold to its hot side. The part that is hotter
-//! than the temperature at which captured particles count as molten becomes melt at once, with its mass.
-//! *Assumed*: the heat of fusion is small against what the powder conducts in a step.
+//! On a wall of a given temperature that is not cooled, slag is liquid above the temperature at which it
+//! is solid, and frozen below; powder that slag has enclosed melts with it. Powder on the outside stays
+//! powder there: it landed as powder at that temperature.
 
 use std::sync::Arc;
 
 use super::Deposit;
-use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings};
+use super::layers::Layers;
+use super::process::{DepositHeat, Process, ProcessInfo, Step};
 
 pub(super) const INFO: ProcessInfo =
     ProcessInfo { name: "melting", loss: None, read: |_| Ok(Some(Arc::new(Melting))) };
-
-/// Halvings of a layer in search of the depth at which powder melts.
-const BISECTIONS: u32 = 50;
 
 #[derive(Debug)]
 struct Melting;
 
 impl Process for Melting {
-    fn after(
-        &self,
-        deposit: &Deposit,
-        powder: &dyn PowderMaterial,
-        surroundings: &Surroundings,
-        _duration: f64,
-    ) -> Deposit {
-        match surroundings.powder_sides {
-            Some(sides) if deposit.powder > 0.0 => {
-                deposit.melted(melting_share(|kelvin| powder.melts(deposit.conversion, kelvin), sides))
+    fn after(&self, deposit: &Deposit, step: &Step<'_>) -> Deposit {
+        match step.heat {
+            DepositHeat::Cooled { front, .. } => deposit.with_layers(front.masses),
+            DepositHeat::Isothermal { liquid: Some(liquid) } if deposit.slag() > 0.0 => {
+                deposit.with_layers(isothermal(deposit.layers(), liquid))
             }
             _ => *deposit,
         }
     }
 }
 
-/// Share of powder [1] that melts, in a layer with these temperatures [K] of its cold and its hot side
-/// and a straight line in between.
-fn melting_share(melts: impl Fn(f64) -> bool, [cold, hot]: [f64; 2]) -> f64 {
-    if !melts(hot) {
-        return 0.0;
+/// The layers where all slag is liquid, or all is frozen.
+fn isothermal(layers: Layers<f64>, liquid: bool) -> Layers<f64> {
+    let slag = layers.frozen + layers.molten;
+    if liquid {
+        Layers { molten: slag + layers.inner_powder, frozen: 0.0, inner_powder: 0.0, ..layers }
+    } else {
+        Layers { molten: 0.0, frozen: slag, ..layers }
     }
-    if melts(cold) {
-        return 1.0;
-    }
-    let [mut low, mut high] = [0.0, 1.0];
-    for _ in 0..BISECTIONS {
-        let depth = 0.5 * (low + high);
-        if melts(cold + depth * (hot - cold)) { high = depth } else { low = depth }
-    }
-    1.0 - high
 }
 
 #[cfg(test)]
@@ -57,10 +43,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_hotter_than_its_melting_point_melts() {
-        let share = |sides| melting_share(|kelvin| kelvin >= 1500.0, sides);
-        assert_eq!([share([1000.0, 1400.0]), share([1500.0, 1600.0])], [0.0, 1.0]);
-        assert!((share([1000.0, 2000.0]) - 0.5).abs() < 1e-12);
-        assert!((share([1400.0, 1800.0]) - 0.75).abs() < 1e-12);
+    fn on_a_wall_of_one_temperature_slag_is_liquid_or_solid() {
+        let layers = Layers { inner_powder: 1.0, frozen: 2.0, molten: 4.0, outer_powder: 8.0 };
+        assert_eq!(isothermal(layers, true).outwards(), [0.0, 0.0, 7.0, 8.0]);
+        assert_eq!(isothermal(layers, false).outwards(), [1.0, 6.0, 0.0, 8.0]);
     }
 }

@@ -4,6 +4,8 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use super::Deposit;
+use super::conduction::{Coolant, HotSide};
+use super::front::{FrontStep, HeatFlow};
 use crate::impact::ImpactError;
 use crate::input::{InputError, Section};
 
@@ -12,9 +14,11 @@ use crate::input::{InputError, Section};
 pub struct Surroundings {
     /// Share of voids in fresh powder [1].
     pub voidage: f64,
-    /// Temperatures [K] of the cold and the hot side of the powder, of
-    /// [`WallHeat`](crate::model::WallHeat); `None` where they are not known: nothing melts or sinters.
-    pub powder_sides: Option<[f64; 2]>,
+    /// Cooling and heating of the wall. Without it powder neither melts nor sinters.
+    pub cooling: Option<WallCooling>,
+    /// Temperature [K] of a wall that is not cooled: its slag is liquid or solid by it. `None` where it
+    /// is not known: slag stays as it is.
+    pub wall_temperature: Option<f64>,
     /// The gas at the wall.
     pub gas: WallGas,
     /// Gravity outward from the wall [m/s²], negative where it presses the deposit on.
@@ -24,6 +28,43 @@ pub struct Surroundings {
     /// Rank of this piece of wall [1] from the weakest, 0, to below 1, the strongest. A piece keeps its
     /// rank, so that results do not depend on the length of time steps.
     pub draw: f64,
+}
+
+/// A cooled wall, and what heats it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WallCooling {
+    /// What cools it from behind.
+    pub coolant: Coolant,
+    /// Thickness of the wall over its conductivity [m² K/W].
+    pub wall_resistance: f64,
+    /// What heats its surface.
+    pub hot: HotSide,
+    /// The gas in the voids of the powder.
+    pub void_gas: VoidGas,
+}
+
+/// Conductivity of the gas in the voids of powder: `k (T/T_0)^n` at the powder's own temperature.
+///
+/// Air has `n` = 0.8 within 5 % from 300 to 1500 K (0.0263, 0.0667 and 0.100 W/(m K) at 300, 1000 and
+/// 1500 K; Incropera et al., table A.4, from memory).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VoidGas {
+    /// Conductivity at `temperature`, `k` [W/(m K)].
+    pub conductivity: f64,
+    /// Temperature `T_0` [K].
+    pub temperature: f64,
+    /// Exponent `n` [1].
+    pub exponent: f64,
+}
+
+impl VoidGas {
+    /// Exponent of air [1].
+    pub const AIR: f64 = 0.8;
+
+    /// The conductivity at a temperature [W/(m K)].
+    pub fn at(&self, temperature: f64) -> f64 {
+        self.conductivity * (temperature / self.temperature).powf(self.exponent)
+    }
 }
 
 /// The gas at a wall. Without shear stress the other numbers do not matter.
@@ -56,16 +97,15 @@ impl Surroundings {
     /// # Errors
     /// [`ImpactError::Unusable`] naming the number.
     pub fn check(&self) -> Result<(), ImpactError> {
-        let Self { voidage, powder_sides, gas, gravity_outward, gravity_along, draw } = *self;
+        let Self { voidage, wall_temperature, gas, gravity_outward, gravity_along, draw, .. } = *self;
         let positive = |value: f64| value.is_finite() && value > 0.0;
         let calm = gas.is_calm();
-        let [cold, hot] = powder_sides.unwrap_or([1.0; 2]);
+        let surface = wall_temperature.unwrap_or(1.0);
         let share = "must be at least 0 and below 1";
         let above = "must be positive and finite";
         let rules = [
             ("voidage", voidage, (0.0..1.0).contains(&voidage), share),
-            ("wall temperature", cold, positive(cold), above),
-            ("powder temperature", hot, positive(hot), above),
+            ("wall temperature", surface, positive(surface), above),
             ("shear of the gas", gas.shear[0], gas.shear[0].is_finite(), "must be finite"),
             ("shear of the gas", gas.shear[1], gas.shear[1].is_finite(), "must be finite"),
             ("density of the gas", gas.density, calm || positive(gas.density), above),
@@ -95,24 +135,46 @@ impl Surroundings {
 
 /// What processes ask of the powder's material.
 pub trait PowderMaterial {
-    /// Whether powder of a carbon conversion [1] melts at a temperature [K].
-    fn melts(&self, conversion: f64, temperature: f64) -> bool;
-
     /// Viscosity [Pa s] and surface tension [N/m] with which grains sinter at a temperature [K]; `None`
     /// where the model does not know both.
     fn sintering(&self, temperature: f64) -> Option<[f64; 2]>;
 }
 
+/// What heat does to a deposit in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum DepositHeat {
+    /// Nothing is known.
+    Unknown,
+    /// All of it has the temperature of its wall, at which its slag is liquid or not.
+    Isothermal {
+        /// Whether slag is liquid; `None` where that is not known.
+        liquid: Option<bool>,
+    },
+    /// On a cooled wall.
+    Cooled {
+        /// At the start of the step.
+        flow: HeatFlow,
+        /// Over the step.
+        front: FrontStep,
+    },
+}
+
+/// A time step of a deposit.
+pub struct Step<'a> {
+    /// The powder's material.
+    pub powder: &'a dyn PowderMaterial,
+    /// What surrounds the wall.
+    pub surroundings: &'a Surroundings,
+    /// What heat does.
+    pub heat: DepositHeat,
+    /// Length of the step [s].
+    pub duration: f64,
+}
+
 /// A process with the numbers of one wall.
 pub trait Process: Debug + Send + Sync {
-    /// The deposit after a time step [s].
-    fn after(
-        &self,
-        deposit: &Deposit,
-        powder: &dyn PowderMaterial,
-        surroundings: &Surroundings,
-        duration: f64,
-    ) -> Deposit;
+    /// The deposit after a time step.
+    fn after(&self, deposit: &Deposit, step: &Step<'_>) -> Deposit;
 
     /// Its numbers in words, for `nearwall check`; empty where the model file gives none.
     fn describe(&self) -> String {
@@ -149,16 +211,17 @@ pub(super) fn own_table<T: Process + 'static>(
 /// Helpers for the tests of processes.
 #[cfg(test)]
 pub(super) mod testing {
-    use super::PowderMaterial;
+    use super::{DepositHeat, PowderMaterial, Step, Surroundings};
 
-    /// Powder that neither melts nor sinters.
+    /// Powder that does not sinter.
     pub struct Stiff;
 
-    impl PowderMaterial for Stiff {
-        fn melts(&self, _conversion: f64, _temperature: f64) -> bool {
-            false
-        }
+    /// A step [s] of such powder without heat.
+    pub fn step(surroundings: &Surroundings, duration: f64) -> Step<'_> {
+        Step { powder: &Stiff, surroundings, heat: DepositHeat::Unknown, duration }
+    }
 
+    impl PowderMaterial for Stiff {
         fn sintering(&self, _temperature: f64) -> Option<[f64; 2]> {
             None
         }

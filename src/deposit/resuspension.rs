@@ -70,7 +70,7 @@ use statrs::function::erf::erfc;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::LazyLock;
 
-use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings, own_table};
+use super::process::{Process, ProcessInfo, Step, own_table};
 use super::{Deposit, sintering};
 use crate::input::{InputError, Section};
 
@@ -209,14 +209,8 @@ impl PowderAdhesion {
 
 impl Process for PowderAdhesion {
     /// The gas carries powder away.
-    fn after(
-        &self,
-        deposit: &Deposit,
-        _powder: &dyn PowderMaterial,
-        surroundings: &Surroundings,
-        duration: f64,
-    ) -> Deposit {
-        let (voidage, gas) = (surroundings.voidage, &surroundings.gas);
+    fn after(&self, deposit: &Deposit, step: &Step<'_>) -> Deposit {
+        let (voidage, gas) = (step.surroundings.voidage, &step.surroundings.gas);
         let radius = 0.5 * deposit.powder_diameter();
         let bonded = sintering::neck_of_porosity(deposit.porosity(voidage), voidage) > BONDED_NECK;
         if radius <= 0.0 || bonded || deposit.molten > 0.0 || gas.is_calm() {
@@ -233,7 +227,8 @@ impl Process for PowderAdhesion {
             return *deposit;
         }
         let before = 1.0 - deposit.resuspended;
-        let left = conditions.release().advance(before, duration / deposit.cover.max(1.0));
+        let cover = deposit.cover * (1.0 - deposit.enclosed());
+        let left = conditions.release().advance(before, step.duration / cover.max(1.0));
         if left < before { deposit.blown(1.0 - left / before) } else { *deposit }
     }
 
@@ -406,7 +401,7 @@ pub(super) fn normal_below(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deposit::process::testing::Stiff;
+    use crate::deposit::process::{Surroundings, testing};
     use crate::deposit::{CapturedParticles, DepositSource, WallGas};
     use approx::assert_relative_eq;
 
@@ -577,7 +572,7 @@ mod tests {
     fn after(deposit: &Deposit, gas: &WallGas, time: f64) -> Deposit {
         let adhesion = PowderAdhesion { work_of_adhesion: 0.56, reduced: None };
         let surroundings = Surroundings { voidage: 0.5, gas: *gas, ..Default::default() };
-        adhesion.after(deposit, &Stiff, &surroundings, time)
+        adhesion.after(deposit, &testing::step(&surroundings, time))
     }
 
     /// Particles that land at a constant rate: each cohort has its own age, the deposit has none.
@@ -623,7 +618,7 @@ mod tests {
         assert_relative_eq!(thick.powder, 0.1 * left, max_relative = 1e-9);
         let wet = Deposit { molten: 1e-6, ..thin };
         assert_eq!(after(&wet, &gas, 10.0), wet);
-        let bonded = thin.sintered(0.5, 0.499);
+        let bonded = thin.sintered(0.5, [0.499; 2]);
         assert_eq!(after(&bonded, &gas, 10.0), bonded);
         let calm = WallGas { shear: [0.0; 2], ..gas };
         assert_eq!(after(&thin, &calm, 10.0), thin);

@@ -20,6 +20,11 @@
 //! strength, and a thin one in part, by the distribution of its adhesion. So `s = 1` is for thick
 //! deposits, with a strength below the mean of measured ones.
 //!
+//! Sintering bonds grains to each other and to the wall. Necks carry by their cross-section, `(x/r)²` of
+//! that of the grains, with `x/r` of the powder's shrinkage (`sintering.rs`): where `sintered_strength`
+//! [Pa] is given, its `(x/r)²` is added to both strengths (*assumed*, as for sintered metals and
+//! ceramics at small necks).
+//!
 //! No strength is built in. Measurements were found only in words: McCollor et al. (force to remove
 //! coal ash deposits), "Adhesion strength of biomass ash deposits" (DTU 2016: shear strength on
 //! superheater tubes depends on temperature, composition, time and steel) and Naganuma et al. 2013
@@ -30,8 +35,9 @@
 //! Range: thickness small against the radius of the wall. No function fails; a strength of 0 breaks under any load.
 
 use super::Deposit;
-use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings, own_table};
+use super::process::{Process, ProcessInfo, Step, Surroundings, own_table};
 use super::resuspension::normal_below;
+use super::sintering;
 use crate::input::{InputError, Section};
 
 pub(super) const INFO: ProcessInfo = ProcessInfo {
@@ -49,27 +55,34 @@ struct Strength {
     shear: f64,
     /// Geometric spread from place to place, at least 1 [1].
     spread: f64,
+    /// What sintered necks as wide as the grains add to both [Pa].
+    sintered: f64,
 }
 
 impl Process for Strength {
     /// The whole deposit falls off a place, or nothing.
-    fn after(
-        &self,
-        deposit: &Deposit,
-        _powder: &dyn PowderMaterial,
-        surroundings: &Surroundings,
-        _duration: f64,
-    ) -> Deposit {
-        if self.breaks(deposit.mass(), surroundings) { Deposit::default() } else { *deposit }
+    fn after(&self, deposit: &Deposit, step: &Step<'_>) -> Deposit {
+        let voidage = step.surroundings.voidage;
+        let neck = sintering::neck_of_porosity(deposit.porosity(voidage), voidage);
+        let broken = self.with_necks(neck).breaks(deposit.mass(), step.surroundings);
+        if broken { Deposit::default() } else { *deposit }
     }
 
     fn describe(&self) -> String {
-        let Self { tensile, shear, spread } = self;
-        format!(", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}")
+        let Self { tensile, shear, spread, sintered } = self;
+        let necks =
+            if *sintered > 0.0 { format!(", {sintered} Pa more by full necks") } else { String::new() };
+        format!(", sheds deposits at {tensile} Pa of tension, {shear} Pa of shear, spread {spread}{necks}")
     }
 }
 
 impl Strength {
+    /// The strength with necks of a ratio `x/r` [1], which carry by their cross-section.
+    fn with_necks(self, neck: f64) -> Self {
+        let more = self.sintered * neck * neck;
+        Self { tensile: self.tensile + more, shear: self.shear + more, ..self }
+    }
+
     /// Whether a deposit of a mass [kg/m²] falls off a place of the wall.
     fn breaks(&self, mass: f64, surroundings: &Surroundings) -> bool {
         mass > 0.0 && shed_share(self.utilisation(mass, surroundings), self.spread) > surroundings.draw
@@ -90,7 +103,9 @@ impl Strength {
             given.ok_or_else(|| section.missing(key, "[Pa]"))
         };
         let spread = section.number_within("spread", 1.0, 100.0)?.unwrap_or(1.0);
-        Ok(Self { tensile: strength("tensile_strength")?, shear: strength("shear_strength")?, spread })
+        let sintered = section.number_within("sintered_strength", 0.0, f64::INFINITY)?.unwrap_or(0.0);
+        let [tensile, shear] = [strength("tensile_strength")?, strength("shear_strength")?];
+        Ok(Self { tensile, shear, spread, sintered })
     }
 }
 
@@ -117,7 +132,7 @@ mod tests {
 
     const G: f64 = 9.81;
     const CALM: [f64; 2] = [0.0, 0.0];
-    const STRENGTH: Strength = Strength { tensile: 200.0, shear: 100.0, spread: 1.0 };
+    const STRENGTH: Strength = Strength { tensile: 200.0, shear: 100.0, spread: 1.0, sintered: 0.0 };
 
     /// On a wall at an angle [rad] from the horizontal, from 0 (floor) to pi (ceiling).
     fn on_slope(angle: f64, shear: [f64; 2]) -> Surroundings {
@@ -150,6 +165,16 @@ mod tests {
         assert_eq!(broken.count(), 159);
         assert!(!STRENGTH.breaks(99.9 / G, &at(0.0)) && STRENGTH.breaks(100.1 / G, &at(0.999)));
         assert!(!STRENGTH.breaks(0.0, &at(0.0)));
+    }
+
+    /// Necks of a tenth of the grain carry 1 % of what full necks carry: 100 + 0.01 * 4000 = 140 Pa.
+    #[test]
+    fn sintered_necks_hold() {
+        let sintered = Strength { sintered: 4000.0, ..STRENGTH }.with_necks(0.1);
+        assert_relative_eq!(sintered.shear, 140.0);
+        let wall = on_slope(FRAC_PI_2, CALM);
+        assert!(STRENGTH.breaks(120.0 / G, &wall) && !sintered.breaks(120.0 / G, &wall));
+        assert!(sintered.breaks(141.0 / G, &wall));
     }
 
     #[test]

@@ -34,7 +34,7 @@
 use std::sync::Arc;
 
 use super::Deposit;
-use super::process::{PowderMaterial, Process, ProcessInfo, Surroundings};
+use super::process::{DepositHeat, Process, ProcessInfo, Step};
 
 pub(super) const INFO: ProcessInfo =
     ProcessInfo { name: "sintering", loss: None, read: |_| Ok(Some(Arc::new(Sintering))) };
@@ -48,22 +48,23 @@ const RESIDUAL_POROSITY: f64 = 0.03;
 struct Sintering;
 
 impl Process for Sintering {
-    /// All powder sinters at the mean of the temperatures of its two sides.
-    fn after(
-        &self,
-        deposit: &Deposit,
-        powder: &dyn PowderMaterial,
-        surroundings: &Surroundings,
-        duration: f64,
-    ) -> Deposit {
-        let Some([cold, hot]) = surroundings.powder_sides else { return *deposit };
+    /// Inner and outer powder sinter at their own mean temperatures.
+    fn after(&self, deposit: &Deposit, step: &Step<'_>) -> Deposit {
+        let DepositHeat::Cooled { flow, .. } = step.heat else { return *deposit };
         let radius = 0.5 * deposit.powder_diameter();
-        let Some([viscosity, tension]) = powder.sintering(0.5 * (cold + hot)).filter(|_| radius > 0.0) else {
+        if radius <= 0.0 {
             return *deposit;
+        }
+        let voidage = step.surroundings.voidage;
+        let before = deposit.porosity(voidage);
+        let after = |[cold, hot]: [f64; 2]| {
+            let known = step.powder.sintering(0.5 * (cold + hot));
+            known.map_or(before, |[viscosity, tension]| {
+                let time = reduced_time(step.duration, tension, viscosity, radius);
+                porosity(before, &Packing::new(voidage), time)
+            })
         };
-        let time = reduced_time(duration, tension, viscosity, radius);
-        let voidage = surroundings.voidage;
-        deposit.sintered(voidage, porosity(deposit.porosity(voidage), &Packing::new(voidage), time))
+        deposit.sintered(voidage, [flow.sides.inner_powder, flow.sides.outer_powder].map(after))
     }
 }
 

@@ -14,7 +14,7 @@
 //!    ([`super::burn_off`]).
 //! 3. The processes of the table act in their order ([`Model::advance`](crate::Model::advance)).
 
-use super::process::{PowderMaterial, ProcessInfo, Surroundings, WallProcess};
+use super::process::{ProcessInfo, Step, WallProcess};
 use super::{Deposit, melting, resuspension, shedding, sintering};
 use crate::input::{InputError, Section};
 
@@ -53,18 +53,12 @@ impl WallProcesses {
         self.0.iter().flatten().map(|process| process.describe()).collect()
     }
 
-    /// The deposit after a time step [s], and what each process took from it.
-    pub(crate) fn advance(
-        &self,
-        deposit: &Deposit,
-        powder: &dyn PowderMaterial,
-        surroundings: &Surroundings,
-        duration: f64,
-    ) -> (Deposit, Losses) {
+    /// The deposit after a time step, and what each process took from it.
+    pub(crate) fn advance(&self, deposit: &Deposit, step: &Step<'_>) -> (Deposit, Losses) {
         let (mut now, mut losses) = (*deposit, Losses::default());
         for ((process, info), loss) in self.0.iter().zip(PROCESSES).zip(&mut losses) {
             let Some(process) = process else { continue };
-            let next = process.after(&now, powder, surroundings, duration);
+            let next = process.after(&now, step);
             if info.loss.is_some() {
                 *loss = now.mass() - next.mass();
             }

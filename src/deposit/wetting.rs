@@ -6,9 +6,12 @@
 //! are reported between 1.5 and 5, by speed and viscosity), which gives the 6. The arriving
 //! particle represents the earlier ones. 45 % of the wall is wet under `h = d/10`.
 
+/// Diameter of a spread droplet over that of the droplet, `s` [1]; assumed.
+pub(super) const SPREAD: f64 = 2.0;
+
 /// Wetted share of the wall [1] under melt of a thickness [m], left by particles of a diameter [m].
 pub fn share(melt_thickness: f64, diameter: f64) -> f64 {
-    -(-6.0 * melt_thickness / diameter).exp_m1()
+    -(-1.5 * SPREAD * SPREAD * melt_thickness / diameter).exp_m1()
 }
 
 #[cfg(test)]

@@ -29,6 +29,8 @@ macro_rules! for_each_input {
             // Wall
             /// Wall temperature [K], positive.
             T_w, wall_temperature, WALL_TEMPERATURE, "K", POSITIVE, 293.15;
+            /// Temperature of the wall's own material under a deposit [K], not negative; 0 takes `T_w`.
+            T_under, temperature_under, TEMPERATURE_UNDER, "K", NOT_NEGATIVE, 0.0;
             /// Roughness of the wall [m], not negative; kept for diagnosis, used by no built-in law.
             roughness, roughness, ROUGHNESS, "m", NOT_NEGATIVE, 0.0;
             /// Share of the wall that non-sticky char covers [1], 0 to 1.

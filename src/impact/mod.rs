@@ -90,6 +90,12 @@ impl Impact {
         self.normal_speed.abs().atan2(self.tangential_speed.abs())
     }
 
+    /// Temperature of the wall's own material [K]: of what lies under a deposit, where it is given.
+    #[inline(always)]
+    pub fn own_wall_temperature(&self) -> f64 {
+        if self.temperature_under > 0.0 { self.temperature_under } else { self.wall_temperature }
+    }
+
     /// Mean of the temperatures of particle and wall [K].
     pub fn mean_temperature(&self) -> f64 {
         0.5 * self.particle_temperature + 0.5 * self.wall_temperature

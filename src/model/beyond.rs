@@ -260,7 +260,10 @@ impl Model {
             of_origin(self.tangential.name(), origin, impact, found);
         }
         of_material(self.particle.stated_material(impact), "T_p", particle_temperature, found);
-        of_material(&wall.material, "T_w", wall_temperature, found);
+        match self.frozen_slag(wall, impact).filter(|_| place != WallPlace::Covered) {
+            Some(slag) => of_material(slag, "T_w", wall_temperature, found),
+            None => of_material(&wall.material, "T_w", impact.own_wall_temperature(), found),
+        }
         self.terms.iter().for_each(|term| of_term(self, term, impact, found));
     }
 

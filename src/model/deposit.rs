@@ -2,10 +2,11 @@
 
 use super::Model;
 use super::wall::Wall;
-use crate::capture::Stickiness;
-use crate::deposit::process::PowderMaterial;
+use super::wall_heat::WallHeatError;
+use crate::capture::{Stickiness, lowest};
+use crate::deposit::process::{DepositHeat, PowderMaterial, Step};
 use crate::deposit::{
-    CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, wetting,
+    CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, layers, wetting,
 };
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
@@ -14,10 +15,11 @@ impl Model {
     /// Adds captured particles of this impact to `arrivals`: their `mass` per area of wall [kg/m²],
     /// with the particle's `density` [kg/m³].
     ///
-    /// They are molten when their stickiness at the temperature of the wall reaches
-    /// [`Stickiness::THRESHOLD`] and they are not stiff there; by the droplet criterion, when the wall is hotter than the
-    /// melting point. In a model whose stickiness does not depend on the particle temperature,
-    /// their state is that of the impact.
+    /// They are molten when the wall is hotter than their material is solid
+    /// ([`StickinessCriterion::solid_below`](crate::capture::StickinessCriterion::solid_below)), unless
+    /// an effect on the particle's stickiness leaves less than [`Stickiness::THRESHOLD`] there, as
+    /// carbon does. In a model whose stickiness does not depend on the particle temperature, their
+    /// state is that of the impact.
     ///
     /// # Errors
     /// [`ImpactError`] for an impact, a mass or a density without physical meaning, or an unknown wall.
@@ -35,7 +37,7 @@ impl Model {
             let reason = "must be positive and finite";
             return Err(ImpactError::Unusable { quantity: "density".into(), value: density, reason });
         }
-        let molten = self.is_melt(impact, impact.conversion);
+        let molten = self.is_liquid(impact, impact.conversion);
         let Impact { diameter, conversion, .. } = *impact;
         Ok(arrivals.with(&CapturedParticles { mass, density, diameter, conversion, molten }))
     }
@@ -57,8 +59,9 @@ impl Model {
         Ok(Deposit { powder, solid, cover, ..Deposit::default() })
     }
 
-    /// The impact with a deposit on the wall: sets the thickness of the powder layer with a
-    /// `voidage` [1], the share that it covers, and the thickness of the melt.
+    /// The impact with a deposit on the wall: sets the share of the wall that powder with a `voidage`
+    /// [1] covers, its mean thickness over the wall, and the thickness of the slag, which is stiff or
+    /// liquid by the temperature of its surface.
     ///
     /// # Errors
     /// [`ImpactError`] for a deposit or a voidage without physical meaning, or an unknown wall.
@@ -69,20 +72,30 @@ impl Model {
         voidage: f64,
         impact: &Impact,
     ) -> Result<Impact, ImpactError> {
-        let Deposit { molten, powder, solid, cover, closed, .. } = *deposit;
-        let sizes =
-            [("molten", molten), ("powder", powder), ("solid", solid), ("cover", cover), ("closed", closed)];
+        let Deposit { molten, powder, solid, cover, closed, frozen, behind, .. } = *deposit;
+        let sizes = [
+            ("molten", molten),
+            ("powder", powder),
+            ("solid", solid),
+            ("cover", cover),
+            ("closed", closed),
+            ("frozen", frozen),
+            ("behind", behind),
+        ];
         for (quantity, value) in sizes {
             at_least_zero(quantity, value)?;
         }
         check_voidage(voidage)?;
-        let melt = self.melt(wall, impact.wall_temperature)?;
-        Ok(Impact {
-            layer_thickness: deposit.layer_thickness(voidage),
-            coverage: deposit.coverage(),
-            melt_thickness: molten / melt.density,
-            ..*impact
-        })
+        let melt_thickness = deposit.slag() / self.melt(wall, impact.wall_temperature)?.density;
+        let enclosed = deposit.enclosed();
+        let thickness = deposit.layer_thickness(voidage);
+        let [coverage, layer_thickness] = layers::powder_met(
+            [deposit.coverage(), cover::share(deposit.cover * enclosed)],
+            [thickness * (1.0 - enclosed), thickness * enclosed],
+            melt_thickness,
+            impact.diameter,
+        );
+        Ok(Impact { layer_thickness, coverage, melt_thickness, ..*impact })
     }
 
     /// The melt on a wall at a temperature [K]: that of the wall's slag, else that of the
@@ -106,6 +119,15 @@ impl Model {
         let viscosity = criterion.as_ref().map_or(f64::INFINITY, |melt| melt.film_viscosity(temperature));
         let surface_tension = material.surface_tension_near(temperature);
         Ok(WallMelt { density: material.density_near(temperature)?, viscosity, surface_tension })
+    }
+
+    /// The slag that an impact meets as a solid between the powder: stiff, and on more than half of the
+    /// wall.
+    pub(super) fn frozen_slag<'a>(&'a self, wall: &'a Wall, impact: &Impact) -> Option<&'a Material> {
+        let thickness = impact.melt_thickness;
+        let is_solid = || self.slag_melts_at(wall).is_some_and(|limit| impact.wall_temperature < limit);
+        let is_met = thickness > 0.0 && wetting::share(thickness, impact.diameter) > 0.5 && is_solid();
+        is_met.then(|| self.melt_material(wall))
     }
 
     /// The melt that an impact meets on bare wall, with the thickness of its film; `None` where
@@ -146,29 +168,94 @@ impl Model {
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
     }
 
-    /// Whether the particle's material is melt at the wall's temperature.
-    fn is_melt(&self, impact: &Impact, conversion: f64) -> bool {
-        let stiff_below = self.stickiness.as_ref().and_then(|criterion| criterion.stiff_below());
-        !stiff_below.is_some_and(|temperature| impact.wall_temperature < temperature)
-            && self.stickiness_as_melt(impact, conversion) >= Stickiness::THRESHOLD
+    /// Whether material of the particles with a carbon conversion [1] is liquid on the wall of an impact.
+    fn is_liquid(&self, impact: &Impact, conversion: f64) -> bool {
+        let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
+        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&on_wall));
+        let by_terms = terms.reduce(|product, share| product * share);
+        let hot = self.solid_below.is_some_and(|limit| impact.wall_temperature >= limit);
+        match by_terms {
+            Some(sticky) => (self.stickiness.is_none() || hot) && sticky >= Stickiness::THRESHOLD,
+            None => self.stickiness.is_some() && hot,
+        }
+    }
+
+    /// Heat [J/kg] that a captured particle of this impact brings to the surface: sensible heat down to
+    /// the temperature of the wall, `c_p (T_p - T_w)`, and the heat of fusion where it was liquid and
+    /// lands as a solid; less that heat where it was solid and lands as melt. `heat_capacity` [J/(kg K)]
+    /// where the caller knows it, else that of the particles' material. `None` where neither is known.
+    pub fn heat_brought(&self, impact: &Impact, heat_capacity: Option<f64>) -> Option<f64> {
+        let Impact { particle_temperature, wall_temperature, conversion, .. } = *impact;
+        let material = self.particle.melting();
+        let capacity = heat_capacity.or_else(|| material.heat_capacity_near(impact.mean_temperature()))?;
+        let melts_at = self.liquid_from.unwrap_or(f64::INFINITY);
+        let liquid = [particle_temperature >= melts_at, self.is_liquid(impact, conversion)];
+        let [before, after] = liquid.map(|liquid| f64::from(u8::from(liquid)));
+        let fusion = material.heat_of_fusion_near(particle_temperature).unwrap_or(0.0);
+        Some(capacity * (particle_temperature - wall_temperature) + fusion * (before - after))
+    }
+
+    /// The lowest temperature [K] at which material of the particles with a carbon conversion [1] is
+    /// liquid; `None` where there is none, or no temperature decides it.
+    fn lowest_liquid(&self, conversion: f64) -> Option<f64> {
+        let liquid = |temperature: f64| {
+            self.is_liquid(&Impact { wall_temperature: temperature, ..Impact::default() }, conversion)
+        };
+        if !self.stickiness_depends_on_temperature() {
+            return None;
+        }
+        self.solid_below.filter(|limit| *limit > 0.0 && liquid(*limit)).or_else(|| lowest(liquid))
+    }
+
+    /// Temperature [K] below which slag on a wall is solid; `None` where it is not known.
+    pub(super) fn slag_melts_at(&self, wall: &Wall) -> Option<f64> {
+        if wall.slag.is_some() { wall.slag_solid_below } else { self.liquid_from }
+    }
+
+    /// Temperature [K] from which powder with a carbon conversion [1] melts; infinite for powder that
+    /// does not.
+    pub(super) fn powder_melts_at(&self, conversion: f64) -> f64 {
+        let same =
+            |from: &f64| self.is_liquid(&Impact { wall_temperature: *from, ..Impact::default() }, conversion);
+        self.liquid_from.filter(same).or_else(|| self.lowest_liquid(conversion)).unwrap_or(f64::INFINITY)
+    }
+
+    /// Computes what depends on the criteria and the terms alone.
+    pub(super) fn set_melting(&mut self) {
+        self.solid_below = self.stickiness.as_ref().and_then(|criterion| criterion.solid_below());
+        self.liquid_from = self.lowest_liquid(1.0);
+        for wall in &mut self.walls {
+            wall.slag_solid_below = wall.melt.as_ref().and_then(|melt| melt.solid_below());
+        }
     }
 
     /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each
     /// process took from it [kg/m²], by the table [`PROCESSES`](crate::deposit::PROCESSES).
     ///
     /// # Errors
-    /// [`ImpactError`] for surroundings or a duration without physical meaning, or an unknown wall.
+    /// [`WallHeatError`] for surroundings or a duration without physical meaning, an unknown wall, or
+    /// a cooled wall without a heat balance.
     pub fn advance(
         &self,
         wall: usize,
         deposit: &Deposit,
         surroundings: &Surroundings,
         duration: f64,
-    ) -> Result<(Deposit, Losses), ImpactError> {
+    ) -> Result<(Deposit, Losses), WallHeatError> {
         surroundings.check()?;
         at_least_zero("duration", duration)?;
-        let wall = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        Ok(wall.processes.advance(deposit, self, surroundings, duration))
+        let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
+            (Some(cooling), _) if deposit.mass() > 0.0 => {
+                let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
+                DepositHeat::Cooled { flow, front: thermal.after(&deposit.layers(), duration)? }
+            }
+            (None, Some(temperature)) => DepositHeat::Isothermal {
+                liquid: self.slag_melts_at(of).map(|melts_at| temperature >= melts_at),
+            },
+            _ => DepositHeat::Unknown,
+        };
+        Ok(of.processes.advance(deposit, &Step { powder: self, surroundings, heat, duration }))
     }
 
     /// Whether the stickiness of the particles depends on their temperature.
@@ -182,12 +269,6 @@ impl Model {
 }
 
 impl PowderMaterial for Model {
-    /// As captured particles are: where it is sticky and not stiff.
-    fn melts(&self, conversion: f64, temperature: f64) -> bool {
-        let impact = Impact { wall_temperature: temperature, ..Impact::default() };
-        self.stickiness_depends_on_temperature() && self.is_melt(&impact, conversion)
-    }
-
     /// Those of the particles' melt.
     fn sintering(&self, temperature: f64) -> Option<[f64; 2]> {
         let viscosity = self.stickiness.as_ref()?.glass_viscosity(temperature);
@@ -271,7 +352,8 @@ width = 0.01
         assert_eq!(arrive(&Impact { conversion: 0.5, ..at(1900.0) }).powder, 1.0);
         let area = 1.5 / (2000.0 * 60e-6);
         assert_relative_eq!(arrive(&at(1100.0)).cover, area);
-        assert_relative_eq!(arrive(&at(1900.0)).buried, area);
+        // The melt spreads to twice its diameter.
+        assert_relative_eq!(arrive(&at(1900.0)).buried, 4.0 * area);
     }
 
     #[test]
@@ -398,6 +480,93 @@ model = "droplet"
         assert_relative_eq!(powder.cover, 1.5);
         assert!(given("coverage = 1").cover.is_finite());
         assert!(model().initial_deposit(9, 0.5).is_err() && model().initial_deposit(0, 1.0).is_err());
+    }
+
+    /// Steel that is known up to 873 K, under ash whose surface has 1000 K: steel is met at its own 633 K.
+    #[test]
+    fn the_wall_is_met_at_its_own_temperature() {
+        let text = ASH.replace("\"refractory\"\n[walls.slag]", "\"stainless-steel\"\n[walls.slag]");
+        let model = Model::from_toml("m", &text).unwrap();
+        let hot = Impact { particle_temperature: 1000.0, ..at(1000.0) };
+        let under = Impact { temperature_under: 633.0, ..hot };
+        assert!(model.check(0, &hot).is_err() && model.resolve(0, &hot, ImpactRng::default()).is_err());
+        assert!(model.check(0, &under).is_ok() && model.resolve(0, &under, ImpactRng::default()).is_ok());
+        let contact = |impact: &Impact| {
+            let wall = &model.walls[0];
+            wall.contact(&model.particle, impact, crate::model::WallPlace::Bare, None).unwrap()
+        };
+        let at_633 = contact(&Impact { wall_temperature: 633.0, ..hot });
+        assert_eq!(contact(&under), at_633);
+    }
+
+    /// On a share of 0.39 the layer is thicker than its mean over the wall: e_n of 0.4 (1/4 + 3/4
+    /// exp(-h/(c t))) by hand.
+    #[test]
+    fn powder_is_as_thick_as_it_lies() {
+        let text = ASH
+            .replace("refractory\"\n[walls.slag]", "refractory\"\npowder = \"fly-ash\"\n[walls.slag]")
+            + "[[effects]]\nkind = \"powder-layer\"\nthickness = 1e-4\nresidual = 0.25\n";
+        let model = Model::from_toml("m", &text).unwrap();
+        let dry = Impact { conversion: 0.0, coverage: 0.39, layer_thickness: 5e-5, ..at(900.0) };
+        let covered = model.resolve_place_with(0, &dry, |_| 0.999).unwrap();
+        let expected = 0.4 * (0.25 + 0.75 * (-0.5_f64 / 0.39).exp());
+        assert_relative_eq!(covered.normal_restitution, expected, max_relative = 1e-12);
+    }
+
+    /// What lies still has no energy: salt of 1e23 Pa s is solid, at rest and under fast impacts, and so
+    /// is what lands on it. By the flow point of 1e4 Pa s, B/ln(1e4/A) with the constants below.
+    #[test]
+    fn no_speed_melts_a_deposit() {
+        let text = ASH
+            .replace("model = \"viscosity\"", "model = \"kinetic-energy\"")
+            .replace("reference_viscosity = 25\n", "")
+            .replace("\"fly-ash\"", "\"salt\"")
+            + "[materials.salt]\ndensity = 2000\nyoungs_modulus = 2e10\npoisson_ratio = 0.2\n\
+               yield_strength = 1e8\nsurface_energy = 0.1\n\
+               viscosity = { arrhenius = [1e-10, 40000], valid = [300, 3000] }\n";
+        let model = Model::from_toml("m", &text).unwrap();
+        let melts_at = 40000.0 / 1e14_f64.ln();
+        assert_relative_eq!(model.liquid_from.unwrap(), melts_at, max_relative = 1e-9);
+        for (wall_temperature, molten) in [(530.0, false), (0.99 * melts_at, false), (1.01 * melts_at, true)]
+        {
+            for normal_speed in [0.0, 5.0, 100.0] {
+                let impact = Impact { normal_speed, ..at(wall_temperature) };
+                let sum = model.add_captured(0, &impact, 1.0, 2000.0, DepositSource::default()).unwrap();
+                assert_eq!(sum.molten > 0.0, molten, "{wall_temperature} K at {normal_speed} m/s");
+            }
+        }
+    }
+
+    /// Frozen slag that covers the wall is what an impact meets; where it is liquid, the wall under it.
+    #[test]
+    fn frozen_slag_is_a_partner_of_its_own() {
+        let text = ASH.replace("slag = \"coal-slag\"\n", "");
+        let model = Model::from_toml("m", &text).unwrap();
+        let limit = model.liquid_from.unwrap();
+        let met = |melt_thickness, wall_temperature| {
+            let impact = Impact { melt_thickness, ..at(wall_temperature) };
+            model.frozen_slag(&model.walls[0], &impact).map(Material::name)
+        };
+        assert_eq!(met(1e-3, limit - 1.0), Some("fly-ash"));
+        assert_eq!([met(1e-3, limit + 1.0), met(1e-7, limit - 1.0), met(0.0, limit - 1.0)], [None; 3]);
+    }
+
+    #[test]
+    fn what_lands_brings_its_heat() {
+        let text = ASH.replace("\"fly-ash\"", "\"ash\"")
+            + "[materials.ash]\ndensity = 2000\nyoungs_modulus = 2e10\npoisson_ratio = 0.2\n\
+               yield_strength = 1e8\nsurface_energy = 0.1\nviscosity = 10\n\
+               critical_viscosity_temperature = 1400\nheat_capacity = 1000\nheat_of_fusion = 2e5\n";
+        let model = Model::from_toml("m", &text).unwrap();
+        let brought = |particle_temperature, wall_temperature, capacity| {
+            let impact = Impact { particle_temperature, ..at(wall_temperature) };
+            model.heat_brought(&impact, capacity).unwrap()
+        };
+        assert_eq!(brought(1600.0, 1500.0, None), 1e5);
+        assert_eq!(brought(1600.0, 1300.0, None), 3e5 + 2e5);
+        assert_eq!(brought(1300.0, 1500.0, Some(1200.0)), -1200.0 * 200.0 - 2e5);
+        assert_eq!(brought(1300.0, 1200.0, None), 1e5);
+        assert_eq!(Model::from_toml("m", WAX).unwrap().heat_brought(&at(300.0), None), None);
     }
 
     #[test]

@@ -210,7 +210,8 @@ impl Model {
         place: WallPlace,
         uniform: &impl Fn(u64) -> f64,
     ) -> Result<Contact, ImpactError> {
-        let mut of_materials = wall.contact(&self.particle, impact, place)?;
+        let frozen = self.frozen_slag(wall, impact);
+        let mut of_materials = wall.contact(&self.particle, impact, place, frozen)?;
         if self.uses_melt && place != WallPlace::Covered {
             of_materials.melt = self.melt_met(wall, impact)?;
         }

@@ -57,6 +57,10 @@ pub struct Model {
     capture: Capture,
     /// The criterion for the particle's material or ash, where it applies to that.
     stickiness: Option<Arc<dyn StickinessCriterion>>,
+    /// Temperature [K] below which that criterion says that the material is solid on a wall.
+    solid_below: Option<f64>,
+    /// Temperature [K] from which particles without carbon are liquid on a wall.
+    liquid_from: Option<f64>,
     walls: Vec<Wall>,
     normal: NormalLaw,
     tangential: TangentialLaw,
@@ -185,6 +189,7 @@ impl Model {
 
     /// Prepares the walls that can be prepared.
     fn prepare(mut self) -> Self {
+        self.set_melting();
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
         self.adds_energy = self.terms.iter().any(|term| term.effect().may_add_energy());
         self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
@@ -230,8 +235,13 @@ impl Model {
     pub fn check(&self, wall: usize, impact: &Impact) -> Result<(), ImpactError> {
         let mut impact = *impact;
         let wall = self.at_wall(wall, &mut impact)?;
-        self.contact(wall, &impact, WallPlace::Bare, &|_| 0.5)?;
-        self.contact(wall, &impact, WallPlace::Covered, &|_| 0.5)?;
+        let patchwork = wall.is_patchwork(&impact);
+        if !patchwork || impact.coverage < 1.0 {
+            self.contact(wall, &impact, WallPlace::Bare, &|_| 0.5)?;
+        }
+        if patchwork && impact.coverage > 0.0 {
+            self.contact(wall, &impact, WallPlace::Covered, &|_| 0.5)?;
+        }
         self.particle_stickiness(&impact, &mut |_, _, _| {})?;
         Ok(())
     }

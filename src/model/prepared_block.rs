@@ -169,7 +169,8 @@ impl PreparedWall {
             all_within(Impact::PARTICLE_TEMPERATURE, self.known.particle)
                 && all_within(Impact::WALL_TEMPERATURE, self.known.wall)
         };
-        all_within(Impact::MELT_THICKNESS, [0.0, 0.0]) && (self.varying.is_none() || known())
+        all_within(Impact::MELT_THICKNESS, [0.0, 0.0])
+            && (self.varying.is_none() || (known() && all_within(Impact::TEMPERATURE_UNDER, [0.0, 0.0])))
     }
 
     /// Decides a block of impacts that have been checked and that [`Self::decides_block`], with the

@@ -37,6 +37,8 @@ pub(super) struct PreparedWall {
     pub varying: Option<Arc<VaryingContact>>,
     /// Temperatures at which every property is known.
     pub known: TemperatureRanges,
+    /// Temperature [K] below which slag on the wall is solid; 0 where it is liquid or not known.
+    pub slag_melts_at: f64,
     /// Which of [`INPUTS`] has to lie in which range for the terms.
     pub valid: Vec<(usize, [f64; 2])>,
 }
@@ -144,14 +146,18 @@ impl PreparedWall {
         } else {
             Some(Arc::new(VaryingContact::new(model, wall)?))
         };
-        Some(Self { constants, varying, known: model.ranges_of(wall), valid })
+        let slag_melts_at = model.slag_melts_at(wall).unwrap_or(0.0);
+        Some(Self { constants, varying, known: model.ranges_of(wall), slag_melts_at, valid })
     }
 
     /// Whether every property is known for an impact.
     #[inline(always)]
     pub fn decides(&self, impact: &Impact) -> bool {
+        // Frozen slag, and a wall of its own temperature under a deposit, need the general steps.
         within(impact.particle_temperature, self.known.particle)
             & within(impact.wall_temperature, self.known.wall)
+            & (impact.temperature_under == 0.0)
+            & ((impact.melt_thickness == 0.0) | (impact.wall_temperature >= self.slag_melts_at))
     }
 
     /// Decides one impact that has been checked, without melt on the wall, where the contact is constant.

@@ -76,6 +76,8 @@ impl Model {
             particle,
             capture,
             stickiness,
+            solid_below: None,
+            liquid_from: None,
             walls,
             normal,
             tangential,
@@ -168,6 +170,7 @@ impl WallReader<'_> {
             material,
             slag,
             melt,
+            slag_solid_below: None,
             powder: self.library.named_by(section, "powder")?,
             covering: Covering {
                 layer_thickness: thickness("layer_thickness")?,

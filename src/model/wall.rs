@@ -22,6 +22,8 @@ pub struct Wall {
     pub(super) slag: Option<Material>,
     /// The stickiness of that slag.
     pub(super) melt: Option<Arc<dyn StickinessCriterion>>,
+    /// Temperature [K] below which that slag is solid; `None` without slag, or where it is not known.
+    pub(super) slag_solid_below: Option<f64>,
     /// The contact partner where powder covers the wall; otherwise the wall itself.
     pub(super) powder: Option<Material>,
     pub(super) covering: Covering,
@@ -118,24 +120,27 @@ impl Wall {
         }
     }
 
-    /// The contact with a dry wall at the temperatures of the impact.
+    /// The contact with what is met at the temperatures of the impact: powder and frozen slag have that
+    /// of the surface, the wall's material its own. `frozen` is the slag where the wall lies under it.
     pub(super) fn contact(
         &self,
         particle: &Particle,
         impact: &Impact,
         place: WallPlace,
+        frozen: Option<&Material>,
     ) -> Result<Contact, ImpactError> {
-        let partner = match (place, &self.powder) {
-            (WallPlace::Covered, Some(powder)) => powder,
+        let (partner, temperature) = match (place, &self.powder, frozen) {
+            (WallPlace::Covered, Some(powder), _) => (powder, impact.wall_temperature),
+            (WallPlace::Bare | WallPlace::Anywhere, _, Some(slag)) => (slag, impact.wall_temperature),
             _ => {
                 if let Some(contact) = self.prepared {
                     let given = impact.particle_density;
                     return Ok(if given > 0.0 { Contact { density: given, ..contact } } else { contact });
                 }
-                &self.material
+                (&self.material, impact.own_wall_temperature())
             }
         };
-        let wall = partner.mechanical(impact.wall_temperature)?;
+        let wall = partner.mechanical(temperature)?;
         let ContactSettings { yield_ratio, work, .. } = self.adhesion;
         particle.contact(impact, &wall, yield_ratio, work)
     }

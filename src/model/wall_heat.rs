@@ -1,36 +1,30 @@
 //! Heat through a wall and what lies on it: the surface temperature that the next impact meets.
 //!
-//! From the coolant outwards: the wall, powder with its voids and melt, in the order of
-//! `src/deposit/layers.rs`. Steady conduction: a deposit of 5 mm follows the gas within a minute,
-//! and grows over hours.
+//! From the coolant outwards: the wall and the layers of `src/deposit/layers.rs`, each with the
+//! conductivity at its own mean temperature; in powder also that of the gas in the voids and of
+//! radiation. Steady conduction: a deposit of 5 mm follows the gas within a minute, and grows over
+//! hours. Where slag melts or freezes, the front takes heat or gives it (`src/deposit/front.rs`).
 
 use super::Model;
-use crate::deposit::conduction::{self, ConductingLayer, ConductionError, Coolant, HotSide};
+use super::wall::Wall;
+use crate::deposit::conduction::ConductionError;
 use crate::deposit::conductivity::{self, Phases};
-use crate::deposit::{Deposit, WallMelt, layers, sintering};
+use crate::deposit::front::{FrontStep, HeatFlow, ThermalLayers};
+use crate::deposit::layers::Layers;
+use crate::deposit::{Deposit, WallMelt, sintering};
 use crate::impact::ImpactError;
 use crate::material::Material;
 use crate::slag::film;
 
-/// Rounds in which conductivities and temperatures are made to agree, and the change of temperature
-/// [K] at which they do.
-const MOST_ROUNDS: u32 = 50;
+pub use crate::deposit::WallCooling;
+
+/// Rounds in which conductivities and temperatures are made to agree: plain ones, then those that go
+/// half of the way, and the change of temperature [K] at which they agree.
+const PLAIN_ROUNDS: u32 = 50;
+const MOST_ROUNDS: u32 = 200;
 const AGREED: f64 = 1e-9;
 /// Emissivity of grains whose material has none [1]; assumed.
 const GRAIN_EMISSIVITY: f64 = 0.8;
-
-/// A cooled wall, and what heats it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallCooling {
-    /// What cools it from behind.
-    pub coolant: Coolant,
-    /// Thickness of the wall over its conductivity [m² K/W].
-    pub wall_resistance: f64,
-    /// What heats its surface.
-    pub hot: HotSide,
-    /// Conductivity of the gas in the voids of the powder [W/(m K)].
-    pub gas_conductivity: f64,
-}
 
 /// The temperatures of a wall with a deposit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,12 +33,17 @@ pub struct WallHeat {
     pub surface_temperature: f64,
     /// Of the wall under the deposit [K].
     pub wall_temperature: f64,
-    /// Of the outside of the powder [K], under the melt.
-    pub powder_temperature: f64,
-    /// Heat flux from the gas to the coolant [W/m²].
+    /// Of the cold and the hot side of each layer [K].
+    pub sides: Layers<[f64; 2]>,
+    /// Heat flux from the gas into the surface [W/m²].
     pub heat_flux: f64,
+    /// Heat flux into the coolant [W/m²]: [`Self::heat_flux`] unless slag melts or freezes.
+    pub coolant_flux: f64,
     /// Thermal resistance of the deposit [m² K/W].
     pub deposit_resistance: f64,
+    /// Change of temperature [K] in the last round in which temperatures and conductivities were made to
+    /// agree: at most 1e-9 where they do.
+    pub disagreement: f64,
 }
 
 /// Why there are no temperatures.
@@ -62,14 +61,15 @@ pub enum WallHeatError {
 }
 
 impl WallHeat {
-    /// Temperatures [K] of the cold and the hot side of the powder.
-    pub fn powder_sides(&self) -> [f64; 2] {
-        [self.wall_temperature, self.powder_temperature]
+    /// Whether temperatures and conductivities agree. Where they do not, the conductivities are those of
+    /// temperatures that are off by [`Self::disagreement`].
+    pub fn has_settled(&self) -> bool {
+        self.disagreement <= AGREED
     }
 }
 
 impl Model {
-    /// Steady temperatures of a wall with a deposit whose fresh powder has a `voidage` [1].
+    /// Temperatures of a wall with a deposit whose fresh powder has a `voidage` [1].
     ///
     /// # Errors
     /// [`WallHeatError`].
@@ -80,53 +80,123 @@ impl Model {
         voidage: f64,
         cooling: &WallCooling,
     ) -> Result<WallHeat, WallHeatError> {
-        super::deposit::check_voidage(voidage)?;
-        let melted = self.melt_material(self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?);
-        let grains = self.particle.melting();
-        let bare = ConductingLayer { thickness: cooling.wall_resistance, conductivity: 1.0 };
-        let [thickness, porosity] = [deposit.layer_thickness(voidage), deposit.porosity(voidage)];
+        let (thermal, flow, disagreement) = self.thermal_layers(wall, deposit, voidage, cooling)?;
+        let [masses, per_mass] = [deposit.layers(), thermal.resistance_per_mass].map(Layers::outwards);
+        Ok(WallHeat {
+            surface_temperature: flow.surface(),
+            wall_temperature: flow.wall(),
+            sides: flow.sides,
+            heat_flux: flow.from_gas,
+            coolant_flux: flow.to_coolant,
+            deposit_resistance: masses.iter().zip(per_mass).map(|(mass, per)| mass * per).sum(),
+            disagreement,
+        })
+    }
 
-        let mut surface = cooling.hot.gas_temperature;
-        let mut found = None;
-        for _ in 0..MOST_ROUNDS {
-            let mean = 0.5 * (surface + cooling.coolant.temperature);
+    /// What melts and freezes in a deposit over a time step [s], with the heat that it takes.
+    /// Conductivities are those at its start.
+    ///
+    /// # Errors
+    /// [`WallHeatError`].
+    pub fn front_step(
+        &self,
+        wall: usize,
+        deposit: &Deposit,
+        voidage: f64,
+        cooling: &WallCooling,
+        duration: f64,
+    ) -> Result<FrontStep, WallHeatError> {
+        let (thermal, ..) = self.thermal_layers(wall, deposit, voidage, cooling)?;
+        Ok(thermal.after(&deposit.layers(), duration)?)
+    }
+
+    /// The layers of a deposit with their conductivities at their mean temperatures, the flow of heat,
+    /// and the disagreement [K] of both.
+    pub(super) fn thermal_layers(
+        &self,
+        wall: usize,
+        deposit: &Deposit,
+        voidage: f64,
+        cooling: &WallCooling,
+    ) -> Result<(ThermalLayers, HeatFlow, f64), WallHeatError> {
+        super::deposit::check_voidage(voidage)?;
+        let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let melted = self.melt_material(of);
+        let masses = deposit.layers();
+        let (slag_melts_at, powder_melts_at) =
+            (self.slag_melts_at(of), self.powder_melts_at(deposit.conversion));
+        let start = 0.5 * (cooling.hot.gas_temperature + cooling.coolant.temperature);
+        let mut means = [start; 4];
+        let mut round = 0;
+        loop {
+            if masses.inner_powder == 0.0 {
+                // What melt will enclose of the outer powder.
+                means[0] = means[3];
+            }
+            let thermal = ThermalLayers {
+                coolant: cooling.coolant,
+                wall_resistance: cooling.wall_resistance,
+                hot: cooling.hot,
+                resistance_per_mass: self.resistances_per_mass(of, deposit, voidage, cooling, means)?,
+                slag_melts_at,
+                powder_melts_at,
+                heat_of_fusion: melted.heat_of_fusion_near(slag_melts_at.unwrap_or(start)).unwrap_or(0.0),
+            };
+            let flow = thermal.flow(&masses)?;
+            let found = flow.sides.outwards().map(|[cold, hot]| 0.5 * (cold + hot));
+            let changes = means.iter().zip(found).zip(masses.outwards());
+            let changes =
+                changes.filter(|(_, mass)| *mass > 0.0).map(|((mean, found), _)| (found - mean).abs());
+            let disagreement = changes.fold(0.0, f64::max);
+            round += 1;
+            if disagreement <= AGREED || round == MOST_ROUNDS {
+                return Ok((thermal, flow, disagreement));
+            }
+            let way = if round <= PLAIN_ROUNDS { 1.0 } else { 0.5 };
+            means.iter_mut().zip(found).for_each(|(mean, found)| *mean += way * (found - *mean));
+        }
+    }
+
+    /// Thermal resistance over mass of each layer [m² K/W per kg/m²], at mean temperatures [K].
+    fn resistances_per_mass(
+        &self,
+        wall: &Wall,
+        deposit: &Deposit,
+        voidage: f64,
+        cooling: &WallCooling,
+        [inner, frozen, molten, outer]: [f64; 4],
+    ) -> Result<Layers<f64>, WallHeatError> {
+        let grains = self.particle.melting();
+        let slag = |temperature: f64| {
+            let material = self.melt_material(wall);
+            let conductivity = match material.thermal_conductivity_near(temperature) {
+                // No slag lies there that would need it.
+                None if deposit.slag() == 0.0 => 1.0,
+                _ => conductivity_of(material, temperature)?,
+            };
+            Ok::<f64, WallHeatError>(1.0 / (material.density_near(temperature)? * conductivity))
+        };
+        let powder = |temperature: f64| {
+            if deposit.powder == 0.0 {
+                return Ok(0.0);
+            }
+            let porosity = deposit.porosity(voidage);
+            let emissivity = grains.emissivity_near(temperature).unwrap_or(GRAIN_EMISSIVITY);
             let phases = Phases {
-                solid: if thickness > 0.0 { conductivity_of(grains, mean)? } else { 1.0 },
-                gas: cooling.gas_conductivity,
-                radiative: conductivity::radiative(
-                    mean,
-                    deposit.powder_diameter(),
-                    grains.emissivity_near(mean).unwrap_or(GRAIN_EMISSIVITY),
-                ),
+                solid: conductivity_of(grains, temperature)?,
+                gas: cooling.void_gas.at(temperature),
+                radiative: conductivity::radiative(temperature, deposit.powder_diameter(), emissivity),
             };
             let neck = sintering::neck_of_porosity(porosity, voidage);
-            let powder =
-                ConductingLayer { thickness, conductivity: conductivity::deposit(porosity, neck, &phases) };
-            let melt = match deposit.molten {
-                0.0 => ConductingLayer { thickness: 0.0, ..bare },
-                mass => ConductingLayer {
-                    thickness: mass / melted.density_near(surface)?,
-                    conductivity: conductivity_of(melted, surface)?,
-                },
-            };
-            let [inner, outer] = layers::outwards(powder, melt);
-            let steady = conduction::steady(&[bare, inner, outer], &cooling.coolant, &cooling.hot)?;
-            let change = (steady.surface_temperature - surface).abs();
-            surface = steady.surface_temperature;
-            let cold_sides = [steady.cold_sides[1], steady.cold_sides[2]];
-            let [wall_temperature, powder_temperature] = layers::powder_sides(cold_sides, surface);
-            found = Some(WallHeat {
-                surface_temperature: surface,
-                wall_temperature,
-                powder_temperature,
-                heat_flux: steady.heat_flux,
-                deposit_resistance: powder.resistance() + melt.resistance(),
-            });
-            if change <= AGREED {
-                break;
-            }
-        }
-        found.ok_or(WallHeatError::Conduction(ConductionError::NoBalance))
+            let conductivity = conductivity::deposit(porosity, neck, &phases);
+            Ok::<f64, WallHeatError>(deposit.layer_thickness(voidage) / (deposit.powder * conductivity))
+        };
+        Ok(Layers {
+            inner_powder: powder(inner)?,
+            frozen: slag(frozen)?,
+            molten: slag(molten)?,
+            outer_powder: powder(outer)?,
+        })
     }
 
     /// Mean speed [m/s] at which melt of a mass [kg/m²] runs down a wall that a heat flux [W/m²]
@@ -170,4 +240,101 @@ fn conductivity_of(material: &Material, temperature: f64) -> Result<f64, WallHea
     material
         .thermal_conductivity_near(temperature)
         .ok_or_else(|| WallHeatError::NoConductivity(material.name().to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::deposit::VoidGas;
+    use crate::deposit::conduction::{Coolant, HotSide, STEFAN_BOLTZMANN};
+    use approx::assert_relative_eq;
+
+    const ASH: &str = r#"
+[particle]
+material = "ash"
+[walls.default]
+material = "ash"
+[normal]
+model = "constant"
+e_n = 0.4
+[tangential]
+model = "constant"
+e_t = 0.7
+[capture]
+model = "viscosity"
+law = "kalmanovitch-frank"
+reference_viscosity = 1e4
+[materials.ash]
+density = 2500
+youngs_modulus = 1e10
+poisson_ratio = 0.2
+yield_strength = 1e8
+surface_energy = 0.1
+viscosity = 100
+critical_viscosity_temperature = 1400
+thermal_conductivity = { T = [500, 1500], value = [1.0, 2.0] }
+emissivity = 0.9
+"#;
+
+    const COOLING: WallCooling = WallCooling {
+        coolant: Coolant { temperature: 580.0, coefficient: 5e3 },
+        wall_resistance: 3e-4,
+        hot: HotSide {
+            gas_temperature: 1700.0,
+            coefficient: 80.0,
+            emissivity: 0.8,
+            irradiation: 2.5e5,
+            particle_flux: 1e3,
+        },
+        void_gas: VoidGas { conductivity: 0.1, temperature: 1500.0, exponent: 0.8 },
+    };
+
+    /// 1.5 kg/m² of powder under 2 kg/m² of frozen and 1 kg/m² of molten slag, and powder outside.
+    const DEPOSIT: Deposit = Deposit {
+        molten: 1.0,
+        powder: 2.0,
+        solid: 8e-4,
+        cover: 12.0,
+        conversion: 1.0,
+        closed: 0.0,
+        resuspended: 0.0,
+        frozen: 2.0,
+        behind: 0.75,
+    };
+
+    /// The layers one after the other by hand: each resistance from the conductivity at the mean of the
+    /// temperatures that the library found, and one flux through all of them.
+    #[test]
+    fn the_layers_are_resistances_in_series() {
+        let model = Model::from_toml("m", ASH).unwrap();
+        for deposit in [DEPOSIT, Deposit { powder: 0.0, solid: 0.0, cover: 0.0, ..DEPOSIT }] {
+            let heat = model.wall_heat(0, &deposit, 0.6, &COOLING).unwrap();
+            let flux = heat.coolant_flux;
+            assert_eq!((heat.heat_flux, heat.has_settled()), (flux, true));
+            let solid = |kelvin: f64| 1.0 + (kelvin - 500.0) / 1000.0;
+            let powder = |kelvin: f64| {
+                let gas = 0.1 * (kelvin / 1500.0_f64).powf(0.8);
+                let radiative = 4.0 * STEFAN_BOLTZMANN * kelvin.powi(3) * 1e-4 * 0.9 / 1.1;
+                conductivity::packed_bed(0.6, &Phases { solid: solid(kelvin), gas, radiative })
+            };
+            let thick = |mass: f64| mass / 2.0 * 8e-4 / 0.4;
+            let slag = |mass: f64| mass / 2500.0;
+            let Layers { inner_powder, frozen, molten, outer_powder } = deposit.layers();
+            let parts: [(f64, &dyn Fn(f64) -> f64); 4] = [
+                (thick(inner_powder), &powder),
+                (slag(frozen), &solid),
+                (slag(molten), &solid),
+                (thick(outer_powder), &powder),
+            ];
+            let mut temperature = 580.0 + flux * (1.0 / 5e3 + 3e-4);
+            assert_relative_eq!(heat.wall_temperature, temperature, max_relative = 1e-9);
+            for ((thickness, conductivity), sides) in parts.into_iter().zip(heat.sides.outwards()) {
+                assert_relative_eq!(sides[0], temperature, max_relative = 1e-9);
+                temperature += flux * thickness / conductivity(0.5 * (sides[0] + sides[1]));
+                assert_relative_eq!(sides[1], temperature, max_relative = 1e-9);
+            }
+            assert_relative_eq!(heat.surface_temperature, temperature, max_relative = 1e-9);
+            assert_relative_eq!(COOLING.hot.heat_flux(temperature), flux, max_relative = 1e-9);
+        }
+    }
 }

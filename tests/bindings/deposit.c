@@ -69,8 +69,6 @@ int main(int argc, char **argv) {
         around.gas_density = 0.25;
         around.kinematic_viscosity = 2.5e-4;
         if (impact.key % 4 == 3) {
-            around.wall_temperature = heat.wall_temperature;
-            around.powder_temperature = heat.powder_temperature;
             around.gravity_along = 9.81;
             around.shear_down = 0.5;
             around.shear_across = 0.25;
@@ -79,14 +77,15 @@ int main(int argc, char **argv) {
             const double friction_velocity = 0.25 * (double)(1 + impact.key % 5);
             around.shear_down = 0.25 * friction_velocity * friction_velocity;
         }
-        must(nw_deposit_advance(model, &around, 1, &deposit, &losses));
-        if (impact.key % 4 == 3 && deposit.molten + deposit.powder <= 0) must(nw_deposit_initial(model, 0.4, &deposit));
+        must(nw_deposit_advance(model, &around, impact.key % 4 == 3 ? &cooling : NULL, 1, &deposit, &losses));
+        if (impact.key % 4 == 3 && deposit.molten + deposit.frozen + deposit.powder <= 0) must(nw_deposit_initial(model, 0.4, &deposit));
         must(nw_film_velocity(model, &deposit, impact.T_w, 9.81, &velocity));
         printf("%u %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", (unsigned)outcome.stuck, impact.layer_thickness,
                impact.coverage, impact.melt_thickness, deposit.molten, deposit.powder, deposit.solid, deposit.cover,
                deposit.conversion, velocity);
-        printf(" %.17g %.17g %.17g %.17g %.17g %.17g %.17g", deposit.closed, deposit.resuspended, heat.surface_temperature,
-               heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance);
+        printf(" %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g", deposit.frozen, deposit.behind, deposit.closed,
+               deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.heat_flux, heat.coolant_flux,
+               heat.deposit_resistance);
         for (process = 0; process < NW_PROCESSES; ++process) printf(" %.17g", losses.mass[process]);
         printf("\n");
     }

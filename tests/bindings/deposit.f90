@@ -8,7 +8,7 @@ program deposit_test
   type(nw_outcome) :: outcome
   type(nw_deposit) :: deposit
   type(nw_deposit_source) :: source
-  type(nw_wall_cooling) :: cooling
+  type(nw_wall_cooling) :: cooling, uncooled
   type(nw_wall_heat) :: heat
   type(nw_deposit_surroundings) :: around
   type(nw_deposit_losses) :: losses
@@ -25,6 +25,7 @@ program deposit_test
   call must(nw_deposit_init(deposit))
   call must(nearwall_find_wall(model, 'default', deposit%wall))
   call must(nw_deposit_initial(model, 0.4d0, deposit))
+  call must(nw_wall_cooling_init(uncooled))
   call must(nw_wall_cooling_init(cooling))
   cooling%coolant_temperature = 600
   cooling%coolant_coefficient = 2000
@@ -58,8 +59,6 @@ program deposit_test
     around%gas_density = 0.25d0
     around%kinematic_viscosity = 2.5d-4
     if (modulo(impact%key, 4_c_int64_t) == 3) then
-      around%wall_temperature = heat%wall_temperature
-      around%powder_temperature = heat%powder_temperature
       around%gravity_along = 9.81d0
       around%shear_down = 0.5d0
       around%shear_across = 0.25d0
@@ -67,14 +66,18 @@ program deposit_test
     else
       around%shear_down = 0.25d0*(0.25d0*real(1 + modulo(impact%key, 5_c_int64_t), c_double))**2
     end if
-    call must(nw_deposit_advance(model, around, 1.0d0, deposit, losses))
-    if (modulo(impact%key, 4_c_int64_t) == 3 .and. deposit%molten + deposit%powder <= 0) &
+    if (modulo(impact%key, 4_c_int64_t) == 3) then
+      call must(nw_deposit_advance(model, around, cooling, 1.0d0, deposit, losses))
+    else
+      call must(nw_deposit_advance(model, around, uncooled, 1.0d0, deposit, losses))
+    end if
+    if (modulo(impact%key, 4_c_int64_t) == 3 .and. deposit%molten + deposit%frozen + deposit%powder <= 0) &
       call must(nw_deposit_initial(model, 0.4d0, deposit))
     call must(nw_film_velocity(model, deposit, impact%T_w, 9.81d0, velocity))
-    print '(i0, 20(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
+    print '(i0, 22(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
       deposit%molten, deposit%powder, deposit%solid, deposit%cover, deposit%conversion, velocity, &
-      deposit%closed, deposit%resuspended, heat%surface_temperature, heat%wall_temperature, heat%powder_temperature, &
-      heat%heat_flux, heat%deposit_resistance, losses%mass
+      deposit%frozen, deposit%behind, deposit%closed, deposit%resuspended, heat%surface_temperature, &
+      heat%wall_temperature, heat%heat_flux, heat%coolant_flux, heat%deposit_resistance, losses%mass
     impact%key = impact%key + 1
   end do
   close (unit)

@@ -22,16 +22,17 @@ for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimit
         source = nearwall.DepositSource()
         cooling.gas_temperature = 4000.0 if row % 64 == 63 else 1500.0
         heat = model.heat(deposit, 0.4, cooling)
-        around = nearwall.DepositSurroundings(0.4, heat, gas_density=0.25, kinematic_viscosity=2.5e-4, gravity_along=9.81,
+        around = nearwall.DepositSurroundings(0.4, gas_density=0.25, kinematic_viscosity=2.5e-4, gravity_along=9.81,
                                               shear_down=0.5, shear_across=0.25, draw=0.5)
     else:
         around = nearwall.DepositSurroundings(0.4, gas_density=0.25, kinematic_viscosity=2.5e-4,
                                               shear_down=0.25 * (0.25 * (1 + row % 5))**2)
-    losses = model.advance_deposit(deposit, around, 1.0)
-    if row % 4 == 3 and deposit.molten + deposit.powder <= 0:
+    losses = model.advance_deposit(deposit, around, 1.0, cooling if row % 4 == 3 else None)
+    if row % 4 == 3 and deposit.molten + deposit.frozen + deposit.powder <= 0:
         deposit = model.initial_deposit(deposit.wall, 0.4)
     velocity = model.film_velocity(deposit, T_w, 9.81)
     print(out.stuck[0], *(f"{number:.17g}" for number in (
         met["layer_thickness"], met["coverage"], met["melt_thickness"], deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.conversion, velocity,
-        deposit.closed, deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.powder_temperature, heat.heat_flux, heat.deposit_resistance,
+        deposit.frozen, deposit.behind, deposit.closed, deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.heat_flux,
+        heat.coolant_flux, heat.deposit_resistance,
         0.0, 0.0, losses["resuspended"], losses["shed"])))

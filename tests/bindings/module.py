@@ -69,8 +69,12 @@ assert heat.surface_temperature == 600.0 and abs(heat.heat_flux / 110e3 - 1) < 1
 refused(TypeError, lambda: nearwall.WallCooling(600.0, 1700.0, gas_coeficient=1.0), "no such input: gas_coeficient")
 refused(TypeError, lambda: nearwall.WallCooling(600.0, 1700.0, struct_size=1), "no such input: struct_size")
 refused(nearwall.Error, lambda: model.heat(model.initial_deposit(0, 0.4), 1.0, cooling), "an input is not finite or outside its bounds")
-calm = nearwall.DepositSurroundings(0.4, heat)
+calm = nearwall.DepositSurroundings(0.4)
 refused(nearwall.Error, lambda: model.advance_deposit(model.initial_deposit(0, 0.4), calm, -1.0), "an input is not finite or outside its bounds")
+held = nearwall.WallCooling(600.0, 1700.0, gas_coefficient=numpy.inf)
+lying = nearwall.Deposit(0)
+lying.molten = 1.0
+refused(nearwall.Error, lambda: model.advance_deposit(lying, calm, 1.0, held), "an input is not finite or outside its bounds")
 refused(nearwall.Error, lambda: model.advance_deposit(nearwall.Deposit(9), calm, 1.0), "the model has no such wall")
 refused(TypeError, lambda: nearwall.DepositSurroundings(0.4, shear=1.0), "no such input: shear")
 deposit = model.initial_deposit(0, 0.4)
@@ -129,7 +133,7 @@ assert numpy.allclose(part.e_n, [0.5, 0.58, 0.7], atol=1e-15) and numpy.allclose
 assert numpy.allclose(damp.resolve(2.0, v_t=1.0).e_t, 0.76, atol=1e-15)
 assert damp.speeds(humidity=0.1, plate="steel").sticking >= 0
 powder = nearwall.Deposit()
-powder.solid = 1e-3
+powder.solid, powder.powder = 1e-3, 1.0
 fault = refused(nearwall.Error, lambda: damp.heat(powder, 0.4, cooling), "has no thermal_conductivity")
 assert fault.status == nearwall.NO_CONDUCTIVITY
 refused(nearwall.Error, lambda: damp.resolve(v_n, plate="glas"), "did you mean `glass`? (known here: steel, glass)")

@@ -124,13 +124,11 @@ int deposit(const nearwall::model& model) {
     const nw_deposit before = deposit;
     nw_deposit_surroundings around = nearwall::make_deposit_surroundings(0.5);
     nw_deposit_losses losses = nearwall::make_deposit_losses();
-    around.wall_temperature = heat.wall_temperature;
-    around.powder_temperature = heat.powder_temperature;
     around.gravity_along = 9.81;
     around.draw = 0.5;
-    REQUIRE(model.advance(around, 60, deposit, losses) == NW_OK && deposit.powder == before.powder);
+    REQUIRE(model.advance(around, cooling, 60, deposit, losses) == NW_OK && deposit.powder == before.powder);
     around.draw = 1;
-    REQUIRE(model.advance(around, 60, deposit, losses) == NW_BAD_STATE);
+    REQUIRE(model.advance(around, cooling, 60, deposit, losses) == NW_BAD_STATE);
     // This model has no table of adhesion.
     around = nearwall::make_deposit_surroundings(0.5);
     around.gas_density = 1.2;

@@ -160,7 +160,7 @@ fn one_bad_impact_and_nothing_is_written() {
         (NW_BAD_STATE, |impact| impact.omega = f64::INFINITY),
         (NW_BAD_STATE, |impact| impact.d = 0.0),
         (NW_UNKNOWN_WALL, |impact| impact.wall = 3),
-        (NW_OUT_OF_RANGE, |impact| (impact.wall, impact.T_w) = (2, 900.0)),
+        (NW_OUT_OF_RANGE, |impact| (impact.wall, impact.T_w, impact.T_under) = (2, 900.0, 0.0)),
     ];
     for (status, break_it) in faults {
         for bad in [0, 1, 17, last] {

@@ -6,7 +6,7 @@ use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
 use nearwall::deposit::conduction::{Coolant, HotSide};
-use nearwall::deposit::{Deposit, DepositSource, Losses, PROCESSES, Surroundings, WallGas};
+use nearwall::deposit::{Deposit, DepositSource, Losses, PROCESSES, Surroundings, VoidGas, WallGas};
 use nearwall::model::{WallCooling, WallHeat};
 use nearwall::{Impact, Model};
 
@@ -277,19 +277,41 @@ fn in_rust(cooling: &nw_wall_cooling) -> WallCooling {
             irradiation: cooling.irradiation,
             particle_flux: cooling.further_flux,
         },
-        gas_conductivity: cooling.gas_conductivity,
+        void_gas: VoidGas {
+            conductivity: cooling.gas_conductivity,
+            temperature: cooling.void_temperature,
+            exponent: cooling.void_exponent,
+        },
     }
 }
 
-fn heat_in_rust(heat: &nw_wall_heat) -> WallHeat {
-    let nw_wall_heat { surface_temperature, wall_temperature, powder_temperature, .. } = *heat;
-    let nw_wall_heat { heat_flux, deposit_resistance, .. } = *heat;
-    WallHeat { surface_temperature, wall_temperature, powder_temperature, heat_flux, deposit_resistance }
+/// What C tells of the temperatures.
+fn heat_in_c(heat: &WallHeat) -> [f64; 6] {
+    [
+        heat.surface_temperature,
+        heat.wall_temperature,
+        heat.heat_flux,
+        heat.coolant_flux,
+        heat.deposit_resistance,
+        heat.disagreement,
+    ]
+}
+
+fn heat_numbers(heat: &nw_wall_heat) -> [f64; 6] {
+    [
+        heat.surface_temperature,
+        heat.wall_temperature,
+        heat.heat_flux,
+        heat.coolant_flux,
+        heat.deposit_resistance,
+        heat.disagreement,
+    ]
 }
 
 fn deposit_in_rust(deposit: &nw_deposit) -> Deposit {
     let nw_deposit { molten, powder, solid, cover, conversion, closed, resuspended, .. } = *deposit;
-    Deposit { molten, powder, solid, cover, conversion, closed, resuspended }
+    let nw_deposit { frozen, behind, .. } = *deposit;
+    Deposit { molten, powder, solid, cover, conversion, closed, resuspended, frozen, behind }
 }
 
 /// A heat with its size and -1 in every field, which no call writes.
@@ -297,9 +319,10 @@ fn unset_heat() -> nw_wall_heat {
     nw_wall_heat {
         surface_temperature: -1.0,
         wall_temperature: -1.0,
-        powder_temperature: -1.0,
         heat_flux: -1.0,
+        coolant_flux: -1.0,
         deposit_resistance: -1.0,
+        disagreement: -1.0,
         ..nw_wall_heat::default()
     }
 }
@@ -321,13 +344,14 @@ fn heat(
     Err(status)
 }
 
-fn surroundings_in_rust(around: &nw_deposit_surroundings) -> Surroundings {
-    let nw_deposit_surroundings { voidage, wall_temperature, powder_temperature, .. } = *around;
+fn surroundings_in_rust(around: &nw_deposit_surroundings, cooling: Option<&nw_wall_cooling>) -> Surroundings {
+    let nw_deposit_surroundings { voidage, wall_temperature, .. } = *around;
     let nw_deposit_surroundings { gas_density: density, kinematic_viscosity, .. } = *around;
     let nw_deposit_surroundings { gravity_outward, gravity_along, draw, .. } = *around;
     Surroundings {
         voidage,
-        powder_sides: (wall_temperature > 0.0).then_some([wall_temperature, powder_temperature]),
+        cooling: cooling.map(in_rust),
+        wall_temperature: (wall_temperature > 0.0).then_some(wall_temperature),
         gas: WallGas { density, kinematic_viscosity, shear: [around.shear_down, around.shear_across] },
         gravity_outward,
         gravity_along,
@@ -343,9 +367,21 @@ fn advance(
     around: *const nw_deposit_surroundings,
     duration: f64,
 ) -> Result<(nw_deposit, Losses), i32> {
+    advance_cooled(calls, model, deposit, around, null(), duration)
+}
+
+/// As [`advance`], on a cooled wall.
+fn advance_cooled(
+    calls: &Calls,
+    model: *const nw_model,
+    deposit: &nw_deposit,
+    around: *const nw_deposit_surroundings,
+    cooling: *const nw_wall_cooling,
+    duration: f64,
+) -> Result<(nw_deposit, Losses), i32> {
     let (mut after, mut losses) = (*deposit, nw_deposit_losses { mass: [-1.0; 4], ..Default::default() });
-    let status =
-        unsafe { (calls.nw_deposit_advance)(model, around, duration, &raw mut after, &raw mut losses) };
+    let (to, lost) = (&raw mut after, &raw mut losses);
+    let status = unsafe { (calls.nw_deposit_advance)(model, around, cooling, duration, to, lost) };
     if status == NW_OK {
         return Ok((after, losses.mass));
     }
@@ -364,7 +400,7 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
     let calls = Calls::load();
     let model = calls.parse(EVERY_REGIME);
     let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
-    let [mut melted, mut sintered] = [0, 0];
+    let [mut melted, mut frozen, mut sintered] = [0; 3];
     for (_, impact, draw) in random_cases(seed(), 300) {
         let uniform = |stream, low: f64, high: f64| low + (high - low) * draw.uniform(stream);
         let thickness = 10_f64.powf(uniform(1, -5.0, -2.0));
@@ -377,6 +413,8 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
             cover: 1.5 * thickness / impact.diameter,
             conversion: uniform(5, 0.5, 1.0),
             closed: thickness * voidage * uniform(6, -1.0, 0.8).max(0.0),
+            frozen: 2000.0 * thickness * uniform(14, -1.0, 1.0).max(0.0),
+            behind: uniform(15, -1.0, 1.0).max(0.0),
             ..nw_deposit::default()
         };
         let cooling = nw_wall_cooling {
@@ -391,7 +429,7 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
         let found = heat(&calls, model, &deposit, voidage, &cooling).unwrap();
         let wall = deposit.wall as usize;
         let expected = rust.wall_heat(wall, &deposit_in_rust(&deposit), voidage, &in_rust(&cooling));
-        assert_eq!(Ok(heat_in_rust(&found)), expected);
+        assert_eq!(heat_numbers(&found), heat_in_c(&expected.unwrap()));
         let nw_wall_cooling { coolant_temperature, gas_temperature, emissivity, .. } = cooling;
         let surface = found.surface_temperature;
         // The balance of both sides, written down again.
@@ -403,25 +441,24 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
         assert!((taken - given).abs() < 1e-9 * scale && (given - found.heat_flux).abs() < 1e-9 * scale);
 
         let duration = 10_f64.powf(uniform(13, 0.0, 6.0));
-        let around = nw_deposit_surroundings {
-            voidage,
-            wall_temperature: found.wall_temperature,
-            powder_temperature: found.powder_temperature,
-            ..Default::default()
-        };
-        let (aged, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
-        let expected =
-            rust.advance(wall, &deposit_in_rust(&deposit), &surroundings_in_rust(&around), duration);
+        let around = nw_deposit_surroundings { voidage, ..Default::default() };
+        let (aged, losses) = advance_cooled(&calls, model, &deposit, &around, &cooling, duration).unwrap();
+        let surroundings = surroundings_in_rust(&around, Some(&cooling));
+        let expected = rust.advance(wall, &deposit_in_rust(&deposit), &surroundings, duration);
         assert_eq!((deposit_in_rust(&aged), aged.wall), (expected.unwrap().0, deposit.wall));
         assert_eq!(losses, [0.0; 4]);
-        near(aged.molten + aged.powder, deposit.molten + deposit.powder);
+        near(deposit_in_rust(&aged).mass(), deposit_in_rust(&deposit).mass());
         melted += usize::from(aged.molten > deposit.molten);
+        frozen += usize::from(aged.frozen > deposit.frozen);
         // Not by rounding alone.
         let before = 1.001 * deposit.closed / thickness + 1e-9;
         sintered += usize::from(aged.powder > 0.0 && aged.closed / aged.solid > before);
     }
     calls.free(model);
-    assert!(melted > 20 && sintered > 20, "{melted} melted, {sintered} sintered");
+    assert!(
+        melted > 20 && frozen > 20 && sintered > 20,
+        "{melted} melted, {frozen} froze, {sintered} sintered"
+    );
 }
 
 /// Without radiation the resistances are in series: 1/2000, 1e-3, the deposit and 1/100.
@@ -434,10 +471,10 @@ fn a_cooled_wall_by_hand() {
     near(bare.heat_flux, flux);
     near(bare.surface_temperature, 1500.0 - flux / 100.0);
     near(bare.wall_temperature, bare.surface_temperature);
-    near(bare.powder_temperature, bare.surface_temperature);
+    near(bare.coolant_flux, flux);
     assert_eq!(bare.deposit_resistance, 0.0);
 
-    // 2 mm of slag, 2750 kg/m3 and 1.5 W/(m K), over 1 mm of ash without voids, 1.4 W/(m K).
+    // 2 mm of slag, 2750 kg/m3 and 1.5 W/(m K), under 1 mm of ash without voids, 1.4 W/(m K).
     let [melt, powder] = [2e-3 / 1.5, 1e-3 / 1.4];
     let deposit =
         nw_deposit { wall: 1, molten: 5.5, powder: 2.3, solid: 1e-3, cover: 30.0, ..nw_deposit::default() };
@@ -447,7 +484,8 @@ fn a_cooled_wall_by_hand() {
     near(covered.heat_flux, flux);
     near(covered.surface_temperature, 1500.0 - flux / 100.0);
     near(covered.wall_temperature, 600.0 + flux * 1.5e-3);
-    near(covered.powder_temperature, 600.0 + flux * (1.5e-3 + powder));
+    near(covered.coolant_flux, flux);
+    assert!(covered.disagreement <= 1e-9);
 
     // With voids it insulates better than without, and less than their gas would at the same thickness.
     let powder = nw_deposit { molten: 0.0, ..deposit };
@@ -460,7 +498,8 @@ fn a_cooled_wall_by_hand() {
     calls.free(model);
 }
 
-/// Powder that is nowhere hot enough stays, powder that is hot throughout melts, and no time changes nothing.
+/// Slag that cools freezes and powder that is nowhere hot enough stays, powder that is hot throughout
+/// melts, and no time changes nothing.
 #[test]
 fn a_deposit_ages() {
     let calls = Calls::load();
@@ -475,30 +514,35 @@ fn a_deposit_ages() {
         closed: 1e-5,
         ..nw_deposit::default()
     };
-    let age = |wall_temperature, powder_temperature, duration| {
-        let around = nw_deposit_surroundings {
-            voidage: 0.4,
-            wall_temperature,
-            powder_temperature,
-            ..Default::default()
-        };
-        advance(&calls, model, &deposit, &around, duration).map(|(after, _)| after)
+    let age = |coolant_temperature, gas_temperature, gas_coefficient, duration| {
+        let around = nw_deposit_surroundings { voidage: 0.4, ..Default::default() };
+        let cooling = nw_wall_cooling { coolant_temperature, gas_temperature, gas_coefficient, ..by_hand() };
+        advance_cooled(&calls, model, &deposit, &around, &cooling, duration).map(|(after, _)| after)
     };
-    for unchanged in [age(900.0, 1100.0, 0.0), age(300.0, 350.0, 3600.0)] {
-        let nw_deposit { closed, .. } = unchanged.unwrap();
-        near(closed, deposit.closed);
-        let unchanged = nw_deposit { closed: deposit.closed, ..unchanged.unwrap() };
-        assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
-    }
-    let molten = age(1800.0, 1900.0, 0.0).unwrap();
-    assert_eq!((molten.molten, molten.powder, molten.solid, molten.closed), (2.8, 0.0, 0.0, 0.0));
-    let half = age(900.0, 1900.0, 0.0).unwrap();
+    let unchanged = age(900.0, 1100.0, 100.0, 0.0).unwrap();
+    near(unchanged.closed, deposit.closed);
+    let unchanged = nw_deposit { closed: deposit.closed, ..unchanged };
+    assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
+    let cold = age(300.0, 350.0, 100.0, 3600.0).unwrap();
+    assert_eq!((cold.molten, cold.frozen, cold.powder, cold.behind), (0.0, 0.5, 2.3, 0.0));
+    let molten = age(1800.0, 1900.0, 100.0, 1.0).unwrap();
+    assert_eq!((molten.molten, molten.frozen, molten.solid, molten.closed), (2.8, 0.0, 0.0, 0.0));
+    let half = age(900.0, 1900.0, 1000.0, 1.0).unwrap();
     assert!(half.powder > 0.0 && half.powder < 2.3 && half.molten > 0.5, "{half:?}");
-    near(half.molten + half.powder, 2.8);
+    near(half.molten + half.frozen + half.powder, 2.8);
     // Until the pores that stay: 0.03 of the layer are voids, of 0.4.
-    let dense = age(1200.0, 1300.0, 1e12).unwrap();
+    let dense = age(1200.0, 1300.0, 100.0, 1e12).unwrap();
     near(dense.closed, 1e-3 / 0.6 - 1e-3 / 0.97);
-    assert_eq!((dense.powder, dense.molten, dense.cover), (2.3, 0.5, 30.0));
+    assert_eq!((dense.powder, dense.frozen, dense.cover), (2.3, 0.5, 30.0));
+    // A wall that is not cooled: slag is liquid or frozen by its temperature, powder outside stays.
+    let lying = |wall_temperature| {
+        let around = nw_deposit_surroundings { voidage: 0.4, wall_temperature, ..Default::default() };
+        advance(&calls, model, &nw_deposit { behind: 0.5, ..deposit }, &around, 60.0).unwrap().0
+    };
+    assert_eq!((lying(300.0).frozen, lying(300.0).powder), (0.5, 2.3));
+    assert_eq!((lying(1900.0).molten, lying(1900.0).powder), (0.5 + 1.15, 1.15));
+    // A surface that is held at a temperature could give any heat.
+    assert_eq!(age(900.0, 1900.0, f64::INFINITY, 1.0).unwrap_err(), NW_BAD_STATE);
     calls.free(model);
 }
 
@@ -606,7 +650,8 @@ fn the_gas_carries_away_as_in_the_rust_library() {
             };
             let duration = if draw.uniform(50) < 0.05 { 0.0 } else { power(60 + step, -3.0, 5.0) };
             let before = deposit_in_rust(&deposit);
-            let expected = rust.advance(wall as usize, &before, &surroundings_in_rust(&around), duration);
+            let expected =
+                rust.advance(wall as usize, &before, &surroundings_in_rust(&around, None), duration);
             let (after, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
             assert_eq!((deposit_in_rust(&after), losses), expected.unwrap());
             assert_eq!(losses, [0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
@@ -660,7 +705,7 @@ fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
     for voidage in [-0.1, 1.0, f64::NAN] {
         assert_eq!(refused(&deposit, voidage, &cooling), NW_BAD_STATE);
     }
-    let fields: [fn(&mut nw_wall_cooling) -> &mut f64; 9] = [
+    let fields: [fn(&mut nw_wall_cooling) -> &mut f64; 10] = [
         |cooling| &mut cooling.coolant_temperature,
         |cooling| &mut cooling.gas_temperature,
         |cooling| &mut cooling.gas_conductivity,
@@ -670,11 +715,12 @@ fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
         |cooling| &mut cooling.emissivity,
         |cooling| &mut cooling.irradiation,
         |cooling| &mut cooling.further_flux,
+        |cooling| &mut cooling.void_exponent,
     ];
     for (index, field) in fields.into_iter().enumerate() {
         let mut bad = vec![f64::NAN, f64::NEG_INFINITY];
-        // The flux may have any sign, coefficients may be infinite, and the first three must not be 0.
-        bad.extend((index != 8).then_some(-1.0));
+        // Flux and exponent may have any sign, coefficients may be infinite, the first three must not be 0.
+        bad.extend((index < 8).then_some(-1.0));
         bad.extend((index != 3 && index != 5).then_some(f64::INFINITY));
         bad.extend((index < 3).then_some(0.0));
         for number in bad {
@@ -738,14 +784,13 @@ fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
 }
 
 /// Each number of the surroundings, with values that are refused.
-type Numbers = [(fn(&mut nw_deposit_surroundings) -> &mut f64, &'static [f64]); 10];
+type Numbers = [(fn(&mut nw_deposit_surroundings) -> &mut f64, &'static [f64]); 9];
 const NO_NUMBERS: &[f64] = &[f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
 const NOT_POSITIVE: &[f64] = &[0.0, -1.0, f64::NAN, f64::INFINITY];
 const NO_SHARES: &[f64] = &[-0.1, 1.0, f64::NAN, f64::INFINITY];
 const REFUSED: Numbers = [
     (|around| &mut around.voidage, NO_SHARES),
-    (|around| &mut around.wall_temperature, NOT_POSITIVE),
-    (|around| &mut around.powder_temperature, NOT_POSITIVE),
+    (|around| &mut around.wall_temperature, &[-1.0, f64::NAN, f64::INFINITY]),
     (|around| &mut around.gas_density, NOT_POSITIVE),
     (|around| &mut around.kinematic_viscosity, NOT_POSITIVE),
     (|around| &mut around.shear_down, NO_NUMBERS),
@@ -771,8 +816,7 @@ fn a_step_that_cannot_be_is_refused_and_nothing_written() {
     };
     let around = nw_deposit_surroundings {
         voidage: 0.4,
-        wall_temperature: 1200.0,
-        powder_temperature: 1700.0,
+        wall_temperature: 1900.0,
         gas_density: 1.2,
         kinematic_viscosity: 1.5e-5,
         shear_down: 4.8,
@@ -809,7 +853,7 @@ fn a_step_that_cannot_be_is_refused_and_nothing_written() {
         (nw_deposit { struct_size: 48, ..deposit }, NW_STRUCT_SIZE),
         (nw_deposit { struct_size: 0, ..deposit }, NW_STRUCT_SIZE),
         // What melts makes more than there can be.
-        (nw_deposit { wall: 0, molten: f64::MAX, powder: f64::MAX, ..deposit }, NW_BAD_STATE),
+        (nw_deposit { wall: 1, molten: f64::MAX, powder: f64::MAX, behind: 1.0, ..deposit }, NW_BAD_STATE),
     ] {
         assert_eq!(step(&bad, &around, 60.0), Err(status), "{bad:?}");
     }
@@ -822,7 +866,7 @@ fn a_step_that_cannot_be_is_refused_and_nothing_written() {
         let mut ask = |to: *mut nw_deposit, size: u32, is_null: bool| {
             losses.struct_size = size;
             let lost = if is_null { null_mut() } else { &raw mut losses };
-            (calls.nw_deposit_advance)(model, &raw const around, 60.0, to, lost)
+            (calls.nw_deposit_advance)(model, &raw const around, null(), 60.0, to, lost)
         };
         let size = size_of::<nw_deposit_losses>() as u32;
         assert_eq!(ask(null_mut(), size, false), NW_NULL_POINTER);

@@ -307,7 +307,7 @@ fn structs_need_no_alignment() {
     let model = calls.parse(EVERY_REGIME);
     let impact = nw_impact { v_n: 2.0, v_t: 1.0, ..nw_impact::default() };
     let expected = bytes(&calls.resolve(model, &impact).unwrap());
-    let mut room = [0_u8; 256];
+    let mut room = [0_u8; 512];
     for offset in 1..8 {
         unsafe {
             let inside = room.as_mut_ptr().add(offset).cast::<nw_impact>();

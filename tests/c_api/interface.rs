@@ -41,7 +41,7 @@ macro_rules! for_each_function {
             nw_extra_input_value: unsafe extern "C" fn(*const nw_model, u32, *const c_char, *mut f64, *mut c_char, usize) -> i32,
             nw_deposit_surroundings_init: unsafe extern "C" fn(*mut nw_deposit_surroundings) -> i32,
             nw_deposit_losses_init: unsafe extern "C" fn(*mut nw_deposit_losses) -> i32,
-            nw_deposit_advance: unsafe extern "C" fn(*const nw_model, *const nw_deposit_surroundings, f64, *mut nw_deposit, *mut nw_deposit_losses) -> i32,
+            nw_deposit_advance: unsafe extern "C" fn(*const nw_model, *const nw_deposit_surroundings, *const nw_wall_cooling, f64, *mut nw_deposit, *mut nw_deposit_losses) -> i32,
             nw_wall_processes: unsafe extern "C" fn(*const nw_model, u32, *mut u32) -> i32,
             nw_process_name: unsafe extern "C" fn(u32) -> *const c_char,
             nw_process_loss: unsafe extern "C" fn(u32) -> *const c_char,
@@ -52,15 +52,15 @@ macro_rules! for_each_function {
 macro_rules! for_each_struct {
     ($define:ident) => {
         $define! {
-            nw_impact { struct_size wall seed key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
+            nw_impact { struct_size wall seed key v_n v_t omega d T_p rho_p conversion T_w T_under roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
-            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
+            nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w T_under roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
-            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity }
-            nw_wall_heat { struct_size reserved surface_temperature wall_temperature powder_temperature heat_flux deposit_resistance }
-            nw_deposit { struct_size wall molten powder solid cover conversion closed resuspended }
+            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity void_temperature void_exponent }
+            nw_wall_heat { struct_size reserved surface_temperature wall_temperature heat_flux coolant_flux deposit_resistance disagreement }
+            nw_deposit { struct_size wall molten powder solid cover conversion closed resuspended frozen behind }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
-            nw_deposit_surroundings { struct_size reserved voidage wall_temperature powder_temperature gas_density kinematic_viscosity shear_down shear_across gravity_outward gravity_along draw }
+            nw_deposit_surroundings { struct_size reserved voidage wall_temperature gas_density kinematic_viscosity shear_down shear_across gravity_outward gravity_along draw }
             nw_deposit_losses { struct_size reserved mass }
         }
     };

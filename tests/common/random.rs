@@ -70,6 +70,8 @@ fn random_case(seed: u64, index: u64) -> Case {
             ("d", _) => 10_f64.powf(uniform(-6.0, -3.0)),
             ("T_p", _) => uniform(600.0, 2200.0),
             ("T_w", _) => uniform(600.0, 1950.0),
+            // A wall under a deposit, in part of the cases.
+            ("T_under", _) => Some(uniform(-870.0, 870.0)).filter(|kelvin| *kelvin > 300.0).unwrap_or(0.0),
             ("conversion", _) => uniform(0.5, 1.0),
             ("omega", _) => uniform(-1e4, 1e4),
             ("film_thickness", _) => uniform(-1e-3, 1e-3).max(0.0),

@@ -54,7 +54,8 @@ fn much_char_covers_the_slag_and_lets_the_next_one_go() {
     assert!((on_char - 0.1353).abs() < 1e-3, "{on_char}");
 }
 
-/// Molten ash of the projected area 5 on top: ln(1 + exp(-5) (exp(2) - 1)) = 0.0422 stays of 2.
+/// Molten ash of the projected area 1 on top, which spreads to 4: ln(1 + exp(-4) (exp(2) - 1)) =
+/// 0.1107 of the char's cover of 2 stays outside.
 #[test]
 fn fresh_slag_lies_over_the_char() {
     let (model, char) = (model(), char_at(2.0));
@@ -64,13 +65,13 @@ fn fresh_slag_lies_over_the_char() {
         model.add_captured(0, impact, mass, density, DepositSource::default()).unwrap()
     };
     let before = Deposit::default().with(&source(&char, 2.0, 700.0));
-    let after = before.with(&source(&ash, 5.0, 2750.0));
+    let after = before.with(&source(&ash, 1.0, 2750.0));
     assert!(before.molten == 0.0 && before.coverage() > 0.86);
-    assert!((after.cover - 0.0422).abs() < 1e-4, "{after:?}");
+    assert!((after.coverage() - (1.0 - (-0.1107_f64).exp())).abs() < 1e-4, "{after:?}");
     assert!(
-        (after.mass() - before.mass() - 5.0 / 1.5 * 2750.0 * 75e-6).abs() < 1e-9,
+        (after.mass() - before.mass() - 1.0 / 1.5 * 2750.0 * 75e-6).abs() < 1e-9,
         "char is buried, not lost"
     );
     let next = model.apply_deposit(0, &after, 0.5, &char).unwrap();
-    assert!(model.resolve(0, &next, ImpactRng::new(1, 0)).unwrap().sticking_probability > 0.95);
+    assert!(model.resolve(0, &next, ImpactRng::new(1, 0)).unwrap().sticking_probability > 0.89);
 }

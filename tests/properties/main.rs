@@ -13,6 +13,7 @@ mod blocks;
 mod bounds;
 mod cases;
 mod continuous;
+mod deposit;
 mod energy;
 mod monotone;
 mod slag;

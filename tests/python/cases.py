@@ -25,7 +25,7 @@ def same(one, other, what, tolerance=0.0):
 
 
 def lying_mass(faces):
-    return sum(faces[column].sum() for column in ("depositedMass", "moltenMass", "powderMass") if column in faces)
+    return sum(faces[column].sum() for column in ("depositedMass", "moltenMass", "frozenMass", "powderMass") if column in faces)
 
 
 # Serial, restarted and on two ranks: the same numbers in path, foamlib.FoamCase, pandas and polars.
@@ -42,8 +42,8 @@ for name in ("recorder", "recorder-2", "recorder-restart", "memory"):
     floor = deposit[deposit.patch == "floor"]
     if name == "memory":
         last = case.deposits("floor").iloc[-1]
-        lying = (floor.area * (floor.moltenMass + floor.powderMass)).sum()
-        same(lying, last.molten_kg + last.powder_kg, f"{name}, deposit", 1e-9)
+        lying = (floor.area * (floor.moltenMass + floor.frozenMass + floor.powderMass)).sum()
+        same(lying, last.molten_kg + last.frozen_kg + last.powder_kg, f"{name}, deposit", 1e-9)
     else:
         last = case.totals("floor").iloc[-1]
         same((floor.area * floor.depositedMass).sum(), last.stick_mass_kg, f"{name}, deposit", 1e-9)

@@ -44,7 +44,7 @@ SP_SW = 3
 
 # The inputs of an impact; nearwall.h describes them.
 INPUTS = (
-    "v_n", "v_t", "omega", "d", "T_p", "rho_p", "conversion", "T_w", "roughness", "coverage",
+    "v_n", "v_t", "omega", "d", "T_p", "rho_p", "conversion", "T_w", "T_under", "roughness", "coverage",
     "layer_thickness", "film_thickness", "melt_thickness", "v_gas")
 
 
@@ -52,9 +52,10 @@ class nw_impact(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("wall", c_uint32), ("seed", c_uint64), ("key", c_uint64),
         ("v_n", c_double), ("v_t", c_double), ("omega", c_double), ("d", c_double), ("T_p", c_double),
-        ("rho_p", c_double), ("conversion", c_double), ("T_w", c_double), ("roughness", c_double),
-        ("coverage", c_double), ("layer_thickness", c_double), ("film_thickness", c_double),
-        ("melt_thickness", c_double), ("v_gas", c_double), ("extra", c_double * EXTRA_INPUTS)]
+        ("rho_p", c_double), ("conversion", c_double), ("T_w", c_double), ("T_under", c_double),
+        ("roughness", c_double), ("coverage", c_double), ("layer_thickness", c_double),
+        ("film_thickness", c_double), ("melt_thickness", c_double), ("v_gas", c_double),
+        ("extra", c_double * EXTRA_INPUTS)]
 
 
 class nw_outcome(Structure):
@@ -68,9 +69,9 @@ class nw_impacts(Structure):
         ("struct_size", c_uint32), ("wall", c_uint32), ("count", c_size_t), ("seed", c_uint64),
         ("walls", c_void_p), ("key", c_void_p), ("v_n", c_void_p), ("v_t", c_void_p), ("omega", c_void_p),
         ("d", c_void_p), ("T_p", c_void_p), ("rho_p", c_void_p), ("conversion", c_void_p), ("T_w", c_void_p),
-        ("roughness", c_void_p), ("coverage", c_void_p), ("layer_thickness", c_void_p),
-        ("film_thickness", c_void_p), ("melt_thickness", c_void_p), ("v_gas", c_void_p),
-        ("extra", c_void_p * EXTRA_INPUTS)]
+        ("T_under", c_void_p), ("roughness", c_void_p), ("coverage", c_void_p),
+        ("layer_thickness", c_void_p), ("film_thickness", c_void_p), ("melt_thickness", c_void_p),
+        ("v_gas", c_void_p), ("extra", c_void_p * EXTRA_INPUTS)]
 
 
 class nw_outcomes(Structure):
@@ -84,21 +85,22 @@ class nw_wall_cooling(Structure):
         ("struct_size", c_uint32), ("reserved", c_uint32), ("coolant_temperature", c_double),
         ("coolant_coefficient", c_double), ("wall_resistance", c_double), ("gas_temperature", c_double),
         ("gas_coefficient", c_double), ("emissivity", c_double), ("irradiation", c_double),
-        ("further_flux", c_double), ("gas_conductivity", c_double)]
+        ("further_flux", c_double), ("gas_conductivity", c_double), ("void_temperature", c_double),
+        ("void_exponent", c_double)]
 
 
 class nw_wall_heat(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("reserved", c_uint32), ("surface_temperature", c_double),
-        ("wall_temperature", c_double), ("powder_temperature", c_double), ("heat_flux", c_double),
-        ("deposit_resistance", c_double)]
+        ("wall_temperature", c_double), ("heat_flux", c_double), ("coolant_flux", c_double),
+        ("deposit_resistance", c_double), ("disagreement", c_double)]
 
 
 class nw_deposit(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("wall", c_uint32), ("molten", c_double), ("powder", c_double),
         ("solid", c_double), ("cover", c_double), ("conversion", c_double), ("closed", c_double),
-        ("resuspended", c_double)]
+        ("resuspended", c_double), ("frozen", c_double), ("behind", c_double)]
 
 
 class nw_deposit_source(Structure):
@@ -110,9 +112,9 @@ class nw_deposit_source(Structure):
 class nw_deposit_surroundings(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("reserved", c_uint32), ("voidage", c_double),
-        ("wall_temperature", c_double), ("powder_temperature", c_double), ("gas_density", c_double),
-        ("kinematic_viscosity", c_double), ("shear_down", c_double), ("shear_across", c_double),
-        ("gravity_outward", c_double), ("gravity_along", c_double), ("draw", c_double)]
+        ("wall_temperature", c_double), ("gas_density", c_double), ("kinematic_viscosity", c_double),
+        ("shear_down", c_double), ("shear_across", c_double), ("gravity_outward", c_double),
+        ("gravity_along", c_double), ("draw", c_double)]
 
 
 class nw_deposit_losses(Structure):
@@ -160,7 +162,7 @@ FUNCTIONS = {
     "nw_extra_input_value": (c_int32, [c_void_p, c_uint32, c_char_p, POINTER(c_double), c_char_p, c_size_t]),
     "nw_deposit_surroundings_init": (c_int32, [POINTER(nw_deposit_surroundings)]),
     "nw_deposit_losses_init": (c_int32, [POINTER(nw_deposit_losses)]),
-    "nw_deposit_advance": (c_int32, [c_void_p, POINTER(nw_deposit_surroundings), c_double, POINTER(nw_deposit), POINTER(nw_deposit_losses)]),
+    "nw_deposit_advance": (c_int32, [c_void_p, POINTER(nw_deposit_surroundings), POINTER(nw_wall_cooling), c_double, POINTER(nw_deposit), POINTER(nw_deposit_losses)]),
     "nw_wall_processes": (c_int32, [c_void_p, c_uint32, POINTER(c_uint32)]),
     "nw_process_name": (c_char_p, [c_uint32]),
     "nw_process_loss": (c_char_p, [c_uint32]),
@@ -211,9 +213,10 @@ class Error(Exception):
 
 
 class Deposit(nw_deposit):
-    """The deposit on a piece of wall, per wall area, initially bare: masses molten and powder [kg/m2], volume solid
-    [m3/m2] and projected area cover [1] of the powder's particles, carbon conversion [1], volume closed [m3/m2] of the
-    voids that sintering has closed."""
+    """The deposit on a piece of wall, per wall area, initially bare: masses of molten and frozen slag and powder [kg/m2],
+    volume solid [m3/m2] and projected area cover [1] of the powder's particles, carbon conversion [1], volume closed
+    [m3/m2] of the voids that sintering has closed, share behind [1] of the powder that slag has enclosed. From the wall
+    outwards lie enclosed powder, frozen slag, molten slag and the other powder."""
 
     def __init__(self, wall: int = 0) -> None:
         super().__init__()
@@ -221,7 +224,7 @@ class Deposit(nw_deposit):
         self.wall = _index("wall", wall, 32)
 
     def add(self, source: DepositSource) -> None:
-        """Adds the particles captured in a step. Powder that melt buries becomes part of the melt; mass is conserved."""
+        """Adds the particles captured in a step. Powder that melt buries lies below the slag then; mass is conserved."""
         _check(_library.nw_deposit_add(byref(source), byref(self)))
 
 
@@ -236,7 +239,9 @@ class DepositSource(nw_deposit_source):
 class WallCooling(nw_wall_cooling):
     """What cools and heats a wall: coolant_temperature and gas_temperature [K]; coolant_coefficient (infinite unless given)
     and gas_coefficient [W/(m2 K)]; wall_resistance, thickness over conductivity [m2 K/W]; emissivity [1]; irradiation and
-    further_flux [W/m2]; gas_conductivity in the voids of the powder, 0.026 W/(m K) unless given. The others are 0 unless given."""
+    further_flux [W/m2]; gas_conductivity in the voids of the powder at void_temperature [K], which changes with the power
+    void_exponent [1] of the temperature, unless given those of air: 0.026 W/(m K), 293.15 and 0.8. The others are 0
+    unless given."""
 
     def __init__(self, coolant_temperature: float, gas_temperature: float, **others: float) -> None:
         super().__init__()
@@ -255,8 +260,9 @@ def _set_numbers(struct: Structure, numbers: Dict[str, float]) -> None:
 
 class WallHeat(nw_wall_heat):
     """Temperatures of a wall from `Model.heat`: surface_temperature [K], the T_w of the next impact; wall_temperature [K]
-    under the deposit; powder_temperature [K] at the outside of the powder, under the melt; heat_flux [W/m2] from the gas to
-    the coolant; deposit_resistance [m2 K/W]."""
+    under the deposit, the T_under of the next impact; heat_flux [W/m2] from the gas, and coolant_flux to the coolant, which
+    differs where slag melts or freezes; deposit_resistance [m2 K/W]; disagreement [K], above 1e-9 where conductivities and
+    temperatures did not come to agree."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -264,16 +270,14 @@ class WallHeat(nw_wall_heat):
 
 
 class DepositSurroundings(nw_deposit_surroundings):
-    """What surrounds a piece of wall with a deposit, with the share `voidage` of voids in fresh powder [1] and the WallHeat
-    `heat` of a cooled wall, without which nothing melts or sinters. Further, 0 unless given: the gas's gas_density [kg/m3],
+    """What surrounds a piece of wall with a deposit, with the share `voidage` of voids in fresh powder [1]. Further, 0 unless
+    given: wall_temperature [K] of a wall that is not cooled, by which its slag is liquid; the gas's gas_density [kg/m3],
     kinematic_viscosity [m2/s], shear_down the slope and shear_across it [Pa]; gravity_outward from the wall and gravity_along
     it [m/s2]; draw, the rank of this piece of wall from the weakest, 0, to below 1. A piece keeps its draw."""
 
-    def __init__(self, voidage: float, heat: Optional[WallHeat] = None, **others: float) -> None:
+    def __init__(self, voidage: float, **others: float) -> None:
         super().__init__()
         _check(_library.nw_deposit_surroundings_init(byref(self)))
-        if heat is not None:
-            self.wall_temperature, self.powder_temperature = heat.wall_temperature, heat.powder_temperature
         _set_numbers(self, {"voidage": voidage, **others})
 
 
@@ -566,20 +570,23 @@ class Model:
         return found.value
 
     def heat(self, deposit: Deposit, voidage: float, cooling: WallCooling) -> WallHeat:
-        """The steady temperatures of a wall under its deposit, a WallHeat; `voidage` is the share of voids in fresh powder [1],
+        """The temperatures of a wall under its deposit, a WallHeat; `voidage` is the share of voids in fresh powder [1],
         `cooling` a WallCooling."""
         found = WallHeat()
         _check(_library.nw_deposit_heat(self._handle, byref(deposit), voidage, byref(cooling), byref(found)))
         return found
 
-    def advance_deposit(self, deposit: Deposit, surroundings: DepositSurroundings, duration: float) -> Dict[str, float]:
-        """Advances a deposit by a step of a `duration` [s]: powder that is hotter than it melts becomes melt, the rest sinters,
-        the gas carries loose powder away, and what the wall cannot hold falls off. Returns the mass [kg/m2] that left by each
+    def advance_deposit(self, deposit: Deposit, surroundings: DepositSurroundings, duration: float,
+                        cooling: Optional[WallCooling] = None) -> Dict[str, float]:
+        """Advances a deposit by a step of a `duration` [s]: with the `cooling` of its wall it melts, freezes and sinters, by
+        the heat of a gas_coefficient that is finite; the gas carries loose powder away, and what the wall cannot hold falls off. Returns the mass [kg/m2] that left by each
         process, as `resuspended` and `shed`. The last two act on walls with a table `resuspension` or `shedding` in the model
         file. Raises Error, and leaves the deposit as it is, where a number has no meaning or the model has no such wall."""
         losses = nw_deposit_losses()
         _check(_library.nw_deposit_losses_init(byref(losses)))
-        _check(_library.nw_deposit_advance(self._handle, byref(surroundings), duration, byref(deposit), byref(losses)))
+        _check(_library.nw_deposit_advance(
+            self._handle, byref(surroundings), None if cooling is None else byref(cooling), duration, byref(deposit),
+            byref(losses)))
         names = [_library.nw_process_loss(index).decode() for index in range(PROCESSES)]
         return {name: mass for name, mass in zip(names, losses.mass) if name}
 

@@ -39,6 +39,7 @@ struct nw_impact {
     rho_p: f64,
     conversion: f64,
     T_w: f64,
+    T_under: f64,
     roughness: f64,
     coverage: f64,
     layer_thickness: f64,

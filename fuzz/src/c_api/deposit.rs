@@ -77,6 +77,7 @@ impl KeptWall {
         let Some(after) = status else { return };
         sound(&after);
         alike(before.molten + before.powder + arrivals.molten + arrivals.powder, after.molten + after.powder);
+        assert!(after.frozen == before.frozen, "{after:?} of {before:?}");
         assert!(after.wall == before.wall && after.molten >= before.molten, "{after:?} of {before:?}");
         (self.deposit, self.arrivals) = (after, nw_deposit_source::default());
     }
@@ -163,11 +164,11 @@ impl KeptWall {
         asked.assert_guard_intact();
         sides.assert_guard_intact();
         let Some(after) = status else { return };
-        let found = [after.surface_temperature, after.wall_temperature, after.powder_temperature];
+        let found = [after.surface_temperature, after.wall_temperature];
         assert!(found.iter().all(|kelvin| kelvin.is_finite() && *kelvin > 0.0), "{after:?} by {cooling:?}");
-        assert!(after.heat_flux.is_finite(), "{after:?} by {cooling:?}");
+        assert!(after.heat_flux.is_finite() && after.coolant_flux.is_finite(), "{after:?} by {cooling:?}");
         assert!(after.deposit_resistance.is_finite() && after.deposit_resistance >= 0.0, "{after:?}");
-        if deposit.molten == 0.0 && deposit.solid == 0.0 {
+        if deposit.molten == 0.0 && deposit.frozen == 0.0 && deposit.solid == 0.0 {
             assert!(after.deposit_resistance == 0.0, "{after:?} of a bare wall");
         }
         self.heat = after;
@@ -182,15 +183,20 @@ impl KeptWall {
         if bytes.byte() == 0 {
             lost.struct_size = bytes.word() as u32;
         }
+        let cooled = cooling(bytes);
+        let mut sides = GuardedBuffer::holding(bytes, cooled);
+        // Null for a wall that is not cooled.
+        let by: *const nw_wall_cooling = sides.start_or_null(bytes);
         let mut losses = GuardedBuffer::holding(bytes, lost);
         let kept = losses.bytes.clone();
         let taken: *mut nw_deposit_losses = losses.start_or_null(bytes);
         let before = self.deposit(bytes);
         let status = changed(bytes, before, |to| {
             // SAFETY: each is null or what it should be.
-            unsafe { nw_deposit_advance(model, from, duration, to, taken) }
+            unsafe { nw_deposit_advance(model, from, by, duration, to, taken) }
         });
         asked.assert_guard_intact();
+        sides.assert_guard_intact();
         losses.assert_guard_intact();
         let Some(after) = status else {
             assert!(losses.bytes == kept, "written on failure");
@@ -201,7 +207,8 @@ impl KeptWall {
         let lost = unsafe { taken.read_unaligned() };
         assert!(lost.mass.iter().all(|mass| *mass >= 0.0), "{lost:?} of {before:?}");
         let gone: f64 = lost.mass.iter().map(|mass| 0.5 * mass).sum();
-        alike(0.5 * before.molten + 0.5 * before.powder, 0.5 * after.molten + 0.5 * after.powder + gone);
+        let half = |of: &nw_deposit| 0.5 * of.molten + 0.5 * of.frozen + 0.5 * of.powder;
+        alike(half(&before), half(&after) + gone);
         assert!(after.wall == before.wall && after.powder <= before.powder, "{after:?} of {before:?}");
         assert!(after.solid <= before.solid && after.cover <= before.cover, "{after:?} of {before:?}");
         self.deposit = after;
@@ -212,7 +219,6 @@ impl KeptWall {
         let mut around = nw_deposit_surroundings {
             voidage: share(bytes),
             wall_temperature: self.heat.wall_temperature,
-            powder_temperature: self.heat.powder_temperature,
             gas_density: 1.2,
             kinematic_viscosity: 1.5e-5,
             shear_down: 4.8,
@@ -223,7 +229,6 @@ impl KeptWall {
         let which = u16::from_le_bytes([bytes.byte(), bytes.byte()]);
         let fields = [
             &mut around.wall_temperature,
-            &mut around.powder_temperature,
             &mut around.gas_density,
             &mut around.kinematic_viscosity,
             &mut around.shear_down,
@@ -249,7 +254,7 @@ impl KeptWall {
         let fields = [
             &mut heat.surface_temperature,
             &mut heat.wall_temperature,
-            &mut heat.powder_temperature,
+            &mut heat.coolant_flux,
             &mut heat.heat_flux,
             &mut heat.deposit_resistance,
         ];
@@ -270,6 +275,7 @@ impl KeptWall {
         let which = bytes.byte();
         let fields = [
             &mut deposit.molten,
+            &mut deposit.frozen,
             &mut deposit.powder,
             &mut deposit.solid,
             &mut deposit.cover,
@@ -285,6 +291,7 @@ impl KeptWall {
         }
         if which >> 6 == 1 {
             deposit.resuspended = share(bytes);
+            deposit.behind = share(bytes);
         }
         if which >> 6 == 2 {
             deposit.closed = bytes.number();
@@ -347,6 +354,8 @@ fn cooling(bytes: &mut Bytes<'_>) -> nw_wall_cooling {
         &mut cooling.irradiation,
         &mut cooling.further_flux,
         &mut cooling.gas_conductivity,
+        &mut cooling.void_temperature,
+        &mut cooling.void_exponent,
     ];
     let which = u16::from_le_bytes(which);
     for (bit, field) in fields.into_iter().enumerate() {
@@ -433,10 +442,13 @@ fn share(bytes: &mut Bytes<'_>) -> f64 {
 }
 
 fn sound(deposit: &nw_deposit) {
-    let sizes = [deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.closed];
+    let sizes =
+        [deposit.molten, deposit.frozen, deposit.powder, deposit.solid, deposit.cover, deposit.closed];
     assert!(sizes.iter().all(|size| size.is_finite() && *size >= 0.0), "{deposit:?}");
     assert!(
-        [deposit.conversion, deposit.resuspended].iter().all(|share| (0.0..=1.0).contains(share)),
+        [deposit.conversion, deposit.resuspended, deposit.behind]
+            .iter()
+            .all(|share| (0.0..=1.0).contains(share)),
         "{deposit:?}"
     );
 }

@@ -4,8 +4,7 @@
 //! unless given), `thickness` [m] and `conductivity` [W/(m K)] of the wall (the latter by its
 //! material unless given), `gas_coefficient` [W/(m² K)], `gas_temperature` [K] (that of the case's
 //! gas at the wall unless given), `surroundings_temperature` [K] that radiates onto the wall, with
-//! the `emissivity` of its surface [1]. What arriving particles bring is left out: their mass is
-//! small against the gas.
+//! the `emissivity` of its surface [1]. What arriving particles bring comes on top.
 
 use nalgebra::Vector3;
 
@@ -70,8 +69,9 @@ impl Cooling {
         Ok(cooling)
     }
 
-    /// As the model takes it, at a place of the wall.
-    pub(super) fn at(&self, gas: &Gas, place: &Vector3<f64>) -> WallCooling {
+    /// As the model takes it, at a place of the wall where particles bring `particle_flux` [W/m²].
+    pub(super) fn at(&self, gas: &Gas, place: &Vector3<f64>, particle_flux: f64) -> WallCooling {
+        let void_gas = gas.in_voids(place, self.coolant.temperature);
         let gas = gas.at(place);
         let [emissivity, irradiation] = self.radiation.unwrap_or_default();
         let hot = HotSide {
@@ -79,13 +79,8 @@ impl Cooling {
             coefficient: self.gas_coefficient,
             emissivity,
             irradiation,
-            particle_flux: 0.0,
+            particle_flux,
         };
-        WallCooling {
-            coolant: self.coolant,
-            wall_resistance: self.wall_resistance,
-            hot,
-            gas_conductivity: gas.conductivity,
-        }
+        WallCooling { coolant: self.coolant, wall_resistance: self.wall_resistance, hot, void_gas }
     }
 }

@@ -22,7 +22,7 @@ use super::trajectory::{Fate, Trajectory};
 use super::wall_surroundings::surroundings;
 use nearwall::deposit::{Deposit, DepositSource, Losses, burn_off};
 use nearwall::impact::{Impact, ImpactError};
-use nearwall::model::{Model, WallHeat};
+use nearwall::model::{Model, WallHeat, WallHeatError};
 
 /// Sub-steps for each time in which the powder burns down by a factor e.
 const PARTS_PER_TIME: f64 = 4.0;
@@ -62,6 +62,8 @@ pub struct BinHistory {
     pub states: Vec<Deposit>,
     /// Temperatures then, of a cooled wall.
     pub heat: Vec<WallHeat>,
+    /// Heat flux that particles brought in the step before [W/m²], of a cooled wall.
+    pub particle_flux: Vec<f64>,
 }
 
 /// The walls while a case runs.
@@ -90,9 +92,11 @@ struct BinStep {
     caught: f64,
     burnt: f64,
     lost: Losses,
+    /// Heat that particles brought [J/m²].
+    heat: f64,
 }
 
-/// Combustible matter in the powder per area of wall.
+/// Combustible matter in the outer powder per area of wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct PowderCarbon {
     /// What is left [kg/m²].
@@ -108,7 +112,7 @@ impl WallDeposits {
             let initial = case.model.initial_deposit(*model, settings.voidage);
             let initial = initial.map_err(SimulationError::at_wall(&surface.name))?;
             let mut bins = bins(&surface.shape, settings.bins, initial);
-            bins.iter_mut().try_for_each(|bin| bin.record_heat(case, surface, settings.voidage))?;
+            bins.iter_mut().try_for_each(|bin| bin.record_heat(case, surface, settings.voidage, 0.0))?;
             Ok(Some(bins))
         };
         Ok(Self { settings, walls: case.surfaces.iter().map(wall).collect::<Result<_, SimulationError>>()? })
@@ -128,7 +132,8 @@ impl WallDeposits {
         let here = |bins: &Vec<Bin>| bin_at(bins, case.surfaces[surface].shape.coordinate(position));
         let Some(bin) = bins.and_then(|bins| bins.get(here(bins))) else { return Ok(*impact) };
         let wall_temperature = bin.temperature().unwrap_or(impact.wall_temperature);
-        let impact = Impact { wall_temperature, ..*impact };
+        let under = bin.history.heat.last().map_or(0.0, |heat| heat.wall_temperature);
+        let impact = Impact { wall_temperature, temperature_under: under, ..*impact };
         model.apply_deposit(wall, &bin.deposit, self.settings.voidage, &impact)
     }
 
@@ -147,6 +152,7 @@ impl WallDeposits {
         let powder = bin.source.powder;
         bin.source = model.add_captured(wall, &hit.impact, mass, hit.density, bin.source)?;
         bin.step.caught += mass;
+        bin.step.heat += mass * model.heat_brought(&hit.impact, injection.heat_capacity).unwrap_or(0.0);
         if bin.source.powder > powder {
             let share = injection.burning.carbon;
             let unburnt = mass * share / (1.0 - share * hit.impact.conversion);
@@ -169,8 +175,9 @@ impl WallDeposits {
                 bin.step.burnt = bin.end_step(case, *model, met, duration)?;
                 bin.advance(case, surface, number, voidage, duration)
                     .map_err(SimulationError::at_wall(&surface.name))?;
-                bin.history.record(bin.deposit, &std::mem::take(&mut bin.step));
-                bin.record_heat(case, surface, voidage)?;
+                let step = std::mem::take(&mut bin.step);
+                bin.history.record(bin.deposit, &step);
+                bin.record_heat(case, surface, voidage, step.heat / duration)?;
             }
         }
         Ok(())
@@ -206,10 +213,10 @@ impl Bin {
         let mut burnt = 0.0;
         for _ in 0..parts as u32 {
             burnt += self.burn(case, wall, temperature, half)?;
-            let powder = self.deposit.powder + source.powder;
+            let powder = self.deposit.layers().outer_powder + source.powder;
             self.deposit = self.deposit.with(&source);
-            // Melt buries powder of every kind alike.
-            let kept = if powder > 0.0 { self.deposit.powder / powder } else { 0.0 };
+            // Melt buries powder of every kind alike; what is buried does not burn.
+            let kept = if powder > 0.0 { self.deposit.layers().outer_powder / powder } else { 0.0 };
             self.powder = self.powder.with(&carbon).times(kept);
             burnt += self.burn(case, wall, temperature, half)?;
         }
@@ -227,11 +234,18 @@ impl Bin {
         self.history.heat.last().map(|heat| heat.surface_temperature)
     }
 
-    /// Records the temperatures of a cooled wall under its deposit.
-    fn record_heat(&mut self, case: &Case, surface: &Surface, voidage: f64) -> Result<(), SimulationError> {
+    /// Records the temperatures of a cooled wall under its deposit, with what particles bring [W/m²].
+    fn record_heat(
+        &mut self,
+        case: &Case,
+        surface: &Surface,
+        voidage: f64,
+        particle_flux: f64,
+    ) -> Result<(), SimulationError> {
         let SurfaceKind::Wall { model, cooling: Some(cooling), .. } = &surface.kind else { return Ok(()) };
         let place = surface.shape.point_at(self.middle());
-        let cooling = cooling.at(&case.gas, &place);
+        let cooling = cooling.at(&case.gas, &place, particle_flux);
+        self.history.particle_flux.push(particle_flux);
         let heat = case.model.wall_heat(*model, &self.deposit, voidage, &cooling);
         let heat = heat.map_err(SimulationError::at_wall(&surface.name))?;
         self.history.heat.push(heat);
@@ -246,15 +260,20 @@ impl Bin {
         number: usize,
         voidage: f64,
         duration: f64,
-    ) -> Result<(), ImpactError> {
-        let SurfaceKind::Wall { model: wall, friction_velocity, .. } = surface.kind else { return Ok(()) };
+    ) -> Result<(), WallHeatError> {
+        let SurfaceKind::Wall { model: wall, friction_velocity, temperature, cooling, .. } = &surface.kind
+        else {
+            return Ok(());
+        };
         let place = surface.shape.point_at(self.middle());
-        let sides = self.history.heat.last().map(WallHeat::powder_sides);
-        let around = surroundings(case, surface, friction_velocity, &place, number, voidage, sides);
-        let before = self.deposit.powder;
-        (self.deposit, self.step.lost) = case.model.advance(wall, &self.deposit, &around, duration)?;
-        // What melts or leaves takes its carbon along.
-        let kept = if before > 0.0 { self.deposit.powder / before } else { 1.0 };
+        let flux = self.step.heat / duration;
+        let cooling = cooling.as_ref().map(|cooling| cooling.at(&case.gas, &place, flux));
+        let heat = cooling.ok_or_else(|| temperature.at(&place));
+        let around = surroundings(case, surface, *friction_velocity, &place, number, voidage, heat);
+        let before = self.deposit.layers().outer_powder;
+        (self.deposit, self.step.lost) = case.model.advance(*wall, &self.deposit, &around, duration)?;
+        // What melts, is enclosed or leaves takes its carbon along.
+        let kept = if before > 0.0 { self.deposit.layers().outer_powder / before } else { 1.0 };
         self.powder = self.powder.times(kept);
         Ok(())
     }
@@ -324,7 +343,7 @@ impl PowderCarbon {
 impl BinHistory {
     /// Adds a state after a step.
     fn record(&mut self, deposit: Deposit, step: &BinStep) {
-        let BinStep { caught, burnt, lost } = *step;
+        let BinStep { caught, burnt, lost, .. } = *step;
         for (sum, more) in [(&mut self.arrived, caught), (&mut self.burnt, burnt)] {
             sum.push(sum.last().copied().unwrap_or(0.0) + more * self.area);
         }
@@ -350,6 +369,7 @@ fn bins(shape: &SurfaceShape, count: usize, deposit: Deposit) -> Vec<Bin> {
             lost: vec![],
             states: vec![],
             heat: vec![],
+            particle_flux: vec![],
         };
         history.record(deposit, &BinStep::default());
         Bin {

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::case::Case;
 use super::surface::Surface;
-use nearwall::deposit::{Surroundings, WallGas};
+use nearwall::deposit::{Surroundings, WallCooling, WallGas};
 
 /// Rank of a bin by its strength [1], from 0 to below 1: a golden-ratio sequence, which is even for any
 /// number of bins and gives the first one the median.
@@ -17,7 +17,7 @@ fn rank(bin: usize) -> f64 {
 }
 
 /// The surroundings of a bin of a wall at a place of it, with the friction velocity of the wall [m/s],
-/// the voids of fresh powder [1] and the temperatures of the powder's sides [K] on a cooled wall.
+/// the voids of fresh powder [1], and the cooling of the wall or its temperature [K].
 pub(super) fn surroundings(
     case: &Case,
     surface: &Surface,
@@ -25,14 +25,15 @@ pub(super) fn surroundings(
     place: &Vector3<f64>,
     bin: usize,
     voidage: f64,
-    powder_sides: Option<[f64; 2]>,
+    heat: Result<WallCooling, f64>,
 ) -> Surroundings {
     let gas = case.gas.at(place);
     let normal = surface.shape.normal(place);
     let gravity_outward = case.gravity.dot(&normal);
     Surroundings {
         voidage,
-        powder_sides,
+        cooling: heat.ok(),
+        wall_temperature: heat.err(),
         gas: WallGas {
             density: gas.density,
             kinematic_viscosity: gas.viscosity / gas.density,

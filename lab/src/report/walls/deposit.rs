@@ -87,15 +87,19 @@ fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
     for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg")] {
         chart = chart.line(name, &line(wall, column));
     }
-    let losses =
-        [("drained", "drained_kg"), ("fallen off", "shed_kg"), ("carried away by the gas", "resuspended_kg")];
-    for (name, column) in losses {
+    let others = [
+        ("frozen", "frozen_kg"),
+        ("drained", "drained_kg"),
+        ("fallen off", "shed_kg"),
+        ("carried away by the gas", "resuspended_kg"),
+    ];
+    for (name, column) in others {
         let points = line(wall, column);
         if points.iter().any(|[_, mass]| *mass > 0.0) {
             chart = chart.line(name, &points);
         }
     }
-    let caption = "Molten mass and powder in the deposit of the wall, and, where there is some, the mass that drained from \
+    let caption = "Molten and frozen slag and powder in the deposit of the wall, and, where there is some, the mass that drained from \
                    it as a film, that fell off and that the gas carried away. In OpenFOAM with the mass at capture; a standalone case counts out \
                    what burns off.";
     chart.figure(&format!("wall-deposit-{}", index + 1), caption)

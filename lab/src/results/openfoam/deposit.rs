@@ -1,10 +1,11 @@
 //! What lies on a patch that keeps a deposit, by the columns of `<patch>.wall.dat`.
 
 /// The columns that are read, in the order of [`DepositState`].
-pub const COLUMNS: [&str; 15] = [
+pub const COLUMNS: [&str; 16] = [
     "initial_kg",
     "arrived_kg",
     "molten_kg",
+    "frozen_kg",
     "powder_kg",
     "drained_kg",
     "shed_kg",

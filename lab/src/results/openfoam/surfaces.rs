@@ -10,13 +10,15 @@ use crate::results::surface::{SurfaceQuantity, WallFace, WallSurface};
 
 /// All fields of a cloud on the walls: those that are always written, then those of a wall with
 /// memory; and the quantity that a page shows of them. Fields of one quantity are added up.
-const WALL_FIELDS: [(&str, Option<SurfaceQuantity>); 14] = [
+const WALL_FIELDS: [(&str, Option<SurfaceQuantity>); 17] = [
     ("depositedMass", Some(SurfaceQuantity::Captured)),
     ("hitCount", None),
     ("meanImpactSpeed", None),
     ("erodedDepth", None),
     ("moltenMass", Some(SurfaceQuantity::Deposit)),
+    ("frozenMass", Some(SurfaceQuantity::Deposit)),
     ("powderMass", Some(SurfaceQuantity::Deposit)),
+    ("enclosedShare", None),
     ("layerThickness", Some(SurfaceQuantity::Layer)),
     ("coverArea", None),
     ("coverage", None),
@@ -24,6 +26,7 @@ const WALL_FIELDS: [(&str, Option<SurfaceQuantity>); 14] = [
     ("wallTemperature", Some(SurfaceQuantity::Temperature)),
     ("closedVoids", None),
     ("wallHeatFlux", Some(SurfaceQuantity::HeatFlux)),
+    ("underTemperature", None),
     ("resuspendedShare", None),
 ];
 

@@ -10,7 +10,7 @@ use crate::simulate::{BinHistory, Case, WallHistory};
 use nearwall::deposit::PROCESSES;
 use nearwall::model::{Wall, WallHeat};
 
-const HEADER: [&str; 14] = [
+const HEADER: [&str; 16] = [
     "time_s",
     "wall",
     "from_m",
@@ -19,6 +19,8 @@ const HEADER: [&str; 14] = [
     "coverage",
     "molten_kg_m2",
     "powder_kg_m2",
+    "frozen_kg_m2",
+    "inner_powder_kg_m2",
     "layer_thickness_m",
     "projected_area",
     "conversion",
@@ -28,7 +30,14 @@ const HEADER: [&str; 14] = [
 ];
 
 /// Further columns of a case with a cooled wall; blank for walls of a given temperature.
-const HEAT_HEADER: [&str; 3] = ["porosity", "surface_temperature_K", "heat_flux_W_m2"];
+const HEAT_HEADER: [&str; 6] = [
+    "porosity",
+    "surface_temperature_K",
+    "wall_temperature_K",
+    "heat_flux_W_m2",
+    "coolant_flux_W_m2",
+    "particle_flux_W_m2",
+];
 
 /// Further columns of a case with a wall that loses deposits: the place of each process in
 /// [`PROCESSES`] and the name of its loss.
@@ -79,7 +88,7 @@ fn into_sink<W: Write>(writer: csv::Writer<W>) -> csv::Result<W> {
     writer.into_inner().map_err(|error| error.into_error().into())
 }
 
-fn row(bin: &BinHistory, step: usize, voidage: f64) -> [f64; 12] {
+fn row(bin: &BinHistory, step: usize, voidage: f64) -> [f64; 14] {
     let state = &bin.states[step];
     [
         bin.range[0],
@@ -88,6 +97,8 @@ fn row(bin: &BinHistory, step: usize, voidage: f64) -> [f64; 12] {
         state.coverage(),
         state.molten,
         state.powder,
+        state.frozen,
+        state.layers().inner_powder,
         state.layer_thickness(voidage),
         state.cover,
         state.conversion,
@@ -98,9 +109,19 @@ fn row(bin: &BinHistory, step: usize, voidage: f64) -> [f64; 12] {
 }
 
 /// The cells of [`HEAT_HEADER`].
-fn heat_row(bin: &BinHistory, step: usize, voidage: f64) -> [String; 3] {
-    let Some(heat) = bin.heat.get(step) else { return Default::default() };
-    [bin.states[step].porosity(voidage), heat.surface_temperature, heat.heat_flux].map(text)
+fn heat_row(bin: &BinHistory, step: usize, voidage: f64) -> [String; 6] {
+    let Some((heat, particles)) = bin.heat.get(step).zip(bin.particle_flux.get(step)) else {
+        return Default::default();
+    };
+    [
+        bin.states[step].porosity(voidage),
+        heat.surface_temperature,
+        heat.wall_temperature,
+        heat.heat_flux,
+        heat.coolant_flux,
+        *particles,
+    ]
+    .map(text)
 }
 
 /// The deposits of a run by wall, in the columns of the page.
@@ -131,6 +152,7 @@ fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
         "initial_kg" => sum(&|bin| bin.states[0].mass() * bin.area),
         "arrived_kg" => sum(&|bin| bin.arrived[step]),
         "molten_kg" => sum(&|bin| bin.states[step].molten * bin.area),
+        "frozen_kg" => sum(&|bin| bin.states[step].frozen * bin.area),
         "powder_kg" => sum(&|bin| bin.states[step].powder * bin.area),
         "coverage_mean" => sum(&|bin| coverage(bin) * bin.area) / area,
         "coverage_max" => largest(&coverage),

@@ -11,7 +11,7 @@ const AFTER: [&str; 7] = ["x", "y", "z", "e_n", "e_t", "outcome", "regime"];
 /// Inputs that no standalone case sets; the file has no column for them.
 const LEFT_OUT: [&str; 1] = ["roughness"];
 /// Inputs that the deposit of a case sets; without one the file has no column for them.
-const OF_DEPOSIT: [&str; 4] = ["layer_thickness", "film_thickness", "coverage", "melt_thickness"];
+const OF_DEPOSIT: [&str; 5] = ["layer_thickness", "film_thickness", "coverage", "melt_thickness", "T_under"];
 /// The column of the injection, in a case with several.
 const INJECTION: &str = "injection";
 

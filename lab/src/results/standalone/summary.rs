@@ -104,7 +104,10 @@ struct DepositSummary<'a> {
     arrived_mass: f64,
     burnt_mass: f64,
     molten_mass: f64,
+    frozen_mass: f64,
     powder_mass: f64,
+    /// Records of a cooled wall whose temperatures and conductivities did not come to agree.
+    unsettled_records: usize,
     mean_coverage: f64,
     /// Initial + arrived - burnt - what lies there, over initial + arrived [1].
     balance_error: f64,
@@ -118,6 +121,9 @@ impl<'a> DepositSummary<'a> {
         let arrived_mass = sum(&|bin| bin.arrived.last().copied());
         let burnt_mass = sum(&|bin| bin.burnt.last().copied());
         let molten_mass = sum(&|bin| Some(bin.states.last()?.molten * bin.area));
+        let frozen_mass = sum(&|bin| Some(bin.states.last()?.frozen * bin.area));
+        let records = wall.bins.iter().flat_map(|bin| &bin.heat);
+        let unsettled_records = records.filter(|heat| !heat.has_settled()).count();
         let powder_mass = sum(&|bin| Some(bin.states.last()?.powder * bin.area));
         let all = initial_mass + arrived_mass;
         Self {
@@ -126,9 +132,11 @@ impl<'a> DepositSummary<'a> {
             arrived_mass,
             burnt_mass,
             molten_mass,
+            frozen_mass,
             powder_mass,
+            unsettled_records,
             mean_coverage: sum(&|bin| Some(bin.states.last()?.coverage() * bin.area)) / area,
-            balance_error: over(all - burnt_mass - molten_mass - powder_mass, all),
+            balance_error: over(all - burnt_mass - molten_mass - frozen_mass - powder_mass, all),
         }
     }
 }
