@@ -39,7 +39,7 @@ END
     settings 0.04 0.04
     solve memory first "$solver" || return
     f="$(folder kinematicCloud)/floor.wall.dat"
-    t="$(awk 'NR > 1 && $12 != before { before = $12; printf "%.9g ", $12 }' "$f")"
+    t="$(awk 'NR > 1 && $15 != before { before = $15; printf "%.9g ", $15 }' "$f")"
     expect_numbers memory/each-step "$t" "0.04 0.08 0.12 0.16"
     t="$(last "$f" powder_max_kg_m2) $(last "$f" layer_thickness_max_m) $(last "$f" coverage_max) $(last "$f" molten_kg)"
     t+=" $(last "$f" arrived_kg) $(last "$f" powder_kg) $(last "$f" wall_temperature_max_K)"
