@@ -706,7 +706,7 @@ nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
 // that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 // wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
 // receives the mass that each process took. Add the particles captured in the step first, with
-// `nw_deposit_add`. `cooling` is null for a wall that is not cooled; its `gas_coefficient` must be
+// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
 // finite, since a surface that is held at a temperature could give any heat.
 //
 // # Safety
