@@ -39,7 +39,7 @@ END
     settings 0.04 0.04
     solve memory first "$solver" || return
     f="$(folder kinematicCloud)/floor.wall.dat"
-    t="$(awk 'NR > 1 && $12 != before { before = $12; printf "%.9g ", $12 }' "$f")"
+    t="$(awk 'NR > 1 && $15 != before { before = $15; printf "%.9g ", $15 }' "$f")"
     expect_numbers memory/each-step "$t" "0.04 0.08 0.12 0.16"
     t="$(last "$f" powder_max_kg_m2) $(last "$f" layer_thickness_max_m) $(last "$f" coverage_max) $(last "$f" molten_kg)"
     t+=" $(last "$f" arrived_kg) $(last "$f" powder_kg) $(last "$f" wall_temperature_max_K)"
@@ -91,7 +91,7 @@ check_memory_balance() { # name table...
     then ok "$name (largest residual $most)"; else bad "$name" "largest residual $most"; fi
 }
 
-memory_fields="moltenMass powderMass layerThickness coverArea coverage depositConversion wallTemperature"
+memory_fields="moltenMass frozenMass enclosedShare powderMass layerThickness coverArea coverage depositConversion wallTemperature"
 
 # Every value on the walls of the fields of a time, field by field
 memory_values() { # time
@@ -213,7 +213,7 @@ case_slide() {
     then ok slide/restart/tables; else bad slide/restart/tables "$(head -n 1 <<< "$difference")"; fi
 }
 
-# From the files of the last time: what lies in the deposit cloud, and as melt on the
+# From the files of the last time: what lies in the deposit cloud, and as slag on the
 # faces of 0.025 x 0.025 m; from the tables: what is under way, left and drained
 slide_sums() {  # name start
     local f w column said
@@ -224,7 +224,9 @@ slide_sums() {  # name start
             for column in arrived powder drained; do echo "$column $(last "$w" ${column}_kg)"; done
         done
         echo "deposit $(sum_of 0.2/lagrangian/kinematicCloudDeposit/mass)"
-        face_values 0.2/kinematicCloud:moltenMass | awk '{ s += $2 } END { printf "film %.17g\n", s*6.25e-4 }'
+        # What flows onto a colder wall freezes there
+        cat <(face_values 0.2/kinematicCloud:moltenMass) <(face_values 0.2/kinematicCloud:frozenMass) \
+            | awk '{ s += $2 } END { printf "film %.17g\n", s*6.25e-4 }'
     } > sums
     if said="$(awk '
         function same(a, b, what) { if ((a - b)^2 > (1e-9*m["injected"])^2) { print what ": " a " and " b; bad = 1 } }
@@ -242,7 +244,7 @@ slide_sums() {  # name start
     check_memory_balance "$1/walls" "$f"/*.wall.dat
 }
 
-totals_but_residual() { totals kinematicCloud "$1" | awk '$1 ~ /wall$/ { $8 = 0; if ($5*$5 < 1e-30) $5 = 0 } { print }'; }
+totals_but_residual() { totals kinematicCloud "$1" | awk '$1 ~ /wall$/ { $9 = 0; if ($5*$5 < 1e-30) $5 = 0 } { print }'; }
 
 # The tables of the run that started at a time, and the fields at its end, against the serial ones
 memory_compare() { # name start
