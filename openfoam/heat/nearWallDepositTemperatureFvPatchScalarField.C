@@ -291,7 +291,18 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating
         const scalarField& qr =
             db().lookupObject<volScalarField>(given_.qr)
            .boundaryField()[patch().index()];
-        forAll(found, i) found[i].further_flux = qr[i];
+        const scalarField& T = *this;
+        const scalarField& then = radiating_.size() == size() ? radiating_ : T;
+        forAll(found, i)
+        {
+            // What a black surface takes from the model, which computed its
+            // flux at an earlier temperature: it loses less as it cools
+            nw_wall_cooling& c = found[i];
+            const scalar others = c.irradiation - sigma*pow4(T[i]);
+            c.further_flux = c.emissivity*others;
+            c.emissivity = 1;
+            c.irradiation = max(qr[i] + sigma*pow4(then[i]), scalar(0));
+        }
     }
     return found;
 }

@@ -337,4 +337,18 @@ emissivity = 0.9
             assert_relative_eq!(COOLING.hot.heat_flux(temperature), flux, max_relative = 1e-9);
         }
     }
+
+    /// A conductivity that jumps a thousandfold within a thousandth of a kelvin has no temperature at
+    /// which both agree; the temperatures that are found lie between coolant and gas, and say so.
+    #[test]
+    fn what_does_not_settle_is_said() {
+        let jump = "thermal_conductivity = { T = [1000, 1000.001], value = [0.01, 10] }";
+        let text = ASH.replace("thermal_conductivity = { T = [500, 1500], value = [1.0, 2.0] }", jump);
+        let model = Model::from_toml("m", &text).unwrap();
+        let slag = Deposit { powder: 0.0, solid: 0.0, cover: 0.0, molten: 0.0, frozen: 5.0, ..DEPOSIT };
+        let heat = model.wall_heat(0, &slag, 0.6, &COOLING).unwrap();
+        assert!(!heat.has_settled() && heat.disagreement > 1e-3, "{heat:?}");
+        assert!(heat.surface_temperature > 580.0 && heat.surface_temperature < 1700.0);
+        assert!(model.front_step(0, &slag, 0.6, &COOLING, 60.0).is_ok());
+    }
 }
