@@ -143,10 +143,11 @@ pub fn steady(
 /// # Errors
 /// [`ConductionError::NoBalance`].
 pub fn surface_temperature(resistance: f64, behind: f64, hot: &HotSide) -> Result<f64, ConductionError> {
-    if resistance == 0.0 {
+    let conductance = 1.0 / resistance;
+    // Nothing lies between, or a film so thin that this overflows.
+    if conductance == f64::INFINITY {
         return Ok(behind);
     }
-    let conductance = 1.0 / resistance;
     // Everything that does not depend on the surface.
     let given = hot.heat_flux(0.0) + conductance * behind;
     let [linear, quartic] = [conductance + hot.coefficient, hot.emissivity * STEFAN_BOLTZMANN];
