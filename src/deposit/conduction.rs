@@ -145,7 +145,7 @@ pub fn steady(
 pub fn surface_temperature(resistance: f64, behind: f64, hot: &HotSide) -> Result<f64, ConductionError> {
     let conductance = 1.0 / resistance;
     // Nothing lies between, or a film so thin that this overflows.
-    if conductance == f64::INFINITY {
+    if (conductance * behind).is_infinite() {
         return Ok(behind);
     }
     // Everything that does not depend on the surface.
