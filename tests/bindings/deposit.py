@@ -12,7 +12,7 @@ cooling = nearwall.WallCooling(600.0, 1500.0, coolant_coefficient=2000.0, wall_r
                                emissivity=0.8, irradiation=4e5)
 heat = nearwall.WallHeat()
 for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimiter=",", skiprows=1).tolist()):
-    met = model.apply_deposit(deposit, 0.4, T_w)
+    met = model.apply_deposit(deposit, 0.4, T_w, d)
     impact = dict(v_n=v_n, v_t=v_t, d=d, T_p=T_p, conversion=0.5 if row % 2 else 1.0, **met)
     out = model.resolve(**impact, seed=1, key=numpy.array([row], numpy.uint64))
     if out.stuck[0]:

@@ -544,9 +544,10 @@ class Model:
         _check(_library.nw_deposit_initial(self._handle, voidage, byref(deposit)))
         return deposit
 
-    def apply_deposit(self, deposit: Deposit, voidage: float, T_w: float) -> Dict[str, Any]:
-        """Arguments of `resolve` for impacts on a deposit, whose wall has T_w [K]: resolve(..., **apply_deposit(...))."""
-        impact = self._impact(deposit.wall, {"T_w": T_w})
+    def apply_deposit(self, deposit: Deposit, voidage: float, T_w: float, d: float = 1e-4) -> Dict[str, Any]:
+        """Arguments of `resolve` for impacts of particles of diameter d [m] on a deposit, whose wall has T_w [K]:
+        resolve(d=d, ..., **apply_deposit(..., d)). Powder under slag that is thin against d is met, too."""
+        impact = self._impact(deposit.wall, {"T_w": T_w, "d": d})
         _check(_library.nw_deposit_apply(self._handle, byref(deposit), voidage, byref(impact)))
         names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
         return {name: getattr(impact, name) for name in names}
