@@ -18,6 +18,7 @@ Foam::nearWall::runState::runState(const statisticsSource& source)
         )
     ),
     totals_(source),
+    ranges_(source),
     distributions_(source),
     recorder_(source),
     density_(source.models),
@@ -79,6 +80,7 @@ void Foam::nearWall::runState::beginStep(const bool isSteady)
 
     deposit->clear();
     totals_.clear();
+    ranges_.clear();
     distributions_.clear();
     if (fields_) fields_->clear();
 }
@@ -99,6 +101,7 @@ void Foam::nearWall::runState::addDecision
 void Foam::nearWall::runState::add(const impactEvent& e)
 {
     totals_.add(e);
+    ranges_.add(e);
     distributions_.add(e);
     recorder_.add(e);
     if (fields_) fields_->add(e);
@@ -226,6 +229,7 @@ Foam::dictionary Foam::nearWall::runState::finishStep
     if (!writes) return saved;
 
     saved.add("patches", totals_.saved(totals));
+    saved.add("outsideRange", ranges_.write(os));
     saved.add("statistics", distributions_.write());
     if (recorder_.on()) saved.add("record", recorder_.write(os));
     return saved;

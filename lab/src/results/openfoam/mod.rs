@@ -14,6 +14,7 @@ pub mod gas;
 pub mod impact_history;
 pub mod log;
 mod mesh;
+mod outside_ranges;
 mod parcel_lists;
 pub mod parcels;
 pub mod recorded;
@@ -150,6 +151,8 @@ fn complete(folder: &Path, mut results: RunResults, until: f64) -> RunResults {
     let patches = mesh::patches_in(&folder.join("constant/polyMesh/boundary")).unwrap_or_default();
     let walls = patches.into_iter().filter(|patch| patch.kind == "wall");
     results.wall_patches = walls.map(|patch| patch.name).collect();
+    let tables = folder.join("postProcessing/nearWallInteraction").join(&cloud);
+    results.outside_ranges = outside_ranges::read_last(&tables);
     add_arrivals(folder, &mut results, until);
     match parcels::read_last(folder, &cloud) {
         Ok(captures) => results.captures = captures,
