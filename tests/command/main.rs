@@ -8,6 +8,7 @@ mod common;
 mod arguments;
 mod compare;
 mod corpus;
+mod deposit_probe;
 mod diagnose;
 mod extra_inputs;
 #[cfg(unix)]
