@@ -207,7 +207,7 @@ impl<'a> RunComparison<'a> {
                 let text = format!("{count} particles{of} could not be used. The first: {reason}.");
                 page.text(text);
             }
-            for line in &run.outside_ranges {
+            if let Some(line) = run.outside_ranges.first() {
                 page.text(format!("{line}."));
             }
             page_later_captures(page, run);
@@ -216,6 +216,15 @@ impl<'a> RunComparison<'a> {
         gas::add_to(self, page);
         surfaces::add_to(self, page);
         LAST_SECTIONS.iter().for_each(|section| self.add_section(page, section));
+        if self.runs.iter().any(|run| run.outside_ranges.len() > 1) {
+            page.heading("Outside of stated ranges");
+        }
+        for (label, run) in self.each().filter(|(_, run)| run.outside_ranges.len() > 1) {
+            if !self.is_single() {
+                page.subheading(label);
+            }
+            run.outside_ranges[1..].iter().for_each(|line| page.note(format!("{line}.")));
+        }
     }
 
     /// Adds a section that has anything to show.

@@ -10,7 +10,19 @@ pub fn read_last(tables: &Path) -> Vec<String> {
     let starts = time_folders(tables).into_iter().rev();
     let mut texts =
         starts.filter_map(|(_, folder)| std::fs::read_to_string(folder.join("outsideRange.txt")).ok());
-    texts.next().map_or_else(Vec::new, |text| text.lines().filter_map(line).collect())
+    texts.next().map_or_else(Vec::new, |text| with_summary(text.lines().filter_map(line).collect()))
+}
+
+/// The lines after one that says how many there are; none before none.
+fn with_summary(mut lines: Vec<String>) -> Vec<String> {
+    if !lines.is_empty() {
+        let ranges = lines.len();
+        lines.insert(
+            0,
+            format!("Hits leave {ranges} stated ranges of properties and laws, listed at the end"),
+        );
+    }
+    lines
 }
 
 fn line(line: &str) -> Option<String> {
