@@ -4,6 +4,7 @@
 //! The ranges themselves are the library's ([`Model::beyond`]); what a held property moves comes from
 //! the model with that property raised and lowered ([`Displaced`]).
 
+use std::cell::LazyCell;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -31,7 +32,7 @@ pub struct Reason {
     /// The value of the impact with its unit; `None` where it has none.
     pub value: Option<String>,
     /// What was changed to see whether it matters; `None` for a law whose alternative nobody knows.
-    pub trial: Option<&'static str>,
+    pub trial: Option<String>,
     /// How far that moves `e_n`, `e_t` or `p_stick` [1]; `None` where it was not tried.
     pub moved: Option<f64>,
 }
@@ -45,12 +46,16 @@ impl<'m> RangeReader<'m> {
     /// The ranges that an impact outside of its ranges leaves, with what those move for which
     /// `measured` is true.
     fn find(&self, wall: usize, impact: &Impact, measured: impl Fn(&str) -> bool) -> Vec<Reason> {
-        let found = self.displaced.model().beyond(wall, impact).unwrap_or_default();
+        let model = self.displaced.model();
+        let found = model.beyond(wall, impact).unwrap_or_default();
+        let plain = LazyCell::new(|| model.expect(wall, impact, DRAWS));
         let reason = |beyond: &nearwall::model::Beyond<'_>| {
             let stated = beyond.stated();
-            let moved = measured(&stated)
-                .then(|| self.displaced.moved(wall, impact, beyond, DRAWS).ok().flatten())
-                .flatten();
+            let moved = || {
+                let plain = plain.as_ref().ok()?;
+                self.displaced.moved(wall, impact, plain, beyond, DRAWS).ok()?
+            };
+            let moved = if measured(&stated) { moved() } else { None };
             Reason { stated, value: beyond.value(), trial: beyond.trial(), moved }
         };
         let reasons: Vec<Reason> = found.iter().map(reason).collect();
@@ -105,7 +110,7 @@ pub struct RangeCounts {
 struct ReasonCount {
     impacts: u64,
     measured: u64,
-    trial: Option<&'static str>,
+    trial: Option<String>,
     most: f64,
 }
 
@@ -118,7 +123,7 @@ impl RangeCounts {
         for reason in reasons {
             let count = self.reasons.entry(reason.stated.clone()).or_default();
             count.impacts += 1;
-            count.trial = reason.trial;
+            count.trial.clone_from(&reason.trial);
             if let Some(moved) = reason.moved {
                 count.measured += 1;
                 count.most = count.most.max(moved);
@@ -155,11 +160,6 @@ impl RangeCounts {
         }
     }
 
-    /// Impacts outside of a range in a way that matters ([`Reason::matters`]).
-    pub fn matter(&self) -> u64 {
-        self.matter
-    }
-
     /// The counts in words: how many of the `things`, such as "rows", then a line a reason, those
     /// that matter first. Empty where all lie inside.
     pub fn lines(&self, things: &str) -> Vec<String> {
@@ -177,7 +177,10 @@ impl RangeCounts {
             key(one).partial_cmp(&key(other)).unwrap_or(std::cmp::Ordering::Equal)
         });
         let line = |(stated, count): (&String, &ReasonCount)| {
-            let moved = count.trial.map(|trial| format!("; {trial} moves {}", change("up to ", count.most)));
+            let moved = count
+                .trial
+                .as_ref()
+                .map(|trial| format!("; {trial} moves the outcome by {}", change("up to ", count.most)));
             format!("{} of {outside}: {stated}{}", count.impacts, moved.unwrap_or_default())
         };
         std::iter::once(first).chain(sorted.into_iter().map(line)).collect()

@@ -83,7 +83,7 @@ void Foam::nearWall::rangeCounts::writeFile
 
     mkDir(folder_);
     OFstream file(folder_/"outsideRange.txt");
-    file<< "# hits patch range, since the start of the case" << nl;
+    file<< "# hits patch range" << nl;
     for (const auto& each : totals)
     {
         file<< exactText(each.second).c_str() << ' ' << each.first.c_str()

@@ -163,11 +163,20 @@ impl ThermalLayers {
     /// # Errors
     /// [`ConductionError`]; a surface that is held at a temperature is refused.
     pub fn after(&self, masses: &Layers<f64>, duration: f64) -> Result<FrontStep, ConductionError> {
+        self.after_flow(masses, &self.flow(masses)?, duration)
+    }
+
+    /// [`Self::after`] where the [`Self::flow`] at the start is known.
+    pub(crate) fn after_flow(
+        &self,
+        masses: &Layers<f64>,
+        flow: &HeatFlow,
+        duration: f64,
+    ) -> Result<FrontStep, ConductionError> {
         if !self.hot.coefficient.is_finite() {
             let (quantity, value) = ("gas coefficient", self.hot.coefficient);
             return Err(ConductionError::Meaningless { quantity, value });
         }
-        let flow = self.flow(masses)?;
         if masses.outer_powder > 0.0 && flow.surface() > self.powder_melts_at {
             let inner_powder = masses.inner_powder + masses.outer_powder;
             let enclosed = Layers { inner_powder, outer_powder: 0.0, ..*masses };

@@ -6,6 +6,7 @@
 
 use std::fmt;
 
+use super::displaced::{LEAST_SHARE, VISCOSITY_FACTOR};
 use super::general_wall::Watcher;
 use super::wall::WallPlace;
 use super::{Model, Wall};
@@ -40,6 +41,11 @@ pub enum Stated<'m> {
         /// Its name in `[capture]`.
         name: &'static str,
     },
+    /// A capture criterion that knows no speed.
+    CriterionSpeed {
+        /// Its name in `[capture]`.
+        name: &'static str,
+    },
     /// A normal or tangential law, or an effect.
     Law {
         /// Its name in the model file.
@@ -71,13 +77,17 @@ impl Beyond<'_> {
         matches!(self.what, Stated::Property { .. })
     }
 
-    /// What [`Displaced`](super::Displaced) changes to see whether it matters; `None` for a law whose
-    /// alternative nobody knows.
-    pub fn trial(&self) -> Option<&'static str> {
+    /// What happens outside of the range, and what [`Displaced`](super::Displaced) changes to see whether
+    /// it matters; `None` for a law whose alternative nobody knows.
+    pub fn trial(&self) -> Option<String> {
         match self.what {
-            Stated::Property { .. } => Some("held there; 20 % or its uncertainty more or less"),
-            Stated::Criterion { .. } => Some("used beyond; ten times the viscosity or a tenth"),
-            Stated::Law { .. } => None,
+            Stated::Property { .. } => {
+                Some(format!("held there; its uncertainty (at least {} %)", 100.0 * LEAST_SHARE))
+            }
+            Stated::Criterion { .. } => {
+                Some(format!("used beyond; a viscosity {VISCOSITY_FACTOR} times higher or lower"))
+            }
+            Stated::CriterionSpeed { .. } | Stated::Law { .. } => None,
         }
     }
 
@@ -105,7 +115,7 @@ impl fmt::Display for Stated<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Property { material, key } => write!(f, "{key} of {material}"),
-            Self::Criterion { name } => write!(f, "capture {name}"),
+            Self::Criterion { name } | Self::CriterionSpeed { name } => write!(f, "capture {name}"),
             Self::Law { name } => f.write_str(name),
         }
     }
@@ -170,7 +180,7 @@ fn of_criterion(
 fn of_speed(criterion: &dyn StickinessCriterion, impact: &Impact, found: &mut Found<'_, '_>) {
     let (value, range) = (impact.normal_speed, [0.0, criterion.fastest()]);
     let limit = Limit::Quantity { name: "v_n", unit: "m/s", value, range };
-    found(Beyond { what: Stated::Law { name: criterion.name() }, limit });
+    found(Beyond { what: Stated::CriterionSpeed { name: criterion.name() }, limit });
 }
 
 /// A law that was fitted to a case.

@@ -164,20 +164,29 @@ impl Model {
     fn stickiness_as_melt(&self, impact: &Impact, conversion: f64) -> f64 {
         let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
         let criterion = self.stickiness.as_ref().map(|criterion| criterion.on_wall(&on_wall));
-        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&on_wall));
+        let terms = self.stickiness_of_terms(&on_wall);
         criterion.into_iter().chain(terms).reduce(|product, share| product * share).unwrap_or(0.0)
+    }
+
+    /// What each effect on the particle's stickiness gives [1].
+    fn stickiness_of_terms(&self, impact: &Impact) -> impl Iterator<Item = f64> {
+        self.terms.iter().filter_map(move |term| term.effect().particle_stickiness(impact))
     }
 
     /// Whether material of the particles with a carbon conversion [1] is liquid on the wall of an impact.
     fn is_liquid(&self, impact: &Impact, conversion: f64) -> bool {
         let on_wall = Impact { particle_temperature: impact.wall_temperature, conversion, ..*impact };
-        let terms = self.terms.iter().filter_map(|term| term.effect().particle_stickiness(&on_wall));
-        let by_terms = terms.reduce(|product, share| product * share);
+        let by_terms = self.stickiness_of_terms(&on_wall).reduce(|product, share| product * share);
         let hot = self.solid_below.is_some_and(|limit| impact.wall_temperature >= limit);
         match by_terms {
             Some(sticky) => (self.stickiness.is_none() || hot) && sticky >= Stickiness::THRESHOLD,
             None => self.stickiness.is_some() && hot,
         }
+    }
+
+    /// As [`Self::is_liquid`], of an impact of which only the wall's temperature [K] counts.
+    fn is_liquid_at(&self, wall_temperature: f64, conversion: f64) -> bool {
+        self.is_liquid(&Impact { wall_temperature, ..Impact::default() }, conversion)
     }
 
     /// Heat [J/kg] that a captured particle of this impact brings to the surface: sensible heat down to
@@ -198,9 +207,7 @@ impl Model {
     /// The lowest temperature [K] at which material of the particles with a carbon conversion [1] is
     /// liquid; `None` where there is none, or no temperature decides it.
     fn lowest_liquid(&self, conversion: f64) -> Option<f64> {
-        let liquid = |temperature: f64| {
-            self.is_liquid(&Impact { wall_temperature: temperature, ..Impact::default() }, conversion)
-        };
+        let liquid = |temperature: f64| self.is_liquid_at(temperature, conversion);
         if !self.stickiness_depends_on_temperature() {
             return None;
         }
@@ -215,8 +222,7 @@ impl Model {
     /// Temperature [K] from which powder with a carbon conversion [1] melts; infinite for powder that
     /// does not.
     pub(super) fn powder_melts_at(&self, conversion: f64) -> f64 {
-        let same =
-            |from: &f64| self.is_liquid(&Impact { wall_temperature: *from, ..Impact::default() }, conversion);
+        let same = |from: &f64| self.is_liquid_at(*from, conversion);
         self.liquid_from.filter(same).or_else(|| self.lowest_liquid(conversion)).unwrap_or(f64::INFINITY)
     }
 
@@ -248,7 +254,8 @@ impl Model {
         let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
             (Some(cooling), _) if deposit.mass() > 0.0 => {
                 let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
-                DepositHeat::Cooled { flow, front: thermal.after(&deposit.layers(), duration)? }
+                let front = thermal.after_flow(&deposit.layers(), &flow, duration)?;
+                DepositHeat::Cooled { flow, front }
             }
             (None, Some(temperature)) => DepositHeat::Isothermal {
                 liquid: self.slag_melts_at(of).map(|melts_at| temperature >= melts_at),

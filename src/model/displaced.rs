@@ -64,7 +64,8 @@ impl<'m> Displaced<'m> {
 
     /// How far what is used beyond its range moves the outcome of an impact [1]: the largest change
     /// of `p_stick`, or of `e_n` and `e_t` times the share that rebounds, over `draws` as in
-    /// [`Model::expect`]. `None` for a law whose alternative nobody knows.
+    /// [`Model::expect`], which gave `plain` with the same. `None` for a law whose alternative nobody
+    /// knows.
     ///
     /// # Errors
     /// As [`Model::resolve`].
@@ -72,14 +73,14 @@ impl<'m> Displaced<'m> {
         &self,
         wall: usize,
         impact: &Impact,
+        plain: &Expectation,
         beyond: &Beyond<'_>,
         draws: usize,
     ) -> Result<Option<f64>, ImpactError> {
         let Some(models) = self.models_for(beyond) else { return Ok(None) };
-        let plain = self.model.expect(wall, impact, draws)?;
         let mut most: f64 = 0.0;
         for model in models {
-            most = most.max(change(&plain, &model.expect(wall, impact, draws)?));
+            most = most.max(change(plain, &model.expect(wall, impact, draws)?));
         }
         Ok(Some(most))
     }
@@ -91,7 +92,7 @@ impl<'m> Displaced<'m> {
                 Some(&known.find(|known| known.key == key && known.material == material)?.models)
             }
             Stated::Criterion { .. } => self.viscosities.as_ref(),
-            Stated::Law { .. } => None,
+            Stated::CriterionSpeed { .. } | Stated::Law { .. } => None,
         }
     }
 }
@@ -180,8 +181,9 @@ e_t = 0.7
         let hot = Impact { wall_temperature: 500.0, particle_temperature: 340.0, ..Impact::default() };
         let impact = Impact { normal_speed: 100.0, diameter: 1e-3, ..hot };
         let displaced = Displaced::new(&plain);
+        let mean = plain.expect(0, &impact, 64).unwrap();
         for beyond in plain.beyond(0, &impact).unwrap() {
-            assert_eq!(displaced.moved(0, &impact, &beyond, 64), Ok(Some(0.0)), "{beyond}");
+            assert_eq!(displaced.moved(0, &impact, &mean, &beyond, 64), Ok(Some(0.0)), "{beyond}");
         }
         let text = CONSTANT.replace("\"constant\"\ne_n = 0.4", "\"thornton-ning\"\nyield_ratio = 0.7");
         let model = Model::from_toml("m", &text).unwrap();
@@ -192,9 +194,9 @@ e_t = 0.7
         };
         let strength = reasons.iter().find(strength).unwrap();
         let share = model.particle().property("yield_strength").unwrap().uncertainty().unwrap() / 9.5e6;
-        let e_n = model.expect(0, &impact, 64).unwrap().normal_restitution;
-        let moved = displaced.moved(0, &impact, strength, 64).unwrap().unwrap();
-        let expected = e_n * (1.0 - (1.0 - share).powf(0.625));
+        let mean = model.expect(0, &impact, 64).unwrap();
+        let moved = displaced.moved(0, &impact, &mean, strength, 64).unwrap().unwrap();
+        let expected = mean.normal_restitution * (1.0 - (1.0 - share).powf(0.625));
         assert!((moved / expected - 1.0).abs() < 0.05, "{moved} {expected}");
     }
 }

@@ -106,8 +106,8 @@ impl Model {
         cooling: &WallCooling,
         duration: f64,
     ) -> Result<FrontStep, WallHeatError> {
-        let (thermal, ..) = self.thermal_layers(wall, deposit, voidage, cooling)?;
-        Ok(thermal.after(&deposit.layers(), duration)?)
+        let (thermal, flow, _) = self.thermal_layers(wall, deposit, voidage, cooling)?;
+        Ok(thermal.after_flow(&deposit.layers(), &flow, duration)?)
     }
 
     /// The layers of a deposit with their conductivities at their mean temperatures, the flow of heat,

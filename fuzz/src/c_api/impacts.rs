@@ -1,6 +1,6 @@
 //! Calls about impacts: one, many, and what can be asked of them.
 
-use std::ffi::CStr;
+use std::ffi::{CStr, c_char};
 use std::ptr::null;
 
 use nearwall::Impact;
@@ -168,27 +168,22 @@ pub fn of_particles(bytes: &mut Bytes<'_>, model: *const nw_model) {
 /// Which stated ranges an impact leaves.
 fn beyond(bytes: &mut Bytes<'_>, model: *const nw_model, impact: *const nw_impact) {
     let size = [0, 1, 2, 3, 40, 4000][bytes.below(6)];
-    let mut buffer = GuardedBuffer::new(bytes, size);
-    let text = buffer.start_or_null(bytes);
     // SAFETY: each is null or what it should be.
-    let status = unsafe { nw_beyond(model, impact, text, size) };
-    known(status);
-    buffer.assert_guard_intact();
-    if status == NW_OK {
-        let text = CStr::from_bytes_until_nul(buffer.inside()).expect("a closing zero");
-        text.to_str().expect("whole characters");
-    } else {
-        buffer.assert_untouched();
-    }
+    said(bytes, size, |text, size| unsafe { nw_beyond(model, impact, text, size) });
 }
 
 /// Which input is probably in another unit.
 fn unlikely(bytes: &mut Bytes<'_>, impact: *const nw_impact) {
     let size = [0, 1, 2, 3, 40, 400][bytes.below(6)];
+    // SAFETY: each is null or what it should be.
+    said(bytes, size, |text, size| unsafe { nw_unlikely(impact, text, size) });
+}
+
+/// A call that writes a text where it succeeds, and nothing where it fails.
+fn said(bytes: &mut Bytes<'_>, size: usize, call: impl FnOnce(*mut c_char, usize) -> nw_status) {
     let mut buffer = GuardedBuffer::new(bytes, size);
     let text = buffer.start_or_null(bytes);
-    // SAFETY: each is null or what it should be.
-    let status = unsafe { nw_unlikely(impact, text, size) };
+    let status = call(text, size);
     known(status);
     buffer.assert_guard_intact();
     if status == NW_OK {

@@ -42,20 +42,19 @@ impl Map {
     pub fn new(model: &Model, wall: usize, [x, y]: [InputAxis; 2], fixed: Impact) -> Self {
         let draws = Draws::of(model);
         let columns = x.values();
-        let row = |value: &f64| -> Vec<_> {
-            let decide = |column: &f64| {
-                let mut impact = fixed;
-                (y.input().set)(&mut impact, *value);
-                (x.input().set)(&mut impact, *column);
-                draws.decide(model, wall, &impact)
-            };
-            columns.iter().map(decide).collect()
+        let impact = |row: f64, column: f64| {
+            let mut impact = fixed;
+            (y.input().set)(&mut impact, row);
+            (x.input().set)(&mut impact, column);
+            impact
         };
-        let decided: Vec<_> = y.values().par_iter().flat_map_iter(row).collect();
+        let impacts = y.values().into_iter().flat_map(|row| columns.iter().map(move |column| (row, *column)));
+        let impacts: Vec<Impact> = impacts.map(|(row, column)| impact(row, column)).collect();
+        let decided: Vec<_> = impacts.par_iter().map(|impact| draws.decide(model, wall, impact)).collect();
         let refusal = |cell: &Result<Cell, _>| cell.as_ref().err().map(ToString::to_string);
         let first_refusal = decided.iter().find_map(refusal);
         let mut cells: Vec<Option<Cell>> = decided.into_iter().map(Result::ok).collect();
-        let ranges = count_ranges(model, wall, [&x, &y], &fixed, &mut cells);
+        let ranges = count_ranges(model, wall, &impacts, &mut cells);
         let wall = model.walls().get(wall).map_or("", |wall| wall.name()).to_owned();
         Self { wall, x, y, fixed, draws: draws.count(), cells, first_refusal, ranges }
     }
@@ -86,30 +85,15 @@ impl Map {
 }
 
 /// Counts the stated ranges that cells leave, and marks those for which it matters.
-fn count_ranges(
-    model: &Model,
-    wall: usize,
-    [x, y]: [&InputAxis; 2],
-    fixed: &Impact,
-    cells: &mut [Option<Cell>],
-) -> RangeCounts {
+fn count_ranges(model: &Model, wall: usize, impacts: &[Impact], cells: &mut [Option<Cell>]) -> RangeCounts {
     let reader = RangeReader::new(model);
-    let columns = x.values();
-    let impact = |column: f64, row: f64| {
-        let mut impact = *fixed;
-        (y.input().set)(&mut impact, row);
-        (x.input().set)(&mut impact, column);
-        impact
-    };
-    let impacts: Vec<Impact> =
-        y.values().iter().flat_map(|row| columns.iter().map(|column| impact(*column, *row))).collect();
     let find = |(cell, impact): (&mut Option<Cell>, &Impact)| {
         let cell = cell.as_mut()?;
         let reasons = if cell.outside_range { reader.reasons(wall, impact) } else { Vec::new() };
         cell.beyond = reasons.iter().any(Reason::matters);
         Some(reasons)
     };
-    let reasons: Vec<Option<Vec<Reason>>> = cells.par_iter_mut().zip(&impacts).map(find).collect();
+    let reasons: Vec<Option<Vec<Reason>>> = cells.par_iter_mut().zip(impacts).map(find).collect();
     let mut counts = RangeCounts::default();
     reasons.iter().flatten().for_each(|reasons| counts.add(reasons));
     counts

@@ -139,11 +139,7 @@ impl<'a> Panel<'a> {
     /// The marks that occur in this panel, with their meaning.
     fn marks(&self) -> Vec<(String, &'static str)> {
         let marks = [
-            (
-                self.map.beyond() > 0,
-                format!("url(#{}-hatch)", self.id),
-                "outside a stated range that matters",
-            ),
+            (self.map.beyond() > 0, format!("url(#{}-hatch)", self.id), "outside a stated range, may matter"),
             (self.fills.contains(&Fill::NoRebound), NO_VALUE.to_owned(), "no particle rebounds"),
             (self.fills.contains(&Fill::Undecided), "white".to_owned(), "not decided"),
         ];

@@ -208,7 +208,8 @@ impl<'a> RunComparison<'a> {
                 page.text(text);
             }
             if let Some(line) = run.outside_ranges.first() {
-                page.text(format!("{line}."));
+                let of = if self.is_single() { String::new() } else { format!("{label}: ") };
+                page.text(format!("{of}{line}."));
             }
             page_later_captures(page, run);
         }

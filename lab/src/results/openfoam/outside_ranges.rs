@@ -16,11 +16,10 @@ pub fn read_last(tables: &Path) -> Vec<String> {
 /// The lines after one that says how many there are; none before none.
 fn with_summary(mut lines: Vec<String>) -> Vec<String> {
     if !lines.is_empty() {
-        let ranges = lines.len();
-        lines.insert(
-            0,
-            format!("Hits leave {ranges} stated ranges of properties and laws, listed at the end"),
-        );
+        let (ranges, many) = (lines.len(), if lines.len() == 1 { "" } else { "s" });
+        let text =
+            format!("Hits leave {ranges} stated range{many} of properties and laws, listed at the end");
+        lines.insert(0, text);
     }
     lines
 }
