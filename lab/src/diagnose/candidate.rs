@@ -1,8 +1,8 @@
 //! The kinds of candidates: what can be added to a hypothesis.
 //!
 //! A new kind is a variant of [`Candidate`] and of [`Addition`]; the compiler then names the places
-//! that treat it: its shapes in `shapes`, the list of candidates and the fits in `fitting`, its
-//! preference in `model_selection`, its finding in `finding`.
+//! that treat it: its shapes in `shapes`, the list of candidates and the fits in `fitting`, its prior
+//! in [`Class`], its finding in `finding`.
 
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
@@ -11,10 +11,38 @@ use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::observable::Observable;
 use super::part::{FittedPart, Part};
 
-/// A coordinate nearer than this to 0 or 1 is at a bound.
-const NEAR_BOUND: f64 = 0.03;
 /// Largest correction for skewness, as a share of the mean.
 const LARGEST_SKEW: f64 = 0.3;
+
+/// Classes of additions: the candidates of a class share its prior probability.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Class {
+    /// Another value of a number of the base's laws.
+    Number,
+    /// An effect of the library.
+    Law,
+    /// A constant shift.
+    Level,
+    /// A curve over a column.
+    Curve,
+    /// A surface over two columns.
+    Surface,
+    /// A mistake in the numbers, an instrument or a geometry.
+    Rival,
+    /// Scatter, groups, captures at a constant rate.
+    Noise,
+}
+
+impl Class {
+    /// Prior probability that data need an addition of this class, over that they do not [1].
+    pub fn prior(self) -> f64 {
+        match self {
+            Self::Law => 0.5,
+            Self::Number | Self::Curve | Self::Rival | Self::Noise => 0.2,
+            Self::Level | Self::Surface => 0.1,
+        }
+    }
+}
 
 /// A kind of addition before its fit; covariates by index.
 #[derive(Debug, Clone, Copy)]
@@ -29,6 +57,19 @@ pub(super) enum Candidate {
         covariate: usize,
     },
     BackgroundCapture,
+}
+
+impl Candidate {
+    pub fn class(&self) -> Class {
+        match self {
+            Self::Part(Part::Effect(_)) => Class::Law,
+            Self::Part(Part::LawParameter(_)) => Class::Number,
+            Self::Curve { sides: [None, None], .. } => Class::Level,
+            Self::Curve { sides: [Some(_), Some(_)], .. } => Class::Surface,
+            Self::Curve { .. } => Class::Curve,
+            Self::ScatterTrend { .. } | Self::BackgroundCapture => Class::Noise,
+        }
+    }
 }
 
 /// A fitted addition.
@@ -75,15 +116,23 @@ impl Addition {
         matches!(self, Self::Part { .. } | Self::Curve(_))
     }
 
-    /// The number of its free parameters; those with a default refine a law and do not count.
-    pub fn parameters(&self) -> usize {
+    /// Tells it from all other additions: a column may act on several observables.
+    pub fn key(&self, data: &DataSplit) -> String {
         match self {
-            Self::Part { part: FittedPart { part: Part::Effect(effect), .. }, .. } => {
-                effect.parameters.iter().filter(|parameter| parameter.default.is_none()).count()
-            }
-            Self::Part { part, .. } => part.at.len(),
-            Self::Curve(curve) => curve.heights.len(),
-            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1,
+            Self::Curve(curve) => format!("{} on {}", self.name(data), curve.form.observable.name()),
+            _ => self.name(data),
+        }
+    }
+
+    pub fn class(&self) -> Class {
+        match self {
+            Self::Part { part, .. } => Candidate::Part(part.part).class(),
+            Self::Curve(curve) => match curve.form.sides.len() {
+                0 => Class::Level,
+                1 => Class::Curve,
+                _ => Class::Surface,
+            },
+            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => Class::Noise,
         }
     }
 
@@ -94,12 +143,6 @@ impl Addition {
             Self::Curve(curve) => curve.freedom,
             Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1.0,
         }
-    }
-
-    /// Whether one of several parameters is at a bound: a simpler effect then does as well.
-    pub fn at_bound(&self) -> bool {
-        let at_bound = |at: &f64| !(NEAR_BOUND..=1.0 - NEAR_BOUND).contains(at);
-        matches!(self, Self::Part { part, .. } if part.at.len() > 1 && part.at.iter().any(at_bound))
     }
 
     /// Adds it to a hypothesis.
@@ -143,18 +186,14 @@ pub(super) struct ScoredCandidate {
     pub p_value: f64,
     /// Corrected for the number of candidates.
     pub q_value: f64,
+    /// Logarithm of its prior probability over that of no addition [nats].
+    pub log_prior: f64,
 }
 
 impl ScoredCandidate {
     /// Gain in log score of all rows [nats].
     pub fn gain(&self) -> f64 {
         self.differences.iter().sum()
-    }
-
-    /// Difference in gain to another candidate, in standard errors.
-    pub fn lead(&self, other: &Self) -> f64 {
-        let pairs = self.differences.iter().zip(&other.differences);
-        t_statistic(&pairs.map(|(a, b)| a - b).collect::<Vec<_>>())
     }
 }
 

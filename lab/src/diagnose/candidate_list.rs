@@ -83,19 +83,6 @@ fn pairs(data: &DataSplit, one: usize, observable: Observable) -> Vec<Sides> {
     others.map(|other| [Some(one.min(other)), Some(one.max(other))]).collect()
 }
 
-/// The surfaces of `e_n` over an input of a law and a speed or size on which the law does not depend.
-pub(super) fn surfaces_over(hypothesis: &Hypothesis<'_>, inputs: &[&str]) -> Vec<Candidate> {
-    let data = hypothesis.data;
-    let observable = Observable::NormalRestitution;
-    let index = |name: &&str| data.covariates.iter().position(|column| column.name == *name);
-    let others: Vec<usize> =
-        ["v_n", "d"].iter().filter(|name| !inputs.contains(name)).filter_map(index).collect();
-    let own = inputs.iter().filter(|name| !["v_n", "d"].contains(name)).filter_map(index);
-    let sides = own.flat_map(|column| pairs(data, column, observable));
-    let with_other = sides.filter(|sides| sides.iter().flatten().any(|side| others.contains(side)));
-    with_other.map(|sides| Candidate::Curve { sides, observable }).collect()
-}
-
 /// Whether another candidate is the level of an observable: a law's own constant, or the rate of captures.
 fn has_level(hypothesis: &Hypothesis<'_>, observable: Observable) -> bool {
     let base = &hypothesis.data.base;

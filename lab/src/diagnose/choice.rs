@@ -1,33 +1,48 @@
-//! A choice of causes on some rows, and the model file that follows from it.
+//! A choice among explanations on some rows, and the model file that follows from it.
 
-use super::candidate::ScoredCandidate;
+use super::candidate::{Addition, ScoredCandidate};
+use super::constants::{LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
+use super::explanation::explore;
 use super::extend;
+use super::ground::{Ground, grounds};
 use super::groups::GroupColumn;
 use super::hypothesis::{Hypothesis, ScatterTrend};
+use super::impact_search::{ImpactExplanation, ImpactSearch, evidence};
 use super::interval::set_intervals;
 use super::likelihood::Scatter;
-use super::model_selection::{Discovery, ForwardSelection, select};
-use super::observable::Observable;
 use super::part::FittedPart;
+use super::probability::Probabilities;
 use super::record::GroupsFound;
 use super::shared_error::SharedErrors;
-
-/// Least gain in log likelihood [nats] by which residuals show that groups share an error (p = 0.01 for one variance).
-const SHARED: f64 = 2.7;
 
 /// What a choice needs beside the rows.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
     /// Text of the base model.
     pub text: &'a str,
-    /// Accepted share of false discoveries [1].
-    pub level: f64,
     /// The columns that group the rows.
     pub groups: &'a [GroupColumn],
     /// Called after each candidate.
     pub progress: &'a (dyn Fn() + Sync),
+}
+
+/// An explanation without the rows.
+#[derive(Debug, Clone)]
+pub(super) struct FoundExplanation {
+    /// Ids of its causes and of its rival, in alphabetical order; none for the base model as it is.
+    pub causes: Vec<String>,
+    /// Its additions, in the order in which they joined.
+    pub additions: Vec<ScoredCandidate>,
+    /// Id and question of another reading of the rows.
+    pub rival: Option<(String, String)>,
+    /// Probability of it [1].
+    pub probability: f64,
+    /// Share of the draws in which it is the most likely one [1].
+    pub first: f64,
+    /// Gain in log likelihood over the base model, less its number of parameters [nats].
+    pub gain: f64,
 }
 
 /// The result of a choice on the fitted rows of a [`DataSplit`].
@@ -35,9 +50,11 @@ pub(super) struct Task<'a> {
 pub(super) struct CauseChoice {
     /// The rows, with the groups' shared errors if they have any.
     pub data: DataSplit,
-    pub discoveries: Vec<Discovery>,
-    pub first_round: Vec<ScoredCandidate>,
-    /// Smallest corrected p-value of a candidate beside the base model, and beside the extended one.
+    /// What the search visited, the most probable first.
+    pub explanations: Vec<FoundExplanation>,
+    /// The additions that are named, in the order in which they joined.
+    pub discoveries: Vec<ScoredCandidate>,
+    /// Smallest corrected p-value of a candidate beside the base model, and beside the best explanation.
     pub structure: [f64; 2],
     /// Errors that groups share in the extended model.
     pub shared: SharedErrors,
@@ -56,70 +73,142 @@ struct FoundParts {
 }
 
 impl FoundParts {
-    fn without_causes(&self) -> Self {
-        Self { parts: Vec::new(), ..self.without_curves() }
-    }
-
-    fn without_curves(&self) -> Self {
-        Self { curves: Vec::new(), ..self.clone() }
-    }
-}
-
-/// Whether a curve is over a column of which each group has one value.
-fn follows_groups(curve: &ColumnCurve, data: &DataSplit, groups: &GroupColumn) -> bool {
-    let constant = |column: usize| {
-        let mut of_group: Vec<Option<f64>> = vec![None; groups.count];
-        data.search.iter().all(|&row| {
-            let cell = data.covariates[column].cell(row);
-            *of_group[groups.of_row[row]].get_or_insert(cell) == cell
-        })
-    };
-    curve.form.sides.iter().any(|side| constant(side.0))
-}
-
-impl CauseChoice {
-    /// Chooses causes on the fitted rows. Groups share an error only if the residuals beside the
-    /// causes show it; the choice is then made anew with that error. A curve over a column that is
-    /// constant within groups takes their errors for its own, so there the residuals without curves
-    /// decide.
-    pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
-        let plain = Self::once(data, task);
-        let bare = Self { state: plain.state.without_curves(), ..plain.clone() };
-        let shared = |groups: &GroupColumn| {
-            let follows = |curve: &ColumnCurve| {
-                curve.form.observable != Observable::Capture && follows_groups(curve, data, groups)
-            };
-            let judged = if plain.state.curves.iter().any(follows) { &bare } else { &plain };
-            judged.shared_errors(&data.with_shared_errors(groups)).gain()
+    /// Those of a hypothesis that are named, and what is no cause.
+    fn of(hypothesis: &Hypothesis<'_>, named: &[String]) -> Self {
+        let data = hypothesis.data;
+        let part = |one: &&FittedPart| named.contains(&one.part.name());
+        let curve = |one: &&ColumnCurve| {
+            named.contains(&Addition::Curve((*one).clone()).key(data))
         };
-        let gains = task.groups.iter().map(|groups| (shared(groups), groups));
-        let largest = gains.max_by(|a, b| a.0.total_cmp(&b.0));
-        match largest.filter(|(gain, _)| *gain >= SHARED) {
-            Some((_, groups)) => Self::once(&data.with_shared_errors(groups), task),
-            None => plain,
+        Self {
+            parts: hypothesis.parts.iter().filter(part).cloned().collect(),
+            curves: hypothesis.curves.iter().filter(curve).cloned().collect(),
+            scatter_trends: hypothesis.scatter_trends.clone(),
+            background_capture: hypothesis.background_capture,
+            scatter: hypothesis.scatter,
         }
     }
 
-    fn once(data: &DataSplit, task: Task<'_>) -> Self {
-        let base = Hypothesis::base(data);
-        let ForwardSelection { hypothesis, discoveries, first_round, last_round } =
-            select(&base, task.level, task.progress);
-        let state = FoundParts {
-            parts: hypothesis.parts,
-            curves: hypothesis.curves,
-            scatter_trends: hypothesis.scatter_trends,
-            background_capture: hypothesis.background_capture,
-            scatter: hypothesis.scatter,
+    fn without_causes(&self) -> Self {
+        Self { parts: Vec::new(), curves: Vec::new(), ..self.clone() }
+    }
+}
+
+/// The ids of the causes of an explanation and of its rival, in alphabetical order.
+fn causes(one: &ImpactExplanation<'_>, ground: &Ground) -> Vec<String> {
+    let systematic = one.fitted.found.iter().filter(|found| found.addition.is_systematic());
+    let mut names: Vec<String> = systematic.map(|found| found.addition.name(&ground.data)).collect();
+    names.extend(ground.is_rival().then(|| ground.key.clone()));
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// Probability that a cause takes part [1].
+fn probability(explanations: &[FoundExplanation], cause: &str) -> f64 {
+    let with = explanations.iter().filter(|one| one.causes.iter().any(|own| own == cause));
+    with.map(|one| one.probability).sum()
+}
+
+/// Smallest corrected p-value of a candidate beside the base model, and beside the best explanation.
+fn structure(explanations: &[FoundExplanation]) -> [f64; 2] {
+    let best = explanations.first().map_or(&[][..], |best| best.additions.as_slice());
+    let beside = |count: usize| {
+        let larger = explanations.iter().filter(|one| one.rival.is_none() && one.additions.len() == count + 1);
+        let last = larger.filter_map(|one| one.additions.last()).filter(|one| one.addition.is_systematic());
+        last.map(|one| one.q_value).fold(1.0, f64::min)
+    };
+    [beside(0), beside(best.len())]
+}
+
+impl CauseChoice {
+    /// Chooses among explanations on the fitted rows.
+    pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
+        let evidence = evidence(data);
+        let grounds = grounds(data, task.groups, task.text, evidence);
+        let search = ImpactSearch::new(&grounds, evidence, task.progress);
+        let visited = explore(&search, search.starts());
+        let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
+        let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
+        let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();
+        let probabilities = Probabilities::new(&visited, evidence, &units);
+        let base = evidence.base;
+        let found = |(place, one): (usize, &ImpactExplanation<'_>)| FoundExplanation {
+            causes: causes(one, ground(one)),
+            additions: one.fitted.found.clone(),
+            rival: ground(one).question.clone().map(|question| (ground(one).key.clone(), question)),
+            probability: probabilities.of[place],
+            first: probabilities.first[place],
+            gain: one.score() - base - one.freedom,
         };
-        let smallest = |round: &[ScoredCandidate]| {
-            let systematic = round.iter().filter(|scored| scored.addition.is_systematic());
-            systematic.map(|scored| scored.q_value).fold(1.0, f64::min)
+        let mut order: Vec<usize> = (0..visited.len()).collect();
+        order.sort_by(|&a, &b| probabilities.of[b].total_cmp(&probabilities.of[a]));
+        let explanations: Vec<_> = order.iter().map(|&place| found((place, &visited[place]))).collect();
+        let best = order.first().map(|&place| &visited[place]);
+        Self::of(data, &grounds, best, explanations)
+    }
+
+    /// The choice of the best explanation, with what is probable enough to be named.
+    fn of(
+        data: &DataSplit,
+        grounds: &[Ground],
+        best: Option<&ImpactExplanation<'_>>,
+        explanations: Vec<FoundExplanation>,
+    ) -> Self {
+        let ground = best.map_or(0, |best| best.fitted.ground);
+        // A rival asks the user before any physics is named.
+        let data = if grounds[ground].is_rival() { data } else { &grounds[ground].data };
+        let hypothesis = best.map_or_else(|| Hypothesis::base(data), |best| best.fitted.hypothesis.clone());
+        let named = |one: &&ScoredCandidate| {
+            one.addition.is_systematic() && probability(&explanations, &one.addition.name(data)) >= NAMED
         };
-        let structure = [smallest(&first_round), smallest(&last_round)];
+        let additions = explanations.first().map_or(&[][..], |first| first.additions.as_slice());
+        let rival = explanations.first().is_some_and(|first| first.rival.is_some());
+        let discoveries: Vec<ScoredCandidate> =
+            if rival { Vec::new() } else { additions.iter().filter(named).cloned().collect() };
+        let keys: Vec<String> = discoveries.iter().map(|one| one.addition.key(data)).collect();
+        let state = FoundParts::of(&hypothesis, &keys);
+        let structure = structure(&explanations);
         let (data, shared) = (data.clone(), SharedErrors::default());
-        let mut choice = Self { data, discoveries, first_round, structure, shared, state };
+        let mut choice = Self { data, explanations, discoveries, structure, shared, state };
         choice.shared = choice.shared_errors(&choice.data);
         choice
+    }
+
+    /// Probability that a cause or a rival takes part in the explanation [1].
+    pub fn probability(&self, cause: &str) -> f64 {
+        probability(&self.explanations, cause)
+    }
+
+    /// Share of the draws in which an explanation with this cause is the most likely one [1].
+    pub fn certainty(&self, cause: &str) -> f64 {
+        let with = self.explanations.iter().filter(|one| one.causes.iter().any(|own| own == cause));
+        with.map(|one| one.first).sum()
+    }
+
+    /// The smallest number of explanations that hold 95 %, the most probable first.
+    pub fn listed(&self) -> &[FoundExplanation] {
+        let mut held = 0.0;
+        let inside = |one: &&FoundExplanation| {
+            let open = held < LISTED;
+            held += one.probability;
+            open
+        };
+        &self.explanations[..self.explanations.iter().take_while(inside).count()]
+    }
+
+    /// The most probable addition of this name.
+    pub fn addition(&self, cause: &str) -> Option<&ScoredCandidate> {
+        let all = self.explanations.iter().flat_map(|one| &one.additions);
+        all.into_iter().find(|one| one.addition.name(&self.data) == cause)
+    }
+
+    /// Additions that were fitted alone beside the base model.
+    pub fn singles(&self) -> impl Iterator<Item = &ScoredCandidate> {
+        self.explanations.iter().filter(|one| one.rival.is_none()).filter_map(|one| match &one.additions[..] {
+            [single] => Some(single),
+            _ => None,
+        })
     }
 
     /// The errors that groups share beside the causes.
@@ -164,7 +253,7 @@ impl CauseChoice {
     /// The ids of the causes, in alphabetical order.
     pub fn names(&self) -> Vec<String> {
         let mut names: Vec<String> =
-            self.discoveries.iter().map(|found| found.winner.addition.name(&self.data)).collect();
+            self.discoveries.iter().map(|found| found.addition.name(&self.data)).collect();
         names.sort_unstable();
         names.dedup();
         names

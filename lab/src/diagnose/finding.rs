@@ -1,17 +1,12 @@
 //! Describes each discovery: its parameters, its alternatives and what cannot be distinguished from it.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
-use super::constants::{CERTAINTY_RESAMPLES, NEARLY_BEST};
+use super::choice::{CauseChoice, FoundExplanation};
 use super::curve::ColumnCurve;
 use super::hypothesis::Hypothesis;
-use super::model_selection::{DISTINGUISHABLE_LEAD, Discovery};
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
 use super::record::{Alternative, Calibration, CauseCurve, CauseSurface, Finding};
@@ -19,10 +14,6 @@ use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
 
-/// Gain at which a resample names a cause [nats].
-const NOTICEABLE: f64 = 3.0;
-/// Least gain of a curve beyond a level at which it is listed beside a level [nats].
-const BESIDE_LEVEL: f64 = 0.3;
 /// Largest number of alternatives listed.
 const ALTERNATIVES: usize = 6;
 
@@ -30,8 +21,7 @@ const ALTERNATIVES: usize = 6;
 pub(super) struct FindingBuilder<'a> {
     /// After the final fit.
     pub hypothesis: &'a Hypothesis<'a>,
-    /// Accepted share of false discoveries [1].
-    pub level: f64,
+    pub choice: &'a CauseChoice,
 }
 
 impl FindingBuilder<'_> {
@@ -62,27 +52,29 @@ impl FindingBuilder<'_> {
     }
 
     /// The finding of a cause.
-    pub fn finding(&self, Discovery { winner, others, lack_of_fit }: &Discovery) -> Finding {
+    pub fn finding(&self, winner: &ScoredCandidate) -> Finding {
         let cause = self.name(winner);
         let observable = self.observable(winner);
-        let rivals = self.indistinguishable(winner, others);
-        let advice =
-            |rival: &&ScoredCandidate| advise(&self.alone(winner), &self.alone(rival), &self.name(rival));
+        let rivals = self.indistinguishable(&cause);
+        let advice = |rival: &String| {
+            advise(&self.alone(winner), &self.alone(self.choice.addition(rival)?), rival)
+        };
         let mut finding = Finding {
             observable: observable.name(),
             variables: winner.addition.variables(self.hypothesis.data),
             gain: winner.gain(),
             chi_square: 2.0 * (winner.gain() + winner.addition.freedom()),
             sigma: sigma(winner.q_value),
-            certainty: certainty(winner, others),
-            lack_of_fit: *lack_of_fit,
+            probability: self.choice.probability(&cause),
+            certainty: self.choice.certainty(&cause),
+            lack_of_fit: self.lack_of_fit(winner),
             not_separable: self.final_part(&cause).map(FittedPart::not_separable).unwrap_or_default(),
             p_value: winner.p_value,
             q_value: winner.q_value,
             parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),
-            alternatives: self.alternatives(winner, others),
+            alternatives: self.alternatives(&cause),
             measure_next: rivals.iter().filter_map(advice).collect(),
-            indistinguishable_from: rivals.iter().map(|rival| self.name(rival)).collect(),
+            indistinguishable_from: rivals,
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
             surface: self.final_curve(winner).and_then(|curve| self.surface(curve)),
             explanation: String::new(),
@@ -121,68 +113,46 @@ impl FindingBuilder<'_> {
         Hypothesis::with_parts(self.hypothesis.data, parts, self.hypothesis.scatter)
     }
 
-    /// The best candidates of other causes in the round.
-    fn alternatives(&self, winner: &ScoredCandidate, others: &[ScoredCandidate]) -> Vec<Alternative> {
-        let data = self.hypothesis.data;
-        let variables = winner.addition.variables(data);
-        let is_rival = |other: &&ScoredCandidate| match &other.addition {
-            Addition::Part { .. } => true,
-            // A curve over the winner's own inputs is no other cause, and an insignificant one is mostly its constant.
-            Addition::Curve(curve) => {
-                let columns = curve.form.columns(data);
-                other.q_value <= self.level && !columns.iter().any(|column| variables.contains(column))
+    /// p-value of a free surface over the inputs of a law beside the law.
+    fn lack_of_fit(&self, winner: &ScoredCandidate) -> Option<f64> {
+        let Addition::Part { .. } = winner.addition else { return None };
+        let mut with = self.hypothesis.clone();
+        with.fit_discrepancy();
+        with.lack_of_fit()
+    }
+
+    /// Other causes, the most probable first.
+    fn alternatives(&self, cause: &str) -> Vec<Alternative> {
+        let best = self.choice.explanations.first();
+        let own = |one: &FoundExplanation| one.causes.iter().any(|other| other == cause);
+        let in_best = |name: &String| best.is_some_and(|best| best.causes.contains(name));
+        let gain = best.map_or(0.0, |best| best.gain);
+        let mut all: Vec<Alternative> = Vec::new();
+        for one in self.choice.explanations.iter().filter(|one| !own(one) && one.rival.is_none()) {
+            let open = one.causes.iter().filter(|name| !in_best(name));
+            for name in open.filter(|name| !all.iter().any(|known| known.cause == **name)).collect::<Vec<_>>() {
+                all.push(Alternative {
+                    cause: name.clone(),
+                    score_difference: gain - one.gain,
+                    probability: self.choice.probability(name),
+                });
             }
-            Addition::ScatterTrend(_) | Addition::BackgroundCapture(_) => false,
-        };
-        let mut best: BTreeMap<String, f64> = BTreeMap::new();
-        for other in others.iter().filter(is_rival) {
-            let difference = winner.gain() - other.gain();
-            let kept = best.entry(self.name(other)).or_insert(difference);
-            *kept = kept.min(difference);
         }
-        let of = |(cause, score_difference)| Alternative { cause, score_difference };
-        let mut all: Vec<Alternative> = best.into_iter().map(of).collect();
-        all.sort_by(|a, b| a.score_difference.total_cmp(&b.score_difference));
+        all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
         all.truncate(ALTERNATIVES);
         all
     }
 
-    /// Significant causes that are not distinguishable from the winner and not more flexible, the best first.
-    fn indistinguishable<'b>(
-        &self,
-        winner: &ScoredCandidate,
-        others: &'b [ScoredCandidate],
-    ) -> Vec<&'b ScoredCandidate> {
-        let most_parameters = winner.addition.parameters().max(2);
-        let plain = |name: &String| ["v_n", "d"].contains(&name.as_str());
-        let level_like = winner.addition.variables(self.hypothesis.data).iter().all(plain);
-        let is_rival = |other: &&ScoredCandidate| {
-            let comparable = match &other.addition {
-                Addition::Part { .. } => {
-                    other.addition.parameters() <= most_parameters || other.gain() > winner.gain()
-                }
-                // A level shift, a column that no law knows, or beside a cause without an input of
-                // its own any column that matters.
-                Addition::Curve(curve) => {
-                    let input = |column: &usize| self.hypothesis.data.covariates[*column].input;
-                    let known = curve.form.sides.iter().any(|side| input(&side.0));
-                    !known || (level_like && other.own_gain > BESIDE_LEVEL)
-                }
-                Addition::ScatterTrend(_) | Addition::BackgroundCapture(_) => false,
-            };
-            let curve_beside_level =
-                level_like && other.own_gain > BESIDE_LEVEL && matches!(other.addition, Addition::Curve(_));
-            comparable
-                && !other.addition.is_calibration()
-                && (other.q_value <= self.level || curve_beside_level)
-                && winner.lead(other) < DISTINGUISHABLE_LEAD
-        };
-        let mut rivals: Vec<&ScoredCandidate> = others.iter().filter(is_rival).collect();
-        rivals.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
-        // A column may explain e_n and e_t.
-        let mut named = BTreeSet::new();
-        rivals.retain(|rival| named.insert(self.name(rival)));
-        rivals
+    /// Causes in whose stead this one stands, in the explanations that hold 95 %.
+    fn indistinguishable(&self, cause: &str) -> Vec<String> {
+        let best = self.choice.explanations.first();
+        let in_best = |name: &String| best.is_some_and(|best| best.causes.contains(name));
+        let others = self.choice.listed().iter().filter(|one| !one.causes.iter().any(|own| own == cause));
+        let mut names: Vec<String> =
+            others.flat_map(|one| &one.causes).filter(|name| !in_best(name)).cloned().collect();
+        let mut seen = std::collections::BTreeSet::new();
+        names.retain(|name| seen.insert(name.clone()));
+        names
     }
 
     /// A curve of one column for the page.
@@ -217,22 +187,6 @@ pub(super) fn sigma(p_value: f64) -> f64 {
     // The quantile by its asymptotic form, where the tail is too thin for an inverse.
     let far = (-2.0 * p.ln() - (std::f64::consts::TAU * -2.0 * p.ln()).ln()).sqrt();
     if p < 1e-12 { far } else { Normal::standard().inverse_cdf(1.0 - p) }
-}
-
-/// Share of resamples of the rows in which this cause gains something, and about as much as the best other one [1].
-fn certainty(winner: &ScoredCandidate, others: &[ScoredCandidate]) -> f64 {
-    let rows = winner.differences.len();
-    let mut random = ChaCha8Rng::seed_from_u64(0x7375_7265);
-    let rivals: Vec<&ScoredCandidate> =
-        others.iter().filter(|other| other.addition.is_systematic()).collect();
-    let wins = (0..CERTAINTY_RESAMPLES).filter(|_| {
-        let drawn: Vec<usize> =
-            (0..rows).map(|_| (random.next_u64() % rows.max(1) as u64) as usize).collect();
-        let gain = |one: &ScoredCandidate| drawn.iter().map(|&row| one.differences[row]).sum::<f64>();
-        let own = gain(winner);
-        own > NOTICEABLE && rivals.iter().all(|rival| NEARLY_BEST * gain(rival) <= own)
-    });
-    wins.count() as f64 / CERTAINTY_RESAMPLES as f64
 }
 
 /// The explanation of a finding for a reader.

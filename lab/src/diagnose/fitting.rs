@@ -9,10 +9,8 @@
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
-use super::artefact::lopsided_gain;
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
-use super::candidate_list::candidates;
-use super::curve::{ColumnCurve, ColumnCurveForm};
+use super::curve::ColumnCurveForm;
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::few_rows::FewRows;
@@ -48,8 +46,6 @@ pub(super) struct CandidateRound<'a> {
     scores: Vec<f64>,
     /// The test for few readings, if they are few.
     few: Option<FewRows>,
-    /// Gain of a scatter with two widths [nats].
-    lopsided: f64,
 }
 
 impl<'a> CandidateRound<'a> {
@@ -57,20 +53,16 @@ impl<'a> CandidateRound<'a> {
         let data = hypothesis.data;
         let search = hypothesis.evaluate(&data.search, hypothesis.offsets()).with_fitted_scatter();
         let few = FewRows::of(&search);
-        let residual = |[measured, predicted]: [f64; 2]| measured - predicted;
-        let residuals: Vec<f64> =
-            search.pairs(Observable::NormalRestitution).flatten().map(residual).collect();
-        let lopsided = lopsided_gain(&residuals, search.scatter[0]);
-        Self { hypothesis, scores: search.scores(), search, few, lopsided }
+        Self { hypothesis, scores: search.scores(), search, few }
     }
 
     fn data(&self) -> &'a DataSplit {
         self.hypothesis.data
     }
 
-    /// The promising ones of all candidates with their gains; `done` is called after each candidate.
-    pub fn score_all(&self, done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
-        self.score(&candidates(self.hypothesis, self.few.is_some()), done)
+    /// Whether readings are few.
+    pub fn is_few(&self) -> bool {
+        self.few.is_some()
     }
 
     /// The promising ones of some candidates with their gains.
@@ -135,32 +127,13 @@ impl<'a> CandidateRound<'a> {
             None => tested.p_value.max(chance_of_gain(raw)),
         };
         let p_value = match &addition {
-            // Scatter to one side needs no effect.
-            Addition::Part { part, .. } if part.part.is_stochastic() => {
-                let beyond = chance_of_gains(raw - self.lopsided, freedom);
-                p_value.min(chance_of_mean(&differences)).max(beyond)
-            }
+            Addition::Part { part, .. } if part.part.is_stochastic() => p_value.min(chance_of_mean(&differences)),
             _ => p_value,
         };
         // Random signs of few rows do not tell candidates apart that more rows would.
         let least = if self.few.is_some_and(|few| few.alone) { FEW_TESTS } else { 1.0 };
         let q_value = corrected(p_value, tested.tests.max(least));
-        Some(ScoredCandidate { addition, differences, own_gain, p_value, q_value })
-    }
-
-    /// A surface over the columns of `surface`, as significant as that.
-    pub fn surface_instead(
-        &self,
-        surface: &ColumnCurve,
-        tested: &ScoredCandidate,
-    ) -> Option<ScoredCandidate> {
-        let columns: Vec<usize> = surface.form.sides.iter().map(|side| side.0).collect();
-        let [one, two] = columns[..] else { return None };
-        let addition = self.better_curve([Some(one), Some(two)], surface.form.observable)?;
-        let differences = self
-            .differences(&addition, &addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter());
-        let own_gain = differences.iter().sum::<f64>() - self.level_gain(&addition);
-        Some(ScoredCandidate { addition, differences, own_gain, ..tested.clone() })
+        Some(ScoredCandidate { addition, differences, own_gain, p_value, q_value, log_prior: 0.0 })
     }
 
     /// Gain of each row, less its share of the number of parameters [nats].
@@ -270,11 +243,6 @@ impl<'a> CandidateRound<'a> {
 pub(super) fn chance_of_gain(gain: f64) -> f64 {
     let law = ChiSquared::new(1.0);
     law.map_or(1.0, |law| 0.5 * law.sf(2.0 * gain.max(0.0))).clamp(1e-300, 1.0)
-}
-
-/// The same for several parameters.
-fn chance_of_gains(gain: f64, parameters: f64) -> f64 {
-    ChiSquared::new(parameters).map_or(1.0, |law| law.sf(2.0 * gain.max(0.0))).clamp(1e-300, 1.0)
 }
 
 /// Probability that the mean of a row's gain lies as far above 0 by chance.

@@ -7,7 +7,6 @@
 //! for the files of a user; [`comparison`] ranks several models with the same likelihood.
 
 mod advice;
-mod artefact;
 mod candidate;
 mod candidate_list;
 mod choice;
@@ -19,6 +18,7 @@ mod data_split;
 mod data_view;
 mod draws;
 mod evaluation;
+mod explanation;
 mod extend;
 mod few_rows;
 mod finding;
@@ -26,24 +26,28 @@ mod fitting;
 mod forecast;
 mod gain;
 mod goodness_of_fit;
+mod ground;
 mod groups;
 mod hypothesis;
 mod impact_diagnosis;
+mod impact_search;
 mod input_error;
+mod instrument;
 mod interval;
 mod likelihood;
-mod model_selection;
 mod observable;
 mod part;
+mod probability;
 mod profile;
 mod record;
 pub mod rig;
-mod rival;
+mod reading;
 mod score_test;
 mod search;
 mod sentences;
 mod shapes;
 mod shared_error;
+mod skew;
 mod slip;
 mod smooth;
 mod study;
@@ -52,7 +56,8 @@ mod verdict;
 
 pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
 pub use record::{
-    Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate, Finding, Fit,
+    Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate, ExplanationFound,
+    Finding, Fit,
     FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement, NotExamined, Options, Rival, Rows,
     Sample, SampleRow, ScatterFound, Unexplained,
 };
@@ -126,42 +131,56 @@ pub fn diagnose_with_draws(
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     let data = usable(base, data)?;
     let groups = GroupColumn::all(&data, options.group.as_deref());
-    let task = Task { text, level: options.level, groups: &groups, progress };
+    let task = Task { text, groups: &groups, progress };
     let whole = DataSplit::new(base, &data, &groups);
-    let mut study = Study::new(&whole, task, options.seed);
-    let rivals = rivals(&study, text, options.level);
+    let study = Study::new(&whole, task, options.seed);
+    let found = examined(&study, &data, &whole, task, options, draws)?;
+    if !is_worse(&found.0) {
+        return Ok(found);
+    }
+    // What rows refute that it has not seen is not named.
+    let refuted = found.0.findings.into_iter().map(|finding| finding.cause).collect();
+    let (mut diagnosis, extended, draws) =
+        examined(&study.without_causes(), &data, &whole, task, options, draws)?;
+    diagnosis.refuted = refuted;
+    diagnosis.verdict = sentences::sentences(&diagnosis);
+    Ok((diagnosis, extended, draws))
+}
 
+/// Whether the model with its causes predicts rows worse that it has not seen.
+fn is_worse(diagnosis: &Diagnosis) -> bool {
+    let worse = |gain: &Gain| gain.log_score_after < gain.log_score_before;
+    !diagnosis.findings.is_empty() && diagnosis.gain.as_ref().or(diagnosis.gains.first()).is_some_and(worse)
+}
+
+/// The record, the extended model and drawn ones of a study.
+fn examined(
+    study: &Study,
+    data: &Measurements,
+    whole: &DataSplit,
+    task: Task<'_>,
+    options: &Options,
+    draws: usize,
+) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     let fine = study.file.fine();
-    let mut hypothesis = study.file.fitted(&fine);
-    let mut diagnosis = verdict::record(&hypothesis, &study.choice, options);
-    let undecided = verdict::undecided(&diagnosis.findings, &study.choice);
-    if rival::decisive(&rivals, diagnosis.findings.len()).is_some() || !undecided.is_empty() {
-        study = study.without_causes();
-        hypothesis = study.file.fitted(&fine);
-        diagnosis = verdict::record(&hypothesis, &study.choice, options);
-    }
-    if let Some(first) = diagnosis.findings.first_mut() {
-        first.indistinguishable_from.extend(rivals.iter().map(|rival| rival.id.clone()));
-    }
-    diagnosis.rivals = rivals;
-    diagnosis.undecided = undecided;
-
+    let hypothesis = study.file.fitted(&fine);
     let plain = Hypothesis::base(&fine);
     let models = [&plain, &hypothesis];
-    diagnosis.rows = rows(&data, &study);
+    let mut diagnosis = verdict::record(&hypothesis, &study.choice, options);
+    diagnosis.rows = rows(data, study);
     diagnosis.fit = goodness_of_fit::fit(&plain, &hypothesis, study.choice.structure);
     diagnosis.groups = study.choice.groups_found();
     if diagnosis.undecided.is_empty() {
         diagnosis.undecided = verdict::possible_causes(&diagnosis.fit, &study.choice);
     }
-    diagnosis.misfit = verdict::misfit(&hypothesis, &study.choice.first_round, options.level);
+    diagnosis.misfit = verdict::misfit(&hypothesis, &study.choice, options.level);
     diagnosis.base = gain::errors(&gain::evaluate(&plain, &fine.all()), &data.unselected);
     let views = data_view::views(models, &diagnosis.findings);
     diagnosis.sample = Sample { views, notes: data.notes.clone(), ..gain::sample(&plain, &hypothesis) };
-    let extended = extend::extended(text, &hypothesis).map_err(unextendable)?;
+    let extended = extend::extended(task.text, &hypothesis).map_err(unextendable)?;
     if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
-        let measured = study.held_out(&data, &whole, task, models, &extended).map_err(unextendable)?;
-        let noise = |observable| gain::noise_floor(&data, hypothesis.scatter, observable);
+        let measured = study.held_out(data, whole, task, models, &extended).map_err(unextendable)?;
+        let noise = |observable| gain::noise_floor(data, hypothesis.scatter, observable);
         let of = |observable| measured.gain(observable, noise(observable), options.seed);
         diagnosis.gains = Observable::ALL.into_iter().filter_map(of).collect();
         let first = diagnosis.findings.first().map_or("", |finding| finding.observable);
@@ -173,7 +192,7 @@ pub fn diagnose_with_draws(
         diagnosis.verdict +=
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
     }
-    let draws = draws::draws(text, &hypothesis, draws, options.seed).map_err(unextendable)?;
+    let draws = draws::draws(task.text, &hypothesis, draws, options.seed).map_err(unextendable)?;
     Ok((diagnosis, extended, draws))
 }
 
@@ -214,15 +233,6 @@ fn rows(data: &Measurements, study: &Study) -> Rows {
         held_out_lines: study.unseen_lines(data),
         rejected: data.rejected.clone(),
     }
-}
-
-/// What beside physics may explain the data; nothing if nothing has to be explained.
-fn rivals(study: &Study, text: &str, level: f64) -> Vec<Rival> {
-    if study.choice.structure[0] > level {
-        return Vec::new();
-    }
-    let searched = &study.choice.data;
-    rival::rivals(&Hypothesis::base(searched), &study.choice.hypothesis(searched), text)
 }
 
 /// Why a row cannot be used with this base model.

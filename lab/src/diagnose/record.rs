@@ -47,8 +47,12 @@ pub struct Diagnosis {
     pub misfit: Vec<Misfit>,
     /// The causes, in the order in which they were found.
     pub findings: Vec<Finding>,
-    /// Causes of which one is significant, if these data cannot tell which; then there is no finding for them.
+    /// The smallest set of explanations that holds 95 %, the most probable first.
+    pub explanations: Vec<ExplanationFound>,
+    /// Causes of which one takes part, if these data cannot tell which; then there is no finding for them.
     pub undecided: Vec<String>,
+    /// Causes that were left out because the model with them predicts rows worse that it has not seen.
+    pub refuted: Vec<String>,
     /// Slips of input and artefacts of measurement that explain the misfit as well as a cause does.
     pub rivals: Vec<Rival>,
     /// Parameters of the base model's own laws with a significantly different value.
@@ -119,6 +123,15 @@ pub struct Misfit {
     pub q_value: f64,
 }
 
+/// An explanation of the data.
+#[derive(Debug, Clone, Serialize)]
+pub struct ExplanationFound {
+    /// Its causes, changed numbers and rivals of physics; none for the base model as it is.
+    pub causes: Vec<String>,
+    /// Its probability [1].
+    pub probability: f64,
+}
+
 /// A cause.
 #[derive(Debug, Clone, Serialize)]
 pub struct Finding {
@@ -134,6 +147,8 @@ pub struct Finding {
     pub chi_square: f64,
     /// Significance in standard deviations of a normal distribution, after correction for the number of candidates [1].
     pub sigma: f64,
+    /// Probability that the cause takes part in the explanation [1].
+    pub probability: f64,
     /// Share of resampled data sets that name this cause [1].
     pub certainty: f64,
     /// p-value of the test that a free curve over its inputs fits no better; small values speak
@@ -181,6 +196,8 @@ pub struct Alternative {
     pub cause: String,
     /// Difference in gain to the chosen cause [nats].
     pub score_difference: f64,
+    /// Probability that it takes part in the explanation [1].
+    pub probability: f64,
 }
 
 /// A measurement that would distinguish two causes.
@@ -359,8 +376,10 @@ pub struct Rival {
     pub observable: &'static str,
     /// Gain in log likelihood on the rows of the search [nats].
     pub gain: f64,
-    /// Gain minus that of the best cause [nats]; positive if it explains more.
+    /// Gain minus that of the best explanation by physics [nats]; positive if it explains more.
     pub lead: f64,
+    /// Probability that it takes part in the explanation [1].
+    pub probability: f64,
     /// What it says, in one sentence: "These numbers fit if d were twice as large: is the radius given?".
     pub explanation: String,
 }

@@ -33,7 +33,6 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
         return text;
     }
     text += &found(diagnosis, &IMPACTS, || nothing_found(diagnosis));
-    text += &hint(diagnosis, &IMPACTS);
     if let Some(rival) = diagnosis.rivals.first() {
         text += &format!(" Check this first: {}", rival.explanation);
     }
@@ -61,14 +60,17 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
 pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce() -> String) -> String {
     let Words { subject, data, .. } = words;
     let cause = |finding: &Finding| {
+        let probability = probability_words(finding.probability);
         let name = match finding.cause.split_once(':') {
             Some(("unknown", column)) => format!("a dependence on {}", column.replace('*', " and ")),
             Some(("level", what)) => format!("a shift of {what}"),
             _ => finding.cause.clone(),
         };
         match finding.indistinguishable_from.as_slice() {
-            [] => name,
-            others => format!("{name} (or, as these {data} cannot tell, {})", others.join(" or ")),
+            [] => format!("{name} ({probability})"),
+            others => {
+                format!("{name} ({probability}; these {data} do not exclude {})", others.join(" or "))
+            }
         }
     };
     let causes: Vec<String> = diagnosis.findings.iter().map(cause).collect();
@@ -81,6 +83,11 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
         (several, _) => format!("The {subject} lacks {} effects: {}.", several.len(), several.join(", ")),
     };
     if values.is_empty() { lacks } else { format!("{lacks} The data also support {values}.") }
+}
+
+/// A probability in words.
+fn probability_words(probability: f64) -> String {
+    if probability > 0.995 { "probability above 0.99".to_owned() } else { format!("probability {probability:.2}") }
 }
 
 /// A warning where few resamples name the first cause.
@@ -123,8 +130,22 @@ pub(super) fn fit_sentence(fit: &Fit) -> String {
 /// The verdict without a cause.
 fn nothing_found(diagnosis: &Diagnosis) -> String {
     let rows = diagnosis.rows.used;
+    if !diagnosis.refuted.is_empty() {
+        let causes = diagnosis.refuted.join(", ");
+        return format!(
+            "{causes} would explain these data, but the model with it predicts rows worse that it has not seen: \
+             nothing is named."
+        );
+    }
     if !diagnosis.undecided.is_empty() {
-        let causes = diagnosis.undecided.join(", ");
+        let one = |name: &String| {
+            let with = diagnosis.explanations.iter().filter(|one| one.causes.contains(name));
+            match with.map(|one| one.probability).sum::<f64>() {
+                0.0 => name.clone(),
+                probability => format!("{name} ({})", probability_words(probability)),
+            }
+        };
+        let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
         return format!("These data speak against the model, but cannot tell which of {causes}.");
     }
     if diagnosis.unexplained_capture.is_some() {

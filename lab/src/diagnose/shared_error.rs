@@ -69,14 +69,6 @@ impl SharedErrors {
         (terms[0] + terms[1]) / rows
     }
 
-    /// Gain in log likelihood [nats].
-    pub fn gain(&self) -> f64 {
-        let one = |which: usize| {
-            self.groups.iter().map(|group| gain(group, which, self.scatter[which].powi(2))).sum::<f64>()
-        };
-        one(0) + one(1)
-    }
-
     fn each(&self, group: usize, of: impl Fn(f64, f64, f64) -> f64) -> [f64; 2] {
         let sums = self.groups.get(group).copied().unwrap_or_default();
         [0, 1].map(|which| of(self.scatter[which].powi(2), sums.weight[which], sums.residual[which]))

@@ -2,22 +2,10 @@
 
 use toml_edit::{DocumentMut, Item, Value};
 
-use crate::dataset::Measurement;
+use super::reading::OtherReading;
+use crate::dataset::{Measurement, Reading};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
-
-/// Another reading of the numbers.
-pub(super) struct Slip {
-    pub id: String,
-    /// The question to the user.
-    pub explanation: String,
-    /// What it makes of a row.
-    pub change: Box<dyn Fn(&mut Measurement) + Send + Sync>,
-    /// The model with other numbers, if the slip is in the model file.
-    pub model: Option<Model>,
-    /// Whether the readings are ratios of energies.
-    pub energy: bool,
-}
 
 /// Factors on the diameter: what is given, and the factor to the true one.
 const SIZE_SLIPS: [(&str, f64, &str); 5] = [
@@ -43,8 +31,12 @@ const MATERIAL_SLIPS: [(&str, &[f64]); 3] = [
 /// From degrees Celsius to kelvin.
 const CELSIUS: f64 = 273.15;
 
+/// Inputs that may be off by a factor that nothing tells, and the factors tried.
+const SCALED: [&str; 3] = ["v_n", "v_t", "d"];
+const FACTORS: [f64; 12] = [0.2, 0.3, 0.45, 0.6, 0.7, 0.85, 1.18, 1.4, 1.7, 2.2, 3.3, 5.0];
+
 /// All slips that a model and its file allow.
-pub(super) fn slips(base: &Model, text: &str) -> Vec<Slip> {
+pub(super) fn slips(base: &Model, text: &str) -> Vec<OtherReading> {
     let mut all = Vec::new();
     for (id, factor, words) in SIZE_SLIPS {
         all.push(of_rows(id, format!("These numbers fit if d were {words}"), move |row| {
@@ -72,15 +64,67 @@ pub(super) fn slips(base: &Model, text: &str) -> Vec<Slip> {
     all.push(of_rows("particle-temperature-in-celsius", words.to_owned(), |row| {
         row.impact.particle_temperature += CELSIUS;
     }));
-    let energy =
-        "These numbers fit if the readings were ratios of energies: are e_n and e_t squared speed ratios?";
-    all.push(Slip { energy: true, ..of_rows("energy-for-speed", energy.to_owned(), |_| {}) });
+    all.push(energy_for_speed());
+    all.extend(SCALED.map(by_a_factor));
     all.extend(of_materials(base, text));
     all
 }
 
-fn of_rows(id: &str, explanation: String, change: impl Fn(&mut Measurement) + Send + Sync + 'static) -> Slip {
-    Slip { id: id.to_owned(), explanation, change: Box::new(change), model: None, energy: false }
+fn of_rows(
+    id: &str,
+    explanation: String,
+    change: impl Fn(&mut Measurement) + Send + Sync + 'static,
+) -> OtherReading {
+    OtherReading {
+        id: format!("slip:{id}"),
+        question: Box::new(move |_| explanation.clone()),
+        change: Box::new(move |row, _, _| {
+            change(row);
+            Some(0.0)
+        }),
+        values: vec![1.0],
+        freedom: 0.0,
+        model: None,
+    }
+}
+
+/// Ratios of energies given for ratios of speeds.
+fn energy_for_speed() -> OtherReading {
+    let words =
+        "These numbers fit if the readings were ratios of energies: are e_n and e_t squared speed ratios?";
+    let change = |row: &mut Measurement| {
+        let readings = [&mut row.e_n, &mut row.e_t].into_iter().flatten();
+        readings.map(root).sum::<Option<f64>>()
+    };
+    let of_rows = of_rows("energy-for-speed", words.to_owned(), |_| {});
+    OtherReading { change: Box::new(move |row, _, _| change(row)), ..of_rows }
+}
+
+/// Takes the square root of a reading; returns the logarithm of the slope. `None` for a reading that is no square.
+fn root(reading: &mut Reading) -> Option<f64> {
+    if reading.value <= 0.0 {
+        return None;
+    }
+    let value = reading.value.sqrt();
+    *reading = Reading { value, error: reading.error.map(|error| error / (2.0 * value)) };
+    Some(-(2.0 * value).ln())
+}
+
+/// An input that is off by a factor, as in a wrong calibration.
+fn by_a_factor(name: &'static str) -> OtherReading {
+    let question = move |factor: f64| {
+        format!("These numbers fit if {name} were {factor:.2} times what is given: check its unit and calibration.")
+    };
+    OtherReading {
+        question: Box::new(question),
+        change: Box::new(move |row, _, factor| {
+            scale(name, row, factor);
+            Some(0.0)
+        }),
+        values: FACTORS.to_vec(),
+        freedom: 1.0,
+        ..of_rows(&format!("{name}-by-a-factor"), String::new(), |_| {})
+    }
 }
 
 /// Multiplies the input of this name.
@@ -92,7 +136,7 @@ fn scale(name: &str, row: &mut Measurement, factor: f64) {
 }
 
 /// Slips in the numbers of the materials that the model file defines: in all of them together, and in each.
-fn of_materials(base: &Model, text: &str) -> Vec<Slip> {
+fn of_materials(base: &Model, text: &str) -> Vec<OtherReading> {
     let Ok(document) = text.parse::<DocumentMut>() else { return Vec::new() };
     let Some(materials) = document.get("materials").and_then(Item::as_table_like) else { return Vec::new() };
     let names: Vec<String> = materials.iter().map(|(name, _)| name.to_owned()).collect();
@@ -114,7 +158,7 @@ fn of_materials(base: &Model, text: &str) -> Vec<Slip> {
                     "These numbers fit if {key} of {of} were {times} times what is given: check its unit and digits."
                 );
                 let id = format!("{key}-of-{}-times-{times}", group.join("-"));
-                all.push(Slip { model: Some(model), ..of_rows(&id, explanation, |_| {}) });
+                all.push(OtherReading { model: Some(model), ..of_rows(&id, explanation, |_| {}) });
             }
         }
     }

@@ -1,9 +1,8 @@
 //! Which rows choose causes, which fit the extended model, and which measure its gain.
 //!
-//! The gain needs rows that neither a choice nor a fit has seen. With many units, three quarters of
-//! them choose; only if they name nothing, all do. With fewer units all rows choose the causes, and
-//! if three quarters alone name the same, the extended model is fitted to those; its file is then
-//! run on the rest. In all other cases the gain is cross-validated: a choice, a fit and a model
+//! The gain needs rows that neither a choice nor a fit has seen. All rows choose the causes, and if
+//! three quarters alone name the same, the extended model is fitted to those; its file is then run on
+//! the rest. Of a large file three quarters choose. In all other cases the gain is cross-validated: a choice, a fit and a model
 //! file for each part of the units without that part. Where groups share an error, whole groups are
 //! held out: other rows of the same group would tell its error.
 
@@ -21,11 +20,6 @@ use crate::dataset::Measurements;
 use nearwall::input::InputError;
 use nearwall::model::Model;
 
-/// With so many units a quarter is held out from the start.
-const MANY_UNITS: usize = 200;
-/// Shares of the accepted level of the first choice, on three quarters, and of the second, on all units.
-const FIRST_SHARE: f64 = 0.7;
-const SECOND_SHARE: f64 = 0.5;
 /// With fewer units the gain is cross-validated.
 const LEAST_UNITS: usize = 40;
 /// With fewer groups their rows are held out one by one: so few groups say nothing of others.
@@ -68,22 +62,18 @@ pub(super) struct Study {
 }
 
 impl Study {
-    pub fn new(whole: &DataSplit, mut task: Task<'_>, seed: u64) -> Self {
+    pub fn new(whole: &DataSplit, task: Task<'_>, seed: u64) -> Self {
         let units = Units { of_row: whole.units.clone(), count: whole.unit_count };
-        if units.count >= MANY_UNITS {
+        if whole.is_large() {
             let (fitted, unseen) = units.quarter(seed);
-            let share = if whole.is_large() { 1.0 } else { FIRST_SHARE };
-            let choice =
-                CauseChoice::new(&whole.fitting(&fitted), Task { level: share * task.level, ..task });
-            let grouped = units.of_groups(&choice);
-            if grouped.is_none() && (whole.is_large() || !choice.names().is_empty()) {
+            let choice = CauseChoice::new(&whole.fitting(&fitted), task);
+            if units.of_groups(&choice).is_none() {
                 return Self { file: choice.clone(), choice, unseen, units, seed };
             }
-            task.level *= SECOND_SHARE;
         }
         let choice = CauseChoice::new(whole, task);
         let units = units.of_groups(&choice).unwrap_or(units);
-        if !choice.names().is_empty() && (LEAST_UNITS..MANY_UNITS).contains(&units.count) {
+        if !choice.names().is_empty() && units.count >= LEAST_UNITS {
             let (fitted, unseen) = units.quarter(seed);
             let file = CauseChoice::new(&whole.fitting(&fitted), task);
             if file.names() == choice.names() {

@@ -2,34 +2,28 @@
 
 use super::candidate::{Addition, ScoredCandidate};
 use super::choice::CauseChoice;
-use super::constants::LEAST_CERTAINTY;
+use super::constants::NAMED;
 use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::Part;
-use super::record::{Diagnosis, Finding, Fit, Misfit, NotExamined, Options, ScatterFound, Unexplained};
+use super::record::{
+    Diagnosis, ExplanationFound, Finding, Fit, Misfit, NotExamined, Options, Rival, ScatterFound, Unexplained,
+};
 use super::sentences::is_refuted;
 use nearwall::effect::{EFFECTS, EffectInfo};
 use nearwall::model::Model;
 
 /// Largest number of misfits listed.
 const MOST_MISFITS: usize = 12;
-/// With fewer rows, causes that cannot be told apart are undecided.
-const UNDECIDED_ROWS: usize = 12;
-/// Share of resamples below which a cause is never named.
-const HARDLY_EVER: f64 = 0.2;
 /// p-value, without correction, of candidates that may carry a misfit; and how many of them are named.
 const POSSIBLE: f64 = 0.05;
 const MOST_UNDECIDED: usize = 6;
 
 /// The misfits of the base model: the significant curves of the first round.
-pub(super) fn misfit(
-    hypothesis: &Hypothesis<'_>,
-    first_round: &[ScoredCandidate],
-    level: f64,
-) -> Vec<Misfit> {
+pub(super) fn misfit(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, level: f64) -> Vec<Misfit> {
     let one = |scored: &ScoredCandidate| {
         let Addition::Curve(ColumnCurve { form, .. }) = &scored.addition else { return None };
         let column = match form.columns(hypothesis.data).as_slice() {
@@ -44,7 +38,7 @@ pub(super) fn misfit(
             q_value,
         })
     };
-    let mut all: Vec<Misfit> = first_round.iter().filter_map(one).collect();
+    let mut all: Vec<Misfit> = choice.singles().filter_map(one).collect();
     let name = |misfit: &Misfit| (misfit.column.clone(), misfit.observable);
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| name(a).cmp(&name(b))));
     all.truncate(MOST_MISFITS);
@@ -54,23 +48,18 @@ pub(super) fn misfit(
 /// The record without rows, errors, misfits, gains, verdict and sample.
 pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options: &Options) -> Diagnosis {
     let data = hypothesis.data;
-    let builder = FindingBuilder { hypothesis, level: options.level };
+    let builder = FindingBuilder { hypothesis, choice };
     let mut findings: Vec<Finding> = Vec::new();
     let mut calibration = Vec::new();
     for discovery in &choice.discoveries {
-        if discovery.winner.addition.is_calibration() {
-            calibration.extend(builder.calibration(&discovery.winner));
+        if discovery.addition.is_calibration() {
+            calibration.extend(builder.calibration(discovery));
             continue;
         }
         let finding = builder.finding(discovery);
         // A column that acts on two observables is one cause.
         if findings.iter().all(|earlier| earlier.cause != finding.cause) {
             findings.push(finding);
-        }
-    }
-    if choice.data.search.len() < UNDECIDED_ROWS {
-        for finding in &mut findings {
-            finding.indistinguishable_from.extend(possible_laws(finding));
         }
     }
     let scatter = |observable: Observable| {
@@ -84,6 +73,9 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         level: options.level,
         findings,
         calibration,
+        explanations: explanations(choice),
+        rivals: rivals(choice),
+        undecided: undecided(choice),
         scatter: ScatterFound {
             e_n: scatter(Observable::NormalRestitution),
             e_t: scatter(Observable::TangentialRestitution),
@@ -122,22 +114,60 @@ pub(super) fn not_examined(
         .collect()
 }
 
-/// Effects that depend on the column of an unknown cause. Few readings do not tell a law from a curve.
-fn possible_laws(finding: &Finding) -> Vec<String> {
-    let Some(column) = finding.cause.strip_prefix("unknown:") else { return Vec::new() };
-    let effects = EFFECTS.iter().filter(|effect| effect.inputs.contains(&column));
-    effects.map(|effect| effect.id.to_owned()).collect()
+/// The explanations that hold 95 %.
+fn explanations(choice: &CauseChoice) -> Vec<ExplanationFound> {
+    let mut all: Vec<ExplanationFound> = Vec::new();
+    for one in choice.listed() {
+        // Explanations that differ only in the noise are one.
+        match all.iter_mut().find(|known| known.causes == one.causes) {
+            Some(known) => known.probability += one.probability,
+            None => all.push(ExplanationFound { causes: one.causes.clone(), probability: one.probability }),
+        }
+    }
+    all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    all
 }
 
-/// With few rows, a cause that the data cannot tell from others is no finding, nor ever one that
-/// resampled data hardly name: all of them are undecided.
-pub(super) fn undecided(findings: &[Finding], choice: &CauseChoice) -> Vec<String> {
-    let Some(first) = findings.first() else { return Vec::new() };
-    let mut all = vec![first.cause.clone()];
-    all.extend(first.indistinguishable_from.iter().cloned());
-    let few = choice.data.search.len() < UNDECIDED_ROWS;
-    let unsure = few && all.len() > 1 && first.certainty < LEAST_CERTAINTY;
-    if unsure || first.certainty < HARDLY_EVER { all } else { Vec::new() }
+/// The rivals of physics in the explanations that hold 95 %, the most probable first.
+fn rivals(choice: &CauseChoice) -> Vec<Rival> {
+    let physics = choice.explanations.iter().filter(|one| one.rival.is_none());
+    let best = physics.map(|one| one.gain).fold(0.0, f64::max);
+    let observable = main_observable(choice);
+    let mut all: Vec<Rival> = Vec::new();
+    for one in choice.listed() {
+        let Some((id, question)) = &one.rival else { continue };
+        if all.iter().all(|known| known.id != *id) {
+            let (id, explanation, probability) = (id.clone(), question.clone(), choice.probability(id));
+            all.push(Rival { id, observable, gain: one.gain, lead: one.gain - best, probability, explanation });
+        }
+    }
+    all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    all
+}
+
+/// The observable with most measurements.
+fn main_observable(choice: &CauseChoice) -> &'static str {
+    let data = &choice.data;
+    let count =
+        |o: &Observable| data.search.iter().filter(|&&row| o.measured(&data.rows[row]).is_some()).count();
+    let best = Observable::ALL.into_iter().rev().max_by_key(count);
+    best.map_or("e_n", Observable::name)
+}
+
+/// Causes of which one takes part, without one that is probable enough to be named.
+fn undecided(choice: &CauseChoice) -> Vec<String> {
+    let base = choice.explanations.iter().filter(|one| one.causes.is_empty());
+    if !choice.discoveries.is_empty() || base.map(|one| one.probability).sum::<f64>() > 1.0 - NAMED {
+        return Vec::new();
+    }
+    let mut names: Vec<String> = Vec::new();
+    for name in choice.listed().iter().filter(|one| one.rival.is_none()).flat_map(|one| &one.causes) {
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names.truncate(MOST_UNDECIDED);
+    names
 }
 
 /// Candidates that may carry a misfit which the errors show, if none is significant by itself.
@@ -146,7 +176,7 @@ pub(super) fn possible_causes(fit: &Fit, choice: &CauseChoice) -> Vec<String> {
         return Vec::new();
     }
     let mut possible: Vec<&ScoredCandidate> =
-        choice.first_round.iter().filter(|c| c.addition.is_systematic() && c.p_value < POSSIBLE).collect();
+        choice.singles().filter(|c| c.addition.is_systematic() && c.p_value < POSSIBLE).collect();
     possible.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
     let mut names: Vec<String> = Vec::new();
     for name in possible.iter().map(|candidate| candidate.addition.name(&choice.data)) {

@@ -292,7 +292,11 @@ impl RigFindings<'_> {
         let alternatives = round
             .others
             .iter()
-            .map(|other| Alternative { cause: other.addition.name(), score_difference: gain - other.gain });
+            .map(|other| Alternative {
+                cause: other.addition.name(),
+                score_difference: gain - other.gain,
+                probability: 0.0,
+            });
         let observable = self.observable(addition)?;
         let mut finding = Finding {
             cause: addition.name(),
@@ -301,6 +305,7 @@ impl RigFindings<'_> {
             gain,
             chi_square: 2.0 * (gain + addition.axes.len() as f64),
             sigma: sigma(p_value),
+            probability: round.certainty,
             certainty: round.certainty,
             lack_of_fit: None,
             not_separable: Vec::new(),

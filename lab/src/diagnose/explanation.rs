@@ -1,0 +1,207 @@
+//! Explanations of data, their evidence, and the search among them: the same for measured impacts and for a rig.
+//!
+//! An explanation is the base model with additions, or the same data read otherwise. Its evidence is
+//! the probability of the data under it with its parameters integrated out. With `n` readings whose
+//! noise is fitted, `k` parameters and the gain `G` in log likelihood over the base model, and a
+//! normal prior that weighs as much as one reading (g prior with `g = n`; Liang et al. 2008):
+//! `½ (n-1-k) ln(1+n) - ½ (n-1) ln(1 + n exp(-2G/n))`, which for many readings is `G - ½ k ln n`
+//! (Schwarz 1978) and for few is bounded, however well they are met. Where the noise is stated it is
+//! `G - ½ k ln(1+n)`.
+//!
+//! The search expands the best explanation that was not expanded yet, as long as it lies within
+//! Occam's window of the best one (Madigan and Raftery 1994): by every addition, and by leaving out
+//! each of those that it has.
+
+/// Ratio of evidence beyond which an explanation is not pursued, as a logarithm [nats]: 20 to 1.
+const WINDOW: f64 = 3.0;
+/// Largest number of explanations that are expanded.
+const MOST_EXPANDED: usize = 8;
+
+/// An explanation with everything fitted.
+#[derive(Debug, Clone)]
+pub(super) struct Explanation<F> {
+    /// What it adds, in alphabetical order: this tells it from other explanations.
+    pub keys: Vec<String>,
+    pub fitted: F,
+    /// Log likelihood of each row or experiment [nats].
+    pub scores: Vec<f64>,
+    /// Number of fitted parameters.
+    pub freedom: f64,
+    /// Logarithm of the prior probability [nats].
+    pub log_prior: f64,
+}
+
+impl<F> Explanation<F> {
+    /// Log likelihood [nats].
+    pub fn score(&self) -> f64 {
+        self.scores.iter().sum()
+    }
+}
+
+/// What turns a log likelihood into evidence.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Evidence {
+    /// Log likelihood of the base model [nats].
+    pub base: f64,
+    /// Number of readings.
+    pub readings: f64,
+    /// Whether the noise of all readings is stated.
+    pub stated: bool,
+}
+
+impl Evidence {
+    /// Log evidence over that of the base model, with the prior [nats].
+    pub fn of<F>(&self, explanation: &Explanation<F>) -> f64 {
+        self.gain(explanation.score(), explanation.freedom) + explanation.log_prior
+    }
+
+    /// The same without the prior, of a log likelihood [nats] with so many parameters.
+    pub fn gain(&self, score: f64, freedom: f64) -> f64 {
+        let (gain, n) = (score - self.base, self.readings);
+        if self.stated {
+            return gain - 0.5 * freedom * (1.0 + n).ln();
+        }
+        let left = n - 1.0 - freedom;
+        if left <= 0.0 {
+            return f64::NEG_INFINITY;
+        }
+        0.5 * left * (1.0 + n).ln() - 0.5 * (n - 1.0) * (n * (-2.0 * gain / n).exp()).ln_1p()
+    }
+}
+
+/// A kind of data among whose explanations is searched.
+pub(super) trait Explained {
+    /// What is fitted.
+    type Fitted: Clone;
+
+    fn evidence(&self) -> Evidence;
+
+    /// The explanation with one addition more, each promising one fitted.
+    fn extended(&self, of: &Explanation<Self::Fitted>) -> Vec<Explanation<Self::Fitted>>;
+
+    /// The explanation without one of its additions; `known` tells those that need no fit.
+    fn reduced(
+        &self,
+        of: &Explanation<Self::Fitted>,
+        known: &dyn Fn(&[String]) -> bool,
+    ) -> Vec<Explanation<Self::Fitted>>;
+}
+
+/// All explanations that the search visits from `starts`, the one with the largest evidence first.
+pub(super) fn explore<K: Explained>(
+    kind: &K,
+    starts: Vec<Explanation<K::Fitted>>,
+) -> Vec<Explanation<K::Fitted>> {
+    let evidence = kind.evidence();
+    let mut visited = Vec::new();
+    starts.into_iter().for_each(|start| add(&mut visited, start, evidence));
+    let mut expanded: Vec<Vec<String>> = Vec::new();
+    while expanded.len() < MOST_EXPANDED
+        && let Some(next) = next(&visited, &expanded, evidence)
+    {
+        expanded.push(next.keys.clone());
+        let known = |keys: &[String]| visited.iter().any(|one: &Explanation<_>| one.keys == keys);
+        let reduced = kind.reduced(&next, &known);
+        let found = kind.extended(&next).into_iter().chain(reduced);
+        found.collect::<Vec<_>>().into_iter().for_each(|one| add(&mut visited, one, evidence));
+    }
+    visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
+    visited
+}
+
+/// The explanation that is expanded next.
+fn next<F: Clone>(
+    visited: &[Explanation<F>],
+    expanded: &[Vec<String>],
+    evidence: Evidence,
+) -> Option<Explanation<F>> {
+    let of = |one: &&Explanation<F>| evidence.of(one);
+    let best = visited.iter().map(|one| evidence.of(one)).fold(f64::NEG_INFINITY, f64::max);
+    // The base model as it is comes first, whatever a rival gains.
+    let first = visited.iter().filter(|one| one.keys.is_empty() && expanded.is_empty());
+    let near = visited.iter().filter(|one| !expanded.contains(&one.keys) && of(one) > best - WINDOW);
+    let open = first.clone().chain(near.filter(|_| first.clone().next().is_none()));
+    open.max_by(|a, b| of(a).total_cmp(&of(b))).cloned()
+}
+
+/// Adds an explanation; of two with the same additions the better fit stays.
+fn add<F>(visited: &mut Vec<Explanation<F>>, mut new: Explanation<F>, evidence: Evidence) {
+    new.keys.sort();
+    if evidence.of(&new).is_nan() {
+        return;
+    }
+    match visited.iter_mut().find(|one| one.keys == new.keys) {
+        Some(known) if evidence.of(known) >= evidence.of(&new) => {}
+        Some(known) => *known = new,
+        None => visited.push(new),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn evidence(readings: f64, stated: bool) -> Evidence {
+        Evidence { base: 0.0, readings, stated }
+    }
+
+    /// Of many readings the evidence is that of Schwarz; five readings met exactly say at most
+    /// `6^1.5` to one for one parameter.
+    #[test]
+    fn evidence_has_its_limits() {
+        let many = evidence(1e6, false).gain(30.0, 3.0) - (30.0 - 1.5 * f64::ln(1e6));
+        assert!(many.abs() < 0.02, "{many}");
+        let few = evidence(5.0, false).gain(1e3, 1.0);
+        assert!((few - 1.5 * f64::ln(6.0)).abs() < 1e-9, "{few}");
+        assert_eq!(evidence(5.0, false).gain(0.0, 0.0), 0.0);
+        assert!(evidence(5.0, false).gain(1e3, 4.0).is_infinite());
+    }
+
+    /// Two additions that only together explain anything are not found; two that each explain a part are.
+    struct Planted;
+
+    impl Explained for Planted {
+        type Fitted = ();
+
+        fn evidence(&self) -> Evidence {
+            evidence(100.0, true)
+        }
+
+        fn extended(&self, of: &Explanation<()>) -> Vec<Explanation<()>> {
+            let with = |key: &&str| {
+                let mut keys = of.keys.clone();
+                keys.push((*key).to_owned());
+                explained(keys)
+            };
+            ["a", "b", "c"].iter().filter(|key| !of.keys.contains(&(**key).to_owned())).map(with).collect()
+        }
+
+        fn reduced(&self, of: &Explanation<()>, known: &dyn Fn(&[String]) -> bool) -> Vec<Explanation<()>> {
+            let without = |place: usize| {
+                let mut keys = of.keys.clone();
+                keys.remove(place);
+                keys
+            };
+            (0..of.keys.len()).map(without).filter(|keys| !known(keys)).map(explained).collect()
+        }
+    }
+
+    /// The truth is a and b; c gains most alone.
+    fn explained(keys: Vec<String>) -> Explanation<()> {
+        let has = |key: &str| keys.iter().any(|own| own == key);
+        let score = match (has("a"), has("b"), has("c")) {
+            (true, true, _) => 60.0,
+            (true, false, true) | (false, true, true) => 50.0,
+            (_, _, true) => 45.0,
+            (true, false, false) | (false, true, false) => 30.0,
+            (false, false, false) => 0.0,
+        };
+        Explanation { freedom: keys.len() as f64, keys, fitted: (), scores: vec![score], log_prior: 0.0 }
+    }
+
+    #[test]
+    fn what_gains_most_alone_is_left_out_later() {
+        let found = explore(&Planted, vec![explained(Vec::new())]);
+        assert_eq!(found[0].keys, ["a", "b"]);
+    }
+}

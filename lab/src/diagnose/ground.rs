@@ -1,0 +1,101 @@
+//! Grounds of explanations: the rows as they are, with errors that groups share, or read otherwise.
+
+use super::data_split::DataSplit;
+use super::explanation::Evidence;
+use super::groups::GroupColumn;
+use super::hypothesis::Hypothesis;
+use super::reading::{OtherReading, readings};
+use super::skew::skewed;
+use super::slip::slips;
+
+/// The rows on which additions are looked for.
+#[derive(Debug, Clone)]
+pub(super) struct Ground {
+    /// Empty for the rows as they are; an id of a rival of physics, or `groups:COLUMN`.
+    pub key: String,
+    /// What a rival asks the user; `None` for what is no rival.
+    pub question: Option<String>,
+    pub data: DataSplit,
+    /// Added to the log likelihood of each row of the search [nats]: the slope of changed readings.
+    pub slope: Vec<f64>,
+    /// Number of fitted parameters.
+    pub freedom: f64,
+    /// Whether additions can be looked for beside it.
+    pub open: bool,
+}
+
+impl Ground {
+    /// The rows as they are.
+    pub fn plain(data: &DataSplit) -> Self {
+        let slope = vec![0.0; data.search.len()];
+        Self { key: String::new(), question: None, data: data.clone(), slope, freedom: 0.0, open: true }
+    }
+
+    /// The rows with errors that groups share.
+    pub fn grouped(data: &DataSplit, groups: &GroupColumn) -> Self {
+        let key = format!("groups:{}", groups.name);
+        Self { key, data: data.with_shared_errors(groups), freedom: 1.0, ..Self::plain(data) }
+    }
+
+    /// Whether it is another reading of the rows that physics competes with.
+    pub fn is_rival(&self) -> bool {
+        self.question.is_some()
+    }
+
+    /// Log likelihood of each row of the search under a hypothesis on this ground [nats].
+    pub fn scores(&self, hypothesis: &Hypothesis<'_>) -> Vec<f64> {
+        let rows = hypothesis.evaluate(&*self.data.search, hypothesis.offsets()).with_fitted_scatter();
+        rows.scores().into_iter().zip(&self.slope).map(|(score, slope)| score + slope).collect()
+    }
+}
+
+/// All grounds, the rows as they are first; `text` is the file of the base model. Of the other
+/// readings those stay that have more evidence than the rows as they are.
+pub(super) fn grounds(data: &DataSplit, groups: &[GroupColumn], text: &str, evidence: Evidence) -> Vec<Ground> {
+    let mut all = vec![Ground::plain(data)];
+    all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
+    let others = slips(&data.base, text).into_iter().chain(readings(data));
+    all.extend(others.filter_map(|other| best(data, &other, evidence)));
+    let skewed = skewed(data);
+    all.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
+    all
+}
+
+/// Log evidence of the base model on a ground over that on the rows as they are [nats].
+fn worth(ground: &Ground, evidence: Evidence) -> f64 {
+    let score: f64 = ground.scores(&Hypothesis::base(&ground.data)).iter().sum();
+    evidence.gain(score, ground.freedom)
+}
+
+/// The ground of a reading with its best parameter.
+fn best(data: &DataSplit, other: &OtherReading, evidence: Evidence) -> Option<Ground> {
+    let tried = |values: Vec<f64>| {
+        let grounds = values.into_iter().filter_map(|value| Some((value, read(data, other, value)?)));
+        let scored = grounds.map(|(value, ground)| (worth(&ground, evidence), value, ground));
+        scored.filter(|one| one.0.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let first = tried(other.values.clone())?;
+    let finer = tried(other.near(first.1));
+    let (worth, _, ground) = finer.filter(|finer| finer.0 > first.0).unwrap_or(first);
+    (worth > 0.0).then_some(ground)
+}
+
+/// The rows read otherwise; `None` where a row has no such reading.
+fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
+    let base = other.model.clone().unwrap_or_else(|| data.base.clone());
+    let (mut rows, mut noise) = (data.rows.to_vec(), data.noise.to_vec());
+    let mut slope = Vec::with_capacity(data.search.len());
+    for &row in &data.search {
+        slope.push((other.change)(&mut rows[row], &mut noise[row], value)?);
+        base.check(rows[row].wall, &rows[row].impact).ok()?;
+    }
+    let changed = DataSplit { base, rows: rows.into(), noise: noise.into(), ..data.clone() };
+    Some(Ground {
+        key: other.id.clone(),
+        question: Some((other.question)(value)),
+        data: changed,
+        slope,
+        freedom: other.freedom,
+        open: true,
+    })
+}

@@ -1,0 +1,227 @@
+//! The search among explanations of measured impacts.
+//!
+//! An addition is an effect, a number of the base's laws, a level, a curve or surface over columns, a
+//! trend of the scatter, or captures at a constant rate; a start is a [`Ground`]. What joins beside
+//! a law is measured beside a smooth remainder over that law's inputs, so that an inexact law needs
+//! no second cause; a law that pays for its remainder competes with the curve that needs no law.
+
+use std::collections::BTreeMap;
+
+use super::candidate::{Addition, Class, ScoredCandidate};
+use super::candidate_list::candidates;
+use super::constants::REFITTED;
+use super::data_split::DataSplit;
+use super::explanation::{Evidence, Explained, Explanation};
+use super::fitting::CandidateRound;
+use super::ground::Ground;
+use super::hypothesis::Hypothesis;
+use super::likelihood::SMALLEST_SCATTER;
+use super::observable::Observable;
+
+/// An explanation of impacts, fitted.
+#[derive(Debug, Clone)]
+pub(super) struct FittedImpacts<'a> {
+    /// Index of its ground.
+    pub ground: usize,
+    pub hypothesis: Hypothesis<'a>,
+    /// What was added, in this order.
+    pub found: Vec<ScoredCandidate>,
+}
+
+/// An explanation of impacts.
+pub(super) type ImpactExplanation<'a> = Explanation<FittedImpacts<'a>>;
+
+/// The search on some grounds.
+pub(super) struct ImpactSearch<'a> {
+    grounds: &'a [Ground],
+    evidence: Evidence,
+    progress: &'a (dyn Fn() + Sync),
+}
+
+/// Evidence on the rows of the search.
+pub(super) fn evidence(data: &DataSplit) -> Evidence {
+    let base = Hypothesis::base(data);
+    let measured = |one: &Observable| {
+        data.search.iter().filter(|&&row| one.measured(&data.rows[row]).is_some()).count() as f64
+    };
+    let [e_n, e_t, captures] = Observable::ALL.map(|one| measured(&one));
+    let rows = base.evaluate(&*data.search, base.offsets());
+    let stated = rows.stated_chi_square().is_some() && base.scatter.iter().all(|one| *one <= SMALLEST_SCATTER);
+    Evidence {
+        base: base.search_score(),
+        readings: e_n.max(e_t).max(captures),
+        stated: stated || e_n + e_t == 0.0,
+    }
+}
+
+impl<'a> ImpactSearch<'a> {
+    pub fn new(grounds: &'a [Ground], evidence: Evidence, progress: &'a (dyn Fn() + Sync)) -> Self {
+        Self { grounds, evidence, progress }
+    }
+
+    /// The base model on every ground that is no noise.
+    pub fn starts(&self) -> Vec<ImpactExplanation<'a>> {
+        let rivals = self.grounds.iter().filter(|ground| ground.is_rival()).count();
+        let start = |(place, ground): (usize, &'a Ground)| {
+            let hypothesis = Hypothesis::base(&ground.data);
+            let log_prior = if ground.is_rival() { surprise(Class::Rival, rivals) } else { 0.0 };
+            let keys = if ground.key.is_empty() { Vec::new() } else { vec![ground.key.clone()] };
+            let scores = ground.scores(&hypothesis);
+            let fitted = FittedImpacts { ground: place, hypothesis, found: Vec::new() };
+            Explanation { keys, fitted, scores, freedom: ground.freedom, log_prior }
+        };
+        let is_start = |(place, ground): &(usize, &Ground)| *place == 0 || ground.is_rival();
+        self.grounds.iter().enumerate().filter(is_start).map(start).collect()
+    }
+
+    /// The explanation with a candidate as it was fitted in the round.
+    fn beside(&self, of: &ImpactExplanation<'a>, scored: ScoredCandidate) -> ImpactExplanation<'a> {
+        let freedom = scored.addition.freedom();
+        let share = freedom / of.scores.len().max(1) as f64;
+        let more = |(before, gain): (&f64, &f64)| before + gain + share;
+        let scores = of.scores.iter().zip(&scored.differences).map(more).collect();
+        let mut fitted = of.fitted.clone();
+        let mut keys = of.keys.clone();
+        keys.push(scored.addition.key(fitted.hypothesis.data));
+        scored.addition.add_to(&mut fitted.hypothesis);
+        let log_prior = of.log_prior + scored.log_prior;
+        fitted.found.push(scored);
+        Explanation { keys, fitted, scores, freedom: of.freedom + freedom, log_prior }
+    }
+
+    /// The same with all parameters fitted together.
+    fn refitted(&self, of: &ImpactExplanation<'a>, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
+        let ground = &self.grounds[of.fitted.ground];
+        let before = ground.scores(&of.fitted.hypothesis);
+        new.fitted.hypothesis.fit_with_discrepancy();
+        let hypothesis = &new.fitted.hypothesis;
+        if of.fitted.hypothesis.parts.is_empty() {
+            return self.with_or_without_remainder(new);
+        }
+        let gain = ground.scores(hypothesis).into_iter().zip(before).map(|(after, before)| after - before);
+        let scores: Vec<f64> = of.scores.iter().zip(gain).map(|(own, gain)| own + gain).collect();
+        if scores.iter().sum::<f64>() > new.score() {
+            new.scores = scores;
+        }
+        new
+    }
+
+    /// The scores of an explanation by its laws alone, or with the remainder if this pays for its parameters.
+    fn with_or_without_remainder(&self, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
+        let ground = &self.grounds[new.fitted.ground];
+        let hypothesis = &new.fitted.hypothesis;
+        let own = ground.freedom + hypothesis.freedom() + f64::from(u8::from(hypothesis.background_capture != 0.0));
+        let alone = ground.scores(&hypothesis.without_discrepancy());
+        let with = ground.scores(hypothesis);
+        let all = own + hypothesis.discrepancy_freedom;
+        let worth = |scores: &[f64], freedom| self.evidence.gain(scores.iter().sum(), freedom);
+        (new.scores, new.freedom) = if worth(&with, all) > worth(&alone, own) { (with, all) } else { (alone, own) };
+        new
+    }
+
+    /// The explanation with errors that groups share.
+    fn grouped(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
+        if of.fitted.ground != 0 {
+            return Vec::new();
+        }
+        let noise = self.grounds.iter().enumerate().filter(|(place, one)| *place > 0 && !one.is_rival());
+        let count = noise.clone().count();
+        let on = |(place, ground): (usize, &'a Ground)| {
+            let mut new = of.clone();
+            new.keys.push(ground.key.clone());
+            new.fitted.ground = place;
+            new.fitted.hypothesis.data = &ground.data;
+            new.fitted.hypothesis.fit_scatter(&ground.data.search);
+            let before = self.grounds[0].scores(&of.fitted.hypothesis);
+            let after = ground.scores(&new.fitted.hypothesis);
+            let gain = after.iter().zip(&before).map(|(after, before)| after - before);
+            new.scores = of.scores.iter().zip(gain).map(|(own, gain)| own + gain).collect();
+            new.freedom += ground.freedom;
+            new.log_prior += surprise(Class::Noise, count);
+            new
+        };
+        noise.map(on).collect()
+    }
+}
+
+impl<'a> Explained for ImpactSearch<'a> {
+    type Fitted = FittedImpacts<'a>;
+
+    fn evidence(&self) -> Evidence {
+        self.evidence
+    }
+
+    fn extended(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
+        if !self.grounds[of.fitted.ground].open {
+            return Vec::new();
+        }
+        let hypothesis = &of.fitted.hypothesis;
+        let round = CandidateRound::new(hypothesis);
+        let list = candidates(hypothesis, round.is_few());
+        let mut counts: BTreeMap<Class, usize> = BTreeMap::new();
+        list.iter().for_each(|one| *counts.entry(one.class()).or_default() += 1);
+        let scored = round.score(&list, self.progress);
+        let prior = |class: Class| surprise(class, counts.get(&class).copied().unwrap_or(1));
+        let beside = scored.into_iter().map(|one| {
+            let log_prior = prior(one.addition.class());
+            self.beside(of, ScoredCandidate { log_prior, ..one })
+        });
+        let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
+        all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
+        let rest = all.split_off(all.len().min(REFITTED));
+        let refitted = all.into_iter().map(|new| self.refitted(of, new));
+        let mut found: Vec<_> = refitted.chain(rest).collect();
+        found.extend(self.grouped(of));
+        found
+    }
+
+    fn reduced(
+        &self,
+        of: &ImpactExplanation<'a>,
+        known: &dyn Fn(&[String]) -> bool,
+    ) -> Vec<ImpactExplanation<'a>> {
+        let data = of.fitted.hypothesis.data;
+        let without = |place: usize| {
+            let ScoredCandidate { addition: removed, log_prior, .. } = &of.fitted.found[place];
+            let key = removed.key(data);
+            let mut new = of.clone();
+            new.keys.retain(|own| *own != key);
+            if known(&new.keys) {
+                return None;
+            }
+            new.fitted.found.remove(place);
+            remove(&mut new.fitted.hypothesis, removed, data);
+            new.log_prior -= log_prior;
+            new.fitted.hypothesis.fit_with_discrepancy();
+            Some(self.with_or_without_remainder(new))
+        };
+        if of.fitted.found.len() < 2 {
+            return Vec::new();
+        }
+        (0..of.fitted.found.len()).filter_map(without).collect()
+    }
+}
+
+/// Removes an addition from a hypothesis.
+fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit) {
+    match addition {
+        Addition::Part { part, .. } => {
+            let name = part.part.name();
+            hypothesis.parts.retain(|own| own.part.name() != name);
+        }
+        Addition::Curve(curve) => {
+            let key = |one: &super::curve::ColumnCurve| (one.form.name(data), one.form.observable);
+            hypothesis.curves.retain(|own| key(own) != key(curve));
+        }
+        Addition::ScatterTrend(trend) => {
+            hypothesis.scatter_trends.retain(|own| own.covariate != trend.covariate);
+        }
+        Addition::BackgroundCapture(_) => hypothesis.background_capture = 0.0,
+    }
+}
+
+/// Logarithm of the prior probability of one addition of a class with so many candidates, over that
+/// of none [nats].
+fn surprise(class: Class, candidates: usize) -> f64 {
+    (class.prior() / candidates.max(1) as f64).ln()
+}
