@@ -45,7 +45,7 @@ use set::{Plan, PlanOf, Recipe};
 type Situation = (&'static str, usize, fn(usize, &mut SetRng) -> Plan);
 
 /// Sets of a run that multiplies nothing.
-const SITUATIONS: [Situation; 66] = [
+const SITUATIONS: [Situation; 67] = [
     ("few-null", 3, few::null),
     ("few-level", 3, few::level),
     ("few-angle", 3, few::angle),
@@ -86,7 +86,8 @@ const SITUATIONS: [Situation; 66] = [
     ("null-rubbish", 1, rubbish::null),
     ("null-everything", 1, rubbish::everything),
     ("null-blank", 2, missing::null),
-    ("null-merged-cells", 1, missing::merged),
+    ("null-merged-cells", 1, missing::merged_captures),
+    ("merged-melting", 1, missing::merged_melting),
     ("blank-melting", 1, missing::melting),
     ("rebounds-only", 2, missing::rebounds_only),
     ("rubbish-law", 1, rubbish::law),

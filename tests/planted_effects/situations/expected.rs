@@ -130,9 +130,9 @@ impl Expected {
         surface || is_one_of(cause, name, variables) || is_one_of(cause, name, &columns)
     }
 
-    /// Whether it may be said.
+    /// Whether it may be said. How the scatter changes is no cause of anything.
     pub fn is_allowed(&self, name: &str) -> bool {
-        is_one_of(&self.allowed, name, &[])
+        name.starts_with("scatter:") || is_one_of(&self.allowed, name, &[])
     }
 
     /// Whether a set of causes is the truth: all that is planted, and nothing else but what is allowed.

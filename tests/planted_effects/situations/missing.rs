@@ -1,13 +1,14 @@
 //! Captures that the file does not have, and blank temperatures.
 
 use crate::campaign::System;
+use crate::own_laws;
 use crate::plant::Plant;
 use crate::set_rng::SetRng;
 use crate::sets;
 
 use super::exact;
 use super::expected::Expected;
-use super::lab::{Lab, Outcomes, Row};
+use super::lab::{Common, Groups, Lab, Outcomes, Row, Shared};
 use super::nulls;
 use super::set::Plan;
 
@@ -18,11 +19,9 @@ const KNOWN: usize = 5;
 
 /// Rebounds alone, without a column of outcomes; e_n falls smoothly with the temperature and nothing sticks.
 pub fn rebounds_only(index: usize, rng: &mut SetRng) -> Plan {
-    let mut lab = Lab::new(System::Wax, sets::any_law(System::Wax, rng), rng);
-    lab.fast();
+    let mut lab = warm(rng);
     lab.outcomes = Outcomes::Absent;
     lab.observed = [true, !index.is_multiple_of(2)];
-    lab.campaign.t_p = (300.0, 390.0);
     let (middle, width, most) =
         (rng.uniform((335.0, 365.0)), rng.uniform((6.0, 20.0)), rng.uniform((0.3, 0.8)));
     lab.plant(Plant::normal("unknown:T_p", move |x, _, n| {
@@ -57,13 +56,31 @@ pub fn melting(index: usize, rng: &mut SetRng) -> Plan {
     Plan { expected, fresh_alike: false, count: plan.count.max(150), ..plan }
 }
 
-/// Some particles stick and soften, whatever their temperature, and all but five of 200 temperatures are blank.
-pub fn merged(_: usize, rng: &mut SetRng) -> Plan {
+/// All but five of 200 temperatures are blank: the first of each of five blocks, within which all settings are the same.
+fn merged_cells(lab: Lab, expected: Expected) -> Plan {
+    let groups = Groups { column: None, count: KNOWN, shared: Shared::Drawn(0.0), common: Common::Setting };
+    let plan = Plan::new(lab, 200, expected.never(&CAPTURING)).grouped(groups);
+    Plan { fresh_alike: false, ..plan }.changed(|rows, rng| blank(rows, None, rng))
+}
+
+fn warm(rng: &mut SetRng) -> Lab {
     let mut lab = Lab::new(System::Wax, sets::any_law(System::Wax, rng), rng);
     lab.fast();
     lab.campaign.t_p = (300.0, 390.0);
+    lab
+}
+
+/// Some particles stick, whatever their temperature, which is blank.
+pub fn merged_captures(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = warm(rng);
     let rate = rng.uniform((0.1, 0.5));
-    lab.plant(Plant::normal("level:outcome", move |_, _, n| n.stick = n.stick.max(rate)));
-    let expected = Expected::nothing().allowing(&["level*", "captures*", "constant*"]).never(&CAPTURING);
-    Plan { fresh_alike: false, ..Plan::new(lab, 200, expected) }.changed(|rows, rng| blank(rows, None, rng))
+    lab.plant(Plant::normal("background-capture", move |_, _, n| n.stick = n.stick.max(rate)));
+    merged_cells(lab, Expected::nothing().allowing(&["background-capture", "level*"]))
+}
+
+/// The particles melt, and five temperatures are too few to say so.
+pub fn merged_melting(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = warm(rng);
+    lab.plant(own_laws::melting(rng.uniform((340.0, 365.0)), rng.uniform((4.0, 12.0)), 0.5));
+    merged_cells(lab, Expected::cause(&["melting-transition"]))
 }
