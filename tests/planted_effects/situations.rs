@@ -1,4 +1,4 @@
-//! Situations of a laboratory: few averages, weak effects, nulls of every kind, slips, captures, two laboratories.
+//! Situations of a laboratory: few averages, weak effects, nulls of every kind, instruments, slips, captures.
 //!
 //! - `cargo test --release --test planted_effects -- --nocapture situations` prints situation by
 //!   situation what is said.

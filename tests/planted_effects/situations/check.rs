@@ -315,9 +315,12 @@ fn probabilities_are_read() {
     let stated = |probability, holds| Stated { probability, holds };
     let new = json!({
         "findings": [{ "cause": "powder-layer", "probability": 0.9, "certainty": 1.0, "alternatives": [
-            { "cause": "gas-lift", "probability": 0.08 }, { "cause": "powder-layer", "probability": 0.1 } ] }],
+            { "cause": "gas-lift", "probability": 0.08 },
+            { "cause": "powder-layer", "probability": 0.1 } ] }],
         "rivals": [{ "id": "slip:diameter-is-radius", "probability": 0.02 }],
-        "explanations": [{ "causes": ["powder-layer"], "probability": 0.88 }, { "causes": [], "probability": 0.07 }],
+        "explanations": [
+            { "causes": ["powder-layer"], "probability": 0.88 },
+            { "causes": [], "probability": 0.07 } ],
     });
     let read = Probabilities::of(&expected, Some(&new));
     assert!(read.stated);

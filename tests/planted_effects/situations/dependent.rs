@@ -25,7 +25,7 @@ pub fn swept(index: usize, rng: &mut SetRng) -> Plan {
     })
 }
 
-/// Bursts share temperatures, layers and the like, and an error as large as the noise; the file does not name them.
+/// Bursts share temperatures, layers and the like, and an error as large as the noise; no column names them.
 pub fn bursts(_: usize, rng: &mut SetRng) -> Plan {
     let count = 8 + rng.below(13);
     let groups = Groups { column: None, count, shared: Shared::Drawn(1.0), common: Common::Setting };

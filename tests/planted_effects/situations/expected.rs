@@ -44,8 +44,8 @@ impl Bound {
 /// What is planted, and what else may be said.
 #[derive(Clone, Debug, Default)]
 pub struct Expected {
-    /// The planted causes, each with its right names; `level*` stands for every name that begins with `level`,
-    /// `a*b` for a term over both columns.
+    /// The planted causes, each with its right names; `level*` stands for every name that begins with
+    /// `level`, `a*b` for a term over both columns.
     pub planted: Vec<Vec<&'static str>>,
     /// Names that are neither right nor false.
     pub allowed: Vec<&'static str>,
@@ -158,8 +158,8 @@ impl Expected {
     }
 }
 
-/// Whether a name, with the columns that it depends on, is one of these. A number of the base has the name of its
-/// key, or this after `calibration:`.
+/// Whether a name, with the columns that it depends on, is one of these. A number of the base has the name
+/// of its key, or this after `calibration:`.
 pub fn is_one_of(names: &[&str], name: &str, variables: &[&str]) -> bool {
     names.iter().any(|one| match one.split_once('*') {
         Some((begin, "")) => name.starts_with(begin) || key(begin).is_some_and(|key| name.starts_with(key)),

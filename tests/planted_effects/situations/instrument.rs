@@ -25,8 +25,8 @@ fn plan(lab: Lab, rng: &mut SetRng) -> Plan {
     Plan { expected: Expected::instrument(), ..nulls::plan(lab, rng) }
 }
 
-/// Speeds `[v_n, v_t]` and restitutions in a frame that is turned by an angle [rad] against the wall; `None` where the
-/// frame sees no impact or no rebound.
+/// Speeds `[v_n, v_t]` and restitutions in a frame that is turned by an angle [rad] against the wall; `None`
+/// where the frame sees no impact or no rebound.
 pub fn turned(x: &Inputs, [e_n, e_t]: [f64; 2], angle: f64) -> Option<([f64; 2], [f64; 2])> {
     let (sin, cos) = angle.sin_cos();
     let arrival = [x.v_n * cos - x.v_t * sin, x.v_t * cos + x.v_n * sin];
@@ -56,8 +56,8 @@ fn turn(row: &mut Row, angle: f64) -> bool {
     true
 }
 
-/// Gas slows the particles down between the camera's window and the wall, on both ways (Stokes): by 3 to 12 % of the
-/// least speed, for the mean size. Rebounds that do not reach the window are missing.
+/// Gas slows the particles down between the camera's window and the wall, on both ways (Stokes): by 3 to
+/// 12 % of the least speed, for the mean size. Rebounds that do not reach the window are missing.
 pub fn drag(_: usize, rng: &mut SetRng) -> Plan {
     let lab = lab(rng);
     let (d, least) = (lab.campaign.d, lab.campaign.v_n.0);

@@ -56,7 +56,7 @@ pub fn melting(index: usize, rng: &mut SetRng) -> Plan {
     Plan { expected, fresh_alike: false, count: plan.count.max(150), ..plan }
 }
 
-/// All but five of 200 temperatures are blank: the first of each of five blocks, within which all settings are the same.
+/// All but five of 200 temperatures are blank: known is the first of each of five blocks with one setting.
 fn merged_cells(lab: Lab, expected: Expected) -> Plan {
     let groups = Groups { column: None, count: KNOWN, shared: Shared::Drawn(0.0), common: Common::Setting };
     let plan = Plan::new(lab, 200, expected.never(&CAPTURING)).grouped(groups);

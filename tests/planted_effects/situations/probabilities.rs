@@ -95,9 +95,9 @@ pub fn explanations(diagnosis: &Value) -> Vec<(Vec<&str>, f64)> {
     }
 }
 
-/// Of an answer that states none. All findings together have the least of their shares of resamples, and what is
-/// indistinguishable from the first, in its place, the rest. Without a finding, undecided causes share 1 less the level
-/// of the tests, or nothing is there.
+/// Of an answer that states none. All findings together have the least of their shares of resamples; what
+/// is indistinguishable from the first and the rivals, in its place, have the rest. Without a finding,
+/// undecided causes and rivals share 1 less the level of the tests, or nothing is there.
 fn of_resamples(diagnosis: &Value) -> Vec<(Vec<&str>, f64)> {
     let confidence = 1.0 - diagnosis["level"].as_f64().unwrap_or(0.05);
     let findings: Vec<&Value> = list(diagnosis, "findings").collect();

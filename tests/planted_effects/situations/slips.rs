@@ -84,8 +84,9 @@ pub fn energy(_: usize, rng: &mut SetRng) -> Plan {
     })
 }
 
-/// A misplaced digit where it hardly matters: ten times the modulus of a wall that is 90 times as stiff as the
-/// particle, which changes the contact by 1 %. In two thirds of the sets an effect acts; no slip may be asked about.
+/// A misplaced digit where it hardly matters: ten times the modulus of a wall that is 90 times as stiff as
+/// the particle, which changes the contact by 1 %. In two thirds of the sets an effect acts; no slip may be
+/// asked about.
 pub fn harmless(index: usize, rng: &mut SetRng) -> Plan {
     let mut lab = Lab::new(System::Char, sets::any_law(System::Char, rng), rng);
     lab.fast();

@@ -73,8 +73,8 @@ fn share(hits: usize, of: usize) -> String {
 
 fn print_situations(all: &[Judgement]) {
     println!(
-        "\n| situation | sets | right | honest | missed | wrong | refused | oracle | gain | interval | log score | \
-         mean s | longest s |"
+        "\n| situation | sets | right | honest | missed | wrong | refused | oracle | gain | interval \
+         | log score | mean s | longest s |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (situation, sets) in by(all, |one| Some(&one.situation)) {
@@ -197,6 +197,9 @@ fn failures(all: &[Judgement]) -> Vec<String> {
     let worse: Vec<bool> = all.iter().filter_map(|one| one.worse).collect();
     let count_of = worse.iter().filter(|worse| **worse).count();
     println!("extended model worse than the base on fresh rows: {count_of} of {}", worse.len());
+    let nulls: Vec<&Judgement> = all.iter().filter(|one| one.null).collect();
+    let silent = nulls.len() - count(&nulls, Verdict::False);
+    results.push(require("no false cause where nothing acts", silent, nulls.len(), 0.95));
     for (kind, sets) in by(all, |one| one.null.then_some(&one.situation)) {
         let silent = sets.len() - count(&sets, Verdict::False);
         results.push(require(&format!("no false cause on {kind}"), silent, sets.len(), 0.95));

@@ -93,8 +93,8 @@ pub fn charge(_: usize, rng: &mut SetRng) -> Plan {
     plan(lab, &["unknown:since_charging"], rng).each(move |row, _| given(row))
 }
 
-/// On a bed of grains e_n is a straight line over the inverse sine of the angle of impact (Beladjine et al. 2007),
-/// whatever the speed.
+/// On a bed of grains e_n is a straight line over the inverse sine of the angle of impact (Beladjine et al.
+/// 2007): a factor that does not depend on the speed.
 pub fn granular_bed(_: usize, rng: &mut SetRng) -> Plan {
     let mut lab = lab(rng);
     lab.campaign.theta = (5.0, 78.0);
