@@ -286,6 +286,9 @@ fn verdicts_on_instruments() {
         verdict(&bed, json!({ "findings": [finding] }))
     };
     assert_eq!([-1.0, -1.49998].map(oblique), [Verdict::Right, Verdict::False]);
+    let of_bound = json!({ "findings": [{ "cause": "oblique-angle", "certainty": 0.9,
+        "parameters": { "strength": { "value": -1.5 } } }] });
+    assert_eq!(Probabilities::of(&bed.expected, Some(&of_bound)).of_truth(), 0.0);
 }
 
 #[test]

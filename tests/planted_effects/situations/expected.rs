@@ -135,6 +135,20 @@ impl Expected {
         name.starts_with("scatter:") || is_one_of(&self.allowed, name, &[])
     }
 
+    /// Whether a law of the diagnosis is at an end of its range.
+    pub fn is_at_bound(&self, diagnosis: &Value) -> bool {
+        let findings = diagnosis["findings"].as_array().into_iter().flatten();
+        self.bound.is_some_and(|bound| findings.into_iter().any(|finding| bound.is_met(finding)))
+    }
+
+    /// What is right to say of a diagnosis with a law at an end of its range: not this law.
+    pub fn without_bound(mut self) -> Self {
+        for cause in &mut self.planted {
+            cause.retain(|name| self.bound.is_none_or(|bound| bound.cause != *name));
+        }
+        self
+    }
+
     /// Whether a set of causes is the truth: all that is planted, and nothing else but what is allowed.
     pub fn is_truth(&self, causes: &[&str]) -> bool {
         let others =
@@ -190,9 +204,9 @@ fn is_over(cause: &[&str], column: &str) -> bool {
     cause.iter().any(|name| name.strip_prefix("unknown:") == Some(column))
 }
 
-/// Whether a name is a curve.
+/// Whether a name is a curve, or the pattern of a surface.
 pub fn is_curve(name: &str) -> bool {
-    name.starts_with("unknown:")
+    name.starts_with("unknown:") || name.split_once('*').is_some_and(|(_, other)| !other.is_empty())
 }
 
 fn key(name: &str) -> Option<&str> {

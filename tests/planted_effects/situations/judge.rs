@@ -139,7 +139,6 @@ fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     let undecided: Vec<&str> = list(diagnosis, "undecided").filter_map(Value::as_str).collect();
     let refuted = is_refuted(diagnosis) || !undecided.is_empty();
     let never = |name: &str| is_one_of(&expected.never, name, &[]);
-    let at_bound = |finding: &&Value| expected.bound.is_some_and(|bound| bound.is_met(finding));
     if findings.iter().any(|one| never(text(one, "cause"))) || rivals(diagnosis).any(never) {
         return Verdict::False;
     }
@@ -152,7 +151,7 @@ fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     let is_false = |finding: &&Value| {
         !is_right(finding) && !expected.is_allowed(text(finding, "cause")) && !lists(finding)
     };
-    if findings.iter().any(|finding| is_false(finding) || at_bound(finding)) {
+    if expected.is_at_bound(diagnosis) || findings.iter().any(is_false) {
         return Verdict::False;
     }
     if expected.planted.is_empty() {

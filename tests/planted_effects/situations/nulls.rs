@@ -85,10 +85,15 @@ pub fn unstated_input_errors(_: usize, rng: &mut SetRng) -> Plan {
     let speed = lab.truth.contact.sticking_speed(0.85 * d);
     lab.campaign.v_n = (1.4 * speed, 2.2 * speed);
     lab.campaign.noise_e_n = rng.uniform((0.01, 0.02));
-    plan(lab, rng).each(move |row, rng| {
+    or_instrument(plan(lab, rng)).each(move |row, rng| {
         row.seen.v_n = row.x.v_n * (1.0 + 0.05 * rng.normal());
         row.seen.d = row.x.d * (1.0 + 0.1 * rng.normal()).max(0.2);
     })
+}
+
+/// With no cause, but with an instrument that may be named.
+pub fn or_instrument(plan: Plan) -> Plan {
+    Plan { expected: plan.expected.clone().allowing(&["artefact:*", "instrument:*"]), ..plan }
 }
 
 /// Slow rebounds are not seen; nothing says so.
@@ -96,7 +101,7 @@ pub fn truncated(_: usize, rng: &mut SetRng) -> Plan {
     let mut lab = Lab::new(System::Wax, sets::any_law(System::Wax, rng), rng);
     lab.fast();
     lab.campaign.noise_e_n = rng.uniform((0.03, 0.06));
-    plan(lab, rng).changed(|rows: &mut Vec<Row>, _| {
+    or_instrument(plan(lab, rng)).changed(|rows: &mut Vec<Row>, _| {
         rows.retain(|row| row.measured[0].is_none_or(|e_n| e_n >= LIMIT));
     })
 }
@@ -110,7 +115,7 @@ pub fn truncated_stated(index: usize, rng: &mut SetRng) -> Plan {
 /// Errors are only downwards.
 pub fn skewed(index: usize, rng: &mut SetRng) -> Plan {
     let noise = [Noise::HalfNormal, Noise::Exponential][index % 2];
-    plan(Lab { noise, ..lab(rng) }, rng)
+    or_instrument(plan(Lab { noise, ..lab(rng) }, rng))
 }
 
 /// Values have steps of 0.05.

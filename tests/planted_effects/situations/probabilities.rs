@@ -33,6 +33,8 @@ impl Probabilities {
     /// Of an answer to a set with this truth; of none if there is no answer.
     pub fn of(expected: &Expected, diagnosis: Option<&Value>) -> Self {
         let Some(diagnosis) = diagnosis else { return Self::default() };
+        let at_bound = expected.is_at_bound(diagnosis).then(|| expected.clone().without_bound());
+        let expected = at_bound.as_ref().unwrap_or(expected);
         let explanations = explanations(diagnosis)
             .into_iter()
             .map(|(causes, probability)| Stated { probability, holds: expected.is_truth(&causes) });
@@ -51,7 +53,7 @@ impl Probabilities {
 
     /// Logarithmic score [nats].
     pub fn log_score(&self) -> f64 {
-        -self.of_truth().clamp(FLOOR, 1.0).ln()
+        self.of_truth().clamp(FLOOR, 1.0).recip().ln()
     }
 }
 

@@ -18,7 +18,7 @@ fn replace(row: &mut Row, rng: &mut SetRng) {
 
 /// A tenth of e_n is replaced by uniform values; the base is right.
 pub fn null(_: usize, rng: &mut SetRng) -> Plan {
-    nulls::plan(nulls::lab(rng), rng).each(replace)
+    nulls::or_instrument(nulls::plan(nulls::lab(rng), rng)).each(replace)
 }
 
 /// The same with one of the library's own laws.
