@@ -37,7 +37,7 @@ fn named(name: &str, seed: u64) -> Set {
 fn the_model_files_of_situations_are_their_bases() {
     let seed = random::seed();
     for recipe in first() {
-        let set = recipe.make(seed);
+        let set = recipe.with_fresh(seed, 100);
         let folder = tempfile::tempdir().unwrap();
         let lines: Vec<&str> = set.fresh_inputs.lines().take(41).collect();
         std::fs::write(folder.path().join("base.toml"), &set.model).unwrap();
@@ -270,6 +270,12 @@ fn verdicts_on_instruments() {
     assert_eq!(verdict(&digit, json!({ "findings": [law], "rivals": [] })), Verdict::Right);
     assert_eq!(verdict(&digit, json!({ "findings": [law], "rivals": asked })), Verdict::False);
     assert_eq!(verdict(&digit, json!({ "findings": [finding("unknown:layer_thickness")] })), Verdict::Honest);
+}
+
+/// Captures that nothing shows, and a law at the end of its range.
+#[test]
+fn verdicts_on_laws() {
+    let finding = |cause: &str| json!({ "cause": cause, "variables": [], "indistinguishable_from": [] });
     let rebounds = named("rebounds-only:0", 1);
     let melting = json!({ "cause": "melting-transition", "indistinguishable_from": ["thermal-softening"] });
     assert_eq!(verdict(&rebounds, json!({ "findings": [melting] })), Verdict::False);

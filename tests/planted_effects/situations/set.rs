@@ -10,7 +10,7 @@ use super::lab::{Groups, Lab, Row};
 use super::oracle::Oracle;
 
 /// Rows on which the gain is checked.
-pub const FRESH: usize = 4000;
+const FRESH: usize = 4000;
 
 type Change = Box<dyn Fn(&mut Vec<Row>, &mut SetRng) + Send + Sync>;
 
@@ -80,8 +80,8 @@ pub struct Set {
 }
 
 impl Set {
-    /// Draws the plan's rows and as many fresh ones as are needed.
-    pub fn draw(name: &str, mut plan: Plan, rng: &mut SetRng) -> Self {
+    /// Draws the plan's rows and so many fresh ones.
+    pub fn draw(name: &str, mut plan: Plan, fresh: usize, rng: &mut SetRng) -> Self {
         let rows = plan.rows(plan.count, rng);
         let data = file::measurements(&plan.lab, &rows, rng);
         if !plan.fresh_alike {
@@ -89,7 +89,7 @@ impl Set {
             plan.lab.given.retain(|name| groups.as_ref().is_none_or(|groups| groups.column != Some(*name)));
             plan.change = None;
         }
-        let fresh = plan.rows(FRESH, rng);
+        let fresh = plan.rows(fresh, rng);
         let oracle = match plan.expected.planted.is_empty() && plan.expected.rival.is_none() {
             true => Oracle::NOTHING,
             false if plan.lab.truth.scatters() => Oracle::CERTAIN,
@@ -147,8 +147,13 @@ impl Recipe {
 
     /// The set of this seed.
     pub fn make(&self, seed: u64) -> Set {
+        self.with_fresh(seed, FRESH)
+    }
+
+    /// The same with so many fresh rows.
+    pub fn with_fresh(&self, seed: u64, fresh: usize) -> Set {
         let mut rng = SetRng::new(seed, &self.name);
         let plan = (self.plan)(self.index, &mut rng);
-        Set::draw(&self.name, plan, &mut rng)
+        Set::draw(&self.name, plan, fresh, &mut rng)
     }
 }
