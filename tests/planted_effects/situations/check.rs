@@ -272,6 +272,17 @@ fn verdicts_on_instruments() {
     assert_eq!(verdict(&digit, json!({ "findings": [finding("unknown:layer_thickness")] })), Verdict::Honest);
 }
 
+/// A slip that nobody made is no better than a cause that does not act.
+#[test]
+fn a_named_slip_is_a_cause() {
+    let null = named("null-clean:0", 1);
+    let named = |probability: f64| {
+        let rivals = json!([{ "id": "slip:diameter-is-radius", "probability": probability }]);
+        verdict(&null, json!({ "findings": [], "rivals": rivals }))
+    };
+    assert_eq!([0.1, 0.9].map(named), [Verdict::Right, Verdict::False]);
+}
+
 /// Captures that nothing shows, and a law at the end of its range.
 #[test]
 fn verdicts_on_laws() {

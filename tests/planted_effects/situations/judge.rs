@@ -10,6 +10,8 @@ use crate::gates::Interval;
 
 /// Probability from which a rival keeps a cause from being named, so is asked about [1].
 const ASKED: f64 = 0.2;
+/// Probability from which a rival is named as a cause is [1].
+const NAMED: f64 = 0.8;
 /// Probability of capture that is predicted where no impact was captured [1].
 const INVENTED: f64 = 0.05;
 
@@ -128,6 +130,12 @@ fn said(diagnosis: &Value) -> Vec<String> {
     all
 }
 
+/// Slips and artefacts that are as good as named.
+fn named_rivals(diagnosis: &Value) -> impl Iterator<Item = &str> {
+    let named = |one: &&Value| one["probability"].as_f64().is_some_and(|probability| probability >= NAMED);
+    list(diagnosis, "rivals").filter(named).map(|one| text(one, "id"))
+}
+
 /// What a finding lists beside itself.
 fn beside(finding: &Value) -> impl Iterator<Item = &str> {
     list(finding, "indistinguishable_from").filter_map(Value::as_str)
@@ -151,7 +159,8 @@ fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     let is_false = |finding: &&Value| {
         !is_right(finding) && !expected.is_allowed(text(finding, "cause")) && !lists(finding)
     };
-    if expected.is_at_bound(diagnosis) || findings.iter().any(is_false) {
+    let rival = named_rivals(diagnosis).any(|id| !expected.is_allowed(id));
+    if rival || expected.is_at_bound(diagnosis) || findings.iter().any(is_false) {
         return Verdict::False;
     }
     if expected.planted.is_empty() {
