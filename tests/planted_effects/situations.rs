@@ -1,4 +1,4 @@
-//! Situations of a laboratory: few averages, weak effects, nulls of every kind, slips, captures, two laboratories.
+//! Situations of a laboratory: few averages, weak effects, nulls of every kind, instruments, slips, captures.
 //!
 //! - `cargo test --release --test planted_effects -- --nocapture situations` prints situation by
 //!   situation what is said.
@@ -6,18 +6,24 @@
 //!   write_situations` writes the sets.
 //!
 //! `NEARWALL_COVERAGE_SETS` is the number of sets whose law is the library's own, for the coverage of intervals.
+//! `NEARWALL_PLANTED_TABLE` names a file to which each set adds a line, to compare two commands set by set.
 
 mod captures;
 mod check;
+mod dependent;
 mod exact;
 mod expected;
 mod few;
 mod file;
+mod instrument;
 mod judge;
 mod lab;
+mod missing;
 mod mixtures;
 mod nulls;
 mod oracle;
+mod probabilities;
+mod rubbish;
 mod run;
 mod set;
 mod slips;
@@ -38,72 +44,107 @@ use set::{Plan, PlanOf, Recipe};
 /// Name, sets and plan of a situation.
 type Situation = (&'static str, usize, fn(usize, &mut SetRng) -> Plan);
 
-const SITUATIONS: [Situation; 37] = [
-    ("few-null", 5, few::null),
-    ("few-level", 5, few::level),
-    ("few-angle", 5, few::angle),
-    ("few-size", 4, few::size),
-    ("few-layer", 6, few::layer),
-    ("few-temperature", 4, few::temperature),
-    ("weak-humidity", 6, weak::humidity),
-    ("weak-operator", 6, weak::operator),
-    ("weak-capture-by-layer", 6, weak::capture_by_layer),
-    ("law-rise", 2, unknown_laws::rise),
-    ("law-hump", 2, unknown_laws::hump),
-    ("law-friction", 2, unknown_laws::friction),
-    ("law-product", 2, unknown_laws::product),
-    ("null-clean", 3, nulls::clean),
-    ("null-bursts", 4, nulls::bursts),
-    ("null-days", 3, nulls::days),
-    ("null-repeated", 3, nulls::repeated),
-    ("null-input-errors", 3, nulls::input_errors),
-    ("null-truncated", 3, nulls::truncated),
-    ("null-truncated-stated", 3, nulls::truncated_stated),
-    ("null-skewed", 4, nulls::skewed),
-    ("null-rounded", 3, nulls::rounded),
-    ("null-drift", 3, nulls::drift),
-    ("null-heavy-tails", 3, nulls::heavy_tails),
-    ("null-growing-noise", 3, nulls::growing),
-    ("null-laboratories", 3, nulls::laboratories),
-    ("null-20-columns", 3, nulls::irrelevant),
-    ("null-classes", 3, captures::null),
-    ("slip-density", 2, slips::density),
-    ("slip-modulus", 2, slips::modulus),
-    ("slip-radius", 2, slips::radius),
-    ("slip-speed", 2, slips::speed),
-    ("slip-angle", 2, slips::angle),
-    ("slip-celsius", 2, slips::celsius),
-    ("slip-energy", 2, slips::energy),
-    ("agglomerates", 3, mixtures::agglomerates),
-    ("two-causes", 4, mixtures::two_causes),
+/// Sets of a run that multiplies nothing.
+const SITUATIONS: [Situation; 67] = [
+    ("few-null", 3, few::null),
+    ("few-level", 3, few::level),
+    ("few-angle", 3, few::angle),
+    ("few-size", 2, few::size),
+    ("few-layer", 3, few::layer),
+    ("few-temperature", 2, few::temperature),
+    ("few-twelve-shots", 2, few::twelve),
+    ("weak-humidity", 3, weak::humidity),
+    ("weak-operator", 3, weak::operator),
+    ("weak-capture-by-layer", 3, weak::capture_by_layer),
+    ("law-rise", 1, unknown_laws::rise),
+    ("law-hump", 1, unknown_laws::hump),
+    ("law-friction", 1, unknown_laws::friction),
+    ("law-product", 1, unknown_laws::product),
+    ("law-charge", 1, unknown_laws::charge),
+    ("law-granular-bed", 1, unknown_laws::granular_bed),
+    ("null-clean", 2, nulls::clean),
+    ("null-bursts", 2, nulls::bursts),
+    ("null-days", 2, nulls::days),
+    ("null-repeated", 2, nulls::repeated),
+    ("null-input-errors", 2, nulls::input_errors),
+    ("null-input-errors-unstated", 2, nulls::unstated_input_errors),
+    ("null-truncated", 2, nulls::truncated),
+    ("null-truncated-stated", 2, nulls::truncated_stated),
+    ("null-skewed", 2, nulls::skewed),
+    ("null-rounded", 2, nulls::rounded),
+    ("null-drift", 2, nulls::drift),
+    ("null-heavy-tails", 2, nulls::heavy_tails),
+    ("null-growing-noise", 2, nulls::growing),
+    ("null-laboratories", 2, nulls::laboratories),
+    ("null-20-columns", 2, nulls::irrelevant),
+    ("null-classes", 2, captures::null),
+    ("null-swept", 2, dependent::swept),
+    ("null-bursts-unlabelled", 1, dependent::bursts),
+    ("null-three-readings", 1, dependent::three_readings),
+    ("null-blocks", 2, dependent::blocks),
+    ("null-measured-on", 1, dependent::measured_on),
+    ("null-rubbish", 1, rubbish::null),
+    ("null-everything", 1, rubbish::everything),
+    ("null-blank", 2, missing::null),
+    ("null-merged-cells", 1, missing::merged_captures),
+    ("merged-melting", 1, missing::merged_melting),
+    ("blank-melting", 1, missing::melting),
+    ("rebounds-only", 2, missing::rebounds_only),
+    ("rubbish-law", 1, rubbish::law),
+    ("instrument-tilt", 2, instrument::tilted),
+    ("instrument-drag", 1, instrument::drag),
+    ("instrument-noted-as-stuck", 1, instrument::noted_as_stuck),
+    ("instrument-unseen", 1, instrument::unseen),
+    ("instrument-projection", 1, instrument::projected),
+    ("instrument-bias-and-law", 2, instrument::bias),
+    ("slip-density", 1, slips::density),
+    ("slip-modulus", 1, slips::modulus),
+    ("slip-radius", 1, slips::radius),
+    ("slip-speed", 1, slips::speed),
+    ("slip-angle", 1, slips::angle),
+    ("slip-celsius", 1, slips::celsius),
+    ("slip-energy", 1, slips::energy),
+    ("slip-harmless", 2, slips::harmless),
+    ("agglomerates", 2, mixtures::agglomerates),
+    ("two-causes", 2, mixtures::two_causes),
+    ("three-causes", 2, mixtures::three_causes),
+    ("capture-energy", 2, captures::energy),
+    ("capture-layer", 2, captures::layer),
+    ("capture-temperature", 2, captures::temperature),
+    ("capture-saturated", 2, captures::saturated),
+    ("two-laboratories", 2, mixtures::laboratories),
 ];
 
-const CAPTURES: [Situation; 4] = [
-    ("capture-energy", 4, captures::energy),
-    ("capture-layer", 4, captures::layer),
-    ("capture-temperature", 4, captures::temperature),
-    ("two-laboratories", 4, mixtures::laboratories),
-];
+/// Sets of each weak effect and of each of the library's own laws.
+const WEAK: usize = 3;
+const OWN: usize = 2;
+
+/// Name, sets and plan of every situation.
+fn situations() -> Vec<(String, usize, PlanOf)> {
+    let mut all: Vec<(String, usize, PlanOf)> = vec![];
+    for (name, count, plan) in SITUATIONS {
+        all.push((name.into(), count, Arc::new(plan)));
+    }
+    for effect in weak::EFFECTS {
+        let plan = move |index, rng: &mut SetRng| weak::known(effect, index, rng);
+        all.push((format!("weak-{effect}"), WEAK, Arc::new(plan)));
+    }
+    for cause in exact::CAUSES {
+        let plan = move |index, rng: &mut SetRng| exact::plan(cause, index, rng);
+        all.push((format!("own-{}", cause.rsplit(':').next().unwrap()), OWN, Arc::new(plan)));
+    }
+    all
+}
 
 /// The sets of every situation that this run is asked for.
 fn wanted() -> Vec<Recipe> {
     let number = |name: &str| std::env::var(name).ok().map(|count| count.parse::<usize>().unwrap());
     let repeats = number("NEARWALL_PLANTED_SETS").unwrap_or(1);
-    let own = number("NEARWALL_COVERAGE_SETS").map_or(2 * repeats, |sets| sets.div_ceil(exact::CAUSES.len()));
+    let own = number("NEARWALL_COVERAGE_SETS").map(|sets| sets.div_ceil(exact::CAUSES.len()));
     let mut all: Vec<Recipe> = vec![];
-    let mut add = |name: &str, count: usize, plan: PlanOf| {
-        all.extend((0..count).map(|index| Recipe::new(name, index, plan.clone())));
-    };
-    for (name, count, plan) in SITUATIONS.iter().chain(&CAPTURES) {
-        add(name, count * repeats, Arc::new(plan));
-    }
-    for effect in weak::EFFECTS {
-        let plan = move |index, rng: &mut SetRng| weak::known(effect, index, rng);
-        add(&format!("weak-{effect}"), 6 * repeats, Arc::new(plan));
-    }
-    for cause in exact::CAUSES {
-        let plan = move |index, rng: &mut SetRng| exact::plan(cause, index, rng);
-        add(&format!("own-{}", cause.rsplit(':').next().unwrap()), own, Arc::new(plan));
+    for (name, count, plan) in situations() {
+        let own = own.filter(|_| name.starts_with("own-"));
+        all.extend((0..own.unwrap_or(count * repeats)).map(|index| Recipe::new(&name, index, plan.clone())));
     }
     all.retain(|recipe| is_wanted(&recipe.name));
     all
@@ -117,10 +158,12 @@ fn wanted() -> Vec<Recipe> {
 )]
 fn diagnoses_hold_in_a_laboratory() {
     let seed = random::seed();
+    let lines = table::Lines::new();
     let one = |recipe: &Recipe| {
         let set = recipe.make(seed);
         let judged = judge::judge(&set, &run::run(&set, seed));
         println!("{:?} {} {:.1} s", judged.verdict, judged.name, judged.seconds);
+        lines.add(&judged);
         judged
     };
     let all: Vec<_> = wanted().par_iter().map(one).collect();

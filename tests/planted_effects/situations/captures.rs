@@ -44,7 +44,7 @@ pub fn energy(index: usize, rng: &mut SetRng) -> Plan {
     lab.plant(Plant::normal("adhesion-energy", move |x, _, n| {
         n.stick = n.stick.max(1.0 / (1.0 + (energy(x.v_n, x.d) / threshold).powf(power)));
     }));
-    let names = ["adhesion-energy", "unknown:v_n", "unknown:d", "v_n*d"];
+    let names = ["unknown:v_n", "adhesion-energy", "unknown:d", "v_n*d"];
     plan(lab, &names, index, rng)
 }
 
@@ -74,4 +74,18 @@ pub fn null(_: usize, rng: &mut SetRng) -> Plan {
     exact::melting_base(&mut lab, rng);
     lab.outcomes = classes(rng);
     Plan::new(lab, 40 + rng.below(61), Expected::nothing())
+}
+
+/// Particles stick from a temperature on, but at most 70 or 90 % of them.
+pub fn saturated(index: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.t_p = (300.0, 400.0);
+    let (half, width) = (rng.uniform((335.0, 360.0)), rng.uniform((4.0, 10.0)));
+    let ceiling = [0.7, 0.9][index / 2 % 2];
+    lab.plant(Plant::normal("melting-transition", move |x, _, n| {
+        n.stick = n.stick.max(ceiling / (1.0 + ((half - x.t_p) / width).exp()));
+    }));
+    let mut plan = plan(lab, &["melting-transition", "unknown:T_p"], index, rng);
+    plan.expected.parameters = vec![("melting-transition", "temperature", half)];
+    plan
 }

@@ -9,6 +9,7 @@ use crate::sets;
 use super::expected::Expected;
 use super::lab::{Lab, Outcomes};
 use super::set::Plan;
+use super::weak;
 
 /// Numbers of averages.
 const COUNTS: [usize; 5] = [3, 5, 8, 12, 20];
@@ -92,5 +93,15 @@ fn effect(effect: &'static str, error: Option<f64>, index: usize, rng: &mut SetR
         lab.campaign.v_n.1 = 1.2 * lab.campaign.v_n.0;
     }
     lab.campaign.noise_e_n = error.unwrap_or_else(|| rng.log_uniform((0.003, 0.03)));
-    Plan::new(lab, COUNTS[1..][index % 4], Expected::cause(&[effect]).or_refuted())
+    Plan::new(lab, COUNTS[1..][index % 4], Expected::effect(effect).or_refuted())
+}
+
+/// Twelve shots and an effect of two deviations of their noise, which half of the sets state.
+pub fn twelve(index: usize, rng: &mut SetRng) -> Plan {
+    let effect = weak::EFFECTS[index % weak::EFFECTS.len()];
+    let mut plan = weak::known(effect, 2, rng);
+    plan.lab.stated = rng.chance(0.5);
+    plan.count = 12;
+    plan.expected = Expected::effect(effect).or_refuted();
+    plan
 }

@@ -53,6 +53,7 @@ fn table(lab: &Lab, rows: &[Row], observed: &[(&str, Cell)], rng: &mut SetRng) -
     let mut text = header.join(",");
     for row in rows {
         let mut cells: Vec<String> = inputs.iter().map(|name| cell(name, &row.seen, rng)).collect();
+        cells.iter_mut().filter(|cell| *cell == "NaN").for_each(String::clear);
         cells.extend(row.given.clone());
         cells.extend(observed.iter().map(|(_, cell)| cell(row)));
         cells.extend(averaged.map(|impacts| impacts.to_string()));

@@ -2,10 +2,18 @@
 
 use serde_json::Value;
 
-use super::expected::{is_one_of, variables};
+use super::expected::{Rival, is_curve, is_one_of, is_rival, variables};
+use super::probabilities::{Probabilities, explanations};
 use super::run::Answer;
 use super::set::Set;
 use crate::gates::Interval;
+
+/// Probability from which a rival keeps a cause from being named, so is asked about [1].
+const ASKED: f64 = 0.2;
+/// Probability from which a rival is named as a cause is [1].
+const NAMED: f64 = 0.8;
+/// Probability of capture that is predicted where no impact was captured [1].
+const INVENTED: f64 = 0.05;
 
 /// The verdict on a set.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,8 +42,13 @@ pub struct Judgement {
     pub sees: bool,
     /// What was said: findings, `?` undecided causes, `!` rivals, and the base if it is refuted.
     pub said: Vec<String>,
+    /// The truth in words.
+    pub truth: String,
+    pub probabilities: Probabilities,
     /// Whether the gain holds, if one is stated.
     pub gain: Option<bool>,
+    /// Whether the extended model is worse than the base on the fresh rows, if a gain is stated.
+    pub worse: Option<bool>,
     /// The gain that does not hold.
     pub gain_note: Option<String>,
     pub intervals: Vec<Interval>,
@@ -47,6 +60,7 @@ pub fn judge(set: &Set, answer: &Answer) -> Judgement {
     let empty = Value::Null;
     let diagnosis = answer.diagnosis.as_ref().unwrap_or(&empty);
     let (verdict, said) = match &answer.diagnosis {
+        Ok(_) if invents(set, answer) => (Verdict::False, said(diagnosis)),
         Ok(diagnosis) => (verdict(set, diagnosis), said(diagnosis)),
         Err(message) => (Verdict::Refused, vec![message.clone()]),
     };
@@ -61,25 +75,28 @@ pub fn judge(set: &Set, answer: &Answer) -> Judgement {
     Judgement {
         name: set.name.clone(),
         situation: set.situation().into(),
-        null: set.expected.planted.is_empty() && !set.expected.slip,
+        null: set.expected.is_null(),
         cell: set.expected.cell.clone(),
         rows: set.rows.len(),
         verdict,
         power: set.oracle.power,
         sees: set.oracle.sees,
         said,
+        truth: set.expected.words(),
+        probabilities: Probabilities::of(&set.expected, answer.diagnosis.as_ref().ok()),
         gain,
+        worse: answer.gain.as_ref().and_then(|gain| gain.as_ref().ok()).map(|gain| gain.ratio > 1.0),
         gain_note: answer.gain.as_ref().filter(|_| gain == Some(false)).map(note),
         intervals: intervals(set, diagnosis),
         seconds: answer.seconds,
     }
 }
 
-fn list<'a>(diagnosis: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> {
+pub fn list<'a>(diagnosis: &'a Value, key: &str) -> impl Iterator<Item = &'a Value> {
     diagnosis[key].as_array().into_iter().flatten()
 }
 
-fn text<'a>(value: &'a Value, key: &str) -> &'a str {
+pub fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or_default()
 }
 
@@ -93,59 +110,96 @@ fn is_refuted(diagnosis: &Value) -> bool {
     diagnosis["fit"]["base"]["p_value"].as_f64().is_some_and(|p| p < 0.01)
 }
 
+/// Whether the extended model captures particles where none was captured.
+fn invents(set: &Set, answer: &Answer) -> bool {
+    set.expected.no_captures && answer.captures.is_some_and(|share| share > INVENTED)
+}
+
+/// Slips and artefacts that are asked about.
+fn rivals(diagnosis: &Value) -> impl Iterator<Item = &str> {
+    let asked = |one: &&Value| one["probability"].as_f64().is_none_or(|probability| probability >= ASKED);
+    list(diagnosis, "rivals").filter(asked).map(|one| text(one, "id"))
+}
+
 fn said(diagnosis: &Value) -> Vec<String> {
     let mut all: Vec<String> = list(diagnosis, "findings").map(|one| text(one, "cause").into()).collect();
     all.extend(calibrations(diagnosis));
     all.extend(list(diagnosis, "undecided").map(|one| format!("?{}", one.as_str().unwrap_or_default())));
-    all.extend(list(diagnosis, "rivals").map(|one| format!("!{}", text(one, "id"))));
+    all.extend(rivals(diagnosis).map(|id| format!("!{id}")));
     all.extend(is_refuted(diagnosis).then(|| "refuted".into()));
     all
+}
+
+/// Slips and artefacts that are as good as named.
+fn named_rivals(diagnosis: &Value) -> impl Iterator<Item = &str> {
+    let named = |one: &&Value| one["probability"].as_f64().is_some_and(|probability| probability >= NAMED);
+    list(diagnosis, "rivals").filter(named).map(|one| text(one, "id"))
+}
+
+/// What a finding lists beside itself.
+fn beside(finding: &Value) -> impl Iterator<Item = &str> {
+    list(finding, "indistinguishable_from").filter_map(Value::as_str)
 }
 
 fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     let expected = &set.expected;
     let findings: Vec<&Value> = list(diagnosis, "findings").collect();
     let undecided: Vec<&str> = list(diagnosis, "undecided").filter_map(Value::as_str).collect();
-    if expected.slip {
-        return slip(set, diagnosis, &findings, &undecided);
+    let refuted = is_refuted(diagnosis) || !undecided.is_empty();
+    let never = |name: &str| is_one_of(&expected.never, name, &[]);
+    if findings.iter().any(|one| never(text(one, "cause"))) || rivals(diagnosis).any(never) {
+        return Verdict::False;
+    }
+    if let Some(rival) = expected.rival {
+        return of_rival(set, rival, diagnosis, refuted);
     }
     // A finding that lists a planted cause as indistinguishable is honest.
-    let lists = |finding: &Value| {
-        list(finding, "indistinguishable_from")
-            .filter_map(Value::as_str)
-            .any(|one| expected.is_planted(one, &[]))
-    };
+    let lists = |finding: &Value| beside(finding).any(|one| expected.is_planted(one, &[]));
     let is_right = |finding: &Value| expected.is_planted(text(finding, "cause"), &variables(finding));
     let is_false = |finding: &&Value| {
         !is_right(finding) && !expected.is_allowed(text(finding, "cause")) && !lists(finding)
     };
-    if findings.iter().any(is_false) {
+    let rival = named_rivals(diagnosis).any(|id| !expected.is_allowed(id));
+    if rival || expected.is_at_bound(diagnosis) || findings.iter().any(is_false) {
         return Verdict::False;
     }
     if expected.planted.is_empty() {
-        return if undecided.is_empty() { Verdict::Right } else { Verdict::Honest };
+        return match calibrations(diagnosis).iter().all(|one| expected.is_allowed(one)) {
+            false => Verdict::False,
+            true if undecided.is_empty() => Verdict::Right,
+            true => Verdict::Honest,
+        };
     }
+    of_causes(set, diagnosis, &undecided, refuted)
+}
+
+/// All causes named is right, all named or left open is honest; a curve leaves open what has a name.
+fn of_causes(set: &Set, diagnosis: &Value, undecided: &[&str], refuted: bool) -> Verdict {
+    let findings: Vec<&Value> = list(diagnosis, "findings").collect();
     let calibrations = calibrations(diagnosis);
+    let explanations = explanations(diagnosis);
+    let means = |finding: &Value, cause: &[&str]| {
+        set.expected.means(text(finding, "cause"), &variables(finding), cause)
+    };
     let is_named = |cause: &Vec<&str>| {
-        findings.iter().any(|finding| is_one_of(cause, text(finding, "cause"), &variables(finding)))
+        let law = |finding: &&&Value| is_curve(cause[0]) || !is_curve(text(finding, "cause"));
+        findings.iter().filter(law).any(|finding| means(finding, cause))
             || calibrations.iter().any(|one| is_one_of(cause, one, &[]))
     };
     let left_open = |cause: &Vec<&str>| {
-        undecided.iter().any(|one| is_one_of(cause, one, &[]))
-            || findings.iter().any(|finding| {
-                list(finding, "indistinguishable_from")
-                    .filter_map(Value::as_str)
-                    .any(|one| is_one_of(cause, one, &[]))
-            })
+        let beside = findings.iter().flat_map(|finding| beside(finding)).chain(undecided.iter().copied());
+        let possible = explanations.iter().flat_map(|(causes, _)| causes.iter().copied());
+        findings.iter().any(|finding| means(finding, cause))
+            || beside.chain(possible).any(|one| set.expected.means(one, &[], cause))
     };
-    if expected.planted.iter().all(is_named) {
+    let planted = &set.expected.planted;
+    if planted.iter().all(is_named) {
         return Verdict::Right;
     }
-    if expected.planted.iter().all(|cause| is_named(cause) || left_open(cause)) {
+    if planted.iter().all(|cause| is_named(cause) || left_open(cause)) {
         return Verdict::Honest;
     }
-    let enough = expected.refuted_is_honest && (is_refuted(diagnosis) || !undecided.is_empty());
-    unless_seen(set, findings.is_empty() && enough)
+    unless_seen(set, findings.is_empty() && set.expected.refuted_is_honest && refuted)
 }
 
 /// Nothing right is said: honest if it is `enough`, or if the oracle does not see the effect either.
@@ -154,13 +208,21 @@ fn unless_seen(set: &Set, enough: bool) -> Verdict {
     if enough || !seen { Verdict::Honest } else { Verdict::Missed }
 }
 
-/// A slip is right if it is suspected, and false if a cause stands alone in its place.
-fn slip(set: &Set, diagnosis: &Value, findings: &[&Value], undecided: &[&str]) -> Verdict {
-    let suspected = list(diagnosis, "rivals").any(|rival| text(rival, "id").starts_with("slip:"));
-    match (suspected, findings.is_empty()) {
-        (true, _) => Verdict::Right,
-        (false, false) => Verdict::False,
-        (false, true) => unless_seen(set, is_refuted(diagnosis) || !undecided.is_empty()),
+/// A slip is right if it is suspected, the instrument if no cause is named beside it; false is a cause alone.
+fn of_rival(set: &Set, rival: Rival, diagnosis: &Value, refuted: bool) -> Verdict {
+    let findings = || list(diagnosis, "findings");
+    let open = findings().flat_map(beside).chain(rivals(diagnosis));
+    let suspected = open.chain(findings().map(|one| text(one, "cause"))).any(|id| rival.is(id));
+    let number = rival == Rival::Instrument && !calibrations(diagnosis).is_empty();
+    let named = number || findings().any(|one| !is_rival(text(one, "cause")));
+    let possible = explanations(diagnosis).iter().any(|(causes, _)| causes.iter().any(|one| rival.is(one)));
+    match (suspected, named) {
+        (true, false) => Verdict::Right,
+        (true, true) if rival == Rival::Slip => Verdict::Right,
+        (true, true) => Verdict::Honest,
+        (false, true) => Verdict::False,
+        (false, false) if rival == Rival::Instrument => Verdict::Honest,
+        (false, false) => unless_seen(set, refuted || possible),
     }
 }
 

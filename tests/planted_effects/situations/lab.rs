@@ -23,14 +23,22 @@ pub enum Noise {
 /// Rows that share an error.
 #[derive(Clone, Debug)]
 pub struct Groups {
-    /// The column that names the group.
-    pub column: &'static str,
+    /// The column that names the group, if the file has one.
+    pub column: Option<&'static str>,
     /// Number of groups; the rows are divided evenly.
     pub count: usize,
     /// The errors of `e_n` and `e_t` that each group shares.
     pub shared: Shared,
-    /// Whether all rows of a group have the same inputs.
-    pub constant: bool,
+    pub common: Common,
+}
+
+/// The inputs that all rows of a group have in common.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Common {
+    Nothing,
+    /// All but speed, angle and size.
+    Setting,
+    Everything,
 }
 
 /// The error of a group.
@@ -38,6 +46,8 @@ pub struct Groups {
 pub enum Shared {
     /// Normal, with this deviation in deviations of the noise.
     Drawn(f64),
+    /// The same, with errors that belong to the groups: later rows of a group have them, too.
+    Kept { size: f64, seed: u64 },
     /// Half of this many deviations of the noise up and down in turn.
     Alternating(f64),
 }
@@ -199,10 +209,10 @@ impl Lab {
             let errors = self.group_errors(group, rng);
             let from = rows.len();
             while rows.len() * groups < count * (group + 1) {
-                let again = rows.get(from).filter(|_| self.groups.as_ref().is_some_and(|g| g.constant));
-                let x = again.map_or_else(|| self.campaign.inputs(rng), |row: &Row| row.x);
+                let x = self.inputs(rows.get(from), rng);
                 if let Some(mut row) = self.measure(x, errors, rng) {
-                    row.given = self.groups.iter().map(|_| format!("{}", group + 1)).collect();
+                    let named = self.groups.iter().filter(|groups| groups.column.is_some());
+                    row.given = named.map(|_| format!("{}", group + 1)).collect();
                     rows.push(row);
                 }
             }
@@ -210,10 +220,24 @@ impl Lab {
         rows
     }
 
+    /// The inputs of a row of the group that begins with `first`.
+    fn inputs(&self, first: Option<&Row>, rng: &mut SetRng) -> Inputs {
+        let own = self.campaign.inputs(rng);
+        let common = self.groups.as_ref().map_or(Common::Nothing, |groups| groups.common);
+        match (common, first) {
+            (Common::Everything, Some(first)) => first.x,
+            (Common::Setting, Some(first)) => Inputs { v_n: own.v_n, v_t: own.v_t, d: own.d, ..first.x },
+            _ => own,
+        }
+    }
+
     fn group_errors(&self, group: usize, rng: &mut SetRng) -> [f64; 2] {
         let Some(groups) = &self.groups else { return [0.0; 2] };
         [self.campaign.noise_e_n, self.campaign.noise_e_t].map(|noise| match groups.shared {
             Shared::Drawn(size) => noise * size * rng.normal(),
+            Shared::Kept { size, seed } => {
+                noise * size * SetRng::new(seed, &format!("{group}{noise}")).normal()
+            }
             Shared::Alternating(size) => noise * size * if group.is_multiple_of(2) { -0.5 } else { 0.5 },
         })
     }

@@ -5,19 +5,20 @@ use crate::set_rng::SetRng;
 use crate::sets;
 
 use super::expected::Expected;
-use super::lab::{Groups, Lab, Noise, Row, Shared};
+use super::lab::{Common, Groups, Lab, Noise, Row, Shared};
 use super::set::Plan;
 
 /// Above this the camera sees a rebound.
 const LIMIT: f64 = 0.2;
 
 /// A base of any kind, with some irrelevant columns.
-fn lab(rng: &mut SetRng) -> Lab {
+pub fn lab(rng: &mut SetRng) -> Lab {
     let system = sets::any_system(rng);
     Lab::new(system, sets::any_law(system, rng), rng)
 }
 
-fn plan(lab: Lab, rng: &mut SetRng) -> Plan {
+/// Nothing is planted.
+pub fn plan(lab: Lab, rng: &mut SetRng) -> Plan {
     Plan::new(lab, 150 + rng.below(451), Expected::nothing())
 }
 
@@ -29,10 +30,10 @@ pub fn clean(_: usize, rng: &mut SetRng) -> Plan {
 /// The rows of a burst share an error as large as the noise; in half of the sets their inputs too.
 pub fn bursts(index: usize, rng: &mut SetRng) -> Plan {
     let groups = Groups {
-        column: "burst",
+        column: Some("burst"),
         count: 8 + rng.below(13),
         shared: Shared::Drawn(1.0),
-        constant: !index.is_multiple_of(2),
+        common: [Common::Nothing, Common::Everything][index % 2],
     };
     plan(lab(rng), rng).grouped(groups)
 }
@@ -40,8 +41,8 @@ pub fn bursts(index: usize, rng: &mut SetRng) -> Plan {
 /// The rows of a day share an error.
 pub fn days(_: usize, rng: &mut SetRng) -> Plan {
     let size = rng.uniform((0.5, 1.5));
-    let groups =
-        Groups { column: "day", count: 4 + rng.below(5), shared: Shared::Drawn(size), constant: false };
+    let count = 4 + rng.below(5);
+    let groups = Groups { column: Some("day"), count, shared: Shared::Drawn(size), common: Common::Nothing };
     plan(without(lab(rng), "day"), rng).grouped(groups).each(|row, _| {
         row.given[0] = format!("2021-03-{:0>2}", row.given[0]);
     })
@@ -65,18 +66,34 @@ pub fn repeated(_: usize, rng: &mut SetRng) -> Plan {
 
 /// Errors of 5 % in the speed and 10 % in the size, stated, where e_n changes fast over a narrow range of both.
 pub fn input_errors(_: usize, rng: &mut SetRng) -> Plan {
+    let mut plan = unstated_input_errors(0, rng);
+    plan.lab.given = vec!["v_n_err", "d_err"];
+    let misread = plan.change.take();
+    plan.changed(move |rows, rng| {
+        misread.iter().for_each(|misread| misread(rows, rng));
+        for row in rows {
+            row.given = vec![format!("{:e}", 0.05 * row.seen.v_n), format!("{:e}", 0.1 * row.seen.d)];
+        }
+    })
+}
+
+/// The same, not stated.
+pub fn unstated_input_errors(_: usize, rng: &mut SetRng) -> Plan {
     let mut lab = lab(rng);
     let d = lab.campaign.d.1;
     lab.campaign.d = (0.85 * d, d);
     let speed = lab.truth.contact.sticking_speed(0.85 * d);
     lab.campaign.v_n = (1.4 * speed, 2.2 * speed);
     lab.campaign.noise_e_n = rng.uniform((0.01, 0.02));
-    lab.given = vec!["v_n_err", "d_err"];
-    plan(lab, rng).each(move |row, rng| {
+    or_instrument(plan(lab, rng)).each(move |row, rng| {
         row.seen.v_n = row.x.v_n * (1.0 + 0.05 * rng.normal());
         row.seen.d = row.x.d * (1.0 + 0.1 * rng.normal()).max(0.2);
-        row.given = vec![format!("{:e}", 0.05 * row.seen.v_n), format!("{:e}", 0.1 * row.seen.d)];
     })
+}
+
+/// With no cause, but with an instrument that may be named.
+pub fn or_instrument(plan: Plan) -> Plan {
+    Plan { expected: plan.expected.clone().allowing(&["artefact:*", "instrument:*"]), ..plan }
 }
 
 /// Slow rebounds are not seen; nothing says so.
@@ -84,7 +101,7 @@ pub fn truncated(_: usize, rng: &mut SetRng) -> Plan {
     let mut lab = Lab::new(System::Wax, sets::any_law(System::Wax, rng), rng);
     lab.fast();
     lab.campaign.noise_e_n = rng.uniform((0.03, 0.06));
-    plan(lab, rng).changed(|rows: &mut Vec<Row>, _| {
+    or_instrument(plan(lab, rng)).changed(|rows: &mut Vec<Row>, _| {
         rows.retain(|row| row.measured[0].is_none_or(|e_n| e_n >= LIMIT));
     })
 }
@@ -98,7 +115,7 @@ pub fn truncated_stated(index: usize, rng: &mut SetRng) -> Plan {
 /// Errors are only downwards.
 pub fn skewed(index: usize, rng: &mut SetRng) -> Plan {
     let noise = [Noise::HalfNormal, Noise::Exponential][index % 2];
-    plan(Lab { noise, ..lab(rng) }, rng)
+    or_instrument(plan(Lab { noise, ..lab(rng) }, rng))
 }
 
 /// Values have steps of 0.05.
@@ -143,7 +160,7 @@ pub fn laboratories(_: usize, rng: &mut SetRng) -> Plan {
 /// Two laboratories that differ by one or two deviations of the noise.
 pub fn two_laboratories(rng: &mut SetRng) -> Groups {
     let shared = Shared::Alternating(rng.uniform((1.0, 2.0)));
-    Groups { column: "laboratory", count: 2, shared, constant: false }
+    Groups { column: Some("laboratory"), count: 2, shared, common: Common::Nothing }
 }
 
 /// Columns that mean nothing: fourteen of numbers and six of labels.

@@ -31,10 +31,11 @@ impl Oracle {
     }
 }
 
-/// Projects the residuals of the base on the true change, each in deviations of its noise.
+/// Projects the residuals of the base on the true change, each in deviations of its noise. A row without a
+/// temperature is of no use.
 fn restitutions(rows: &[Row], stated: bool) -> Oracle {
     let (mut shape, mut product, mut square, mut count) = (0.0, 0.0, 0.0, 0.0);
-    for row in rows {
+    for row in rows.iter().filter(|row| !row.seen.t_p.is_nan()) {
         let (base, truth) = ([row.base.e_n, row.base.e_t], [row.truth.e_n, row.truth.e_t]);
         for i in 0..2 {
             let Some(value) = row.measured[i] else { continue };
@@ -62,8 +63,11 @@ fn restitutions(rows: &[Row], stated: bool) -> Oracle {
 
 /// Log-likelihood ratio of the true probabilities against the base with captures at the best constant rate.
 fn captures(rows: &[Row], outcomes: Outcomes) -> Oracle {
-    let counts: Vec<(f64, f64, &Row)> =
-        rows.iter().filter_map(|row| counts(row, outcomes).map(|(n, k)| (n, k, row))).collect();
+    let counts: Vec<(f64, f64, &Row)> = rows
+        .iter()
+        .filter(|row| !row.seen.t_p.is_nan())
+        .filter_map(|row| counts(row, outcomes).map(|(n, k)| (n, k, row)))
+        .collect();
     let likelihood = |p: &dyn Fn(&Row) -> f64, k: &dyn Fn(f64, f64, &Row) -> f64| -> f64 {
         let one = |(n, seen, row): &(f64, f64, &Row)| {
             let (p, k) = (p(row).clamp(FLOOR, 1.0 - FLOOR), k(*n, *seen, row));

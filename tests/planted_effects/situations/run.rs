@@ -16,6 +16,8 @@ pub struct Answer {
     pub diagnosis: Result<Value, String>,
     /// The stated gain against fresh rows, if one is stated.
     pub gain: Option<Result<GainCheck, String>>,
+    /// Mean probability of capture of the fresh rows by the extended model, if it is wanted.
+    pub captures: Option<f64>,
     pub seconds: f64,
 }
 
@@ -57,7 +59,9 @@ pub fn run(set: &Set, seed: u64) -> Answer {
         Err(String::from_utf8_lossy(&output.stderr).trim().replace('\n', "; "))
     };
     let gain = diagnosis.as_ref().ok().and_then(|diagnosis| check_gain(set, folder.path(), diagnosis));
-    Answer { diagnosis, gain, seconds }
+    let captures = diagnosis.as_ref().ok().filter(|_| set.expected.no_captures);
+    let captures = captures.and_then(|diagnosis| captures_of(set, folder.path(), diagnosis));
+    Answer { diagnosis, gain, captures, seconds }
 }
 
 fn read(folder: &Path) -> Result<Value, String> {
@@ -66,15 +70,26 @@ fn read(folder: &Path) -> Result<Value, String> {
     if diagnosis["findings"].is_array() { Ok(diagnosis) } else { Err("no findings in diagnosis.json".into()) }
 }
 
+/// The file of the extended model.
+fn extended(diagnosis: &Value) -> String {
+    format!("out/{}", diagnosis["extended_model"].as_str().unwrap_or("extended.toml"))
+}
+
+/// Mean probability of capture of the fresh rows.
+fn captures_of(set: &Set, folder: &Path, diagnosis: &Value) -> Option<f64> {
+    std::fs::write(folder.join("fresh.csv"), &set.fresh_inputs).unwrap();
+    let predicted = predict(folder, &extended(diagnosis), set.fresh.len()).ok()?;
+    Some(predicted.iter().map(|[_, _, stick]| stick).sum::<f64>() / predicted.len() as f64)
+}
+
 /// The stated gain beside that of `extended.toml` on the fresh rows.
 fn check_gain(set: &Set, folder: &Path, diagnosis: &Value) -> Option<Result<GainCheck, String>> {
     let gain = &diagnosis["gain"];
     let observable = gain["observable"].as_str()?;
     let stated = [0, 1].map(|end| gain["ci95"][end].as_f64().unwrap_or(f64::NAN));
-    let extended = format!("out/{}", diagnosis["extended_model"].as_str().unwrap_or("extended.toml"));
     std::fs::write(folder.join("fresh.csv"), &set.fresh_inputs).unwrap();
     let before = predict(folder, "base.toml", set.fresh.len());
-    let after = predict(folder, &extended, set.fresh.len());
+    let after = predict(folder, &extended(diagnosis), set.fresh.len());
     let errors = before.and_then(|before| Ok([before, after?].map(|p| error(&set.fresh, &p, observable))));
     let check = |[before, after]: [f64; 2]| GainCheck {
         observable: observable.into(),

@@ -10,7 +10,7 @@ use super::lab::{Groups, Lab, Row};
 use super::oracle::Oracle;
 
 /// Rows on which the gain is checked.
-pub const FRESH: usize = 4000;
+const FRESH: usize = 4000;
 
 type Change = Box<dyn Fn(&mut Vec<Row>, &mut SetRng) + Send + Sync>;
 
@@ -24,13 +24,13 @@ pub struct Plan {
     pub change: Option<Change>,
     /// The column map, if there is one.
     pub map: Option<String>,
-    /// Whether the fresh rows have the groups' errors too.
-    pub fresh_groups: bool,
+    /// Whether the fresh rows have the groups' errors and the change too.
+    pub fresh_alike: bool,
 }
 
 impl Plan {
     pub fn new(lab: Lab, count: usize, expected: Expected) -> Self {
-        Self { lab, count, expected, change: None, map: None, fresh_groups: true }
+        Self { lab, count, expected, change: None, map: None, fresh_alike: true }
     }
 
     /// With something that happens to all rows after the measurement.
@@ -45,7 +45,7 @@ impl Plan {
 
     /// With rows that share an error.
     pub fn grouped(mut self, groups: Groups) -> Self {
-        self.lab.given.insert(0, groups.column);
+        groups.column.into_iter().for_each(|column| self.lab.given.insert(0, column));
         self.lab.groups = Some(groups);
         self
     }
@@ -80,15 +80,17 @@ pub struct Set {
 }
 
 impl Set {
-    /// Draws the plan's rows and as many fresh ones as are needed.
-    pub fn draw(name: &str, mut plan: Plan, rng: &mut SetRng) -> Self {
+    /// Draws the plan's rows and so many fresh ones.
+    pub fn draw(name: &str, mut plan: Plan, fresh: usize, rng: &mut SetRng) -> Self {
         let rows = plan.rows(plan.count, rng);
         let data = file::measurements(&plan.lab, &rows, rng);
-        if let Some(groups) = plan.lab.groups.take_if(|_| !plan.fresh_groups) {
-            plan.lab.given.retain(|name| *name != groups.column);
+        if !plan.fresh_alike {
+            let groups = plan.lab.groups.take();
+            plan.lab.given.retain(|name| groups.as_ref().is_none_or(|groups| groups.column != Some(*name)));
+            plan.change = None;
         }
-        let fresh = plan.rows(FRESH, rng);
-        let oracle = match plan.expected.planted.is_empty() && !plan.expected.slip {
+        let fresh = plan.rows(fresh, rng);
+        let oracle = match plan.expected.planted.is_empty() && plan.expected.rival.is_none() {
             true => Oracle::NOTHING,
             false if plan.lab.truth.scatters() => Oracle::CERTAIN,
             false => Oracle::of(&rows, plan.lab.stated, plan.lab.outcomes),
@@ -114,14 +116,15 @@ impl Set {
 
     /// What a diagnosis should find.
     pub fn truth(&self) -> Value {
-        let Expected { planted, allowed, slip, parameters, cell, .. } = &self.expected;
+        let Expected { planted, allowed, never, rival, parameters, cell, .. } = &self.expected;
         let parameters: Vec<Value> = parameters
             .iter()
             .map(|(cause, name, value)| json!({ "cause": cause, "name": name, "value": value }))
             .collect();
         json!({
             "name": self.name, "situation": self.situation(), "rows": self.rows.len(), "cell": cell,
-            "causes": planted, "allowed": allowed, "slip": slip, "parameters": parameters,
+            "causes": planted, "allowed": allowed, "never": never, "parameters": parameters,
+            "rival": rival.map(|rival| format!("{rival:?}").to_lowercase()),
             "oracle": { "power": self.oracle.power, "sees": self.oracle.sees },
         })
     }
@@ -144,8 +147,13 @@ impl Recipe {
 
     /// The set of this seed.
     pub fn make(&self, seed: u64) -> Set {
+        self.with_fresh(seed, FRESH)
+    }
+
+    /// The same with so many fresh rows.
+    pub fn with_fresh(&self, seed: u64, fresh: usize) -> Set {
         let mut rng = SetRng::new(seed, &self.name);
         let plan = (self.plan)(self.index, &mut rng);
-        Set::draw(&self.name, plan, &mut rng)
+        Set::draw(&self.name, plan, fresh, &mut rng)
     }
 }

@@ -1,12 +1,39 @@
 //! The tables, and what is demanded of them.
 
 use std::collections::BTreeMap;
+use std::fs::File;
+use std::io::Write;
+use std::sync::Mutex;
 
 use super::judge::{Judgement, Verdict};
+use super::probabilities;
 use crate::gates::require;
 
 /// Longest diagnosis [s], with two at once on two cores.
 const SLOWEST: f64 = 60.0;
+
+/// The file that `NEARWALL_PLANTED_TABLE` names, one line a set, each written as soon as its set is judged.
+pub struct Lines(Option<Mutex<File>>);
+
+impl Lines {
+    pub fn new() -> Self {
+        let file = std::env::var_os("NEARWALL_PLANTED_TABLE").map(|path| File::create(path).unwrap());
+        let lines = Self(file.map(Mutex::new));
+        lines.write("situation,set,verdict,named,truth,probability_of_truth,seconds");
+        lines
+    }
+
+    pub fn add(&self, one: &Judgement) {
+        let Judgement { situation, name, verdict, truth, seconds, probabilities, .. } = one;
+        let named = one.said.join(";").replace([',', '\n', '"'], " ");
+        let of_truth = probabilities.of_truth();
+        self.write(&format!("{situation},{name},{verdict:?},{named},{truth},{of_truth:.4},{seconds:.2}"));
+    }
+
+    fn write(&self, line: &str) {
+        self.0.iter().for_each(|file| writeln!(file.lock().unwrap(), "{line}").unwrap());
+    }
+}
 
 /// Prints every table; the list of what failed.
 pub fn report(all: &[Judgement]) -> Vec<String> {
@@ -15,9 +42,11 @@ pub fn report(all: &[Judgement]) -> Vec<String> {
     print_parameters(all);
     print_nulls(all);
     print_sets(all);
+    let calibrated = probabilities::report(all);
     let spent: f64 = all.iter().map(|one| one.seconds).sum();
     println!("\n{} diagnoses, {spent:.0} s in all", all.len());
-    failures(all)
+    let failed = calibrated.into_iter().filter_map(Result::err);
+    failures(all).into_iter().chain(failed).collect()
 }
 
 fn count(sets: &[&Judgement], verdict: Verdict) -> usize {
@@ -44,9 +73,10 @@ fn share(hits: usize, of: usize) -> String {
 
 fn print_situations(all: &[Judgement]) {
     println!(
-        "\n| situation | sets | right | honest | missed | false | refused | oracle | gain | interval | slowest |"
+        "\n| situation | sets | right | honest | missed | wrong | refused | oracle | gain | interval \
+         | log score | mean s | longest s |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (situation, sets) in by(all, |one| Some(&one.situation)) {
         line(situation, &sets);
     }
@@ -71,12 +101,17 @@ fn line(situation: &str, sets: &[&Judgement]) {
         let power: Vec<f64> = sets.iter().filter(|one| !one.null).map(|one| one.power).collect();
         format!("{:.2}", power.iter().sum::<f64>() / power.len() as f64)
     };
-    let slowest = sets.iter().map(|one| one.seconds).fold(0.0, f64::max);
+    let longest = sets.iter().map(|one| one.seconds).fold(0.0, f64::max);
+    let mean = |value: fn(&Judgement) -> f64| {
+        sets.iter().map(|one| value(one)).sum::<f64>() / sets.len().max(1) as f64
+    };
     println!(
-        "| {situation} | {} | {counts} | {oracle} | {} | {} | {slowest:.1} |",
+        "| {situation} | {} | {counts} | {oracle} | {} | {} | {:.2} | {:.1} | {longest:.1} |",
         sets.len(),
         hits(&gains),
-        hits(&intervals)
+        hits(&intervals),
+        mean(|one| one.probabilities.log_score()),
+        mean(|one| one.seconds)
     );
 }
 
@@ -157,7 +192,14 @@ fn failures(all: &[Judgement]) -> Vec<String> {
         require("right or honestly undecided", honest, sets.len(), 0.95),
         require("claimed gain within its interval", held, gains.len(), 0.93),
         require("parameter within its interval", sound, intervals.len(), 0.93),
+        require("parameter outside its interval", intervals.len() - sound, intervals.len(), 0.03),
     ];
+    let worse: Vec<bool> = all.iter().filter_map(|one| one.worse).collect();
+    let count_of = worse.iter().filter(|worse| **worse).count();
+    println!("extended model worse than the base on fresh rows: {count_of} of {}", worse.len());
+    let nulls: Vec<&Judgement> = all.iter().filter(|one| one.null).collect();
+    let silent = nulls.len() - count(&nulls, Verdict::False);
+    results.push(require("no false cause where nothing acts", silent, nulls.len(), 0.95));
     for (kind, sets) in by(all, |one| one.null.then_some(&one.situation)) {
         let silent = sets.len() - count(&sets, Verdict::False);
         results.push(require(&format!("no false cause on {kind}"), silent, sets.len(), 0.95));

@@ -5,9 +5,10 @@ use crate::contact::Tangential;
 use crate::plant::Plant;
 use crate::set_rng::SetRng;
 use crate::sets;
+use crate::world::Inputs;
 
-use super::expected::Expected;
-use super::lab::Lab;
+use super::expected::{Bound, Expected};
+use super::lab::{Lab, Row};
 use super::set::Plan;
 
 /// Share of the range that a value has passed.
@@ -24,8 +25,11 @@ fn lab(rng: &mut SetRng) -> Lab {
     lab
 }
 
+/// The level of a curve is a number of the base as well.
+const LEVEL: [&str; 3] = ["level*", "calibration:normal*", "calibration:tangential*"];
+
 fn plan(lab: Lab, names: &[&'static str], rng: &mut SetRng) -> Plan {
-    Plan::new(lab, 250 + rng.below(551), Expected::cause(names).or_refuted())
+    Plan::new(lab, 250 + rng.below(551), Expected::cause(names).allowing(&LEVEL).or_refuted())
 }
 
 /// e_n rises in a straight line with the temperature.
@@ -74,4 +78,38 @@ pub fn product(_: usize, rng: &mut SetRng) -> Plan {
         n.e_n *= 1.0 - most * (x.v_n / fastest) * (x.layer / 1e-3);
     }));
     plan(lab, &["v_n*layer_thickness"], rng)
+}
+
+/// Longest time since the particles were charged [s].
+const LONGEST: f64 = 600.0;
+
+/// A charge takes speed away until it has decayed, which nearly all of the particles wait for.
+pub fn charge(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.given = vec!["since_charging"];
+    let since = |x: &Inputs| LONGEST * (x.foreign - 10.0) / 80.0;
+    let (decay, most) = (rng.uniform((15.0, 40.0)), rng.uniform((0.4, 0.7)));
+    lab.plant(Plant::normal("unknown:since_charging", move |x, _, n| {
+        n.e_n *= 1.0 - most * (-since(x) / decay).exp();
+    }));
+    let given = move |row: &mut Row| row.given = vec![format!("{:.1}", since(&row.x))];
+    plan(lab, &["unknown:since_charging"], rng).each(move |row, _| given(row))
+}
+
+/// On a bed of grains e_n is a straight line over the inverse sine of the angle of impact (Beladjine et al.
+/// 2007): a factor that does not depend on the speed.
+pub fn granular_bed(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.theta = (5.0, 78.0);
+    let soft = lab.truth.contact.yield_ratio * rng.uniform((0.2, 0.35));
+    lab.truth.contact.yield_ratio = soft;
+    lab.model.contact.yield_ratio = soft;
+    lab.fast();
+    let slope = rng.uniform((1.0, 1.8));
+    lab.plant(Plant::normal("unknown:v_t", move |x, _, n| {
+        n.e_n *= 1.0 + slope * (x.v_t.hypot(x.v_n) / x.v_n - 1.0);
+    }));
+    let mut plan = plan(lab, &["unknown:v_t", "v_n*v_t", "oblique-angle"], rng);
+    plan.expected.bound = Some(Bound { cause: "oblique-angle", parameter: "strength", range: (-1.5, 3.0) });
+    plan
 }

@@ -26,7 +26,7 @@ pub fn known(effect: &'static str, index: usize, rng: &mut SetRng) -> Plan {
     let plant = sets::plant_effect(effect, strength, &mut lab.campaign, rng);
     lab.fast();
     lab.plant(plant);
-    scaled(lab, effect, &[effect], index, rng)
+    scaled(lab, effect, Expected::effect(effect), index, rng)
 }
 
 /// A number that no model knows.
@@ -34,7 +34,7 @@ pub fn humidity(index: usize, rng: &mut SetRng) -> Plan {
     let mut lab = fast_lab(sets::any_system(rng), rng);
     lab.campaign.needs("humidity");
     lab.plant(plant::unknown_number(rng.uniform((0.3, 0.6))));
-    scaled(lab, "humidity", &["unknown:humidity"], index, rng)
+    scaled(lab, "humidity", Expected::cause(&["unknown:humidity"]), index, rng)
 }
 
 /// Labels that no model knows, in a column that is not named like a group.
@@ -44,7 +44,7 @@ pub fn operator(index: usize, rng: &mut SetRng) -> Plan {
     lab.plant(plant::unknown_group(vec![0.0, -size, 0.3 * size, 0.8 * size]));
     lab.given.push("operator");
     let named = |row: &mut Row| row.given.push(["anna", "bo", "chen", "dara"][row.x.group].into());
-    scaled(lab, "operator", &["unknown:operator"], index, rng).each(move |row, _| named(row))
+    scaled(lab, "operator", Expected::cause(&["unknown:operator"]), index, rng).each(move |row, _| named(row))
 }
 
 /// Powder that holds particles: two to nine tenths of the contrast between no and thick layers.
@@ -74,10 +74,9 @@ fn fast_lab(system: System, rng: &mut SetRng) -> Lab {
     lab
 }
 
-fn scaled(mut lab: Lab, effect: &str, names: &[&'static str], index: usize, rng: &mut SetRng) -> Plan {
+fn scaled(mut lab: Lab, effect: &str, expected: Expected, index: usize, rng: &mut SetRng) -> Plan {
     let (size, count) = (SIZES[index % 3], COUNTS[index / 3 % 2]);
     lab.scale_effect(size, rng);
-    let mut expected = Expected::cause(names);
-    expected.cell = Some(format!("{effect:24} {size:3} {count:4}"));
-    Plan::new(lab, count, expected)
+    let cell = Some(format!("{effect:24} {size:3} {count:4}"));
+    Plan::new(lab, count, Expected { cell, ..expected })
 }

@@ -1,0 +1,131 @@
+//! The base is right, and the instrument or the geometry of the measurement is not what the file says.
+
+use crate::contact::Tangential;
+use crate::set_rng::SetRng;
+use crate::sets;
+use crate::world::Inputs;
+
+use super::exact;
+use super::expected::Expected;
+use super::lab::{Lab, Outcome, Row};
+use super::nulls;
+use super::set::Plan;
+
+/// Tilt of wall or camera [rad].
+const TILT: f64 = 5.0 * std::f64::consts::PI / 180.0;
+
+/// Impacts that all rebound.
+fn lab(rng: &mut SetRng) -> Lab {
+    let mut lab = nulls::lab(rng);
+    lab.fast();
+    lab
+}
+
+fn plan(lab: Lab, rng: &mut SetRng) -> Plan {
+    Plan { expected: Expected::instrument(), ..nulls::plan(lab, rng) }
+}
+
+/// Speeds `[v_n, v_t]` and restitutions in a frame that is turned by an angle [rad] against the wall; `None`
+/// where the frame sees no impact or no rebound.
+pub fn turned(x: &Inputs, [e_n, e_t]: [f64; 2], angle: f64) -> Option<([f64; 2], [f64; 2])> {
+    let (sin, cos) = angle.sin_cos();
+    let arrival = [x.v_n * cos - x.v_t * sin, x.v_t * cos + x.v_n * sin];
+    let (out, along) = (e_n * x.v_n, e_t * x.v_t);
+    let rebound = [out * cos + along * sin, along * cos - out * sin];
+    let seen = arrival.iter().all(|speed| *speed > 0.0) && rebound[0] > 0.0;
+    seen.then(|| (arrival, [rebound[0] / arrival[0], rebound[1] / arrival[1]]))
+}
+
+/// Wall or camera is tilted by 5°: all speeds are those in the tilted frame.
+pub fn tilted(index: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.theta = (8.0, 65.0);
+    let angle = if index.is_multiple_of(2) { TILT } else { -TILT };
+    plan(lab, rng).changed(move |rows, _| rows.retain_mut(|row| turn(row, angle)))
+}
+
+/// Turns a rebound; whether it is still seen.
+fn turn(row: &mut Row, angle: f64) -> bool {
+    let [Some(e_n), Some(e_t)] = row.measured else { return false };
+    let measured = turned(&row.x, [e_n, e_t], angle);
+    let truth = turned(&row.x, [row.truth.e_n, row.truth.e_t], angle);
+    let (Some(([v_n, v_t], seen)), Some((_, [e_n, e_t]))) = (measured, truth) else { return false };
+    (row.seen.v_n, row.seen.v_t) = (v_n, v_t);
+    (row.truth.e_n, row.truth.e_t) = (e_n, e_t);
+    row.measured = seen.map(Some);
+    true
+}
+
+/// Gas slows the particles down between the camera's window and the wall, on both ways (Stokes): by 3 to
+/// 12 % of the least speed, for the mean size. Rebounds that do not reach the window are missing.
+pub fn drag(_: usize, rng: &mut SetRng) -> Plan {
+    let lab = lab(rng);
+    let (d, least) = (lab.campaign.d, lab.campaign.v_n.0);
+    let lost = rng.uniform((0.03, 0.12)) * least * d.0 * d.1;
+    plan(lab, rng).changed(move |rows, _| rows.retain_mut(|row| slow_down(row, lost / row.x.d.powi(2))))
+}
+
+/// Linear drag takes as much of the normal speed on each way and keeps the direction.
+fn slow_down(row: &mut Row, lost: f64) -> bool {
+    let Inputs { v_n, v_t, .. } = row.x;
+    let faster = (v_n + lost) / v_n;
+    let slower = |e_n: f64| 1.0 - lost / (e_n * v_n);
+    let both = |[e_n, e_t]: [f64; 2]| [e_n, e_t].map(|e| e * slower(e_n) / faster);
+    (row.seen.v_n, row.seen.v_t) = (v_n * faster, v_t * faster);
+    let [Some(e_n), Some(e_t)] = row.measured else { return false };
+    row.measured = both([e_n, e_t]).map(Some);
+    [row.truth.e_n, row.truth.e_t] = both([row.truth.e_n, row.truth.e_t]);
+    slower(e_n) > 0.0 && row.truth.e_n > 0.0
+}
+
+/// The speed that this share of the base's rebounds stays below [m/s].
+fn slow(lab: &Lab, share: (f64, f64), rng: &mut SetRng) -> f64 {
+    let impacts: Vec<Inputs> = (0..1000).map(|_| lab.campaign.inputs(rng)).collect();
+    let mut speeds: Vec<f64> = impacts.iter().map(|x| x.v_n * lab.base(x).e_n).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds[(1000.0 * rng.uniform(share)) as usize]
+}
+
+fn is_slower(row: &Row, limit: f64) -> bool {
+    row.measured[0].is_some_and(|e_n| row.x.v_n * e_n < limit)
+}
+
+/// Slow rebounds are noted as stuck.
+pub fn noted_as_stuck(_: usize, rng: &mut SetRng) -> Plan {
+    let lab = lab(rng);
+    let limit = slow(&lab, (0.08, 0.25), rng);
+    plan(lab, rng).each(move |row, _| {
+        if is_slower(row, limit) {
+            row.outcome = Outcome::Stuck;
+            row.measured = [None; 2];
+            row.truth.stick = 1.0;
+        }
+    })
+}
+
+/// Slow rebounds are missing.
+pub fn unseen(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.noise_e_n = rng.uniform((0.05, 0.1));
+    let limit = slow(&lab, (0.15, 0.35), rng);
+    plan(lab, rng).changed(move |rows: &mut Vec<Row>, _| rows.retain(|row| !is_slower(row, limit)))
+}
+
+/// One camera sees the projection of `v_t` on its own plane; the plane of impact has any direction.
+pub fn projected(_: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    let law = Tangential::SlidingRolling { friction: sets::rounded(rng.uniform((0.1, 0.35))) };
+    (lab.model.tangential, lab.truth.tangential) = (law, law);
+    lab.campaign.theta = (15.0, 75.0);
+    plan(lab, rng).each(|row, rng| row.seen.v_t = row.x.v_t * rng.uniform((-1.4, 1.4)).cos())
+}
+
+/// An effect, and every e_n is too large or too small by a constant.
+pub fn bias(index: usize, rng: &mut SetRng) -> Plan {
+    let cause = ["powder-layer", "size-dependent-yield", "thermal-softening", "viscoelastic-loss"][index % 4];
+    let plan = exact::plan(cause, index, rng);
+    let size = rng.uniform((0.03, 0.08)) * if rng.chance(0.5) { 1.0 } else { -1.0 };
+    let allowed = ["level*", "artefact:*", "instrument:*", "slip:*"];
+    Plan { expected: plan.expected.clone().allowing(&allowed), ..plan }
+        .each(move |row, _| row.measured[0] = row.measured[0].map(|e_n| (e_n + size).max(0.0)))
+}
