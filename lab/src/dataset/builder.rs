@@ -175,10 +175,7 @@ impl<'a> Builder<'a> {
         let input_errors = self.errors.read(cells, &impact, &self.velocity)?;
         let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
         let wall = self.walls.of(wall)?;
-        let (e_n, e_t, captured) = (None, None, None);
-        let (impacts, rebounds) = (1.0, 1.0);
-        let mut row =
-            Measurement { line, impact, input_errors, stated, wall, impacts, rebounds, e_n, e_t, captured };
+        let mut row = Measurement { line, impact, input_errors, stated, wall, ..Measurement::default() };
         let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
         let remarks = observed.read_into(&mut row)?;
         self.counts.count(&row, remarks, self.map.detection);
@@ -202,10 +199,15 @@ impl<'a> Builder<'a> {
     ///
     /// # Errors
     /// [`DatasetError::Unreadable`] without rows.
-    fn finish(self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
+    fn finish(mut self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
         if self.read == 0 {
             let reason = "there is no row under the header; write one row per impact".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
+        }
+        // Where captures are recorded at all, a row with e_n above 0 is one of the rebounds.
+        if self.rows.iter().any(|row| row.captured.is_some()) {
+            let unstated = self.rows.iter_mut().filter(|row| row.is_unstated_rebound());
+            unstated.for_each(|row| row.captured = Some(0.0));
         }
         let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();

@@ -43,7 +43,7 @@ pub struct Unselected {
 }
 
 /// One row: one impact, or an average over several.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measurement {
     /// Line in the file, counted from 1.
     pub line: u64,
@@ -65,6 +65,17 @@ pub struct Measurement {
     pub e_t: Option<Reading>,
     /// Captured share of the impacts [1], 0 or 1 for a single one.
     pub captured: Option<f64>,
+    /// What is known of `e_n` and `e_t` where a limit takes the place of the value.
+    pub limits: [Option<Limit>; 2],
+}
+
+/// A censored value: it is known to be below or above a limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// The limit [1], with the standard error of such a reading, if known.
+    pub reading: Reading,
+    /// Whether the value is below the limit rather than above it.
+    pub below: bool,
 }
 
 /// A measured value.
@@ -74,6 +85,15 @@ pub struct Reading {
     pub value: f64,
     /// Its standard error [1], positive, if known.
     pub error: Option<f64>,
+}
+
+impl Measurement {
+    /// Whether it is a rebound although no outcome says so: a single impact with `e_n` above 0.
+    pub fn is_unstated_rebound(&self) -> bool {
+        let above_zero = |limit: Limit| !limit.below && limit.reading.value >= 0.0;
+        let rebounds = self.e_n.is_some_and(|e_n| e_n.value > 0.0) || self.limits[0].is_some_and(above_zero);
+        self.captured.is_none() && self.impacts <= 1.0 && rebounds
+    }
 }
 
 impl Measurements {

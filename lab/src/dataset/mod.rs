@@ -37,7 +37,7 @@ pub use column_names::{PARCEL_COLUMNS, names_groups};
 pub use detection::Detection;
 pub use impact_reader::{ImpactReader, ImpactRow};
 pub use input_errors::InputErrors;
-pub use measurements::{Measurement, Measurements, Reading, Unselected};
+pub use measurements::{Limit, Measurement, Measurements, Reading, Unselected};
 pub use notes::{assumed, unlikely};
 pub use rig_measurements::{Experiment, RigMeasurements, RigReading, settings_of};
 pub use rig_observable::{Restitution, RigQuantity};

@@ -62,12 +62,32 @@ impl NumberColumn {
     /// # Errors
     /// The reason, for a cell that is not a number.
     pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
-        let cell = cells.get(self.index).unwrap_or("");
+        self.parse(cells.get(self.index).unwrap_or(""))
+    }
+
+    fn parse(&self, cell: &str) -> Result<Option<f64>, RowFault> {
         if if self.style.markers { is_blank(cell) } else { cell.is_empty() } {
             return Ok(None);
         }
         let number = self.style.parse(cell).ok_or_else(|| self.style.not_a_number(self.name, cell))?;
         Ok(Some(self.unit.to_si(number)))
+    }
+
+    /// The limit [SI] of a censored value, and whether the value is below it; `None` where the cell is not censored.
+    ///
+    /// # Errors
+    /// The reason, for a limit that is not a finite number.
+    pub(super) fn read_limit(&self, cells: &csv::StringRecord) -> Result<Option<(f64, bool)>, RowFault> {
+        let cell = cells.get(self.index).unwrap_or("");
+        let below = match cell.chars().next() {
+            Some('<' | '≤') => true,
+            Some('>' | '≥') => false,
+            _ => return Ok(None),
+        };
+        match self.parse(cell.trim_start_matches(['<', '≤', '>', '≥', '=', ' ']))? {
+            Some(limit) if limit.is_finite() => Ok(Some((limit, below))),
+            _ => Err(self.style.not_a_number(self.name, cell)),
+        }
     }
 
     /// As [`Self::read`], without NaN and infinity.

@@ -32,6 +32,7 @@ mod impact_diagnosis;
 mod input_error;
 mod interval;
 mod likelihood;
+mod missing_inputs;
 mod model_selection;
 mod observable;
 mod part;
