@@ -6,12 +6,13 @@ use super::column::{ColumnCells, ColumnValues};
 use super::column_map::ColumnMap;
 use super::column_names::{DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
+use super::headings;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
 use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements, Unselected};
 use super::notes::{self, NoteCounts};
-use super::number::{NamedColumns, NumberStyle, is_blank};
+use super::number::{NamedColumns, is_blank};
 use super::observed::ObservedCells;
 use super::row_error::RowFault;
 use super::selection::{RowSelection, Ticket};
@@ -24,6 +25,7 @@ const SHOWN_LABELS: usize = 5;
 /// The state of a file while it is read.
 struct Builder<'a> {
     map: &'a ColumnMap,
+    separator: u8,
     walls: &'a WallChoice<'a>,
     named: NamedColumns,
     inputs: InputColumns,
@@ -59,7 +61,7 @@ impl<'a> Builder<'a> {
         let headers = table.headers();
         let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem.to_string()))?;
         let inputs = InputColumns::new(|name| named.column(name));
-        let style = NumberStyle { markers: true, ..map.style };
+        let style = table.style();
         let unnamed = |name: &str| {
             let own = |(index, header): &(usize, &str)| *header == name && named.name_of(*index).is_none();
             headers.iter().enumerate().find(own).map(|(index, _)| index).filter(|_| !map.ignores(name))
@@ -87,6 +89,7 @@ impl<'a> Builder<'a> {
             extra_counts: vec![[0; 2]; inputs.extra().count()],
             selection: RowSelection::new(most),
             map,
+            separator: table.separator(),
             walls,
             named,
             inputs,
@@ -102,22 +105,29 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds the next record: its line, or why it cannot be used. Rows that are not kept go to `unselected`.
+    ///
+    /// # Errors
+    /// A row with which the file cannot be used.
     fn take(
         &mut self,
         next: Result<u64, BadRow>,
         cells: &csv::StringRecord,
         unselected: &mut dyn FnMut(Measurement),
-    ) {
+    ) -> Result<(), BadRow> {
         self.read += 1;
-        let next = next.map_err(|bad| with_lines(bad, cells));
-        let row = next.and_then(|line| {
-            self.read(line, cells).map_err(|error| BadRow { line, reason: error.to_string() })
-        });
+        let row = match next.map_err(|bad| with_lines(bad, cells)) {
+            Ok(line) => match self.read(line, cells) {
+                Err(error) if error.is_of_file() => return Err(BadRow { line, reason: error.to_string() }),
+                read => read.map_err(|error| BadRow { line, reason: error.to_string() }),
+            },
+            Err(bad) => Err(bad),
+        };
         match row {
             Ok(row) => self.add(row, cells, unselected),
             Err(bad) if self.rejected.len() < self.selection.most() => self.rejected.push(bad),
             Err(_) => {}
         }
+        Ok(())
     }
 
     fn add(&mut self, row: Measurement, cells: &csv::StringRecord, unselected: &mut dyn FnMut(Measurement)) {
@@ -187,7 +197,7 @@ impl<'a> Builder<'a> {
         if !cells.as_slice().contains('\n') {
             return Ok(());
         }
-        let separator = char::from(self.map.layout.separator);
+        let separator = char::from(self.separator);
         let is_row = |line: &str| line.matches(separator).count() + 1 >= cells.len();
         match cells.iter().any(|cell| cell.lines().skip(1).any(is_row)) {
             true => Err(RowFault::OpenQuote),
@@ -299,7 +309,9 @@ impl<'a> Builder<'a> {
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
-        let mut notes = Vec::new();
+        let own =
+            self.named.columns.iter().filter(|c| headers.get(c.index).is_some_and(|h| !self.map.maps(h)));
+        let mut notes = headings::notes(own.map(|column| (column.name, column.index, column.unit)), headers);
         let observable =
             OBSERVATIONS.into_iter().chain(DETAILS).filter(|name| self.named.index(name).is_none());
         let inputs = INPUTS.iter().map(|input| input.name);
@@ -361,13 +373,17 @@ impl Measurements {
     ) -> Result<Self, DatasetError> {
         let own = ColumnMap::default();
         let map = map.unwrap_or(&own);
-        let mut table = CsvTable::open(file, source, map.layout, |name| map.ignores(name))?;
-        let mut builder = Builder::new(&table, map, walls, most)?;
+        let mut table =
+            CsvTable::open(file, source, map.layout, |name| map.ignores(name), |name| map.maps(name))?;
+        let map = map.with_style(table.style());
+        let mut builder = Builder::new(&table, &map, walls, most)?;
         let mut cells = csv::StringRecord::new();
         while let Some(next) = table.next_into(&mut cells)? {
-            builder.take(next, &cells, unselected);
+            builder.take(next, &cells, unselected).map_err(|bad| table.fault(bad.line, bad.reason))?;
         }
-        builder.finish(file, table.headers())
+        let mut data = builder.finish(file, table.headers())?;
+        data.notes.splice(0..0, table.notes());
+        Ok(data)
     }
 }
 

@@ -31,13 +31,21 @@ impl NumberStyle {
         }
     }
 
+    /// The cell with a decimal point, if it is a number with a decimal comma.
+    pub(super) fn with_point(self, cell: &str) -> String {
+        match self.decimal_comma && self.parse(cell).is_some() {
+            true => cell.replace(',', "."),
+            false => cell.to_owned(),
+        }
+    }
+
     /// The error of a cell that is not a number, with the remedy if a column map can help.
     pub(super) fn not_a_number(self, name: &str, cell: &str) -> RowFault {
         let other = Self { decimal_comma: !self.decimal_comma, ..self };
         let hint = match (self.markers && other.parse(cell).is_some(), self.decimal_comma) {
             (false, _) => "",
             (true, false) => "; for a decimal comma set decimal = \",\" in the column map",
-            (true, true) => "; the column map sets decimal = \",\"",
+            (true, true) => "; numbers have decimal commas here, or set decimal = \".\" in the column map",
         };
         RowFault::NotANumber { name: name.to_owned(), cell: cell.to_owned(), hint }
     }
@@ -62,10 +70,7 @@ impl NumberColumn {
     /// # Errors
     /// The reason, for a cell that is not a number.
     pub(super) fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
-        self.parse(cells.get(self.index).unwrap_or(""))
-    }
-
-    fn parse(&self, cell: &str) -> Result<Option<f64>, RowFault> {
+        let cell = cells.get(self.index).unwrap_or("");
         if if self.style.markers { is_blank(cell) } else { cell.is_empty() } {
             return Ok(None);
         }
@@ -84,9 +89,10 @@ impl NumberColumn {
             Some('>' | '≥') => false,
             _ => return Ok(None),
         };
-        match self.parse(cell.trim_start_matches(['<', '≤', '>', '≥', '=', ' ']))? {
-            Some(limit) if limit.is_finite() => Ok(Some((limit, below))),
-            _ => Err(self.style.not_a_number(self.name, cell)),
+        let limit = self.style.parse(cell.trim_start_matches(['<', '≤', '>', '≥', '=', ' ']));
+        match limit.map(|limit| self.unit.to_si(limit)).filter(|limit| limit.is_finite()) {
+            Some(limit) => Ok(Some((limit, below))),
+            None => Err(self.style.not_a_number(self.name, cell)),
         }
     }
 

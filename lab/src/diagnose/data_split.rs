@@ -272,7 +272,8 @@ impl DataSplit {
 
     /// The values that stand for a blank cell of an input; none for other cells.
     pub fn shown_instead(&self, covariate: usize, row: usize) -> &[f64] {
-        let blank = self.covariates.get(covariate).filter(|covariate| covariate.input && covariate.blank[row]);
+        let blank =
+            self.covariates.get(covariate).filter(|covariate| covariate.input && covariate.blank[row]);
         let input = blank.and_then(|blank| INPUTS.iter().position(|input| input.name == blank.name));
         input.map_or(&[], |input| self.missing.values(input))
     }
@@ -292,12 +293,7 @@ impl DataSplit {
 }
 
 /// The inputs that the file states and its further columns, if they vary; without those that group the rows.
-fn covariates(
-    base: &Model,
-    data: &Measurements,
-    missing: &MissingInputs,
-    groups: &[&str],
-) -> Vec<Covariate> {
+fn covariates(base: &Model, data: &Measurements, missing: &MissingInputs, groups: &[&str]) -> Vec<Covariate> {
     let given = INPUTS.iter().enumerate().filter(|(_, input)| data.given.contains(&input.name));
     let inputs = given.map(|(place, input)| {
         let lacks = |row: &Measurement| !row.stated[place] && !missing.values(place).is_empty();

@@ -82,9 +82,7 @@ mod tests {
 
     fn row(temperature: Option<f64>, diameter: Option<f64>) -> Measurement {
         let mut row = Measurement { stated: [true; INPUTS.len()], ..Measurement::default() };
-        for (place, value) in
-            [(Impact::PARTICLE_TEMPERATURE, temperature), (Impact::DIAMETER, diameter)]
-        {
+        for (place, value) in [(Impact::PARTICLE_TEMPERATURE, temperature), (Impact::DIAMETER, diameter)] {
             row.stated[place] = value.is_some();
             (INPUTS[place].set)(&mut row.impact, value.unwrap_or(7.0));
         }
@@ -93,13 +91,15 @@ mod tests {
 
     #[test]
     fn a_missing_input_has_the_mean_of_the_stated_ones() {
-        let mut rows: Vec<Measurement> = (0..80).map(|i| row(Some(300.0 + f64::from(i)), Some(1.0))).collect();
+        let mut rows: Vec<Measurement> =
+            (0..80).map(|i| row(Some(300.0 + f64::from(i)), Some(1.0))).collect();
         rows.push(row(None, Some(1.0)));
         rows.push(row(None, None));
         let missing = MissingInputs::of(&rows);
         assert_eq!((missing.fillings(&rows[0]), missing.fillings(&rows[80])), (1, FILLINGS));
-        let values: Vec<f64> =
-            (0..FILLINGS).map(|filling| missing.filled(&rows[80], filling).impact.particle_temperature).collect();
+        let values: Vec<f64> = (0..FILLINGS)
+            .map(|filling| missing.filled(&rows[80], filling).impact.particle_temperature)
+            .collect();
         // The mean of 300 to 379 is 339.5.
         assert!((values.iter().sum::<f64>() / 8.0 - 339.5).abs() <= 1.0, "{values:?}");
         assert!(values[0] < 306.0 && values[7] > 373.0);

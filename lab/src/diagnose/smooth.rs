@@ -115,7 +115,8 @@ impl Basis {
     pub fn mean_entry(&self, numbers: &[f64]) -> Entry {
         let Self::Hats(knots) = self else { return Vec::new() };
         let share = 1.0 / numbers.len() as f64;
-        let one = |number: &f64| hats(knots, *number).into_iter().map(move |(at, height)| (at, share * height));
+        let one =
+            |number: &f64| hats(knots, *number).into_iter().map(move |(at, height)| (at, share * height));
         numbers.iter().flat_map(one).collect()
     }
 }
