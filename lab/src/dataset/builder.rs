@@ -4,7 +4,7 @@ use std::io::Read;
 
 use super::column::{ColumnCells, ColumnValues};
 use super::column_map::ColumnMap;
-use super::column_names::{DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
+use super::column_names::{CAPTURES, DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
 use super::headings;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
@@ -39,6 +39,9 @@ struct Builder<'a> {
     rows: Vec<Measurement>,
     /// Number of records.
     read: usize,
+    /// Whether a column may state captures, and the number of rows that do.
+    records_captures: bool,
+    outcomes: usize,
     /// Number of usable rows, selected or not.
     usable: usize,
     rejected: Vec<BadRow>,
@@ -76,6 +79,7 @@ impl<'a> Builder<'a> {
             let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
             return Err(table.column_fault(&problem, true));
         }
+        let records_captures = CAPTURES.iter().any(|name| named.index(name).is_some());
         walls.check(named.index("wall").is_some())?;
         let mut causes = causes(headers, map, &named);
         // A column of groups tells rows apart also where the model has an input of its name.
@@ -98,6 +102,8 @@ impl<'a> Builder<'a> {
             causes,
             rows: Vec::new(),
             read: 0,
+            records_captures,
+            outcomes: 0,
             usable: 0,
             rejected: Vec::new(),
             counts: NoteCounts::default(),
@@ -188,6 +194,10 @@ impl<'a> Builder<'a> {
         let mut row = Measurement { line, impact, input_errors, stated, wall, ..Measurement::default() };
         let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
         let remarks = observed.read_into(&mut row)?;
+        self.outcomes += usize::from(row.captured.is_some());
+        if self.records_captures && row.is_unstated_rebound() {
+            row.captured = Some(0.0);
+        }
         self.counts.count(&row, remarks, self.map.detection);
         Ok(row)
     }
@@ -215,9 +225,11 @@ impl<'a> Builder<'a> {
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
         }
         // Where captures are recorded at all, a row with e_n above 0 is one of the rebounds.
-        if self.rows.iter().any(|row| row.captured.is_some()) {
+        if self.outcomes > 0 {
             let unstated = self.rows.iter_mut().filter(|row| row.is_unstated_rebound());
             unstated.for_each(|row| row.captured = Some(0.0));
+        } else {
+            self.rows.iter_mut().for_each(|row| row.captured = None);
         }
         let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();

@@ -466,3 +466,94 @@ fn own_square(
     let density = visible_density(residual, expected, width, &limited);
     (density, [weight * own_square(square, rows), weight * rows])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use statrs::distribution::{Continuous, ContinuousCDF, Normal};
+
+    const EXACT: Offset = Offset {
+        restitution: [0.0; 2],
+        capture: 0.0,
+        spread: 1.0,
+        variance: [0.0; 2],
+        uncertainty: [0.0; 2],
+        visible_from: f64::NEG_INFINITY,
+        gross: 0.0,
+    };
+
+    fn prediction(e_n: f64, capture: f64, filling: usize) -> Prediction {
+        Prediction { restitution: [e_n, 0.7], capture, weight: 1.0, reach: [0.0; 2], filling }
+    }
+
+    fn row(e_n: Option<f64>, captured: Option<f64>, impacts: f64) -> Measurement {
+        let e_n = e_n.map(|value| Reading { value, error: None });
+        Measurement { e_n, captured, impacts, rebounds: impacts, ..Measurement::default() }
+    }
+
+    /// Tails, their means and mean squares of a normal distribution by sums over its density.
+    #[test]
+    fn a_censored_value_has_the_probability_and_the_moments_of_the_tail() {
+        for (limit, expected, below) in
+            [(0.2, 0.25, true), (0.2, 0.7, true), (0.9, 0.7, false), (0.9, 1.1, false)]
+        {
+            let (law, step) = (Normal::new(expected, 0.1).unwrap(), 1e-5);
+            let side = if below { -1.0 } else { 1.0 };
+            let moments = (0..200_000).fold([0.0; 3], |sums, place| {
+                let value = limit + side * (f64::from(place) + 0.5) * step;
+                let (share, from) = (law.pdf(value) * step, value - expected);
+                [sums[0] + share, sums[1] + share * from, sums[2] + share * from * from]
+            });
+            let stated = Limit { reading: Reading { value: limit, error: None }, below };
+            let found = Censored::new(&stated, expected, 0.1, 0.0);
+            assert!(
+                (found.probability / moments[0] - 1.0).abs() < 1e-5,
+                "{} {}",
+                found.probability,
+                moments[0]
+            );
+            // The slope is that of the mean of the tail in variances (Fisher's identity), the square its second moment.
+            let [mean, square] = [moments[1], moments[2]].map(|sum| sum / moments[0]);
+            assert!((found.slope - mean / 0.01).abs() < 1e-3, "{} {mean}", found.slope);
+            assert!((found.square - square).abs() < 1e-6, "{} {square}", found.square);
+            let information = (1.0 - (square - mean * mean) / 0.01) / 0.01;
+            assert!((found.information - information).abs() < 0.01, "{} {information}", found.information);
+        }
+    }
+
+    #[test]
+    fn far_beyond_its_limit_a_censored_value_is_a_reading_at_the_limit() {
+        let stated = Limit { reading: Reading { value: 0.2, error: None }, below: true };
+        let [near, far] = [4.0, 9.0].map(|expected| Censored::new(&stated, expected, 0.1, 0.0));
+        for (found, distance) in [(near, 38.0), (far, 88.0)] {
+            assert!((found.slope / (-10.0 * distance) - 1.0).abs() < 2e-3, "{found:?}");
+            assert!((found.information / 100.0 - 1.0).abs() < 2e-3, "{found:?}");
+        }
+        assert!(Censored::new(&stated, 4.0, 0.1, 0.02).slope.abs() < 1e-9, "a gross error has no slope");
+    }
+
+    #[test]
+    fn a_rebound_without_an_outcome_scores_as_one() {
+        let two = [prediction(0.5, 0.3, 0), prediction(0.2, 0.8, 0)];
+        for predictions in [&two[..1], &two] {
+            let of = |row: &Measurement| score(row, predictions, &EXACT, [0.1; 2]);
+            assert_eq!(of(&row(Some(0.4), None, 1.0)), of(&row(Some(0.4), Some(0.0), 1.0)));
+            // An average over the rebounds among several impacts says nothing about captures.
+            assert!(of(&row(Some(0.4), None, 3.0)) > of(&row(Some(0.4), Some(0.0), 3.0)));
+        }
+        let one = score(&row(Some(0.5), None, 1.0), &two[..1], &EXACT, [0.1; 2]);
+        let expected = (1.0 - (0.005 + 0.99 * 0.3_f64)).ln() + Normal::new(0.5, 0.1).unwrap().pdf(0.5).ln();
+        assert!((one - expected).abs() < 1e-12, "{one}, {expected}");
+    }
+
+    /// All impacts of an average have the same unknown input; each single impact has its own.
+    #[test]
+    fn a_missing_input_of_an_average_is_the_same_for_all_its_impacts() {
+        let cold_or_hot = [prediction(0.6, 0.0, 0), prediction(0.2, 0.0, 1)];
+        let average = score(&row(Some(0.6), None, 25.0), &cold_or_hot, &EXACT, [0.1; 2]);
+        let law = Normal::new(0.6, 0.02).unwrap();
+        let expected = (0.5 * law.pdf(0.6) + 0.5 * law.pdf(1.0)).ln();
+        assert!((average - expected).abs() < 1e-9, "{average}, {expected}");
+        assert!(law.cdf(0.6) == 0.5);
+    }
+}
