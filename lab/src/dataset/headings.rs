@@ -146,9 +146,9 @@ pub(super) fn unit_row(
 }
 
 /// What is said of the headings that are not nearwall's own names: how each of these columns is read.
-pub(super) fn notes<'a>(
+pub(super) fn notes(
     found: impl Iterator<Item = (&'static str, usize, Unit)>,
-    headers: &'a csv::StringRecord,
+    headers: &csv::StringRecord,
 ) -> Vec<String> {
     let note = |(name, index, unit): (&'static str, usize, Unit)| {
         let header = headers.get(index).unwrap_or("");
